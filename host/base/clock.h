@@ -1,0 +1,9 @@
+/* Wall-clock time and the process's peak memory. */
+#ifndef EC_BASE_CLOCK_H
+#define EC_BASE_CLOCK_H
+#include <stdint.h>
+
+double ec_now(void);                  /* seconds, monotonic, arbitrary origin */
+uint64_t ec_peak_memory_bytes(void);  /* peak resident set of this process, 0 if unknown */
+
+#endif

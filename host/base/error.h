@@ -1,0 +1,44 @@
+/* Results and messages. Every function that can fail returns ec_result and takes an ec_error last. */
+#ifndef EC_BASE_ERROR_H
+#define EC_BASE_ERROR_H
+
+typedef enum ec_result {
+    EC_OK = 0,
+    EC_FAILED = 1, /* bad input, device or file: exit code 1 */
+    EC_USAGE = 2   /* the command line is wrong: exit code 2 */
+} ec_result;
+
+/* One line: what went wrong, where, and how to mend it. No trailing newline. */
+typedef struct ec_error {
+    char text[2048];
+} ec_error;
+
+/* Formats the message into err (which may be NULL) and returns EC_FAILED. */
+ec_result ec_fail(ec_error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Forwards a failure; use where nothing needs to be released. */
+#define EC_TRY(call)                                                                               \
+    do {                                                                                           \
+        ec_result ec_try_result = (call);                                                          \
+        if (ec_try_result != EC_OK) return ec_try_result;                                          \
+    } while (0)
+
+/* Forwards a failure to the function's `cleanup:` label through a local named `result`. */
+#define EC_TRY_CLEANUP(call)                                                                       \
+    do {                                                                                           \
+        result = (call);                                                                           \
+        if (result != EC_OK) goto cleanup;                                                         \
+    } while (0)
+
+/* Where warnings and notes go; zero-initialised means nowhere. `text` has no newline. */
+typedef enum ec_severity { EC_NOTE, EC_WARNING } ec_severity;
+typedef struct ec_log {
+    void (*write)(void *user, ec_severity severity, const char *text);
+    void *user;
+} ec_log;
+
+/* log may be NULL. */
+void ec_note(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ec_warn(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

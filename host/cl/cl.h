@@ -1,0 +1,78 @@
+/* OpenCL, and nothing of rendering: devices, programs with a binary cache, buffers, kernels. */
+#ifndef EC_CL_CL_H
+#define EC_CL_CL_H
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+typedef struct ec_device_info {
+    cl_platform_id platform;
+    cl_device_id id;
+    char name[256], vendor[256], version[256], driver[256], platform_name[256], platform_version[256], c_version[256];
+    cl_device_type type;
+    uint32_t compute_units;
+    uint32_t native_float_width;   /* CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT */
+    uint64_t memory_bytes, max_allocation_bytes, cache_bytes, local_bytes;
+    uint64_t max_work_group_size;
+    bool correctly_rounded_divide_sqrt, denormals, fma, inf_nan;
+    bool available, compiler_available;
+} ec_device_info;
+
+/* Every device of every platform, in a fixed order; their index is what --device takes. malloc'ed, caller frees. No
+ * device at all is a failure whose message says what to install. */
+ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *err);
+
+/* --device ID (index, or a part of the name, case ignored), else $ECLAT_DEVICE, else the first GPU, else the first CPU,
+ * else the first device. id may be NULL. *why is a static text such as "first GPU". */
+ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index,
+                           const char **why, ec_error *err);
+
+/* A context and an in-order queue on one device. */
+typedef struct ec_cl {
+    ec_device_info info;
+    cl_context context;
+    cl_command_queue queue;
+    uint64_t allocated_bytes, peak_allocated_bytes; /* by ec_buffer_* */
+    double build_seconds;     /* spent in clBuildProgram and cache look-ups */
+    uint32_t cache_hits, cache_misses;
+    const char *cache_dir;    /* NULL: the default (see ec_program_build) */
+} ec_cl;
+ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err);
+void ec_cl_close(ec_cl *cl);
+
+/* One of the sources embedded at build time (kernels/stages/NAME.cl, includes flattened, #line kept). NULL if unknown. */
+const char *ec_kernel_source(const char *name);
+const char *const *ec_kernel_source_names(void); /* NULL-terminated, for tests and --dump-kernels */
+
+/* Builds a source with options (the arithmetic flags that every eclat kernel needs are added here: -cl-std=CL1.2 and,
+ * where offered, -cl-fp32-correctly-rounded-divide-sqrt). Binaries are cached in
+ * ${XDG_CACHE_HOME:-~/.cache}/eclat/kernels under SHA-256(source, options, device, driver, platform); written to a
+ * temporary name and renamed; anything wrong with an entry is a miss; an unwritable cache is no error. `label` names it
+ * in messages. The build log is in err on failure. */
+ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, const char *options, cl_program *program,
+                           ec_error *err);
+
+/* After the kernels have run once: stores binaries that hold the compiled kernels. */
+
+/* Buffers with byte accounting; over the device's limits they fail with the figures. host may be NULL. */
+ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer, ec_error *err);
+void ec_buffer_release(ec_cl *cl, cl_mem *buffer); /* sets it to NULL; NULL is fine */
+ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err); /* blocks */
+ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err);
+ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err); /* 4-byte multiples; enqueued */
+
+ec_result ec_kernel_create(cl_program program, const char *name, cl_kernel *kernel, ec_error *err);
+/* One-dimensional; global is rounded up to a multiple of local. Enqueued, not waited for. */
+ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local, ec_error *err);
+ec_result ec_cl_finish(ec_cl *cl, ec_error *err);
+
+const char *ec_cl_error_name(cl_int code);
+/* "clEnqueueNDRangeKernel (intersect) failed: CL_OUT_OF_RESOURCES" */
+ec_result ec_cl_check(cl_int code, const char *call, const char *label, ec_error *err);
+
+#endif

@@ -1,0 +1,43 @@
+/* The image as it grows: per-pixel mean and standard error from independent batches, in double precision.
+ *
+ * Image error (the manual's definition). With B batches, pixel p's luminance has standard error SE_p = s_p / sqrt(B), and
+ *     error = sqrt(mean_p SE_p^2) / mean luminance
+ * error_bound is a 95 % upper confidence bound of the relative RMS difference between this image and the converged one.
+ * See film/error.c for its derivation. */
+#ifndef EC_FILM_FILM_H
+#define EC_FILM_FILM_H
+
+#include <stdint.h>
+
+#include "base/error.h"
+
+typedef struct ec_film {
+    uint32_t width, height;
+    uint32_t batch_count;         /* B: batches added so far */
+    uint32_t samples_per_batch;   /* the same for every batch */
+    double *mean;                 /* 3 per pixel: mean of the batch means */
+    double *m2;                   /* 4 per pixel: sum of squared deviations of R, G, B and luminance (Welford) */
+    /* First-hit features, from the first batch; may be NULL. albedo 3, normal 3, depth 1, alpha 1 per pixel. */
+    float *aov;                   /* 8 per pixel */
+} ec_film;
+
+ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_t samples_per_batch, ec_error *err);
+void ec_film_destroy(ec_film *film); /* zero-initialised or destroyed films are fine */
+
+/* Adds one batch: 3 floats a pixel, each the mean over samples_per_batch samples. */
+void ec_film_add_batch(ec_film *film, const float *batch_mean);
+
+typedef struct ec_film_error {
+    double mean_luminance;   /* of the image */
+    double error;            /* relative RMS standard error; infinity with fewer than 2 batches or a black image */
+    double error_bound;      /* 95 % upper bound */
+} ec_film_error;
+ec_film_error ec_film_estimate_error(const ec_film *film);
+
+/* Float planes for output: rgb 3 per pixel, stderr 3 per pixel (0 with fewer than two batches). Either may be NULL. */
+void ec_film_resolve(const ec_film *film, float *rgb, float *stderr_rgb);
+
+/* Student's t quantile: P(T <= t) = p with nu degrees of freedom. */
+double ec_student_t_quantile(double p, double nu);
+
+#endif

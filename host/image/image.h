@@ -1,0 +1,53 @@
+/* Pictures in and out. Files are written to a temporary name beside the target and renamed: never half a picture. */
+#ifndef EC_IMAGE_IMAGE_H
+#define EC_IMAGE_IMAGE_H
+
+#include <stdint.h>
+
+#include "base/error.h"
+
+/* One EXR channel, 32-bit float (or unsigned int for `samples`, given as float data all the same: counts < 2^24 exact). */
+typedef struct ec_channel {
+    const char *name;   /* e.g. "R", "stderr.R", "depth.Z" */
+    const float *data;  /* first value; pixel (x, y) is data[stride * (y * width + x)] */
+    uint32_t stride;    /* in floats */
+} ec_channel;
+
+typedef enum ec_attribute_type { EC_ATTR_STRING, EC_ATTR_INT, EC_ATTR_FLOAT, EC_ATTR_DOUBLE } ec_attribute_type;
+typedef struct ec_attribute {
+    const char *name;   /* e.g. "eclat.seed" */
+    ec_attribute_type type;
+    const char *string;
+    double number;
+} ec_attribute;
+
+/* Single-part scan-line EXR, ZIP compressed, 32-bit float channels (any order here; sorted in the file). */
+ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const ec_channel *channels,
+                       uint32_t channel_count, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err);
+
+/* All channels of an EXR file's first part as float planes, half and uint converted. Tiled (first level) and scan-line. */
+typedef struct ec_exr {
+    uint32_t width, height, channel_count;
+    char **names;       /* owned, as in the file */
+    float **planes;     /* owned, width * height each */
+} ec_exr;
+ec_result ec_exr_read(const char *path, ec_exr *exr, ec_error *err);
+const float *ec_exr_plane(const ec_exr *exr, const char *name); /* NULL if absent */
+void ec_exr_free(ec_exr *exr);
+
+/* Equirectangular map, .hdr or .exr by content, to 3 floats a pixel (malloc'ed, caller frees). As in the file: nothing
+ * is clamped here. */
+ec_result ec_image_read_rgb(const char *path, uint32_t *width, uint32_t *height, float **rgb, ec_error *err);
+
+typedef enum ec_tonemap { EC_TONEMAP_NEUTRAL, EC_TONEMAP_NONE } ec_tonemap;
+
+/* Linear Rec.709 radiance to 8-bit sRGB: rgb * 2^exposure, tone mapper (Khronos PBR Neutral or clamp), exact sRGB curve.
+ * Non-finite values become 0. in: 3 floats a pixel; out: 3 bytes a pixel. */
+void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap);
+
+ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, ec_error *err);
+
+/* Before a long render: can this file be written here? Leaves nothing behind. */
+ec_result ec_image_check_writable(const char *path, ec_error *err);
+
+#endif

@@ -1,0 +1,70 @@
+/* Renders a scene on a device into a film: the one entry that the CLI, the tests and later the preview use. */
+#ifndef EC_PIPELINE_RENDER_H
+#define EC_PIPELINE_RENDER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "cl/cl.h"
+#include "film/film.h"
+#include "scene/scene.h"
+
+typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
+
+/* Which direct-light strategies take part; all unbiased settings converge to the same image. */
+typedef enum ec_strategy { EC_STRATEGY_MIS, EC_STRATEGY_NEE, EC_STRATEGY_BSDF } ec_strategy;
+
+typedef struct ec_render_options {
+    uint32_t width, height;     /* pixels */
+    uint32_t camera;            /* index into the scene's cameras */
+    uint32_t spp;               /* stop after so many samples a pixel; 0 = no such limit */
+    double time_limit;          /* stop before this many seconds of rendering; 0 = none */
+    double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */
+    uint32_t batch;             /* samples a pixel in one independent batch; 0 = chosen from the limits */
+    uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited */
+    ec_sampler_type sampler;
+    ec_strategy strategy;
+    uint64_t seed;
+    uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
+    uint32_t wave;              /* paths in flight; 0 = fitted to the device */
+    bool all_effects;           /* build the universal kernels instead of the specialised ones */
+    const char *trace;          /* "auto" (NULL), "packet" or "bvh8": traversal kernel */
+} ec_render_options;
+
+typedef struct ec_progress {
+    double seconds, seconds_left;       /* seconds_left < 0: unknown */
+    double fraction;                    /* 0..1 of the first limit that will end the render */
+    uint64_t samples_per_pixel, samples; /* done */
+    double samples_per_second;
+    double error, error_bound;
+} ec_progress;
+/* Called after every batch and at least twice a second where waves allow; returning false stops cleanly (the film keeps
+ * the batches that are complete; if none is, the partial first batch is finished for fewer samples). */
+typedef bool (*ec_progress_fn)(void *user, const ec_progress *progress);
+
+typedef struct ec_render_stats {
+    double seconds;               /* rendering, without set-up */
+    double accel_seconds, pack_seconds, kernel_seconds; /* set-up: BVH, buffers, kernel build or cache look-up */
+    double first_pixel_seconds;   /* from ec_render's start to the first finished wave */
+    uint64_t samples_per_pixel, samples, rays;
+    double samples_per_second, rays_per_second;
+    double error, error_bound;
+    uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
+    uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
+    uint32_t lanes, wave, batch;
+    uint64_t device_bytes;        /* peak of all buffers */
+    char effects[512];            /* names of the effects built in, blank separated */
+    char stopped_by[16];          /* "spp", "time", "error", "user" */
+    uint32_t cache_hits, cache_misses;
+} ec_render_stats;
+
+/* film must be zero-initialised; the caller destroys it. cl stays the caller's. */
+ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
+                    void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err);
+
+/* Bytes of device memory the scene itself will take (geometry, BVH, textures, lights), and the effects it calls for. For
+ * `eclat info`. */
+ec_result ec_scene_estimate(const ec_scene *scene, uint64_t *device_bytes, char *effects, size_t effects_size, ec_error *err);
+
+#endif

@@ -1,0 +1,146 @@
+/* The scene as plain data: one flattened triangle soup with materials, lights and cameras.
+ * Nothing here knows glTF, acceleration structures or OpenCL. */
+#ifndef EC_SCENE_SCENE_H
+#define EC_SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+/* Decoded pixels, row 0 at the top (glTF's v = 0), always four channels. Exactly one of the two is set. */
+typedef struct ec_image {
+    uint32_t width, height;
+    uint8_t *rgba8;   /* 4 * width * height, owned */
+    uint16_t *rgba16; /* 4 * width * height, owned; only where the file has more than 8 bits */
+    char *name;       /* for messages, owned, may be NULL */
+} ec_image;
+
+typedef enum ec_wrap { EC_WRAP_REPEAT, EC_WRAP_CLAMP, EC_WRAP_MIRROR } ec_wrap;
+
+typedef struct ec_texture {
+    uint32_t image;       /* index into ec_scene.images */
+    ec_wrap wrap_s, wrap_t;
+    bool nearest;         /* magnification filter NEAREST; otherwise bilinear */
+} ec_texture;
+
+/* Use of a texture by a material; texture < 0 means none. */
+typedef struct ec_texture_use {
+    int32_t texture;
+    uint32_t uv_set;      /* 0 or 1 */
+    float transform[6];   /* KHR_texture_transform, row major 2x3: (u', v') = M (u, v, 1) */
+} ec_texture_use;
+
+typedef enum ec_alpha_mode { EC_ALPHA_OPAQUE, EC_ALPHA_MASK, EC_ALPHA_BLEND } ec_alpha_mode;
+
+typedef struct ec_material {
+    float base_color[4];       /* linear RGB, alpha (coverage) */
+    float metallic, roughness; /* factors; alpha_ggx = roughness^2 */
+    float emission[3];         /* radiance: emissiveFactor x emissiveStrength, linear RGB */
+    float normal_scale;
+    float specular;            /* KHR_materials_specular; 1 where absent */
+    float specular_color[3];   /* likewise; 1 where absent; may exceed 1 */
+    float alpha_cutoff;
+    ec_alpha_mode alpha_mode;
+    bool double_sided;
+    bool unlit;                /* KHR_materials_unlit */
+    ec_texture_use base_color_texture;         /* sRGB colour, linear alpha */
+    ec_texture_use metallic_roughness_texture; /* linear: G roughness, B metallic */
+    ec_texture_use normal_texture;             /* linear */
+    ec_texture_use emission_texture;           /* sRGB */
+    ec_texture_use specular_texture;           /* linear: A */
+    ec_texture_use specular_color_texture;     /* sRGB */
+    char *name;                                /* owned, may be NULL */
+} ec_material;
+
+/* KHR_lights_punctual, in the scene's recentred frame. 1 cd is taken as 1 W/sr, 1 lx as 1 W/m^2. */
+typedef enum ec_light_type { EC_LIGHT_POINT, EC_LIGHT_SPOT, EC_LIGHT_DIRECTIONAL } ec_light_type;
+typedef struct ec_light {
+    ec_light_type type;
+    float position[3];
+    float direction[3];        /* unit, the way the light travels */
+    float intensity[3];        /* colour x intensity: W/sr, or W/m^2 for directional */
+    float range;               /* metres; 0 = infinite */
+    float cos_inner, cos_outer;
+} ec_light;
+
+typedef enum ec_camera_type { EC_CAMERA_PERSPECTIVE, EC_CAMERA_ORTHOGRAPHIC } ec_camera_type;
+typedef struct ec_camera {
+    ec_camera_type type;
+    float position[3];                     /* recentred frame */
+    float right[3], up[3], forward[3];     /* orthonormal; forward = where it looks (glTF's -z) */
+    float yfov;                            /* radians, perspective */
+    float aspect;                          /* width / height; 0 = the image's */
+    float xmag, ymag;                      /* half extents, orthographic */
+    char *name;                            /* owned, may be NULL */
+} ec_camera;
+
+/* Radiance from infinitely far away. rgb == NULL means `constant` everywhere.
+ * Equirectangular: column 0 at longitude -pi, the image's centre looks along +x ... see env.c; row 0 is +y. */
+typedef struct ec_environment {
+    uint32_t width, height;
+    float *rgb;           /* 3 * width * height, linear, finite and >= 0, owned */
+    float constant[3];
+} ec_environment;
+
+typedef struct ec_scene {
+    /* Vertices; optional streams are NULL where no primitive has them. A vertex without a normal or tangent has
+     * zeros there (the kernels then use the geometric normal, the uv derivatives); without a colour, ones. */
+    uint32_t vertex_count;
+    float *positions;     /* 3 per vertex, world space minus `center` */
+    float *normals;       /* 3 per vertex, unit or zero */
+    float *tangents;      /* 4 per vertex, w = handedness +-1, or all zero */
+    float *uv[2];         /* 2 per vertex */
+    float *colors;        /* 4 per vertex, linear */
+    /* Triangles: counter-clockwise seen from the front, mirrored nodes already accounted for. No degenerate or
+     * non-finite triangle is among them. */
+    uint32_t triangle_count;
+    uint32_t *indices;            /* 3 per triangle */
+    uint32_t *triangle_material;  /* per triangle */
+    uint32_t material_count;
+    ec_material *materials;       /* at least one (glTF's default) */
+    uint32_t texture_count;
+    ec_texture *textures;
+    uint32_t image_count;
+    ec_image *images;
+    uint32_t light_count;
+    ec_light *lights;
+    uint32_t camera_count;
+    ec_camera *cameras;           /* at least one: a framing camera is made where the file has none */
+    uint32_t default_camera;
+    ec_environment environment;
+    bool has_environment;         /* false: black outside */
+    double center[3];             /* what was subtracted from world coordinates */
+    float bounds_min[3], bounds_max[3]; /* recentred */
+    /* What `eclat info` tells. */
+    uint32_t mesh_count, node_count, instance_count;
+    uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */
+    uint32_t skipped_primitives;                     /* points and lines */
+    char **extensions_used;        /* owned strings */
+    uint32_t extension_count;
+    char **extensions_ignored;     /* used by the file, not supported here; owned strings */
+    uint32_t extension_ignored_count;
+} ec_scene;
+
+typedef struct ec_scene_options {
+    bool framing_camera_only;      /* unused by the CLI; tests */
+} ec_scene_options;
+
+/* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. The file's own default
+ * scene is taken. Adds a framing camera where there is none (noted in log). Environment and light fall-backs are the
+ * caller's (see ec_scene_set_environment, ec_scene_has_light). Owned by the caller: ec_scene_free. */
+ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
+void ec_scene_free(ec_scene *scene); /* NULL is fine */
+
+/* Does anything in the scene give light: an emissive or unlit triangle, a punctual light, an environment? */
+bool ec_scene_has_light(const ec_scene *scene);
+
+/* Replaces the environment. spec is a file (.hdr, .exr; equirectangular) or "R,G,B". Non-finite and negative texels are
+ * set to 0 and counted in a warning. */
+ec_result ec_scene_set_environment(ec_scene *scene, const char *spec, const ec_log *log, ec_error *err);
+
+/* Camera by name, else by index; failure lists what there is. */
+ec_result ec_scene_find_camera(const ec_scene *scene, const char *name_or_index, uint32_t *camera, ec_error *err);
+
+#endif

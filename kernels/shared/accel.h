@@ -1,0 +1,51 @@
+/* Acceleration structures as the kernels read them. */
+#ifndef EC_SHARED_ACCEL_H
+#define EC_SHARED_ACCEL_H
+
+#include "types.h"
+
+#define EC_BVH_STACK 96        /* entries a traversal stack holds; the builder keeps trees shallower than 64 */
+#define EC_LEAF_BIT 0x80000000u
+#define EC_NO_CHILD 0xffffffffu
+#define EC_NO_ID 0xffffffffu
+
+/* Binary node with both children's boxes. child: inner = node index; leaf = EC_LEAF_BIT | first << 4 | count, where
+ * count <= 8 triangles start at ec_tri[first]. A tree that is one leaf has a root whose child[0] is it, and child[1] is
+ * EC_NO_CHILD with an empty box (lo = +inf, hi = -inf). */
+typedef struct ec_bvh2_node {
+    ec_float lo[2][3];   /* scene units, recentred frame */
+    ec_float hi[2][3];
+    ec_uint child[2];
+    ec_uint pad[2];
+} ec_bvh2_node;
+EC_ASSERT_SIZE(ec_bvh2_node, 64);
+
+/* One triangle in leaf order for the binary layout. */
+typedef struct ec_tri {
+    ec_float v0[3];
+    ec_uint id;          /* index in the scene: breaks ties, names the triangle in hits */
+    ec_float v1[3];
+    ec_uint pad0;
+    ec_float v2[3];
+    ec_uint pad1;
+} ec_tri;
+EC_ASSERT_SIZE(ec_tri, 48);
+
+/* Eight children in structure-of-arrays form. bound[0..5] = lo.x, hi.x, lo.y, hi.y, lo.z, hi.z. child: inner = node
+ * index; leaf = EC_LEAF_BIT | index of one ec_tri8 block; unused = EC_NO_CHILD with an empty box. A leaf child holds
+ * exactly one block. */
+typedef struct ec_bvh8_node {
+    ec_float bound[6][8];
+    ec_uint child[8];
+    ec_uint pad[8];      /* keeps nodes on cache-line boundaries */
+} ec_bvh8_node;
+EC_ASSERT_SIZE(ec_bvh8_node, 256);
+
+/* Up to eight triangles. v[k][axis][slot]; unused slots have id EC_NO_ID and all vertices 0. */
+typedef struct ec_tri8 {
+    ec_float v[3][3][8];
+    ec_uint id[8];
+} ec_tri8;
+EC_ASSERT_SIZE(ec_tri8, 320);
+
+#endif

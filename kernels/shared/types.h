@@ -1,0 +1,22 @@
+/* Scalar types and asserts for structs that cross from host to device. Legal in C11 and OpenCL C 1.2. */
+#ifndef EC_SHARED_TYPES_H
+#define EC_SHARED_TYPES_H
+
+#ifdef __OPENCL_VERSION__
+typedef int ec_int;
+typedef uint ec_uint;
+typedef float ec_float;
+#else
+#include <stdint.h>
+typedef int32_t ec_int;
+typedef uint32_t ec_uint;
+typedef float ec_float;
+#endif
+
+/* A negative array size says "no" in every dialect. */
+#define EC_STATIC_ASSERT_NAME_(a, b) a##b
+#define EC_STATIC_ASSERT_NAME(a, b) EC_STATIC_ASSERT_NAME_(a, b)
+#define EC_ASSERT_SIZE(type, bytes)                                                                \
+    typedef char EC_STATIC_ASSERT_NAME(type, _has_size_##bytes)[sizeof(type) == (bytes) ? 1 : -1]
+
+#endif
