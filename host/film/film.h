@@ -1,4 +1,5 @@
 /* The image as it grows: per-pixel mean and standard error from independent batches, in double precision.
+ * 64 bytes a pixel.
  *
  * Image error (the manual's definition). With B batches, pixel p's luminance has standard error SE_p = s_p / sqrt(B), and
  *     error = sqrt(mean_p SE_p^2) / mean luminance
@@ -11,13 +12,22 @@
 
 #include "base/error.h"
 
+/* Relative luminance of linear Rec.709 colour (IEC 61966-2-1); the weights sum to 1. */
+static inline double ec_luminance(const double rgb[3])
+{
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
 typedef struct ec_film {
     uint32_t width, height;
     uint32_t batch_count;         /* B: batches added so far */
     uint32_t samples_per_batch;   /* the same for every batch */
     double *mean;                 /* 3 per pixel: mean of the batch means */
     double *m2;                   /* 4 per pixel: sum of squared deviations of R, G, B and luminance (Welford) */
-    /* First-hit features, from the first batch; may be NULL. albedo 3, normal 3, depth 1, alpha 1 per pixel. */
+    float *m34;                   /* 2 per pixel: sums of cubed and fourth-power deviations of luminance (Pebay 2008) */
+    uint64_t invalid_count;       /* values that were NaN or infinite and counted as 0; the pipeline should leave none */
+    /* First-hit features, from the first batch; may be NULL. albedo 3, normal 3, depth 1, alpha 1 per pixel.
+     * ec_film_create leaves it NULL; whoever sets it mallocs it, ec_film_destroy frees it. */
     float *aov;                   /* 8 per pixel */
 } ec_film;
 
@@ -29,8 +39,11 @@ void ec_film_add_batch(ec_film *film, const float *batch_mean);
 
 typedef struct ec_film_error {
     double mean_luminance;   /* of the image */
-    double error;            /* relative RMS standard error; infinity with fewer than 2 batches or a black image */
-    double error_bound;      /* 95 % upper bound */
+    /* Relative RMS standard error. Infinity with fewer than 2 batches, and for a black image: its relative error is
+     * undefined, and having seen no light yet is no evidence that there is none. 0 only for a lit image whose batches
+     * all agree. Never NaN. */
+    double error;
+    double error_bound;      /* 95 % upper bound; infinity when error is. Wants 4 batches or more, see film/error.c */
 } ec_film_error;
 ec_film_error ec_film_estimate_error(const ec_film *film);
 

@@ -4,10 +4,10 @@
 
 #include "types.h"
 
-#define EC_BVH_STACK 96        /* entries a traversal stack holds; the builder keeps trees shallower than 64 */
+#define EC_BVH_STACK 96         /* entries of a binary traversal stack; the builder keeps trees no deeper than 64 */
+#define EC_BVH8_STACK 448      /* the same for eight children: 7 a level, 64 levels */
 #define EC_LEAF_BIT 0x80000000u
 #define EC_NO_CHILD 0xffffffffu
-#define EC_NO_ID 0xffffffffu
 
 /* Binary node with both children's boxes. child: inner = node index; leaf = EC_LEAF_BIT | first << 4 | count, where
  * count <= 8 triangles start at ec_tri[first]. A tree that is one leaf has a root whose child[0] is it, and child[1] is

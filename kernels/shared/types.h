@@ -2,7 +2,8 @@
 #ifndef EC_SHARED_TYPES_H
 #define EC_SHARED_TYPES_H
 
-#ifdef __OPENCL_VERSION__
+#if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+#define EC_DEVICE_CODE
 typedef int ec_int;
 typedef uint ec_uint;
 typedef float ec_float;
@@ -12,6 +13,8 @@ typedef int32_t ec_int;
 typedef uint32_t ec_uint;
 typedef float ec_float;
 #endif
+
+#define EC_NO_ID 0xffffffffu /* no triangle */
 
 /* A negative array size says "no" in every dialect. */
 #define EC_STATIC_ASSERT_NAME_(a, b) a##b

@@ -1,0 +1,74 @@
+/* The promises of a binary tree, verified: every triangle once, boxes that hold what is below them, bounded depth. */
+#include <stdlib.h>
+
+#include "accel/build_internal.h"
+
+typedef struct check {
+    const ec_bvh *bvh;
+    const float *positions;
+    const uint32_t *indices;
+    uint8_t *seen;      /* by triangle */
+    uint32_t next;      /* leaves cover the order from left to right */
+    uint32_t visited;
+    ec_error *err;
+} check;
+
+static int inside(const float *point_lo, const float *point_hi, const ec_bvh_build_node *node)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (point_lo[axis] < node->lo[axis] || point_hi[axis] > node->hi[axis]) return 0;
+    return 1;
+}
+
+static ec_result check_leaf(check *c, uint32_t index)
+{
+    const ec_bvh_build_node *node = &c->bvh->nodes[index];
+    if (node->count > EC_LEAF_MAX) return ec_fail(c->err, "BVH leaf %u holds %u triangles", index, node->count);
+    if (node->first != c->next) return ec_fail(c->err, "BVH leaf %u starts at %u, not %u", index, node->first, c->next);
+    if (node->count > c->bvh->triangle_count - node->first)
+        return ec_fail(c->err, "BVH leaf %u ends past the last triangle", index);
+    c->next += node->count;
+    for (uint32_t i = node->first; i < c->next; i++) {
+        uint32_t id = c->bvh->order[i];
+        if (id >= c->bvh->triangle_count || c->seen[id]++)
+            return ec_fail(c->err, "BVH leaf %u holds triangle %u, unknown or held already", index, id);
+        for (int corner = 0; corner < 3; corner++) {
+            const float *p = c->positions + 3 * (size_t)c->indices[3 * (size_t)id + corner];
+            if (!inside(p, p, node)) return ec_fail(c->err, "triangle %u sticks out of BVH leaf %u", id, index);
+        }
+    }
+    return EC_OK;
+}
+
+static ec_result check_node(check *c, uint32_t index, uint32_t depth)
+{
+    const ec_bvh_build_node *node = &c->bvh->nodes[index];
+    c->visited++;
+    if (depth > EC_DEPTH_MAX) return ec_fail(c->err, "BVH node %u lies deeper than %u", index, EC_DEPTH_MAX);
+    if (node->count || !node->left) return check_leaf(c, index);
+    /* Children after their parents: the tree has no cycles, and sweeps over the array need no stack. */
+    if (node->left <= index || node->left + 1 >= c->bvh->node_count)
+        return ec_fail(c->err, "BVH node %u has its children at %u", index, node->left);
+    for (uint32_t child = node->left; child <= node->left + 1; child++) {
+        const ec_bvh_build_node *below = &c->bvh->nodes[child];
+        if (!inside(below->lo, below->hi, node))
+            return ec_fail(c->err, "BVH node %u sticks out of its parent %u", child, index);
+        EC_TRY(check_node(c, child, depth + 1));
+    }
+    return EC_OK;
+}
+
+ec_result ec_bvh_check(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_error *err)
+{
+    check c = {.bvh = bvh, .positions = positions, .indices = indices, .err = err};
+    if (!bvh->node_count || !bvh->nodes || !bvh->order) return ec_fail(err, "the BVH has not been built");
+    c.seen = calloc(bvh->triangle_count + 1, 1);
+    if (!c.seen) return ec_fail(err, "out of memory for checking the BVH");
+    ec_result result = check_node(&c, 0, 0);
+    if (result == EC_OK && c.next != bvh->triangle_count)
+        result = ec_fail(err, "the BVH holds %u of %u triangles", c.next, bvh->triangle_count);
+    if (result == EC_OK && c.visited != bvh->node_count)
+        result = ec_fail(err, "%u of %u BVH nodes can be reached", c.visited, bvh->node_count);
+    free(c.seen);
+    return result;
+}

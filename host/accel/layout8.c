@@ -1,0 +1,154 @@
+/* The 8-wide layout: first which binary nodes become children of which wide node, then the arrays, on all cores. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accel/layout_internal.h"
+
+/* A traversal may have the siblings along one path on its stack and eight more children before it takes the next. */
+#define STACK_MAX (EC_BVH_STACK - 8)
+
+typedef struct wide {
+    uint32_t child[8]; /* binary nodes; the children that are nodes, then those that are leaves */
+    uint32_t node_count, leaf_count;
+    uint32_t first_node, first_leaf; /* they are numbered in a row */
+} wide;
+
+typedef struct plan {
+    const ec_bvh *bvh;
+    ec_subtree *subtrees;
+    ec_collapse collapse;
+    wide *nodes;
+    uint32_t *leaves; /* the binary node of each block */
+    uint32_t node_count, leaf_count;
+} plan;
+
+/* The children that `index` becomes when given `slots` of them. */
+static void gather(const plan *p, uint32_t index, int slots, uint32_t *children, int *count)
+{
+    const uint8_t *choice = p->collapse.slots[index];
+    while (slots > 1 && slots < 8 && !choice[slots]) slots--;
+    if (slots == 1) {
+        children[(*count)++] = index;
+        return;
+    }
+    uint32_t left = p->bvh->nodes[index].left;
+    gather(p, left, choice[slots], children, count);
+    gather(p, left + 1, slots - choice[slots], children, count);
+}
+
+static int is_leaf(const plan *p, uint32_t index) { return !p->collapse.slots[index][1]; }
+
+/* The best eight children where the stack allows; else the two of the binary tree, of which no path has more than 63. */
+static int gather_within(const plan *p, uint32_t index, uint32_t stack, uint32_t *children)
+{
+    int count = 0;
+    gather(p, index, 8, children, &count);
+    for (int k = 0; k < count; k++) {
+        if (is_leaf(p, children[k]) || p->subtrees[children[k]].height + count - 1 <= stack) continue;
+        children[0] = p->bvh->nodes[index].left;
+        children[1] = children[0] + 1;
+        return 2;
+    }
+    return count;
+}
+
+/* stack: entries that a traversal below this node may need; at least its height. */
+static void plan_node(plan *p, uint32_t at, uint32_t index, uint32_t stack)
+{
+    uint32_t children[8];
+    int count = is_leaf(p, index) ? (children[0] = index, 1) : gather_within(p, index, stack, children);
+    wide *node = &p->nodes[at];
+    *node = (wide){.first_node = p->node_count, .first_leaf = p->leaf_count};
+    for (int k = 0; k < count; k++)
+        if (!is_leaf(p, children[k])) node->child[node->node_count++] = children[k];
+    for (int k = 0; k < count; k++) {
+        if (!is_leaf(p, children[k])) continue;
+        node->child[node->node_count + node->leaf_count++] = children[k];
+        p->leaves[p->leaf_count++] = children[k];
+    }
+    p->node_count += node->node_count;
+    for (uint32_t k = 0; k < node->node_count; k++)
+        plan_node(p, node->first_node + k, node->child[k], stack - (uint32_t)(count - 1));
+}
+
+static void fill_node(const plan *p, const wide *from, ec_bvh8_node *node)
+{
+    memset(node, 0, sizeof *node);
+    for (uint32_t k = 0; k < 8; k++) {
+        int used = k < from->node_count + from->leaf_count;
+        const ec_bvh_build_node *child = used ? &p->bvh->nodes[from->child[k]] : NULL;
+        for (int axis = 0; axis < 3; axis++) {
+            node->bound[2 * axis][k] = used ? child->lo[axis] : INFINITY;
+            node->bound[2 * axis + 1][k] = used ? child->hi[axis] : -INFINITY;
+        }
+        node->child[k] = !used                  ? EC_NO_CHILD
+                         : k < from->node_count ? from->first_node + k
+                                                : EC_LEAF_BIT | (from->first_leaf + k - from->node_count);
+    }
+}
+
+static void fill_block(const plan *p, uint32_t index, const float *positions, const uint32_t *indices, ec_tri8 *block)
+{
+    uint32_t first = p->bvh->nodes[index].first, count = p->subtrees[index].count;
+    memset(block, 0, sizeof *block);
+    for (uint32_t slot = 0; slot < 8; slot++) {
+        block->id[slot] = slot < count ? p->bvh->order[first + slot] : EC_NO_ID;
+        for (int corner = 0; slot < count && corner < 3; corner++) {
+            const float *v = positions + 3 * (size_t)indices[3 * (size_t)block->id[slot] + corner];
+            for (int axis = 0; axis < 3; axis++) block->v[corner][axis][slot] = v[axis];
+        }
+    }
+}
+
+static void fill(const plan *p, const float *positions, const uint32_t *indices, ec_bvh8_node *nodes, ec_tri8 *blocks)
+{
+#pragma omp parallel
+    {
+#pragma omp for nowait schedule(dynamic, 1024)
+        for (uint32_t i = 0; i < p->node_count; i++) fill_node(p, &p->nodes[i], &nodes[i]);
+#pragma omp for schedule(dynamic, 1024)
+        for (uint32_t i = 0; i < p->leaf_count; i++) fill_block(p, p->leaves[i], positions, indices, &blocks[i]);
+    }
+}
+
+static int make_plan(plan *p)
+{
+    p->subtrees = ec_bvh_subtrees(p->bvh);
+    if (!p->subtrees || !ec_collapse8(p->bvh, p->subtrees, &p->collapse)) return 0;
+    /* A binary tree has one more leaf than inner nodes. Wide nodes are fewer, and untouched memory costs nothing. */
+    p->nodes = malloc((p->bvh->node_count / 2 + 1) * sizeof *p->nodes);
+    p->leaves = malloc((p->bvh->node_count / 2 + 1) * sizeof *p->leaves);
+    if (!p->nodes || !p->leaves) return 0;
+    p->node_count = 1;
+    plan_node(p, 0, 0, STACK_MAX);
+    return 1;
+}
+
+ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh8_node **nodes,
+                         uint32_t *node_count, ec_tri8 **blocks, uint32_t *block_count, ec_error *err)
+{
+    plan p = {.bvh = bvh};
+    ec_bvh8_node *n = NULL;
+    ec_tri8 *b = NULL;
+    if (make_plan(&p)) {
+        n = ec_allocate_lines(p.node_count, sizeof *n);
+        b = ec_allocate_lines(p.leaf_count, sizeof *b);
+    }
+    ec_result result = n && b ? EC_OK : ec_fail(err, "out of memory for the 8-wide BVH of %u triangles", bvh->triangle_count);
+    if (result == EC_OK) {
+        fill(&p, positions, indices, n, b);
+        *nodes = n;
+        *blocks = b;
+        *node_count = p.node_count;
+        *block_count = p.leaf_count;
+    } else {
+        free(n);
+        free(b);
+    }
+    free(p.subtrees);
+    free(p.collapse.slots);
+    free(p.nodes);
+    free(p.leaves);
+    return result;
+}

@@ -1,0 +1,27 @@
+/* Facts about subtrees, and memory on cache lines. */
+#include "accel/layout_internal.h"
+
+#include <stdlib.h>
+
+ec_subtree *ec_bvh_subtrees(const ec_bvh *bvh)
+{
+    ec_subtree *subtrees = malloc(bvh->node_count * sizeof *subtrees);
+    if (!subtrees) return NULL;
+    for (uint32_t i = bvh->node_count; i-- > 0;) { /* children lie behind their parents */
+        const ec_bvh_build_node *node = &bvh->nodes[i];
+        if (!node->left) {
+            subtrees[i] = (ec_subtree){.count = node->count};
+            continue;
+        }
+        const ec_subtree *left = &subtrees[node->left], *right = left + 1;
+        subtrees[i].count = left->count + right->count;
+        subtrees[i].height = 1 + (left->height > right->height ? left->height : right->height);
+    }
+    return subtrees;
+}
+
+void *ec_allocate_lines(size_t count, size_t size)
+{
+    size_t bytes = (count ? count : 1) * size;
+    return aligned_alloc(64, (bytes + 63) / 64 * 64);
+}

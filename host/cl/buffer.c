@@ -1,0 +1,70 @@
+/* Device memory: allocated within the device's limits and accounted for, read, written, zeroed. */
+#include "cl/cl.h"
+
+#define EC_SMALLEST_BUFFER 16 /* OpenCL has no empty buffers; an empty table still needs an argument */
+
+static double mib(uint64_t bytes) { return (double)bytes / 1048576.0; }
+
+static ec_result check_limits(const ec_cl *cl, const char *label, uint64_t bytes, ec_error *err) {
+    if (bytes > cl->info.max_allocation_bytes)
+        return ec_fail(err, "%s needs %.1f MiB in one piece, but %s allows %.1f MiB", label, mib(bytes), cl->info.name,
+                       mib(cl->info.max_allocation_bytes));
+    uint64_t used = cl->allocated_bytes, all = cl->info.memory_bytes;
+    if (bytes > (used < all ? all - used : 0))
+        return ec_fail(err, "%s needs %.1f MiB, but %s has %.1f MiB, of which %.1f MiB are in use", label, mib(bytes),
+                       cl->info.name, mib(all), mib(used));
+    return EC_OK;
+}
+
+ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer,
+                           ec_error *err) {
+    *buffer = NULL;
+    EC_TRY(check_limits(cl, label, bytes, err));
+    bool copy = host && bytes;
+    uint64_t size = bytes < EC_SMALLEST_BUFFER ? EC_SMALLEST_BUFFER : bytes;
+    cl_int code;
+    /* COPY_HOST_PTR reads exactly `size` bytes, so a table smaller than the smallest buffer is written afterwards. */
+    bool at_once = copy && size == bytes;
+    cl_mem made = clCreateBuffer(cl->context, CL_MEM_READ_WRITE | (at_once ? CL_MEM_COPY_HOST_PTR : 0), size,
+                                 at_once ? (void *)host : NULL, &code);
+    EC_TRY(ec_cl_check(code, "clCreateBuffer", label, err));
+    cl->allocated_bytes += size;
+    if (cl->allocated_bytes > cl->peak_allocated_bytes) cl->peak_allocated_bytes = cl->allocated_bytes;
+    if (copy && !at_once) {
+        ec_result result = ec_buffer_write(cl, made, 0, bytes, host, err);
+        if (result != EC_OK) {
+            ec_buffer_release(cl, &made);
+            return result;
+        }
+    }
+    *buffer = made;
+    return EC_OK;
+}
+
+void ec_buffer_release(ec_cl *cl, cl_mem *buffer) {
+    if (!*buffer) return;
+    size_t size = 0;
+    clGetMemObjectInfo(*buffer, CL_MEM_SIZE, sizeof size, &size, NULL);
+    cl->allocated_bytes -= size < cl->allocated_bytes ? size : cl->allocated_bytes;
+    clReleaseMemObject(*buffer);
+    *buffer = NULL;
+}
+
+ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err) {
+    if (bytes == 0) return EC_OK;
+    cl_int code = clEnqueueReadBuffer(cl->queue, buffer, CL_TRUE, offset, bytes, to, 0, NULL, NULL);
+    return ec_cl_check(code, "clEnqueueReadBuffer", NULL, err);
+}
+
+ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err) {
+    if (bytes == 0) return EC_OK;
+    cl_int code = clEnqueueWriteBuffer(cl->queue, buffer, CL_TRUE, offset, bytes, from, 0, NULL, NULL);
+    return ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err);
+}
+
+ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err) {
+    if (bytes == 0) return EC_OK;
+    const cl_uint zero = 0;
+    cl_int code = clEnqueueFillBuffer(cl->queue, buffer, &zero, sizeof zero, offset, bytes, 0, NULL, NULL);
+    return ec_cl_check(code, "clEnqueueFillBuffer", NULL, err);
+}

@@ -1,0 +1,79 @@
+/* The compiler's words: the few lines that help go into the message, all of them into a folder if asked. */
+#include "cl/build_log.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define EC_LOG_LINES 15
+
+char *ec_build_log(const ec_cl *cl, cl_program program) {
+    size_t size = 0;
+    if (clGetProgramBuildInfo(program, cl->info.id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) != CL_SUCCESS || size < 2)
+        return NULL;
+    char *log = malloc(size + 1);
+    if (!log) return NULL;
+    log[size] = 0; /* some drivers leave the terminator out */
+    if (clGetProgramBuildInfo(program, cl->info.id, CL_PROGRAM_BUILD_LOG, size, log, NULL) == CL_SUCCESS) return log;
+    free(log);
+    return NULL;
+}
+
+static bool is_error(const char *line, size_t length) {
+    for (size_t i = 0; i + 5 <= length; i++)
+        if (memcmp(line + i, "error", 5) == 0) return true;
+    return false;
+}
+
+/* Appends up to *lines lines of the log that are errors, or that are not. */
+static void append_lines(char *text, size_t size, const char *log, bool errors, int *lines) {
+    size_t used = strlen(text);
+    while (*log && *lines > 0) {
+        size_t length = strcspn(log, "\n");
+        if (length && is_error(log, length) == errors) {
+            int put = snprintf(text + used, size - used, "\n  %.*s", (int)length, log);
+            if (put < 0 || (size_t)put >= size - used) {
+                text[used] = 0; /* no half lines */
+                return;
+            }
+            used += (size_t)put;
+            --*lines;
+        }
+        log += length + (log[length] == '\n');
+    }
+}
+
+ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log, cl_int code, ec_error *err) {
+    ec_fail(err, "kernels %s do not compile on %s: %s (%d); ECLAT_DUMP_KERNELS=DIR writes source and full log there",
+            label, cl->info.name, ec_cl_error_name(code), code);
+    if (!err || !log) return EC_FAILED;
+    int lines = EC_LOG_LINES;
+    append_lines(err->text, sizeof err->text, log, true, &lines);
+    append_lines(err->text, sizeof err->text, log, false, &lines);
+    return EC_FAILED;
+}
+
+static void write_file(const char *folder, const char *label, const char *suffix, const char *first, const char *rest) {
+    char path[4096];
+    if (snprintf(path, sizeof path, "%s/%s.%s", folder, label, suffix) >= (int)sizeof path) return;
+    FILE *file = fopen(path, "w");
+    if (!file) {
+        fprintf(stderr, "warning: ECLAT_DUMP_KERNELS: cannot write %s\n", path);
+        return;
+    }
+    fprintf(file, "%s%s", first, rest);
+    fclose(file);
+}
+
+bool ec_build_log_dump(const char *label, const char *source, const char *options, const char *log) {
+    const char *folder = getenv("ECLAT_DUMP_KERNELS");
+    if (!folder || !*folder) return false;
+    if (!source) return true;
+    mkdir(folder, 0777);
+    char first[1024];
+    snprintf(first, sizeof first, "// options: %s\n", options);
+    write_file(folder, label, "cl", first, source);
+    write_file(folder, label, "log", "", log ? log : "");
+    return true;
+}

@@ -1,0 +1,16 @@
+/* What is shown and kept of a compiler's output. Inside host/cl only. */
+#ifndef EC_CL_BUILD_LOG_H
+#define EC_CL_BUILD_LOG_H
+
+#include "cl/cl.h"
+
+/* The log of a program's last build; malloc'ed, NULL if there is none. */
+char *ec_build_log(const ec_cl *cl, cl_program program);
+
+/* Fails with "kernels LABEL do not compile…" and the first lines of the log, those with an error first. */
+ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log, cl_int code, ec_error *err);
+
+/* With ECLAT_DUMP_KERNELS=DIR: source to DIR/label.cl, log to DIR/label.log. False if the variable is not set. */
+bool ec_build_log_dump(const char *label, const char *source, const char *options, const char *log);
+
+#endif

@@ -1,0 +1,28 @@
+/* Opening and closing one device: its context and its queue. */
+#include <string.h>
+
+#include "cl/cl.h"
+
+ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err) {
+    memset(cl, 0, sizeof *cl);
+    cl->info = *info;
+    const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)info->platform, 0};
+    cl_int code;
+    cl->context = clCreateContext(properties, 1, &info->id, NULL, NULL, &code);
+    EC_TRY(ec_cl_check(code, "clCreateContext", info->name, err));
+    cl->queue = clCreateCommandQueue(cl->context, info->id, 0, &code);
+    ec_result result = ec_cl_check(code, "clCreateCommandQueue", info->name, err);
+    if (result != EC_OK) ec_cl_close(cl);
+    return result;
+}
+
+void ec_cl_close(ec_cl *cl) {
+    if (cl->queue) clReleaseCommandQueue(cl->queue);
+    if (cl->context) clReleaseContext(cl->context);
+    cl->queue = NULL;
+    cl->context = NULL;
+}
+
+ec_result ec_cl_finish(ec_cl *cl, ec_error *err) {
+    return ec_cl_check(clFinish(cl->queue), "clFinish", cl->info.name, err);
+}

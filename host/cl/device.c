@@ -1,0 +1,112 @@
+/* Which devices there are, what they can do, and which one to take. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "cl/cl.h"
+
+#define EC_PLATFORM_NOT_FOUND_KHR (-1001) /* what the ICD loader says when no driver is installed */
+#define EC_INSTALL_HINT "install a driver, for instance PoCL for the CPU: apt-get install pocl-opencl-icd"
+
+/* Drivers pad names with spaces (Intel in front, NVIDIA behind). */
+static void trim(char *text) {
+    size_t start = strspn(text, " \t\n"), length = strlen(text + start);
+    memmove(text, text + start, length + 1);
+    while (length && isspace((unsigned char)text[length - 1])) text[--length] = 0;
+}
+
+/* Texts that do not fit are cut; a query that fails leaves "". */
+static void device_text(cl_device_id device, cl_device_info what, char text[256]) {
+    char all[4096] = "";
+    if (clGetDeviceInfo(device, what, sizeof all, all, NULL) != CL_SUCCESS) all[0] = 0;
+    snprintf(text, 256, "%.255s", all);
+    trim(text);
+}
+
+static void platform_text(cl_platform_id platform, cl_platform_info what, char text[256]) {
+    char all[4096] = "";
+    if (clGetPlatformInfo(platform, what, sizeof all, all, NULL) != CL_SUCCESS) all[0] = 0;
+    snprintf(text, 256, "%.255s", all);
+    trim(text);
+}
+
+/* The value must have exactly the size the standard gives it; 0 where the query fails. */
+#define DEVICE_NUMBER(device, what, type, to)                                                      \
+    do {                                                                                           \
+        type number = 0;                                                                           \
+        if (clGetDeviceInfo(device, what, sizeof number, &number, NULL) != CL_SUCCESS) number = 0; \
+        (to) = number;                                                                             \
+    } while (0)
+
+static void describe(cl_platform_id platform, cl_device_id device, ec_device_info *info) {
+    memset(info, 0, sizeof *info);
+    info->platform = platform;
+    info->id = device;
+    device_text(device, CL_DEVICE_NAME, info->name);
+    device_text(device, CL_DEVICE_VENDOR, info->vendor);
+    device_text(device, CL_DEVICE_VERSION, info->version);
+    device_text(device, CL_DRIVER_VERSION, info->driver);
+    device_text(device, CL_DEVICE_OPENCL_C_VERSION, info->c_version);
+    platform_text(platform, CL_PLATFORM_NAME, info->platform_name);
+    platform_text(platform, CL_PLATFORM_VERSION, info->platform_version);
+    DEVICE_NUMBER(device, CL_DEVICE_TYPE, cl_device_type, info->type);
+    DEVICE_NUMBER(device, CL_DEVICE_MAX_COMPUTE_UNITS, cl_uint, info->compute_units);
+    DEVICE_NUMBER(device, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, cl_uint, info->native_float_width);
+    DEVICE_NUMBER(device, CL_DEVICE_GLOBAL_MEM_SIZE, cl_ulong, info->memory_bytes);
+    DEVICE_NUMBER(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE, cl_ulong, info->max_allocation_bytes);
+    DEVICE_NUMBER(device, CL_DEVICE_GLOBAL_MEM_CACHE_SIZE, cl_ulong, info->cache_bytes);
+    DEVICE_NUMBER(device, CL_DEVICE_LOCAL_MEM_SIZE, cl_ulong, info->local_bytes);
+    DEVICE_NUMBER(device, CL_DEVICE_MAX_WORK_GROUP_SIZE, size_t, info->max_work_group_size);
+    DEVICE_NUMBER(device, CL_DEVICE_AVAILABLE, cl_bool, info->available);
+    DEVICE_NUMBER(device, CL_DEVICE_COMPILER_AVAILABLE, cl_bool, info->compiler_available);
+    cl_device_fp_config fp;
+    DEVICE_NUMBER(device, CL_DEVICE_SINGLE_FP_CONFIG, cl_device_fp_config, fp);
+    info->correctly_rounded_divide_sqrt = fp & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+    info->denormals = fp & CL_FP_DENORM;
+    info->fma = fp & CL_FP_FMA;
+    info->inf_nan = fp & CL_FP_INF_NAN;
+}
+
+/* Adds the devices of one platform to the list. A platform without any is no failure. */
+static ec_result add_platform(cl_platform_id platform, ec_device_info **list, uint32_t *count, ec_error *err) {
+    cl_uint found = 0;
+    cl_int code = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, NULL, &found);
+    if (code != CL_SUCCESS || found == 0) return EC_OK;
+    cl_device_id *ids = calloc(found, sizeof *ids);
+    ec_device_info *larger = realloc(*list, (*count + found) * sizeof *larger);
+    if (larger) *list = larger;
+    if (!ids || !larger) {
+        free(ids);
+        return ec_fail(err, "out of memory while listing OpenCL devices");
+    }
+    code = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, found, ids, NULL);
+    if (code == CL_SUCCESS)
+        for (cl_uint i = 0; i < found; i++) describe(platform, ids[i], &larger[(*count)++]);
+    free(ids);
+    return EC_OK;
+}
+
+ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *err) {
+    *devices = NULL;
+    *count = 0;
+    cl_platform_id platforms[64];
+    cl_uint found = 0;
+    cl_int code = clGetPlatformIDs(64, platforms, &found);
+    if (code == EC_PLATFORM_NOT_FOUND_KHR || (code == CL_SUCCESS && found == 0))
+        return ec_fail(err, "no OpenCL driver is installed; " EC_INSTALL_HINT);
+    EC_TRY(ec_cl_check(code, "clGetPlatformIDs", NULL, err));
+    ec_result result = EC_OK;
+    for (cl_uint i = 0; i < found && i < 64 && result == EC_OK; i++)
+        result = add_platform(platforms[i], devices, count, err);
+    if (result == EC_OK && *count == 0)
+        result = ec_fail(err, "the installed OpenCL driver (%u platform%s) offers no device; " EC_INSTALL_HINT,
+                         (unsigned)found, found == 1 ? "" : "s");
+    if (result != EC_OK) {
+        free(*devices);
+        *devices = NULL;
+        *count = 0;
+    }
+    return result;
+}

@@ -1,0 +1,110 @@
+/* Source to program, through the binary cache.
+ *
+ * PoCL 3.1 is left out of the cache (EC_CACHE_AUTO). It compiles a kernel at its first launch, for the local size of that
+ * launch, and keeps the result in its own cache below XDG_CACHE_HOME. Asking it for binaries compiles every kernel once
+ * more, for any local size, which takes as long as the first launches did (the sketch's five kernels: 1.2-1.5 s), and
+ * the result lacks what launches use unless they ran before. Warm, its cache is as good: 0.03-0.05 s instead of 0.01 s.
+ * It compiles under one lock for the process, so threads do not help, nor do contexts, and each program more costs
+ * 0.1-0.2 s: see ec_kernel_sources_join. Other drivers have the whole binary when the build is done.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "cl/build_log.h"
+#include "cl/cache.h"
+
+typedef struct build {
+    ec_cl *cl;
+    const char *label, *source;
+    char *options;       /* with the flags added */
+    char folder[4096];   /* of the cache; "" = none */
+    ec_cache_key key;
+} build;
+
+static bool driver_needs_source(const ec_device_info *info) {
+    return strstr(info->platform_version, "PoCL") || strstr(info->platform_version, "pocl") ||
+           strstr(info->platform_name, "Oclgrind");
+}
+
+static char *all_options(const ec_device_info *info, const char *options) {
+    const char *standard = "-cl-std=CL1.2";
+    const char *divide = info->correctly_rounded_divide_sqrt ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
+    size_t size = strlen(options) + strlen(standard) + strlen(divide) + 2;
+    char *all = malloc(size);
+    if (all) snprintf(all, size, "%s%s%s%s", standard, divide, *options ? " " : "", options);
+    return all;
+}
+
+/* False is a miss: nothing in the cache, or a driver that does not take it (any more). */
+static bool build_from_cache(build *b, cl_program *program) {
+    unsigned char *binary;
+    size_t bytes;
+    if (!*b->folder || !ec_cache_load(b->folder, &b->key, &binary, &bytes)) return false;
+    cl_device_id device = b->cl->info.id;
+    cl_int status = CL_SUCCESS, code;
+    cl_program made = clCreateProgramWithBinary(b->cl->context, 1, &device, &bytes, (const unsigned char **)&binary,
+                                                &status, &code);
+    free(binary);
+    if (code == CL_SUCCESS && status == CL_SUCCESS &&
+        clBuildProgram(made, 1, &device, b->options, NULL, NULL) == CL_SUCCESS) {
+        *program = made;
+        return true;
+    }
+    if (code == CL_SUCCESS) clReleaseProgram(made);
+    return false;
+}
+
+static ec_result build_from_source(build *b, cl_program *program, ec_error *err) {
+    cl_int code;
+    cl_program made = clCreateProgramWithSource(b->cl->context, 1, (const char **)&b->source, NULL, &code);
+    EC_TRY(ec_cl_check(code, "clCreateProgramWithSource", b->label, err));
+    code = clBuildProgram(made, 1, &b->cl->info.id, b->options, NULL, NULL);
+    char *log = ec_build_log(b->cl, made);
+    ec_build_log_dump(b->label, b->source, b->options, log);
+    ec_result result = EC_OK;
+    if (code != CL_SUCCESS) {
+        result = ec_build_log_fail(b->cl, b->label, log, code, err);
+        clReleaseProgram(made);
+    } else {
+        *program = made;
+    }
+    free(log);
+    return result;
+}
+
+/* A cache that cannot be written costs time at the next start, nothing else. */
+static void store(const build *b, cl_program program) {
+    size_t bytes = 0;
+    if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, NULL) != CL_SUCCESS || bytes == 0)
+        return;
+    unsigned char *binary = malloc(bytes);
+    if (binary && clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) == CL_SUCCESS)
+        ec_cache_store(b->folder, &b->key, binary, bytes);
+    free(binary);
+}
+
+ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, const char *options, cl_program *program,
+                           ec_error *err) {
+    *program = NULL;
+    double start = ec_now();
+    build b = {.cl = cl, .label = label, .source = source, .options = all_options(&cl->info, options ? options : "")};
+    if (!b.options) return ec_fail(err, "out of memory while building kernels %s", label);
+    bool use = cl->cache == EC_CACHE_ON || (cl->cache == EC_CACHE_AUTO && !driver_needs_source(&cl->info));
+    if (use && ec_cache_folder(cl->cache_dir, b.folder, sizeof b.folder))
+        b.key = ec_cache_key_of(&cl->info, source, b.options);
+    else b.folder[0] = 0;
+    bool dump = ec_build_log_dump(label, NULL, NULL, NULL);
+    ec_result result = EC_OK;
+    if (!dump && build_from_cache(&b, program)) {
+        cl->cache_hits++;
+    } else {
+        result = build_from_source(&b, program, err);
+        if (*b.folder) cl->cache_misses++;
+        if (result == EC_OK && *b.folder) store(&b, *program);
+    }
+    free(b.options);
+    cl->build_seconds += ec_now() - start;
+    return result;
+}

@@ -1,0 +1,28 @@
+/* The commands of `eclat`, and what they share. */
+#ifndef EC_CLI_CLI_H
+#define EC_CLI_CLI_H
+
+#include "base/error.h"
+#include "cli/console.h"
+
+/* What a command gets: the console, and the whole command line as it was typed. */
+typedef struct ec_cli {
+    ec_console console;
+    int argc;
+    char **argv;
+    char *line;  /* the same as one text, before getopt reorders it; owned */
+} ec_cli;
+
+/* Runs the command that argv names; returns the exit code: 0, 1 (failed) or 2 (usage). */
+int ec_cli_main(int argc, char **argv);
+
+/* One command each; argv[0] is its name. The error is the caller's to print. */
+ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err);
+ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err);
+ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err);
+
+/* Prints `eclat VERSION` or a command's help ("" for the program's own) to stdout. */
+void ec_print_version(void);
+void ec_print_help(const char *command);
+
+#endif

@@ -1,0 +1,104 @@
+/* Which command is meant, and how the program ends. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+#include "cli/command_line.h"
+#include "cli/help.h"
+#include "cli/suggest.h"
+#include "cli/usage.h"
+
+static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err);
+
+typedef struct command {
+    const char *name;
+    ec_result (*run)(ec_cli *cli, int argc, char **argv, ec_error *err);
+} command;
+
+static const command commands[] = {
+    {"render", ec_cmd_render},
+    {"info", ec_cmd_info},
+    {"devices", ec_cmd_devices},
+    {"help", cmd_help},
+};
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+static const command *find_command(const char *name)
+{
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        if (!strcmp(commands[i].name, name)) return &commands[i];
+    return NULL;
+}
+
+static ec_result unknown_command(const char *name, ec_error *err)
+{
+    const char *names[COMMAND_COUNT];
+    for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i].name;
+    const char *nearest = ec_suggest(name, names, COMMAND_COUNT);
+    const char *dot = strrchr(name, '.');
+    if (name[0] == '-')
+        return ec_usage(err, "unknown option '%s' before a command; see 'eclat --help'", name);
+    if (nearest)
+        return ec_usage(err, "unknown command '%s'; did you mean 'eclat %s'?", name, nearest);
+    if (dot && (!strcmp(dot, ".gltf") || !strcmp(dot, ".glb")))
+        return ec_usage(err, "'%s' is a scene, not a command: 'eclat render %s' renders it", name, name);
+    return ec_usage(err, "unknown command '%s'; see 'eclat --help'", name);
+}
+
+static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err)
+{
+    (void)cli;
+    const char *topic = argc > 1 ? argv[1] : "";
+    if (!strcmp(topic, "--version")) {
+        ec_print_version();
+        return EC_OK;
+    }
+    if (!strcmp(topic, "--help") || !strcmp(topic, "help")) topic = "";
+    if (argc > 2) return ec_usage(err, "help takes one command, as in 'eclat help render'");
+    if (*topic && !find_command(topic)) return unknown_command(topic, err);
+    ec_print_help(topic);
+    return EC_OK;
+}
+
+static ec_result run(ec_cli *cli, ec_error *err)
+{
+    const char *name = cli->argv[1];
+    if (!strcmp(name, "--help") || !strcmp(name, "-h")) name = "help";
+    if (!strcmp(name, "--version")) {
+        ec_print_version();
+        return EC_OK;
+    }
+    const command *found = find_command(name);
+    if (!found) return unknown_command(name, err);
+    return found->run(cli, cli->argc - 1, cli->argv + 1, err);
+}
+
+/* A result that did not arrive is a failure, however well the render went. */
+static ec_result flush_results(ec_error *err)
+{
+    errno = 0;
+    int lost = ferror(stdout);
+    if (fflush(stdout) != 0 || lost)
+        return ec_fail(err, "cannot write the result to standard output: %s",
+                       errno ? strerror(errno) : "an earlier write failed");
+    return EC_OK;
+}
+
+int ec_cli_main(int argc, char **argv)
+{
+    ec_cli cli = {.console = {.terminal = isatty(STDERR_FILENO) == 1}, .argc = argc, .argv = argv};
+    if (argc < 2) {
+        fputs(EC_HELP_SHORT, stderr);
+        return EC_USAGE;
+    }
+    ec_error err = {""};
+    cli.line = ec_command_line(argc, argv);
+    ec_result result = cli.line ? run(&cli, &err) : ec_fail(&err, "out of memory");
+    if (result == EC_OK) result = flush_results(&err);
+    if (result != EC_OK) ec_console_error(&cli.console, err.text);
+    free(cli.line);
+    return (int)result;
+}

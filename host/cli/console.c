@@ -1,0 +1,80 @@
+#include "cli/console.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+bool ec_console_wants_progress(const ec_console *console)
+{
+    return console->terminal && !console->quiet;
+}
+
+int ec_console_columns(const ec_console *console)
+{
+    struct winsize size;
+    if (console->terminal && ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1) return size.ws_col - 1;
+    return 79;
+}
+
+void ec_console_erase(ec_console *console)
+{
+    if (console->drawn == 0) return;
+    fprintf(stderr, "\r%*s\r", console->drawn, "");
+    fflush(stderr);
+    console->drawn = 0;
+}
+
+void ec_console_draw(ec_console *console, const char *line)
+{
+    if (!ec_console_wants_progress(console)) return;
+    int room = ec_console_columns(console);
+    int size = (int)strlen(line);
+    if (size > room) size = room;
+    int rest = console->drawn > size ? console->drawn - size : 0;
+    fprintf(stderr, "\r%.*s%*s", size, line, rest, "");
+    fflush(stderr);
+    console->drawn = size + rest;
+}
+
+/* Names in messages come from files: no control character of theirs may reach the terminal. Lines of a build log may
+ * stay lines. */
+static void print_message(ec_console *console, const char *kind, const char *text)
+{
+    ec_console_erase(console);
+    fprintf(stderr, "eclat: %s", kind);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++)
+        fputc((*c < 0x20 && *c != '\n' && *c != '\t') || *c == 0x7f ? '?' : *c, stderr);
+    fputc('\n', stderr);
+}
+
+void ec_console_error(ec_console *console, const char *text)
+{
+    print_message(console, "error: ", text);
+}
+
+void ec_console_say(ec_console *console, const char *format, ...)
+{
+    if (console->quiet) return;
+    char text[2048];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    print_message(console, "", text);
+}
+
+static void write_log(void *user, ec_severity severity, const char *text)
+{
+    ec_console *console = user;
+    if (severity == EC_WARNING)
+        print_message(console, "warning: ", text);
+    else if (!console->quiet)
+        print_message(console, "note: ", text);
+}
+
+ec_log ec_console_log(ec_console *console)
+{
+    return (ec_log){.write = write_log, .user = console};
+}

@@ -1,0 +1,14 @@
+/* What a render does when it is not told, and the limits that the help states. */
+#ifndef EC_CLI_DEFAULTS_H
+#define EC_CLI_DEFAULTS_H
+
+#define EC_DEFAULT_SPP 256      /* stop rule when none of --spp, --time and --error is given */
+#define EC_DEFAULT_HEIGHT 512   /* pixels; the width follows the camera's aspect ratio */
+#define EC_MAX_SPP 16777216     /* 2^24: counts up to here are exact in the EXR's float channel */
+#define EC_SAFETY_SPP 1048576   /* 2^20: where --time and --error alone give up */
+#define EC_MAX_DEPTH 65535
+
+#define EC_TEXT_(x) #x
+#define EC_TEXT(x) EC_TEXT_(x)
+
+#endif

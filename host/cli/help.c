@@ -1,0 +1,125 @@
+#include "cli/help.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/cli.h"
+#include "cli/defaults.h"
+
+const char EC_HELP_SHORT[] =
+    "Usage: eclat render SCENE [options]   render a glTF scene to EXR and PNG\n"
+    "       eclat info SCENE               say what is in it\n"
+    "       eclat devices                  list the OpenCL devices\n"
+    "       eclat --help                   say more\n";
+
+static const char help_main[] =
+    "Usage: eclat COMMAND [options]\n"
+    "\n"
+    "eclat turns a glTF 2.0 scene into a physically based image with a stated error, on any OpenCL device.\n"
+    "\n"
+    "Commands\n"
+    "  devices            list every OpenCL device and say which is the default\n"
+    "  help [COMMAND]     show this, or the help of a command\n"
+    "  info SCENE         say what a scene holds and what rendering it takes\n"
+    "  render SCENE       render a scene to EXR and PNG\n"
+    "\n"
+    "Options\n"
+    "  -h, --help         show this\n"
+    "      --version      show the version\n"
+    "\n"
+    "Results go to standard output; progress, warnings and errors to standard error.\n"
+    "Exit code: 0 done, 1 failed, 2 the command line is wrong.\n"
+    "\n"
+    "Environment\n"
+    "  ECLAT_DEVICE       OpenCL device, as for --device, where that is not given\n"
+    "  XDG_CACHE_HOME     compiled kernels are kept in eclat/kernels below it (default: ~/.cache)\n";
+
+static const char help_render[] =
+    "Usage: eclat render SCENE [options]\n"
+    "\n"
+    "Renders a glTF 2.0 scene (.gltf or .glb) and states the image's error.\n"
+    "\n"
+    "Picture\n"
+    "      --camera NAME|INDEX    look through this camera (default: the scene's first; without any, one that frames it)\n"
+    "      --env FILE|R,G,B       light from all around: an equirectangular .hdr or .exr map, or one radiance\n"
+    "                             (default: none; 1,1,1 where a scene has no light at all)\n"
+    "      --exposure EV          brighten the PNG by this many stops (default: 0)\n"
+    "  -o, --output FILE          write FILE, an .exr (all data) or a .png; may be repeated\n"
+    "                             (default: the scene's base name with .exr and .png, in the current directory)\n"
+    "      --size WxH             pixels (default: " EC_TEXT(EC_DEFAULT_HEIGHT) " high, as wide as the camera's aspect ratio asks, else square)\n"
+    "      --tonemap CURVE        neutral (Khronos PBR Neutral) or none, for the PNG (default: neutral)\n"
+    "\n"
+    "When to stop: at whichever limit comes first (default: --spp " EC_TEXT(EC_DEFAULT_SPP) ")\n"
+    "      --error PCT            when the 95 % bound of the image's error is under PCT per cent, as in 2 or 2%\n"
+    "      --spp N                after N samples a pixel (without it, --time and --error give up after " EC_TEXT(EC_SAFETY_SPP) ")\n"
+    "      --time S               before S seconds of rendering; also 30s, 2m, 1h\n"
+    "      Ctrl-C                 stops cleanly and writes the image so far (exit code 0); a second one aborts\n"
+    "\n"
+    "Light transport\n"
+    "      --max-depth N          segments in a path: 1 emission, 2 direct light, inf (default: inf, ended by roulette)\n"
+    "      --sampler NAME         sobol (Owen-scrambled) or independent (default: sobol)\n"
+    "      --seed N               another N, another independent image (default: 0)\n"
+    "\n"
+    "Device\n"
+    "      --device ID            OpenCL device: its number in `eclat devices`, or a part of its name\n"
+    "                             (default: $ECLAT_DEVICE, else the first GPU, else the first CPU)\n"
+    "      --lanes N              paths in one work-item: 1, 4, 8, 16 or auto; the image is the same (default: auto)\n"
+    "\n"
+    "Reproducing and measuring\n"
+    "      --all-effects          build kernels for every effect, not only for those the scene calls for\n"
+    "      --batch N              samples a pixel in one independent batch (default: chosen from the limits)\n"
+    "      --strategy NAME        direct light by mis, nee or bsdf sampling (default: mis)\n"
+    "      --trace NAME           traversal kernel: auto, packet or bvh8; the image is the same (default: auto)\n"
+    "      --wave N               paths in flight; the image is the same (default: fitted to the device)\n"
+    "\n"
+    "Messages\n"
+    "  -h, --help                 show this\n"
+    "      --json                 print one JSON object with everything measured instead of text\n"
+    "  -q, --quiet                only warnings and errors (and what --json prints)\n"
+    "      --version              show the version\n";
+
+static const char help_info[] =
+    "Usage: eclat info SCENE [options]\n"
+    "\n"
+    "Says what a glTF scene holds: geometry, materials, lights, cameras, extensions used and not supported, the effects it\n"
+    "calls for, the memory it will take, and how good its bounding-volume hierarchy is.\n"
+    "\n"
+    "Options\n"
+    "  -h, --help         show this\n"
+    "      --json         print one JSON object instead of text\n"
+    "  -q, --quiet        no notes; warnings and errors only, beside the result\n"
+    "      --version      show the version\n";
+
+static const char help_devices[] =
+    "Usage: eclat devices [options]\n"
+    "\n"
+    "Lists every OpenCL device with what matters here; * marks the one that a render takes by default.\n"
+    "\n"
+    "Options\n"
+    "  -h, --help         show this\n"
+    "      --json         print one JSON object instead of a table\n"
+    "      --version      show the version\n"
+    "\n"
+    "Environment\n"
+    "  ECLAT_DEVICE       the default device: its number or a part of its name\n"
+    "\n"
+    "Columns\n"
+    "  units              compute units: cores or multiprocessors that work at the same time\n"
+    "  lanes              native vector width in floats, which --lanes auto takes\n"
+    "  max alloc          largest single buffer\n"
+    "  exact div          division and square root are correctly rounded\n"
+    "  denormals, fma     single-precision denormals; fused multiply-add in hardware\n";
+
+void ec_print_help(const char *command)
+{
+    const char *text = help_main;
+    if (!strcmp(command, "render")) text = help_render;
+    if (!strcmp(command, "info")) text = help_info;
+    if (!strcmp(command, "devices")) text = help_devices;
+    fputs(text, stdout);
+}
+
+void ec_print_version(void)
+{
+    puts("eclat " ECLAT_VERSION);
+}

@@ -1,0 +1,34 @@
+/* Reads a command's arguments by a table: one row an option. */
+#ifndef EC_CLI_OPTIONS_H
+#define EC_CLI_OPTIONS_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+
+/* Stores one option's value; `option` is its name, value NULL for a flag. */
+typedef ec_result (*ec_option_set)(void *target, const char *option, const char *value, ec_error *err);
+
+typedef struct ec_option {
+    const char *name;  /* without dashes */
+    char letter;       /* short form; 0 = none */
+    bool takes_value;
+    ec_option_set set;
+} ec_option;
+
+enum { EC_OPTIONS_MAX = 40 };
+
+typedef enum ec_request { EC_REQUEST_RUN, EC_REQUEST_HELP, EC_REQUEST_VERSION } ec_request;
+
+/* Every table gets --help (-h) and --version too. Sets values in target; what is left in argv are operands, and *first
+ * is the index of the first of them. */
+ec_result ec_options_parse(const ec_option *options, int count, void *target, int argc, char **argv, int *first,
+                           ec_request *request, ec_error *err);
+
+/* Does what --help and --version ask for; true when that was all. */
+bool ec_request_serve(ec_request request, const char *command);
+
+/* The one operand SCENE. */
+ec_result ec_options_scene(int argc, char **argv, int first, const char **scene, ec_error *err);
+
+#endif

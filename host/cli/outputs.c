@@ -1,0 +1,72 @@
+#include "cli/outputs.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "cli/usage.h"
+#include "image/image.h"
+
+static bool kind_of(const char *path, ec_output_kind *kind)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    if (!dot || dot == name) return false;
+    *kind = strcasecmp(dot, ".png") == 0 ? EC_OUTPUT_PNG : EC_OUTPUT_EXR;
+    return *kind == EC_OUTPUT_PNG || strcasecmp(dot, ".exr") == 0;
+}
+
+ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
+{
+    ec_output_kind kind;
+    if (!kind_of(path, &kind))
+        return ec_usage(err, "-o: '%s' must be named NAME.exr (all data) or NAME.png (picture)", path);
+    if (strlen(path) >= sizeof outputs->file[0].path)
+        return ec_usage(err, "-o: the path is longer than %d bytes", PATH_MAX - 1);
+    for (int i = 0; i < outputs->count; i++)
+        if (!strcmp(outputs->file[i].path, path)) return ec_usage(err, "-o: '%s' is given twice", path);
+    if (outputs->count == EC_OUTPUTS_MAX)
+        return ec_usage(err, "-o: at most %d files, '%s' is one too many", EC_OUTPUTS_MAX, path);
+    ec_output *output = &outputs->file[outputs->count++];
+    output->kind = kind;
+    snprintf(output->path, sizeof output->path, "%s", path);
+    return EC_OK;
+}
+
+ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err)
+{
+    static const char *const extensions[] = {".exr", ".png"};
+    const char *slash = strrchr(scene, '/');
+    const char *name = slash ? slash + 1 : scene;
+    const char *dot = strrchr(name, '.');
+    int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
+    for (int i = 0; i < 2; i++) {
+        char path[PATH_MAX];
+        int size = snprintf(path, sizeof path, "%.*s%s", stem, name, extensions[i]);
+        if (stem == 0 || size >= (int)sizeof path)
+            return ec_usage(err, "'%s' gives the picture no name: add -o FILE", scene);
+        EC_TRY(ec_outputs_add(outputs, path, err));
+    }
+    return EC_OK;
+}
+
+static bool same_file(const char *a, const char *b)
+{
+    struct stat sa, sb;
+    return stat(a, &sa) == 0 && stat(b, &sb) == 0 && sa.st_dev == sb.st_dev && sa.st_ino == sb.st_ino;
+}
+
+ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err)
+{
+    for (int i = 0; i < outputs->count; i++) {
+        const char *path = outputs->file[i].path;
+        for (int k = 0; k < input_count; k++)
+            if (inputs[k] && same_file(path, inputs[k]))
+                return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
+        EC_TRY(ec_image_check_writable(path, err));
+    }
+    return EC_OK;
+}

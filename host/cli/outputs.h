@@ -1,0 +1,32 @@
+/* The files a render writes: which, of what kind, and may they be written? */
+#ifndef EC_CLI_OUTPUTS_H
+#define EC_CLI_OUTPUTS_H
+
+#include <limits.h>
+
+#include "base/error.h"
+
+typedef enum ec_output_kind { EC_OUTPUT_EXR, EC_OUTPUT_PNG } ec_output_kind;
+
+enum { EC_OUTPUTS_MAX = 16 };
+
+typedef struct ec_output {
+    ec_output_kind kind;
+    char path[PATH_MAX]; /* as given; absolute once written */
+} ec_output;
+
+typedef struct ec_outputs {
+    ec_output file[EC_OUTPUTS_MAX];
+    int count;
+} ec_outputs;
+
+/* -o FILE; the kind follows the extension. EC_USAGE for other kinds, too many or the same twice. */
+ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err);
+
+/* Without -o: the scene's base name with .exr and .png, in the current directory. */
+ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err);
+
+/* Before any work: can all be written, and would none overwrite an input? inputs may hold NULLs. */
+ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err);
+
+#endif

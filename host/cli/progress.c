@@ -1,0 +1,67 @@
+#include "cli/progress.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "cli/stop.h"
+#include "report/format.h"
+
+#define SECONDS_BETWEEN_LINES 0.1
+enum { BAR_MAX = 24, BAR_MIN = 6 };
+
+/* "[====>  ] " of width columns, or nothing where there is no room for it. */
+static void format_bar(double fraction, int width, char bar[BAR_MAX + 1])
+{
+    if (width > BAR_MAX) width = BAR_MAX;
+    bar[0] = '\0';
+    if (width < BAR_MIN) return;
+    int inner = width - 3;
+    bar[0] = '[';
+    memset(bar + 1, ' ', (size_t)inner);
+    memset(bar + 1, '=', (size_t)(fraction * inner));
+    memcpy(bar + 1 + inner, "] ", 3);
+}
+
+static void format_time_left(double seconds, char *text, size_t size)
+{
+    if (!(seconds >= 0) || seconds > 360000)
+        snprintf(text, size, "time left unknown");
+    else if (seconds < 3600)
+        snprintf(text, size, "%d:%02d left", (int)seconds / 60, (int)seconds % 60);
+    else
+        snprintf(text, size, "%d:%02d:%02d left", (int)seconds / 3600, (int)seconds / 60 % 60, (int)seconds % 60);
+}
+
+void ec_progress_format(const ec_progress *progress, int columns, char *line, size_t size)
+{
+    char bar[BAR_MAX + 1], text[200], left[48], rate[32], percent[32], bound[32], error[96] = "error unknown yet";
+    double fraction = progress->fraction >= 0 ? fmin(progress->fraction, 1) : 0; /* NaN: 0 */
+    format_time_left(progress->seconds_left, left, sizeof left);
+    ec_format_count(progress->samples_per_second, rate, sizeof rate);
+    if (isfinite(progress->error)) {
+        ec_format_percent(progress->error, percent, sizeof percent);
+        ec_format_percent(progress->error_bound, bound, sizeof bound);
+        snprintf(error, sizeof error, "error %s (bound %s)", percent, bound);
+    }
+    snprintf(text, sizeof text, "%d %%  %s  %" PRIu64 " spp  %s samples/s  %s", (int)(100 * fraction), left,
+             progress->samples_per_pixel, rate, error);
+    format_bar(fraction, columns - (int)strlen(text), bar);
+    snprintf(line, size, "%s%s", bar, text);
+}
+
+bool ec_progress_show(void *user, const ec_progress *progress)
+{
+    ec_progress_view *view = user;
+    double now = ec_now();
+    if (ec_console_wants_progress(view->console) && now - view->drawn_at >= SECONDS_BETWEEN_LINES) {
+        char line[256];
+        ec_progress_format(progress, ec_console_columns(view->console), line, sizeof line);
+        ec_console_draw(view->console, line);
+        view->drawn_at = now;
+    }
+    view->cap_reached = view->sample_cap > 0 && progress->samples_per_pixel >= view->sample_cap;
+    return !view->cap_reached && !ec_stop_requested();
+}

@@ -1,0 +1,26 @@
+/* The progress line of a render: samples done, samples/s, error, time left. */
+#ifndef EC_CLI_PROGRESS_H
+#define EC_CLI_PROGRESS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "cli/console.h"
+#include "pipeline/render.h"
+
+typedef struct ec_progress_view {
+    ec_console *console;
+    uint64_t sample_cap;   /* stop at so many samples a pixel; 0 = none */
+    bool cap_reached;
+    double drawn_at;       /* ec_now() of the last line */
+} ec_progress_view;
+
+/* An ec_progress_fn; user is an ec_progress_view. False on Ctrl-C and at the cap. */
+bool ec_progress_show(void *user, const ec_progress *progress);
+
+/* "[====   ] 37 %  0:12 left  96 spp  5.42 M samples/s  error 2.31 % (bound 2.40 %)"; the bar takes what the columns
+ * leave. */
+void ec_progress_format(const ec_progress *progress, int columns, char *line, size_t size);
+
+#endif

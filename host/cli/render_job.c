@@ -1,0 +1,142 @@
+#include "cli/render_job.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "cli/defaults.h"
+#include "cli/numbers.h"
+#include "cli/progress.h"
+#include "cli/stop.h"
+#include "report/format.h"
+#include "report/scene_report.h"
+
+static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
+{
+    ec_outputs *outputs = &request->outputs;
+    const char *inputs[] = {request->scene, request->environment};
+    request->default_outputs = outputs->count == 0;
+    if (request->default_outputs) EC_TRY(ec_outputs_add_default(outputs, request->scene, err));
+    return ec_outputs_check(outputs, inputs, 2, err);
+}
+
+static ec_result prepare_device(ec_render_job *job, ec_error *err)
+{
+    ec_device_info *devices = NULL;
+    uint32_t count = 0;
+    EC_TRY(ec_devices_list(&devices, &count, err));
+    ec_result result =
+        ec_device_choose(devices, count, job->request->device, &job->device_index, &job->device_why, err);
+    if (result == EC_OK) job->device = devices[job->device_index];
+    free(devices);
+    return result;
+}
+
+static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *err)
+{
+    const char *environment = job->request->environment;
+    if (environment) {
+        EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
+    } else if (!ec_scene_has_light(job->scene)) {
+        ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");
+        environment = "1,1,1";
+        EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
+    }
+    if (!environment) environment = job->scene->has_environment ? "the scene's" : "none";
+    snprintf(job->environment_text, sizeof job->environment_text, "%s", environment);
+    return EC_OK;
+}
+
+/* Without --size: a fixed height, and a width that shows what the camera is meant to. */
+static void choose_size(ec_render_options *options, const ec_camera *camera)
+{
+    double aspect = camera->aspect;
+    if (!(aspect > 0) && camera->type == EC_CAMERA_ORTHOGRAPHIC && camera->ymag > 0)
+        aspect = fabs((double)camera->xmag / camera->ymag);
+    if (!(aspect > 0)) aspect = 1;
+    options->height = EC_DEFAULT_HEIGHT;
+    options->width = (uint32_t)fmin(fmax(round(EC_DEFAULT_HEIGHT * aspect), 1), EC_SIZE_MAX_SIDE);
+}
+
+static ec_result prepare_camera(ec_render_job *job, ec_error *err)
+{
+    ec_render_options *options = &job->request->options;
+    options->camera = job->scene->default_camera;
+    if (job->request->camera) EC_TRY(ec_scene_find_camera(job->scene, job->request->camera, &options->camera, err));
+    if (!job->request->has_size) choose_size(options, &job->scene->cameras[options->camera]);
+    ec_camera_describe(job->scene, options->camera, job->camera_text, sizeof job->camera_text);
+    return EC_OK;
+}
+
+/* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. */
+static ec_result check_memory(const ec_render_options *options, ec_error *err)
+{
+    const uint64_t bytes_per_pixel = 128; /* film 64, first-hit features 32, planes for the files 32 */
+    uint64_t needed = (uint64_t)options->width * options->height * bytes_per_pixel;
+    uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
+    char needed_text[32], present_text[32];
+    if (needed <= present) return EC_OK;
+    ec_format_bytes(needed, needed_text, sizeof needed_text);
+    ec_format_bytes(present, present_text, sizeof present_text);
+    return ec_fail(err, "a picture of %ux%u pixels takes %s and this machine has %s; ask for a smaller --size",
+                   options->width, options->height, needed_text, present_text);
+}
+
+ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_error *err)
+{
+    const ec_log log = ec_console_log(console);
+    EC_TRY(prepare_outputs(job->request, err));
+    EC_TRY(prepare_device(job, err));
+    double start = ec_now();
+    EC_TRY(ec_scene_load(job->request->scene, &job->scene, &log, err));
+    EC_TRY(prepare_light(job, &log, err));
+    job->load_seconds = ec_now() - start;
+    EC_TRY(prepare_camera(job, err));
+    return check_memory(&job->request->options, err);
+}
+
+static void announce(const ec_render_job *job, ec_console *console)
+{
+    const ec_render_options *options = &job->request->options;
+    char limits[160] = "";
+    int used = 0;
+    if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
+    if (options->time_limit > 0)
+        used += snprintf(limits + used, sizeof limits - (size_t)used, "%s%g s", used ? " or " : "", options->time_limit);
+    if (options->error_target > 0)
+        snprintf(limits + used, sizeof limits - (size_t)used, "%s%g %% error", used ? " or " : "",
+                 100 * options->error_target);
+    if (job->request->default_outputs)
+        ec_console_say(console, "note: no -o given: the picture goes to %s and %s in the current directory",
+                       job->request->outputs.file[0].path, job->request->outputs.file[1].path);
+    ec_console_say(console, "rendering %ux%u pixels on %s until %s", options->width, options->height, job->device.name,
+                   limits);
+}
+
+ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
+{
+    const ec_log log = ec_console_log(console);
+    ec_progress_view view = {.console = console, .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
+    ec_cl cl = {0};
+    EC_TRY(ec_cl_open(&job->device, &cl, err));
+    ec_stop_catch_signals(); /* until here there is nothing to save */
+    announce(job, console);
+    ec_result result = ec_render(&cl, job->scene, &job->request->options, ec_progress_show, &view, &job->film,
+                                 &job->stats, &log, err);
+    ec_console_erase(console);
+    ec_cl_close(&cl);
+    if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
+    if (result != EC_OK && ec_stop_requested())
+        return ec_fail(err, "interrupted before there was a picture; nothing is written");
+    if (view.cap_reached && !ec_stop_requested() && !strcmp(job->stats.stopped_by, "user"))
+        snprintf(job->stats.stopped_by, sizeof job->stats.stopped_by, "spp");
+    return result;
+}
+
+void ec_render_job_free(ec_render_job *job)
+{
+    ec_scene_free(job->scene);
+    ec_film_destroy(&job->film);
+}

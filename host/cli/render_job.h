@@ -1,0 +1,36 @@
+/* One render from request to film. */
+#ifndef EC_CLI_RENDER_JOB_H
+#define EC_CLI_RENDER_JOB_H
+
+#include "cl/cl.h"
+#include "cli/console.h"
+#include "cli/hash.h"
+#include "cli/render_request.h"
+#include "cli/write_outputs.h"
+#include "film/film.h"
+#include "report/render_report.h"
+
+typedef struct ec_render_job {
+    ec_render_request *request;
+    const char *command;         /* the command line */
+    ec_scene *scene;             /* owned */
+    ec_device_info device;
+    uint32_t device_index;
+    const char *device_why;
+    ec_film film;
+    ec_render_stats stats;
+    double load_seconds;
+    char camera_text[256];
+    char environment_text[256];
+    char image_sha256[EC_HASH_SIZE];
+} ec_render_job;
+
+/* All that can fail early does so here: outputs, device, scene, environment, camera. */
+ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_error *err);
+
+/* Renders into job->film, with progress; Ctrl-C ends it early and well. */
+ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err);
+
+void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */
+
+#endif

@@ -1,0 +1,178 @@
+#include "cli/render_request.h"
+
+#include <string.h>
+
+#include "cli/defaults.h"
+#include "cli/numbers.h"
+#include "cli/options.h"
+#include "cli/usage.h"
+#include "report/names.h"
+
+/* One setter an option; all have the signature of ec_option_set. */
+#define SETTER(name)                                                                                \
+    static ec_result set_##name(void *target, const char *option, const char *value, ec_error *err)
+#define REQUEST ((ec_render_request *)target)
+
+/* Flags and texts need neither a value nor a check. */
+#define FLAG_SETTER(name, field)                                                                    \
+    SETTER(name)                                                                                    \
+    {                                                                                               \
+        (void)option, (void)value, (void)err;                                                       \
+        REQUEST->field = true;                                                                      \
+        return EC_OK;                                                                               \
+    }
+#define TEXT_SETTER(name, field)                                                                    \
+    SETTER(name)                                                                                    \
+    {                                                                                               \
+        if (!*value) return ec_usage(err, "option '--%s' needs a value that is not empty", option); \
+        REQUEST->field = value;                                                                     \
+        return EC_OK;                                                                               \
+    }
+
+FLAG_SETTER(all_effects, options.all_effects)
+FLAG_SETTER(json, json)
+FLAG_SETTER(quiet, quiet)
+TEXT_SETTER(camera, camera)
+TEXT_SETTER(device, device)
+TEXT_SETTER(env, environment)
+
+SETTER(batch)
+{
+    return ec_parse_u32(option, value, 1, EC_MAX_SPP, &REQUEST->options.batch, err);
+}
+
+SETTER(error)
+{
+    return ec_parse_percent(option, value, &REQUEST->options.error_target, err);
+}
+
+SETTER(exposure)
+{
+    return ec_parse_real(option, value, -100, 100, &REQUEST->exposure, err);
+}
+
+SETTER(lanes)
+{
+    static const char *const names[] = {"auto", "1", "4", "8", "16", NULL};
+    static const uint32_t lanes[] = {0, 1, 4, 8, 16};
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, names, &index, err));
+    REQUEST->options.lanes = lanes[index];
+    return EC_OK;
+}
+
+SETTER(max_depth)
+{
+    if (!strcmp(value, "inf")) {
+        REQUEST->options.max_depth = 0;
+        return EC_OK;
+    }
+    ec_result result = ec_parse_u32(option, value, 1, EC_MAX_DEPTH, &REQUEST->options.max_depth, err);
+    if (result != EC_OK)
+        ec_usage(err, "--%s: '%s' is neither a whole number from 1 to %d nor inf", option, value, EC_MAX_DEPTH);
+    return result;
+}
+
+SETTER(output)
+{
+    (void)option;
+    return ec_outputs_add(&REQUEST->outputs, value, err);
+}
+
+SETTER(sampler)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_sampler_names, &index, err));
+    REQUEST->options.sampler = (ec_sampler_type)index;
+    return EC_OK;
+}
+
+SETTER(seed)
+{
+    return ec_parse_whole(option, value, 0, UINT64_MAX, &REQUEST->options.seed, err);
+}
+
+SETTER(size)
+{
+    REQUEST->has_size = true;
+    return ec_parse_size(option, value, &REQUEST->options.width, &REQUEST->options.height, err);
+}
+
+SETTER(spp)
+{
+    return ec_parse_u32(option, value, 1, EC_MAX_SPP, &REQUEST->options.spp, err);
+}
+
+SETTER(strategy)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_strategy_names, &index, err));
+    REQUEST->options.strategy = (ec_strategy)index;
+    return EC_OK;
+}
+
+SETTER(time)
+{
+    return ec_parse_seconds(option, value, &REQUEST->options.time_limit, err);
+}
+
+SETTER(tonemap)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_tonemap_names, &index, err));
+    REQUEST->tonemap = (ec_tonemap)index;
+    return EC_OK;
+}
+
+SETTER(trace)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_trace_names, &index, err));
+    REQUEST->options.trace = ec_trace_names[index];
+    return EC_OK;
+}
+
+SETTER(wave)
+{
+    return ec_parse_u32(option, value, 1, 1u << 28, &REQUEST->options.wave, err);
+}
+
+static const ec_option options[] = {
+    {"all-effects", 0, false, set_all_effects},
+    {"batch", 0, true, set_batch},
+    {"camera", 0, true, set_camera},
+    {"device", 0, true, set_device},
+    {"env", 0, true, set_env},
+    {"error", 0, true, set_error},
+    {"exposure", 0, true, set_exposure},
+    {"json", 0, false, set_json},
+    {"lanes", 0, true, set_lanes},
+    {"max-depth", 0, true, set_max_depth},
+    {"output", 'o', true, set_output},
+    {"quiet", 'q', false, set_quiet},
+    {"sampler", 0, true, set_sampler},
+    {"seed", 0, true, set_seed},
+    {"size", 0, true, set_size},
+    {"spp", 0, true, set_spp},
+    {"strategy", 0, true, set_strategy},
+    {"time", 0, true, set_time},
+    {"tonemap", 0, true, set_tonemap},
+    {"trace", 0, true, set_trace},
+    {"wave", 0, true, set_wave},
+};
+
+ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)
+{
+    int first = 0;
+    ec_request asked;
+    EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], request, argc, argv, &first, &asked, err));
+    *done = ec_request_serve(asked, argv[0]);
+    if (*done) return EC_OK;
+    EC_TRY(ec_options_scene(argc, argv, first, &request->scene, err));
+
+    ec_render_options *limits = &request->options;
+    bool limited = limits->time_limit > 0 || limits->error_target > 0;
+    request->capped = limits->spp == 0 && limited;
+    if (limits->spp == 0 && !limited) limits->spp = EC_DEFAULT_SPP;
+    return EC_OK;
+}

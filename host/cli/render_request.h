@@ -1,0 +1,30 @@
+/* What `eclat render` was asked for. */
+#ifndef EC_CLI_RENDER_REQUEST_H
+#define EC_CLI_RENDER_REQUEST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "cli/outputs.h"
+#include "image/image.h"
+#include "pipeline/render.h"
+
+typedef struct ec_render_request {
+    const char *scene;
+    ec_outputs outputs;
+    bool default_outputs;      /* no -o was given */
+    ec_render_options options; /* complete but for the camera and, without --size, the size */
+    bool has_size;
+    bool capped;               /* neither --spp nor the default: the safety cap applies */
+    const char *camera;        /* NULL: the scene's default */
+    const char *environment;   /* NULL: the scene's own */
+    const char *device;        /* NULL: chosen */
+    double exposure;           /* EV */
+    ec_tonemap tonemap;
+    bool quiet, json;
+} ec_render_request;
+
+/* Reads the arguments of `render`. *done: --help or --version was served and nothing is left to do. */
+ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err);
+
+#endif

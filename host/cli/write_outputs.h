@@ -1,0 +1,31 @@
+/* Film to files. */
+#ifndef EC_CLI_WRITE_OUTPUTS_H
+#define EC_CLI_WRITE_OUTPUTS_H
+
+#include "cli/outputs.h"
+#include "film/film.h"
+#include "image/image.h"
+
+/* Float planes of a film, ready to be written and hashed. */
+typedef struct ec_picture {
+    uint32_t width, height;
+    float *rgb;        /* 3 per pixel, owned */
+    float *stderr_rgb; /* 3 per pixel, owned */
+    float *constants;  /* 2 per pixel: samples, and the alpha of a film without first-hit features; owned */
+    const float *aov;  /* the film's: 8 per pixel, or NULL */
+} ec_picture;
+
+ec_result ec_picture_resolve(const ec_film *film, ec_picture *picture, ec_error *err);
+void ec_picture_free(ec_picture *picture); /* zero-initialised ones are fine */
+
+typedef struct ec_picture_style {
+    float exposure; /* EV, PNG only */
+    ec_tonemap tonemap;
+    const ec_attribute *attributes; /* EXR only */
+    uint32_t attribute_count;
+} ec_picture_style;
+
+/* Writes every output and makes its path absolute. One that fails does not keep the others from being written. */
+ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const ec_picture_style *style, ec_error *err);
+
+#endif

@@ -1,0 +1,96 @@
+/* The image's error and its 95 % upper bound.
+ *
+ * Setting. Pixel p has n batch means of luminance, independent of each other and of other pixels' (true of this renderer:
+ * each pixel has its own random numbers and no filter shares samples), with true mean mu_p and variance v_p.
+ *   E^2    = mean_p e_p^2,        e_p the pixel's real error           -- unknown
+ *   est^2  = mean_p s_p^2 / n,    s_p^2 the sample variance            -- the stated error, unbiased for E^2
+ * and both are divided by the image's mean luminance. A render of few pixels or batches may well err by more than est.
+ *
+ * How much more? With y_i the deviations of a pixel's batch means from mu_p, n e_p^2 - s_p^2 = sum_{i!=j} y_i y_j / (n-1).
+ * So, whatever the distribution (skewed or not: no third or fourth moment enters),
+ *   Var(E^2 - est^2) = 2 G / (P n)^2 * n / (n-1),   G = sum_p v_p^2.
+ * It is the variance of a ratio of two independent chi-squares with nu = (sum_p v_p)^2 / G and nu (n-1) degrees of freedom
+ * (Satterthwaite, Biometrics 2, 1946): exact for normal pixels of equal variance, right in mean and variance for all.
+ * Hence E^2 <= est^2 F, F the 95 % quantile of Fisher's F(nu, nu (n-1)); with nu in the thousands F is near 1.
+ *
+ * The divisor M, the image's mean, is an estimate too, with relative variance r = est^2 / (P M^2). Its error is uncorrelated
+ * with E^2 - est^2 (each term has a factor y of mean 0 left), so the two half-widths add in squares: F - 1 and 2 z sqrt(r).
+ *
+ * Where it holds: tests/host/test_film_coverage.c prints the table. With n = 2 or 3 the variance of a sample variance
+ * cannot be told apart from the pixel's own kurtosis; normal pixels are assumed, which is too wide for skewed ones and too
+ * narrow if one or a few pixels hold nearly all the noise. Light that no batch has met yet no estimate can know of. */
+#include <math.h>
+
+#include "film/film.h"
+#include "film/statistics.h"
+
+static const double confidence = 0.95;
+
+/* Sums over pixels of luminance and of sample variances s^2. */
+typedef struct variance_sums {
+    double luminance, s2, s4;
+    double v4, v8;  /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
+} variance_sums;
+
+/* An estimate of v^2 without bias for any distribution: with k-statistics (Fisher 1930; Kendall & Stuart ch. 12)
+ * E[k2^2] = v^2 (n+1)/(n-1) + kappa4/n and E[k4] = kappa4. */
+static double squared_variance(double n, double m2, double m4)
+{
+    double k2 = m2 / (n - 1);
+    double k4 = n * ((n + 1) * m4 - 3 * (n - 1) / n * m2 * m2) / ((n - 1) * (n - 2) * (n - 3));
+    double value = (k2 * k2 - k4 / n) * (n - 1) / (n + 1);
+    return isfinite(value) ? value : k2 * k2; /* m4 left the range of float (deviations beyond 1e9): the wider choice */
+}
+
+static variance_sums sum_up(const ec_film *film)
+{
+    uint64_t pixels = (uint64_t)film->width * film->height;
+    double n = film->batch_count;
+    variance_sums sums = {0};
+    for (uint64_t p = 0; p < pixels; p++) {
+        double m2 = film->m2[4 * p + 3], s2 = m2 / (n - 1), s4 = s2 * s2;
+        double v2 = n >= 4 ? squared_variance(n, m2, film->m34[2 * p + 1]) : s4;
+        sums.luminance += ec_luminance(film->mean + 3 * p);
+        sums.s2 += s2;
+        sums.s4 += s4;
+        sums.v4 += v2;
+        sums.v8 += v2 * v2;
+    }
+    return sums;
+}
+
+/* nu. G is taken one standard error high, since it comes out low just when a noisy pixel's variance does, and then both
+ * would make the bound too small; with many pixels that margin vanishes. */
+static double effective_pixels(const variance_sums *sums, double n, double pixels)
+{
+    double v4 = sums->v4, v8 = sums->v8;
+    if (n < 4) { /* normal pixels: moments of chi-square with n-1 degrees of freedom */
+        double f = n - 1, fourth = 1 + 2 / f, eighth = fourth * (1 + 4 / f) * (1 + 6 / f);
+        v4 /= fourth;
+        v8 /= eighth;
+    }
+    double s2_squared = sums->s2 * sums->s2;
+    double G = v4 + sqrt(v8);
+    G = fmin(fmax(G, s2_squared / pixels), sums->s4); /* sum v^2 >= (sum v)^2 / P; and E[s^4] >= v^2 */
+    return 1 + (s2_squared - sums->s4) / G;           /* for one noisy pixel exactly 1 */
+}
+
+ec_film_error ec_film_estimate_error(const ec_film *film)
+{
+    ec_film_error result = {.error = INFINITY, .error_bound = INFINITY};
+    double n = film->batch_count, pixels = (double)film->width * film->height;
+    if (n < 1) return result;
+    variance_sums sums = sum_up(film);
+    double mean = result.mean_luminance = sums.luminance / pixels;
+    if (n < 2 || !(mean > 0)) return result;
+    double square = sums.s2 / n / pixels / (mean * mean);
+    result.error = sqrt(square);
+    result.error_bound = 0;
+    if (square == 0) return result;
+
+    double nu = effective_pixels(&sums, n, pixels);
+    double from_pixels = ec_f_quantile(confidence, nu, nu * (n - 1)) - 1;
+    double from_mean = 2 * ec_normal_upper_quantile(1 - confidence) * sqrt(square / pixels);
+    result.error_bound = sqrt(square * (1 + hypot(from_pixels, from_mean)));
+    return result;
+}

@@ -1,0 +1,17 @@
+/* Distributions that the film and the tests need. */
+#ifndef EC_FILM_STATISTICS_H
+#define EC_FILM_STATISTICS_H
+
+/* Regularised incomplete beta function I_x(a, b), a, b > 0; y must be 1 - x (given apart to keep its digits). */
+double ec_incomplete_beta(double a, double b, double x, double y);
+
+/* Standard normal: z with P(Z > z) = q, 0 < q < 1. */
+double ec_normal_upper_quantile(double q);
+
+/* Student's t: P(T > t) with nu degrees of freedom, precise in the tail too. */
+double ec_student_t_upper_tail(double t, double nu);
+
+/* Fisher's F with d1 and d2 degrees of freedom (any positive reals): x with P(F <= x) = p. */
+double ec_f_quantile(double p, double d1, double d2);
+
+#endif

@@ -1,0 +1,55 @@
+/* DWAA and DWAB compressed files, which OpenEXRCore 3.1 does not decode ("not yet implemented in C"), through the
+ * C interface of the C++ library. It knows colour only, as half: just what these lossy compressions are made for. */
+#include "image/exr_read_rgba.h"
+
+#include <ImfCRgbaFile.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Weak: a program linked without libOpenEXR (C++) still reads every other file. */
+#pragma weak ImfOpenInputFile
+#pragma weak ImfInputSetFrameBuffer
+#pragma weak ImfInputReadPixels
+#pragma weak ImfCloseInputFile
+#pragma weak ImfErrorMessage
+#pragma weak ImfHalfToFloat
+
+static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *exr, ec_error *err)
+{
+    uint64_t count = (uint64_t)exr->width * exr->height;
+    for (uint32_t c = 0; c < exr->channel_count; c++) {
+        const char *name = exr->names[c];
+        if (!name[0] || name[1] || !strchr("RGBA", name[0]))
+            return ec_fail(err, "cannot read '%s': of a DWA compressed file only R, G, B and A are read, not channel '%s'; "
+                                "save it with ZIP compression", path, name);
+        for (uint64_t i = 0; i < count; i++) {
+            const ImfRgba *p = &pixels[i];
+            ImfHalf value = name[0] == 'R' ? p->r : name[0] == 'G' ? p->g : name[0] == 'B' ? p->b : p->a;
+            exr->planes[c][i] = ImfHalfToFloat(value);
+        }
+    }
+    return EC_OK;
+}
+
+ec_result ec_exr_read_rgba(const char *path, int32_t origin_x, int32_t origin_y, ec_exr *exr, ec_error *err)
+{
+    if (!ImfOpenInputFile)
+        return ec_fail(err, "cannot read '%s': this build has no DWA decompression; save it with ZIP compression", path);
+    ImfRgba *pixels = calloc((uint64_t)exr->width * exr->height, sizeof *pixels);
+    ImfInputFile *file = pixels ? ImfOpenInputFile(path) : NULL;
+    ec_result result;
+    /* The library wants the address that pixel (0, 0) would have, which may lie outside the picture. */
+    uintptr_t base = (uintptr_t)pixels - sizeof *pixels * ((uint64_t)((int64_t)origin_y * exr->width + origin_x));
+    int last = origin_y + (int32_t)exr->height - 1;
+    if (!pixels)
+        result = ec_fail(err, "cannot read '%s': %u x %u pixels do not fit into memory", path, exr->width, exr->height);
+    else if (!file || !ImfInputSetFrameBuffer(file, (ImfRgba *)base, 1, exr->width) ||
+             !ImfInputReadPixels(file, origin_y, last))
+        result = ec_fail(err, "cannot read '%s': %s; the file may be damaged or cut short, replace it", path,
+                         ImfErrorMessage());
+    else
+        result = copy_planes(path, pixels, exr, err);
+    if (file) ImfCloseInputFile(file);
+    free(pixels);
+    return result;
+}

@@ -1,0 +1,92 @@
+/* Which effects does the scene call for? Only materials that some triangle uses count. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "pack/pack.h"
+
+static float max3(const float v[3])
+{
+    return fmaxf(v[0], fmaxf(v[1], v[2]));
+}
+
+static uint32_t material_features(const ec_scene *scene, const ec_material *m)
+{
+    uint32_t f = 0;
+    if (m->unlit) return EC_FEATURE_UNLIT | (m->base_color_texture.texture >= 0 ? EC_FEATURE_BASE_COLOR_TEXTURE : 0);
+    if (max3(m->emission) > 0.0f) f |= EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS;
+    if (max3(m->emission) > 0.0f && m->emission_texture.texture >= 0) f |= EC_FEATURE_EMISSION_TEXTURE;
+    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f)) {
+        f |= EC_FEATURE_SPECULAR;
+        if (m->metallic_roughness_texture.texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
+        if (m->specular_texture.texture >= 0 || m->specular_color_texture.texture >= 0) f |= EC_FEATURE_SPECULAR_TEXTURE;
+    }
+    if (m->base_color_texture.texture >= 0) f |= EC_FEATURE_BASE_COLOR_TEXTURE;
+    if (m->normal_texture.texture >= 0) f |= EC_FEATURE_NORMAL_TEXTURE;
+    if (!m->double_sided) f |= EC_FEATURE_CULLING;
+    bool may_be_open = m->base_color[3] < 1.0f || m->base_color_texture.texture >= 0 || scene->colors;
+    if (m->alpha_mode != EC_ALPHA_OPAQUE && may_be_open) f |= EC_FEATURE_ALPHA;
+    return f;
+}
+
+/* Does any vertex normal differ from its triangle's? Otherwise interpolating them would change nothing. */
+static bool has_smooth_normals(const ec_scene *scene)
+{
+    if (!scene->normals) return false;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        const uint32_t *i = scene->indices + 3 * (size_t)t;
+        const float *a = scene->positions + 3 * (size_t)i[0], *b = scene->positions + 3 * (size_t)i[1],
+                    *c = scene->positions + 3 * (size_t)i[2];
+        double e[3], f[3];
+        for (int k = 0; k < 3; k++) {
+            e[k] = (double)b[k] - a[k];
+            f[k] = (double)c[k] - a[k];
+        }
+        double n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+        double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int v = 0; v < 3; v++) {
+            const float *m = scene->normals + 3 * (size_t)i[v];
+            if (m[0] == 0.0f && m[1] == 0.0f && m[2] == 0.0f) continue;
+            /* Against the winding is flat as well: the kernels turn it round. 1e-6 is 0.08 degrees. */
+            if (fabs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) < length * (1.0 - 1e-6)) return true;
+        }
+    }
+    return false;
+}
+
+static bool has_vertex_colors(const ec_scene *scene)
+{
+    for (size_t i = 0; scene->colors && i < 4 * (size_t)scene->vertex_count; i++)
+        if (scene->colors[i] != 1.0f) return true;
+    return false;
+}
+
+static bool has_deep_images(const ec_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->image_count; i++)
+        if (scene->images[i].rgba16) return true;
+    return false;
+}
+
+uint32_t ec_pack_features(const ec_scene *scene)
+{
+    uint32_t f = 0;
+    bool *used = calloc(scene->material_count, sizeof *used);
+    for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
+    for (uint32_t m = 0; m < scene->material_count; m++)
+        if (!used || used[m]) f |= material_features(scene, &scene->materials[m]);
+    free(used);
+    if (scene->light_count) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
+    if (scene->has_environment) {
+        const ec_environment *e = &scene->environment;
+        if (e->rgb)
+            f |= EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP;
+        else if (max3(e->constant) > 0.0f)
+            f |= EC_FEATURE_ENVIRONMENT;
+    }
+    if (has_smooth_normals(scene)) f |= EC_FEATURE_SMOOTH_NORMALS;
+    if (has_vertex_colors(scene)) f |= EC_FEATURE_VERTEX_COLORS;
+    const uint32_t textures = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE |
+                              EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE;
+    if ((f & textures) && has_deep_images(scene)) f |= EC_FEATURE_FLOAT_TEXTURE;
+    return f;
+}

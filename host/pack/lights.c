@@ -1,0 +1,145 @@
+/* The table of everything that can be sampled as light, chosen by power (radiant flux, luminance-weighted). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pack/alias.h"
+#include "pack/pack.h"
+
+#define PI 3.14159265358979323846
+
+static double luminance(const double rgb[3])
+{
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+/* Mean linear colour of an emission texture, so that power is right to the order of magnitude; 1 without one. */
+static void texture_mean(const ec_scene *scene, const ec_texture_use *use, double mean[3])
+{
+    mean[0] = mean[1] = mean[2] = 1.0;
+    if (use->texture < 0) return;
+    const ec_image *image = &scene->images[scene->textures[use->texture].image];
+    size_t count = (size_t)image->width * image->height;
+    mean[0] = mean[1] = mean[2] = 0.0;
+    double table[256];
+    for (int i = 0; i < 256; i++) table[i] = ec_srgb_to_linear(i / 255.0);
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            mean[k] += image->rgba16 ? ec_srgb_to_linear(image->rgba16[4 * i + k] / 65535.0) : table[image->rgba8[4 * i + k]];
+    for (int k = 0; k < 3; k++) mean[k] /= (double)count;
+}
+
+typedef struct light_list {
+    ec_light_data *lights;
+    double *power;
+    uint32_t count;
+} light_list;
+
+static void add_triangle(const ec_scene *scene, const ec_pack *pack, uint32_t prim, const double mean[3], light_list *list)
+{
+    const ec_prim *p = &pack->prims[prim];
+    const ec_material *m = &scene->materials[p->material];
+    double e[3], f[3];
+    for (int k = 0; k < 3; k++) {
+        e[k] = (double)p->v1[k] - p->v0[k];
+        f[k] = (double)p->v2[k] - p->v0[k];
+    }
+    double n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+    double area = 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double radiance[3] = {m->emission[0] * mean[0], m->emission[1] * mean[1], m->emission[2] * mean[2]};
+    double power = PI * area * luminance(radiance) * (m->double_sided ? 2.0 : 1.0);
+    if (!(power > 0.0) || !isfinite(power)) return;
+    ec_light_data *l = &list->lights[list->count];
+    memset(l, 0, sizeof *l);
+    memcpy(l->a, p->v0, sizeof l->a);
+    memcpy(l->b, p->v1, sizeof l->b);
+    memcpy(l->c, p->v2, sizeof l->c);
+    memcpy(l->emission, m->emission, sizeof l->emission);
+    l->kind = EC_KIND_TRIANGLE | (m->double_sided ? EC_LIGHT_TWO_SIDED : 0) |
+              (m->emission_texture.texture >= 0 ? EC_LIGHT_TEXTURED : 0);
+    l->prim = prim;
+    l->pdf_a = (float)(1.0 / area); /* times pmf once that is known */
+    list->power[list->count++] = power;
+}
+
+static void add_punctual(const ec_light *in, double scene_radius, light_list *list)
+{
+    double intensity[3] = {in->intensity[0], in->intensity[1], in->intensity[2]};
+    double power = luminance(intensity);
+    if (in->type == EC_LIGHT_POINT) power *= 4.0 * PI;
+    if (in->type == EC_LIGHT_SPOT) power *= 2.0 * PI * (1.0 - 0.5 * (in->cos_inner + in->cos_outer));
+    if (in->type == EC_LIGHT_DIRECTIONAL) power *= PI * scene_radius * scene_radius;
+    if (!(power > 0.0) || !isfinite(power)) return;
+    ec_light_data *l = &list->lights[list->count];
+    memset(l, 0, sizeof *l);
+    memcpy(l->a, in->position, sizeof l->a);
+    memcpy(l->b, in->direction, sizeof l->b);
+    memcpy(l->emission, in->intensity, sizeof l->emission);
+    /* KHR_lights_punctual, "Inner and Outer Cone Angles": scale = 1 / max(0.001, cos_inner - cos_outer). */
+    l->c[0] = 1.0f / fmaxf(0.001f, in->cos_inner - in->cos_outer);
+    l->c[1] = in->cos_outer;
+    l->c[2] = in->range > 0.0f ? 1.0f / in->range : 0.0f;
+    l->kind = in->type == EC_LIGHT_POINT ? EC_KIND_POINT : (in->type == EC_LIGHT_SPOT ? EC_KIND_SPOT : EC_KIND_DIRECTIONAL);
+    l->prim = EC_NO_ID;
+    list->power[list->count++] = power;
+}
+
+static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
+{
+    double *pmf = malloc((list->count + 1) * sizeof *pmf);
+    pack->light_alias = malloc((list->count + 1) * sizeof *pack->light_alias);
+    ec_result result = pmf && pack->light_alias ? EC_OK : ec_fail(err, "out of memory for %u lights", list->count);
+    if (result == EC_OK && list->count) result = ec_alias_build(list->power, list->count, pack->light_alias, pmf, err);
+    for (uint32_t i = 0; result == EC_OK && i < list->count; i++) {
+        ec_light_data *l = &list->lights[i];
+        l->pmf = (float)pmf[i];
+        l->pdf_a *= l->pmf;
+        if (l->kind == EC_KIND_ENVIRONMENT) pack->environment_pmf = l->pmf;
+        if ((l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE) pack->prims[l->prim].light_pdf_a = l->pdf_a;
+    }
+    free(pmf);
+    return result;
+}
+
+ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
+{
+    double environment_luminance;
+    EC_TRY(ec_pack_environment(scene, pack, &environment_luminance, err));
+    double(*mean)[3] = malloc(scene->material_count * sizeof *mean);
+    bool *emits = calloc(scene->material_count, sizeof *emits);
+    if (!mean || !emits) {
+        free(mean);
+        free(emits);
+        return ec_fail(err, "out of memory for %u materials", scene->material_count);
+    }
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        const ec_material *material = &scene->materials[m];
+        double e[3] = {material->emission[0], material->emission[1], material->emission[2]};
+        emits[m] = luminance(e) > 0.0 && !material->unlit;
+        if (emits[m]) texture_mean(scene, &material->emission_texture, mean[m]);
+    }
+    uint32_t most = scene->light_count + 1;
+    for (uint32_t p = 0; p < pack->prim_count; p++) most += emits[pack->prims[p].material];
+
+    light_list list = {malloc(most * sizeof *list.lights), malloc(most * sizeof *list.power), 0};
+    ec_result result = EC_OK;
+    if (!list.lights || !list.power) {
+        result = ec_fail(err, "out of memory for %u lights", most);
+    } else {
+        for (uint32_t p = 0; p < pack->prim_count; p++)
+            if (emits[pack->prims[p].material]) add_triangle(scene, pack, p, mean[pack->prims[p].material], &list);
+        for (uint32_t i = 0; i < scene->light_count; i++) add_punctual(&scene->lights[i], pack->scene_radius, &list);
+        if (environment_luminance > 0.0) {
+            double r = pack->scene_radius;
+            list.lights[list.count] = (ec_light_data){.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID};
+            list.power[list.count++] = 4.0 * PI * PI * r * r * environment_luminance;
+        }
+        result = finish_table(pack, &list, err);
+    }
+    free(mean);
+    free(emits);
+    free(list.power);
+    pack->lights = list.lights;
+    pack->light_count = list.count;
+    return result;
+}

@@ -1,0 +1,92 @@
+#include "pack/pack.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
+{
+    pack->prim_count = scene->triangle_count;
+    pack->prims = malloc((size_t)(pack->prim_count ? pack->prim_count : 1) * sizeof *pack->prims);
+    if (!pack->prims) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
+    for (uint32_t t = 0; t < pack->prim_count; t++) {
+        const uint32_t *i = scene->indices + 3 * (size_t)t;
+        const ec_material *m = &scene->materials[scene->triangle_material[t]];
+        ec_prim *p = &pack->prims[t];
+        memcpy(p->v0, scene->positions + 3 * (size_t)i[0], sizeof p->v0);
+        memcpy(p->v1, scene->positions + 3 * (size_t)i[1], sizeof p->v1);
+        memcpy(p->v2, scene->positions + 3 * (size_t)i[2], sizeof p->v2);
+        p->material = scene->triangle_material[t];
+        p->light_pdf_a = 0.0f;
+        p->flags = (m->double_sided ? 0 : EC_PRIM_SINGLE_SIDED) | (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_PRIM_ALPHA : 0);
+    }
+    for (int k = 0; k < 3; k++) {
+        float extent = fmaxf(fabsf(scene->bounds_min[k]), fabsf(scene->bounds_max[k]));
+        pack->scene_max = fmaxf(pack->scene_max, extent);
+        pack->scene_radius += extent * extent;
+    }
+    pack->scene_radius = sqrtf(pack->scene_radius) * 1.001f;
+    return EC_OK;
+}
+
+static void pack_slot(const ec_scene *scene, const ec_texture_use *use, int is_srgb, ec_texture_slot *slot)
+{
+    slot->texture = ec_pack_texture_index(scene, use, is_srgb);
+    slot->uv_set = use->uv_set;
+    memcpy(slot->transform, use->transform, sizeof slot->transform);
+}
+
+static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *err)
+{
+    pack->material_count = scene->material_count;
+    pack->materials = calloc(scene->material_count, sizeof *pack->materials);
+    if (!pack->materials) return ec_fail(err, "out of memory for %u materials", scene->material_count);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const ec_material *m = &scene->materials[i];
+        ec_material_data *d = &pack->materials[i];
+        bool emits = m->emission[0] > 0.0f || m->emission[1] > 0.0f || m->emission[2] > 0.0f;
+        memcpy(d->base_color, m->base_color, sizeof d->base_color);
+        memcpy(d->emission, m->emission, sizeof d->emission);
+        memcpy(d->specular_color, m->specular_color, sizeof d->specular_color);
+        d->flags = (m->double_sided ? EC_MATERIAL_DOUBLE_SIDED : 0) | (emits && !m->unlit ? EC_MATERIAL_EMISSIVE : 0) |
+                   (m->unlit ? EC_MATERIAL_UNLIT : 0) | (m->alpha_mode == EC_ALPHA_MASK ? EC_MATERIAL_MASK : 0) |
+                   (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0);
+        d->metallic = m->metallic;
+        d->roughness = m->roughness;
+        d->normal_scale = m->normal_scale;
+        d->alpha_cutoff = m->alpha_cutoff;
+        d->specular = m->specular;
+        pack_slot(scene, &m->base_color_texture, 1, &d->slots[EC_SLOT_BASE_COLOR]);
+        pack_slot(scene, &m->metallic_roughness_texture, 0, &d->slots[EC_SLOT_METALLIC_ROUGHNESS]);
+        pack_slot(scene, &m->normal_texture, 0, &d->slots[EC_SLOT_NORMAL]);
+        pack_slot(scene, &m->emission_texture, 1, &d->slots[EC_SLOT_EMISSION]);
+        pack_slot(scene, &m->specular_texture, 0, &d->slots[EC_SLOT_SPECULAR]);
+        pack_slot(scene, &m->specular_color_texture, 1, &d->slots[EC_SLOT_SPECULAR_COLOR]);
+    }
+    return EC_OK;
+}
+
+ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err)
+{
+    memset(pack, 0, sizeof *pack);
+    pack->features = ec_pack_features(scene);
+    ec_result result = pack_prims(scene, pack, err);
+    if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
+    if (result == EC_OK) result = pack_materials(scene, pack, err);
+    if (result == EC_OK) result = ec_pack_lights(scene, pack, err);
+    if (result != EC_OK) ec_pack_free(pack);
+    return result;
+}
+
+void ec_pack_free(ec_pack *pack)
+{
+    free(pack->prims);
+    free(pack->materials);
+    free(pack->textures);
+    free(pack->texels);
+    free(pack->lights);
+    free(pack->light_alias);
+    free(pack->environment_texels);
+    free(pack->environment_alias);
+    memset(pack, 0, sizeof *pack);
+}

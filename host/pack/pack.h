@@ -1,0 +1,48 @@
+/* The scene as the byte buffers that kernels/shared describes. Everything is malloc'ed; ec_pack_free. */
+#ifndef EC_PACK_PACK_H
+#define EC_PACK_PACK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "scene/scene.h"
+#include "shared/features.h"
+#include "shared/scene_buffers.h"
+
+typedef struct ec_pack {
+    uint32_t features;             /* ec_feature bits that the scene calls for (the sampler's bit is the caller's) */
+    uint32_t prim_count;
+    ec_prim *prims;
+    uint32_t material_count;
+    ec_material_data *materials;
+    uint32_t texture_count;
+    ec_texture_data *textures;     /* one per texture and encoding in use */
+    size_t texel_words;
+    uint32_t *texels;
+    uint32_t light_count;          /* only lights of positive power */
+    ec_light_data *lights;
+    ec_alias *light_alias;
+    uint32_t environment_width, environment_height;
+    float *environment_texels;     /* R, G, B, pmf; NULL where the environment is constant */
+    ec_alias *environment_alias;
+    float environment_pmf;         /* chance that light sampling chooses the environment */
+    float scene_radius, scene_max;
+    float srgb[256];               /* linear value of each sRGB byte */
+} ec_pack;
+
+ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err);
+void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
+
+/* The steps, in order; each fills its part of pack. */
+uint32_t ec_pack_features(const ec_scene *scene);
+ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
+ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
+ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
+
+/* Index into pack->textures of a texture in one encoding; -1 for none. Valid after ec_pack_textures. */
+int32_t ec_pack_texture_index(const ec_scene *scene, const ec_texture_use *use, int is_srgb);
+
+double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1 */
+
+#endif

@@ -1,0 +1,82 @@
+/* All images in one buffer of texels: bytes as they are (one word a texel, decoded in the kernel), deeper images as linear
+ * floats (four words). A texture has one entry for each encoding it is read in: 2 * texture + is_srgb. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pack/pack.h"
+
+double ec_srgb_to_linear(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+int32_t ec_pack_texture_index(const ec_scene *scene, const ec_texture_use *use, int is_srgb)
+{
+    if (use->texture < 0 || (uint32_t)use->texture >= scene->texture_count) return -1;
+    return 2 * use->texture + (is_srgb ? 1 : 0);
+}
+
+static size_t image_texels(const ec_image *image)
+{
+    return (size_t)image->width * image->height;
+}
+
+static void write_deep(const ec_image *image, int is_srgb, uint32_t *words)
+{
+    size_t count = image_texels(image);
+    for (size_t i = 0; i < 4 * count; i++) {
+        double v = image->rgba16[i] / 65535.0;
+        float linear = (float)(is_srgb && i % 4 != 3 ? ec_srgb_to_linear(v) : v);
+        memcpy(&words[i], &linear, sizeof linear);
+    }
+}
+
+ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
+{
+    for (int i = 0; i < 256; i++) pack->srgb[i] = (float)ec_srgb_to_linear(i / 255.0);
+    pack->texture_count = 2 * scene->texture_count;
+    pack->textures = calloc(pack->texture_count ? pack->texture_count : 1, sizeof *pack->textures);
+    size_t *offset = calloc(scene->image_count ? scene->image_count : 1, sizeof *offset);
+    ec_result result = EC_OK;
+    if (!pack->textures || !offset) {
+        result = ec_fail(err, "out of memory for %u textures", scene->texture_count);
+        goto cleanup;
+    }
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        offset[i] = pack->texel_words;
+        /* Deep images stand twice: once as they are, once decoded from sRGB. */
+        pack->texel_words += image_texels(&scene->images[i]) * (scene->images[i].rgba16 ? 8 : 1);
+    }
+    if (pack->texel_words > UINT32_MAX) {
+        result = ec_fail(err, "the scene's images take %.1f GiB as texels; at most 16 GiB can be addressed: shrink them",
+                         (double)pack->texel_words * 4 / (1 << 30));
+        goto cleanup;
+    }
+    pack->texels = malloc((pack->texel_words ? pack->texel_words : 1) * sizeof *pack->texels);
+    if (!pack->texels) {
+        result = ec_fail(err, "out of memory for %zu MB of texels", pack->texel_words * 4 / 1000000);
+        goto cleanup;
+    }
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        const ec_image *image = &scene->images[i];
+        if (image->rgba16) {
+            write_deep(image, 0, pack->texels + offset[i]);
+            write_deep(image, 1, pack->texels + offset[i] + 4 * image_texels(image));
+        } else if (image->rgba8) {
+            memcpy(pack->texels + offset[i], image->rgba8, 4 * image_texels(image)); /* little-endian words: R lowest */
+        }
+    }
+    for (uint32_t t = 0; t < pack->texture_count; t++) {
+        const ec_texture *texture = &scene->textures[t / 2];
+        const ec_image *image = &scene->images[texture->image];
+        size_t second = image->rgba16 && t % 2 ? 4 * image_texels(image) : 0;
+        pack->textures[t] = (ec_texture_data){
+            (uint32_t)(offset[texture->image] + second), image->width, image->height,
+            (uint32_t)texture->wrap_s << EC_TEXTURE_WRAP_S | (uint32_t)texture->wrap_t << EC_TEXTURE_WRAP_T |
+                (texture->nearest ? EC_TEXTURE_NEAREST : 0) | (image->rgba16 ? EC_TEXTURE_FLOAT : 0)};
+    }
+cleanup:
+    free(offset);
+    return result;
+}

@@ -1,0 +1,230 @@
+/* Batches until a limit is met. */
+#include "pipeline/render.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "pipeline/pipeline.h"
+
+typedef struct render_state {
+    ec_pipeline pipeline;
+    const ec_render_options *options;
+    ec_progress_fn progress;
+    void *user;
+    ec_film *film;
+    ec_render_stats *stats;
+    double start, render_start, last_report;
+    uint32_t batches_wanted;   /* by --spp; 0 = no limit */
+    ec_film_error error;
+    const char *stopped_by;
+} render_state;
+
+/* Largest divisor of the sample count that still leaves 16 batches: whole batches, and enough of them for an error. */
+static uint32_t batch_of_spp(uint32_t spp)
+{
+    uint32_t most = spp / 16 < 1 ? 1 : (spp / 16 > 64 ? 64 : spp / 16);
+    while (spp % most) most--;
+    return most;
+}
+
+static uint32_t choose_batch(const ec_render_options *o)
+{
+    if (o->batch) return o->batch;
+    return o->spp ? batch_of_spp(o->spp) : 8;
+}
+
+/* Seeds of batches must differ in every bit: the same mixer as the kernels'. */
+static uint32_t batch_seed(uint64_t seed, uint32_t batch)
+{
+    uint64_t x = seed * UINT64_C(0x9e3779b97f4a7c15) + batch + 1;
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9); /* splitmix64 (Steele et al. 2014) */
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return (uint32_t)((x ^ (x >> 31)) >> 16);
+}
+
+static double fraction_done(const render_state *r, double batches, double seconds)
+{
+    const ec_render_options *o = r->options;
+    double f = 0.0;
+    if (r->batches_wanted) f = fmax(f, batches / r->batches_wanted);
+    if (o->time_limit > 0.0) f = fmax(f, seconds / o->time_limit);
+    if (o->error_target > 0.0 && isfinite(r->error.error_bound)) {
+        double ratio = o->error_target / r->error.error_bound; /* error falls with the square root of the work */
+        f = fmax(f, ratio * ratio);
+    }
+    return fmin(f, 1.0);
+}
+
+/* Tells the caller; false means stop. batches counts the fraction of the one under way. */
+static bool report(render_state *r, double batches)
+{
+    double now = ec_now(), seconds = now - r->render_start;
+    r->last_report = now;
+    if (!r->progress) return true;
+    ec_pipeline *p = &r->pipeline;
+    double samples = batches * p->params.batch * p->params.width * p->params.height;
+    double f = fraction_done(r, batches, seconds);
+    ec_progress progress = {
+        .seconds = seconds,
+        .seconds_left = f > 0.0 ? seconds * (1.0 - f) / f : -1.0,
+        .fraction = f,
+        .samples_per_pixel = (uint64_t)(batches * p->params.batch),
+        .samples = (uint64_t)samples,
+        .samples_per_second = seconds > 0.0 ? samples / seconds : 0.0,
+        .error = r->error.error,
+        .error_bound = r->error.error_bound,
+    };
+    return r->progress(r->user, &progress);
+}
+
+/* All waves of one batch. *complete is false where a limit or the user ended it early. */
+static ec_result run_batch(render_state *r, uint32_t batch, bool *complete, ec_error *err)
+{
+    ec_pipeline *p = &r->pipeline;
+    uint32_t pixels = p->params.width * p->params.height, per_wave = p->wave / p->params.batch;
+    uint32_t seed = batch_seed(r->options->seed, batch);
+    *complete = true;
+    for (uint32_t first = 0; first < pixels; first += per_wave) {
+        uint32_t count = pixels - first < per_wave ? pixels - first : per_wave;
+        EC_TRY(ec_pipeline_run_wave(p, seed, first, count, batch == 0, err));
+        if (batch == 0 && first == 0) {
+            EC_TRY(ec_cl_finish(p->cl, err));
+            r->stats->first_pixel_seconds = ec_now() - r->start;
+        }
+        if (first + count >= pixels) break;
+        double now = ec_now();
+        bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
+        bool go_on = now - r->last_report < 0.1 || report(r, batch + (double)(first + count) / pixels);
+        if (out_of_time || !go_on) {
+            r->stopped_by = go_on ? "time" : "user";
+            *complete = false;
+            return EC_OK;
+        }
+    }
+    return EC_OK;
+}
+
+static ec_result add_batch(render_state *r, float *host, ec_error *err)
+{
+    ec_pipeline *p = &r->pipeline;
+    uint64_t pixels = (uint64_t)p->params.width * p->params.height;
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, host, err));
+    for (uint64_t i = 0; i < 3 * pixels; i++)
+        if (!isfinite(host[i])) { /* finite samples whose sum is not */
+            host[i] = 0.0f;
+            r->stats->invalid_accumulate++;
+        }
+    ec_film_add_batch(r->film, host);
+    r->error = ec_film_estimate_error(r->film);
+    return EC_OK;
+}
+
+static bool is_done(render_state *r)
+{
+    const ec_render_options *o = r->options;
+    uint32_t done = r->film->batch_count;
+    double seconds = ec_now() - r->render_start;
+    if (r->batches_wanted && done >= r->batches_wanted)
+        r->stopped_by = "spp";
+    else if (o->error_target > 0.0 && done >= 4 && r->error.error_bound <= o->error_target)
+        r->stopped_by = "error";
+    else if (o->time_limit > 0.0 && seconds + 0.5 * seconds / done > o->time_limit)
+        r->stopped_by = "time";
+    else if (!report(r, done))
+        r->stopped_by = "user";
+    return r->stopped_by != NULL;
+}
+
+static ec_result read_features(render_state *r, ec_error *err)
+{
+    ec_pipeline *p = &r->pipeline;
+    uint64_t pixels = (uint64_t)p->params.width * p->params.height;
+    r->film->aov = malloc(pixels * EC_AOV_FIELDS * sizeof(float));
+    if (!r->film->aov) return ec_fail(err, "out of memory for the first-hit features");
+    return ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, pixels * EC_AOV_FIELDS * 4, r->film->aov, err);
+}
+
+static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
+{
+    ec_pipeline *p = &r->pipeline;
+    uint64_t pixels = (uint64_t)p->params.width * p->params.height;
+    float *host = malloc(pixels * 12);
+    if (!host) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
+    ec_result result = EC_OK;
+    r->render_start = r->last_report = ec_now();
+    for (uint32_t batch = 0; result == EC_OK && !r->stopped_by; batch++) {
+        bool complete;
+        result = run_batch(r, batch, &complete, err);
+        if (result != EC_OK) break;
+        if (!complete && batch > 0) break; /* the batches before it stand */
+        if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples and are black");
+        result = add_batch(r, host, err);
+        if (result == EC_OK && batch == 0) result = read_features(r, err);
+        if (result == EC_OK && complete) is_done(r);
+    }
+    free(host);
+    return result;
+}
+
+static ec_result finish_stats(render_state *r, ec_error *err)
+{
+    ec_render_stats *s = r->stats;
+    ec_pipeline *p = &r->pipeline;
+    uint32_t invalid[EC_STAGE_COUNT];
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_INVALID], 0, sizeof invalid, invalid, err));
+    s->seconds = ec_now() - r->render_start;
+    s->invalid_generate = invalid[EC_STAGE_GENERATE];
+    s->invalid_intersect = invalid[EC_STAGE_INTERSECT];
+    s->invalid_shade = invalid[EC_STAGE_SHADE];
+    s->invalid_connect = invalid[EC_STAGE_CONNECT];
+    s->invalid_accumulate += invalid[EC_STAGE_ACCUMULATE];
+    s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
+    s->samples_per_pixel = (uint64_t)r->film->batch_count * p->params.batch;
+    s->samples = s->samples_per_pixel * p->params.width * p->params.height;
+    s->rays = p->rays;
+    s->samples_per_second = s->seconds > 0.0 ? (double)s->samples / s->seconds : 0.0;
+    s->rays_per_second = s->seconds > 0.0 ? (double)s->rays / s->seconds : 0.0;
+    s->error = r->error.error;
+    s->error_bound = r->error.error_bound;
+    s->device_bytes = p->cl->peak_allocated_bytes;
+    s->cache_hits = p->cl->cache_hits;
+    s->cache_misses = p->cl->cache_misses;
+    snprintf(s->stopped_by, sizeof s->stopped_by, "%s", r->stopped_by ? r->stopped_by : "user");
+    return EC_OK;
+}
+
+ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
+                    void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
+{
+    memset(stats, 0, sizeof *stats);
+    render_state r = {.options = options, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
+    r.error.error = r.error.error_bound = INFINITY;
+    uint32_t batch = choose_batch(options);
+    r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
+    ec_result result = ec_film_create(film, options->width, options->height, batch, err);
+    if (result == EC_OK) result = ec_pipeline_create(cl, scene, options, batch, &r.pipeline, stats, err);
+    if (result == EC_OK) result = render_loop(&r, log, err);
+    if (result == EC_OK) result = finish_stats(&r, err);
+    ec_pipeline_destroy(&r.pipeline);
+    return result;
+}
+
+ec_result ec_scene_estimate(const ec_scene *scene, uint64_t *device_bytes, char *effects, size_t effects_size, ec_error *err)
+{
+    ec_pack pack;
+    EC_TRY(ec_pack_scene(scene, &pack, err));
+    uint64_t vertices = scene->vertex_count, triangles = scene->triangle_count;
+    uint64_t bytes = triangles * (sizeof(ec_prim) + 12) + pack.material_count * sizeof(ec_material_data);
+    bytes += (scene->normals ? 12 * vertices : 0) + (scene->tangents ? 16 * vertices : 0) + (scene->colors ? 16 * vertices : 0);
+    bytes += (scene->uv[0] ? 8 * vertices : 0) + (scene->uv[1] ? 8 * vertices : 0);
+    bytes += pack.texel_words * 4 + (uint64_t)pack.light_count * (sizeof(ec_light_data) + sizeof(ec_alias));
+    bytes += (uint64_t)pack.environment_width * pack.environment_height * 24;
+    bytes += triangles / 7 * sizeof(ec_tri8) + triangles / 20 * sizeof(ec_bvh8_node); /* leaf blocks seven eighths full */
+    *device_bytes = bytes;
+    ec_feature_names(pack.features, effects, effects_size);
+    ec_pack_free(&pack);
+    return EC_OK;
+}

@@ -1,0 +1,103 @@
+/* The scene and the queues as device buffers. Host copies are freed as soon as the device has them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "pipeline/pipeline.h"
+
+static ec_result upload(ec_pipeline *p, ec_arg arg, const char *label, uint64_t bytes, const void *data, ec_error *err)
+{
+    if (!data || !bytes) return EC_OK; /* an absent stream stays NULL */
+    return ec_buffer_create(p->cl, label, bytes, data, &p->buffers[arg], err);
+}
+
+/* Texture coordinates must be finite and small enough for the kernels' integer texels. */
+static ec_result upload_uv(ec_pipeline *p, ec_arg arg, const char *label, const float *uv, uint32_t vertex_count, ec_error *err)
+{
+    if (!uv) return EC_OK;
+    size_t count = 2 * (size_t)vertex_count;
+    float *clean = malloc(count * sizeof *clean);
+    if (!clean) return ec_fail(err, "out of memory for texture coordinates of %u vertices", vertex_count);
+    for (size_t i = 0; i < count; i++) clean[i] = isfinite(uv[i]) ? fminf(fmaxf(uv[i], -1e6f), 1e6f) : 0.0f;
+    ec_result result = upload(p, arg, label, count * sizeof *clean, clean, err);
+    free(clean);
+    return result;
+}
+
+ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pack *pack, ec_error *err)
+{
+    const uint32_t f = p->features;
+    const bool textured = f & (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE |
+                               EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE);
+    const uint64_t vertices = scene->vertex_count;
+    EC_TRY(upload(p, EC_ARG_PRIMS, "triangles", (uint64_t)pack->prim_count * sizeof *pack->prims, pack->prims, err));
+    EC_TRY(upload(p, EC_ARG_MATERIALS, "materials", (uint64_t)pack->material_count * sizeof *pack->materials, pack->materials, err));
+    EC_TRY(upload(p, EC_ARG_SRGB, "sRGB table", sizeof pack->srgb, pack->srgb, err));
+    if (textured || (f & (EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)))
+        EC_TRY(upload(p, EC_ARG_INDICES, "indices", 12 * (uint64_t)scene->triangle_count, scene->indices, err));
+    if (f & EC_FEATURE_SMOOTH_NORMALS) EC_TRY(upload(p, EC_ARG_NORMALS, "normals", 12 * vertices, scene->normals, err));
+    if (f & EC_FEATURE_NORMAL_TEXTURE) EC_TRY(upload(p, EC_ARG_TANGENTS, "tangents", 16 * vertices, scene->tangents, err));
+    if (f & EC_FEATURE_VERTEX_COLORS) EC_TRY(upload(p, EC_ARG_COLORS, "colours", 16 * vertices, scene->colors, err));
+    if (textured) {
+        EC_TRY(upload_uv(p, EC_ARG_UV0, "texture coordinates 0", scene->uv[0], scene->vertex_count, err));
+        EC_TRY(upload_uv(p, EC_ARG_UV1, "texture coordinates 1", scene->uv[1], scene->vertex_count, err));
+        EC_TRY(upload(p, EC_ARG_TEXTURE_TABLE, "textures", (uint64_t)pack->texture_count * sizeof *pack->textures, pack->textures, err));
+        EC_TRY(upload(p, EC_ARG_TEXELS, "texels", (uint64_t)pack->texel_words * 4, pack->texels, err));
+    }
+    EC_TRY(upload(p, EC_ARG_LIGHT_TABLE, "lights", (uint64_t)pack->light_count * sizeof *pack->lights, pack->lights, err));
+    EC_TRY(upload(p, EC_ARG_LIGHT_ALIAS, "light table", (uint64_t)pack->light_count * sizeof *pack->light_alias, pack->light_alias, err));
+    uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
+    EC_TRY(upload(p, EC_ARG_ENVIRONMENT_TEXELS, "environment map", texels * 16, pack->environment_texels, err));
+    return upload(p, EC_ARG_ENVIRONMENT_ALIAS, "environment table", texels * sizeof *pack->environment_alias, pack->environment_alias, err);
+}
+
+ec_result ec_pipeline_upload_accel(ec_pipeline *p, const ec_scene *scene, ec_error *err)
+{
+    ec_bvh bvh = {0};
+    ec_bvh_stats stats;
+    EC_TRY(ec_bvh_build(scene->positions, scene->indices, scene->triangle_count, 0, &bvh, &stats, err));
+    ec_result result = EC_OK;
+    void *nodes = NULL, *leaves = NULL;
+    uint32_t node_count, leaf_count;
+    if (p->has_trace[EC_TRACE_PACKET]) {
+        result = ec_bvh2_layout(&bvh, scene->positions, scene->indices, (ec_bvh2_node **)&nodes, &node_count,
+                                (ec_tri **)&leaves, &leaf_count, err);
+        if (result == EC_OK) result = upload(p, EC_ARG_BVH2_NODES, "BVH2 nodes", (uint64_t)node_count * sizeof(ec_bvh2_node), nodes, err);
+        if (result == EC_OK) result = upload(p, EC_ARG_BVH2_TRIS, "BVH2 triangles", (uint64_t)leaf_count * sizeof(ec_tri), leaves, err);
+        free(nodes);
+        free(leaves);
+        nodes = leaves = NULL;
+    }
+    if (result == EC_OK && p->has_trace[EC_TRACE_BVH8]) {
+        result = ec_bvh8_layout(&bvh, scene->positions, scene->indices, (ec_bvh8_node **)&nodes, &node_count,
+                                (ec_tri8 **)&leaves, &leaf_count, err);
+        if (result == EC_OK) result = upload(p, EC_ARG_BVH8_NODES, "BVH8 nodes", (uint64_t)node_count * sizeof(ec_bvh8_node), nodes, err);
+        if (result == EC_OK) result = upload(p, EC_ARG_BVH8_BLOCKS, "BVH8 triangle blocks", (uint64_t)leaf_count * sizeof(ec_tri8), leaves, err);
+        free(nodes);
+        free(leaves);
+    }
+    ec_bvh_free(&bvh);
+    return result;
+}
+
+ec_result ec_pipeline_create_queues(ec_pipeline *p, ec_error *err)
+{
+    ec_cl *cl = p->cl;
+    /* Lane-wide loads may read a packet past the last entry. */
+    const uint64_t field = (uint64_t)p->wave * 4, slack = 64;
+    const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
+    for (int i = 0; i < 2; i++)
+        EC_TRY(ec_buffer_create(cl, "path queue", field * EC_PATH_FIELDS + slack, NULL, &p->path_queues[i], err));
+    EC_TRY(ec_buffer_create(cl, "hits", field * EC_HIT_FIELDS + slack, NULL, &p->buffers[EC_ARG_HITS], err));
+    EC_TRY(ec_buffer_create(cl, "shadow queue", field * EC_SHADOW_FIELDS + slack, NULL, &p->buffers[EC_ARG_SHADOWS], err));
+    EC_TRY(ec_buffer_create(cl, "radiance", field * 3 + slack, NULL, &p->buffers[EC_ARG_RADIANCE], err));
+    EC_TRY(ec_buffer_create(cl, "first-hit features", field * EC_AOV_FIELDS + slack, NULL, &p->buffers[EC_ARG_AOV], err));
+    EC_TRY(ec_buffer_create(cl, "batch film", pixels * 12, NULL, &p->buffers[EC_ARG_BATCH_FILM], err));
+    EC_TRY(ec_buffer_create(cl, "feature film", pixels * 4 * EC_AOV_FIELDS, NULL, &p->buffers[EC_ARG_FEATURE_FILM], err));
+    EC_TRY(ec_buffer_create(cl, "counters", sizeof(ec_counters), NULL, &p->buffers[EC_ARG_COUNTERS], err));
+    EC_TRY(ec_buffer_create(cl, "invalid counts", EC_STAGE_COUNT * 4, NULL, &p->buffers[EC_ARG_INVALID], err));
+    EC_TRY(ec_buffer_zero(cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * 4, err));
+    EC_TRY(ec_buffer_zero(cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, err));
+    return ec_buffer_create(cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
+}

@@ -1,0 +1,95 @@
+/* The bounce loop. A wave's paths go generate → (intersect → shade → connect)* → accumulate; the host looks at the queues
+ * only every EC_SEGMENT bounces. */
+#include <string.h>
+
+#include "base/clock.h"
+#include "pipeline/pipeline.h"
+
+/* Tries each traversal twice at each of the first bounces, then keeps the faster. Hits are the same, so this is free. */
+#define TRIALS 2
+static ec_trace choose_trace(const ec_pipeline *p, int connect, uint32_t bounce)
+{
+    if (!p->has_trace[EC_TRACE_BVH8]) return EC_TRACE_PACKET;
+    if (!p->has_trace[EC_TRACE_PACKET]) return EC_TRACE_BVH8;
+    uint32_t b = bounce < EC_TUNED_BOUNCES ? bounce : EC_TUNED_BOUNCES - 1;
+    for (int t = 0; t < EC_TRACE_COUNT; t++)
+        if (p->tuning[connect][b].trials[t] < TRIALS) return (ec_trace)t;
+    const double *s = p->tuning[connect][b].seconds;
+    const uint64_t *r = p->tuning[connect][b].rays;
+    return s[EC_TRACE_BVH8] * (double)r[EC_TRACE_PACKET] < s[EC_TRACE_PACKET] * (double)r[EC_TRACE_BVH8] ? EC_TRACE_BVH8
+                                                                                                 : EC_TRACE_PACKET;
+}
+
+static bool is_tuning(const ec_pipeline *p, int connect, uint32_t bounce)
+{
+    if (!p->has_trace[EC_TRACE_BVH8] || !p->has_trace[EC_TRACE_PACKET] || bounce >= EC_TUNED_BOUNCES) return false;
+    for (int t = 0; t < EC_TRACE_COUNT; t++)
+        if (p->tuning[connect][bounce].trials[t] < TRIALS) return true;
+    return false;
+}
+
+static ec_result trace(ec_pipeline *p, int connect, uint32_t bounce, const uint32_t *scalars, uint32_t paths, ec_error *err)
+{
+    static const ec_stage_id stages[2][EC_TRACE_COUNT] = {{EC_INTERSECT_PACKET, EC_INTERSECT_BVH8},
+                                                          {EC_CONNECT_PACKET, EC_CONNECT_BVH8}};
+    ec_trace t = choose_trace(p, connect, bounce);
+    if (!is_tuning(p, connect, bounce)) return ec_pipeline_launch(p, stages[connect][t], scalars, paths, err);
+    ec_counters counters;
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
+    double start = ec_now();
+    EC_TRY(ec_pipeline_launch(p, stages[connect][t], scalars, paths, err));
+    EC_TRY(ec_cl_finish(p->cl, err));
+    uint32_t rays = connect ? counters.shadows[scalars[EC_ARG_STEP]] : counters.rays[scalars[EC_ARG_STEP]];
+    if (p->tuning[connect][bounce].trials[t]++ > 0) { /* the first run may compile */
+        p->tuning[connect][bounce].seconds[t] += ec_now() - start;
+        p->tuning[connect][bounce].rays[t] += rays;
+    }
+    return EC_OK;
+}
+
+static void swap_queues(ec_pipeline *p, uint32_t bounce)
+{
+    p->buffers[EC_ARG_PATHS] = p->path_queues[bounce & 1];
+    p->buffers[EC_ARG_NEXT] = p->path_queues[~bounce & 1];
+}
+
+/* Up to EC_SEGMENT bounces, then what is left of the wave. */
+static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_bounce, uint32_t *alive, ec_error *err)
+{
+    ec_counters counters = {.rays = {*alive}};
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
+    for (uint32_t step = 0; step < EC_SEGMENT && first_bounce + step < p->params.max_depth; step++) {
+        scalars[EC_ARG_BOUNCE] = first_bounce + step;
+        scalars[EC_ARG_STEP] = step;
+        swap_queues(p, first_bounce + step);
+        EC_TRY(trace(p, 0, first_bounce + step, scalars, *alive, err));
+        EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, *alive, err));
+        if (p->params.light_count) EC_TRY(trace(p, 1, first_bounce + step, scalars, *alive, err));
+    }
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
+    for (uint32_t step = 0; step < EC_SEGMENT; step++) p->rays += counters.rays[step] + counters.shadows[step];
+    *alive = counters.rays[EC_SEGMENT];
+    return EC_OK;
+}
+
+ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
+                               bool with_features, ec_error *err)
+{
+    uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
+    uint32_t alive = pixel_count * p->params.batch;
+    scalars[EC_ARG_SEED] = seed;
+    scalars[EC_ARG_FIRST_PIXEL] = first_pixel;
+    scalars[EC_ARG_PATH_COUNT] = alive;
+    scalars[EC_ARG_PIXEL_COUNT] = pixel_count;
+    swap_queues(p, 0);
+    cl_mem aov = p->buffers[EC_ARG_AOV];
+    if (!with_features) p->buffers[EC_ARG_AOV] = NULL;
+
+    ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, alive, err);
+    for (uint32_t bounce = 0; result == EC_OK && alive && bounce < p->params.max_depth; bounce += EC_SEGMENT)
+        result = run_segment(p, scalars, bounce, &alive, err);
+    p->buffers[EC_ARG_AOV] = aov;
+    if (result == EC_OK) result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, pixel_count, err);
+    if (result == EC_OK && with_features) result = ec_pipeline_launch(p, EC_STORE_FEATURES, scalars, pixel_count, err);
+    return result;
+}

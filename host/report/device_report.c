@@ -1,0 +1,97 @@
+#include "report/device_report.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "report/format.h"
+#include "report/json.h"
+
+const char *ec_device_type_name(cl_device_type type)
+{
+    if (type & CL_DEVICE_TYPE_GPU) return "GPU";
+    if (type & CL_DEVICE_TYPE_CPU) return "CPU";
+    if (type & CL_DEVICE_TYPE_ACCELERATOR) return "accel";
+    return "other";
+}
+
+/* "OpenCL 3.0 PoCL HSTR: ..." -> "3.0" */
+static void short_version(const char *version, char *text, size_t size)
+{
+    if (!strncmp(version, "OpenCL ", 7)) version += 7;
+    snprintf(text, size, "%.*s", (int)strcspn(version, " "), version);
+}
+
+static const char *yes(bool value)
+{
+    return value ? "yes" : "no";
+}
+
+static void print_row(const ec_device_report *report, uint32_t i, int name_width, FILE *to)
+{
+    const ec_device_info *device = &report->devices[i];
+    char version[16], memory[32], allocation[32];
+    short_version(device->version, version, sizeof version);
+    ec_format_bytes(device->memory_bytes, memory, sizeof memory);
+    ec_format_bytes(device->max_allocation_bytes, allocation, sizeof allocation);
+    fprintf(to, "%c %2u  %-*s  %-5s  %-6s  %5u  %5u  %10s  %10s  %-9s  %-9s  %s%s\n",
+            report->chosen == (int64_t)i ? '*' : ' ', i, name_width, device->name, ec_device_type_name(device->type),
+            version, device->compute_units, device->native_float_width, memory, allocation,
+            yes(device->correctly_rounded_divide_sqrt), yes(device->denormals), yes(device->fma),
+            !device->available ? "  (not available)" : !device->compiler_available ? "  (no compiler)" : "");
+}
+
+void ec_device_report_text(const ec_device_report *report, FILE *to)
+{
+    int width = 4;
+    for (uint32_t i = 0; i < report->count; i++) {
+        int size = (int)strlen(report->devices[i].name);
+        if (size > width) width = size;
+    }
+    fprintf(to, "   #  %-*s  %-5s  OpenCL  units  lanes  %10s  %10s  exact div  denormals  fma\n", width, "name", "type",
+            "memory", "max alloc");
+    for (uint32_t i = 0; i < report->count; i++) print_row(report, i, width, to);
+    if (report->chosen >= 0)
+        fprintf(to, "* default: %" PRId64 " (%s); --device or ECLAT_DEVICE takes another\n", report->chosen, report->why);
+}
+
+cJSON *ec_device_json(const ec_device_info *device, uint32_t index)
+{
+    cJSON *object = cJSON_CreateObject();
+    ec_json_whole(object, "index", index);
+    ec_json_text(object, "name", device->name);
+    ec_json_text(object, "type", ec_device_type_name(device->type));
+    ec_json_text(object, "vendor", device->vendor);
+    ec_json_text(object, "version", device->version);
+    ec_json_text(object, "c_version", device->c_version);
+    ec_json_text(object, "driver", device->driver);
+    ec_json_text(object, "platform", device->platform_name);
+    ec_json_text(object, "platform_version", device->platform_version);
+    ec_json_whole(object, "compute_units", device->compute_units);
+    ec_json_whole(object, "native_float_width", device->native_float_width);
+    ec_json_whole(object, "memory_bytes", device->memory_bytes);
+    ec_json_whole(object, "max_allocation_bytes", device->max_allocation_bytes);
+    ec_json_whole(object, "cache_bytes", device->cache_bytes);
+    ec_json_whole(object, "local_bytes", device->local_bytes);
+    ec_json_whole(object, "max_work_group_size", device->max_work_group_size);
+    cJSON_AddBoolToObject(object, "correctly_rounded_divide_sqrt", device->correctly_rounded_divide_sqrt);
+    cJSON_AddBoolToObject(object, "denormals", device->denormals);
+    cJSON_AddBoolToObject(object, "fma", device->fma);
+    cJSON_AddBoolToObject(object, "inf_nan", device->inf_nan);
+    cJSON_AddBoolToObject(object, "available", device->available);
+    cJSON_AddBoolToObject(object, "compiler_available", device->compiler_available);
+    return object;
+}
+
+ec_result ec_device_report_json(const ec_device_report *report, FILE *to, ec_error *err)
+{
+    cJSON *root = cJSON_CreateObject();
+    cJSON *devices = cJSON_AddArrayToObject(root, "devices");
+    for (uint32_t i = 0; i < report->count; i++)
+        cJSON_AddItemToArray(devices, ec_device_json(&report->devices[i], i));
+    if (report->chosen >= 0)
+        ec_json_whole(root, "default", (uint64_t)report->chosen);
+    else
+        cJSON_AddNullToObject(root, "default");
+    ec_json_text(root, "why", report->why);
+    return ec_json_print(root, to, err);
+}

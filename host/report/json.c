@@ -1,0 +1,76 @@
+#include "report/json.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void ec_json_real(cJSON *object, const char *key, double value)
+{
+    if (isfinite(value))
+        cJSON_AddNumberToObject(object, key, value);
+    else
+        cJSON_AddNullToObject(object, key);
+}
+
+void ec_json_whole(cJSON *object, const char *key, uint64_t value)
+{
+    char digits[24]; /* cJSON's own numbers are doubles: 53 bits */
+    snprintf(digits, sizeof digits, "%" PRIu64, value);
+    cJSON_AddRawToObject(object, key, digits);
+}
+
+/* Bytes of the well-formed UTF-8 sequence at s; 0 if it is none (RFC 3629). */
+static int utf8_size(const unsigned char *s)
+{
+    if (s[0] < 0x80) return 1;
+    int size = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
+    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
+    for (int i = 1; i < size; i++)
+        if ((s[i] & 0xc0) != 0x80) return 0;
+    if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f)) return 0;
+    if ((s[0] == 0xf0 && s[1] < 0x90) || (s[0] == 0xf4 && s[1] > 0x8f)) return 0;
+    return size;
+}
+
+void ec_json_text(cJSON *object, const char *key, const char *value)
+{
+    char *clean = value ? strdup(value) : NULL;
+    if (!clean) {
+        cJSON_AddNullToObject(object, key);
+        return;
+    }
+    for (char *c = clean; *c;) {
+        int size = utf8_size((unsigned char *)c);
+        if (size == 0) *c = '?';
+        c += size ? size : 1;
+    }
+    cJSON *text = cJSON_CreateString(clean);
+    if (cJSON_IsArray(object))
+        cJSON_AddItemToArray(object, text);
+    else
+        cJSON_AddItemToObject(object, key, text);
+    free(clean);
+}
+
+void ec_json_words(cJSON *object, const char *key, const char *words)
+{
+    cJSON *array = cJSON_AddArrayToObject(object, key);
+    while (*(words += strspn(words, " "))) {
+        char word[128];
+        int size = (int)strcspn(words, " ");
+        snprintf(word, sizeof word, "%.*s", size, words);
+        ec_json_text(array, NULL, word);
+        words += size;
+    }
+}
+
+ec_result ec_json_print(cJSON *object, FILE *to, ec_error *err)
+{
+    char *text = cJSON_PrintUnformatted(object);
+    cJSON_Delete(object);
+    if (!text) return ec_fail(err, "out of memory while writing the JSON report");
+    fprintf(to, "%s\n", text);
+    cJSON_free(text);
+    return EC_OK;
+}

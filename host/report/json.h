@@ -1,0 +1,19 @@
+/* Helpers around cJSON that keep every number true: 64-bit integers exact, infinities and NaN null. */
+#ifndef EC_REPORT_JSON_H
+#define EC_REPORT_JSON_H
+
+#include <cjson/cJSON.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "base/error.h"
+
+void ec_json_real(cJSON *object, const char *key, double value);
+void ec_json_whole(cJSON *object, const char *key, uint64_t value);
+void ec_json_text(cJSON *object, const char *key, const char *value); /* NULL: null; bytes that are not UTF-8 become ? */
+void ec_json_words(cJSON *object, const char *key, const char *words); /* blank separated: an array */
+
+/* Prints the object on one line and deletes it. */
+ec_result ec_json_print(cJSON *object, FILE *to, ec_error *err);
+
+#endif

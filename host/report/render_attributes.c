@@ -1,0 +1,107 @@
+#include <inttypes.h>
+#include <stdarg.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include "report/names.h"
+#include "report/render_report.h"
+
+static void add_text(ec_report_attributes *attributes, const char *name, const char *text)
+{
+    if (attributes->count == EC_REPORT_ATTRIBUTES_MAX) return;
+    attributes->list[attributes->count++] = (ec_attribute){.name = name, .type = EC_ATTR_STRING, .string = text};
+}
+
+__attribute__((format(printf, 3, 4))) static void add_made(ec_report_attributes *attributes, const char *name,
+                                                           const char *format, ...)
+{
+    char *text = attributes->text + attributes->text_used;
+    size_t room = sizeof attributes->text - attributes->text_used;
+    va_list args;
+    va_start(args, format);
+    int size = vsnprintf(text, room, format, args);
+    va_end(args);
+    if (size < 0 || (size_t)size >= room) return;
+    attributes->text_used += (size_t)size + 1;
+    add_text(attributes, name, text);
+}
+
+static void add_real(ec_report_attributes *attributes, const char *name, double number)
+{
+    if (attributes->count == EC_REPORT_ATTRIBUTES_MAX) return;
+    attributes->list[attributes->count++] = (ec_attribute){.name = name, .type = EC_ATTR_DOUBLE, .number = number};
+}
+
+/* Counts that fit an int are ints; the few that may not are texts. */
+static void add_whole(ec_report_attributes *attributes, const char *name, uint64_t number)
+{
+    if (number > INT32_MAX) {
+        add_made(attributes, name, "%" PRIu64, number);
+        return;
+    }
+    if (attributes->count == EC_REPORT_ATTRIBUTES_MAX) return;
+    attributes->list[attributes->count++] =
+        (ec_attribute){.name = name, .type = EC_ATTR_INT, .number = (double)number};
+}
+
+static void add_setting(ec_report_attributes *attributes, const ec_render_report *report)
+{
+    const ec_render_options *options = report->options;
+    add_text(attributes, "eclat.command", report->command);
+    add_text(attributes, "eclat.version", ECLAT_VERSION);
+    add_text(attributes, "eclat.scene", report->scene);
+    add_text(attributes, "eclat.camera", report->camera);
+    add_text(attributes, "eclat.environment", report->environment);
+    add_made(attributes, "eclat.seed", "%" PRIu64, options->seed);
+    add_text(attributes, "eclat.sampler", ec_sampler_names[options->sampler]);
+    add_text(attributes, "eclat.strategy", ec_strategy_names[options->strategy]);
+    add_text(attributes, "eclat.trace", options->trace ? options->trace : "auto");
+    if (options->max_depth)
+        add_made(attributes, "eclat.maxDepth", "%u", options->max_depth);
+    else
+        add_text(attributes, "eclat.maxDepth", "inf");
+    add_real(attributes, "eclat.png.exposure", report->exposure);
+    add_text(attributes, "eclat.png.tonemap", ec_tonemap_names[report->tonemap]);
+}
+
+static void add_result(ec_report_attributes *attributes, const ec_render_stats *stats)
+{
+    add_whole(attributes, "eclat.samplesPerPixel", stats->samples_per_pixel);
+    add_whole(attributes, "eclat.batch", stats->batch);
+    add_whole(attributes, "eclat.lanes", stats->lanes);
+    add_whole(attributes, "eclat.wave", stats->wave);
+    add_text(attributes, "eclat.effects", stats->effects);
+    add_real(attributes, "eclat.seconds", stats->seconds);
+    add_real(attributes, "eclat.error", stats->error);
+    add_real(attributes, "eclat.errorBound", stats->error_bound);
+    add_text(attributes, "eclat.stoppedBy", stats->stopped_by);
+    add_whole(attributes, "eclat.invalid", stats->invalid_samples);
+    add_whole(attributes, "eclat.invalid.generate", stats->invalid_generate);
+    add_whole(attributes, "eclat.invalid.intersect", stats->invalid_intersect);
+    add_whole(attributes, "eclat.invalid.shade", stats->invalid_shade);
+    add_whole(attributes, "eclat.invalid.connect", stats->invalid_connect);
+    add_whole(attributes, "eclat.invalid.accumulate", stats->invalid_accumulate);
+}
+
+/* What computed it; the machine's name is nobody's business. */
+static void add_machine(ec_report_attributes *attributes, const ec_device_info *device)
+{
+    struct utsname host;
+    add_text(attributes, "eclat.device", device->name);
+    add_text(attributes, "eclat.device.version", device->version);
+    add_text(attributes, "eclat.device.driver", device->driver);
+    add_made(attributes, "eclat.device.platform", "%s, %s", device->platform_name, device->platform_version);
+    if (uname(&host) == 0)
+        add_made(attributes, "eclat.host", "%s %s %s, %ld processors", host.sysname, host.release, host.machine,
+                 sysconf(_SC_NPROCESSORS_ONLN));
+}
+
+void ec_render_report_attributes(const ec_render_report *report, ec_report_attributes *attributes)
+{
+    attributes->count = 0;
+    attributes->text_used = 0;
+    add_setting(attributes, report);
+    add_result(attributes, report->stats);
+    add_text(attributes, "eclat.imageSha256", report->image_sha256);
+    add_machine(attributes, report->device);
+}

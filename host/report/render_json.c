@@ -1,0 +1,83 @@
+#include "report/device_report.h"
+#include "report/json.h"
+#include "report/names.h"
+#include "report/render_report.h"
+
+static void add_setting(cJSON *root, const ec_render_report *report)
+{
+    const ec_render_options *options = report->options;
+    ec_json_text(root, "version", ECLAT_VERSION);
+    ec_json_text(root, "command", report->command);
+    ec_json_text(root, "scene", report->scene);
+    ec_json_text(root, "camera", report->camera);
+    ec_json_text(root, "environment", report->environment);
+    ec_json_whole(root, "width", options->width);
+    ec_json_whole(root, "height", options->height);
+    ec_json_text(root, "sampler", ec_sampler_names[options->sampler]);
+    ec_json_text(root, "strategy", ec_strategy_names[options->strategy]);
+    ec_json_text(root, "trace", options->trace ? options->trace : "auto");
+    ec_json_whole(root, "seed", options->seed);
+    if (options->max_depth)
+        ec_json_whole(root, "max_depth", options->max_depth);
+    else
+        cJSON_AddNullToObject(root, "max_depth");
+    ec_json_real(root, "exposure", report->exposure);
+    ec_json_text(root, "tonemap", ec_tonemap_names[report->tonemap]);
+}
+
+static void add_result(cJSON *root, const ec_render_report *report)
+{
+    const ec_render_stats *stats = report->stats;
+    ec_json_whole(root, "samples_per_pixel", stats->samples_per_pixel);
+    ec_json_whole(root, "samples", stats->samples);
+    ec_json_whole(root, "rays", stats->rays);
+    ec_json_real(root, "samples_per_second", stats->samples_per_second);
+    ec_json_real(root, "rays_per_second", stats->rays_per_second);
+    ec_json_real(root, "error", stats->error);
+    ec_json_real(root, "error_bound", stats->error_bound);
+    ec_json_real(root, "mean_luminance", report->mean_luminance);
+    ec_json_text(root, "stopped_by", stats->stopped_by);
+    ec_json_text(root, "image_sha256", report->image_sha256);
+    ec_json_whole(root, "invalid_samples", stats->invalid_samples);
+    cJSON *stages = cJSON_AddObjectToObject(root, "invalid_samples_by_stage");
+    ec_json_whole(stages, "generate", stats->invalid_generate);
+    ec_json_whole(stages, "intersect", stats->invalid_intersect);
+    ec_json_whole(stages, "shade", stats->invalid_shade);
+    ec_json_whole(stages, "connect", stats->invalid_connect);
+    ec_json_whole(stages, "accumulate", stats->invalid_accumulate);
+}
+
+static void add_cost(cJSON *root, const ec_render_report *report)
+{
+    const ec_render_stats *stats = report->stats;
+    ec_json_real(root, "seconds", stats->seconds);
+    ec_json_real(root, "load_seconds", report->load_seconds);
+    ec_json_real(root, "accel_seconds", stats->accel_seconds);
+    ec_json_real(root, "pack_seconds", stats->pack_seconds);
+    ec_json_real(root, "kernel_seconds", stats->kernel_seconds);
+    ec_json_real(root, "first_pixel_seconds", stats->first_pixel_seconds);
+    ec_json_real(root, "write_seconds", report->write_seconds);
+    ec_json_real(root, "total_seconds", report->total_seconds);
+    ec_json_whole(root, "kernel_cache_hits", stats->cache_hits);
+    ec_json_whole(root, "kernel_cache_misses", stats->cache_misses);
+    ec_json_whole(root, "peak_memory_bytes", report->peak_memory_bytes);
+    ec_json_whole(root, "device_bytes", stats->device_bytes);
+}
+
+ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_error *err)
+{
+    cJSON *root = cJSON_CreateObject();
+    add_setting(root, report);
+    add_result(root, report);
+    add_cost(root, report);
+    ec_json_whole(root, "lanes", report->stats->lanes);
+    ec_json_whole(root, "wave", report->stats->wave);
+    ec_json_whole(root, "batch", report->stats->batch);
+    ec_json_words(root, "effects", report->stats->effects);
+    cJSON *device = ec_device_json(report->device, report->device_index);
+    ec_json_text(device, "why", report->device_why);
+    cJSON_AddItemToObject(root, "device", device);
+    cJSON *outputs = cJSON_AddArrayToObject(root, "outputs");
+    for (int i = 0; i < report->output_count; i++) ec_json_text(outputs, NULL, report->outputs[i]);
+    return ec_json_print(root, to, err);
+}

@@ -1,0 +1,50 @@
+/* Everything a finished render can tell, and its three tellings: text, JSON, EXR attributes. */
+#ifndef EC_REPORT_RENDER_REPORT_H
+#define EC_REPORT_RENDER_REPORT_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "cl/cl.h"
+#include "image/image.h"
+#include "pipeline/render.h"
+
+typedef struct ec_render_report {
+    const char *command;            /* the command line, quoted for a shell */
+    const char *scene;              /* file */
+    const char *camera;             /* in words */
+    const char *environment;        /* --env, or in words */
+    const ec_render_options *options;
+    const ec_render_stats *stats;
+    const ec_device_info *device;
+    const char *device_why;         /* "first GPU" */
+    uint32_t device_index;
+    double exposure;                /* EV, of the PNG */
+    ec_tonemap tonemap;
+    double mean_luminance;
+    double load_seconds;            /* scene and environment */
+    double write_seconds, total_seconds; /* known only after the files are written */
+    uint64_t peak_memory_bytes;
+    const char *image_sha256;       /* of the float R, G, B values, row by row from the top */
+    const char **outputs;           /* absolute paths */
+    int output_count;
+} ec_render_report;
+
+void ec_render_report_text(const ec_render_report *report, FILE *to);
+ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_error *err);
+
+/* "error 1.93 % (95 % bound 1.97 %) at 256 samples a pixel in 12.3 s, 5.42 M samples/s" */
+void ec_render_report_summary(const ec_render_report *report, char *text, size_t size);
+
+/* EXR attributes: all that is needed to render the picture again, and what came of it. */
+enum { EC_REPORT_ATTRIBUTES_MAX = 64 };
+typedef struct ec_report_attributes {
+    ec_attribute list[EC_REPORT_ATTRIBUTES_MAX];
+    uint32_t count;
+    char text[2048]; /* strings made for the occasion; list points into it */
+    size_t text_used;
+} ec_report_attributes;
+/* `attributes` must not be moved or copied afterwards. */
+void ec_render_report_attributes(const ec_render_report *report, ec_report_attributes *attributes);
+
+#endif

@@ -1,0 +1,44 @@
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "report/format.h"
+#include "report/render_report.h"
+
+void ec_render_report_summary(const ec_render_report *report, char *text, size_t size)
+{
+    const ec_render_stats *stats = report->stats;
+    char error[96] = "error unknown (it takes two batches)", percent[32], bound[32], seconds[32], rate[32];
+    if (isfinite(stats->error)) {
+        ec_format_percent(stats->error, percent, sizeof percent);
+        ec_format_percent(stats->error_bound, bound, sizeof bound);
+        snprintf(error, sizeof error, "error %s (95 %% bound %s)", percent, bound);
+    }
+    ec_format_seconds(stats->seconds, seconds, sizeof seconds);
+    ec_format_count(stats->samples_per_second, rate, sizeof rate);
+    snprintf(text, size, "%s at %" PRIu64 " samples a pixel in %s, %s samples/s", error, stats->samples_per_pixel,
+             seconds, rate);
+}
+
+static const char *stop_in_words(const char *stopped_by)
+{
+    if (!strcmp(stopped_by, "error")) return "the error bound is under --error";
+    if (!strcmp(stopped_by, "time")) return "--time is used up";
+    if (!strcmp(stopped_by, "user")) return "interrupted; this is the image so far";
+    return "all samples are taken";
+}
+
+void ec_render_report_text(const ec_render_report *report, FILE *to)
+{
+    const ec_render_stats *stats = report->stats;
+    char summary[256], rays[32], memory[32];
+    for (int i = 0; i < report->output_count; i++) fprintf(to, "picture  %s\n", report->outputs[i]);
+    ec_render_report_summary(report, summary, sizeof summary);
+    ec_format_count(stats->rays_per_second, rays, sizeof rays);
+    ec_format_bytes(report->peak_memory_bytes, memory, sizeof memory);
+    fprintf(to, "result   %s, %s rays/s\n", summary, rays);
+    fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
+    fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
+    fprintf(to, "effects  %s\n", *stats->effects ? stats->effects : "none");
+    fprintf(to, "invalid  %" PRIu64 " samples\n", stats->invalid_samples);
+}

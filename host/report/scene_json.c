@@ -1,0 +1,83 @@
+#include <math.h>
+
+#include "report/json.h"
+#include "report/scene_report.h"
+
+static void add_geometry(cJSON *root, const ec_scene *scene)
+{
+    ec_json_whole(root, "meshes", scene->mesh_count);
+    ec_json_whole(root, "instances", scene->instance_count);
+    ec_json_whole(root, "nodes", scene->node_count);
+    ec_json_whole(root, "triangles", scene->triangle_count);
+    ec_json_whole(root, "vertices", scene->vertex_count);
+    ec_json_whole(root, "dropped_degenerate", scene->dropped_degenerate);
+    ec_json_whole(root, "dropped_nonfinite", scene->dropped_nonfinite);
+    ec_json_whole(root, "skipped_primitives", scene->skipped_primitives);
+    ec_json_whole(root, "materials", scene->material_count);
+    ec_json_whole(root, "textures", scene->texture_count);
+    ec_json_whole(root, "images", scene->image_count);
+}
+
+static void add_lights(cJSON *root, const ec_scene_report *report)
+{
+    cJSON *lights = cJSON_AddObjectToObject(root, "lights");
+    ec_json_whole(lights, "emissive_triangles", report->emissive_triangles);
+    ec_json_whole(lights, "point", report->light_types[EC_LIGHT_POINT]);
+    ec_json_whole(lights, "spot", report->light_types[EC_LIGHT_SPOT]);
+    ec_json_whole(lights, "directional", report->light_types[EC_LIGHT_DIRECTIONAL]);
+    cJSON_AddBoolToObject(lights, "environment", report->scene->has_environment);
+    cJSON_AddBoolToObject(lights, "any", report->has_light);
+}
+
+static void add_cameras(cJSON *root, const ec_scene *scene)
+{
+    cJSON *cameras = cJSON_AddArrayToObject(root, "cameras");
+    for (uint32_t i = 0; i < scene->camera_count; i++) {
+        const ec_camera *camera = &scene->cameras[i];
+        cJSON *object = cJSON_CreateObject();
+        bool perspective = camera->type == EC_CAMERA_PERSPECTIVE;
+        ec_json_whole(object, "index", i);
+        ec_json_text(object, "name", camera->name);
+        ec_json_text(object, "type", perspective ? "perspective" : "orthographic");
+        if (perspective) ec_json_real(object, "yfov", camera->yfov);
+        ec_json_real(object, "aspect", camera->aspect > 0 ? camera->aspect : INFINITY); /* null: the image's */
+        cJSON_AddItemToArray(cameras, object);
+    }
+    ec_json_whole(root, "default_camera", scene->default_camera);
+}
+
+static void add_list(cJSON *root, const char *key, char **names, uint32_t count)
+{
+    cJSON *array = cJSON_AddArrayToObject(root, key);
+    for (uint32_t i = 0; i < count; i++) ec_json_text(array, NULL, names[i]);
+}
+
+static void add_bvh(cJSON *root, const ec_bvh_stats *stats)
+{
+    cJSON *bvh = cJSON_AddObjectToObject(root, "bvh");
+    ec_json_whole(bvh, "nodes", stats->node_count);
+    ec_json_whole(bvh, "leaves", stats->leaf_count);
+    ec_json_whole(bvh, "max_depth", stats->max_depth);
+    ec_json_real(bvh, "sah_cost", stats->sah_cost);
+    ec_json_real(bvh, "leaf_fill", stats->leaf_fill);
+    ec_json_real(bvh, "build_seconds", stats->build_seconds);
+}
+
+ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error *err)
+{
+    const ec_scene *scene = report->scene;
+    cJSON *root = cJSON_CreateObject();
+    ec_json_text(root, "version", ECLAT_VERSION);
+    ec_json_text(root, "scene", report->path);
+    add_geometry(root, scene);
+    add_lights(root, report);
+    add_cameras(root, scene);
+    add_list(root, "extensions_used", scene->extensions_used, scene->extension_count);
+    add_list(root, "extensions_unsupported", scene->extensions_ignored, scene->extension_ignored_count);
+    ec_json_words(root, "effects", report->effects);
+    add_bvh(root, &report->bvh);
+    ec_json_real(root, "load_seconds", report->load_seconds);
+    ec_json_whole(root, "device_bytes", report->device_bytes);
+    ec_json_whole(root, "peak_memory_bytes", report->peak_memory_bytes);
+    return ec_json_print(root, to, err);
+}

@@ -1,0 +1,33 @@
+/* What a scene holds and what rendering it takes, in text and in JSON. */
+#ifndef EC_REPORT_SCENE_REPORT_H
+#define EC_REPORT_SCENE_REPORT_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "accel/bvh.h"
+#include "scene/scene.h"
+
+typedef struct ec_scene_report {
+    const char *path;
+    const ec_scene *scene;
+    uint32_t emissive_triangles; /* whose material emits or is unlit */
+    uint32_t light_types[3];     /* by ec_light_type */
+    const char *effects;         /* blank separated */
+    uint64_t device_bytes;       /* the scene's buffers on the device */
+    uint64_t peak_memory_bytes;  /* of this process: loading, and building the BVH */
+    double load_seconds;
+    ec_bvh_stats bvh;
+    bool has_light;
+} ec_scene_report;
+
+/* Fills what can be counted in the scene. */
+void ec_scene_report_count(ec_scene_report *report);
+
+void ec_scene_report_text(const ec_scene_report *report, FILE *to);
+ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error *err);
+
+/* "0 'Main' (perspective, 39.3 degrees high)" */
+void ec_camera_describe(const ec_scene *scene, uint32_t index, char *text, size_t size);
+
+#endif

@@ -1,0 +1,88 @@
+#include <math.h>
+#include <string.h>
+
+#include "report/format.h"
+#include "report/scene_report.h"
+
+#define DEGREES(radians) ((radians) * 57.29577951308232)
+
+void ec_camera_describe(const ec_scene *scene, uint32_t index, char *text, size_t size)
+{
+    const ec_camera *camera = &scene->cameras[index];
+    int used = snprintf(text, size, "%u ", index);
+    if (camera->name) used += snprintf(text + used, size - (size_t)used, "'%.100s' ", camera->name);
+    if (camera->type == EC_CAMERA_PERSPECTIVE)
+        snprintf(text + used, size - (size_t)used, "(perspective, %.3g degrees high)", DEGREES(camera->yfov));
+    else
+        snprintf(text + used, size - (size_t)used, "(orthographic, %.3g x %.3g)", 2 * camera->xmag, 2 * camera->ymag);
+}
+
+static void print_geometry(const ec_scene *scene, FILE *to)
+{
+    fprintf(to, "geometry    %u meshes in %u instances, %u nodes\n", scene->mesh_count, scene->instance_count,
+            scene->node_count);
+    fprintf(to, "triangles   %u, with %u vertices\n", scene->triangle_count, scene->vertex_count);
+    if (scene->dropped_degenerate || scene->dropped_nonfinite)
+        fprintf(to, "dropped     %u degenerate and %u non-finite triangles\n", scene->dropped_degenerate,
+                scene->dropped_nonfinite);
+    if (scene->skipped_primitives) fprintf(to, "skipped     %u primitives of points or lines\n", scene->skipped_primitives);
+    if (scene->triangle_count)
+        fprintf(to, "extent      %.4g x %.4g x %.4g\n", (double)scene->bounds_max[0] - scene->bounds_min[0],
+                (double)scene->bounds_max[1] - scene->bounds_min[1], (double)scene->bounds_max[2] - scene->bounds_min[2]);
+    fprintf(to, "materials   %u, with %u textures from %u images\n", scene->material_count, scene->texture_count,
+            scene->image_count);
+}
+
+static void print_lights(const ec_scene_report *report, FILE *to)
+{
+    fprintf(to, "lights      %u emissive triangles, %u point, %u spot, %u directional, %s\n", report->emissive_triangles,
+            report->light_types[EC_LIGHT_POINT], report->light_types[EC_LIGHT_SPOT],
+            report->light_types[EC_LIGHT_DIRECTIONAL],
+            report->scene->has_environment ? "an environment" : "no environment");
+    if (!report->has_light) fputs("            none at all: a render takes a constant white environment\n", to);
+}
+
+static void print_cameras(const ec_scene *scene, FILE *to)
+{
+    for (uint32_t i = 0; i < scene->camera_count; i++) {
+        char text[256];
+        ec_camera_describe(scene, i, text, sizeof text);
+        fprintf(to, "%s%s%s\n", i == 0 ? "cameras     " : "            ", text,
+                scene->camera_count > 1 && i == scene->default_camera ? ", the default" : "");
+    }
+}
+
+static void print_list(const char *title, char **names, uint32_t count, FILE *to)
+{
+    fprintf(to, "%s", title);
+    if (count == 0) fputs("none", to);
+    for (uint32_t i = 0; i < count; i++) fprintf(to, "%s%s", i ? ", " : "", names[i]);
+    fputc('\n', to);
+}
+
+static void print_cost(const ec_scene_report *report, FILE *to)
+{
+    const ec_bvh_stats *bvh = &report->bvh;
+    char device[32], host[32], load[32], build[32];
+    ec_format_bytes(report->device_bytes, device, sizeof device);
+    ec_format_bytes(report->peak_memory_bytes, host, sizeof host);
+    ec_format_seconds(report->load_seconds, load, sizeof load);
+    ec_format_seconds(bvh->build_seconds, build, sizeof build);
+    fprintf(to, "effects     %s\n", *report->effects ? report->effects : "none");
+    fprintf(to, "memory      %s on the device for the scene, without the film; %s on the host at peak\n", device, host);
+    fprintf(to, "BVH         %u nodes, %u leaves, depth %u, SAH cost %.4g, leaf blocks %.0f %% full\n", bvh->node_count,
+            bvh->leaf_count, bvh->max_depth, bvh->sah_cost, 100 * bvh->leaf_fill);
+    fprintf(to, "time        %s to load, %s to build the BVH\n", load, build);
+}
+
+void ec_scene_report_text(const ec_scene_report *report, FILE *to)
+{
+    const ec_scene *scene = report->scene;
+    fprintf(to, "scene       %s\n", report->path);
+    print_geometry(scene, to);
+    print_lights(report, to);
+    print_cameras(scene, to);
+    print_list("extensions  ", scene->extensions_used, scene->extension_count, to);
+    print_list("unsupported ", scene->extensions_ignored, scene->extension_ignored_count, to);
+    print_cost(report, to);
+}

@@ -1,0 +1,140 @@
+/* Cameras: the file's, put where their nodes stand, or one that frames the whole scene. */
+#include "scene/flatten.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool normalize(double v[3])
+{
+    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!(length > 0) || !isfinite(length)) return false;
+    for (int i = 0; i < 3; i++) v[i] /= length;
+    return true;
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* An orthonormal frame nearest to looking along `forward` with `up` up; scale, shear and mirroring of the node do not
+ * belong to a camera and are dropped. */
+static void set_frame(ec_camera *camera, double forward[3], double up[3])
+{
+    double right[3];
+    if (!normalize(forward)) memcpy(forward, (double[3]){0, 0, -1}, 3 * sizeof *forward);
+    cross(forward, up, right);
+    if (!normalize(right)) {
+        int axis = fabs(forward[1]) < 0.9 ? 1 : 2;
+        double other[3] = {0, axis == 1, axis == 2};
+        cross(forward, other, right);
+        normalize(right);
+    }
+    cross(right, forward, up);
+    for (int i = 0; i < 3; i++) {
+        camera->right[i] = (float)right[i];
+        camera->up[i] = (float)up[i];
+        camera->forward[i] = (float)forward[i];
+    }
+}
+
+static bool place_camera(const ec_placement *at, const double center[3], ec_camera *camera)
+{
+    double forward[3], up[3];
+    bool finite = true;
+    for (int i = 0; i < 3; i++) {
+        forward[i] = -at->linear[3 * i + 2];
+        up[i] = at->linear[3 * i + 1];
+        camera->position[i] = (float)(at->origin[i] - center[i]);
+        finite = finite && isfinite(camera->position[i]);
+    }
+    if (!normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
+    set_frame(camera, forward, up);
+    return finite;
+}
+
+/* From the upper right of the front, 45 degrees high in view, near enough that the bounding sphere just fits. */
+static ec_camera framing_camera(const ec_scene *s)
+{
+    ec_camera camera = {.type = EC_CAMERA_PERSPECTIVE, .yfov = 0.7853982f};
+    double radius = 0;
+    for (int i = 0; i < 3; i++) {
+        double half = 0.5 * ((double)s->bounds_max[i] - s->bounds_min[i]);
+        radius += half * half;
+    }
+    radius = sqrt(radius);
+    double forward[3] = {-0.5, -0.35, -1}, up[3] = {0, 1, 0};
+    normalize(forward);
+    set_frame(&camera, forward, up);
+    double distance = radius / sin(0.5 * camera.yfov);
+    for (int i = 0; i < 3; i++) {
+        double middle = 0.5 * ((double)s->bounds_max[i] + s->bounds_min[i]);
+        camera.position[i] = (float)(middle - distance * forward[i]);
+    }
+    return camera;
+}
+
+static char *camera_name(const ec_gltf *g, int32_t node)
+{
+    const char *own = g->cameras[g->nodes[node].camera].name, *name = own ? own : g->nodes[node].name;
+    return name ? strdup(name) : NULL;
+}
+
+ec_result ec_gltf_cameras_place(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log,
+                                ec_error *err)
+{
+    s->cameras = calloc((size_t)placements->count + 1, sizeof *s->cameras);
+    if (!s->cameras) return ec_fail(err, "%s: out of memory for cameras", g->path);
+    for (uint32_t i = 0; i < placements->count; i++) {
+        const ec_placement *at = &placements->items[i];
+        int32_t index = g->nodes[at->node].camera;
+        if (index < 0) continue;
+        ec_camera camera = g->cameras[index];
+        if (!place_camera(at, s->center, &camera)) {
+            ec_warn(log, "%s: the camera at nodes[%d] stands at infinity; it is left out", g->path, at->node);
+            continue;
+        }
+        camera.name = camera_name(g, at->node);
+        s->cameras[s->camera_count++] = camera;
+    }
+    if (!s->camera_count) {
+        s->cameras[s->camera_count++] = framing_camera(s);
+        ec_note(log, "%s: no camera in the scene; using one that frames all of it", g->path);
+    }
+    return EC_OK;
+}
+
+static ec_result fail_listing(const ec_scene *s, const char *wanted, ec_error *err)
+{
+    char list[1024] = "";
+    for (uint32_t i = 0; i < s->camera_count; i++) {
+        char item[160];
+        const char *name = s->cameras[i].name;
+        snprintf(item, sizeof item, name ? "%s%u \"%.100s\"" : "%s%u", i ? ", " : "", i, name);
+        if (strlen(list) + strlen(item) + 5 > sizeof list) {
+            strcat(list, " ...");
+            break;
+        }
+        strcat(list, item);
+    }
+    return ec_fail(err, "there is no camera \"%.200s\"; there are: %s", wanted, list);
+}
+
+ec_result ec_scene_find_camera(const ec_scene *s, const char *name_or_index, uint32_t *camera, ec_error *err)
+{
+    for (uint32_t i = 0; i < s->camera_count; i++) {
+        if (!s->cameras[i].name || strcmp(s->cameras[i].name, name_or_index) != 0) continue;
+        *camera = i;
+        return EC_OK;
+    }
+    char *end;
+    errno = 0;
+    unsigned long index = strtoul(name_or_index, &end, 10);
+    bool is_number = *name_or_index >= '0' && *name_or_index <= '9' && !*end && !errno;
+    if (!is_number || index >= s->camera_count) return fail_listing(s, name_or_index, err);
+    *camera = (uint32_t)index;
+    return EC_OK;
+}

@@ -1,0 +1,56 @@
+/* Light from infinitely far away: one colour or an equirectangular picture. The orientation is that of Khronos' sample
+ * viewer and three.js; scene.h says it. */
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/image.h"
+
+/* "R,G,B": 1 = three numbers, 0 = does not look like numbers (so a file name), -1 = numbers, but not three good ones. */
+static int parse_color(const char *spec, float rgb[3])
+{
+    if (strspn(spec, "0123456789+-.eE, \t") != strlen(spec) || !strchr(spec, ',')) return 0;
+    for (int i = 0; i < 3; i++) {
+        char *end;
+        rgb[i] = strtof(spec, &end);
+        if (end == spec || !isfinite(rgb[i]) || rgb[i] < 0) return -1;
+        while (*end == ' ' || *end == '\t') end++;
+        if (*end != (i < 2 ? ',' : 0)) return -1;
+        spec = end + (i < 2);
+    }
+    return 1;
+}
+
+static uint64_t clean(float *values, uint64_t count)
+{
+    uint64_t bad = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        if (isfinite(values[i]) && values[i] >= 0) continue;
+        values[i] = 0;
+        bad++;
+    }
+    return bad;
+}
+
+ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *log, ec_error *err)
+{
+    ec_environment e = {0};
+    int color = parse_color(spec, e.constant);
+    if (color < 0)
+        return ec_fail(err, "environment \"%.200s\": three comma-separated numbers, none negative, are needed, e.g. 1,1,1",
+                       spec);
+    if (!color) {
+        memset(e.constant, 0, sizeof e.constant);
+        EC_TRY(ec_image_read_rgb(spec, &e.width, &e.height, &e.rgb, err));
+        uint64_t bad = clean(e.rgb, 3 * (uint64_t)e.width * e.height);
+        if (bad)
+            ec_warn(log, "%s: %llu values are NaN, infinite or negative; taken as 0", spec, (unsigned long long)bad);
+    }
+    free(s->environment.rgb);
+    s->environment = e;
+    s->has_environment = true;
+    return EC_OK;
+}

@@ -1,0 +1,233 @@
+/* Flattens placed meshes into one triangle soup: positions go through double, are recentred and only then rounded. */
+#include "scene/flatten_vertex.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define NO_VERTEX UINT32_MAX
+
+typedef ec_result (*draw_function)(ec_flattener *f, const ec_draw *d);
+
+static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, draw_function function)
+{
+    for (uint32_t i = 0; i < list->count; i++) {
+        int32_t mesh = g->nodes[list->items[i].node].mesh;
+        if (mesh < 0) continue;
+        ec_draw d = {.g = g, .at = &list->items[i]};
+        ec_gltf_normal_matrix(d.at->linear, d.normal_matrix);
+        d.mirrored = ec_gltf_determinant(d.at->linear) < 0;
+        for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
+            d.p = &g->meshes[mesh].primitives[k];
+            if (d.p->drawn) EC_TRY(function(f, &d));
+        }
+    }
+    return EC_OK;
+}
+
+static bool is_finite3(const double v[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (!isfinite((float)v[i])) return false;
+    return true;
+}
+
+/* How much there can be at most. */
+static ec_result count_draw(ec_flattener *f, const ec_draw *d)
+{
+    uint64_t range = (uint64_t)d->p->highest - d->p->lowest + 1, corners = 3 * d->p->triangle_count;
+    f->triangle_bound += d->p->triangle_count;
+    f->vertex_bound += range < corners ? range : corners;
+    if (f->triangle_bound > INT32_MAX || f->vertex_bound > INT32_MAX)
+        return ec_fail(f->err, "%s: more than %d triangles or vertices once all instances are counted; simplify the scene",
+                       d->g->path, INT32_MAX);
+    if (range > f->remap_size) f->remap_size = range;
+    f->has_normals |= d->p->normal >= 0;
+    f->has_tangents |= d->p->tangent >= 0 && d->p->normal >= 0;
+    f->has_colors |= d->p->color >= 0;
+    for (int i = 0; i < 2; i++) f->has_uv[i] |= d->p->uv[i] >= 0;
+    return EC_OK;
+}
+
+/* Many instances of one mesh make a small file huge: say so rather than be killed for it. */
+static ec_result check_memory(const ec_flattener *f, const char *path)
+{
+    uint64_t per_vertex = 12u + 12u * f->has_normals + 16u * f->has_tangents + 16u * f->has_colors +
+                          8u * f->has_uv[0] + 8u * f->has_uv[1];
+    uint64_t bytes = f->vertex_bound * per_vertex + f->triangle_bound * 16;
+    uint64_t memory = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
+    if (bytes <= memory) return EC_OK;
+    return ec_fail(f->err, "%s: %llu triangles once all instances are counted need %llu MB, this machine has %llu MB",
+                   path, (unsigned long long)f->triangle_bound, (unsigned long long)(bytes >> 20),
+                   (unsigned long long)(memory >> 20));
+}
+
+/* First pass: where it is. Vertices of triangles that will be dropped must not move the centre. */
+static ec_result measure_draw(ec_flattener *f, const ec_draw *d)
+{
+    for (uint64_t t = 0; t < d->p->triangle_count; t++) {
+        uint32_t v[3];
+        double world[3][3];
+        ec_gltf_primitive_triangle(d->g, d->p, t, v);
+        for (int i = 0; i < 3; i++) ec_draw_world_position(d, v[i], world[i]);
+        if (!is_finite3(world[0]) || !is_finite3(world[1]) || !is_finite3(world[2])) continue;
+        for (int i = 0; i < 9; i++) {
+            f->low[i % 3] = fmin(f->low[i % 3], world[i / 3][i % 3]);
+            f->high[i % 3] = fmax(f->high[i % 3], world[i / 3][i % 3]);
+        }
+    }
+    return EC_OK;
+}
+
+static void cross_edges(const float *a, const float *b, const float *c, double out[3])
+{
+    double u[3], v[3];
+    for (int i = 0; i < 3; i++) {
+        u[i] = (double)b[i] - a[i];
+        v[i] = (double)c[i] - a[i];
+    }
+    out[0] = u[1] * v[2] - u[2] * v[1];
+    out[1] = u[2] * v[0] - u[0] * v[2];
+    out[2] = u[0] * v[1] - u[1] * v[0];
+}
+
+static double largest_component(const double v[3])
+{
+    return fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+}
+
+/* Collinear as stored in the file: rounding after the transform could give such a triangle a meaningless area. */
+static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
+{
+    float local[3][3];
+    double normal[3];
+    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->position], v[i], 3, local[i]);
+    cross_edges(local[0], local[1], local[2], normal);
+    return largest_component(normal) == 0;
+}
+
+/* A triangle must have an area that floats can express; otherwise it is counted and left out. */
+static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], float position[3][3])
+{
+    double normal[3];
+    cross_edges(position[0], position[1], position[2], normal);
+    double size = largest_component(normal);
+    bool finite = isfinite((float)size);
+    for (int i = 0; i < 9; i++) finite = finite && isfinite(position[i / 3][i % 3]);
+    if (!finite) {
+        f->scene->dropped_nonfinite++;
+        return false;
+    }
+    if (size < FLT_MIN || is_flat_in_file(d, v)) {
+        f->scene->dropped_degenerate++;
+        return false;
+    }
+    return true;
+}
+
+/* Second pass. */
+static ec_result fill_draw(ec_flattener *f, const ec_draw *d)
+{
+    ec_scene *s = f->scene;
+    memset(f->remap, 0xff, ((uint64_t)d->p->highest - d->p->lowest + 1) * sizeof *f->remap);
+    for (uint64_t t = 0; t < d->p->triangle_count; t++) {
+        uint32_t v[3];
+        float position[3][3];
+        ec_gltf_primitive_triangle(d->g, d->p, t, v);
+        for (int i = 0; i < 3; i++) {
+            double world[3];
+            ec_draw_world_position(d, v[i], world);
+            for (int k = 0; k < 3; k++) position[i][k] = (float)(world[k] - s->center[k]);
+        }
+        if (!is_drawable(f, d, v, position)) continue;
+        size_t n = s->triangle_count++;
+        for (int i = 0; i < 3; i++) {
+            uint32_t *known = &f->remap[v[i] - d->p->lowest];
+            if (*known == NO_VERTEX) *known = ec_flattener_append_vertex(f, d, v[i], position[i]);
+            /* a mirrored mesh is turned, so that its front stays its front */
+            s->indices[3 * n + (size_t)(d->mirrored && i ? 3 - i : i)] = *known;
+        }
+        s->triangle_material[n] = d->p->scene_material;
+    }
+    return EC_OK;
+}
+
+static ec_result allocate(ec_flattener *f)
+{
+    ec_scene *s = f->scene;
+    size_t v = f->vertex_bound, t = f->triangle_bound;
+    f->remap = malloc(f->remap_size * sizeof *f->remap);
+    s->positions = malloc(v * 3 * sizeof(float));
+    s->indices = malloc(t * 3 * sizeof(uint32_t));
+    s->triangle_material = malloc(t * sizeof(uint32_t));
+    bool ok = f->remap && s->positions && s->indices && s->triangle_material;
+    if (f->has_normals) ok = (s->normals = malloc(v * 3 * sizeof(float))) && ok;
+    if (f->has_tangents) ok = (s->tangents = malloc(v * 4 * sizeof(float))) && ok;
+    if (f->has_colors) ok = (s->colors = malloc(v * 4 * sizeof(float))) && ok;
+    for (int i = 0; i < 2; i++)
+        if (f->has_uv[i]) ok = (s->uv[i] = malloc(v * 2 * sizeof(float))) && ok;
+    return ok ? EC_OK : ec_fail(f->err, "out of memory for %zu triangles", t);
+}
+
+/* Gives back what dropped triangles and unused vertices had reserved. */
+static void *shrink(void *block, size_t size)
+{
+    void *smaller = block ? realloc(block, size) : NULL;
+    return smaller ? smaller : block;
+}
+
+static void trim(ec_scene *s)
+{
+    size_t v = s->vertex_count * sizeof(float), t = s->triangle_count * sizeof(uint32_t);
+    s->positions = shrink(s->positions, 3 * v);
+    s->normals = shrink(s->normals, 3 * v);
+    s->tangents = shrink(s->tangents, 4 * v);
+    s->colors = shrink(s->colors, 4 * v);
+    for (int i = 0; i < 2; i++) s->uv[i] = shrink(s->uv[i], 2 * v);
+    s->indices = shrink(s->indices, 3 * t);
+    s->triangle_material = shrink(s->triangle_material, t);
+}
+
+static void set_bounds(ec_scene *s)
+{
+    for (int k = 0; k < 3; k++) {
+        s->bounds_min[k] = FLT_MAX;
+        s->bounds_max[k] = -FLT_MAX;
+    }
+    for (size_t i = 0; i < 3 * (size_t)s->vertex_count; i++) {
+        s->bounds_min[i % 3] = fminf(s->bounds_min[i % 3], s->positions[i]);
+        s->bounds_max[i % 3] = fmaxf(s->bounds_max[i % 3], s->positions[i]);
+    }
+}
+
+ec_result ec_flatten(const ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
+{
+    ec_flattener f = {.scene = s, .log = log, .err = err, .low = {INFINITY, INFINITY, INFINITY},
+                   .high = {-INFINITY, -INFINITY, -INFINITY}};
+    EC_TRY(for_each_draw(&f, g, placements, count_draw));
+    if (!f.triangle_bound)
+        return ec_fail(err, "%s: nothing to render: the scene has no triangles", g->path);
+    EC_TRY(check_memory(&f, g->path));
+    EC_TRY(for_each_draw(&f, g, placements, measure_draw));
+    bool any_finite = f.low[0] <= f.high[0];
+    for (int k = 0; k < 3; k++) s->center[k] = any_finite ? 0.5 * (f.low[k] + f.high[k]) : 0;
+    ec_result result = allocate(&f);
+    if (result == EC_OK) result = for_each_draw(&f, g, placements, fill_draw);
+    free(f.remap);
+    EC_TRY(result);
+    if (!s->triangle_count)
+        return ec_fail(err, "%s: nothing to render: of %llu triangles %u have no area and %u have NaN or infinite positions",
+                       g->path, (unsigned long long)f.triangle_bound, s->dropped_degenerate, s->dropped_nonfinite);
+    trim(s);
+    set_bounds(s);
+    if (s->dropped_nonfinite)
+        ec_warn(log, "%s: %u triangles with NaN or infinite positions are left out", g->path, s->dropped_nonfinite);
+    if (s->dropped_degenerate)
+        ec_note(log, "%s: %u triangles without area are left out", g->path, s->dropped_degenerate);
+    if (f.odd_values)
+        ec_warn(log, "%s: %llu NaN or infinite texture coordinates or colours are taken as 0", g->path,
+                (unsigned long long)f.odd_values);
+    return EC_OK;
+}

@@ -1,0 +1,32 @@
+/* From placed glTF meshes to the scene's triangle soup. Inside host/scene/ only. */
+#ifndef EC_SCENE_FLATTEN_H
+#define EC_SCENE_FLATTEN_H
+
+#include "scene/gltf_tree.h"
+
+/* Checks every primitive that stands somewhere and counts what is skipped. */
+ec_result ec_flatten_prepare(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
+                             ec_error *err);
+
+/* Fills vertices, triangles, bounds, center and the counters of dropped triangles. Fails where nothing is left. */
+ec_result ec_flatten(const ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
+                     ec_error *err);
+
+/* materials.c: moves the materials into the scene and gives each drawn primitive its index there: a material is
+ * doubled where some meshes lack a texture coordinate set that it uses. */
+ec_result ec_gltf_materials_assign(ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
+
+/* textures.c: decodes the images that drawn materials use; a texture whose image is unusable is left out. */
+ec_result ec_gltf_textures_load(ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
+
+/* image_decode.c: PNG and JPEG. false: cannot be decoded, *reason says why. */
+bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, const char **reason);
+
+/* camera.c */
+ec_result ec_gltf_cameras_place(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
+                                ec_error *err);
+/* lights.c */
+ec_result ec_gltf_lights_place(const ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene,
+                               const ec_log *log, ec_error *err);
+
+#endif

@@ -1,0 +1,128 @@
+/* A glTF file as plain C data: what the shim read, with every index already known to be in range. Inside host/scene/
+ * only; the rest of the program sees ec_scene. Indices are int32_t, -1 where the file names none. */
+#ifndef EC_SCENE_GLTF_H
+#define EC_SCENE_GLTF_H
+
+#include "scene/scene.h"
+
+/* glTF's own codes for component types and primitive modes. */
+enum { EC_GLTF_BYTE = 5120, EC_GLTF_UBYTE, EC_GLTF_SHORT, EC_GLTF_USHORT, EC_GLTF_UINT = 5125, EC_GLTF_FLOAT };
+enum { EC_GLTF_POINTS, EC_GLTF_LINES, EC_GLTF_LINE_LOOP, EC_GLTF_LINE_STRIP, EC_GLTF_TRIANGLES, EC_GLTF_STRIP,
+       EC_GLTF_FAN };
+
+typedef struct ec_gltf_buffer {
+    const uint8_t *data; /* NULL: the file gives none (allowed while nobody reads it) */
+    uint64_t length;
+    uint8_t *owned;      /* NULL where data lies in the .glb's own bytes */
+} ec_gltf_buffer;
+
+typedef struct ec_gltf_view {
+    int32_t buffer;
+    uint64_t offset, length;
+    uint32_t stride; /* 0 = packed */
+} ec_gltf_view;
+
+typedef struct ec_gltf_sparse {
+    uint64_t count;
+    int32_t index_view, value_view;
+    uint64_t index_offset, value_offset;
+    uint32_t index_type;
+} ec_gltf_sparse;
+
+typedef struct ec_gltf_accessor {
+    int32_t view;
+    uint64_t offset, count;
+    uint32_t component_type;
+    uint32_t components; /* 1..4; 0 for matrices, which no stream of a scene uses */
+    bool normalized;
+    ec_gltf_sparse sparse; /* count 0: dense */
+    /* Set by ec_gltf_accessor_open: */
+    bool open;
+    const uint8_t *data; /* NULL: all zeros */
+    uint64_t stride;
+    uint8_t *owned;      /* sparse: base and replacements merged */
+} ec_gltf_accessor;
+
+typedef struct ec_gltf_primitive {
+    int32_t mode, material, indices;
+    int32_t position, normal, tangent, color, uv[2]; /* accessors */
+    /* Set by ec_gltf_primitive_prepare and, the material, by ec_gltf_materials_assign: */
+    bool prepared, drawn;              /* drawn: makes triangles */
+    uint64_t triangle_count;
+    uint32_t lowest, highest;          /* vertices it refers to */
+    uint32_t scene_material;
+} ec_gltf_primitive;
+
+typedef struct ec_gltf_mesh {
+    char *name;
+    ec_gltf_primitive *primitives;
+    uint32_t primitive_count;
+} ec_gltf_mesh;
+
+typedef struct ec_gltf_node {
+    char *name;
+    double local[16]; /* column major, as in the file */
+    int32_t mesh, camera, light;
+    int32_t *children;
+    uint32_t child_count;
+} ec_gltf_node;
+
+/* Encoded pixels: a bufferView or a URI, the latter already checked for shape but not yet opened. */
+typedef struct ec_gltf_image {
+    char *name, *uri;
+    int32_t view;
+} ec_gltf_image;
+
+typedef struct ec_gltf_texture {
+    int32_t image; /* -1: none, or only one in a format of an unsupported extension */
+    ec_wrap wrap_s, wrap_t;
+    bool nearest;
+} ec_gltf_texture;
+
+typedef struct ec_gltf {
+    const char *path;  /* for messages; the caller's */
+    char *folder;      /* where URIs start, "" or with a trailing slash */
+    uint8_t *file;     /* the whole .glb, where buffers point into it */
+    ec_gltf_buffer *buffers;
+    ec_gltf_view *views;
+    ec_gltf_accessor *accessors;
+    ec_gltf_mesh *meshes;
+    ec_gltf_node *nodes;
+    ec_gltf_image *images;
+    ec_gltf_texture *textures;
+    ec_material *materials; /* their texture uses hold glTF texture indices */
+    ec_camera *cameras;     /* unplaced */
+    ec_light *lights;       /* unplaced */
+    uint32_t buffer_count, view_count, accessor_count, mesh_count, node_count, image_count, texture_count,
+        material_count, camera_count, light_count;
+    int32_t *roots;         /* nodes of the scene to show */
+    uint32_t root_count;
+    bool quantized;         /* KHR_mesh_quantization: integer positions, normals, tangents */
+    char **extensions_used, **extensions_ignored;
+    uint32_t extension_count, extension_ignored_count;
+} ec_gltf;
+
+/* gltf_shim.cpp: parses, checks shape and index ranges, loads the buffers. No exception leaves it. */
+ec_result ec_gltf_read(const char *path, ec_gltf **gltf, const ec_log *log, ec_error *err);
+void ec_gltf_free(ec_gltf *gltf); /* NULL is fine */
+
+/* gltf_uri.c */
+ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err); /* leaves the folder? */
+ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *uri, uint8_t **bytes, uint64_t *length,
+                           ec_error *err);
+ec_result ec_gltf_file_load(const char *file, uint8_t **bytes, uint64_t *length, ec_error *err);
+
+/* gltf_accessor.c: all reading of buffers goes through here. Open before read; `what` is for the message, e.g.
+ * "meshes[2].primitives[0] POSITION". */
+ec_result ec_gltf_check_views(const ec_gltf *gltf, ec_error *err);
+ec_result ec_gltf_accessor_open(ec_gltf *gltf, int32_t accessor, const char *what, ec_error *err);
+void ec_gltf_accessor_floats(const ec_gltf_accessor *accessor, uint64_t element, uint32_t count, float *out);
+uint32_t ec_gltf_accessor_index(const ec_gltf_accessor *accessor, uint64_t element);
+
+/* gltf_primitive.c: checks a primitive's accessors and indices once; afterwards its triangles can be read freely. A
+ * primitive without triangles is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
+ec_result ec_gltf_primitive_prepare(ec_gltf *gltf, ec_gltf_primitive *primitive, const char *where, ec_error *err);
+void ec_gltf_primitive_triangle(const ec_gltf *gltf, const ec_gltf_primitive *primitive, uint64_t triangle,
+                                uint32_t vertices[3]);
+
+#endif

@@ -1,0 +1,52 @@
+/* Releases a glTF document, also a half-built one. */
+#include "scene/gltf.h"
+
+#include <stdlib.h>
+
+static void free_strings(char **list, uint32_t count)
+{
+    for (uint32_t i = 0; list && i < count; i++) free(list[i]);
+    free(list);
+}
+
+static void free_geometry(ec_gltf *g)
+{
+    for (uint32_t i = 0; i < g->buffer_count; i++) free(g->buffers[i].owned);
+    for (uint32_t i = 0; i < g->accessor_count; i++) free(g->accessors[i].owned);
+    for (uint32_t i = 0; i < g->mesh_count; i++) {
+        free(g->meshes[i].name);
+        free(g->meshes[i].primitives);
+    }
+    for (uint32_t i = 0; i < g->node_count; i++) {
+        free(g->nodes[i].name);
+        free(g->nodes[i].children);
+    }
+    free(g->file);
+    free(g->buffers);
+    free(g->views);
+    free(g->accessors);
+    free(g->meshes);
+    free(g->nodes);
+    free(g->roots);
+}
+
+void ec_gltf_free(ec_gltf *g)
+{
+    if (!g) return;
+    free_geometry(g);
+    for (uint32_t i = 0; i < g->image_count; i++) {
+        free(g->images[i].name);
+        free(g->images[i].uri);
+    }
+    for (uint32_t i = 0; g->materials && i < g->material_count; i++) free(g->materials[i].name);
+    for (uint32_t i = 0; i < g->camera_count; i++) free(g->cameras[i].name);
+    free(g->images);
+    free(g->textures);
+    free(g->materials);
+    free(g->cameras);
+    free(g->lights);
+    free_strings(g->extensions_used, g->extension_count);
+    free_strings(g->extensions_ignored, g->extension_ignored_count);
+    free(g->folder);
+    free(g);
+}

@@ -1,0 +1,152 @@
+/* tinygltf's materials, samplers and textures to ours. */
+#include "scene/gltf_shim.h"
+
+#include <cmath>
+
+namespace eclat {
+
+using tinygltf::Value;
+
+static const Value *find_extension(const tinygltf::ExtensionMap &extensions, const char *name)
+{
+    auto found = extensions.find(name);
+    return found == extensions.end() ? nullptr : &found->second;
+}
+
+static double get_number(const Value &object, const char *key, double fallback)
+{
+    if (!object.Has(key) || !object.Get(key).IsNumber()) return fallback;
+    return object.Get(key).GetNumberAsDouble();
+}
+
+/* Element i of an array member. */
+static double get_element(const Value &object, const char *key, int i, double fallback)
+{
+    if (!object.Has(key) || !object.Get(key).IsArray() || size_t(i) >= object.Get(key).ArrayLen()) return fallback;
+    return object.Get(key).Get(i).GetNumberAsDouble();
+}
+
+static const ec_texture_use no_texture = {-1, 0, {1, 0, 0, 0, 1, 0}};
+
+/* KHR_texture_transform: T x R x S, the rotation being counter-clockwise as seen with v pointing down. */
+static void set_transform(ec_texture_use &use, int64_t &uv_set, const Value &t)
+{
+    double angle = get_number(t, "rotation", 0), c = std::cos(angle), s = std::sin(angle);
+    double sx = get_element(t, "scale", 0, 1), sy = get_element(t, "scale", 1, 1);
+    double matrix[6] = {c * sx, s * sy, get_element(t, "offset", 0, 0), -s * sx, c * sy, get_element(t, "offset", 1, 0)};
+    for (int i = 0; i < 6; i++) use.transform[i] = float(matrix[i]);
+    uv_set = int64_t(get_number(t, "texCoord", double(uv_set)));
+}
+
+static ec_texture_use make_use(int index, int64_t uv_set, const Value *transform, const std::string &where,
+                               const ec_gltf *gltf, const ec_log *log)
+{
+    ec_texture_use use = no_texture;
+    if (index < 0) return use;
+    use.texture = index;
+    if (transform) set_transform(use, uv_set, *transform);
+    if (uv_set < 0 || uv_set > 1) {
+        ec_warn(log, "%s: %s wants TEXCOORD_%lld, but only sets 0 and 1 are supported; the texture is left out",
+                gltf->path, where.c_str(), (long long)uv_set);
+        return no_texture;
+    }
+    use.uv_set = uint32_t(uv_set);
+    return use;
+}
+
+static ec_texture_use make_use(const Value &extension, const char *key, const std::string &where, const ec_gltf *gltf,
+                               const ec_log *log)
+{
+    if (!extension.Has(key)) return no_texture;
+    const Value &info = extension.Get(key);
+    const Value *transform = nullptr;
+    if (info.Has("extensions") && info.Get("extensions").Has("KHR_texture_transform"))
+        transform = &info.Get("extensions").Get("KHR_texture_transform");
+    return make_use(int(get_number(info, "index", -1)), int64_t(get_number(info, "texCoord", 0)), transform,
+                    where + "." + key, gltf, log);
+}
+
+static void copy_floats(float *out, const std::vector<double> &in, size_t count)
+{
+    for (size_t i = 0; i < count && i < in.size(); i++) out[i] = float(in[i]);
+}
+
+static void set_specular(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf,
+                         const ec_log *log)
+{
+    out.specular = out.specular_color[0] = out.specular_color[1] = out.specular_color[2] = 1;
+    out.specular_texture = out.specular_color_texture = no_texture;
+    const Value *s = find_extension(in.extensions, "KHR_materials_specular");
+    if (!s) return;
+    out.specular = float(get_number(*s, "specularFactor", 1));
+    for (int i = 0; i < 3; i++) out.specular_color[i] = float(get_element(*s, "specularColorFactor", i, 1));
+    out.specular_texture = make_use(*s, "specularTexture", where, gltf, log);
+    out.specular_color_texture = make_use(*s, "specularColorTexture", where, gltf, log);
+}
+
+static void set_emission(ec_material &out, const tinygltf::Material &in)
+{
+    const Value *strength = find_extension(in.extensions, "KHR_materials_emissive_strength");
+    double factor = strength ? get_number(*strength, "emissiveStrength", 1) : 1;
+    for (size_t i = 0; i < 3 && i < in.emissiveFactor.size(); i++)
+        out.emission[i] = float(in.emissiveFactor[i] * factor);
+}
+
+static void set_material(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf,
+                         const ec_log *log)
+{
+    auto use = [&](const auto &info, const char *name) {
+        return make_use(info.index, info.texCoord, find_extension(info.extensions, "KHR_texture_transform"),
+                        where + "." + name, gltf, log);
+    };
+    const tinygltf::PbrMetallicRoughness &pbr = in.pbrMetallicRoughness;
+    out.base_color[0] = out.base_color[1] = out.base_color[2] = out.base_color[3] = 1;
+    copy_floats(out.base_color, pbr.baseColorFactor, 4);
+    out.metallic = float(pbr.metallicFactor);
+    out.roughness = float(pbr.roughnessFactor);
+    out.normal_scale = float(in.normalTexture.scale);
+    out.alpha_cutoff = float(in.alphaCutoff);
+    out.alpha_mode = in.alphaMode == "MASK" ? EC_ALPHA_MASK : in.alphaMode == "BLEND" ? EC_ALPHA_BLEND : EC_ALPHA_OPAQUE;
+    out.double_sided = in.doubleSided;
+    out.unlit = find_extension(in.extensions, "KHR_materials_unlit") != nullptr;
+    out.base_color_texture = use(pbr.baseColorTexture, "baseColorTexture");
+    out.metallic_roughness_texture = use(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
+    out.normal_texture = use(in.normalTexture, "normalTexture");
+    out.emission_texture = use(in.emissiveTexture, "emissiveTexture");
+    set_emission(out, in);
+    set_specular(out, in, where, gltf, log);
+    out.name = copy_string(in.name);
+}
+
+void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log)
+{
+    gltf->materials = make_array<ec_material>(model.materials.size());
+    for (const tinygltf::Material &in : model.materials) {
+        std::string where = "materials[" + std::to_string(gltf->material_count) + "]";
+        if (!in.name.empty()) where += " \"" + in.name.substr(0, 80) + "\"";
+        set_material(gltf->materials[gltf->material_count++], in, where, gltf, log);
+    }
+}
+
+static ec_wrap convert_wrap(int wrap)
+{
+    return wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? EC_WRAP_CLAMP
+           : wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? EC_WRAP_MIRROR
+                                                           : EC_WRAP_REPEAT;
+}
+
+void convert_textures(const tinygltf::Model &model, ec_gltf *gltf)
+{
+    gltf->textures = make_array<ec_gltf_texture>(model.textures.size());
+    for (const tinygltf::Texture &in : model.textures) {
+        ec_gltf_texture &out = gltf->textures[gltf->texture_count++];
+        out = {in.source, EC_WRAP_REPEAT, EC_WRAP_REPEAT, false};
+        if (in.sampler < 0) continue;
+        const tinygltf::Sampler &sampler = model.samplers[size_t(in.sampler)];
+        out.wrap_s = convert_wrap(sampler.wrapS);
+        out.wrap_t = convert_wrap(sampler.wrapT);
+        out.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+}
+
+} // namespace eclat

@@ -1,0 +1,318 @@
+/* The shape of a glTF document as tables, and one checker that walks them. tinygltf silently replaces what it does not
+ * understand by defaults; here it is an error that says where. Only members that eclat reads are listed. */
+#include "scene/gltf_shim.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace eclat {
+
+using nlohmann::json;
+
+enum class kind { index, indices, count, number, numbers, text, texts, flag, choice, object, objects, dictionary };
+
+struct schema;
+struct field {
+    const char *name;
+    kind type;
+    bool required;
+    const char *detail;    /* index: the array pointed into; choice: what is allowed */
+    const schema *members; /* object(s) */
+    double low, high;      /* count; numbers: how many */
+};
+struct schema {
+    const field *fields;
+    size_t count;
+    template <size_t n> constexpr schema(const field (&list)[n]) : fields(list), count(n) {}
+};
+
+static const bool required = true;
+static const double huge_count = 9007199254740992.0; /* 2^53: exact in a double */
+
+static constexpr field index(const char *name, const char *target, bool needed = false)
+{
+    return {name, kind::index, needed, target, nullptr, 0, 0};
+}
+static constexpr field indices(const char *name, const char *target)
+{
+    return {name, kind::indices, false, target, nullptr, 0, 0};
+}
+static constexpr field count(const char *name, double low = 0, bool needed = false, double high = huge_count)
+{
+    return {name, kind::count, needed, nullptr, nullptr, low, high};
+}
+static constexpr field number(const char *name, bool needed = false)
+{
+    return {name, kind::number, needed, nullptr, nullptr, 0, 0};
+}
+static constexpr field numbers(const char *name, double length)
+{
+    return {name, kind::numbers, false, nullptr, nullptr, length, length};
+}
+static constexpr field plain(const char *name, kind type, bool needed = false)
+{
+    return {name, type, needed, nullptr, nullptr, 0, 0};
+}
+static constexpr field choice(const char *name, const char *allowed, bool needed = false)
+{
+    return {name, kind::choice, needed, allowed, nullptr, 0, 0};
+}
+static constexpr field object(const char *name, const schema &members, bool needed = false)
+{
+    return {name, kind::object, needed, nullptr, &members, 0, 0};
+}
+static constexpr field objects(const char *name, const schema &members, bool needed = false)
+{
+    return {name, kind::objects, needed, nullptr, &members, 0, 0};
+}
+
+static const double int_count = 2147483647; /* tinygltf keeps these in an int */
+
+static const field sparse_indices[] = {index("bufferView", "bufferViews", required), count("byteOffset", 0, false, int_count),
+                                       choice("componentType", "5121 5123 5125", required)};
+static const schema sparse_indices_s(sparse_indices);
+static const field sparse_values[] = {index("bufferView", "bufferViews", required), count("byteOffset", 0, false, int_count)};
+static const schema sparse_values_s(sparse_values);
+static const field sparse[] = {count("count", 1, required, int_count), object("indices", sparse_indices_s, required),
+                               object("values", sparse_values_s, required)};
+static const schema sparse_s(sparse);
+static const field accessor[] = {
+    index("bufferView", "bufferViews"), count("byteOffset"), count("count", 1, required),
+    choice("componentType", "5120 5121 5122 5123 5125 5126", required),
+    choice("type", "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4", required), plain("normalized", kind::flag),
+    object("sparse", sparse_s)};
+static const schema accessor_s(accessor);
+
+static const field buffer[] = {count("byteLength", 1, required), plain("uri", kind::text)};
+static const schema buffer_s(buffer);
+static const field view[] = {index("buffer", "buffers", required), count("byteOffset"), count("byteLength", 1, required),
+                             count("byteStride", 4, false, 252)};
+static const schema view_s(view);
+
+static const field attributes[] = {{"*", kind::dictionary, false, "accessors", nullptr, 0, 0}};
+static const schema attributes_s(attributes);
+static const field primitive[] = {object("attributes", attributes_s, required), index("indices", "accessors"),
+                                  index("material", "materials"), choice("mode", "0 1 2 3 4 5 6")};
+static const schema primitive_s(primitive);
+static const field mesh[] = {objects("primitives", primitive_s, required), plain("name", kind::text)};
+static const schema mesh_s(mesh);
+
+static const field node_light[] = {index("light", "lights", required)};
+static const schema node_light_s(node_light);
+static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s)};
+static const schema node_extensions_s(node_extensions);
+static const field node[] = {
+    indices("children", "nodes"), index("mesh", "meshes"), index("camera", "cameras"), numbers("matrix", 16),
+    numbers("translation", 3), numbers("rotation", 4), numbers("scale", 3), plain("name", kind::text),
+    object("extensions", node_extensions_s)};
+static const schema node_s(node);
+static const field scene[] = {indices("nodes", "nodes")};
+static const schema scene_s(scene);
+
+static const field perspective[] = {number("yfov", required), number("aspectRatio")};
+static const schema perspective_s(perspective);
+static const field orthographic[] = {number("xmag", required), number("ymag", required)};
+static const schema orthographic_s(orthographic);
+static const field camera[] = {choice("type", "perspective orthographic", required), object("perspective", perspective_s),
+                               object("orthographic", orthographic_s), plain("name", kind::text)};
+static const schema camera_s(camera);
+
+static const field image[] = {plain("uri", kind::text), index("bufferView", "bufferViews"), plain("name", kind::text)};
+static const schema image_s(image);
+static const field texture[] = {index("source", "images"), index("sampler", "samplers")};
+static const schema texture_s(texture);
+static const field sampler[] = {choice("magFilter", "9728 9729"),
+                                choice("minFilter", "9728 9729 9984 9985 9986 9987"),
+                                choice("wrapS", "10497 33071 33648"), choice("wrapT", "10497 33071 33648")};
+static const schema sampler_s(sampler);
+
+static const field transform[] = {numbers("offset", 2), number("rotation"), numbers("scale", 2),
+                                  count("texCoord", 0, false, int_count)};
+static const schema transform_s(transform);
+static const field info_extensions[] = {object("KHR_texture_transform", transform_s)};
+static const schema info_extensions_s(info_extensions);
+static const field texture_info[] = {index("index", "textures", required), count("texCoord", 0, false, int_count),
+                                     number("scale"), object("extensions", info_extensions_s)};
+static const schema texture_info_s(texture_info);
+
+static const field metallic_roughness[] = {
+    numbers("baseColorFactor", 4), number("metallicFactor"), number("roughnessFactor"),
+    object("baseColorTexture", texture_info_s), object("metallicRoughnessTexture", texture_info_s)};
+static const schema metallic_roughness_s(metallic_roughness);
+static const field specular[] = {number("specularFactor"), numbers("specularColorFactor", 3),
+                                 object("specularTexture", texture_info_s), object("specularColorTexture", texture_info_s)};
+static const schema specular_s(specular);
+static const field emissive_strength[] = {number("emissiveStrength")};
+static const schema emissive_strength_s(emissive_strength);
+static const field nothing[] = {plain("", kind::flag)};
+static const schema nothing_s(nothing);
+static const field material_extensions[] = {object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
+                                            object("KHR_materials_emissive_strength", emissive_strength_s)};
+static const schema material_extensions_s(material_extensions);
+static const field material[] = {
+    object("pbrMetallicRoughness", metallic_roughness_s), object("normalTexture", texture_info_s),
+    object("emissiveTexture", texture_info_s), numbers("emissiveFactor", 3), choice("alphaMode", "OPAQUE MASK BLEND"),
+    number("alphaCutoff"), plain("doubleSided", kind::flag), plain("name", kind::text),
+    object("extensions", material_extensions_s)};
+static const schema material_s(material);
+
+static const field spot[] = {number("innerConeAngle"), number("outerConeAngle")};
+static const schema spot_s(spot);
+static const field light[] = {choice("type", "point spot directional", required), numbers("color", 3), number("intensity"),
+                              number("range"), object("spot", spot_s), plain("name", kind::text)};
+static const schema light_s(light);
+static const field lights[] = {objects("lights", light_s, required)};
+static const schema lights_s(lights);
+static const field root_extensions[] = {object("KHR_lights_punctual", lights_s)};
+static const schema root_extensions_s(root_extensions);
+
+static const field asset[] = {plain("version", kind::text, required), plain("minVersion", kind::text)};
+static const schema asset_s(asset);
+static const field document[] = {
+    object("asset", asset_s, required), plain("extensionsUsed", kind::texts), plain("extensionsRequired", kind::texts),
+    object("extensions", root_extensions_s), objects("buffers", buffer_s), objects("bufferViews", view_s),
+    objects("accessors", accessor_s), objects("meshes", mesh_s), objects("nodes", node_s), objects("scenes", scene_s),
+    index("scene", "scenes"), objects("cameras", camera_s), objects("images", image_s), objects("textures", texture_s),
+    objects("samplers", sampler_s), objects("materials", material_s)};
+static const schema document_s(document);
+
+class checker {
+  public:
+    checker(json &document_root, const char *file, const ec_log *warnings)
+        : root(document_root), path(file), log(warnings)
+    {
+    }
+
+    void check_object(json &value, const schema &shape, const std::string &where)
+    {
+        if (!value.is_object()) fail(where, "must be an object");
+        for (size_t i = 0; i < shape.count; i++) {
+            const field &f = shape.fields[i];
+            if (f.type == kind::dictionary) {
+                for (auto &item : value.items()) check_index(item.value(), f.detail, join(where, item.key()));
+                continue;
+            }
+            auto found = value.find(f.name);
+            if (found == value.end()) {
+                if (f.required) fail(join(where, f.name), "is missing");
+            } else if (!check_value(*found, f, join(where, f.name))) {
+                value.erase(found);
+            }
+        }
+    }
+
+  private:
+    json &root;
+    const char *path;
+    const ec_log *log;
+
+    [[noreturn]] static void fail(const std::string &where, const std::string &what)
+    {
+        throw bad_file((where.empty() ? std::string("the document") : where) + " " + what);
+    }
+    static std::string join(const std::string &where, const std::string &name)
+    {
+        return where.empty() ? name : where + "." + name;
+    }
+    static std::string item(const std::string &where, size_t i) { return where + "[" + std::to_string(i) + "]"; }
+
+    /* false: leave it out, the default will do. */
+    bool check_value(json &value, const field &f, const std::string &where)
+    {
+        switch (f.type) {
+        case kind::index: check_index(value, f.detail, where); break;
+        case kind::count: check_count(value, f.low, f.high, where); break;
+        case kind::number: check_number(value, where); break;
+        case kind::text: check_text(value, where); break;
+        case kind::flag:
+            if (!value.is_boolean()) fail(where, "must be true or false");
+            break;
+        case kind::choice: return check_choice(value, f, where);
+        case kind::object: check_object(value, *f.members, where); break;
+        default: check_array(value, f, where);
+        }
+        return true;
+    }
+
+    void check_array(json &value, const field &f, const std::string &where)
+    {
+        if (!value.is_array()) fail(where, "must be an array");
+        if (f.type == kind::numbers && double(value.size()) != f.low)
+            fail(where, "must have " + std::to_string(int(f.low)) + " numbers, not " + std::to_string(value.size()));
+        if (double(value.size()) > int_count) fail(where, "has too many elements");
+        for (size_t i = 0; i < value.size(); i++) {
+            switch (f.type) {
+            case kind::indices: check_index(value[i], f.detail, item(where, i)); break;
+            case kind::numbers: check_number(value[i], item(where, i)); break;
+            case kind::texts: check_text(value[i], item(where, i)); break;
+            default: check_object(value[i], *f.members, item(where, i));
+            }
+        }
+    }
+
+    void check_number(json &value, const std::string &where)
+    {
+        if (!value.is_number()) fail(where, "must be a number");
+        if (!std::isfinite(float(value.get<double>()))) fail(where, "is too large: " + value.dump());
+        value = value.get<double>(); /* tinygltf cuts integers in extensions to 32 bits */
+    }
+
+    void check_text(const json &value, const std::string &where)
+    {
+        if (!value.is_string()) fail(where, "must be a string");
+    }
+
+    void check_count(json &value, double low, double high, const std::string &where)
+    {
+        double n = value.is_number() ? value.get<double>() : -1;
+        if (n < 0 || n != std::floor(n)) fail(where, "must be a non-negative integer");
+        if (n < low || n > high) fail(where, "is out of range: " + value.dump());
+        value = uint64_t(n); /* 3.0 is a legal way to write 3, which tinygltf would refuse */
+    }
+
+    void check_index(json &value, const char *target, const std::string &where)
+    {
+        check_count(value, 0, int_count, where);
+        size_t size = array_size(target), i = value.get<size_t>();
+        if (i >= size)
+            fail(where, "is " + std::to_string(i) + " but the file has " + std::to_string(size) + " " + target);
+    }
+
+    size_t array_size(const std::string &name)
+    {
+        const json *holder = &root;
+        if (name == "lights") {
+            for (const char *step : {"extensions", "KHR_lights_punctual"}) {
+                auto found = holder->find(step);
+                if (found == holder->end() || !found->is_object()) return 0;
+                holder = &*found;
+            }
+        }
+        auto found = holder->find(name);
+        return found != holder->end() && found->is_array() ? found->size() : 0;
+    }
+
+    bool check_choice(const json &value, const field &f, const std::string &where)
+    {
+        std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+        std::istringstream words(f.detail);
+        for (std::string word; words >> word;)
+            if (word == text) return true;
+        if (f.required) fail(where, "is " + text + ", not one of: " + f.detail);
+        ec_warn(log, "%s: %s is %.80s, not one of: %s; using the default", path, printable(where).c_str(), printable(text).c_str(), f.detail);
+        return false;
+    }
+};
+
+void check_document(json &root, const char *path, const ec_log *log)
+{
+    checker(root, path, log).check_object(root, document_s, "");
+    size_t i = 0;
+    for (const json &v : root.value("bufferViews", json::array())) {
+        if (v.value("byteStride", 4) % 4)
+            throw bad_file("bufferViews[" + std::to_string(i) + "].byteStride must be a multiple of 4");
+        i++;
+    }
+}
+
+} // namespace eclat

@@ -1,0 +1,65 @@
+/* Between the C++ files of the glTF reader; C code includes scene/gltf.h. Inside, problems are thrown as bad_file;
+ * ec_gltf_read turns every exception into an ec_error. */
+#ifndef EC_SCENE_GLTF_SHIM_H
+#define EC_SCENE_GLTF_SHIM_H
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <tiny_gltf.h>
+
+extern "C" {
+#include "scene/gltf.h"
+}
+
+namespace eclat {
+
+struct bad_file : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/* gltf_json.cpp: the bytes of a .gltf or .glb to a JSON tree; *chunk is the .glb's binary chunk or NULL. */
+struct container {
+    nlohmann::json root;
+    const uint8_t *chunk;
+    uint64_t chunk_length;
+};
+container parse_container(const uint8_t *bytes, uint64_t length);
+
+/* gltf_schema.cpp: types, required members, ranges and index ranges of everything eclat reads. Repairs what glTF only
+ * warns about (an unknown filter, say). */
+void check_document(nlohmann::json &root, const char *path, const ec_log *log);
+
+/* gltf_material.cpp */
+void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
+void convert_textures(const tinygltf::Model &model, ec_gltf *gltf);
+
+/* Zeroed C arrays and strings, so that ec_gltf_free can release half a document. */
+template <typename T> T *make_array(size_t count)
+{
+    T *array = static_cast<T *>(calloc(count ? count : 1, sizeof(T)));
+    if (!array) throw std::bad_alloc();
+    return array;
+}
+inline char *copy_bytes(const std::string &text)
+{
+    char *copy = strdup(text.c_str());
+    if (!copy) throw std::bad_alloc();
+    return copy;
+}
+
+/* What a file says about itself ends up in messages: no line breaks and no terminal escapes. */
+inline std::string printable(std::string text)
+{
+    for (char &c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+    return text;
+}
+inline char *copy_string(const std::string &name)
+{
+    return name.empty() ? nullptr : copy_bytes(printable(name));
+}
+
+} // namespace eclat
+
+#endif

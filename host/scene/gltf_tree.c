@@ -1,0 +1,134 @@
+/* Walks the node tree without recursion: a file may be a chain of a million nodes. */
+#include "scene/gltf_tree.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void describe_node(const ec_gltf *g, int32_t node, char text[128])
+{
+    const char *name = g->nodes[node].name;
+    snprintf(text, 128, name ? "nodes[%d] \"%.80s\"" : "nodes[%d]", node, name);
+}
+
+/* parent[i] = -1 for roots. */
+static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
+{
+    for (uint32_t i = 0; i < g->node_count; i++) parent[i] = -1;
+    for (uint32_t i = 0; i < g->node_count; i++) {
+        for (uint32_t c = 0; c < g->nodes[i].child_count; c++) {
+            int32_t child = g->nodes[i].children[c];
+            if (parent[child] >= 0) {
+                char name[128];
+                describe_node(g, child, name);
+                return ec_fail(err, "%s: %s is a child of nodes[%d] and of nodes[%u]; glTF's nodes must form a tree",
+                               g->path, name, parent[child], i);
+            }
+            parent[child] = (int32_t)i;
+        }
+    }
+    return EC_OK;
+}
+
+/* Every node has at most one parent here, so going up from a node on a cycle comes back to where it started. */
+static ec_result check_cycles(const ec_gltf *g, const int32_t *parent, uint32_t *seen_from, ec_error *err)
+{
+    for (uint32_t i = 0; i < g->node_count; i++) {
+        int32_t at = (int32_t)i;
+        while (at >= 0 && !seen_from[at]) {
+            seen_from[at] = i + 1;
+            at = parent[at];
+        }
+        if (at >= 0 && seen_from[at] == i + 1) {
+            char name[128];
+            describe_node(g, at, name);
+            return ec_fail(err, "%s: the node tree has a cycle through %s; a node cannot contain itself", g->path, name);
+        }
+    }
+    return EC_OK;
+}
+
+static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec_placement *out)
+{
+    const double *m = g->nodes[node].local;
+    out->node = node;
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++) {
+            double sum = 0;
+            for (int k = 0; k < 3; k++) sum += (parent ? parent->linear[3 * row + k] : row == k) * m[4 * column + k];
+            out->linear[3 * row + column] = sum;
+        }
+        double origin = parent ? parent->origin[row] : 0;
+        for (int k = 0; k < 3; k++) origin += (parent ? parent->linear[3 * row + k] : row == k) * m[12 + k];
+        out->origin[row] = origin;
+    }
+}
+
+static ec_result walk(const ec_gltf *g, bool *visited, ec_placement_list *list, ec_error *err)
+{
+    for (uint32_t i = 0; i < g->root_count; i++) {
+        if (visited[g->roots[i]])
+            return ec_fail(err, "%s: the scene lists nodes[%d] twice", g->path, g->roots[i]);
+        visited[g->roots[i]] = true;
+        place(g, g->roots[i], NULL, &list->items[list->count++]);
+    }
+    for (uint32_t done = 0; done < list->count; done++) {
+        const ec_gltf_node *node = &g->nodes[list->items[done].node];
+        for (uint32_t c = 0; c < node->child_count; c++) {
+            if (visited[node->children[c]])
+                return ec_fail(err, "%s: the scene lists nodes[%d], which is also a child of nodes[%d]", g->path,
+                               node->children[c], list->items[done].node);
+            visited[node->children[c]] = true;
+            place(g, node->children[c], &list->items[done], &list->items[list->count++]);
+        }
+    }
+    return EC_OK;
+}
+
+ec_result ec_gltf_place_nodes(const ec_gltf *g, ec_placement_list *list, ec_error *err)
+{
+    ec_result result = EC_FAILED;
+    size_t count = (size_t)g->node_count + 1;
+    int32_t *parent = malloc(count * sizeof *parent);
+    uint32_t *seen_from = calloc(count, sizeof *seen_from);
+    bool *visited = calloc(count, sizeof *visited);
+    list->count = 0;
+    list->items = malloc(count * sizeof *list->items);
+    if (!parent || !seen_from || !visited || !list->items) {
+        ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
+        goto cleanup;
+    }
+    EC_TRY_CLEANUP(find_parents(g, parent, err));
+    EC_TRY_CLEANUP(check_cycles(g, parent, seen_from, err));
+    EC_TRY_CLEANUP(walk(g, visited, list, err));
+cleanup:
+    free(parent);
+    free(seen_from);
+    free(visited);
+    if (result != EC_OK) {
+        free(list->items);
+        *list = (ec_placement_list){0};
+    }
+    return result;
+}
+
+double ec_gltf_determinant(const double m[9])
+{
+    return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
+void ec_gltf_normal_matrix(const double linear[9], double out[9])
+{
+    double largest = 0, m[9];
+    for (int i = 0; i < 9; i++) largest = fmax(largest, fabs(linear[i]));
+    if (!(largest > 0) || !isfinite(largest)) largest = 1;
+    for (int i = 0; i < 9; i++) m[i] = linear[i] / largest; /* products then neither overflow nor vanish */
+    double sign = ec_gltf_determinant(m) < 0 ? -1 : 1;
+    for (int row = 0; row < 3; row++) {
+        const double *a = m + 3 * ((row + 1) % 3), *b = m + 3 * ((row + 2) % 3);
+        out[3 * row + 0] = sign * (a[1] * b[2] - a[2] * b[1]);
+        out[3 * row + 1] = sign * (a[2] * b[0] - a[0] * b[2]);
+        out[3 * row + 2] = sign * (a[0] * b[1] - a[1] * b[0]);
+    }
+}

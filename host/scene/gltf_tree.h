@@ -1,0 +1,26 @@
+/* The node tree, walked: what stands where in the world. Inside host/scene/ only. */
+#ifndef EC_SCENE_GLTF_TREE_H
+#define EC_SCENE_GLTF_TREE_H
+
+#include "scene/gltf.h"
+
+/* A node's place: world = linear x local + origin, in double. */
+typedef struct ec_placement {
+    int32_t node;
+    double linear[9]; /* row major */
+    double origin[3];
+} ec_placement;
+
+typedef struct ec_placement_list {
+    ec_placement *items;
+    uint32_t count;
+} ec_placement_list;
+
+/* Every node of the default scene, parents before children. A node with two parents or inside a cycle is an error. */
+ec_result ec_gltf_place_nodes(const ec_gltf *gltf, ec_placement_list *placements, ec_error *err);
+
+/* The inverse transpose up to a positive factor, also for singular matrices: turns normals. Row major. */
+void ec_gltf_normal_matrix(const double linear[9], double out[9]);
+double ec_gltf_determinant(const double linear[9]);
+
+#endif

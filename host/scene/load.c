@@ -1,0 +1,50 @@
+/* From a file to a scene, step by step. */
+#include "scene/flatten.h"
+#include "scene/validate.h"
+
+#include <stdlib.h>
+
+/* Strings change owner. */
+static void take_facts(ec_gltf *g, ec_scene *s)
+{
+    s->mesh_count = g->mesh_count;
+    s->node_count = g->node_count;
+    s->extensions_used = g->extensions_used;
+    s->extension_count = g->extension_count;
+    s->extensions_ignored = g->extensions_ignored;
+    s->extension_ignored_count = g->extension_ignored_count;
+    g->extensions_used = g->extensions_ignored = NULL;
+}
+
+static ec_result build(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
+{
+    take_facts(g, s);
+    EC_TRY(ec_flatten_prepare(g, placements, s, log, err));
+    EC_TRY(ec_gltf_materials_assign(g, s, log, err));
+    EC_TRY(ec_flatten(g, placements, s, log, err));
+    EC_TRY(ec_gltf_textures_load(g, s, log, err));
+    EC_TRY(ec_gltf_cameras_place(g, placements, s, log, err));
+    EC_TRY(ec_gltf_lights_place(g, placements, s, log, err));
+    ec_scene_clamp_materials(s, g->path, log);
+    return ec_scene_validate(s, err);
+}
+
+ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err)
+{
+    ec_result result = EC_FAILED;
+    ec_gltf *gltf = NULL;
+    ec_placement_list placements = {0};
+    ec_scene *s = calloc(1, sizeof *s);
+    *scene = NULL;
+    if (!s) return ec_fail(err, "%s: out of memory", path);
+    EC_TRY_CLEANUP(ec_gltf_read(path, &gltf, log, err));
+    EC_TRY_CLEANUP(ec_gltf_place_nodes(gltf, &placements, err));
+    EC_TRY_CLEANUP(build(gltf, &placements, s, log, err));
+    *scene = s;
+    s = NULL;
+cleanup:
+    free(placements.items);
+    ec_gltf_free(gltf);
+    ec_scene_free(s);
+    return result;
+}

@@ -1,0 +1,54 @@
+/* The scene as a whole: what it owns and whether it is lit. */
+#include "scene/scene.h"
+
+#include <stdlib.h>
+
+static void free_strings(char **list, uint32_t count)
+{
+    for (uint32_t i = 0; list && i < count; i++) free(list[i]);
+    free(list);
+}
+
+void ec_scene_free(ec_scene *s)
+{
+    if (!s) return;
+    for (uint32_t i = 0; i < s->material_count; i++) free(s->materials[i].name);
+    for (uint32_t i = 0; i < s->camera_count; i++) free(s->cameras[i].name);
+    for (uint32_t i = 0; i < s->image_count; i++) {
+        free(s->images[i].rgba8);
+        free(s->images[i].rgba16);
+        free(s->images[i].name);
+    }
+    free(s->positions);
+    free(s->normals);
+    free(s->tangents);
+    free(s->uv[0]);
+    free(s->uv[1]);
+    free(s->colors);
+    free(s->indices);
+    free(s->triangle_material);
+    free(s->materials);
+    free(s->textures);
+    free(s->images);
+    free(s->lights);
+    free(s->cameras);
+    free(s->environment.rgb);
+    free_strings(s->extensions_used, s->extension_count);
+    free_strings(s->extensions_ignored, s->extension_ignored_count);
+    free(s);
+}
+
+static bool gives_light(const ec_material *m)
+{
+    return m->unlit || m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0;
+}
+
+bool ec_scene_has_light(const ec_scene *s)
+{
+    if (s->has_environment) return true;
+    for (uint32_t i = 0; i < s->light_count; i++)
+        if (s->lights[i].intensity[0] > 0 || s->lights[i].intensity[1] > 0 || s->lights[i].intensity[2] > 0) return true;
+    for (uint32_t i = 0; i < s->triangle_count; i++)
+        if (gives_light(&s->materials[s->triangle_material[i]])) return true;
+    return false;
+}

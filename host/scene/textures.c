@@ -1,0 +1,123 @@
+/* The textures and images that the scene's triangles use; no others are opened. */
+#include "scene/flatten.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct table {
+    ec_gltf *g;
+    ec_scene *s;
+    const ec_log *log;
+    int64_t *image;   /* glTF image -> scene image; UNSEEN or UNUSABLE */
+    int64_t *texture; /* likewise */
+} table;
+
+enum { UNSEEN = -1, UNUSABLE = -2 };
+
+static ec_result get_bytes(const ec_gltf *g, const ec_gltf_image *in, const char *where, const uint8_t **bytes,
+                           uint64_t *length, uint8_t **owned, ec_error *err)
+{
+    if (in->uri) {
+        EC_TRY(ec_gltf_uri_load(g->folder, where, in->uri, owned, length, err));
+        *bytes = *owned;
+        return EC_OK;
+    }
+    if (in->view < 0) return ec_fail(err, "%s has neither uri nor bufferView", where);
+    const ec_gltf_view *v = &g->views[in->view];
+    if (!g->buffers[v->buffer].data) return ec_fail(err, "%s reads buffers[%d], which has no data", where, v->buffer);
+    *bytes = g->buffers[v->buffer].data + v->offset;
+    *length = v->length;
+    return EC_OK;
+}
+
+/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. */
+static bool decode(const table *t, uint32_t index, ec_image *out)
+{
+    const ec_gltf_image *in = &t->g->images[index];
+    char where[160];
+    snprintf(where, sizeof where, in->name ? "images[%u] \"%.80s\"" : "images[%u]", index, in->name);
+    const uint8_t *bytes = NULL;
+    uint8_t *owned = NULL;
+    uint64_t length = 0;
+    ec_error err;
+    const char *reason;
+    bool ok = get_bytes(t->g, in, where, &bytes, &length, &owned, &err) == EC_OK;
+    if (!ok) {
+        ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
+    } else if (!ec_image_decode(bytes, length, out, &reason)) {
+        ok = false;
+        ec_warn(t->log, "%s: %s cannot be decoded: %s; taken as white", t->g->path, where, reason);
+    }
+    free(owned);
+    out->name = in->name ? strdup(in->name) : NULL;
+    return ok;
+}
+
+static int64_t map_image(table *t, int32_t index)
+{
+    if (index < 0) return UNUSABLE;
+    if (t->image[index] != UNSEEN) return t->image[index];
+    ec_image *out = &t->s->images[t->s->image_count];
+    if (decode(t, (uint32_t)index, out)) {
+        t->image[index] = t->s->image_count++;
+    } else {
+        free(out->name);
+        *out = (ec_image){0};
+        t->image[index] = UNUSABLE;
+    }
+    return t->image[index];
+}
+
+static int64_t map_texture(table *t, int32_t index)
+{
+    if (t->texture[index] != UNSEEN) return t->texture[index];
+    const ec_gltf_texture *in = &t->g->textures[index];
+    if (in->image < 0)
+        ec_warn(t->log, "%s: textures[%d] has no image in PNG or JPEG; taken as white", t->g->path, index);
+    int64_t image = map_image(t, in->image);
+    if (image < 0) return t->texture[index] = UNUSABLE;
+    t->s->textures[t->s->texture_count] = (ec_texture){(uint32_t)image, in->wrap_s, in->wrap_t, in->nearest};
+    return t->texture[index] = t->s->texture_count++;
+}
+
+static void map_use(table *t, bool drawn, ec_texture_use *use)
+{
+    if (use->texture < 0) return;
+    int64_t texture = drawn ? map_texture(t, use->texture) : UNUSABLE;
+    use->texture = texture < 0 ? -1 : (int32_t)texture;
+}
+
+static void map_materials(table *t, const bool *drawn)
+{
+    for (uint32_t i = 0; i < t->s->material_count; i++) {
+        ec_material *m = &t->s->materials[i];
+        map_use(t, drawn[i], &m->base_color_texture);
+        map_use(t, drawn[i] && !m->unlit, &m->metallic_roughness_texture);
+        map_use(t, drawn[i] && !m->unlit, &m->normal_texture);
+        map_use(t, drawn[i], &m->emission_texture);
+        map_use(t, drawn[i] && !m->unlit, &m->specular_texture);
+        map_use(t, drawn[i] && !m->unlit, &m->specular_color_texture);
+    }
+}
+
+ec_result ec_gltf_textures_load(ec_gltf *g, ec_scene *s, const ec_log *log, ec_error *err)
+{
+    table t = {.g = g, .s = s, .log = log};
+    t.image = malloc(((size_t)g->image_count + 1) * sizeof *t.image);
+    t.texture = malloc(((size_t)g->texture_count + 1) * sizeof *t.texture);
+    s->images = calloc((size_t)g->image_count + 1, sizeof *s->images);
+    s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
+    bool *drawn = calloc(s->material_count, sizeof *drawn);
+    bool ok = t.image && t.texture && s->images && s->textures && drawn;
+    if (ok) {
+        for (uint32_t i = 0; i < g->image_count; i++) t.image[i] = UNSEEN;
+        for (uint32_t i = 0; i < g->texture_count; i++) t.texture[i] = UNSEEN;
+        for (uint32_t i = 0; i < s->triangle_count; i++) drawn[s->triangle_material[i]] = true;
+        map_materials(&t, drawn);
+    }
+    free(t.image);
+    free(t.texture);
+    free(drawn);
+    return ok ? EC_OK : ec_fail(err, "%s: out of memory for textures", g->path);
+}

@@ -1,0 +1,34 @@
+/* Where a slot's sample lands. Pixels are numbered in tiles of 8 x 8, so that a wave looks at a compact part of the
+ * picture; numbers past the picture's edge inside a tile do not exist: a tile at the edge is narrower or lower. */
+#ifndef EC_LIB_FILM_H
+#define EC_LIB_FILM_H
+
+#include "../shared/params.h"
+#include "lanes.h"
+
+#define EC_TILE 8u
+
+static inline void slot_to_pixel(constant ec_params *params, uint first_pixel, lane_u slot, lane_u *pixel, lane_u *sample)
+{
+    lane_u local_pixel = slot / params->batch;
+    *sample = slot - local_pixel * params->batch;
+    *pixel = local_pixel + first_pixel;
+}
+
+/* Rows of tiles first: a row of tiles holds width * 8 pixels (fewer rows at the bottom), a tile 8 * rows (narrower at the
+ * right). */
+static inline void pixel_to_xy(constant ec_params *params, lane_u pixel, lane_u *x, lane_u *y)
+{
+    uint width = params->width, height = params->height;
+    lane_u tile_row = pixel / (width * EC_TILE);
+    lane_u in_row = pixel - tile_row * (width * EC_TILE);
+    lane_u rows = min(U(EC_TILE), height - tile_row * EC_TILE);
+    lane_u tile = in_row / (rows * EC_TILE);
+    lane_u in_tile = in_row - tile * rows * EC_TILE;
+    lane_u columns = min(U(EC_TILE), width - tile * EC_TILE);
+    lane_u line = in_tile / columns;
+    *x = tile * EC_TILE + (in_tile - line * columns);
+    *y = tile_row * EC_TILE + line;
+}
+
+#endif

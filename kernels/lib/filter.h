@@ -1,0 +1,45 @@
+/* Hits that do not count: backs of single-sided surfaces for camera rays, and points that coverage leaves open. Whether a
+ * ray passes is a function of (seed, slot's sample, bounce, triangle), never of traversal order. */
+#ifndef EC_LIB_FILTER_H
+#define EC_LIB_FILTER_H
+
+#include "geometry.h"
+#include "sampler.h"
+
+#define HAS_FILTER (HAS(ALPHA) || HAS(CULLING))
+
+typedef struct hit_filter {
+    geometry g;
+    lane_u key;      /* random key of this ray */
+    bool cull_backs; /* camera rays */
+} hit_filter;
+
+/* Random key of a ray: bounce counts the vertices before it, shadow rays differ from path rays. */
+static inline lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, bool is_shadow)
+{
+    return hash_u(hash_u(hash_u(pixel) ^ seed) + sample * 0x9e3779b9u + (2u * bounce + (is_shadow ? 1u : 0u)) * 0x85ebca6bu);
+}
+
+/* Which of the candidate hits (mask m) count. */
+static inline lane_i filter_hits(const hit_filter *f, lane_i m, lane_u prim, lane_f b1, lane_f b2, lane_i front)
+{
+    if (!HAS_FILTER) return m;
+    lane_u id = m ? prim : U(0);
+    lane_u flags = as_lane_u(gather_f(f->g.prims, id * EC_PRIM_WORDS + 11u));
+    if (HAS(CULLING) && f->cull_backs) m = m & (front | ((flags & EC_PRIM_SINGLE_SIDED) == 0u));
+    if (HAS(ALPHA)) {
+        lane_i look = m & ((flags & EC_PRIM_ALPHA) != 0u);
+        if (any_lane(look)) {
+            hit_point h = hit_point_make(&f->g, id, b1, b2);
+            lane_f alpha = surface_base_color(&f->g, &h, look).a;
+            lane_i is_mask = (as_lane_u(material_word(&f->g, &h, EC_MATERIAL_FLAGS)) & EC_MATERIAL_MASK) != 0u;
+            lane_f cutoff = material_word(&f->g, &h, EC_MATERIAL_ALPHA_CUTOFF);
+            lane_f chance = to_unit(hash_u(f->key ^ hash_u(id)));
+            lane_i solid = is_mask ? alpha >= cutoff : chance < alpha;
+            m = m & (solid | !look);
+        }
+    }
+    return m;
+}
+
+#endif

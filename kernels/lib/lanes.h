@@ -1,0 +1,168 @@
+/* Lane-wide arithmetic: one work-item carries LANES paths in OpenCL vector types. With LANES 1 everything below is plain
+ * scalar code, which is what a GPU wants; on a CPU LANES is the native vector width.
+ *
+ * Masks are lane_i: 0 is false; true is -1 in vectors and 1 in scalars, as OpenCL's comparisons give it. Combine masks with
+ * & and |, negate them with !, choose with `mask ? a : b` (element-wise on vectors, both sides evaluated). */
+#ifndef EC_LIB_LANES_H
+#define EC_LIB_LANES_H
+
+#ifndef LANES
+#define LANES 1
+#endif
+
+#define EC_CAT_(a, b) a##b
+#define EC_CAT(a, b) EC_CAT_(a, b)
+
+#if LANES == 1
+typedef float lane_f;
+typedef int lane_i;
+typedef uint lane_u;
+#define LANE(v, k) (v)
+#define EACH_LANE(M) M(0)
+#define LANE_NUMBERS 0u
+#define LANE_LOAD(p) (*(p))
+#define LANE_STORE(v, p) (*(p) = (v))
+#define LANE_AS(type, v) EC_CAT(as_, type)(v)
+#define LANE_CONVERT(type, v) EC_CAT(convert_, type)(v)
+#else
+typedef EC_CAT(float, LANES) lane_f;
+typedef EC_CAT(int, LANES) lane_i;
+typedef EC_CAT(uint, LANES) lane_u;
+#define LANE(v, k) (v).s##k
+#define LANE_LOAD(p) EC_CAT(vload, LANES)(0, p)
+#define LANE_STORE(v, p) EC_CAT(vstore, LANES)(v, 0, p)
+#define LANE_AS(type, v) EC_CAT(EC_CAT(as_, type), LANES)(v)
+#define LANE_CONVERT(type, v) EC_CAT(EC_CAT(convert_, type), LANES)(v)
+#if LANES == 4
+#define EACH_LANE(M) M(0) M(1) M(2) M(3)
+#define LANE_NUMBERS (uint4)(0, 1, 2, 3)
+#elif LANES == 8
+#define EACH_LANE(M) M(0) M(1) M(2) M(3) M(4) M(5) M(6) M(7)
+#define LANE_NUMBERS (uint8)(0, 1, 2, 3, 4, 5, 6, 7)
+#elif LANES == 16
+#define EACH_LANE(M) M(0) M(1) M(2) M(3) M(4) M(5) M(6) M(7) M(8) M(9) M(a) M(b) M(c) M(d) M(e) M(f)
+#define LANE_NUMBERS (uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#else
+#error "LANES must be 1, 4, 8 or 16"
+#endif
+#endif
+
+#define F(x) ((lane_f)(x))
+#define I(x) ((lane_i)(x))
+#define U(x) ((lane_u)(x))
+#define TRUE_MASK (F(0.0f) == F(0.0f))
+
+static inline lane_f as_lane_f(lane_u v) { return LANE_AS(float, v); }
+static inline lane_u as_lane_u(lane_f v) { return LANE_AS(uint, v); }
+static inline lane_f to_lane_f(lane_u v) { return LANE_CONVERT(float, v); }
+static inline lane_f int_to_lane_f(lane_i v) { return LANE_CONVERT(float, v); }
+static inline lane_i to_lane_i(lane_f v) { return LANE_CONVERT(int, v); } /* towards zero */
+static inline lane_u int_to_lane_u(lane_i v) { return LANE_AS(uint, v); }
+static inline lane_i uint_to_lane_i(lane_u v) { return LANE_AS(int, v); }
+
+/* One bit a lane. The sign-bit instruction is worth a name: everything that branches goes through it. */
+#ifndef __has_builtin
+#define __has_builtin(x) 0
+#endif
+static inline uint mask_bits8(int8 m)
+{
+#if defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
+    return (uint)__builtin_ia32_movmskps256(as_float8(m));
+#else
+    int8 v = m & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+    int4 a = v.lo | v.hi;
+    int2 b = a.lo | a.hi;
+    return (uint)(b.x | b.y);
+#endif
+}
+
+static inline uint mask_bits(lane_i m)
+{
+#if LANES == 1
+    return m != 0;
+#elif LANES == 4
+#if defined(__SSE__) && __has_builtin(__builtin_ia32_movmskps)
+    return (uint)__builtin_ia32_movmskps(as_float4(m));
+#else
+    int4 v = m & (int4)(1, 2, 4, 8);
+    int2 b = v.lo | v.hi;
+    return (uint)(b.x | b.y);
+#endif
+#elif LANES == 8
+    return mask_bits8(m);
+#else
+#if defined(__AVX512DQ__) && __has_builtin(__builtin_ia32_cvtd2mask512)
+    return (uint)__builtin_ia32_cvtd2mask512(m);
+#else
+    return mask_bits8(m.lo) | mask_bits8(m.hi) << 8;
+#endif
+#endif
+}
+
+static inline bool any_lane(lane_i m) { return mask_bits(m) != 0u; }
+static inline bool all_lanes(lane_i m) { return mask_bits(m) == (uint)((1ul << LANES) - 1ul); }
+static inline uint count_lanes(lane_i m) { return popcount(mask_bits(m)); }
+
+/* Gathers: element i of each lane. Lanes that are off must hold an index that may be read. */
+static inline lane_f gather_f(global const float *restrict p, lane_u i)
+{
+    lane_f r;
+#define GATHER_ONE(k) LANE(r, k) = p[LANE(i, k)];
+    EACH_LANE(GATHER_ONE)
+    return r;
+}
+
+static inline lane_u gather_u(global const uint *restrict p, lane_u i)
+{
+    lane_u r;
+    EACH_LANE(GATHER_ONE)
+    return r;
+}
+
+static inline lane_f gather_constant_f(constant float *p, lane_u i)
+{
+    lane_f r;
+    EACH_LANE(GATHER_ONE)
+    return r;
+#undef GATHER_ONE
+}
+
+/* p[i] += v on the lanes of m; no two lanes share an index. */
+static inline void scatter_add_f(global float *restrict p, lane_u i, lane_f v, uint bits)
+{
+    uint bit = 1;
+#define SCATTER_ONE(k)                                                                             \
+    if (bits & bit) p[LANE(i, k)] += LANE(v, k);                                                   \
+    bit <<= 1;
+    EACH_LANE(SCATTER_ONE)
+#undef SCATTER_ONE
+}
+
+static inline void scatter_f(global float *restrict p, lane_u i, lane_f v, uint bits)
+{
+    uint bit = 1;
+#define SCATTER_ONE(k)                                                                             \
+    if (bits & bit) p[LANE(i, k)] = LANE(v, k);                                                    \
+    bit <<= 1;
+    EACH_LANE(SCATTER_ONE)
+#undef SCATTER_ONE
+}
+
+/* The lanes of m, close together, to p[0], p[1], … (count_lanes(m) values). */
+static inline void store_compact(global float *restrict p, lane_f v, uint bits)
+{
+#if LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssf512_mask) &&     \
+    __has_builtin(__builtin_ia32_storeups512_mask)
+    lane_f packed = __builtin_ia32_compresssf512_mask(v, F(0.0f), (ushort)bits);
+    __builtin_ia32_storeups512_mask((global void *)p, packed, (ushort)((1u << popcount(bits)) - 1u));
+#else
+    uint bit = 1;
+#define STORE_ONE(k)                                                                               \
+    if (bits & bit) *p++ = LANE(v, k);                                                             \
+    bit <<= 1;
+    EACH_LANE(STORE_ONE)
+#undef STORE_ONE
+#endif
+}
+
+#endif

@@ -1,0 +1,147 @@
+/* Direct light: one light by its power, one point or direction on it. Every emissive triangle is a light, and so are the
+ * punctual ones and the environment. */
+#ifndef EC_LIB_LIGHT_H
+#define EC_LIB_LIGHT_H
+
+#include "environment.h"
+#include "surface.h"
+
+typedef struct lights {
+    global const float *table; /* ec_light_data by word */
+    global const uint *alias;  /* ec_alias by word */
+    environment env;
+} lights;
+
+typedef struct light_sample {
+    v3 wi;           /* unit, towards the light */
+    v3 towards;      /* from p to the end of the shadow ray, unnormalised */
+    v3 radiance;     /* arriving along wi if nothing is in the way; for punctual lights irradiance of a normal plane */
+    lane_f pdf;      /* per solid angle, choice of the light included; punctual: the choice alone */
+    lane_i is_delta; /* no other strategy can find it */
+    lane_u target;   /* triangle the shadow ray ends on, or EC_NO_ID */
+    v3 end_error;    /* error bound of the end point */
+    v3 end_normal;   /* unit; zero where there is no surface */
+    lane_i valid;
+} light_sample;
+
+static inline lane_f light_word(const lights *l, lane_u at, uint word) { return gather_f(l->table, at + word); }
+static inline v3 light_v3(const lights *l, lane_u at, uint word)
+{
+    return v3_make(light_word(l, at, word), light_word(l, at, word + 1), light_word(l, at, word + 2));
+}
+
+/* Uniform point on a triangle, seen from p. */
+static inline light_sample light_sample_triangle(const lights *l, const geometry *g, lane_i m, lane_u at, lane_u kind, v3 p,
+                                          lane_f u1, lane_f u2)
+{
+    light_sample s;
+    v3 a = light_v3(l, at, 0), b = light_v3(l, at, 3), c = light_v3(l, at, 6);
+    lane_f root = sqrt(u1);
+    lane_f b0 = 1.0f - root, b1 = u2 * root, b2 = 1.0f - b0 - b1;
+    v3 q = v3_fma(c, b2, v3_fma(b, b1, v3_scale(a, b0)));
+    v3 sum = v3_fma(v3_abs(c), b2, v3_fma(v3_abs(b), b1, v3_scale(v3_abs(a), b0)));
+    s.end_error = v3_scale(sum, F(EC_GAMMA(9)));
+    s.end_normal = v3_normalize(v3_cross(v3_sub(b, a), v3_sub(c, a)));
+    s.towards = v3_sub(q, p);
+    lane_f d2 = v3_dot(s.towards, s.towards);
+    s.wi = v3_scale(s.towards, 1.0f / sqrt(d2));
+    lane_f cosine = -v3_dot(s.wi, s.end_normal);
+    cosine = (kind & EC_LIGHT_TWO_SIDED) != 0u ? fabs(cosine) : cosine;
+    s.target = as_lane_u(light_word(l, at, 13));
+    s.pdf = light_word(l, at, 15) * d2 / cosine;
+    s.radiance = light_v3(l, at, 9);
+    if (HAS(EMISSION_TEXTURE)) {
+        lane_i textured = m & ((kind & EC_LIGHT_TEXTURED) != 0u);
+        if (any_lane(textured)) {
+            hit_point h = hit_point_make(g, textured ? s.target : U(0), b1, b2);
+            s.radiance = v3_mul(s.radiance, material_texture(g, &h, textured, EC_SLOT_EMISSION, true).rgb);
+        }
+    }
+    s.is_delta = !TRUE_MASK;
+    s.valid = m & (cosine > 0.0f) & (d2 > 0.0f);
+    return s;
+}
+
+/* KHR_lights_punctual: inverse square with a smooth range window, cone falloff squared. */
+static inline light_sample light_sample_punctual(const lights *l, lane_i m, lane_u at, lane_u kind, v3 p, float scene_radius)
+{
+    light_sample s;
+    v3 position = light_v3(l, at, 0), direction = light_v3(l, at, 3);
+    lane_i is_directional = (kind & EC_LIGHT_KIND_MASK) == EC_KIND_DIRECTIONAL;
+    lane_i is_spot = (kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT;
+    v3 to_point = v3_sub(position, p);
+    v3 far = v3_scale(direction, F(-2.0f * scene_radius)); /* leaves the scene from any point in it */
+    s.towards = v3_select(is_directional, far, to_point);
+    lane_f d2 = v3_dot(to_point, to_point);
+    s.wi = v3_select(is_directional, v3_negate(direction), v3_scale(to_point, 1.0f / sqrt(d2)));
+    lane_f cone = (-v3_dot(s.wi, direction) - light_word(l, at, 7)) * light_word(l, at, 6);
+    cone = min(max(cone, F(0.0f)), F(1.0f));
+    lane_f inverse_range = light_word(l, at, 8);
+    lane_f x2 = d2 * inverse_range * inverse_range;
+    lane_f window = min(max(1.0f - x2 * x2, F(0.0f)), F(1.0f));
+    lane_f falloff = window / d2 * (is_spot ? cone * cone : F(1.0f));
+    s.radiance = v3_scale(light_v3(l, at, 9), is_directional ? F(1.0f) : falloff);
+    s.pdf = light_word(l, at, 14);
+    s.is_delta = m;
+    s.target = U(EC_NO_ID);
+    s.end_error = s.end_normal = v3_zero();
+    s.valid = m & (is_directional | (d2 > 0.0f));
+    return s;
+}
+
+static inline light_sample light_sample_environment(const lights *l, lane_i m, lane_u r, lane_f u1, lane_f u2, float scene_radius)
+{
+    light_sample s;
+    s.wi = environment_sample(&l->env, r, u1, u2, &s.pdf, &s.radiance);
+    s.towards = v3_scale(s.wi, F(2.0f * scene_radius));
+    s.is_delta = !TRUE_MASK;
+    s.target = U(EC_NO_ID);
+    s.end_error = s.end_normal = v3_zero();
+    s.valid = m;
+    return s;
+}
+
+static inline light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
+{
+    light_sample s;
+    s.wi = v3_select(m, a.wi, b.wi);
+    s.towards = v3_select(m, a.towards, b.towards);
+    s.radiance = v3_select(m, a.radiance, b.radiance);
+    s.pdf = m ? a.pdf : b.pdf;
+    s.is_delta = m ? a.is_delta : b.is_delta;
+    s.target = m ? a.target : b.target;
+    s.end_error = v3_select(m, a.end_error, b.end_error);
+    s.end_normal = v3_select(m, a.end_normal, b.end_normal);
+    s.valid = m ? a.valid : b.valid;
+    return s;
+}
+
+/* One light for a point p. choice: 32 random bits that pick the light, and what is left of them the texel. */
+static inline light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u choice, lane_f u1, lane_f u2)
+{
+    constant ec_params *params = l->env.params;
+    uint count = params->light_count;
+    lane_u column = mul_hi(choice, U(count)), rest = choice * count;
+    lane_u threshold = gather_u(l->alias, column * 2u);
+    lane_u id = rest < threshold ? column : gather_u(l->alias, column * 2u + 1u);
+    lane_u at = id * EC_LIGHT_WORDS;
+    lane_u kind = as_lane_u(gather_f(l->table, at + 12u));
+    lane_u type = kind & EC_LIGHT_KIND_MASK;
+
+    light_sample s;
+    s.valid = !TRUE_MASK;
+    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(l, g, m & (type == EC_KIND_TRIANGLE), at, kind, p, u1, u2);
+    if (HAS(PUNCTUAL_LIGHTS)) {
+        lane_i is = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
+        light_sample other = light_sample_punctual(l, m & is, at, kind, p, params->scene_radius);
+        s = HAS(AREA_LIGHTS) ? light_sample_select(is, other, s) : other;
+    }
+    if (HAS(ENVIRONMENT)) {
+        lane_i is = type == EC_KIND_ENVIRONMENT;
+        light_sample other = light_sample_environment(l, m & is, hash_u(choice), u1, u2, params->scene_radius);
+        s = HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) ? light_sample_select(is, other, s) : other;
+    }
+    return s;
+}
+
+#endif

@@ -1,0 +1,55 @@
+/* Reading and writing the queues, lane-wide. */
+#ifndef EC_LIB_QUEUE_H
+#define EC_LIB_QUEUE_H
+
+#include "../shared/path_state.h"
+#include "math.h"
+
+static inline lane_f queue_load_f(global const float *queue, uint wave, uint field, uint i)
+{
+    return LANE_LOAD(queue + field * wave + i);
+}
+static inline lane_u queue_load_u(global const float *queue, uint wave, uint field, uint i)
+{
+    return as_lane_u(queue_load_f(queue, wave, field, i));
+}
+static inline v3 queue_load_v3(global const float *queue, uint wave, uint field, uint i)
+{
+    return v3_make(queue_load_f(queue, wave, field, i), queue_load_f(queue, wave, field + 1, i),
+                   queue_load_f(queue, wave, field + 2, i));
+}
+static inline void queue_store_f(global float *queue, uint wave, uint field, uint i, lane_f v)
+{
+    LANE_STORE(v, queue + field * wave + i);
+}
+static inline void queue_store_v3(global float *queue, uint wave, uint field, uint i, v3 v)
+{
+    queue_store_f(queue, wave, field, i, v.x);
+    queue_store_f(queue, wave, field + 1, i, v.y);
+    queue_store_f(queue, wave, field + 2, i, v.z);
+}
+/* Appends the lanes of `bits` at i, i + 1, … */
+static inline void queue_push_f(global float *queue, uint wave, uint field, uint i, lane_f v, uint bits)
+{
+    store_compact(queue + field * wave + i, v, bits);
+}
+static inline void queue_push_v3(global float *queue, uint wave, uint field, uint i, v3 v, uint bits)
+{
+    queue_push_f(queue, wave, field, i, v.x, bits);
+    queue_push_f(queue, wave, field + 1, i, v.y, bits);
+    queue_push_f(queue, wave, field + 2, i, v.z, bits);
+}
+
+/* Adds light to the samples' slots; what is not finite is dropped and counted. */
+static inline void radiance_add(global float *radiance, uint wave, lane_u slot, v3 light, lane_i m, volatile global uint *invalid)
+{
+    lane_i finite = v3_is_finite(light);
+    uint bad = mask_bits(m & !finite);
+    if (bad) atomic_add(invalid, popcount(bad));
+    uint bits = mask_bits(m & finite);
+    scatter_add_f(radiance, slot, light.x, bits);
+    scatter_add_f(radiance + wave, slot, light.y, bits);
+    scatter_add_f(radiance + 2 * wave, slot, light.z, bits);
+}
+
+#endif

@@ -1,0 +1,111 @@
+/* Ray against box and ray against triangle: the only definition of what a hit is. Every structure and layout uses these
+ * functions, so that all give the same hits bit for bit: packets put one ray in each lane and splat the triangle, the wide
+ * BVH splats the ray and puts one triangle in each lane.
+ *
+ * Why culling can never change the answer: a hit's t is clamped into the triangle's own bounding slab, computed with the
+ * same monotone arithmetic as any box above it. A box that holds the triangle therefore is entered no later than t. */
+#ifndef EC_LIB_RAY_H
+#define EC_LIB_RAY_H
+
+#include "math.h"
+
+typedef struct ray {
+    v3 o, d;      /* d need not be unit: t is in units of its length */
+    /* Slabs: t of a plane is fma(plane, inverse, offset); offsets are widened by the error bound, outwards. */
+    v3 inverse, lo_offset, hi_offset;
+    /* Shear that makes d the z axis (Woop, Benthin, Wald 2013): z is d's largest component. */
+    lane_i z_is_x, z_is_y;
+    v3 o_permuted;
+    lane_f shear_x, shear_y, scale_z;
+} ray;
+
+/* Axes in the cyclic order that ends with the largest component of d. */
+static inline v3 ray_permute(lane_i z_is_x, lane_i z_is_y, v3 v)
+{
+    return v3_make(z_is_x ? v.y : (z_is_y ? v.z : v.x), z_is_x ? v.z : (z_is_y ? v.x : v.y),
+                   z_is_x ? v.x : (z_is_y ? v.y : v.z));
+}
+
+/* scene_max: largest |coordinate| of the scene. */
+static inline ray ray_make(v3 o, v3 d, float scene_max)
+{
+    ray r;
+    r.o = o;
+    r.d = d;
+    v3 ad = v3_abs(d);
+    lane_f d_max = v3_max_component(ad);
+    /* A component under 2^-60 of the largest counts as that: the reciprocal stays finite and no 0 * inf arises. */
+    lane_f d_min = d_max * 8.6736174e-19f;
+    r.inverse = v3_make(copysign(1.0f / max(ad.x, d_min), d.x), copysign(1.0f / max(ad.y, d_min), d.y),
+                        copysign(1.0f / max(ad.z, d_min), d.z));
+    /* Rounding of vertices and origins in the shear moves a triangle by at most this (Woop et al. 2013, section 3.3, with
+     * one bound for all axes). */
+    lane_f bound = (v3_max_component(v3_abs(o)) + scene_max) * (16.0f * EC_ULP);
+    v3 widen = v3_scale(r.inverse, bound);
+    v3 offset = v3_make(-(o.x * r.inverse.x), -(o.y * r.inverse.y), -(o.z * r.inverse.z));
+    r.lo_offset = v3_sub(offset, widen); /* widen has the sign of d: the lo plane is the near one where d > 0 */
+    r.hi_offset = v3_add(offset, widen);
+
+    r.z_is_x = (ad.x >= ad.y) & (ad.x >= ad.z);
+    r.z_is_y = !r.z_is_x & (ad.y >= ad.z);
+    v3 p = ray_permute(r.z_is_x, r.z_is_y, d);
+    r.o_permuted = ray_permute(r.z_is_x, r.z_is_y, o);
+    r.scale_z = 1.0f / p.z;
+    r.shear_x = p.x * r.scale_z;
+    r.shear_y = p.y * r.scale_z;
+    return r;
+}
+
+#define EC_SLAB_PAD 1.0000005f /* 1 + 8 u: relative rounding of reciprocal, product and sum */
+
+/* Entry and padded exit distances; the box is met within [0, t_max] where near <= far. */
+static inline lane_f slab_near(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *far)
+{
+    lane_f x0 = fma(lo.x, r->inverse.x, r->lo_offset.x), x1 = fma(hi.x, r->inverse.x, r->hi_offset.x);
+    lane_f y0 = fma(lo.y, r->inverse.y, r->lo_offset.y), y1 = fma(hi.y, r->inverse.y, r->hi_offset.y);
+    lane_f z0 = fma(lo.z, r->inverse.z, r->lo_offset.z), z1 = fma(hi.z, r->inverse.z, r->hi_offset.z);
+    *far = min(min(max(x0, x1), max(y0, y1)), min(max(z0, z1), t_max)) * EC_SLAB_PAD;
+    return max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), F(0.0f)));
+}
+
+/* Vertices in the ray's frame and the three edge functions. */
+typedef struct edges {
+    lane_f u, v, w, det;  /* twice the signed areas opposite to vertices 0, 1, 2; their sum */
+    lane_f z0, z1, z2;    /* unscaled depths of the vertices */
+} edges;
+
+/* a, b, c: permuted vertices minus permuted origin. Products are rounded one by one and compared: the sign is never wrong,
+ * only sometimes 0, and 0 counts as inside, so no ray slips between two triangles (Woop et al. 2013). */
+static inline lane_i edges_inside(lane_f shear_x, lane_f shear_y, v3 a, v3 b, v3 c, edges *e)
+{
+    lane_f ax = fma(-shear_x, a.z, a.x), ay = fma(-shear_y, a.z, a.y);
+    lane_f bx = fma(-shear_x, b.z, b.x), by = fma(-shear_y, b.z, b.y);
+    lane_f cx = fma(-shear_x, c.z, c.x), cy = fma(-shear_y, c.z, c.y);
+    e->u = cx * by - cy * bx;
+    e->v = ax * cy - ay * cx;
+    e->w = bx * ay - by * ax;
+    e->z0 = a.z;
+    e->z1 = b.z;
+    e->z2 = c.z;
+    e->det = e->u + e->v + e->w;
+    return ((min(e->u, min(e->v, e->w)) >= 0.0f) | (max(e->u, max(e->v, e->w)) <= 0.0f)) & (e->det != 0.0f);
+}
+
+/* Distance of the hit, clamped into the triangle's own slab, and whether it lies in (0, t_max]. v0..v2 unpermuted. */
+static inline lane_i edges_distance(const ray *r, const edges *e, v3 v0, v3 v1, v3 v2, lane_f t_max, lane_f *t)
+{
+    lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z;
+    lane_f distance = fma(e->u, z0, fma(e->v, z1, e->w * z2)) / e->det;
+    /* Below the rounding of the weighted mean itself the sign of t means nothing (pbrt-v4, section 6.8.7, delta_t). */
+    lane_i ahead = distance > max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP);
+    v3 lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
+    v3 hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
+    lane_f far, near = slab_near(r, lo, hi, F(EC_HUGE), &far);
+    *t = max(distance, near);
+    return ahead & (near <= far) & (*t <= t_max);
+}
+
+/* Seen from its front (counter-clockwise)? */
+static inline lane_i edges_front(const ray *r, const edges *e) { return (e->det < 0.0f) == (r->scale_z < 0.0f); }
+
+#endif

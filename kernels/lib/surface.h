@@ -1,0 +1,163 @@
+/* From a hit to a shading point: position with its error bound, normals, material parameters. */
+#ifndef EC_LIB_SURFACE_H
+#define EC_LIB_SURFACE_H
+
+#include "geometry.h"
+
+typedef struct surface {
+    v3 p;          /* hit point, recentred frame */
+    v3 p_error;    /* bound of its rounding, per axis */
+    v3 ng;         /* geometric normal, unit, on the side of wo */
+    v3 ns, s, t;   /* shading frame, ns on the side of ng */
+    lane_i front;  /* is wo on the front? */
+    v3 base;       /* base colour, linear */
+    lane_f metallic;
+    lane_f alpha_ggx; /* roughness squared */
+    v3 f0;         /* dielectric reflectance at normal incidence */
+    lane_f f90;    /* and at grazing */
+} surface;
+
+static inline v3 prim_vertex(const geometry *g, lane_u prim, uint k)
+{
+    lane_u at = prim * EC_PRIM_WORDS + 4u * k;
+    return v3_make(gather_f(g->prims, at), gather_f(g->prims, at + 1u), gather_f(g->prims, at + 2u));
+}
+
+/* Position, its error bound and the geometric normal; wo points away from the surface. */
+static inline void surface_place(const geometry *g, const hit_point *h, v3 wo, surface *s)
+{
+    v3 v0 = prim_vertex(g, h->prim, 0), v1 = prim_vertex(g, h->prim, 1), v2 = prim_vertex(g, h->prim, 2);
+    s->p = v3_fma(v2, h->b2, v3_fma(v1, h->b1, v3_scale(v0, h->b0)));
+    /* pbrt-v4 6.8.5: gamma_7 sum |b_i v_i|; two more for rounding the offset itself. */
+    v3 sum = v3_fma(v3_abs(v2), h->b2, v3_fma(v3_abs(v1), h->b1, v3_scale(v3_abs(v0), h->b0)));
+    s->p_error = v3_scale(sum, F(EC_GAMMA(9)));
+    v3 n = v3_normalize(v3_cross(v3_sub(v1, v0), v3_sub(v2, v0)));
+    s->front = v3_dot(n, wo) > 0.0f;
+    s->ng = v3_select(s->front, n, v3_negate(n));
+}
+
+/* A ray's origin just off the surface on the side of `towards`: outside the error box around p (pbrt-v4, eq. 6.31). */
+static inline v3 surface_offset(v3 p, v3 p_error, v3 n, v3 towards)
+{
+    lane_f d = v3_dot(v3_abs(n), p_error);
+    d = v3_dot(n, towards) < 0.0f ? -d : d;
+    return v3_fma(n, d, p);
+}
+
+static inline lane_f vertex_uv(const geometry *g, lane_i second, lane_u vertex, uint component)
+{
+    lane_f a = F(0.0f);
+    if (g->uv0) a = gather_f(g->uv0, vertex * 2u + component);
+    if (g->uv1) a = second ? gather_f(g->uv1, vertex * 2u + component) : a;
+    return a;
+}
+
+/* Tangent and handedness of the normal map: the vertices' own, else dp/du of the triangle. Green points up in the texture,
+ * towards smaller v: on a front face the uv triangle of an unmirrored map then runs clockwise. */
+static inline v3 surface_tangent(const geometry *g, const hit_point *h, lane_f *handedness)
+{
+    v3 tangent = v3_zero();
+    *handedness = F(1.0f);
+    if (g->tangents) {
+        tangent = v3_make(interpolate(g->tangents, 4, 0, h), interpolate(g->tangents, 4, 1, h),
+                          interpolate(g->tangents, 4, 2, h));
+        *handedness = gather_f(g->tangents, h->i0 * 4u + 3u) < 0.0f ? F(-1.0f) : F(1.0f);
+    }
+    lane_i missing = v3_dot(tangent, tangent) == 0.0f;
+    if (!any_lane(missing)) return tangent;
+    lane_i second = as_lane_u(material_word(g, h, EC_MATERIAL_SLOTS + EC_SLOT_NORMAL * 8u + 1u)) != 0u;
+    lane_f u0 = vertex_uv(g, second, h->i0, 0), v0 = vertex_uv(g, second, h->i0, 1);
+    lane_f du1 = vertex_uv(g, second, h->i1, 0) - u0, dv1 = vertex_uv(g, second, h->i1, 1) - v0;
+    lane_f du2 = vertex_uv(g, second, h->i2, 0) - u0, dv2 = vertex_uv(g, second, h->i2, 1) - v0;
+    v3 p0 = prim_vertex(g, h->prim, 0);
+    v3 e1 = v3_sub(prim_vertex(g, h->prim, 1), p0), e2 = v3_sub(prim_vertex(g, h->prim, 2), p0);
+    lane_f det = du1 * dv2 - du2 * dv1;
+    v3 dpdu = v3_scale(v3_sub(v3_scale(e1, dv2), v3_scale(e2, dv1)), det < 0.0f ? F(-1.0f) : F(1.0f));
+    dpdu = v3_select(det != 0.0f, dpdu, v3_zero());
+    *handedness = missing ? (det < 0.0f ? F(1.0f) : F(-1.0f)) : *handedness;
+    return v3_select(missing, dpdu, tangent);
+}
+
+/* The normal n bent by the normal map. */
+static inline v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, v3 n)
+{
+    m = m & (uint_to_lane_i(as_lane_u(material_word(g, h, EC_MATERIAL_SLOTS + EC_SLOT_NORMAL * 8u))) >= 0);
+    if (!any_lane(m)) return n;
+    lane_f scale = material_word(g, h, EC_MATERIAL_NORMAL_SCALE), handedness;
+    v3 texel = material_texture(g, h, m, EC_SLOT_NORMAL, false).rgb;
+    lane_f x = fma(texel.x, F(2.0f), F(-1.0f)) * scale, y = fma(texel.y, F(2.0f), F(-1.0f)) * scale;
+    lane_f z = fma(texel.z, F(2.0f), F(-1.0f));
+    v3 t = surface_tangent(g, h, &handedness);
+    t = v3_fma(n, -v3_dot(n, t), t); /* Gram-Schmidt */
+    lane_f t2 = v3_dot(t, t);
+    t = v3_scale(t, 1.0f / sqrt(t2));
+    v3 b = v3_scale(v3_cross(n, t), handedness);
+    v3 r = v3_fma(b, y, v3_fma(t, x, v3_scale(n, z)));
+    lane_f r2 = v3_dot(r, r);
+    m = m & (t2 > 0.0f) & (r2 > 0.0f); /* maps of zeros and triangles without uv area keep their normal */
+    return v3_select(m, v3_scale(r, 1.0f / sqrt(r2)), n);
+}
+
+/* Shading normal and frame: on wo's side, and never turned so far that wo sees its back. */
+static inline void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo, surface *s)
+{
+    s->ns = s->ng;
+    if (HAS(SMOOTH_NORMALS) || HAS(NORMAL_TEXTURE)) {
+        v3 n = v3_select(s->front, s->ng, v3_negate(s->ng));
+        if (HAS(SMOOTH_NORMALS)) {
+            v3 smooth = v3_make(interpolate(g->normals, 3, 0, h), interpolate(g->normals, 3, 1, h),
+                                interpolate(g->normals, 3, 2, h));
+            lane_f length2 = v3_dot(smooth, smooth);
+            n = v3_select(length2 > 0.0f, v3_scale(smooth, 1.0f / sqrt(length2)), n);
+        }
+        if (HAS(NORMAL_TEXTURE)) n = surface_mapped_normal(g, h, m, n);
+        /* Files whose normals oppose their winding exist: the side is the geometric normal's. */
+        n = v3_select(v3_dot(n, s->ng) < 0.0f, v3_negate(n), n);
+        const float least = 0.01f;
+        lane_f cosine = v3_dot(n, wo);
+        v3 bent = v3_normalize(v3_fma(wo, least - cosine, n));
+        s->ns = v3_select(cosine < least, bent, n);
+    }
+    v3_frame(s->ns, &s->s, &s->t);
+}
+
+/* Parameters of the metallic-roughness model with KHR_materials_specular. */
+static inline void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    s->base = surface_base_color(g, h, m).rgb;
+    s->metallic = F(0.0f);
+    s->alpha_ggx = F(1.0f);
+    s->f0 = v3_zero();
+    s->f90 = F(0.0f);
+    if (!HAS(SPECULAR)) return;
+    lane_f roughness = material_word(g, h, EC_MATERIAL_ROUGHNESS);
+    s->metallic = material_word(g, h, EC_MATERIAL_METALLIC);
+    if (HAS(METALLIC_ROUGHNESS_TEXTURE)) {
+        rgba t = material_texture(g, h, m, EC_SLOT_METALLIC_ROUGHNESS, false);
+        roughness *= t.rgb.y;
+        s->metallic *= t.rgb.z;
+    }
+    /* Below 10^-4 a lobe is narrower than float directions resolve. */
+    s->alpha_ggx = max(roughness * roughness, F(1e-4f));
+    lane_f weight = material_word(g, h, EC_MATERIAL_SPECULAR);
+    v3 color = material_v3(g, h, EC_MATERIAL_SPECULAR_COLOR);
+    if (HAS(SPECULAR_TEXTURE)) {
+        weight *= material_texture(g, h, m, EC_SLOT_SPECULAR, false).a;
+        color = v3_mul(color, material_texture(g, h, m, EC_SLOT_SPECULAR_COLOR, true).rgb);
+    }
+    /* KHR_materials_specular: f0 = min(0.04 color, 1) weight for an index of refraction of 1.5. */
+    s->f0 = v3_scale(v3_make(min(color.x * 0.04f, F(1.0f)), min(color.y * 0.04f, F(1.0f)), min(color.z * 0.04f, F(1.0f))),
+                     weight);
+    s->f90 = weight;
+}
+
+static inline v3 surface_to_local(const surface *s, v3 w)
+{
+    return v3_make(v3_dot(w, s->s), v3_dot(w, s->t), v3_dot(w, s->ns));
+}
+static inline v3 surface_to_world(const surface *s, v3 w)
+{
+    return v3_fma(s->ns, w.z, v3_fma(s->t, w.y, v3_scale(s->s, w.x)));
+}
+
+#endif

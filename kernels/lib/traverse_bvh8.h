@@ -1,0 +1,177 @@
+/* One ray through the 8-wide BVH, SIMD inside the ray: eight boxes or eight triangles at a time. Programs that include this
+ * are built with LANES 8, whatever width the paths have. Wins on CPUs in large scenes and on incoherent rays. */
+#ifndef EC_LIB_TRAVERSE_BVH8_H
+#define EC_LIB_TRAVERSE_BVH8_H
+
+#include "../shared/accel.h"
+#include "filter.h"
+#include "ray.h"
+
+#if LANES != 8
+#error "the 8-wide BVH is traversed by programs built with LANES 8"
+#endif
+
+typedef struct ray8 {
+    ray r;                      /* splat */
+    uint near_x, near_y, near_z; /* rows of ec_bvh8_node.bound */
+    float8 near_offset_x, near_offset_y, near_offset_z, far_offset_x, far_offset_y, far_offset_z;
+    uint axis_x, axis_y, axis_z;
+} ray8;
+
+typedef struct hit8 {
+    float t;
+    uint prim;
+    float b1, b2;
+} hit8;
+
+static inline ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz, float scene_max)
+{
+    ray8 q;
+    q.r = ray_make(v3_make(F(ox), F(oy), F(oz)), v3_make(F(dx), F(dy), F(dz)), scene_max);
+    bool nx = q.r.inverse.x.s0 < 0.0f, ny = q.r.inverse.y.s0 < 0.0f, nz = q.r.inverse.z.s0 < 0.0f;
+    q.near_x = nx ? 1 : 0;
+    q.near_y = ny ? 3 : 2;
+    q.near_z = nz ? 5 : 4;
+    q.near_offset_x = nx ? q.r.hi_offset.x : q.r.lo_offset.x;
+    q.near_offset_y = ny ? q.r.hi_offset.y : q.r.lo_offset.y;
+    q.near_offset_z = nz ? q.r.hi_offset.z : q.r.lo_offset.z;
+    q.far_offset_x = nx ? q.r.lo_offset.x : q.r.hi_offset.x;
+    q.far_offset_y = ny ? q.r.lo_offset.y : q.r.hi_offset.y;
+    q.far_offset_z = nz ? q.r.lo_offset.z : q.r.hi_offset.z;
+    q.axis_z = q.r.z_is_x.s0 ? 0 : (q.r.z_is_y.s0 ? 1 : 2);
+    q.axis_x = (q.axis_z + 1) % 3;
+    q.axis_y = (q.axis_z + 2) % 3;
+    return q;
+}
+
+/* The same numbers as slab_near: the sign of d chooses the plane instead of min and max. */
+static inline float8 node8_near(const ray8 *q, global const float8 *bound, float t_max, uint *mask)
+{
+    float8 near = max(max(fma(bound[q->near_x], q->r.inverse.x, q->near_offset_x),
+                          fma(bound[q->near_y], q->r.inverse.y, q->near_offset_y)),
+                      max(fma(bound[q->near_z], q->r.inverse.z, q->near_offset_z), (float8)(0.0f)));
+    float8 far = min(min(fma(bound[q->near_x ^ 1], q->r.inverse.x, q->far_offset_x),
+                         fma(bound[q->near_y ^ 1], q->r.inverse.y, q->far_offset_y)),
+                     min(fma(bound[q->near_z ^ 1], q->r.inverse.z, q->far_offset_z), (float8)(t_max)));
+    *mask = mask_bits8(near <= far * EC_SLAB_PAD);
+    return near;
+}
+
+static inline v3 tri8_vertex(global const ec_tri8 *b, uint k)
+{
+    global const float8 *v = (global const float8 *)b->v[k];
+    return v3_make(v[0], v[1], v[2]);
+}
+static inline v3 tri8_permuted(const ray8 *q, global const ec_tri8 *b, uint k)
+{
+    global const float8 *v = (global const float8 *)b->v[k];
+    return v3_make(v[q->axis_x] - q->r.o_permuted.x, v[q->axis_y] - q->r.o_permuted.y, v[q->axis_z] - q->r.o_permuted.z);
+}
+
+/* Eight triangles against the ray. */
+static inline void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, uint skip0, uint skip1,
+                             hit8 *h)
+{
+    edges e;
+    int8 m = edges_inside(q->r.shear_x, q->r.shear_y, tri8_permuted(q, b, 0), tri8_permuted(q, b, 1),
+                          tri8_permuted(q, b, 2), &e);
+    if (!mask_bits8(m)) return;
+    uint8 id = *(global const uint8 *)b->id;
+    float8 t;
+    m = m & (id != skip0) & (id != skip1);
+    m = m & edges_distance(&q->r, &e, tri8_vertex(b, 0), tri8_vertex(b, 1), tri8_vertex(b, 2), (float8)(h->t), &t);
+    m = m & ((t < h->t) | (id < h->prim));
+    if (!mask_bits8(m)) return;
+    float8 inverse = 1.0f / e.det, b1 = e.v * inverse, b2 = e.w * inverse;
+    m = filter_hits(filter, m, id, b1, b2, edges_front(&q->r, &e));
+    uint bits = mask_bits8(m), bit = 1;
+#define BLOCK8_ONE(k)                                                                              \
+    if ((bits & bit) && (t.s##k < h->t || (t.s##k == h->t && id.s##k < h->prim))) {                \
+        h->t = t.s##k;                                                                             \
+        h->prim = id.s##k;                                                                         \
+        h->b1 = b1.s##k;                                                                           \
+        h->b2 = b2.s##k;                                                                           \
+    }                                                                                              \
+    bit <<= 1;
+    EACH_LANE(BLOCK8_ONE)
+#undef BLOCK8_ONE
+}
+
+/* Index of the lowest set bit. */
+static inline uint lowest_bit(uint m) { return 31u - clz(m & -m); }
+
+typedef struct stack8 {
+    uint node;
+    float near;
+} stack8;
+
+static inline void traverse8_closest(const ray8 *q, const hit_filter *filter, global const ec_bvh8_node *nodes,
+                              global const ec_tri8 *blocks, uint skip0, uint skip1, hit8 *h)
+{
+    stack8 stack[EC_BVH8_STACK];
+    uint depth = 0, current = 0;
+    for (;;) {
+        if (current & EC_LEAF_BIT) {
+            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, h);
+        } else {
+            global const ec_bvh8_node *n = nodes + current;
+            uint mask;
+            float near[8];
+            vstore8(node8_near(q, (global const float8 *)n->bound, h->t, &mask), 0, near);
+            if (mask) {
+                uint base = depth, i = lowest_bit(mask);
+                stack8 entry = {n->child[i], near[i]};
+                mask &= mask - 1;
+                while (mask) { /* insertion sort on the stack, farthest first; `entry` is the nearest so far */
+                    i = lowest_bit(mask);
+                    mask &= mask - 1;
+                    stack8 next = {n->child[i], near[i]};
+                    if (next.near < entry.near) {
+                        stack8 swap = entry;
+                        entry = next;
+                        next = swap;
+                    }
+                    uint k = depth++;
+                    while (k > base && stack[k - 1].near < next.near) {
+                        stack[k] = stack[k - 1];
+                        k--;
+                    }
+                    stack[k] = next;
+                }
+                current = entry.node;
+                continue;
+            }
+        }
+        do {
+            if (depth == 0) return;
+            depth--;
+        } while (stack[depth].near > h->t);
+        current = stack[depth].node;
+    }
+}
+
+/* Is anything in the way before t = h->t? */
+static inline bool traverse8_any(const ray8 *q, const hit_filter *filter, global const ec_bvh8_node *nodes,
+                          global const ec_tri8 *blocks, uint skip0, uint skip1, hit8 *h)
+{
+    uint stack[EC_BVH8_STACK];
+    uint depth = 0, current = 0;
+    for (;;) {
+        if (current & EC_LEAF_BIT) {
+            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, h);
+            if (h->prim != EC_NO_ID) return true;
+        } else {
+            global const ec_bvh8_node *n = nodes + current;
+            uint mask;
+            node8_near(q, (global const float8 *)n->bound, h->t, &mask);
+            while (mask) {
+                stack[depth++] = n->child[lowest_bit(mask)];
+                mask &= mask - 1;
+            }
+        }
+        if (depth == 0) return false;
+        current = stack[--depth];
+    }
+}
+
+#endif

@@ -1,0 +1,49 @@
+/* Everything a render fixes once, in one constant buffer. */
+#ifndef EC_SHARED_PARAMS_H
+#define EC_SHARED_PARAMS_H
+
+#include "types.h"
+
+enum ec_strategy_bits { EC_STRATEGY_LIGHT_BIT = 1, EC_STRATEGY_BSDF_BIT = 2 };
+
+typedef struct ec_params {
+    /* Camera, recentred frame: d = forward + x * right + y * up with x, y in [-1, 1]; right and up hold the field of view.
+     * Orthographic: o = origin + x * right + y * up, d = forward. */
+    ec_float camera_origin[4];
+    ec_float camera_right[4];
+    ec_float camera_up[4];
+    ec_float camera_forward[4];
+    ec_float environment[4];      /* constant radiance, or factor of the map */
+    ec_uint orthographic;
+    ec_uint width, height;        /* pixels */
+    ec_uint batch;                /* m: samples a pixel in a batch */
+    ec_uint wave;                 /* N: capacity of the queues = stride of their fields */
+    ec_uint max_depth;            /* path segments */
+    ec_uint strategy;             /* ec_strategy_bits: both = MIS */
+    ec_uint light_count;
+    ec_uint environment_width, environment_height;
+    ec_float environment_pmf;     /* probability that light sampling chooses the environment */
+    ec_float scene_radius;        /* of a sphere around the recentred origin that holds the scene */
+    ec_float scene_max;           /* largest |coordinate| of the scene */
+    ec_uint pad[3];
+} ec_params;
+EC_ASSERT_SIZE(ec_params, 144);
+
+/* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
+enum ec_stage {
+    EC_STAGE_GENERATE,
+    EC_STAGE_INTERSECT,
+    EC_STAGE_SHADE,
+    EC_STAGE_CONNECT,
+    EC_STAGE_ACCUMULATE,
+    EC_STAGE_COUNT
+};
+
+#define EC_SEGMENT 8 /* bounces between two looks of the host at the queues */
+typedef struct ec_counters {
+    ec_uint rays[EC_SEGMENT + 1]; /* paths alive at each bounce of the segment */
+    ec_uint shadows[EC_SEGMENT];  /* shadow rays asked for at each bounce */
+    ec_uint pad;
+} ec_counters;
+
+#endif

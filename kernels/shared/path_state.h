@@ -1,0 +1,34 @@
+/* Fields of the queues: structures of arrays, field f of entry i stands at word f * wave + i. */
+#ifndef EC_SHARED_PATH_STATE_H
+#define EC_SHARED_PATH_STATE_H
+
+enum ec_path_field {
+    EC_PATH_OX, EC_PATH_OY, EC_PATH_OZ,    /* ray origin, recentred frame */
+    EC_PATH_DX, EC_PATH_DY, EC_PATH_DZ,    /* ray direction, unit */
+    EC_PATH_BR, EC_PATH_BG, EC_PATH_BB,    /* beta: product of f cos / pdf and 1 / survival so far */
+    EC_PATH_PDF,                           /* solid-angle density of this direction; < 0: light sampling could not */
+    EC_PATH_SLOT,                          /* uint: where in the wave the sample's radiance is kept */
+    EC_PATH_PRIM,                          /* uint: triangle the ray leaves; EC_NO_ID for camera rays */
+    EC_PATH_FIELDS
+};
+
+enum ec_hit_field {
+    EC_HIT_PRIM,                           /* uint: EC_NO_ID on a miss */
+    EC_HIT_B1, EC_HIT_B2,                  /* barycentrics of v1, v2 */
+    EC_HIT_FIELDS
+};
+
+enum ec_shadow_field {
+    EC_SHADOW_OX, EC_SHADOW_OY, EC_SHADOW_OZ, /* from here */
+    EC_SHADOW_DX, EC_SHADOW_DY, EC_SHADOW_DZ, /* to o + d: unnormalised, t in (0, 1) */
+    EC_SHADOW_LR, EC_SHADOW_LG, EC_SHADOW_LB, /* what arrives if nothing is in the way: beta f cos Le w / pdf */
+    EC_SHADOW_SLOT,                        /* uint */
+    EC_SHADOW_PRIM,                        /* uint: triangle the ray leaves */
+    EC_SHADOW_TARGET,                      /* uint: triangle it ends on, or EC_NO_ID */
+    EC_SHADOW_FIELDS
+};
+
+/* First-hit features per slot: albedo RGB, normal XYZ, depth, coverage. */
+#define EC_AOV_FIELDS 8
+
+#endif

@@ -1,0 +1,104 @@
+/* Geometry, materials, lights and textures as the kernels read them. Kernels read most of these word by word (a lane-wide
+ * gather each), so the word offsets are named beside the structs. */
+#ifndef EC_SHARED_SCENE_BUFFERS_H
+#define EC_SHARED_SCENE_BUFFERS_H
+
+#include "types.h"
+
+/* One triangle, in scene order: the hit's id is the index. */
+typedef struct ec_prim {
+    ec_float v0[3];
+    ec_uint material;
+    ec_float v1[3];
+    ec_float light_pdf_a; /* pmf of choosing this triangle as a light / its area, 1/m^2; 0: not a light */
+    ec_float v2[3];
+    ec_uint flags;        /* EC_PRIM_* */
+} ec_prim;
+EC_ASSERT_SIZE(ec_prim, 48);
+#define EC_PRIM_WORDS 12
+#define EC_PRIM_SINGLE_SIDED 1u /* camera rays pass through its back */
+#define EC_PRIM_ALPHA 2u        /* coverage must be looked up */
+
+typedef struct ec_texture_slot {
+    ec_int texture;      /* -1: none */
+    ec_uint uv_set;
+    ec_float transform[6]; /* (u', v') = M (u, v, 1), row major */
+} ec_texture_slot;
+EC_ASSERT_SIZE(ec_texture_slot, 32);
+
+enum ec_slot {
+    EC_SLOT_BASE_COLOR,
+    EC_SLOT_METALLIC_ROUGHNESS,
+    EC_SLOT_NORMAL,
+    EC_SLOT_EMISSION,
+    EC_SLOT_SPECULAR,
+    EC_SLOT_SPECULAR_COLOR,
+    EC_SLOT_COUNT
+};
+
+typedef struct ec_material_data {
+    ec_float base_color[4];     /* linear, alpha = coverage */
+    ec_float emission[3];       /* radiance */
+    ec_uint flags;              /* EC_MATERIAL_* */
+    ec_float metallic, roughness, normal_scale, alpha_cutoff;
+    ec_float specular_color[3];
+    ec_float specular;
+    ec_texture_slot slots[6];
+} ec_material_data;
+EC_ASSERT_SIZE(ec_material_data, 256);
+#define EC_MATERIAL_WORDS 64
+#define EC_MATERIAL_BASE_COLOR 0
+#define EC_MATERIAL_EMISSION 4
+#define EC_MATERIAL_FLAGS 7
+#define EC_MATERIAL_METALLIC 8
+#define EC_MATERIAL_ROUGHNESS 9
+#define EC_MATERIAL_NORMAL_SCALE 10
+#define EC_MATERIAL_ALPHA_CUTOFF 11
+#define EC_MATERIAL_SPECULAR_COLOR 12
+#define EC_MATERIAL_SPECULAR 15
+#define EC_MATERIAL_SLOTS 16
+#define EC_MATERIAL_DOUBLE_SIDED 1u
+#define EC_MATERIAL_EMISSIVE 2u
+#define EC_MATERIAL_UNLIT 4u
+#define EC_MATERIAL_MASK 8u
+#define EC_MATERIAL_BLEND 16u
+
+/* A texture is a view of an image's texels. */
+typedef struct ec_texture_data {
+    ec_uint offset;       /* first texel, in words of the texel buffer: RGBA8 has one a texel, float four */
+    ec_uint width, height;
+    ec_uint flags;        /* EC_TEXTURE_* */
+} ec_texture_data;
+EC_ASSERT_SIZE(ec_texture_data, 16);
+#define EC_TEXTURE_WRAP_S 0u /* shift of two bits: 0 repeat, 1 clamp, 2 mirror */
+#define EC_TEXTURE_WRAP_T 2u
+#define EC_TEXTURE_NEAREST 16u
+#define EC_TEXTURE_FLOAT 32u /* four linear floats a texel: from images with more than 8 bits */
+
+enum ec_light_kind { EC_KIND_TRIANGLE, EC_KIND_POINT, EC_KIND_SPOT, EC_KIND_DIRECTIONAL, EC_KIND_ENVIRONMENT };
+
+/* One light, 16 words. Triangle: a, b, c are its vertices. Punctual: a = position, b = direction (unit, as the light
+ * travels), c = (1 / (cos_inner - cos_outer), cos_outer, 1 / range or 0). Environment: nothing. */
+typedef struct ec_light_data {
+    ec_float a[3], b[3], c[3];
+    ec_float emission[3]; /* triangle: radiance factor; point, spot: W/sr; directional: W/m^2 */
+    ec_uint kind;         /* ec_light_kind | EC_LIGHT_TWO_SIDED | EC_LIGHT_TEXTURED */
+    ec_uint prim;         /* triangle: its id; else EC_NO_ID */
+    ec_float pmf;         /* probability of choosing this light */
+    ec_float pdf_a;       /* triangle: pmf / area */
+} ec_light_data;
+EC_ASSERT_SIZE(ec_light_data, 64);
+#define EC_LIGHT_WORDS 16
+#define EC_LIGHT_KIND_MASK 7u
+#define EC_LIGHT_TWO_SIDED 8u
+#define EC_LIGHT_TEXTURED 16u
+
+/* Alias table entry (Walker 1977, Vose 1991) in integers, so that the probability is exactly the one sampled: a 32-bit
+ * random number r picks column r * n >> 32; the low word of that product is compared with `threshold`. */
+typedef struct ec_alias {
+    ec_uint threshold; /* below: this column; else `other` */
+    ec_uint other;
+} ec_alias;
+EC_ASSERT_SIZE(ec_alias, 8);
+
+#endif

@@ -1,0 +1,33 @@
+/* Shadow rays, LANES a packet: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
+#include "../lib/film.h"
+#include "../lib/queue.h"
+#include "../lib/traverse_packet.h"
+
+kernel void ec_connect_packet(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+                              global const ec_counters *counters, volatile global uint *invalid,
+                              global const float *shadows, global float *radiance, global const ec_bvh2_node *nodes,
+                              global const ec_tri *tris, global const float *prims, global const uint *indices,
+                              global const float *uv0, global const float *uv1, global const float *colors,
+                              global const float *materials, global const uint *texture_table,
+                              global const uint *texels, constant float *srgb)
+{
+    uint i = get_global_id(0) * LANES, wave = params->wave, count = counters->shadows[step];
+    if (i >= count) return;
+    lane_i active = (LANE_NUMBERS + i) < count;
+    ray r = ray_make(queue_load_v3(shadows, wave, EC_SHADOW_OX, i), queue_load_v3(shadows, wave, EC_SHADOW_DX, i),
+                     params->scene_max);
+    lane_u slot = queue_load_u(shadows, wave, EC_SHADOW_SLOT, i);
+    slot = active ? slot : U(0);
+    hit_filter filter = {{prims, indices, 0, 0, uv0, uv1, colors, materials, {texture_table, texels, srgb}}, U(0), false};
+    if (HAS(ALPHA)) {
+        lane_u pixel, sample;
+        slot_to_pixel(params, first_pixel, slot, &pixel, &sample);
+        filter.key = filter_key(seed, pixel, sample, bounce, true);
+    }
+    hit h = {active ? F(1.0f) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
+    traverse_packet(&r, &filter, nodes, tris, queue_load_u(shadows, wave, EC_SHADOW_PRIM, i),
+                    queue_load_u(shadows, wave, EC_SHADOW_TARGET, i), true, &h);
+    lane_i open = active & (h.prim == EC_NO_ID);
+    if (any_lane(open))
+        radiance_add(radiance, wave, slot, queue_load_v3(shadows, wave, EC_SHADOW_LR, i), open, invalid + EC_STAGE_CONNECT);
+}

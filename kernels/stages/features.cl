@@ -1,0 +1,18 @@
+/* First-hit features, the mean over a pixel's samples. Reads: the slots' features. Writes: 8 floats a pixel in row order. */
+#include "../lib/film.h"
+#include "../shared/path_state.h"
+
+kernel void ec_features(constant ec_params *params, uint first_pixel, uint pixel_count, global const float *aov,
+                        global float *feature_film)
+{
+    uint i = get_global_id(0), wave = params->wave, batch = params->batch;
+    if (i >= pixel_count) return;
+    uint x, y;
+    pixel_to_xy(params, first_pixel + i, &x, &y);
+    global float *out = feature_film + EC_AOV_FIELDS * ((ulong)y * params->width + x);
+    for (uint c = 0; c < EC_AOV_FIELDS; c++) {
+        float sum = 0.0f;
+        for (uint s = 0; s < batch; s++) sum += aov[c * wave + i * batch + s];
+        out[c] = sum / (float)batch;
+    }
+}

@@ -1,0 +1,41 @@
+/* Camera rays. Reads: params. Writes: the path queue, one entry a slot, and zeroes the slots' radiance. Next: intersect.
+ * Slot s of a wave is sample s % batch of the wave's pixel s / batch. */
+#include "../lib/film.h"
+#include "../lib/queue.h"
+#include "../lib/sampler.h"
+#include "../shared/params.h"
+
+kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel, uint path_count, global float *paths,
+                        global float *radiance)
+{
+    uint i = get_global_id(0) * LANES, wave = params->wave;
+    if (i >= path_count) return;
+    lane_u slot = LANE_NUMBERS + i;
+    lane_u pixel, sample;
+    slot_to_pixel(params, first_pixel, slot, &pixel, &sample);
+    lane_u x, y;
+    pixel_to_xy(params, pixel, &x, &y);
+    sampler random = sampler_make(seed, pixel, sample);
+    lane_f jx, jy;
+    sample_pair(random, EC_PAIR_PIXEL, &jx, &jy);
+
+    lane_f sx = fma(to_lane_f(x) + jx, F(2.0f / (float)params->width), F(-1.0f));
+    lane_f sy = fma(to_lane_f(y) + jy, F(-2.0f / (float)params->height), F(1.0f));
+    v3 offset = v3_make(fma(sx, F(params->camera_right[0]), sy * params->camera_up[0]),
+                        fma(sx, F(params->camera_right[1]), sy * params->camera_up[1]),
+                        fma(sx, F(params->camera_right[2]), sy * params->camera_up[2]));
+    v3 o = v3_make(F(params->camera_origin[0]), F(params->camera_origin[1]), F(params->camera_origin[2]));
+    v3 d = v3_make(F(params->camera_forward[0]), F(params->camera_forward[1]), F(params->camera_forward[2]));
+    if (params->orthographic)
+        o = v3_add(o, offset);
+    else
+        d = v3_normalize(v3_add(d, offset));
+
+    queue_store_v3(paths, wave, EC_PATH_OX, i, o);
+    queue_store_v3(paths, wave, EC_PATH_DX, i, d);
+    queue_store_v3(paths, wave, EC_PATH_BR, i, v3_splat(F(1.0f)));
+    queue_store_f(paths, wave, EC_PATH_PDF, i, F(-1.0f));
+    queue_store_f(paths, wave, EC_PATH_SLOT, i, as_lane_f(slot));
+    queue_store_f(paths, wave, EC_PATH_PRIM, i, as_lane_f(U(0xffffffffu)));
+    queue_store_v3(radiance, wave, 0, i, v3_zero());
+}

@@ -1,0 +1,175 @@
+/* What a ray found: emission or environment, one light sampled, one direction sampled, roulette.
+ * Reads: path queue and hits. Writes: radiance of the slots, the shadow queue (next: connect), the next path queue (next:
+ * intersect), first-hit features at bounce 0 where asked for. Every path either ends here or is pushed once. */
+#include "../lib/bsdf.h"
+#include "../lib/film.h"
+#include "../lib/light.h"
+#include "../lib/queue.h"
+
+#define FIRST_ROULETTE 5u /* path segments that are never cut short */
+
+/* Density of light sampling for a point that this ray found on an emissive triangle. */
+static inline lane_f emitter_pdf(const geometry *g, const hit_point *h, const surface *s, v3 o, v3 wo)
+{
+    v3 d = v3_sub(s->p, o);
+    lane_f cosine = fabs(v3_dot(s->ng, wo));
+    return gather_f(g->prims, h->prim * EC_PRIM_WORDS + 7u) * v3_dot(d, d) / cosine;
+}
+
+/* Weight of light found by following the BSDF, against light_pdf; 1 where light sampling cannot find it. */
+static inline lane_f found_weight(uint strategy, lane_f path_pdf, lane_f light_pdf)
+{
+    lane_i sampled = (path_pdf >= 0.0f) & (light_pdf > 0.0f);
+    if (!(strategy & EC_STRATEGY_LIGHT_BIT)) return F(1.0f);
+    if (!(strategy & EC_STRATEGY_BSDF_BIT)) return sampled ? F(0.0f) : F(1.0f);
+    return sampled ? mis_weight(path_pdf, light_pdf) : F(1.0f);
+}
+
+static inline void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, v3 n, lane_f depth, lane_f alpha, uint bits)
+{
+    scatter_f(aov, slot, albedo.x, bits);
+    scatter_f(aov + wave, slot, albedo.y, bits);
+    scatter_f(aov + 2 * wave, slot, albedo.z, bits);
+    scatter_f(aov + 3 * wave, slot, n.x, bits);
+    scatter_f(aov + 4 * wave, slot, n.y, bits);
+    scatter_f(aov + 5 * wave, slot, n.z, bits);
+    scatter_f(aov + 6 * wave, slot, depth, bits);
+    scatter_f(aov + 7 * wave, slot, alpha, bits);
+}
+
+kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+                     volatile global ec_counters *counters, volatile global uint *invalid, global const float *paths,
+                     global const float *hits, global float *next, global float *shadows, global float *radiance,
+                     global float *aov, global const float *prims, global const uint *indices,
+                     global const float *normals, global const float *tangents, global const float *uv0,
+                     global const float *uv1, global const float *colors, global const float *materials,
+                     global const uint *texture_table, global const uint *texels, constant float *srgb,
+                     global const float *light_table, global const uint *light_alias,
+                     global const float *environment_texels, global const uint *environment_alias)
+{
+    uint i = get_global_id(0) * LANES, wave = params->wave, count = counters->rays[step];
+    if (i >= count) return;
+    geometry g = {prims, indices, normals, tangents, uv0, uv1, colors, materials, {texture_table, texels, srgb}};
+    lights light = {light_table, light_alias, {params, environment_texels, environment_alias}};
+
+    lane_i active = (LANE_NUMBERS + i) < count;
+    v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
+    v3 beta = queue_load_v3(paths, wave, EC_PATH_BR, i);
+    lane_f path_pdf = queue_load_f(paths, wave, EC_PATH_PDF, i);
+    lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i), prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
+    slot = active ? slot : U(0);
+    lane_i found = active & (prim != EC_NO_ID);
+    v3 wo = v3_negate(d);
+
+    v3 emitted = v3_zero();
+    lane_i emits = !TRUE_MASK;
+    if (HAS(ENVIRONMENT)) {
+        lane_i missed = active & !found;
+        if (any_lane(missed)) {
+            lane_f pdf;
+            v3 Le = environment_look_up(&light.env, d, &pdf);
+            emitted = v3_scale(Le, found_weight(params->strategy, path_pdf, pdf));
+            emits = missed;
+        }
+    }
+
+    hit_point h = hit_point_make(&g, found ? prim : U(0), queue_load_f(hits, wave, EC_HIT_B1, i),
+                                 queue_load_f(hits, wave, EC_HIT_B2, i));
+    surface s;
+    surface_place(&g, &h, wo, &s);
+    surface_frame(&g, &h, found, wo, &s);
+    surface_material(&g, &h, found, &s);
+    lane_u flags = as_lane_u(material_word(&g, &h, EC_MATERIAL_FLAGS));
+
+    if (HAS(EMISSION)) {
+        lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
+                   (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
+        if (any_lane(m)) {
+            v3 Le = v3_scale(surface_emission(&g, &h, m),
+                             found_weight(params->strategy, path_pdf, emitter_pdf(&g, &h, &s, o, wo)));
+            emitted = v3_select(m, Le, emitted);
+            emits = emits | m;
+        }
+    }
+    lane_i scatters = found;
+    if (HAS(UNLIT)) {
+        lane_i m = found & ((flags & EC_MATERIAL_UNLIT) != 0u);
+        emitted = v3_select(m, s.base, emitted);
+        emits = emits | m;
+        scatters = scatters & !m;
+    }
+    if (any_lane(emits)) radiance_add(radiance, wave, slot, v3_mul(beta, emitted), emits, invalid + EC_STAGE_SHADE);
+
+    if (aov && bounce == 0) {
+        v3 seen = v3_sub(s.p, o);
+        lane_f depth = sqrt(v3_dot(seen, seen));
+        store_features(aov, wave, slot, v3_select(found, s.base, v3_zero()), v3_select(found, s.ns, v3_zero()),
+                       found ? depth : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
+    }
+    /* This vertex ends segment bounce + 1; light sampled here would arrive over segment bounce + 2. */
+    if (bounce + 2 > params->max_depth || !any_lane(scatters)) return;
+
+    lane_u pixel, sample;
+    slot_to_pixel(params, first_pixel, slot, &pixel, &sample);
+    sampler random = sampler_make(seed, pixel, sample);
+    uint pair = EC_PAIR_BOUNCE(bounce);
+    lane_u choice, lobe;
+    sample_pair_u(random, pair + EC_PAIR_CHOICE, &choice, &lobe);
+    bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
+
+    if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count) {
+        lane_f u1, u2, pdf_bsdf;
+        sample_pair(random, pair + EC_PAIR_LIGHT, &u1, &u2);
+        light_sample l = light_sample_one(&light, &g, scatters, s.p, choice, u1, u2);
+        v3 f = bsdf_eval(&b, surface_to_local(&s, l.wi), &pdf_bsdf);
+        lane_f weight = mis_weight(l.pdf, pdf_bsdf);
+        weight = l.is_delta ? F(1.0f) : weight;
+        if (!(params->strategy & EC_STRATEGY_BSDF_BIT)) weight = F(1.0f);
+        if (!(params->strategy & EC_STRATEGY_LIGHT_BIT)) weight = l.is_delta ? F(1.0f) : F(0.0f);
+        v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
+        lane_i m = l.valid & (pdf_bsdf > 0.0f) & (v3_dot(s.ng, l.wi) > 0.0f) & (v3_max_component(arriving) != 0.0f);
+        lane_i finite = v3_is_finite(arriving);
+        uint bad = mask_bits(m & !finite);
+        if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
+        uint bits = mask_bits(m & finite);
+        if (bits) {
+            uint at = atomic_add(&counters->shadows[step], popcount(bits));
+            v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
+            v3 end = surface_offset(v3_add(s.p, l.towards), l.end_error, l.end_normal, v3_negate(l.wi));
+            queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
+            queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
+            queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);
+            queue_push_f(shadows, wave, EC_SHADOW_SLOT, at, as_lane_f(slot), bits);
+            queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(h.prim), bits);
+            queue_push_f(shadows, wave, EC_SHADOW_TARGET, at, as_lane_f(l.target), bits);
+        }
+    }
+
+    lane_f u1, u2, pdf;
+    sample_pair(random, pair + EC_PAIR_BSDF, &u1, &u2);
+    v3 wi_local = bsdf_sample(&b, u1, u2, to_unit(lobe));
+    v3 wi = v3_normalize(surface_to_world(&s, wi_local));
+    v3 f = bsdf_eval(&b, wi_local, &pdf);
+    lane_i alive = scatters & (pdf > 0.0f) & (v3_dot(s.ng, wi) > 0.0f);
+    beta = v3_mul(beta, v3_scale(f, 1.0f / pdf));
+    lane_i finite = v3_is_finite(beta);
+    uint bad = mask_bits(alive & !finite);
+    if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
+    lane_f brightest = v3_max_component(beta);
+    alive = alive & finite & (brightest > 0.0f);
+    if (bounce + 1 >= FIRST_ROULETTE) {
+        lane_f survival = min(brightest, F(0.95f)), u, unused;
+        sample_pair(random, pair + EC_PAIR_ROULETTE, &u, &unused);
+        alive = alive & (u < survival);
+        beta = v3_scale(beta, 1.0f / survival);
+    }
+    uint bits = mask_bits(alive);
+    if (!bits) return;
+    uint at = atomic_add(&counters->rays[step + 1], popcount(bits));
+    queue_push_v3(next, wave, EC_PATH_OX, at, surface_offset(s.p, s.p_error, s.ng, wi), bits);
+    queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);
+    queue_push_v3(next, wave, EC_PATH_BR, at, beta, bits);
+    queue_push_f(next, wave, EC_PATH_PDF, at, pdf, bits);
+    queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
+    queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(h.prim), bits);
+}

@@ -1,0 +1,181 @@
+"""Runs eclat, makes small scenes, reads EXR headers and pixels. Standard library only."""
+import base64
+import json
+import os
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+
+ECLAT = os.environ.get("ECLAT", "eclat")
+SOURCE = os.environ.get("ECLAT_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", ".."))
+SHARED = os.environ.get("ECLAT_SHARED", os.path.join(SOURCE, "..", "shared"))
+CORNELL = os.path.join(SOURCE, "scenes", "cornell-box", "cornell-box.gltf")
+
+# Kernels compiled once serve every test of this build, and the user's own cache is left alone.
+ENVIRONMENT = dict(os.environ)
+ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
+
+
+def eclat(*arguments, cwd=None, env=None, timeout=300, **options):
+    """Runs eclat to its end; stdout and stderr as text."""
+    environment = dict(ENVIRONMENT, **(env or {}))
+    options.setdefault("stdout", subprocess.PIPE)
+    options.setdefault("stderr", subprocess.PIPE)
+    return subprocess.run([ECLAT, *arguments], cwd=cwd, env=environment, timeout=timeout, stdin=subprocess.DEVNULL,
+                          encoding="utf-8", errors="replace", **options)
+
+
+class Case(unittest.TestCase):
+    """A test with a folder of its own, and the questions that many tests ask."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="eclat-cli-")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def assert_one_error(self, run, code):
+        """Exit code, nothing on stdout, and exactly one line that is an error."""
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertEqual(run.stdout, "")
+        lines = run.stderr.splitlines()
+        self.assertEqual(len(lines), 1, run.stderr)
+        self.assertTrue(lines[0].startswith("eclat: error: "), run.stderr)
+        self.assertLess(len(lines[0]), 500)
+        return lines[0]
+
+    def assert_ok(self, run):
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run
+
+
+# Scenes -------------------------------------------------------------------------------------------------------------
+
+def quad_scene(uri=None, material=None):
+    """A glTF object and its buffer: one quad of 2 x 2 in the plane z = 0 that emits 1, and a camera before it. The
+    positions come first in the buffer."""
+    positions = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0)
+    indices = struct.pack("<6H", 0, 1, 2, 0, 2, 3)
+    buffer = positions + indices
+    scene = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 3]}],
+        "cameras": [{"type": "perspective", "name": "front",
+                     "perspective": {"yfov": 0.8, "znear": 0.1, "aspectRatio": 1.5}}],
+        "materials": [{"emissiveFactor": [1, 1, 1]} if material is None else material],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "buffers": [{"byteLength": len(buffer),
+                     "uri": uri or "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+                       "min": [-1, -1, 0], "max": [1, 1, 0]},
+                      {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+    }
+    return scene, buffer
+
+
+def data_uri(buffer):
+    return "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()
+
+
+def write_gltf(path, scene):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(scene, file)
+    return path
+
+
+def write_glb(path, scene, buffer):
+    scene = json.loads(json.dumps(scene))
+    del scene["buffers"][0]["uri"]
+    text = json.dumps(scene).encode()
+    text += b" " * (-len(text) % 4)
+    buffer += b"\0" * (-len(buffer) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(buffer), 0x004E4942) + buffer
+    with open(path, "wb") as file:
+        file.write(struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks)
+    return path
+
+
+# EXR ----------------------------------------------------------------------------------------------------------------
+
+def read_exr(path):
+    """(attributes, {channel: list of float}) of a single-part scan-line file with 32-bit channels, ZIP or ZIPS."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:4] == b"\x76\x2f\x31\x01", "not an EXR file"
+    at, attributes = 8, {}
+    while data[at]:
+        name, at = text_at(data, at)
+        kind, at = text_at(data, at)
+        size, = struct.unpack_from("<i", data, at)
+        attributes[name] = decode(kind, data[at + 4:at + 4 + size])
+        at += 4 + size
+    x0, y0, x1, y1 = attributes["dataWindow"]
+    return attributes, read_chunks(data, at + 1, x1 - x0 + 1, y1 - y0 + 1, y0, attributes)
+
+
+def text_at(data, at):
+    end = data.index(b"\0", at)
+    return data[at:end].decode(), end + 1
+
+
+def decode(kind, value):
+    if kind == "string":
+        return value.decode()
+    if kind == "chlist":
+        channels, at = [], 0
+        while value[at]:
+            name, at = text_at(value, at)
+            channels.append((name, struct.unpack_from("<i", value, at)[0]))
+            at += 16
+        return channels
+    formats = {"int": "<i", "float": "<f", "double": "<d", "box2i": "<4i"}
+    if kind not in formats:
+        return value
+    numbers = struct.unpack(formats[kind], value)
+    return numbers if kind == "box2i" else numbers[0]
+
+
+def read_chunks(data, at, width, height, y0, attributes):
+    compression = attributes["compression"][0]
+    rows = {0: 1, 2: 1, 3: 16}[compression]
+    count = -(-height // rows)
+    planes = {name: [0.0] * (width * height) for name, _ in attributes["channels"]}
+    for offset in struct.unpack_from(f"<{count}Q", data, at):
+        y, size = struct.unpack_from("<ii", data, offset)
+        lines = min(rows, height - (y - y0))
+        block = data[offset + 8:offset + 8 + size]
+        if size < lines * width * 4 * len(planes):
+            block = unzip(block)
+        for line in range(lines):
+            for index, (name, kind) in enumerate(attributes["channels"]):
+                start = (line * len(planes) + index) * width * 4
+                first = (y - y0 + line) * width
+                values = struct.unpack_from(f"<{width}{'f' if kind == 2 else 'I'}", block, start)
+                planes[name][first:first + width] = values
+    return planes
+
+
+def unzip(block):
+    """zlib, then the byte predictor, then the two halves woven together again."""
+    packed = bytearray(zlib.decompress(block))
+    for i in range(1, len(packed)):
+        packed[i] = (packed[i - 1] + packed[i] - 128) & 0xFF
+    half = (len(packed) + 1) // 2
+    woven = bytearray(len(packed))
+    woven[0::2] = packed[:half]
+    woven[1::2] = packed[half:]
+    return bytes(woven)
+
+
+def png_size(path):
+    with open(path, "rb") as file:
+        head = file.read(24)
+    assert head[:8] == b"\x89PNG\r\n\x1a\n", "not a PNG file"
+    return struct.unpack(">II", head[16:24])

@@ -1,0 +1,156 @@
+"""Everything that can be wrong with what a render is given: one clear line, the right exit code, no partial file."""
+import os
+import stat
+import struct
+import unittest
+
+from support import Case, data_uri, eclat, quad_scene, write_glb, write_gltf
+
+
+class BadInput(Case):
+    def setUp(self):
+        super().setUp()
+        self.out = self.path("out")
+        os.mkdir(self.out)
+
+    def refuse(self, scene, *options, code=1, says=()):
+        run = eclat("render", scene, "--size", "16x16", "--spp", "4", "-o", os.path.join(self.out, "a.exr"), "-o",
+                    os.path.join(self.out, "a.png"), *options, timeout=60)
+        line = self.assert_one_error(run, code)
+        for word in says if isinstance(says, tuple) else (says,):
+            self.assertIn(word, line)
+        self.assertEqual(os.listdir(self.out), [])
+        return line
+
+    def quad(self, change=lambda scene: None):
+        scene, _ = quad_scene()
+        change(scene)
+        return write_gltf(self.path("scene.gltf"), scene)
+
+
+class BadScenes(BadInput):
+    def test_missing_file(self):
+        self.refuse(self.path("nothing.gltf"), says="nothing.gltf")
+
+    def test_folder(self):
+        self.refuse(self.folder)
+
+    def test_not_gltf(self):
+        with open(self.path("text.gltf"), "w") as file:
+            file.write("hello")
+        self.refuse(self.path("text.gltf"), says="text.gltf")
+
+    def test_empty_file(self):
+        for name in ["empty.gltf", "empty.glb"]:
+            open(self.path(name), "w").close()
+            self.refuse(self.path(name), says=name)
+
+    def test_truncated_glb(self):
+        whole = write_glb(self.path("whole.glb"), *quad_scene())
+        with open(whole, "rb") as file:
+            data = file.read()
+        for size in [3, 11, 12, 19, 20, 100, len(data) - 20, len(data) - 1]:
+            with self.subTest(size=size):
+                with open(self.path("cut.glb"), "wb") as file:
+                    file.write(data[:size])
+                self.refuse(self.path("cut.glb"), says="cut.glb")
+
+    def test_missing_buffer(self):
+        self.refuse(self.quad(lambda scene: scene["buffers"][0].update(uri="missing.bin")), says="missing.bin")
+
+    def test_short_buffer(self):
+        with open(self.path("short.bin"), "wb") as file:
+            file.write(bytes(10))
+        self.refuse(self.quad(lambda scene: scene["buffers"][0].update(uri="short.bin")))
+
+    def test_vertex_index_out_of_range(self):
+        buffer = bytearray(quad_scene()[1])
+        struct.pack_into("<H", buffer, 48, 60000)
+        self.refuse(self.quad(lambda scene: scene["buffers"][0].update(uri=data_uri(bytes(buffer)))))
+
+    def test_references_out_of_range(self):
+        changes = {
+            "accessor": lambda scene: scene["meshes"][0]["primitives"][0].update(indices=7),
+            "material": lambda scene: scene["meshes"][0]["primitives"][0].update(material=7),
+            "mesh": lambda scene: scene["nodes"][0].update(mesh=7),
+            "node": lambda scene: scene["scenes"][0].update(nodes=[0, 7]),
+            "scene": lambda scene: scene.update(scene=7),
+            "buffer view": lambda scene: scene["accessors"][0].update(bufferView=7),
+            "buffer": lambda scene: scene["bufferViews"][0].update(buffer=7),
+            "camera": lambda scene: scene["nodes"][1].update(camera=7),
+            "count": lambda scene: scene["accessors"][0].update(count=2 ** 31),
+        }
+        for name, change in changes.items():
+            with self.subTest(name):
+                self.refuse(self.quad(change))
+
+    def test_cycle_in_the_node_tree(self):
+        self.refuse(self.quad(lambda scene: scene["nodes"][0].update(children=[0])))
+
+    def test_nan_positions_are_refused_or_left_out_and_told(self):
+        buffer = bytearray(quad_scene()[1])
+        for at in range(0, 48, 4):
+            struct.pack_into("<f", buffer, at, float("nan"))
+        scene = self.quad(lambda scene: scene["buffers"][0].update(uri=data_uri(bytes(buffer))))
+        run = eclat("info", scene)
+        self.assertIn(run.returncode, (0, 1), run.stderr)
+        self.assertRegex(run.stderr, r"(?i)eclat: (warning|error): .*(finite|nan)")
+
+    def test_uris_stay_in_the_scene_folder(self):
+        inner = self.path("inner")
+        os.mkdir(inner)
+        with open(self.path("outside.bin"), "wb") as file:
+            file.write(quad_scene()[1])
+        outside = self.path("outside.bin")
+        for uri in ["../outside.bin", "%2e%2e/outside.bin", "..%2Foutside.bin", "a/../../outside.bin", outside,
+                    "file://" + outside, "http://127.0.0.1:9/outside.bin", "https://127.0.0.1:9/x.bin", "..\\outside.bin"]:
+            with self.subTest(uri=uri):
+                self.refuse(write_gltf(os.path.join(inner, "scene.gltf"), quad_scene(uri=uri)[0]))
+
+
+class BadRequests(BadInput):
+    def test_too_many_pixels(self):
+        for size in ["100000x100000", "100000x1", "65536x65536"]:
+            self.refuse(self.quad(), "--size", size, code=2, says="pixels")
+
+    def test_unwritable_output(self):
+        for path in ["/nonexistent-folder/a.png", "/dev/null/a.exr", self.path("scene.gltf", "a.png")]:
+            with self.subTest(path=path):
+                self.refuse(self.quad(), "-o", path, says=path)
+
+    def test_output_that_is_a_folder(self):
+        os.mkdir(self.path("folder.png"))
+        self.refuse(self.quad(), "-o", self.path("folder.png"), says="folder.png")
+
+    @unittest.skipIf(os.geteuid() == 0, "skipped: root may write anywhere")
+    def test_folder_without_permission(self):
+        os.mkdir(self.path("locked"))
+        os.chmod(self.path("locked"), stat.S_IRUSR | stat.S_IXUSR)
+        self.refuse(self.quad(), "-o", self.path("locked", "a.png"), says="locked")
+
+    def test_outputs_are_checked_before_the_scene_is_read(self):
+        self.refuse(self.path("nothing.gltf"), "-o", "/nonexistent-folder/a.png", says="/nonexistent-folder/a.png")
+
+    def test_output_over_an_input(self):
+        with open(self.path("map.exr"), "wb") as file:
+            file.write(b"precious")
+        self.refuse(self.quad(), "--env", self.path("map.exr"), "-o", self.path("map.exr"), says="map.exr")
+        with open(self.path("map.exr"), "rb") as file:
+            self.assertEqual(file.read(), b"precious")
+
+    def test_unknown_device(self):
+        self.refuse(self.quad(), "--device", "no such device", says="no such device")
+        self.refuse(self.quad(), "--device", "999", says="999")
+
+    def test_unknown_camera(self):
+        self.refuse(self.quad(), "--camera", "nobody", says=("nobody", "front"))
+        self.refuse(self.quad(), "--camera", "7", says="7")
+
+    def test_bad_environment(self):
+        for spec in ["1,2", "1,2,x", "nan,0,0", "-1,0,0", "missing.hdr", self.quad()]:
+            with self.subTest(spec=spec):
+                self.refuse(self.quad(), "--env", spec)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,79 @@
+"""eclat info: the figures of scenes whose contents are known."""
+import json
+import os
+import unittest
+
+from support import CORNELL, SHARED, Case, eclat, quad_scene, write_glb, write_gltf
+
+
+class Info(Case):
+    def info(self, path):
+        run = self.assert_ok(eclat("info", "--json", path))
+        return json.loads(run.stdout)
+
+    def test_quad(self):
+        report = self.info(write_gltf(self.path("quad.gltf"), quad_scene()[0]))
+        self.assertEqual([report[key] for key in ["meshes", "instances", "triangles", "vertices", "images"]],
+                         [1, 1, 2, 4, 0])
+        self.assertEqual(report["lights"]["emissive_triangles"], 2)
+        self.assertTrue(report["lights"]["any"])
+        self.assertEqual([(camera["name"], camera["type"]) for camera in report["cameras"]], [("front", "perspective")])
+        self.assertEqual(report["extensions_used"], [])
+        self.assertGreater(report["device_bytes"], 0)
+        self.assertGreater(report["peak_memory_bytes"], 0)
+        self.assertIsInstance(report["effects"], list)
+        for key in ["nodes", "leaves", "max_depth", "sah_cost", "leaf_fill", "build_seconds"]:
+            self.assertIn(key, report["bvh"])
+
+    def test_glb_says_the_same(self):
+        scene, buffer = quad_scene()
+        gltf = self.info(write_gltf(self.path("quad.gltf"), scene))
+        glb = self.info(write_glb(self.path("quad.glb"), scene, buffer))
+        for key in ["triangles", "vertices", "lights", "cameras", "device_bytes", "effects"]:
+            self.assertEqual(gltf[key], glb[key])
+
+    def test_text(self):
+        run = self.assert_ok(eclat("info", CORNELL))
+        for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "effects",
+                     "memory", "BVH"]:
+            self.assertRegex(run.stdout, rf"(?m)^{word} ")
+
+    def test_unsupported_extensions_are_told_and_required_ones_refused(self):
+        scene, _ = quad_scene()
+        scene["extensionsUsed"] = ["EXT_of_another_world"]
+        path = write_gltf(self.path("used.gltf"), scene)
+        run = self.assert_ok(eclat("info", "--json", path))
+        self.assertEqual(json.loads(run.stdout)["extensions_unsupported"], ["EXT_of_another_world"])
+        self.assertRegex(run.stderr, r"(?m)^eclat: warning: .*EXT_of_another_world")
+        scene["extensionsRequired"] = ["EXT_of_another_world"]
+        line = self.assert_one_error(eclat("info", write_gltf(self.path("required.gltf"), scene)), 1)
+        self.assertIn("EXT_of_another_world", line)
+
+    def test_no_light_and_no_camera_are_told(self):
+        scene, _ = quad_scene(material={})
+        del scene["cameras"], scene["nodes"][1]["camera"]
+        path = write_gltf(self.path("bare.gltf"), scene)
+        run = self.assert_ok(eclat("info", path))
+        self.assertRegex(run.stdout, "none at all: .*white environment")
+        self.assertRegex(run.stderr, r"(?m)^eclat: note: .*camera")
+        self.assertEqual(self.assert_ok(eclat("info", "--quiet", path)).stderr, "")
+
+    def test_malformed_files_neither_crash_nor_hang(self):
+        folder = os.path.join(SHARED, "assets", "bad-gltf")
+        if not os.path.isdir(folder):
+            self.skipTest("skipped: no ../shared/assets/bad-gltf here")
+        for parent, _, names in os.walk(folder):
+            for name in sorted(names):
+                if not name.endswith((".gltf", ".glb")):
+                    continue
+                with self.subTest(file=os.path.join(parent, name)):
+                    run = eclat("info", "--json", os.path.join(parent, name), timeout=60)
+                    self.assertIn(run.returncode, (0, 1), run.stderr)
+                    if run.returncode == 0:
+                        json.loads(run.stdout)
+                    errors = [line for line in run.stderr.splitlines() if line.startswith("eclat: error: ")]
+                    self.assertEqual(len(errors), run.returncode, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

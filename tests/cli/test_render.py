@@ -1,0 +1,163 @@
+"""eclat render from end to end: files, reports, and the same bits."""
+import hashlib
+import json
+import math
+import os
+import struct
+import unittest
+
+from support import CORNELL, Case, eclat, png_size, quad_scene, read_exr, write_gltf
+
+SMALL = ["--size", "24x16", "--spp", "16"]
+KEYS = """seconds samples_per_pixel samples_per_second rays_per_second error error_bound invalid_samples
+          invalid_samples_by_stage device lanes effects accel_seconds kernel_seconds pack_seconds first_pixel_seconds
+          load_seconds peak_memory_bytes outputs stopped_by image_sha256 samples rays wave batch version command""".split()
+CHANNELS = sorted("R G B A stderr.R stderr.G stderr.B samples albedo.R albedo.G albedo.B normal.X normal.Y normal.Z "
+                  "depth.Z".split())
+
+
+class Render(Case):
+    def setUp(self):
+        super().setUp()
+        self.scene = write_gltf(self.path("quad.gltf"), quad_scene()[0])
+
+    def render(self, *options, scene=None, env=None):
+        run = self.assert_ok(eclat("render", scene or self.scene, "--json", "--quiet", *options, cwd=self.folder, env=env))
+        self.assertEqual(run.stdout.count("\n"), 1)
+        return json.loads(run.stdout)
+
+
+class Files(Render):
+    def test_default_outputs_and_size_follow_scene_and_camera(self):
+        run = self.assert_ok(eclat("render", self.scene, "--spp", "2", cwd=self.folder))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["quad.exr", "quad.gltf", "quad.png"])
+        self.assertIn("no -o given", run.stderr)
+        for name in ["quad.exr", "quad.png"]:
+            self.assertIn(os.path.join(os.path.realpath(self.folder), name), run.stdout)
+        self.assertEqual(png_size(self.path("quad.png")), (768, 512))  # aspect ratio 1.5
+        self.assertRegex(run.stdout, r"error .* at 2 samples a pixel in .* samples/s")
+        self.assertRegex(run.stdout, r"(?m)^invalid  0 samples$")
+
+    def test_exr_has_the_channels_and_all_that_is_needed_to_render_it_again(self):
+        report = self.render(*SMALL, "-o", "a.exr", "--seed", "18446744073709551615")
+        attributes, planes = read_exr(self.path("a.exr"))
+        self.assertEqual(sorted(planes), CHANNELS)
+        self.assertEqual([kind for _, kind in attributes["channels"]], [2] * len(CHANNELS))
+        for name in ["command", "version", "scene", "camera", "environment", "seed", "sampler", "strategy", "batch",
+                     "samplesPerPixel", "maxDepth", "lanes", "wave", "device", "device.version", "device.driver",
+                     "device.platform", "seconds", "error", "errorBound", "effects", "invalid", "stoppedBy", "host",
+                     "png.exposure", "png.tonemap"]:
+            self.assertIn("eclat." + name, attributes)
+        self.assertEqual(attributes["eclat.seed"], "18446744073709551615")
+        self.assertIn("--seed 18446744073709551615", attributes["eclat.command"])
+        self.assertEqual(set(planes["samples"]), {float(report["samples_per_pixel"])})
+        self.assertAlmostEqual(attributes["eclat.error"], report["error"])
+
+    def test_hash_is_that_of_the_pixels_in_the_file(self):
+        report = self.render(*SMALL, "-o", "a.exr")
+        _, planes = read_exr(self.path("a.exr"))
+        pixels = zip(planes["R"], planes["G"], planes["B"])
+        self.assertEqual(hashlib.sha256(b"".join(struct.pack("<3f", *pixel) for pixel in pixels)).hexdigest(),
+                         report["image_sha256"])
+
+    def test_the_middle_of_the_quad_shines_and_the_rest_is_empty(self):
+        self.render(*SMALL, "-o", "a.exr")
+        _, planes = read_exr(self.path("a.exr"))
+        middle, corner = 8 * 24 + 12, 0
+        self.assertAlmostEqual(planes["R"][middle], 1, places=5)
+        self.assertEqual((planes["A"][middle], planes["A"][corner], planes["R"][corner]), (1, 0, 0))
+        self.assertAlmostEqual(planes["normal.Z"][middle], 1, places=5)
+
+    def test_several_outputs_and_capital_extensions(self):
+        report = self.render(*SMALL, "-o", "a.exr", "-o", "B.PNG", "-o", "c.png")
+        self.assertEqual([os.path.basename(path) for path in report["outputs"]], ["a.exr", "B.PNG", "c.png"])
+        for path in report["outputs"]:
+            self.assertTrue(os.path.isabs(path) and os.path.getsize(path) > 0)
+
+    def test_exposure_and_tonemap_touch_the_png_only(self):
+        plain = self.render(*SMALL, "-o", "a.png", "--tonemap", "none")
+        dark = self.render(*SMALL, "-o", "b.png", "--tonemap", "none", "--exposure", "-2")
+        self.assertEqual(plain["image_sha256"], dark["image_sha256"])
+        with open(self.path("a.png"), "rb") as a, open(self.path("b.png"), "rb") as b:
+            self.assertNotEqual(a.read(), b.read())
+
+
+class Reports(Render):
+    def test_json_has_everything_measured(self):
+        report = self.render(*SMALL, scene=CORNELL)
+        for key in KEYS:
+            self.assertIn(key, report)
+        self.assertEqual((report["samples_per_pixel"], report["stopped_by"], report["invalid_samples"]), (16, "spp", 0))
+        self.assertIsInstance(report["effects"], list)
+        self.assertTrue(report["device"]["name"])
+        self.assertEqual(report["samples"], 16 * 24 * 16)
+        self.assertLessEqual(report["error"], report["error_bound"])
+
+    def test_one_batch_has_no_error_and_says_null(self):
+        report = self.render("--size", "8x8", "--spp", "1")
+        self.assertIsNone(report["error"])
+        self.assertIsNone(report["error_bound"])
+
+    def test_error_target(self):
+        report = self.render("--size", "16x16", "--error", "20%", "--time", "60", scene=CORNELL)
+        self.assertEqual(report["stopped_by"], "error")
+        self.assertLessEqual(report["error_bound"], 0.2)
+
+    def test_percent_sign_is_optional(self):
+        with_sign = self.render("--size", "16x16", "--error", "20%", scene=CORNELL)
+        without = self.render("--size", "16x16", "--error", "20", scene=CORNELL)
+        self.assertEqual(with_sign["image_sha256"], without["image_sha256"])
+
+    def test_time_limit(self):
+        report = self.render("--size", "64x64", "--time", "1.5s", scene=CORNELL)
+        self.assertEqual(report["stopped_by"], "time")
+        self.assertLess(report["seconds"], 5)
+        self.assertGreater(report["samples_per_pixel"], 0)
+
+    def test_default_stop_is_256_samples(self):
+        report = self.render("--size", "4x4")
+        self.assertEqual((report["samples_per_pixel"], report["stopped_by"]), (256, "spp"))
+
+    def test_a_scene_without_light_is_lit_white_and_says_so(self):
+        scene = write_gltf(self.path("dark.gltf"), quad_scene(material={})[0])
+        run = self.assert_ok(eclat("render", scene, *SMALL, "--json", cwd=self.folder))
+        self.assertRegex(run.stderr, r"(?m)^eclat: note: .*no light.*white environment")
+        report = json.loads(run.stdout)
+        self.assertEqual(report["environment"], "1,1,1")
+        self.assertGreater(report["mean_luminance"], 0.1)
+
+    def test_environment_option(self):
+        report = self.render(*SMALL, "--env", "2,2,2", "-o", "a.exr")
+        _, planes = read_exr(self.path("a.exr"))
+        self.assertTrue(math.isclose(planes["G"][0], 2, rel_tol=1e-5))
+        self.assertEqual(report["environment"], "2,2,2")
+
+    def test_quiet_is_silent(self):
+        run = self.assert_ok(eclat("render", self.scene, *SMALL, "--quiet", cwd=self.folder))
+        self.assertEqual((run.stdout, run.stderr), ("", ""))
+
+    def test_a_lost_report_is_a_failure_but_the_picture_is_there(self):
+        with open("/dev/full", "w") as full:
+            run = eclat("render", self.scene, *SMALL, "-o", self.path("a.png"), stdout=full)
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(png_size(self.path("a.png")), (24, 16))
+
+
+class SameBits(Render):
+    def test_nothing_but_the_seed_and_the_sampler_changes_a_bit(self):
+        options = ["--size", "33x17", "--spp", "8", "--max-depth", "5"]
+        first = self.render(*options, scene=CORNELL)["image_sha256"]
+        for change in [[], ["--lanes", "1"], ["--lanes", "4"], ["--lanes", "8"], ["--lanes", "16"], ["--wave", "1000"],
+                       ["--wave", "100000"], ["--all-effects"], ["--trace", "packet"], ["--trace", "bvh8"]]:
+            with self.subTest(change=change):
+                self.assertEqual(self.render(*options, *change, scene=CORNELL)["image_sha256"], first)
+        with self.subTest("threads"):
+            one = self.render(*options, scene=CORNELL, env={"POCL_MAX_PTHREAD_COUNT": "1"})
+            self.assertEqual(one["image_sha256"], first)
+        for change in [["--seed", "1"], ["--seed", str(2 ** 63)], ["--sampler", "independent"]]:
+            with self.subTest(change=change):
+                self.assertNotEqual(self.render(*options, *change, scene=CORNELL)["image_sha256"], first)
+
+
+if __name__ == "__main__":
+    unittest.main()

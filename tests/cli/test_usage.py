@@ -1,0 +1,140 @@
+"""The command line itself: help, versions, wrong options. Nothing here renders."""
+import os
+import re
+import unittest
+
+from support import Case, eclat
+
+COMMANDS = ["render", "info", "devices"]
+
+
+class Help(Case):
+    def test_no_arguments_is_a_usage_error_with_a_hint(self):
+        run = eclat()
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        self.assertIn("Usage: eclat render SCENE", run.stderr)
+
+    def test_help_everywhere(self):
+        for arguments in [["--help"], ["-h"], ["help"], ["help", "help"]]:
+            run = self.assert_ok(eclat(*arguments))
+            self.assertTrue(run.stdout.startswith("Usage: eclat COMMAND"), arguments)
+            self.assertEqual(run.stderr, "")
+        for command in COMMANDS:
+            texts = {self.assert_ok(eclat(*arguments)).stdout
+                     for arguments in [[command, "--help"], [command, "-h"], ["help", command]]}
+            self.assertEqual(len(texts), 1)
+            self.assertTrue(texts.pop().startswith(f"Usage: eclat {command}"))
+
+    def test_help_wins_over_missing_operands_and_fits_a_wide_terminal(self):
+        for command in ["", *COMMANDS]:
+            text = self.assert_ok(eclat(*filter(None, [command]), "--help")).stdout
+            self.assertLessEqual(max(map(len, text.splitlines())), 120)
+
+    def test_version_everywhere(self):
+        for arguments in [["--version"], *([command, "--version"] for command in COMMANDS)]:
+            run = self.assert_ok(eclat(*arguments))
+            self.assertRegex(run.stdout, r"\Aeclat \d+\.\d+\.\d+\n\Z")
+
+    def test_groups_are_alphabetical(self):
+        groups = re.split(r"\n\n", self.assert_ok(eclat("render", "--help")).stdout)
+        for group in groups:
+            names = re.findall(r"^ {2,6}(?:-\w, )?--([a-z-]+)", group, re.M)
+            self.assertEqual(names, sorted(names))
+
+    def test_every_option_of_the_help_is_known(self):
+        for command in COMMANDS:
+            text = eclat(command, "--help").stdout
+            for name in re.findall(r"^ {2,6}(?:-\w, )?--([a-z-]+)", text, re.M):
+                if name in ("help", "version"):
+                    continue
+                self.assertNotIn("unknown option", eclat(command, f"--{name}").stderr, name)
+
+
+class WrongOptions(Case):
+    def usage(self, *arguments, says):
+        line = self.assert_one_error(eclat(*arguments, cwd=self.folder), 2)
+        self.assertIn(says, line)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_commands(self):
+        self.usage("rendr", says="did you mean 'eclat render'")
+        self.usage("device", says="did you mean 'eclat devices'")
+        self.usage("scene.gltf", says="eclat render scene.gltf")
+        self.usage("--frobnicate", says="unknown option")
+        self.usage("help", "nothing", says="unknown command 'nothing'")
+        self.usage("xyzzy", says="see 'eclat --help'")
+
+    def test_operands(self):
+        self.usage("render", says="needs a SCENE")
+        self.usage("info", says="needs a SCENE")
+        self.usage("render", "a.gltf", "b.gltf", says="one scene at a time: 'b.gltf'")
+        self.usage("devices", "extra", says="no operand")
+
+    def test_unknown_options_suggest_the_nearest(self):
+        self.usage("render", "s.gltf", "--erorr", "2", says="did you mean '--error'")
+        self.usage("render", "s.gltf", "--maxdepth=3", says="did you mean '--max-depth'")
+        self.usage("info", "s.gltf", "--jsn", says="did you mean '--json'")
+        self.usage("render", "s.gltf", "--frobnicate", says="see 'eclat render --help'")
+        self.usage("render", "s.gltf", "-z", says="unknown option '-z'")
+
+    def test_ambiguous_missing_and_superfluous_values(self):
+        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sampler, --seed")
+        self.usage("render", "s.gltf", "--spp", says="'--spp' needs a value")
+        self.usage("render", "s.gltf", "-o", says="needs a value")
+        self.usage("render", "s.gltf", "--quiet=yes", says="takes no value")
+
+    def test_numbers_are_strict(self):
+        for option, values in {
+            "--spp": ["0", "-1", "1e3", "12x", " 4", "", "nan", "16777217", "99999999999999999999"],
+            "--time": ["0", "-3", "nan", "inf", "3x", "s", "1e99", ""],
+            "--error": ["0", "-1%", "nan%", "2%%", "101", "%"],
+            "--size": ["512", "512x", "x512", "0x10", "-1x5", "5x5x5", "512X512 ", "100000x100000", "60000x60000"],
+            "--max-depth": ["0", "-1", "infinite", "1.5"],
+            "--seed": ["-1", "18446744073709551616", "0x", "ten"],
+            "--exposure": ["nan", "inf", "1e9", "1ev"],
+            "--lanes": ["0", "2", "32", "all"],
+            "--batch": ["0"],
+            "--wave": ["0", "-5"],
+            "--sampler": ["halton", ""],
+            "--tonemap": ["aces"],
+            "--strategy": ["all"],
+            "--trace": ["grid"],
+        }.items():
+            for value in values:
+                with self.subTest(option=option, value=value):
+                    self.usage("render", "s.gltf", f"{option}={value}", says=option)
+
+    def test_outputs(self):
+        for name in ["a.jpg", "a", ".png", "a.exr.txt", "folder.png/"]:
+            with self.subTest(name=name):
+                self.usage("render", "s.gltf", "-o", name, says=".exr (all data) or NAME.png")
+        self.usage("render", "s.gltf", "-o", "a.png", "-o", "a.png", says="twice")
+
+
+class Streams(Case):
+    def test_a_result_that_cannot_be_written_is_a_failure(self):
+        with open("/dev/full", "w") as full:
+            run = eclat("help", stdout=full)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("standard output", run.stderr)
+
+    def test_a_closed_standard_output_is_a_failure(self):
+        run = eclat("help", stdout=None, preexec_fn=lambda: os.close(1))
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("standard output", run.stderr)
+
+    def test_a_closed_pipe_is_a_failure_and_no_signal(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        run = eclat("help", stdout=writer)
+        os.close(writer)
+        self.assertEqual(run.returncode, 1)
+
+    def test_messages_hold_no_control_characters(self):
+        run = eclat("info", self.path("a\x1b[31m.gltf"))
+        self.assertEqual(run.returncode, 1)
+        self.assertNotIn("\x1b", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

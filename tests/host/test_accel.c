@@ -1,0 +1,161 @@
+/* The binary tree: its promises on easy and hostile meshes, the same bits for any number of threads, its cost. */
+#include "accel/bvh.h"
+#include "test_accel_meshes.h"
+
+static void test_promises(void)
+{
+    ec_error err;
+    for (size_t k = 0; k < MESH_KIND_COUNT; k++) {
+        mesh m = mesh_make(&mesh_kinds[k]);
+        ec_bvh bvh;
+        ec_bvh_stats stats;
+        CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, &stats, &err), err);
+        CHECK_MSG(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_OK, "%s: %s", m.name, err.text);
+        CHECK_MSG(stats.max_depth < 64, "%s: depth %u", m.name, stats.max_depth);
+        CHECK_MSG(stats.node_count == 2 * stats.leaf_count - 1, "%s", m.name);
+        CHECK_MSG(stats.leaf_fill <= 1.0 && (stats.leaf_fill > 0.1 || m.triangle_count < 2), "%s: fill %g", m.name,
+                  stats.leaf_fill);
+        ec_bvh_free(&bvh);
+        mesh_free(&m);
+    }
+}
+
+static void test_thread_counts_agree(void)
+{
+    ec_error err;
+    for (size_t k = 0; k < MESH_KIND_COUNT; k++) {
+        mesh m = mesh_make(&mesh_kinds[k]);
+        ec_bvh one, other;
+        CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 1, &one, NULL, &err), err);
+        for (uint32_t threads = 2; threads <= 5; threads += 3) {
+            CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, threads, &other, NULL, &err), err);
+            int same = one.node_count == other.node_count &&
+                       !memcmp(one.nodes, other.nodes, one.node_count * sizeof *one.nodes) &&
+                       !memcmp(one.order, other.order, one.triangle_count * sizeof *one.order);
+            CHECK_MSG(same, "%s: %u threads build another tree than one", m.name, threads);
+            ec_bvh_free(&other);
+        }
+        ec_bvh_free(&one);
+        mesh_free(&m);
+    }
+}
+
+/* The checker itself must see what is wrong. */
+static void test_check_sees_damage(void)
+{
+    ec_error err;
+    mesh m = mesh_make(&(mesh_kind){"small", triangle_small, 500});
+    ec_bvh bvh;
+    CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, NULL, &err), err);
+
+    uint32_t id = bvh.order[7];
+    bvh.order[7] = bvh.order[8];
+    CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "held already"));
+    bvh.order[7] = id;
+
+    uint32_t leaf = bvh.node_count - 1;
+    float hi = bvh.nodes[leaf].hi[1];
+    bvh.nodes[leaf].hi[1] = nextafterf(hi, -1e9f);
+    CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "sticks out of BVH leaf"));
+    bvh.nodes[leaf].hi[1] = hi;
+
+    float lo = bvh.nodes[0].lo[0];
+    bvh.nodes[0].lo[0] = nextafterf(lo, 1e9f);
+    CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "its parent"));
+    bvh.nodes[0].lo[0] = lo;
+
+    bvh.nodes[leaf].count--;
+    CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED);
+    bvh.nodes[leaf].count++;
+    CHECK_OK(ec_bvh_check(&bvh, m.positions, m.indices, &err), err);
+    ec_bvh_free(&bvh);
+    mesh_free(&m);
+}
+
+/* A reference that weighs every plane between neighbours, with the builder's costs: a visit 1, a block of 8 two. */
+typedef struct reference {
+    float (*lo)[3], (*hi)[3];
+    int axis;
+} reference;
+static const reference *compared;
+
+static int by_centroid(const void *a, const void *b)
+{
+    uint32_t i = *(const uint32_t *)a, k = *(const uint32_t *)b;
+    float x = compared->lo[i][compared->axis] + compared->hi[i][compared->axis];
+    float y = compared->lo[k][compared->axis] + compared->hi[k][compared->axis];
+    return x < y ? -1 : x > y ? 1 : i < k ? -1 : 1;
+}
+
+static double area_of(const reference *r, const uint32_t *ids, uint32_t count)
+{
+    double lo[3] = {1e300, 1e300, 1e300}, hi[3] = {-1e300, -1e300, -1e300};
+    for (uint32_t i = 0; i < count; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            lo[axis] = fmin(lo[axis], r->lo[ids[i]][axis]);
+            hi[axis] = fmax(hi[axis], r->hi[ids[i]][axis]);
+        }
+    double x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
+    return x * y + y * z + z * x;
+}
+
+static double reference_cost(reference *r, uint32_t *ids, uint32_t count)
+{
+    double area = area_of(r, ids, count), best = 1e300;
+    int best_axis = 0;
+    uint32_t best_left = 0;
+    compared = r;
+    for (r->axis = 0; r->axis < 3; r->axis++) {
+        qsort(ids, count, sizeof *ids, by_centroid);
+        for (uint32_t left = 1; left < count; left++) {
+            double cost = 2.0 * ((left + 7) / 8) * area_of(r, ids, left) +
+                          2.0 * ((count - left + 7) / 8) * area_of(r, ids + left, count - left);
+            if (cost < best) best = cost, best_axis = r->axis, best_left = left;
+        }
+    }
+    if (count <= 8 && best + area >= 2.0 * area) return 2.0 * area;
+    r->axis = best_axis;
+    qsort(ids, count, sizeof *ids, by_centroid);
+    return area + reference_cost(r, ids, best_left) + reference_cost(r, ids + best_left, count - best_left);
+}
+
+static void test_cost(void)
+{
+    ec_error err;
+    mesh_triangle *kinds[] = {triangle_small, triangle_sliver, triangle_line_up};
+    for (int kind = 0; kind < 3; kind++) {
+        mesh m = mesh_make(&(mesh_kind){"cost", kinds[kind], 600});
+        ec_bvh bvh;
+        ec_bvh_stats stats;
+        CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, &stats, &err), err);
+        reference r = {malloc(m.triangle_count * sizeof *r.lo), malloc(m.triangle_count * sizeof *r.hi), 0};
+        uint32_t *ids = malloc(m.triangle_count * sizeof *ids);
+        for (uint32_t i = 0; i < m.triangle_count; i++) {
+            ids[i] = i;
+            const float *p = m.positions + 9 * (size_t)i;
+            for (int axis = 0; axis < 3; axis++) {
+                r.lo[i][axis] = fminf(p[axis], fminf(p[3 + axis], p[6 + axis]));
+                r.hi[i][axis] = fmaxf(p[axis], fmaxf(p[3 + axis], p[6 + axis]));
+            }
+        }
+        double root = area_of(&r, ids, m.triangle_count), cost = reference_cost(&r, ids, m.triangle_count) / root;
+        printf("mesh %d: cost %.3f, of a full sweep %.3f\n", kind, stats.sah_cost, cost);
+        CHECK_MSG(stats.sah_cost <= 1.1 * cost, "%g against %g", stats.sah_cost, cost);
+        CHECK_MSG(stats.sah_cost >= 0.8 * cost, "%g against %g: measured wrongly?", stats.sah_cost, cost);
+        free(r.lo);
+        free(r.hi);
+        free(ids);
+        ec_bvh_free(&bvh);
+        mesh_free(&m);
+    }
+}
+
+int main(void)
+{
+    test_promises();
+    test_thread_counts_agree();
+    test_check_sees_damage();
+    test_cost();
+    ec_bvh_free(NULL);
+    TEST_END();
+}

@@ -1,0 +1,149 @@
+/* Is the 95 % bound a 95 % bound? Films of synthetic pixels whose true mean is known are filled over and over; the real
+ * error must lie under the bound about as often as claimed: not less, and not always either. See host/film/error.c.
+ *
+ * What may be asserted differs. Light tails: 91 to 99 %. Skewed samples and fireflies: at least 91 %, and 100 % is no fault
+ * with 2 batches, where kurtosis cannot be told from variance. Fireflies alone on black (the mean luminance itself is a
+ * handful of events) and images whose noise sits in one or a few pixels: the floors written below, worst with 2 batches. */
+#include "film/film.h"
+#include "film/statistics.h"
+#include "support/test.h"
+
+enum { TABLE = 65536, REPEATS = 400, FIREFLY_SAMPLES = 16, HITS_MAX = 6 };
+
+/* One row of the result's table: `draw` gives a batch mean whose true value is 1. */
+typedef struct workload {
+    const char *name;
+    float (*draw)(uint64_t random, uint32_t pixel);
+    double floor, floor_two, ceiling; /* % under the bound: least, least with 2 batches, most with 4 or more */
+} workload;
+
+static float normal[TABLE], exponential[TABLE], lognormal[TABLE]; /* quantiles at (i + 1/2) / TABLE, scaled to mean 1 */
+static double hits_cdf[HITS_MAX];                                   /* binomial(16, 1e-3) */
+
+static uint64_t state;
+static uint64_t next_random(void) /* SplitMix64, Steele et al. 2014 */
+{
+    uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+static void fill_tables(void)
+{
+    double exponential_mean = 0, lognormal_mean = 0;
+    for (int i = 0; i < TABLE; i++) {
+        double upper = 1 - (i + 0.5) / TABLE;
+        normal[i] = (float)ec_normal_upper_quantile(upper);
+        exponential_mean += (exponential[i] = (float)-log(upper)) / (double)TABLE;
+        lognormal_mean += (lognormal[i] = expf(normal[i])) / (double)TABLE;
+    }
+    for (int i = 0; i < TABLE; i++) {
+        exponential[i] /= (float)exponential_mean;
+        lognormal[i] /= (float)lognormal_mean;
+    }
+    double probability = pow(0.999, FIREFLY_SAMPLES), sum = 0;
+    for (int k = 0; k < HITS_MAX; k++) {
+        hits_cdf[k] = sum += probability;
+        probability *= (double)(FIREFLY_SAMPLES - k) / (k + 1) * 0.001 / 0.999;
+    }
+}
+
+static float mean_of_four(const float *table, uint64_t r)
+{
+    return 0.25f * (table[r & 0xffff] + table[r >> 16 & 0xffff] + table[r >> 32 & 0xffff] + table[r >> 48]);
+}
+
+static float draw_normal(uint64_t r, uint32_t p) { return (void)p, 1 + 0.5f * normal[r & 0xffff]; }
+static float draw_exponential(uint64_t r, uint32_t p) { return (void)p, mean_of_four(exponential, r); }
+static float draw_lognormal(uint64_t r, uint32_t p) { return (void)p, mean_of_four(lognormal, r); }
+
+/* 16 samples, each 100 with probability 1e-3; the mean of what they add is 0.1. */
+static float firefly(uint64_t r)
+{
+    double u = (double)(r >> 16) * 0x1p-48;
+    int hits = 0;
+    while (hits < HITS_MAX - 1 && u > hits_cdf[hits]) hits++;
+    return 100.0f * (float)hits / FIREFLY_SAMPLES;
+}
+
+static float draw_fireflies(uint64_t r, uint32_t p) { return (void)p, (1 + 0.075f * normal[r & 0xffff] + firefly(r)) / 1.1f; }
+static float draw_only_fireflies(uint64_t r, uint32_t p) { return (void)p, firefly(r) / 0.1f; }
+
+/* One pixel in 20 is noisy, with a standard deviation that is itself log-normal; the others are exact. */
+static float draw_few_noisy(uint64_t r, uint32_t p)
+{
+    return p % 20 == 7 ? 1 + 0.18f * lognormal[p * 7919 % TABLE] * normal[r & 0xffff] : 1;
+}
+
+/* One pixel holds nearly all the noise: a single degree of freedom. */
+static float draw_one_noisy(uint64_t r, uint32_t p) { return 1 + (p == 5 ? 3.0f : 0.02f) * normal[r & 0xffff]; }
+
+static double true_error(const ec_film *film)
+{
+    uint32_t pixels = film->width * film->height;
+    double sum = 0;
+    for (uint32_t p = 0; p < pixels; p++) {
+        double error = ec_luminance(film->mean + 3 * p) - 1;
+        sum += error * error;
+    }
+    return sqrt(sum / pixels);
+}
+
+static int lies_under_bound(const workload *work, uint32_t side, int batches, double *bound_over_error)
+{
+    static float batch[3 * 64 * 64];
+    ec_film film;
+    ec_error err;
+    CHECK_OK(ec_film_create(&film, side, side, 16, &err), err);
+    for (int b = 0; b < batches; b++) {
+        for (uint32_t p = 0; p < side * side; p++)
+            batch[3 * p] = batch[3 * p + 1] = batch[3 * p + 2] = work->draw(next_random(), p);
+        ec_film_add_batch(&film, batch);
+    }
+    ec_film_error error = ec_film_estimate_error(&film);
+    CHECK(!isnan(error.error_bound));
+    if (error.error > 0 && isfinite(error.error)) *bound_over_error += error.error_bound / error.error / REPEATS;
+    int inside = true_error(&film) <= error.error_bound;
+    ec_film_destroy(&film);
+    return inside;
+}
+
+static void measure(const workload *work, uint32_t side, int batches)
+{
+    int inside = 0;
+    double ratio = 0;
+    for (int i = 0; i < REPEATS; i++) inside += lies_under_bound(work, side, batches, &ratio);
+    double percent = 100.0 * inside / REPEATS;
+    printf("  %2ux%u B=%-2d %5.1f%% (%.2f)", side, side, batches, percent, ratio);
+    CHECK_MSG(percent >= (batches < 4 ? work->floor_two : work->floor), "%s %ux%u, %d batches: %.1f %%", work->name,
+              side, side, batches, percent);
+    CHECK_MSG(batches < 4 || percent <= work->ceiling, "%s %ux%u, %d batches: %.1f %%", work->name, side, side,
+              batches, percent);
+}
+
+int main(void)
+{
+    static const workload workloads[] = {
+        {"normal", draw_normal, 91, 91, 99},
+        {"exponential (4 a batch)", draw_exponential, 91, 91, 99},
+        {"few pixels noisy", draw_few_noisy, 91, 88, 99},
+        {"log-normal (4 a batch)", draw_lognormal, 91, 91, 99.5},
+        {"fireflies on grey", draw_fireflies, 91, 91, 100},
+        {"fireflies on black", draw_only_fireflies, 86, 86, 100},
+        {"one pixel noisy", draw_one_noisy, 85, 70, 99},
+    };
+    static const struct { uint32_t side; int batches; } shapes[] = {
+        {16, 2}, {16, 4}, {16, 8}, {16, 16}, {16, 64}, {32, 4}, {32, 16}, {64, 4}, {64, 16}};
+    fill_tables();
+    printf("share of %d renders whose error lies under the 95 %% bound (bound / stated error)\n", REPEATS);
+    for (size_t w = 0; w < sizeof workloads / sizeof *workloads; w++) {
+        printf("%s\n", workloads[w].name);
+        for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
+            state = 1000 * w + s;
+            measure(&workloads[w], shapes[s].side, shapes[s].batches);
+            if (s % 5 == 4 || s + 1 == sizeof shapes / sizeof *shapes) putchar('\n');
+        }
+    }
+    TEST_END();
+}
