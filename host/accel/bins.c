@@ -3,21 +3,18 @@
 
 ec_binning ec_binning_of(const ec_range *range)
 {
-    /* Short ranges need few bins, and clearing and sweeping unused ones would cost more than filling them. */
-    int count = range->count >= 8 * (EC_BINS_MAX - 8) ? EC_BINS_MAX : 8 + (int)(range->count / 8);
     ec_v4 extent = range->centroids.hi - range->centroids.lo;
-    ec_v4 scale = ec_v4_all((float)count) / extent;
+    ec_v4 scale = ec_v4_all((float)EC_BINS) / extent;
     ec_binning binning;
-    binning.count = count;
     binning.origin = range->centroids.lo;
     binning.scale = ec_v4_select(extent > ec_v4_all(0.0f), scale, ec_v4_all(0.0f));
-    binning.last = ec_v4_all((float)(count - 1));
+    binning.last = ec_v4_all((float)(EC_BINS - 1));
     return binning;
 }
 
 void ec_bins_fill(ec_bins *bins, const ec_binning *binning, const ec_prim *prims, uint32_t count)
 {
-    for (int i = 0; i < binning->count; i++) {
+    for (int i = 0; i < EC_BINS; i++) {
         bins->box[i][0] = bins->box[i][1] = bins->box[i][2] = ec_box4_empty();
         bins->count[i] = ec_i4_all(0);
     }
@@ -33,9 +30,9 @@ void ec_bins_fill(ec_bins *bins, const ec_binning *binning, const ec_prim *prims
     }
 }
 
-void ec_bins_merge(ec_bins *bins, const ec_bins *more, int count)
+void ec_bins_merge(ec_bins *bins, const ec_bins *more)
 {
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < EC_BINS; i++) {
         for (int axis = 0; axis < 3; axis++)
             ec_box4_grow(&bins->box[i][axis], more->box[i][axis].lo, more->box[i][axis].hi);
         bins->count[i] += more->count[i];
@@ -70,12 +67,12 @@ static void grow_three(ec_box4 box[3], const ec_box4 by[3])
 
 /* Costs of every plane on the three axes at a time; a plane with nothing on one side has a cost that is NaN or
  * infinite and never wins. */
-static void sweep(const ec_bins *bins, int count, ec_v4 scale, ec_v4 *best, ec_i4 *best_bin)
+static void sweep(const ec_bins *bins, ec_v4 scale, ec_v4 *best, ec_i4 *best_bin)
 {
-    ec_v4 right_cost[EC_BINS_MAX];
+    ec_v4 right_cost[EC_BINS];
     ec_box4 box[3] = {ec_box4_empty(), ec_box4_empty(), ec_box4_empty()};
     ec_i4 below = ec_i4_all(0);
-    for (int i = count - 1; i > 0; i--) {
+    for (int i = EC_BINS - 1; i > 0; i--) {
         grow_three(box, bins->box[i]);
         below += bins->count[i];
         right_cost[i] = leaf_costs(below, ec_half_areas(box, scale));
@@ -84,7 +81,7 @@ static void sweep(const ec_bins *bins, int count, ec_v4 scale, ec_v4 *best, ec_i
     below = ec_i4_all(0);
     *best = ec_v4_all(INFINITY);
     *best_bin = ec_i4_all(0);
-    for (int i = 1; i < count; i++) {
+    for (int i = 1; i < EC_BINS; i++) {
         grow_three(box, bins->box[i - 1]);
         below += bins->count[i - 1];
         ec_v4 cost = leaf_costs(below, ec_half_areas(box, scale)) + right_cost[i];
@@ -94,11 +91,11 @@ static void sweep(const ec_bins *bins, int count, ec_v4 scale, ec_v4 *best, ec_i
     }
 }
 
-ec_split ec_bins_split(const ec_bins *bins, const ec_binning *binning, const ec_range *range)
+ec_split ec_bins_split(const ec_bins *bins, const ec_range *range)
 {
     ec_v4 scale = ec_box4_scale(&range->box), best;
     ec_i4 best_bin;
-    sweep(bins, binning->count, scale, &best, &best_bin);
+    sweep(bins, scale, &best, &best_bin);
 
     ec_box4 parent[3] = {range->box, range->box, range->box};
     float area = ec_half_areas(parent, scale)[0];
@@ -114,6 +111,6 @@ ec_split ec_bins_split(const ec_bins *bins, const ec_binning *binning, const ec_
     if (split.axis < 0) return split;
     split.left_count = ec_bins_left(bins, &split);
     split.left = union_of(bins, split.axis, 0, split.bin);
-    split.right = union_of(bins, split.axis, split.bin, binning->count);
+    split.right = union_of(bins, split.axis, split.bin, EC_BINS);
     return split;
 }

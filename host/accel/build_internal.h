@@ -2,6 +2,8 @@
 #ifndef EC_ACCEL_BUILD_INTERNAL_H
 #define EC_ACCEL_BUILD_INTERNAL_H
 
+#include <stddef.h>
+
 #include "accel/bvh.h"
 #include "accel/vec4.h"
 
@@ -11,7 +13,7 @@
 #define EC_COST_BLOCK 2.0f
 #define EC_LEAF_MAX 8u
 #define EC_DEPTH_MAX 63u /* edges from the root to the deepest leaf */
-#define EC_BINS_MAX 16
+#define EC_BINS 16
 
 /* A triangle on its way down the tree, moved rather than pointed to, so that every pass streams through memory. */
 typedef struct ec_prim {
@@ -30,18 +32,17 @@ typedef struct ec_range {
 /* Equal-width bins along all three axes: bin = min((centroid - origin) * scale, last). */
 typedef struct ec_binning {
     ec_v4 origin, scale, last;
-    int count;
 } ec_binning;
 
 typedef struct ec_bins {
-    ec_box4 box[EC_BINS_MAX][3];
-    ec_i4 count[EC_BINS_MAX]; /* one lane an axis */
+    ec_box4 box[EC_BINS][3];
+    ec_i4 count[EC_BINS]; /* one lane an axis */
 } ec_bins;
 
 typedef struct ec_split {
-    float cost;          /* of the two children as leaves, per half area of the parent's box scaled as in bins.c */
+    float cost;          /* of the two children as leaves: blocks times half areas, edges scaled as in bins.c */
     float leaf_cost;     /* of the parent as a leaf, likewise; NaN for boxes that have no finite area */
-    float node_cost;     /* of visiting the parent, likewise */
+    float node_cost;     /* of visiting the parent, to be added to cost */
     int axis;            /* -1: nothing to split, or costs that are not numbers */
     int bin;             /* first bin of the right side */
     uint32_t left_count;
@@ -70,21 +71,9 @@ void ec_prims_partition(const ec_prim *prims, uint32_t count, const ec_binning *
 /* bins.c */
 ec_binning ec_binning_of(const ec_range *range);
 void ec_bins_fill(ec_bins *bins, const ec_binning *binning, const ec_prim *prims, uint32_t count);
-void ec_bins_merge(ec_bins *bins, const ec_bins *more, int count);
+void ec_bins_merge(ec_bins *bins, const ec_bins *more);
 uint32_t ec_bins_left(const ec_bins *bins, const ec_split *split);
-/* count blocks... */
-static inline ec_v4 ec_leaf_costs(ec_i4 count, ec_v4 area)
-{
-    ec_i4 blocks = (count + 7) >> 3; /* EC_LEAF_MAX is 8 */
-    return __builtin_convertvector(blocks, ec_v4) * ec_v4_all(EC_COST_BLOCK) * area;
-}
-ec_split ec_bins_split(const ec_bins *bins, const ec_binning *binning, const ec_range *range);
-
-/* exact.c: the same for a short range, all planes weighed; `to` gets the triangles, those of the left side first. */
-#ifndef EC_EXACT_MAX
-#define EC_EXACT_MAX 32u
-#endif
-ec_split ec_exact_split(const ec_range *range, const ec_prim *prims, ec_prim *to, ec_box4 centroids[2]);
+ec_split ec_bins_split(const ec_bins *bins, const ec_range *range);
 
 /* split.c: divides a range in two, in parallel when it is long. False when it should be a leaf. */
 typedef struct ec_builder {
@@ -93,6 +82,26 @@ typedef struct ec_builder {
     int failed; /* out of memory somewhere; written atomically */
 } ec_builder;
 int ec_range_split(ec_builder *builder, const ec_range *range, ec_range children[2]);
+
+/* branch.c: a node of the upper tree is two children, or a subtree whose nodes[0] is its root and whose nodes number
+ * their children within it. */
+typedef struct ec_branch {
+    ec_range range;
+    struct ec_branch *child[2];
+    ec_bvh_build_node *nodes; /* owned; NULL where there are children */
+    uint32_t node_count, capacity;
+    uint32_t slot; /* place in the joined tree */
+    uint32_t rest; /* there: of the children, or of nodes[1] */
+} ec_branch;
+ec_bvh_build_node ec_node_of(const ec_range *range); /* inner until told otherwise */
+int ec_branch_reserve(ec_branch *branch, uint32_t count);
+/* Gives every node its place, children side by side and subtrees whole; *next: the first free place. */
+void ec_branch_number(ec_branch *branch, uint32_t slot, uint32_t *next);
+void ec_branch_join(const ec_branch *branch, ec_bvh_build_node *nodes);
+void ec_branch_free(ec_branch *branch);
+
+/* tree.c: cache-line aligned memory for at least one element, for free(). */
+void *ec_allocate_lines(size_t count, size_t size);
 
 /* stats.c: everything but the time is read off the tree. */
 void ec_bvh_measure(const ec_bvh *bvh, double build_seconds, ec_bvh_stats *stats);

@@ -9,8 +9,8 @@
 
 typedef struct ec_bvh_build_node {
     float lo[3], hi[3];
-    uint32_t left;        /* inner: index of the left child, the right one is left + 1 */
-    uint32_t first, count;/* leaf when count > 0: order[first .. first + count) */
+    uint32_t left;         /* inner: index of the left child, behind its parent; the right one is left + 1; leaf: 0 */
+    uint32_t first, count; /* leaf when count > 0: order[first .. first + count); first is set in inner nodes too */
 } ec_bvh_build_node;
 
 typedef struct ec_bvh {

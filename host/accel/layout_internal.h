@@ -15,9 +15,6 @@ typedef struct ec_subtree {
 /* One entry a node; malloc'ed and the caller's, NULL when out of memory. */
 ec_subtree *ec_bvh_subtrees(const ec_bvh *bvh);
 
-/* Cache-line aligned memory for at least one element, for free(). */
-void *ec_allocate_lines(size_t count, size_t size);
-
 /* collapse8.c: how to spend eight children. slots[n][j]: of the j children that node n may become, how many its left
  * child becomes; 0: as with j - 1. slots[n][1]: 0 = a leaf block, 1 = a node of its own, spent as slots[n][8] says. */
 typedef struct ec_collapse {

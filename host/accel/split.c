@@ -25,14 +25,14 @@ static ec_split bin(const ec_prim *prims, const ec_range *range, const ec_binnin
 {
     if (chunk_count == 1) {
         ec_bins_fill(&chunks[0].bins, binning, prims, range->count);
-        return ec_bins_split(&chunks[0].bins, binning, range);
+        return ec_bins_split(&chunks[0].bins, range);
     }
 #pragma omp taskloop default(shared)
     for (uint32_t i = 0; i < chunk_count; i++)
         ec_bins_fill(&chunks[i].bins, binning, prims + i * CHUNK, chunk_length(range, chunk_count, i));
     ec_bins total = chunks[0].bins;
-    for (uint32_t i = 1; i < chunk_count; i++) ec_bins_merge(&total, &chunks[i].bins, binning->count);
-    return ec_bins_split(&total, binning, range);
+    for (uint32_t i = 1; i < chunk_count; i++) ec_bins_merge(&total, &chunks[i].bins);
+    return ec_bins_split(&total, range);
 }
 
 static void deal(const ec_builder *builder, const ec_range *range, const ec_binning *binning, const ec_split *split,
@@ -87,22 +87,8 @@ static void split_in_the_middle(const ec_builder *builder, const ec_range *range
         ec_prims_bound(builder->prims[range->buffer] + children[side].first, children[side].count, &children[side]);
 }
 
-static int split_short(ec_builder *builder, const ec_range *range, ec_range children[2])
-{
-    ec_box4 c[2];
-    ec_split split = ec_exact_split(range, builder->prims[range->buffer] + range->first,
-                                    builder->prims[1 - range->buffer] + range->first, c);
-    if (split.axis == -2) return 0;
-    if (split.axis < 0 ) {split_in_the_middle(builder, range, children);return 1;}
-        place_children(range, split.left_count, 1 - range->buffer, children);
-    for (int k=0;k<2;k++)children[k].centroids=c[k];
-        children[0].box = split.left;
-        children[1].box = split.right;
-    return 1;
-}
 int ec_range_split(ec_builder *builder, const ec_range *range, ec_range children[2])
 {
-    if (range->count <= EC_EXACT_MAX) return range->count <= 1 ? 0 : split_short(builder, range, children);
     uint32_t chunk_count = chunk_count_of(range->count);
     if (range->count <= 1) return 0;
     chunk one, *chunks = chunk_count == 1 ? &one : malloc(chunk_count * sizeof *chunks);

@@ -37,7 +37,7 @@ static ec_result check_replaceable(const char *path, ec_error *err)
     if (S_ISDIR(info.st_mode)) return ec_fail(err, "cannot write '%s': it is a folder; give a file name", path);
     if (!S_ISREG(info.st_mode))
         return ec_fail(err, "cannot write '%s': it is not a regular file; give a file name", path);
-    if (access(path, W_OK) != 0) return ec_write_failed(err, path, errno);
+    if (faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) != 0) return ec_write_failed(err, path, errno);
     return EC_OK;
 }
 

@@ -27,7 +27,7 @@ static ec_result upload_uv(ec_pipeline *p, ec_arg arg, const char *label, const 
 
 ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pack *pack, ec_error *err)
 {
-    const uint32_t f = p->features;
+    const uint32_t f = pack->features; /* also for universal kernels: what is not called for stays NULL */
     const bool textured = f & (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE |
                                EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE);
     const uint64_t vertices = scene->vertex_count;

@@ -26,9 +26,19 @@ struct container {
 };
 container parse_container(const uint8_t *bytes, uint64_t length);
 
-/* gltf_schema.cpp: types, required members, ranges and index ranges of everything eclat reads. Repairs what glTF only
+/* gltf_check.cpp: types, required members, ranges and index ranges of everything eclat reads. Repairs what glTF only
  * warns about (an unknown filter, say). */
 void check_document(nlohmann::json &root, const char *path, const ec_log *log);
+
+/* gltf_convert.cpp; view_count: the views that are the file's own, see pad_for_tinygltf */
+void convert_images(const nlohmann::json &list, ec_gltf *gltf);
+void convert_views(const tinygltf::Model &model, size_t view_count, ec_gltf *gltf);
+void convert_accessors(const tinygltf::Model &model, ec_gltf *gltf);
+void convert_meshes(const tinygltf::Model &model, ec_gltf *gltf, bool &morphs);
+void convert_nodes(const tinygltf::Model &model, ec_gltf *gltf);
+void set_roots(const tinygltf::Model &model, ec_gltf *gltf);
+void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
+void convert_lights(const tinygltf::Model &model, ec_gltf *gltf);
 
 /* gltf_material.cpp */
 void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);

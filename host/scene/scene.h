@@ -77,7 +77,9 @@ typedef struct ec_camera {
 } ec_camera;
 
 /* Radiance from infinitely far away. rgb == NULL means `constant` everywhere.
- * Equirectangular: column 0 at longitude -pi, the image's centre looks along +x ... see env.c; row 0 is +y. */
+ * Equirectangular, oriented as in Khronos' sample viewer and three.js: a unit direction (x, y, z) lies at
+ * u = 0.5 + atan2(z, x) / (2 pi), v = acos(y) / pi, with u = 0 the left edge and v = 0 the top one (row 0 is +y). So the
+ * picture's centre is +x, a quarter to the right of it +z, to the left -z, and both edges -x. */
 typedef struct ec_environment {
     uint32_t width, height;
     float *rgb;           /* 3 * width * height, linear, finite and >= 0, owned */
@@ -116,7 +118,7 @@ typedef struct ec_scene {
     /* What `eclat info` tells. */
     uint32_t mesh_count, node_count, instance_count;
     uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */
-    uint32_t skipped_primitives;                     /* points and lines */
+    uint32_t skipped_primitives;                     /* points, lines and meshes without POSITION */
     char **extensions_used;        /* owned strings */
     uint32_t extension_count;
     char **extensions_ignored;     /* used by the file, not supported here; owned strings */

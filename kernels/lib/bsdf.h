@@ -16,14 +16,14 @@ typedef struct bsdf {
     lane_f p_specular; /* probability of sampling the GGX lobe */
 } bsdf;
 
-static inline lane_f pow5(lane_f x)
+EC_FN lane_f pow5(lane_f x)
 {
     lane_f x2 = x * x;
     return x2 * x2 * x;
 }
 
 /* Specular reflectance F and the share left to the diffuse lobe, for the cosine between half vector and either direction. */
-static inline v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *diffuse)
+EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *diffuse)
 {
     lane_f w = pow5(1.0f - cosine);
     v3 dielectric = v3_make(fma(b->f90 - b->f0.x, w, b->f0.x), fma(b->f90 - b->f0.y, w, b->f0.y),
@@ -34,7 +34,7 @@ static inline v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *diffuse)
     return v3_fma(v3_sub(metal, dielectric), b->metallic, dielectric);
 }
 
-static inline bsdf bsdf_make(const surface *s, v3 wo_local)
+EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
 {
     bsdf b;
     b.wo = wo_local;
@@ -58,7 +58,7 @@ static inline bsdf bsdf_make(const surface *s, v3 wo_local)
 }
 
 /* f cos(wi) and its sampling density; both 0 where wi is below the surface. */
-static inline v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
+EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 {
     lane_f no = b->wo.z, ni = wi.z;
     lane_i above = (ni > 0.0f) & (no > 0.0f);
@@ -75,9 +75,9 @@ static inline v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     lane_f d = EC_INV_PI / (b->alpha2 * k * k);
     lane_f lambda_o = sqrt(fma(no * no, 1.0f - b->alpha2, b->alpha2));
     lane_f lambda_i = sqrt(fma(ni * ni, 1.0f - b->alpha2, b->alpha2));
-    lane_f v = 0.5f / fma(ni, lambda_o, no * lambda_i);
+    lane_f v_ni = 0.5f * ni / fma(ni, lambda_o, no * lambda_i); /* V cos, which stays finite at grazing angles */
     lane_f diffuse = diffuse_share * ni * EC_INV_PI;
-    lane_f specular = d * v * ni;
+    lane_f specular = d * v_ni;
     v3 f = v3_fma(fresnel, specular, v3_scale(b->base, diffuse));
     /* Visible normals: D G1 / (4 no) without the quotient G1 / no (Heitz 2018). */
     lane_f pdf_specular = d * 0.5f / (no + lambda_o);
@@ -86,7 +86,7 @@ static inline v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 }
 
 /* A direction from (u1, u2); choice picks the lobe. GGX: visible normals by spherical caps (Dupuy, Benyoub 2023). */
-static inline v3 bsdf_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f choice)
+EC_FN v3 bsdf_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f choice)
 {
     lane_f cosine, sine = sincos_2pi(u1, &cosine);
     lane_f r = sqrt(u2);

@@ -12,26 +12,26 @@ typedef struct environment {
     global const uint *alias;   /* ec_alias by word */
 } environment;
 
-static inline void environment_uv(v3 d, lane_f *u, lane_f *v)
+EC_FN void environment_uv(v3 d, lane_f *u, lane_f *v)
 {
     *u = 0.5f + atan2_over_2pi(d.z, d.x);
     *v = acos_over_pi(min(max(d.y, F(-1.0f)), F(1.0f)));
 }
 
-static inline v3 environment_texel(const environment *e, lane_u at)
+EC_FN v3 environment_texel(const environment *e, lane_u at)
 {
     return v3_make(gather_f(e->texels, at * 4u), gather_f(e->texels, at * 4u + 1u), gather_f(e->texels, at * 4u + 2u));
 }
 
 /* Density, per solid angle, with which the light sampling picks direction d at (u, v), the choice of this light included. */
-static inline lane_f environment_pdf_at(const environment *e, lane_u texel, lane_f sin_theta)
+EC_FN lane_f environment_pdf_at(const environment *e, lane_u texel, lane_f sin_theta)
 {
     float texels = (float)e->params->environment_width * (float)e->params->environment_height;
     return gather_f(e->texels, texel * 4u + 3u) * (e->params->environment_pmf * texels / (2.0f * EC_PI * EC_PI)) /
            max(sin_theta, F(1e-7f));
 }
 
-static inline v3 environment_bilinear(const environment *e, lane_f u, lane_f v)
+EC_FN v3 environment_bilinear(const environment *e, lane_f u, lane_f v)
 {
     int width = (int)e->params->environment_width, height = (int)e->params->environment_height;
     lane_f x = fma(u, F((float)width), F(-0.5f)), y = fma(v, F((float)height), F(-0.5f));
@@ -48,11 +48,11 @@ static inline v3 environment_bilinear(const environment *e, lane_f u, lane_f v)
 }
 
 /* Radiance from direction d (unit) and the light sampling's density for it. */
-static inline v3 environment_look_up(const environment *e, v3 d, lane_f *pdf)
+EC_FN v3 environment_look_up(const environment *e, v3 d, lane_f *pdf)
 {
     constant float *constant_radiance = e->params->environment;
     v3 factor = v3_make(F(constant_radiance[0]), F(constant_radiance[1]), F(constant_radiance[2]));
-    if (!HAS(ENVIRONMENT_MAP)) {
+    if (!HAS(ENVIRONMENT_MAP) || !e->texels) {
         *pdf = F(e->params->environment_pmf * 0.25f * EC_INV_PI);
         return factor;
     }
@@ -65,12 +65,12 @@ static inline v3 environment_look_up(const environment *e, v3 d, lane_f *pdf)
 }
 
 /* A direction by importance: a texel by the alias table, then uniform in (u, v) inside it. r is a fresh 32-bit number. */
-static inline v3 environment_sample(const environment *e, lane_u r, lane_f u1, lane_f u2, lane_f *pdf, v3 *radiance)
+EC_FN v3 environment_sample(const environment *e, lane_u r, lane_f u1, lane_f u2, lane_f *pdf, v3 *radiance)
 {
     constant float *constant_radiance = e->params->environment;
     v3 factor = v3_make(F(constant_radiance[0]), F(constant_radiance[1]), F(constant_radiance[2]));
     lane_f cosine;
-    if (!HAS(ENVIRONMENT_MAP)) {
+    if (!HAS(ENVIRONMENT_MAP) || !e->texels) {
         lane_f z = fma(u2, F(-2.0f), F(1.0f)), s = sqrt(max(1.0f - z * z, F(0.0f)));
         lane_f sine = sincos_2pi(u1, &cosine);
         *pdf = F(e->params->environment_pmf * 0.25f * EC_INV_PI);

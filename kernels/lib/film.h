@@ -8,7 +8,7 @@
 
 #define EC_TILE 8u
 
-static inline void slot_to_pixel(constant ec_params *params, uint first_pixel, lane_u slot, lane_u *pixel, lane_u *sample)
+EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, lane_u slot, lane_u *pixel, lane_u *sample)
 {
     lane_u local_pixel = slot / params->batch;
     *sample = slot - local_pixel * params->batch;
@@ -17,7 +17,7 @@ static inline void slot_to_pixel(constant ec_params *params, uint first_pixel, l
 
 /* Rows of tiles first: a row of tiles holds width * 8 pixels (fewer rows at the bottom), a tile 8 * rows (narrower at the
  * right). */
-static inline void pixel_to_xy(constant ec_params *params, lane_u pixel, lane_u *x, lane_u *y)
+EC_FN void pixel_to_xy(constant ec_params *params, lane_u pixel, lane_u *x, lane_u *y)
 {
     uint width = params->width, height = params->height;
     lane_u tile_row = pixel / (width * EC_TILE);

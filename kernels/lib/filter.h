@@ -15,13 +15,13 @@ typedef struct hit_filter {
 } hit_filter;
 
 /* Random key of a ray: bounce counts the vertices before it, shadow rays differ from path rays. */
-static inline lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, bool is_shadow)
+EC_FN lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, bool is_shadow)
 {
     return hash_u(hash_u(hash_u(pixel) ^ seed) + sample * 0x9e3779b9u + (2u * bounce + (is_shadow ? 1u : 0u)) * 0x85ebca6bu);
 }
 
 /* Which of the candidate hits (mask m) count. */
-static inline lane_i filter_hits(const hit_filter *f, lane_i m, lane_u prim, lane_f b1, lane_f b2, lane_i front)
+EC_FN lane_i filter_hits(const hit_filter *f, lane_i m, lane_u prim, lane_f b1, lane_f b2, lane_i front)
 {
     if (!HAS_FILTER) return m;
     lane_u id = m ? prim : U(0);

@@ -1,4 +1,5 @@
-/* A triangle's interpolated attributes. Streams the scene does not have are never read (their feature is off). */
+/* A triangle's interpolated attributes. A stream the scene does not have is NULL: specialised kernels lack the code that
+ * reads it, universal ones look at the pointer. */
 #ifndef EC_LIB_GEOMETRY_H
 #define EC_LIB_GEOMETRY_H
 
@@ -29,14 +30,14 @@ typedef struct hit_point {
      HAS(EMISSION_TEXTURE) || HAS(SPECULAR_TEXTURE))
 #define HAS_ATTRIBUTES (HAS_TEXTURES || HAS(SMOOTH_NORMALS) || HAS(VERTEX_COLORS))
 
-static inline lane_f interpolate(global const float *stream, uint width, uint component, const hit_point *h)
+EC_FN lane_f interpolate(global const float *stream, uint width, uint component, const hit_point *h)
 {
     return fma(gather_f(stream, h->i2 * width + component), h->b2,
                fma(gather_f(stream, h->i1 * width + component), h->b1,
                    gather_f(stream, h->i0 * width + component) * h->b0));
 }
 
-static inline hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f b2)
+EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f b2)
 {
     hit_point h;
     h.prim = prim;
@@ -46,7 +47,7 @@ static inline hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1
     h.material = as_lane_u(gather_f(g->prims, prim * EC_PRIM_WORDS + 3u)) * EC_MATERIAL_WORDS;
     h.i0 = h.i1 = h.i2 = U(0);
     h.u0 = h.v0 = h.u1 = h.v1 = F(0.0f);
-    if (HAS_ATTRIBUTES) {
+    if (HAS_ATTRIBUTES && g->indices) {
         h.i0 = gather_u(g->indices, prim * 3u);
         h.i1 = gather_u(g->indices, prim * 3u + 1u);
         h.i2 = gather_u(g->indices, prim * 3u + 2u);
@@ -64,17 +65,17 @@ static inline hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1
     return h;
 }
 
-static inline lane_f material_word(const geometry *g, const hit_point *h, uint word)
+EC_FN lane_f material_word(const geometry *g, const hit_point *h, uint word)
 {
     return gather_f(g->materials, h->material + word);
 }
-static inline v3 material_v3(const geometry *g, const hit_point *h, uint word)
+EC_FN v3 material_v3(const geometry *g, const hit_point *h, uint word)
 {
     return v3_make(material_word(g, h, word), material_word(g, h, word + 1), material_word(g, h, word + 2));
 }
 
 /* A material's texture at the hit; white where it has none. */
-static inline rgba material_texture(const geometry *g, const hit_point *h, lane_i m, uint slot, bool is_srgb)
+EC_FN rgba material_texture(const geometry *g, const hit_point *h, lane_i m, uint slot, bool is_srgb)
 {
     uint base = EC_MATERIAL_SLOTS + slot * 8u;
     lane_i id = uint_to_lane_i(as_lane_u(material_word(g, h, base)));
@@ -89,7 +90,7 @@ static inline rgba material_texture(const geometry *g, const hit_point *h, lane_
 }
 
 /* Base colour and coverage. */
-static inline rgba surface_base_color(const geometry *g, const hit_point *h, lane_i m)
+EC_FN rgba surface_base_color(const geometry *g, const hit_point *h, lane_i m)
 {
     rgba r = {material_v3(g, h, EC_MATERIAL_BASE_COLOR), material_word(g, h, EC_MATERIAL_BASE_COLOR + 3)};
     if (HAS(BASE_COLOR_TEXTURE)) {
@@ -97,7 +98,7 @@ static inline rgba surface_base_color(const geometry *g, const hit_point *h, lan
         r.rgb = v3_mul(r.rgb, t.rgb);
         r.a *= t.a;
     }
-    if (HAS(VERTEX_COLORS)) {
+    if (HAS(VERTEX_COLORS) && g->colors) {
         v3 c = v3_make(interpolate(g->colors, 4, 0, h), interpolate(g->colors, 4, 1, h), interpolate(g->colors, 4, 2, h));
         r.rgb = v3_mul(r.rgb, c);
         r.a *= interpolate(g->colors, 4, 3, h);
@@ -106,7 +107,7 @@ static inline rgba surface_base_color(const geometry *g, const hit_point *h, lan
 }
 
 /* Radiance leaving the front (a double-sided material: both sides). */
-static inline v3 surface_emission(const geometry *g, const hit_point *h, lane_i m)
+EC_FN v3 surface_emission(const geometry *g, const hit_point *h, lane_i m)
 {
     v3 e = material_v3(g, h, EC_MATERIAL_EMISSION);
     if (HAS(EMISSION_TEXTURE)) e = v3_mul(e, material_texture(g, h, m, EC_SLOT_EMISSION, true).rgb);

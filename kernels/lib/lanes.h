@@ -6,6 +6,8 @@
 #ifndef EC_LIB_LANES_H
 #define EC_LIB_LANES_H
 
+#include "../shared/types.h"
+
 #ifndef LANES
 #define LANES 1
 #endif
@@ -52,19 +54,19 @@ typedef EC_CAT(uint, LANES) lane_u;
 #define U(x) ((lane_u)(x))
 #define TRUE_MASK (F(0.0f) == F(0.0f))
 
-static inline lane_f as_lane_f(lane_u v) { return LANE_AS(float, v); }
-static inline lane_u as_lane_u(lane_f v) { return LANE_AS(uint, v); }
-static inline lane_f to_lane_f(lane_u v) { return LANE_CONVERT(float, v); }
-static inline lane_f int_to_lane_f(lane_i v) { return LANE_CONVERT(float, v); }
-static inline lane_i to_lane_i(lane_f v) { return LANE_CONVERT(int, v); } /* towards zero */
-static inline lane_u int_to_lane_u(lane_i v) { return LANE_AS(uint, v); }
-static inline lane_i uint_to_lane_i(lane_u v) { return LANE_AS(int, v); }
+EC_FN lane_f as_lane_f(lane_u v) { return LANE_AS(float, v); }
+EC_FN lane_u as_lane_u(lane_f v) { return LANE_AS(uint, v); }
+EC_FN lane_f to_lane_f(lane_u v) { return LANE_CONVERT(float, v); }
+EC_FN lane_f int_to_lane_f(lane_i v) { return LANE_CONVERT(float, v); }
+EC_FN lane_i to_lane_i(lane_f v) { return LANE_CONVERT(int, v); } /* towards zero */
+EC_FN lane_u int_to_lane_u(lane_i v) { return LANE_AS(uint, v); }
+EC_FN lane_i uint_to_lane_i(lane_u v) { return LANE_AS(int, v); }
 
 /* One bit a lane. The sign-bit instruction is worth a name: everything that branches goes through it. */
 #ifndef __has_builtin
 #define __has_builtin(x) 0
 #endif
-static inline uint mask_bits8(int8 m)
+EC_FN uint mask_bits8(int8 m)
 {
 #if defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
     return (uint)__builtin_ia32_movmskps256(as_float8(m));
@@ -76,7 +78,7 @@ static inline uint mask_bits8(int8 m)
 #endif
 }
 
-static inline uint mask_bits(lane_i m)
+EC_FN uint mask_bits(lane_i m)
 {
 #if LANES == 1
     return m != 0;
@@ -99,12 +101,12 @@ static inline uint mask_bits(lane_i m)
 #endif
 }
 
-static inline bool any_lane(lane_i m) { return mask_bits(m) != 0u; }
-static inline bool all_lanes(lane_i m) { return mask_bits(m) == (uint)((1ul << LANES) - 1ul); }
-static inline uint count_lanes(lane_i m) { return popcount(mask_bits(m)); }
+EC_FN bool any_lane(lane_i m) { return mask_bits(m) != 0u; }
+EC_FN bool all_lanes(lane_i m) { return mask_bits(m) == (uint)((1ul << LANES) - 1ul); }
+EC_FN uint count_lanes(lane_i m) { return popcount(mask_bits(m)); }
 
 /* Gathers: element i of each lane. Lanes that are off must hold an index that may be read. */
-static inline lane_f gather_f(global const float *restrict p, lane_u i)
+EC_FN lane_f gather_f(global const float *restrict p, lane_u i)
 {
     lane_f r;
 #define GATHER_ONE(k) LANE(r, k) = p[LANE(i, k)];
@@ -112,14 +114,14 @@ static inline lane_f gather_f(global const float *restrict p, lane_u i)
     return r;
 }
 
-static inline lane_u gather_u(global const uint *restrict p, lane_u i)
+EC_FN lane_u gather_u(global const uint *restrict p, lane_u i)
 {
     lane_u r;
     EACH_LANE(GATHER_ONE)
     return r;
 }
 
-static inline lane_f gather_constant_f(constant float *p, lane_u i)
+EC_FN lane_f gather_constant_f(constant float *p, lane_u i)
 {
     lane_f r;
     EACH_LANE(GATHER_ONE)
@@ -128,7 +130,7 @@ static inline lane_f gather_constant_f(constant float *p, lane_u i)
 }
 
 /* p[i] += v on the lanes of m; no two lanes share an index. */
-static inline void scatter_add_f(global float *restrict p, lane_u i, lane_f v, uint bits)
+EC_FN void scatter_add_f(global float *restrict p, lane_u i, lane_f v, uint bits)
 {
     uint bit = 1;
 #define SCATTER_ONE(k)                                                                             \
@@ -138,7 +140,7 @@ static inline void scatter_add_f(global float *restrict p, lane_u i, lane_f v, u
 #undef SCATTER_ONE
 }
 
-static inline void scatter_f(global float *restrict p, lane_u i, lane_f v, uint bits)
+EC_FN void scatter_f(global float *restrict p, lane_u i, lane_f v, uint bits)
 {
     uint bit = 1;
 #define SCATTER_ONE(k)                                                                             \
@@ -149,7 +151,7 @@ static inline void scatter_f(global float *restrict p, lane_u i, lane_f v, uint 
 }
 
 /* The lanes of m, close together, to p[0], p[1], … (count_lanes(m) values). */
-static inline void store_compact(global float *restrict p, lane_f v, uint bits)
+EC_FN void store_compact(global float *restrict p, lane_f v, uint bits)
 {
 #if LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssf512_mask) &&     \
     __has_builtin(__builtin_ia32_storeups512_mask)

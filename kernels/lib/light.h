@@ -24,14 +24,14 @@ typedef struct light_sample {
     lane_i valid;
 } light_sample;
 
-static inline lane_f light_word(const lights *l, lane_u at, uint word) { return gather_f(l->table, at + word); }
-static inline v3 light_v3(const lights *l, lane_u at, uint word)
+EC_FN lane_f light_word(const lights *l, lane_u at, uint word) { return gather_f(l->table, at + word); }
+EC_FN v3 light_v3(const lights *l, lane_u at, uint word)
 {
     return v3_make(light_word(l, at, word), light_word(l, at, word + 1), light_word(l, at, word + 2));
 }
 
 /* Uniform point on a triangle, seen from p. */
-static inline light_sample light_sample_triangle(const lights *l, const geometry *g, lane_i m, lane_u at, lane_u kind, v3 p,
+EC_FN light_sample light_sample_triangle(const lights *l, const geometry *g, lane_i m, lane_u at, lane_u kind, v3 p,
                                           lane_f u1, lane_f u2)
 {
     light_sample s;
@@ -63,7 +63,7 @@ static inline light_sample light_sample_triangle(const lights *l, const geometry
 }
 
 /* KHR_lights_punctual: inverse square with a smooth range window, cone falloff squared. */
-static inline light_sample light_sample_punctual(const lights *l, lane_i m, lane_u at, lane_u kind, v3 p, float scene_radius)
+EC_FN light_sample light_sample_punctual(const lights *l, lane_i m, lane_u at, lane_u kind, v3 p, float scene_radius)
 {
     light_sample s;
     v3 position = light_v3(l, at, 0), direction = light_v3(l, at, 3);
@@ -89,7 +89,7 @@ static inline light_sample light_sample_punctual(const lights *l, lane_i m, lane
     return s;
 }
 
-static inline light_sample light_sample_environment(const lights *l, lane_i m, lane_u r, lane_f u1, lane_f u2, float scene_radius)
+EC_FN light_sample light_sample_environment(const lights *l, lane_i m, lane_u r, lane_f u1, lane_f u2, float scene_radius)
 {
     light_sample s;
     s.wi = environment_sample(&l->env, r, u1, u2, &s.pdf, &s.radiance);
@@ -101,7 +101,7 @@ static inline light_sample light_sample_environment(const lights *l, lane_i m, l
     return s;
 }
 
-static inline light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
+EC_FN light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
 {
     light_sample s;
     s.wi = v3_select(m, a.wi, b.wi);
@@ -117,7 +117,7 @@ static inline light_sample light_sample_select(lane_i m, light_sample a, light_s
 }
 
 /* One light for a point p. choice: 32 random bits that pick the light, and what is left of them the texel. */
-static inline light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u choice, lane_f u1, lane_f u2)
+EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u choice, lane_f u1, lane_f u2)
 {
     constant ec_params *params = l->env.params;
     uint count = params->light_count;

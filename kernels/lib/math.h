@@ -16,36 +16,36 @@ typedef struct v3 {
     lane_f x, y, z;
 } v3;
 
-static inline v3 v3_make(lane_f x, lane_f y, lane_f z)
+EC_FN v3 v3_make(lane_f x, lane_f y, lane_f z)
 {
     v3 r = {x, y, z};
     return r;
 }
-static inline v3 v3_splat(lane_f a) { return v3_make(a, a, a); }
-static inline v3 v3_zero(void) { return v3_splat(F(0.0f)); }
-static inline v3 v3_add(v3 a, v3 b) { return v3_make(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline v3 v3_sub(v3 a, v3 b) { return v3_make(a.x - b.x, a.y - b.y, a.z - b.z); }
-static inline v3 v3_mul(v3 a, v3 b) { return v3_make(a.x * b.x, a.y * b.y, a.z * b.z); }
-static inline v3 v3_scale(v3 a, lane_f s) { return v3_make(a.x * s, a.y * s, a.z * s); }
-static inline v3 v3_negate(v3 a) { return v3_make(-a.x, -a.y, -a.z); }
-static inline v3 v3_abs(v3 a) { return v3_make(fabs(a.x), fabs(a.y), fabs(a.z)); }
+EC_FN v3 v3_splat(lane_f a) { return v3_make(a, a, a); }
+EC_FN v3 v3_zero(void) { return v3_splat(F(0.0f)); }
+EC_FN v3 v3_add(v3 a, v3 b) { return v3_make(a.x + b.x, a.y + b.y, a.z + b.z); }
+EC_FN v3 v3_sub(v3 a, v3 b) { return v3_make(a.x - b.x, a.y - b.y, a.z - b.z); }
+EC_FN v3 v3_mul(v3 a, v3 b) { return v3_make(a.x * b.x, a.y * b.y, a.z * b.z); }
+EC_FN v3 v3_scale(v3 a, lane_f s) { return v3_make(a.x * s, a.y * s, a.z * s); }
+EC_FN v3 v3_negate(v3 a) { return v3_make(-a.x, -a.y, -a.z); }
+EC_FN v3 v3_abs(v3 a) { return v3_make(fabs(a.x), fabs(a.y), fabs(a.z)); }
 /* a + s b */
-static inline v3 v3_fma(v3 b, lane_f s, v3 a) { return v3_make(fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)); }
-static inline lane_f v3_dot(v3 a, v3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
-static inline v3 v3_cross(v3 a, v3 b)
+EC_FN v3 v3_fma(v3 b, lane_f s, v3 a) { return v3_make(fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)); }
+EC_FN lane_f v3_dot(v3 a, v3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+EC_FN v3 v3_cross(v3 a, v3 b)
 {
     return v3_make(fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x)));
 }
-static inline v3 v3_select(lane_i m, v3 a, v3 b) { return v3_make(m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z); }
-static inline lane_f v3_max_component(v3 a) { return max(a.x, max(a.y, a.z)); }
-static inline lane_f luminance(v3 a) { return fma(a.x, F(0.2126f), fma(a.y, F(0.7152f), a.z * 0.0722f)); } /* Rec. 709 */
-static inline v3 v3_normalize(v3 a) { return v3_scale(a, 1.0f / sqrt(v3_dot(a, a))); }
+EC_FN v3 v3_select(lane_i m, v3 a, v3 b) { return v3_make(m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z); }
+EC_FN lane_f v3_max_component(v3 a) { return max(a.x, max(a.y, a.z)); }
+EC_FN lane_f luminance(v3 a) { return fma(a.x, F(0.2126f), fma(a.y, F(0.7152f), a.z * 0.0722f)); } /* Rec. 709 */
+EC_FN v3 v3_normalize(v3 a) { return v3_scale(a, 1.0f / sqrt(v3_dot(a, a))); }
 
-static inline lane_i is_finite_bits(lane_f x) { return (as_lane_u(x) & 0x7f800000u) != 0x7f800000u; }
-static inline lane_i v3_is_finite(v3 a) { return is_finite_bits(a.x) & is_finite_bits(a.y) & is_finite_bits(a.z); }
+EC_FN lane_i is_finite_bits(lane_f x) { return (as_lane_u(x) & 0x7f800000u) != 0x7f800000u; }
+EC_FN lane_i v3_is_finite(v3 a) { return is_finite_bits(a.x) & is_finite_bits(a.y) & is_finite_bits(a.z); }
 
 /* sin and cos of 2 pi u for u in [0, 1]: quadrant, then Taylor polynomials on [-pi/4, pi/4]; error below 2 ulp of 1. */
-static inline lane_f sincos_2pi(lane_f u, lane_f *cosine)
+EC_FN lane_f sincos_2pi(lane_f u, lane_f *cosine)
 {
     lane_f q = floor(fma(u, F(4.0f), F(0.5f)));
     lane_f r = fma(u, F(4.0f), -q) * 1.57079632679490f; /* u * 4 is exact */
@@ -68,7 +68,7 @@ static inline lane_f sincos_2pi(lane_f u, lane_f *cosine)
 }
 
 /* atan2 / (2 pi) in [-0.5, 0.5]; (0, 0) gives 0. Minimax polynomial of atan on [0, 1], error below 1e-6 / (2 pi). */
-static inline lane_f atan2_over_2pi(lane_f y, lane_f x)
+EC_FN lane_f atan2_over_2pi(lane_f y, lane_f x)
 {
     lane_f ax = fabs(x), ay = fabs(y);
     lane_f hi = max(ax, ay), lo = min(ax, ay);
@@ -88,13 +88,13 @@ static inline lane_f atan2_over_2pi(lane_f y, lane_f x)
 }
 
 /* acos(x) / pi for x in [-1, 1] through the half-angle form, which keeps its digits at both ends. */
-static inline lane_f acos_over_pi(lane_f x)
+EC_FN lane_f acos_over_pi(lane_f x)
 {
     return fabs(atan2_over_2pi(sqrt(max((1.0f - x) * (1.0f + x), F(0.0f))), x)) * 2.0f;
 }
 
 /* Orthonormal frame around the unit vector n (Duff et al. 2017, listing 3). */
-static inline void v3_frame(v3 n, v3 *s, v3 *t)
+EC_FN void v3_frame(v3 n, v3 *s, v3 *t)
 {
     lane_f sign = copysign(F(1.0f), n.z);
     lane_f a = -1.0f / (sign + n.z);
@@ -104,7 +104,7 @@ static inline void v3_frame(v3 n, v3 *s, v3 *t)
 }
 
 /* Power heuristic w(a) = a^2 / (a^2 + b^2) in ratio form: neither square overflows (Veach 1997, 9.2.4). */
-static inline lane_f mis_weight(lane_f a, lane_f b)
+EC_FN lane_f mis_weight(lane_f a, lane_f b)
 {
     lane_f r = b / a;
     return 1.0f / fma(r, r, F(1.0f));

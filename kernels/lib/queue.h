@@ -5,35 +5,35 @@
 #include "../shared/path_state.h"
 #include "math.h"
 
-static inline lane_f queue_load_f(global const float *queue, uint wave, uint field, uint i)
+EC_FN lane_f queue_load_f(global const float *queue, uint wave, uint field, uint i)
 {
     return LANE_LOAD(queue + field * wave + i);
 }
-static inline lane_u queue_load_u(global const float *queue, uint wave, uint field, uint i)
+EC_FN lane_u queue_load_u(global const float *queue, uint wave, uint field, uint i)
 {
     return as_lane_u(queue_load_f(queue, wave, field, i));
 }
-static inline v3 queue_load_v3(global const float *queue, uint wave, uint field, uint i)
+EC_FN v3 queue_load_v3(global const float *queue, uint wave, uint field, uint i)
 {
     return v3_make(queue_load_f(queue, wave, field, i), queue_load_f(queue, wave, field + 1, i),
                    queue_load_f(queue, wave, field + 2, i));
 }
-static inline void queue_store_f(global float *queue, uint wave, uint field, uint i, lane_f v)
+EC_FN void queue_store_f(global float *queue, uint wave, uint field, uint i, lane_f v)
 {
     LANE_STORE(v, queue + field * wave + i);
 }
-static inline void queue_store_v3(global float *queue, uint wave, uint field, uint i, v3 v)
+EC_FN void queue_store_v3(global float *queue, uint wave, uint field, uint i, v3 v)
 {
     queue_store_f(queue, wave, field, i, v.x);
     queue_store_f(queue, wave, field + 1, i, v.y);
     queue_store_f(queue, wave, field + 2, i, v.z);
 }
 /* Appends the lanes of `bits` at i, i + 1, … */
-static inline void queue_push_f(global float *queue, uint wave, uint field, uint i, lane_f v, uint bits)
+EC_FN void queue_push_f(global float *queue, uint wave, uint field, uint i, lane_f v, uint bits)
 {
     store_compact(queue + field * wave + i, v, bits);
 }
-static inline void queue_push_v3(global float *queue, uint wave, uint field, uint i, v3 v, uint bits)
+EC_FN void queue_push_v3(global float *queue, uint wave, uint field, uint i, v3 v, uint bits)
 {
     queue_push_f(queue, wave, field, i, v.x, bits);
     queue_push_f(queue, wave, field + 1, i, v.y, bits);
@@ -41,7 +41,7 @@ static inline void queue_push_v3(global float *queue, uint wave, uint field, uin
 }
 
 /* Adds light to the samples' slots; what is not finite is dropped and counted. */
-static inline void radiance_add(global float *radiance, uint wave, lane_u slot, v3 light, lane_i m, volatile global uint *invalid)
+EC_FN void radiance_add(global float *radiance, uint wave, lane_u slot, v3 light, lane_i m, volatile global uint *invalid)
 {
     lane_i finite = v3_is_finite(light);
     uint bad = mask_bits(m & !finite);

@@ -19,15 +19,14 @@ typedef struct ray {
     lane_f shear_x, shear_y, scale_z;
 } ray;
 
-/* Axes in the cyclic order that ends with the largest component of d. */
-static inline v3 ray_permute(lane_i z_is_x, lane_i z_is_y, v3 v)
+/* The largest component of d changes places with z. (Not the cyclic order of the paper: this one costs a third less.) */
+EC_FN v3 ray_permute(lane_i z_is_x, lane_i z_is_y, v3 v)
 {
-    return v3_make(z_is_x ? v.y : (z_is_y ? v.z : v.x), z_is_x ? v.z : (z_is_y ? v.x : v.y),
-                   z_is_x ? v.x : (z_is_y ? v.y : v.z));
+    return v3_make(z_is_x ? v.z : v.x, z_is_y ? v.z : v.y, z_is_x ? v.x : (z_is_y ? v.y : v.z));
 }
 
 /* scene_max: largest |coordinate| of the scene. */
-static inline ray ray_make(v3 o, v3 d, float scene_max)
+EC_FN ray ray_make(v3 o, v3 d, float scene_max)
 {
     ray r;
     r.o = o;
@@ -59,7 +58,7 @@ static inline ray ray_make(v3 o, v3 d, float scene_max)
 #define EC_SLAB_PAD 1.0000005f /* 1 + 8 u: relative rounding of reciprocal, product and sum */
 
 /* Entry and padded exit distances; the box is met within [0, t_max] where near <= far. */
-static inline lane_f slab_near(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *far)
+EC_FN lane_f slab_near(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *far)
 {
     lane_f x0 = fma(lo.x, r->inverse.x, r->lo_offset.x), x1 = fma(hi.x, r->inverse.x, r->hi_offset.x);
     lane_f y0 = fma(lo.y, r->inverse.y, r->lo_offset.y), y1 = fma(hi.y, r->inverse.y, r->hi_offset.y);
@@ -76,7 +75,7 @@ typedef struct edges {
 
 /* a, b, c: permuted vertices minus permuted origin. Products are rounded one by one and compared: the sign is never wrong,
  * only sometimes 0, and 0 counts as inside, so no ray slips between two triangles (Woop et al. 2013). */
-static inline lane_i edges_inside(lane_f shear_x, lane_f shear_y, v3 a, v3 b, v3 c, edges *e)
+EC_FN lane_i edges_inside(lane_f shear_x, lane_f shear_y, v3 a, v3 b, v3 c, edges *e)
 {
     lane_f ax = fma(-shear_x, a.z, a.x), ay = fma(-shear_y, a.z, a.y);
     lane_f bx = fma(-shear_x, b.z, b.x), by = fma(-shear_y, b.z, b.y);
@@ -92,7 +91,7 @@ static inline lane_i edges_inside(lane_f shear_x, lane_f shear_y, v3 a, v3 b, v3
 }
 
 /* Distance of the hit, clamped into the triangle's own slab, and whether it lies in (0, t_max]. v0..v2 unpermuted. */
-static inline lane_i edges_distance(const ray *r, const edges *e, v3 v0, v3 v1, v3 v2, lane_f t_max, lane_f *t)
+EC_FN lane_i edges_distance(const ray *r, const edges *e, v3 v0, v3 v1, v3 v2, lane_f t_max, lane_f *t)
 {
     lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z;
     lane_f distance = fma(e->u, z0, fma(e->v, z1, e->w * z2)) / e->det;
@@ -105,7 +104,11 @@ static inline lane_i edges_distance(const ray *r, const edges *e, v3 v0, v3 v1, 
     return ahead & (near <= far) & (*t <= t_max);
 }
 
-/* Seen from its front (counter-clockwise)? */
-static inline lane_i edges_front(const ray *r, const edges *e) { return (e->det < 0.0f) == (r->scale_z < 0.0f); }
+/* Seen from its front (counter-clockwise)? Exchanging two axes mirrors the triangle. */
+EC_FN lane_i edges_front(const ray *r, const edges *e)
+{
+    lane_i is_mirrored = r->z_is_x | r->z_is_y, same = (e->det < 0.0f) == (r->scale_z < 0.0f);
+    return is_mirrored ? !same : same;
+}
 
 #endif

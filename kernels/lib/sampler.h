@@ -23,7 +23,7 @@ typedef struct sampler {
 } sampler;
 
 /* Integer mixer with low bias (C. Wellons, "hash prospector", 2-round constants of 2022). */
-static inline lane_u hash_u(lane_u x)
+EC_FN lane_u hash_u(lane_u x)
 {
     x ^= x >> 16;
     x *= 0x21f0aaadu;
@@ -32,7 +32,7 @@ static inline lane_u hash_u(lane_u x)
     x ^= x >> 15;
     return x;
 }
-static inline uint hash_scalar(uint x)
+EC_FN uint hash_scalar(uint x)
 {
     x ^= x >> 16;
     x *= 0x21f0aaadu;
@@ -43,9 +43,9 @@ static inline uint hash_scalar(uint x)
 }
 
 /* Uniform in [0, 1 - 2^-24]: 24 bits, never 1. */
-static inline lane_f to_unit(lane_u x) { return to_lane_f(x >> 8) * 5.9604644775390625e-8f; }
+EC_FN lane_f to_unit(lane_u x) { return to_lane_f(x >> 8) * 5.9604644775390625e-8f; }
 
-static inline lane_u reverse_bits(lane_u x)
+EC_FN lane_u reverse_bits(lane_u x)
 {
     x = (x >> 16) | (x << 16);
     x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
@@ -56,7 +56,7 @@ static inline lane_u reverse_bits(lane_u x)
 
 /* Owen scrambling of a bit-reversed number: each bit is flipped by a hash of the bits below it (Laine & Karras 2011;
  * constants by N. Vegdahl 2021). */
-static inline lane_u owen_reversed(lane_u x, lane_u seed)
+EC_FN lane_u owen_reversed(lane_u x, lane_u seed)
 {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -68,7 +68,7 @@ static inline lane_u owen_reversed(lane_u x, lane_u seed)
 
 /* Second Sobol dimension, bit-reversed: over GF(2) its matrix maps the index polynomial i(x) to i(x + 1), done here in
  * five halvings instead of 32 columns. */
-static inline lane_u sobol_second_reversed(lane_u i)
+EC_FN lane_u sobol_second_reversed(lane_u i)
 {
     i ^= i >> 16;
     i ^= (i & 0xff00ff00u) >> 8;
@@ -78,7 +78,7 @@ static inline lane_u sobol_second_reversed(lane_u i)
     return i;
 }
 
-static inline sampler sampler_make(uint seed, lane_u pixel, lane_u index)
+EC_FN sampler sampler_make(uint seed, lane_u pixel, lane_u index)
 {
     sampler s;
     s.key = hash_u(hash_u(pixel) ^ seed);
@@ -87,7 +87,7 @@ static inline sampler sampler_make(uint seed, lane_u pixel, lane_u index)
 }
 
 /* Two 32-bit random integers of dimension `pair`. */
-static inline void sample_pair_u(sampler s, uint pair, lane_u *a, lane_u *b)
+EC_FN void sample_pair_u(sampler s, uint pair, lane_u *a, lane_u *b)
 {
     lane_u k = hash_u(s.key ^ (pair * 0x9e3779b9u));
     if (HAS(SOBOL)) {
@@ -101,7 +101,7 @@ static inline void sample_pair_u(sampler s, uint pair, lane_u *a, lane_u *b)
     }
 }
 
-static inline void sample_pair(sampler s, uint pair, lane_f *a, lane_f *b)
+EC_FN void sample_pair(sampler s, uint pair, lane_f *a, lane_f *b)
 {
     lane_u x, y;
     sample_pair_u(s, pair, &x, &y);

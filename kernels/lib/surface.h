@@ -17,14 +17,14 @@ typedef struct surface {
     lane_f f90;    /* and at grazing */
 } surface;
 
-static inline v3 prim_vertex(const geometry *g, lane_u prim, uint k)
+EC_FN v3 prim_vertex(const geometry *g, lane_u prim, uint k)
 {
     lane_u at = prim * EC_PRIM_WORDS + 4u * k;
     return v3_make(gather_f(g->prims, at), gather_f(g->prims, at + 1u), gather_f(g->prims, at + 2u));
 }
 
 /* Position, its error bound and the geometric normal; wo points away from the surface. */
-static inline void surface_place(const geometry *g, const hit_point *h, v3 wo, surface *s)
+EC_FN void surface_place(const geometry *g, const hit_point *h, v3 wo, surface *s)
 {
     v3 v0 = prim_vertex(g, h->prim, 0), v1 = prim_vertex(g, h->prim, 1), v2 = prim_vertex(g, h->prim, 2);
     s->p = v3_fma(v2, h->b2, v3_fma(v1, h->b1, v3_scale(v0, h->b0)));
@@ -37,14 +37,14 @@ static inline void surface_place(const geometry *g, const hit_point *h, v3 wo, s
 }
 
 /* A ray's origin just off the surface on the side of `towards`: outside the error box around p (pbrt-v4, eq. 6.31). */
-static inline v3 surface_offset(v3 p, v3 p_error, v3 n, v3 towards)
+EC_FN v3 surface_offset(v3 p, v3 p_error, v3 n, v3 towards)
 {
     lane_f d = v3_dot(v3_abs(n), p_error);
     d = v3_dot(n, towards) < 0.0f ? -d : d;
     return v3_fma(n, d, p);
 }
 
-static inline lane_f vertex_uv(const geometry *g, lane_i second, lane_u vertex, uint component)
+EC_FN lane_f vertex_uv(const geometry *g, lane_i second, lane_u vertex, uint component)
 {
     lane_f a = F(0.0f);
     if (g->uv0) a = gather_f(g->uv0, vertex * 2u + component);
@@ -54,7 +54,7 @@ static inline lane_f vertex_uv(const geometry *g, lane_i second, lane_u vertex, 
 
 /* Tangent and handedness of the normal map: the vertices' own, else dp/du of the triangle. Green points up in the texture,
  * towards smaller v: on a front face the uv triangle of an unmirrored map then runs clockwise. */
-static inline v3 surface_tangent(const geometry *g, const hit_point *h, lane_f *handedness)
+EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_f *handedness)
 {
     v3 tangent = v3_zero();
     *handedness = F(1.0f);
@@ -79,7 +79,7 @@ static inline v3 surface_tangent(const geometry *g, const hit_point *h, lane_f *
 }
 
 /* The normal n bent by the normal map. */
-static inline v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, v3 n)
+EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, v3 n)
 {
     m = m & (uint_to_lane_i(as_lane_u(material_word(g, h, EC_MATERIAL_SLOTS + EC_SLOT_NORMAL * 8u))) >= 0);
     if (!any_lane(m)) return n;
@@ -99,12 +99,12 @@ static inline v3 surface_mapped_normal(const geometry *g, const hit_point *h, la
 }
 
 /* Shading normal and frame: on wo's side, and never turned so far that wo sees its back. */
-static inline void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo, surface *s)
+EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo, surface *s)
 {
     s->ns = s->ng;
     if (HAS(SMOOTH_NORMALS) || HAS(NORMAL_TEXTURE)) {
         v3 n = v3_select(s->front, s->ng, v3_negate(s->ng));
-        if (HAS(SMOOTH_NORMALS)) {
+        if (HAS(SMOOTH_NORMALS) && g->normals) {
             v3 smooth = v3_make(interpolate(g->normals, 3, 0, h), interpolate(g->normals, 3, 1, h),
                                 interpolate(g->normals, 3, 2, h));
             lane_f length2 = v3_dot(smooth, smooth);
@@ -113,8 +113,7 @@ static inline void surface_frame(const geometry *g, const hit_point *h, lane_i m
         if (HAS(NORMAL_TEXTURE)) n = surface_mapped_normal(g, h, m, n);
         /* Files whose normals oppose their winding exist: the side is the geometric normal's. */
         n = v3_select(v3_dot(n, s->ng) < 0.0f, v3_negate(n), n);
-        const float least = 0.01f;
-        lane_f cosine = v3_dot(n, wo);
+        lane_f cosine = v3_dot(n, wo), least = min(v3_dot(s->ng, wo), F(0.01f));
         v3 bent = v3_normalize(v3_fma(wo, least - cosine, n));
         s->ns = v3_select(cosine < least, bent, n);
     }
@@ -122,7 +121,7 @@ static inline void surface_frame(const geometry *g, const hit_point *h, lane_i m
 }
 
 /* Parameters of the metallic-roughness model with KHR_materials_specular. */
-static inline void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
+EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
     s->base = surface_base_color(g, h, m).rgb;
     s->metallic = F(0.0f);
@@ -151,11 +150,11 @@ static inline void surface_material(const geometry *g, const hit_point *h, lane_
     s->f90 = weight;
 }
 
-static inline v3 surface_to_local(const surface *s, v3 w)
+EC_FN v3 surface_to_local(const surface *s, v3 w)
 {
     return v3_make(v3_dot(w, s->s), v3_dot(w, s->t), v3_dot(w, s->ns));
 }
-static inline v3 surface_to_world(const surface *s, v3 w)
+EC_FN v3 surface_to_world(const surface *s, v3 w)
 {
     return v3_fma(s->ns, w.z, v3_fma(s->t, w.y, v3_scale(s->s, w.x)));
 }

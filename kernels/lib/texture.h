@@ -19,7 +19,7 @@ typedef struct rgba {
 } rgba;
 
 /* One 8-bit texel, linear. Alpha is linear in every encoding. */
-static inline rgba texel_bytes(textures t, lane_u word, bool is_srgb)
+EC_FN rgba texel_bytes(textures t, lane_u word, bool is_srgb)
 {
     rgba r;
     lane_u red = word & 255u, green = (word >> 8) & 255u, blue = (word >> 16) & 255u;
@@ -32,7 +32,7 @@ static inline rgba texel_bytes(textures t, lane_u word, bool is_srgb)
     return r;
 }
 
-static inline rgba texture_texel(textures t, lane_u offset, lane_u index, lane_i is_float, bool is_srgb)
+EC_FN rgba texture_texel(textures t, lane_u offset, lane_u index, lane_i is_float, bool is_srgb)
 {
     if (!HAS(FLOAT_TEXTURE)) return texel_bytes(t, gather_u(t.texels, offset + index), is_srgb);
     lane_u at = offset + (is_float ? index * 4u : index);
@@ -48,7 +48,7 @@ static inline rgba texture_texel(textures t, lane_u offset, lane_u index, lane_i
 }
 
 /* Wraps a coordinate into [0, 1]: repeat (0), clamp (1), mirrored repeat (2). */
-static inline lane_f texture_fold(lane_f u, lane_u wrap)
+EC_FN lane_f texture_fold(lane_f u, lane_u wrap)
 {
     lane_f repeat = u - floor(u);
     lane_f half_period = u * 0.5f;
@@ -59,7 +59,7 @@ static inline lane_f texture_fold(lane_f u, lane_u wrap)
 }
 
 /* The two texels around x (in texels, folded) along one axis and the weight of the second. */
-static inline void texture_axis(lane_f u, lane_i size, lane_u wrap, lane_i is_nearest, lane_u *first, lane_u *second,
+EC_FN void texture_axis(lane_f u, lane_i size, lane_u wrap, lane_i is_nearest, lane_u *first, lane_u *second,
                          lane_f *weight)
 {
     lane_f x = fma(texture_fold(u, wrap), int_to_lane_f(size), is_nearest ? F(0.0f) : F(-0.5f));
@@ -73,7 +73,7 @@ static inline void texture_axis(lane_f u, lane_i size, lane_u wrap, lane_i is_ne
 }
 
 /* Texture `id` (lane-wise, valid on the lanes of m) at (u, v); white elsewhere. */
-static inline rgba texture_sample(textures t, lane_i m, lane_i id, lane_f u, lane_f v, bool is_srgb)
+EC_FN rgba texture_sample(textures t, lane_i m, lane_i id, lane_f u, lane_f v, bool is_srgb)
 {
     lane_u entry = int_to_lane_u(m ? id : I(0)) * 4u;
     lane_u offset = gather_u(t.table, entry), flags = gather_u(t.table, entry + 3u);

@@ -24,7 +24,7 @@ typedef struct hit8 {
     float b1, b2;
 } hit8;
 
-static inline ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz, float scene_max)
+EC_FN ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz, float scene_max)
 {
     ray8 q;
     q.r = ray_make(v3_make(F(ox), F(oy), F(oz)), v3_make(F(dx), F(dy), F(dz)), scene_max);
@@ -39,13 +39,13 @@ static inline ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, f
     q.far_offset_y = ny ? q.r.lo_offset.y : q.r.hi_offset.y;
     q.far_offset_z = nz ? q.r.lo_offset.z : q.r.hi_offset.z;
     q.axis_z = q.r.z_is_x.s0 ? 0 : (q.r.z_is_y.s0 ? 1 : 2);
-    q.axis_x = (q.axis_z + 1) % 3;
-    q.axis_y = (q.axis_z + 2) % 3;
+    q.axis_x = q.axis_z == 0 ? 2 : 0;
+    q.axis_y = q.axis_z == 1 ? 2 : 1;
     return q;
 }
 
 /* The same numbers as slab_near: the sign of d chooses the plane instead of min and max. */
-static inline float8 node8_near(const ray8 *q, global const float8 *bound, float t_max, uint *mask)
+EC_FN float8 node8_near(const ray8 *q, global const float8 *bound, float t_max, uint *mask)
 {
     float8 near = max(max(fma(bound[q->near_x], q->r.inverse.x, q->near_offset_x),
                           fma(bound[q->near_y], q->r.inverse.y, q->near_offset_y)),
@@ -57,19 +57,19 @@ static inline float8 node8_near(const ray8 *q, global const float8 *bound, float
     return near;
 }
 
-static inline v3 tri8_vertex(global const ec_tri8 *b, uint k)
+EC_FN v3 tri8_vertex(global const ec_tri8 *b, uint k)
 {
     global const float8 *v = (global const float8 *)b->v[k];
     return v3_make(v[0], v[1], v[2]);
 }
-static inline v3 tri8_permuted(const ray8 *q, global const ec_tri8 *b, uint k)
+EC_FN v3 tri8_permuted(const ray8 *q, global const ec_tri8 *b, uint k)
 {
     global const float8 *v = (global const float8 *)b->v[k];
     return v3_make(v[q->axis_x] - q->r.o_permuted.x, v[q->axis_y] - q->r.o_permuted.y, v[q->axis_z] - q->r.o_permuted.z);
 }
 
 /* Eight triangles against the ray. */
-static inline void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, uint skip0, uint skip1,
+EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, uint skip0, uint skip1,
                              hit8 *h)
 {
     edges e;
@@ -98,14 +98,14 @@ static inline void block8_triangles(const ray8 *q, const hit_filter *filter, glo
 }
 
 /* Index of the lowest set bit. */
-static inline uint lowest_bit(uint m) { return 31u - clz(m & -m); }
+EC_FN uint lowest_bit(uint m) { return 31u - clz(m & -m); }
 
 typedef struct stack8 {
     uint node;
     float near;
 } stack8;
 
-static inline void traverse8_closest(const ray8 *q, const hit_filter *filter, global const ec_bvh8_node *nodes,
+EC_FN void traverse8_closest(const ray8 *q, const hit_filter *filter, global const ec_bvh8_node *nodes,
                               global const ec_tri8 *blocks, uint skip0, uint skip1, hit8 *h)
 {
     stack8 stack[EC_BVH8_STACK];
@@ -151,7 +151,7 @@ static inline void traverse8_closest(const ray8 *q, const hit_filter *filter, gl
 }
 
 /* Is anything in the way before t = h->t? */
-static inline bool traverse8_any(const ray8 *q, const hit_filter *filter, global const ec_bvh8_node *nodes,
+EC_FN bool traverse8_any(const ray8 *q, const hit_filter *filter, global const ec_bvh8_node *nodes,
                           global const ec_tri8 *blocks, uint skip0, uint skip1, hit8 *h)
 {
     uint stack[EC_BVH8_STACK];

@@ -13,10 +13,10 @@ typedef struct hit {
     lane_f b1, b2;
 } hit;
 
-static inline v3 splat_point(global const float *p) { return v3_make(F(p[0]), F(p[1]), F(p[2])); }
+EC_FN v3 splat_point(global const float *p) { return v3_make(F(p[0]), F(p[1]), F(p[2])); }
 
 /* One triangle against the packet. Closest is by (t, triangle id); skip0 and skip1 are triangles a lane ignores. */
-static inline void packet_triangle(const ray *r, const hit_filter *filter, global const ec_tri *tri, lane_u skip0, lane_u skip1,
+EC_FN void packet_triangle(const ray *r, const hit_filter *filter, global const ec_tri *tri, lane_u skip0, lane_u skip1,
                             hit *h)
 {
     v3 v0 = splat_point(tri->v0), v1 = splat_point(tri->v1), v2 = splat_point(tri->v2);
@@ -25,11 +25,10 @@ static inline void packet_triangle(const ray *r, const hit_filter *filter, globa
     v3 c = v3_sub(ray_permute(r->z_is_x, r->z_is_y, v2), r->o_permuted);
     edges e;
     lane_i m = edges_inside(r->shear_x, r->shear_y, a, b, c, &e);
-    uint id = tri->id;
-    m = m & (skip0 != id) & (skip1 != id);
     if (!any_lane(m)) return;
+    uint id = tri->id;
     lane_f t;
-    m = m & edges_distance(r, &e, v0, v1, v2, h->t, &t);
+    m = m & (skip0 != id) & (skip1 != id) & edges_distance(r, &e, v0, v1, v2, h->t, &t);
     m = m & ((t < h->t) | (U(id) < h->prim));
     if (!any_lane(m)) return;
     lane_f inverse = 1.0f / e.det, b1 = e.v * inverse, b2 = e.w * inverse;
@@ -42,7 +41,7 @@ static inline void packet_triangle(const ray *r, const hit_filter *filter, globa
 
 /* h->t holds t_max on entry (negative: lane off), h->prim EC_NO_ID. any_hit: a lane is done at its first hit, whose t
  * becomes negative. */
-static inline void traverse_packet(const ray *r, const hit_filter *filter, global const ec_bvh2_node *nodes,
+EC_FN void traverse_packet(const ray *r, const hit_filter *filter, global const ec_bvh2_node *nodes,
                             global const ec_tri *tris, lane_u skip0, lane_u skip1, bool any_hit, hit *h)
 {
     uint stack[EC_BVH_STACK];

@@ -4,6 +4,8 @@
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 #define EC_DEVICE_CODE
+/* Lane-wide values are too large to travel through calls. */
+#define EC_FN static inline __attribute__((always_inline))
 typedef int ec_int;
 typedef uint ec_uint;
 typedef float ec_float;

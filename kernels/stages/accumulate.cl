@@ -2,6 +2,10 @@
  * 3 floats a pixel in row order. Last stage of a wave. */
 #include "../lib/film.h"
 
+#if LANES != 1
+#error "one work-item a pixel: build with LANES 1"
+#endif
+
 kernel void ec_accumulate(constant ec_params *params, uint first_pixel, uint pixel_count, global const float *radiance,
                           global float *batch_film)
 {

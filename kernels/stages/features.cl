@@ -2,6 +2,10 @@
 #include "../lib/film.h"
 #include "../shared/path_state.h"
 
+#if LANES != 1
+#error "one work-item a pixel: build with LANES 1"
+#endif
+
 kernel void ec_features(constant ec_params *params, uint first_pixel, uint pixel_count, global const float *aov,
                         global float *feature_film)
 {

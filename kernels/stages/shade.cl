@@ -9,7 +9,7 @@
 #define FIRST_ROULETTE 5u /* path segments that are never cut short */
 
 /* Density of light sampling for a point that this ray found on an emissive triangle. */
-static inline lane_f emitter_pdf(const geometry *g, const hit_point *h, const surface *s, v3 o, v3 wo)
+EC_FN lane_f emitter_pdf(const geometry *g, const hit_point *h, const surface *s, v3 o, v3 wo)
 {
     v3 d = v3_sub(s->p, o);
     lane_f cosine = fabs(v3_dot(s->ng, wo));
@@ -17,7 +17,7 @@ static inline lane_f emitter_pdf(const geometry *g, const hit_point *h, const su
 }
 
 /* Weight of light found by following the BSDF, against light_pdf; 1 where light sampling cannot find it. */
-static inline lane_f found_weight(uint strategy, lane_f path_pdf, lane_f light_pdf)
+EC_FN lane_f found_weight(uint strategy, lane_f path_pdf, lane_f light_pdf)
 {
     lane_i sampled = (path_pdf >= 0.0f) & (light_pdf > 0.0f);
     if (!(strategy & EC_STRATEGY_LIGHT_BIT)) return F(1.0f);
@@ -25,7 +25,7 @@ static inline lane_f found_weight(uint strategy, lane_f path_pdf, lane_f light_p
     return sampled ? mis_weight(path_pdf, light_pdf) : F(1.0f);
 }
 
-static inline void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, v3 n, lane_f depth, lane_f alpha, uint bits)
+EC_FN void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, v3 n, lane_f depth, lane_f alpha, uint bits)
 {
     scatter_f(aov, slot, albedo.x, bits);
     scatter_f(aov + wave, slot, albedo.y, bits);

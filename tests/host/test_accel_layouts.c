@@ -320,7 +320,7 @@ static ray make_ray(const mesh *m, uint32_t i)
     for (int k = 0; k < 3; k++) {
         double target = p[k] + 0.5 * u * ((double)p[3 + k] - p[k]) + 0.5 * v * ((double)p[6 + k] - p[k]);
         double spread = fabs((double)p[k]) + fabs((double)q[k]);
-        r.o[k] = q[k] + spread * (mesh_random() - 0.5);
+        r.o[k] = q[k] + (spread > 0.0 ? spread : 1.0) * (mesh_random() - 0.5); /* off the plane of a flat mesh */
         r.d[k] = i % 3 ? target - r.o[k] : mesh_random() - 0.5;
     }
     return r;

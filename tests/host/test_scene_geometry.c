@@ -144,7 +144,7 @@ static void test_frames(void)
     const blob blobs[] = {{"@pos@", &data, sizeof data}, {0}};
     const double scales[] = {3, -3, 0};
     for (int i = 0; i < 3; i++) {
-        char number[8], *scaled;
+        char number[32], *scaled;
         sprintf(number, "%g", scales[i]);
         scaled = replace(text, "%SX%", number);
         ec_error err;

@@ -20,9 +20,9 @@ def mixed_box(folder):
     g = Gltf()
     look = dict(emission=(1.0, 1.0, 1.0))
     materials = [g.material("matt", (0.5, 0.5, 0.5), lambert=True, **look),
-                 g.material("plastic-smooth", (0.6, 0.3, 0.1), roughness=0.15, **look),
+                 g.material("plastic-smooth", (0.6, 0.3, 0.1), roughness=0.4, **look),
                  g.material("plastic-rough", (0.1, 0.4, 0.6), roughness=0.7, **look),
-                 g.material("metal-smooth", (0.5, 0.45, 0.4), metallic=1.0, roughness=0.1, **look),
+                 g.material("metal-smooth", (0.5, 0.45, 0.4), metallic=1.0, roughness=0.35, **look),
                  g.material("metal-rough", (0.7, 0.5, 0.3), metallic=1.0, roughness=0.6, **look),
                  g.material("half-metal", (0.4, 0.6, 0.5), metallic=0.5, roughness=0.4, **look)]
     shape = box((-1, -1, -1), (1, 1, 1), inward=True)

@@ -56,7 +56,7 @@ def stripes(size=64):
     """Roughness in green, metalness in blue: four stripes from polished metal to matt plastic."""
     def pixel(x, y):
         k = x * 4 // size
-        return 255, (30, 110, 90, 220)[k], (255, 255, 0, 0)[k]
+        return 255, (90, 150, 100, 220)[k], (255, 255, 0, 0)[k]
     return png.encode(size, size, 3, pixel)
 
 
@@ -101,23 +101,29 @@ def make(folder):
     plain = lambda shape: (setattr(shape, "uvs", []), shape)[1]
 
     tiles = use(g.texture("tiles", tile_texture(), mag=NEAREST), scale=(5.0, 5.0), rotation=0.3)
-    g.add("floor", quad((0.0, 0.0, 0.0), (WIDTH, 0.0, 0.0), (0.0, 0.0, -DEPTH)), g.material("tiles", (1.0, 1.0, 1.0), roughness=0.35, base_texture=tiles))
+    g.add("floor", quad((0.0, 0.0, 0.0), (WIDTH, 0.0, 0.0), (0.0, 0.0, -DEPTH)),
+          g.material("tiles", (1.0, 1.0, 1.0), roughness=0.35, base_texture=tiles))
     plaster = g.material("plaster", (0.72, 0.7, 0.66), lambert=True)
     g.add("back-wall", plain(quad((0.0, HEIGHT / 2, -DEPTH), (WIDTH, 0.0, 0.0), (0.0, HEIGHT / 2, 0.0))), plaster)
     # The camera stands outside: it sees through the back of this single-sided wall, light inside does not leave by it.
     g.add("front-wall", plain(quad((0.0, HEIGHT / 2, DEPTH), (-WIDTH, 0.0, 0.0), (0.0, HEIGHT / 2, 0.0))), plaster)
     g.add("ceiling", plain(quad((0.0, HEIGHT, 0.0), (WIDTH, 0.0, 0.0), (0.0, 0.0, DEPTH))), plaster)
-    g.add("left-wall", plain(quad((-WIDTH, HEIGHT / 2, 0.0), (0.0, 0.0, -DEPTH), (0.0, HEIGHT / 2, 0.0))), g.material("blue-plaster", (0.25, 0.36, 0.5), lambert=True))
+    g.add("left-wall", plain(quad((-WIDTH, HEIGHT / 2, 0.0), (0.0, 0.0, -DEPTH), (0.0, HEIGHT / 2, 0.0))),
+          g.material("blue-plaster", (0.25, 0.36, 0.5), lambert=True))
     g.add("right-wall", wall_with_window(), plaster)
 
     y0, y1, z0, z1 = WINDOW
-    lattice = quad((WIDTH, (y0 + y1) / 2, (z0 + z1) / 2), (0.0, 0.0, -(z1 - z0) / 2), (0.0, (y1 - y0) / 2, 0.0), uvs=[(0, 3), (3, 3), (3, 0), (0, 0)])
-    g.add("grille", lattice, g.material("grille", (1.0, 1.0, 1.0), metallic=1.0, roughness=0.4, alpha_mode="MASK", cutoff=0.5, double_sided=True,
+    lattice = quad((WIDTH, (y0 + y1) / 2, (z0 + z1) / 2), (0.0, 0.0, -(z1 - z0) / 2), (0.0, (y1 - y0) / 2, 0.0),
+          uvs=[(0, 3), (3, 3), (3, 0), (0, 0)])
+    g.add("grille", lattice,
+          g.material("grille", (1.0, 1.0, 1.0), metallic=1.0, roughness=0.4, alpha_mode="MASK", cutoff=0.5,
+          double_sided=True,
                                         base_texture=use(g.texture("grille", grille()))))
     glass = quad((-0.75, 1.55, -DEPTH + 0.02), (0.55, 0.0, 0.0), (0.0, 0.55, 0.0))
     glass.uvs1, glass.uvs = glass.uvs, [(0.0, 0.0)] * 4  # on the second set; a loader that takes the first shows one colour
     g.add("stained-glass", glass, g.material("stained-glass", (0.0, 0.0, 0.0), lambert=True, emission=(4.0, 4.0, 4.0),
-                                             emission_texture=use(g.texture("stained-glass", stained_glass(), wrap=(CLAMP, CLAMP)), uv_set=1)))
+                                             emission_texture=use(g.texture("stained-glass", stained_glass(),
+                                                   wrap=(CLAMP, CLAMP)), uv_set=1)))
     g.add("sign", quad((0.55, 2.0, -DEPTH + 0.02), (0.22, 0.0, 0.0), (0.0, 0.22, 0.0)),
           g.material("sign", (0.9, 0.9, 0.9), unlit=True, base_texture=use(g.texture("sign", sign()))))
 
@@ -126,37 +132,50 @@ def make(folder):
     for x, z in ((-0.04, -1.44), (1.16, -1.44), (-0.04, -0.84), (1.16, -0.84)):
         table.append(box((x, 0.0, z), (x + 0.08, 0.68, z + 0.08)))
     g.add("table", plain(table), wood)
-    g.add("lamp-foot", lathe([(0.11, 0.0), (0.11, 0.02), (0.02, 0.04), (0.015, 0.3), (0.0, 0.3)], 32), g.material("brass", (0.9, 0.7, 0.35), metallic=1.0, roughness=0.25),
+    g.add("lamp-foot", lathe([(0.11, 0.0), (0.11, 0.02), (0.02, 0.04), (0.015, 0.3), (0.0, 0.3)], 32),
+          g.material("brass", (0.9, 0.7, 0.35), metallic=1.0, roughness=0.5),
           translation=(0.25, 0.74, -1.1))
-    g.add("lamp-bulb", plain(icosphere(0.025, 2)), g.material("bulb", (0.0, 0.0, 0.0), lambert=True, emission=(320.0, 230.0, 140.0)), translation=(0.25, 1.08, -1.1))
-    g.add("lamp-shade", lathe([(0.2, 0.0), (0.12, 0.22)], 48), g.material("shade", (0.8, 0.72, 0.6), alpha=0.8, lambert=True, alpha_mode="BLEND", double_sided=True),
+    g.add("lamp-bulb", plain(icosphere(0.05, 1)),
+          g.material("bulb", (0.0, 0.0, 0.0), lambert=True, emission=(260.0, 190.0, 120.0)),
+          translation=(0.25, 1.08, -1.1))
+    g.add("lamp-shade", lathe([(0.2, 0.0), (0.12, 0.22)], 48),
+          g.material("shade", (0.8, 0.72, 0.6), alpha=0.8, lambert=True, alpha_mode="BLEND", double_sided=True),
           translation=(0.25, 0.98, -1.1))
-    g.add("rainbow-ball", rainbow_ball(), g.material("vertex-colours", (1.0, 1.0, 1.0), roughness=0.3), translation=(0.72, 0.94, -0.98))
-    striped = use(g.texture("stripes", stripes(), wrap=(MIRROR, REPEAT), mag=NEAREST), offset=(0.5, 0.0), scale=(2.0, 1.0))
-    g.add("striped-plate", quad((1.02, 0.94, -1.32), (0.2, 0.0, 0.06), (0.0, 0.19, -0.05)), g.material("stripes", (0.8, 0.75, 0.7), metallic=1.0, roughness=1.0, metallic_roughness_texture=striped))
+    g.add("rainbow-ball", rainbow_ball(),
+          g.material("vertex-colours", (1.0, 1.0, 1.0), roughness=0.3), translation=(0.72, 0.94, -0.98))
+    striped = use(g.texture("stripes", stripes(), wrap=(MIRROR, REPEAT), mag=NEAREST), offset=(0.5, 0.0),
+          scale=(2.0, 1.0))
+    g.add("striped-plate", quad((1.02, 0.94, -1.32), (0.2, 0.0, 0.06), (0.0, 0.19, -0.05)),
+          g.material("stripes", (0.8, 0.75, 0.7), metallic=1.0, roughness=1.0, metallic_roughness_texture=striped))
 
-    rippled = g.material("ripples", (0.85, 0.85, 0.88), metallic=1.0, roughness=0.2, normal_texture=use(g.texture("ripples", ripples()), scale=(2.0, 1.0)), normal_scale=0.7)
+    rippled = g.material("ripples", (0.85, 0.85, 0.88), metallic=1.0, roughness=0.35,
+          normal_texture=use(g.texture("ripples", ripples()), scale=(2.0, 1.0)), normal_scale=0.7)
     ball = uv_sphere(0.26, 48, 24)
     g.add("rippled-ball", ball, rippled, translation=(-0.2, 0.26, 0.35))
     g.add("rippled-ball-mirrored", ball, rippled, translation=(0.75, 0.18, 0.75), scale=(-0.7, 0.7, 0.7))
 
-    g.add("pot", lathe([(0.0, 0.0), (0.14, 0.0), (0.2, 0.3), (0.17, 0.3), (0.16, 0.26), (0.0, 0.26)], 40), g.material("clay", (0.5, 0.24, 0.15), lambert=True), translation=(-1.35, 0.0, -0.4))
-    leaves = g.material("leaf", (1.0, 1.0, 1.0), roughness=0.6, alpha_mode="MASK", cutoff=0.5, double_sided=True, base_texture=use(g.texture("leaf", leaf(), wrap=(CLAMP, CLAMP))))
+    g.add("pot", lathe([(0.0, 0.0), (0.14, 0.0), (0.2, 0.3), (0.17, 0.3), (0.16, 0.26), (0.0, 0.26)], 40),
+          g.material("clay", (0.5, 0.24, 0.15), lambert=True), translation=(-1.35, 0.0, -0.4))
+    leaves = g.material("leaf", (1.0, 1.0, 1.0), roughness=0.6, alpha_mode="MASK", cutoff=0.5, double_sided=True,
+          base_texture=use(g.texture("leaf", leaf(), wrap=(CLAMP, CLAMP))))
     plant = Mesh()
     for k in range(7):
         a = 2 * math.pi * k / 7 + 0.3
         c, s = math.cos(a), math.sin(a)
         lean, size = 0.35 + 0.25 * png.hash01(k, 1, 9), 0.55 + 0.3 * png.hash01(k, 2, 9)
         up = (lean * c * size / 2, size / 2 * math.sqrt(1 - lean * lean), lean * s * size / 2)
-        plant.append(quad(tuple(u + d for u, d in zip(up, (0.03 * c, 0.25, 0.03 * s))), (-0.13 * s, 0.0, 0.13 * c), up))
+        plant.append(quad(tuple(u + d for u, d in zip(up, (0.03 * c, 0.25, 0.03 * s))),
+              (-0.13 * s, 0.0, 0.13 * c), up))
     g.add("plant", plant, leaves, translation=(-1.35, 0.0, -0.4))
     foil = quad((0.0, 0.0, 0.0), (0.3, 0.0, 0.0), (0.0, 0.4, 0.0))
-    g.add("foil", foil, g.material("foil", (1.0, 1.0, 1.0), roughness=0.2, alpha_mode="BLEND", double_sided=True, base_texture=use(g.texture("foil", gel(), wrap=(CLAMP, CLAMP)))),
+    g.add("foil", foil,
+          g.material("foil", (1.0, 1.0, 1.0), roughness=0.2, alpha_mode="BLEND", double_sided=True,
+          base_texture=use(g.texture("foil", gel(), wrap=(CLAMP, CLAMP)))),
           translation=(1.35, 0.42, 0.2), rotation=axis_angle((0, 1, 0), -35))
 
-    g.light("point", "point", (-1.2, 2.2, 0.9), (1.0, 0.85, 0.7), 4.0)
-    g.light("spot", "spot", (0.2, 2.4, 1.3), (0.8, 0.9, 1.0), 20.0, target=(0.72, 0.94, -0.98), inner=6.0, outer=11.0)
-    g.light("sun", "directional", (4.0, 3.6, 0.6), (1.0, 0.92, 0.8), 10.0, target=(0.2, 0.2, 0.1))
+    g.light("point", "point", (-1.2, 2.2, 0.9), (1.0, 0.85, 0.7), 2.0)
+    g.light("spot", "spot", (0.2, 2.4, 1.3), (0.8, 0.9, 1.0), 9.0, target=(0.72, 0.94, -0.98), inner=14.0, outer=24.0)
+    g.light("sun", "directional", (4.0, 3.6, 0.6), (1.0, 0.92, 0.8), 1.5, target=(0.2, 0.2, 0.1))
     g.perspective("camera", (-0.1, 1.3, 5.2), (0.0, 1.15, 0.0), 36.0, 4 / 3)
     g.orthographic("plan", (0.0, 6.0, 0.0), (0.0, 0.0, 0.0), 2.2, 2.2)
     g.write(folder, "lamps")

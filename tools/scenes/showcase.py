@@ -11,7 +11,8 @@ GOLD, COPPER, SILVER, STEEL = (1.0, 0.766, 0.336), (0.955, 0.638, 0.538), (0.972
 
 def terrazzo(size=512):
     """Stone chips in cement: base colour, and roughness in green (chips are polished, cement less so)."""
-    chips = [(0.72, 0.66, 0.58), (0.48, 0.27, 0.2), (0.2, 0.29, 0.31), (0.8, 0.78, 0.74), (0.1, 0.1, 0.12), (0.56, 0.45, 0.3)]
+    chips = [(0.72, 0.66, 0.58), (0.48, 0.27, 0.2), (0.2, 0.29, 0.31), (0.8, 0.78, 0.74), (0.1, 0.1, 0.12),
+          (0.56, 0.45, 0.3)]
     cement = (0.36, 0.35, 0.35)
     layers = [(9, 11, 0.16), (23, 21, 0.14)]  # cells a tile, seed, half width of the joint
     picture = []
@@ -93,13 +94,18 @@ def make(folder):
     g = Gltf()
     color, rough = terrazzo()
     tile = 2.0
-    floor = quad((0.0, 0.0, 0.5), (6.0, 0.0, 0.0), (0.0, 0.0, -4.0), uvs=[(0, 8 / tile), (12 / tile, 8 / tile), (12 / tile, 0), (0, 0)])
-    g.add("floor", floor, g.material("terrazzo", (1.0, 1.0, 1.0), roughness=1.0, base_texture=g.texture_use(g.texture("terrazzo-color", color)),
+    floor = quad((0.0, 0.0, 0.5), (6.0, 0.0, 0.0), (0.0, 0.0, -4.0), uvs=[(0, 8 / tile), (12 / tile, 8 / tile),
+          (12 / tile, 0), (0, 0)])
+    g.add("floor", floor,
+          g.material("terrazzo", (1.0, 1.0, 1.0), roughness=1.0,
+          base_texture=g.texture_use(g.texture("terrazzo-color", color)),
                                      metallic_roughness_texture=g.texture_use(g.texture("terrazzo-roughness", rough))))
-    g.add("backdrop", sweep(6.0, 0.0, -3.5, 5.0, 1.6).moved((0.0, 0.001, 0.0)), g.material("backdrop", (0.16, 0.17, 0.2), lambert=True))
+    g.add("backdrop", sweep(6.0, 0.0, -3.5, 5.0, 1.6).moved((0.0, 0.001, 0.0)),
+          g.material("backdrop", (0.16, 0.17, 0.2), lambert=True))
 
     stone = g.material("stone", (0.62, 0.6, 0.57), roughness=0.4)
-    g.add("plinth", lathe([(0.74, 0.0), (0.74, 0.07), (0.72, 0.09), (0.62, 0.09), (0.62, 0.19), (0.6, 0.21), (0.0, 0.21)], 96), stone,
+    g.add("plinth", lathe([(0.74, 0.0), (0.74, 0.07), (0.72, 0.09), (0.62, 0.09), (0.62, 0.19), (0.6, 0.21),
+          (0.0, 0.21)], 96), stone,
           translation=(0.0, 0.0, -0.25))
 
     gold = g.material("gold", GOLD, metallic=1.0, roughness=0.16)
@@ -108,9 +114,12 @@ def make(folder):
     turn = axis_angle(cross(tip, (0.0, -1.0, 0.0)), math.degrees(math.acos(-tip[1] * -1.0)))
     spin = axis_angle((0, 1, 0), 26)
     g.add("star", star(0.7), gold, translation=(0.0, 0.21 + 0.69, -0.25), rotation=multiply(spin, turn))
-    for i, (x, z, size, angle) in enumerate(((-0.3, 0.8, 0.24, 20), (0.36, 0.7, 0.2, 200), (0.0, 1.12, 0.16, 75), (0.98, 0.3, 0.2, 130),
-                                             (0.62, 1.36, 0.12, 310), (-1.05, 1.12, 0.14, 165), (1.2, 1.1, 0.15, 255))):
-        g.add(f"splinter-{i}", shard(i), gold, translation=(x, 0.05 * size, z), rotation=axis_angle((0, 1, 0), angle), scale=size)
+    for i, (x, z, size, angle) in enumerate(((-0.3, 0.8, 0.24, 20), (0.36, 0.7, 0.2, 200), (0.0, 1.12, 0.16, 75),
+          (0.98, 0.3, 0.2, 130),
+                                             (0.62, 1.36, 0.12, 310), (-1.05, 1.12, 0.14, 165),
+                                                   (1.2, 1.1, 0.15, 255))):
+        g.add(f"splinter-{i}", shard(i), gold, translation=(x, 0.05 * size, z),
+              rotation=axis_angle((0, 1, 0), angle), scale=size)
 
     knot = torus_knot(2, 3, 0.44, 0.115, 280, 28)
     low = min(p[1] for p in knot.positions)
@@ -127,7 +136,8 @@ def make(folder):
     put("chalk-ball", small, g.material("chalk", (0.8, 0.78, 0.74), lambert=True), 0.38, 1.2, 0.1)
     put("green-ball", small, g.material("green-plastic", (0.04, 0.3, 0.16), roughness=0.5), -1.42, 0.78, 0.15)
     dents = g.texture_use(g.texture("hammered-normal", hammered()), scale=(2.0, 1.0))
-    put("hammered-ball", uv_sphere(1.0, 64, 32), g.material("bronze", (0.78, 0.5, 0.28), metallic=1.0, roughness=0.22, normal_texture=dents),
+    put("hammered-ball", uv_sphere(1.0, 64, 32),
+          g.material("bronze", (0.78, 0.5, 0.28), metallic=1.0, roughness=0.22, normal_texture=dents),
         -0.4, 1.34, 0.13)
 
     panel(g, "key", (-2.7, 3.1, 2.5), (0.0, 0.6, 0.0), 0.9, 0.9, (1.0, 0.9, 0.76), 15.0)

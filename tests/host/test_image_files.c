@@ -1,0 +1,181 @@
+/* Never half a picture: where writing fails, nothing new stands in the folder and what stood there is as it was. */
+#include <dirent.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdint.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "image/image.h"
+#include "support/test.h"
+
+static const char *const folder = ECLAT_TEST_OUT "/files";
+static ec_error err;
+
+/* Each of the three functions that touch a target, behind one face. */
+typedef enum { CHECK_ONLY, EXR, PNG, KINDS } kind;
+static ec_result write_kind(kind k, const char *path)
+{
+    static float noise[256 * 256];
+    for (uint32_t i = 0, seed = 1; i < 256 * 256; i++) noise[i] = (float)((seed = seed * 1664525u + 1013904223u) >> 8);
+    const ec_channel channel = {"R", noise, 1};
+    err.text[0] = 0;
+    if (k == EXR) return ec_exr_write(path, 256, 256, &channel, 1, NULL, 0, &err);
+    if (k == PNG) return ec_png_write(path, 256, 80, (const uint8_t *)noise, &err);
+    return ec_image_check_writable(path, &err);
+}
+
+static const char *in_folder(const char *name)
+{
+    static char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static int entries(void)
+{
+    DIR *directory = opendir(folder);
+    int count = -2; /* . and .. */
+    while (readdir(directory)) count++;
+    closedir(directory);
+    return count;
+}
+
+static void put(const char *name, const char *content, mode_t mode)
+{
+    FILE *file = fopen(in_folder(name), "wb");
+    fputs(content, file);
+    fclose(file);
+    chmod(in_folder(name), mode);
+}
+
+static int holds(const char *name, const char *content)
+{
+    char read[64] = {0};
+    FILE *file = fopen(in_folder(name), "rb");
+    if (!file) return 0;
+    size_t count = fread(read, 1, sizeof read - 1, file);
+    fclose(file);
+    return count == strlen(content) && memcmp(read, content, count) == 0;
+}
+
+#define CHECK_REFUSED(k, path, words)                                                                                  \
+    do {                                                                                                               \
+        int before = entries();                                                                                        \
+        CHECK(write_kind(k, path) == EC_FAILED);                                                                       \
+        CHECK_MSG(strstr(err.text, words) && strstr(err.text, path) && !strchr(err.text, '\n'), "%s", err.text);       \
+        CHECK(entries() == before);                                                                                    \
+    } while (0)
+
+static void impossible_targets_are_refused(kind k)
+{
+    char longest[300];
+    memset(longest, 'x', sizeof longest);
+    longest[sizeof longest - 1] = 0;
+    mkdir(in_folder("sub"), 0777);
+    CHECK_REFUSED(k, in_folder("no-such/out"), "create its folder");
+    CHECK_REFUSED(k, in_folder("sub"), "is a folder");
+    CHECK_REFUSED(k, in_folder("sub/"), "names a folder");
+    CHECK_REFUSED(k, in_folder(longest), "too long");
+    CHECK_REFUSED(k, "/dev/null", "not a regular file"); /* a rename would have replaced the device, were we root */
+    CHECK_REFUSED(k, "/proc/out", "/proc/out");
+    put("file", "old", 0644);
+    CHECK_REFUSED(k, in_folder("file/out"), "create its folder");
+    CHECK(holds("file", "old"));
+    CHECK(write_kind(k, "") == EC_FAILED && strstr(err.text, "empty"));
+    rmdir(in_folder("sub"));
+    unlink(in_folder("file"));
+}
+
+/* Root may write anywhere: the test steps down to an unprivileged user, if it was root. */
+static void permissions_are_respected(kind k)
+{
+    int root = geteuid() == 0;
+    mkdir(in_folder("locked"), 0777);
+    put("locked/old", "old", 0644);
+    put("read-only", "old", 0444);
+    chmod(in_folder("locked"), 0555);
+    if (root && (chown(folder, 65534, 65534) != 0 || chown(in_folder("read-only"), 65534, 65534) != 0 || seteuid(65534) != 0))
+        return;
+    if (access(folder, W_OK) == 0 || !root) {
+        CHECK_REFUSED(k, in_folder("locked/new"), "Permission denied");
+        CHECK_REFUSED(k, in_folder("locked/old"), "Permission denied");
+        CHECK_REFUSED(k, in_folder("read-only"), "Permission denied");
+        CHECK(holds("locked/old", "old") && holds("read-only", "old"));
+    }
+    if (root) CHECK(seteuid(0) == 0);
+    chmod(in_folder("locked"), 0755);
+    unlink(in_folder("locked/old"));
+    rmdir(in_folder("locked"));
+    unlink(in_folder("read-only"));
+}
+
+/* A full disk, by way of a limit on the file's size. */
+static void a_full_disk_leaves_the_old_file(kind k)
+{
+    put("target", "old", 0644);
+    struct rlimit usual, small;
+    getrlimit(RLIMIT_FSIZE, &usual);
+    small = usual;
+    small.rlim_cur = 1000;
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    CHECK_REFUSED(k, in_folder("target"), "free some space");
+    CHECK_REFUSED(k, in_folder("new"), "free some space");
+    setrlimit(RLIMIT_FSIZE, &usual);
+    CHECK(holds("target", "old") && access(in_folder("new"), F_OK) != 0);
+    unlink(in_folder("target"));
+}
+
+static mode_t mode_of(const char *name)
+{
+    struct stat info;
+    return stat(in_folder(name), &info) == 0 ? info.st_mode & 07777 : 0;
+}
+
+static void files_get_the_usual_mode(kind k)
+{
+    mode_t usual = umask(027);
+    CHECK_OK(write_kind(k, in_folder("new")), err);
+    CHECK_MSG(mode_of("new") == 0640, "mode %o", mode_of("new"));
+    put("old", "old", 0604); /* an older file's mode is kept */
+    CHECK_OK(write_kind(k, in_folder("old")), err);
+    CHECK_MSG(mode_of("old") == 0604 && !holds("old", "old"), "mode %o", mode_of("old"));
+    put("behind", "old", 0644);
+    CHECK(symlink("behind", in_folder("link")) == 0); /* a link stays one; what it names is replaced */
+    CHECK_OK(write_kind(k, in_folder("link")), err);
+    struct stat info;
+    CHECK(lstat(in_folder("link"), &info) == 0 && S_ISLNK(info.st_mode) && !holds("behind", "old"));
+    CHECK(entries() == 4);
+    umask(usual);
+    const char *const names[] = {"new", "old", "behind", "link"};
+    for (int i = 0; i < 4; i++) unlink(in_folder(names[i]));
+}
+
+static void checking_leaves_nothing(void)
+{
+    put("old", "old", 0600);
+    CHECK_OK(write_kind(CHECK_ONLY, in_folder("new")), err);
+    CHECK_OK(write_kind(CHECK_ONLY, in_folder("old")), err);
+    CHECK(entries() == 1 && holds("old", "old") && mode_of("old") == 0600);
+    unlink(in_folder("old"));
+    CHECK(chdir(folder) == 0 && write_kind(CHECK_ONLY, "new") == EC_OK); /* a name without a folder */
+    CHECK(write_kind(PNG, "new") == EC_OK && entries() == 1 && unlink("new") == 0);
+}
+
+int main(void)
+{
+    mkdir(folder, 0777);
+    if (entries() != 0) TEST_SKIP("%s is not empty", folder);
+    for (kind k = CHECK_ONLY; k < KINDS; k++) {
+        impossible_targets_are_refused(k);
+        permissions_are_respected(k);
+        if (k != CHECK_ONLY) a_full_disk_leaves_the_old_file(k);
+        if (k != CHECK_ONLY) files_get_the_usual_mode(k);
+    }
+    checking_leaves_nothing();
+    CHECK(entries() == 0);
+    rmdir(folder);
+    TEST_END();
+}

@@ -1,0 +1,212 @@
+/* Materials, textures, images and extensions. */
+#include "test_scene_files.h"
+
+/* A 2x1 PNG: 8 bits RGB (red, green) and 16 bits grey (0x0102, 0xfffe). Made with Python's zlib. */
+static const unsigned char png8[] = {
+    137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0, 2, 0, 0, 0, 1, 8, 2, 0, 0, 0,
+    123, 64, 232, 221, 0, 0, 0, 15, 73, 68, 65, 84, 120, 156, 99, 248, 207, 192, 192, 240, 159, 1, 0, 7,
+    255, 1, 255, 1, 127, 137, 167, 0, 0, 0, 0, 73, 69, 78, 68, 174, 66, 96, 130};
+static const unsigned char png16[] = {
+    137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0, 2, 0, 0, 0, 1, 16, 0, 0, 0, 0,
+    129, 217, 252, 21, 0, 0, 0, 13, 73, 68, 65, 84, 120, 156, 99, 96, 100, 250, 255, 15, 0, 3, 11, 2, 1,
+    132, 145, 232, 19, 0, 0, 0, 0, 73, 69, 78, 68, 174, 66, 96, 130};
+static const float triangle_uv[6] = {0, 0, 1, 0, 0, 1};
+
+/* A triangle with TEXCOORD_0; MATERIAL and ROOT are spliced in; images 0 = png8, 1 = png16, 2 = broken. */
+#define TEXTURED(MATERIAL, ROOT)                                                                                       \
+    "{'asset':{'version':'2.0'},'nodes':[{'mesh':0}],"                                                                 \
+    "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'material':0}]}],"                           \
+    "'buffers':[{'byteLength':36,'uri':'@pos@'},{'byteLength':24,'uri':'@uv@'}],"                                      \
+    "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':1,'byteLength':24}],"                                       \
+    "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"                                      \
+    "{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}],"                                                  \
+    "'images':[{'uri':'@png8@'},{'uri':'@png16@'},{'uri':'data:image/png;base64,AAAA','name':'broken'},"               \
+    "{'uri':'missing.png'}],"                                                                                          \
+    "'samplers':[{'magFilter':9728,'wrapS':33071,'wrapT':33648}],"                                                     \
+    "'textures':[{'source':0,'sampler':0},{'source':1},{'source':2},{'sampler':0},{'source':3},{'source':0}],"         \
+    "'materials':[{'name':'m'" MATERIAL "}]" ROOT "}"
+static const blob textured_blobs[] = {{"@pos@", triangle_positions, 36}, {"@uv@", triangle_uv, 24},
+                                      {"@png8@", png8, sizeof png8}, {"@png16@", png16, sizeof png16}, {0}};
+
+static ec_scene *load(const char *text)
+{
+    ec_error err;
+    ec_scene *s = load_text(text, textured_blobs, &err);
+    CHECK_MSG(s != NULL, "%s", err.text);
+    if (!s) exit(1);
+    return s;
+}
+
+static void test_defaults(void)
+{
+    ec_error err;
+    ec_scene *s = load_text(TRIANGLE("", "", "", ""), triangle_blobs, &err);
+    CHECK_MSG(s != NULL, "%s", err.text);
+    if (!s) return;
+    const ec_material *m = s->materials;
+    CHECK(s->material_count == 1 && m->base_color[3] == 1 && m->metallic == 1 && m->roughness == 1);
+    CHECK(m->specular == 1 && m->specular_color[2] == 1 && m->normal_scale == 1 && m->alpha_cutoff == 0.5f);
+    CHECK(m->alpha_mode == EC_ALPHA_OPAQUE && !m->double_sided && !m->unlit && m->base_color_texture.texture == -1);
+    CHECK(!ec_scene_has_light(s));
+    ec_scene_free(s);
+    s = load(TEXTURED("", ""));
+    m = s->materials;
+    CHECK(s->material_count == 1 && m->base_color[3] == 1 && m->metallic == 1 && m->roughness == 1);
+    CHECK(m->specular == 1 && m->specular_color[2] == 1 && m->normal_scale == 1 && m->alpha_cutoff == 0.5f);
+    CHECK(s->image_count == 0 && s->texture_count == 0); /* nobody uses them: not even opened, so no warning */
+    CHECK_MSG(!strstr(messages, "W "), "%s", messages);
+    ec_scene_free(s);
+}
+
+static void test_factors(void)
+{
+    ec_scene *s = load(TEXTURED(
+        ",'pbrMetallicRoughness':{'baseColorFactor':[0.1,0.2,0.3,0.4],'metallicFactor':0,'roughnessFactor':0.25},"
+        "'emissiveFactor':[1,0.5,0],'alphaMode':'MASK','alphaCutoff':0.75,'doubleSided':true,"
+        "'normalTexture':{'index':0,'scale':2},"
+        "'extensions':{'KHR_materials_emissive_strength':{'emissiveStrength':8000000000},"
+        "'KHR_materials_specular':{'specularFactor':0,'specularColorFactor':[2,1,0.5],'specularTexture':{'index':1}},"
+        "'KHR_materials_unknown':{'a':[{}]}}",
+        ",'extensionsUsed':['KHR_materials_unknown','KHR_materials_specular']"));
+    const ec_material *m = s->materials;
+    CHECK_NEAR(m->base_color[3], 0.4, 1e-7);
+    CHECK(m->metallic == 0 && m->roughness == 0.25f && m->alpha_cutoff == 0.75f && m->double_sided);
+    CHECK(m->alpha_mode == EC_ALPHA_MASK && m->normal_scale == 2);
+    CHECK_NEAR(m->emission[0], 8e9, 1e3);
+    CHECK_NEAR(m->emission[1], 4e9, 1e3);
+    CHECK(m->specular == 0 && m->specular_color[0] == 2 && m->specular_color[2] == 0.5f);
+    CHECK(m->specular_texture.texture >= 0 && m->normal_texture.texture >= 0);
+    CHECK(ec_scene_has_light(s));
+    CHECK(s->extension_count == 2 && s->extension_ignored_count == 1);
+    CHECK(!strcmp(s->extensions_ignored[0], "KHR_materials_unknown"));
+    CHECK_MSG(strstr(messages, "KHR_materials_unknown") != NULL, "%s", messages);
+    ec_scene_free(s);
+    s = load(TEXTURED(",'extensions':{'KHR_materials_unlit':{}},'alphaMode':'BLEND'", ""));
+    CHECK(s->materials->unlit && s->materials->alpha_mode == EC_ALPHA_BLEND && ec_scene_has_light(s));
+    ec_scene_free(s);
+    s = load(TEXTURED(",'pbrMetallicRoughness':{'metallicFactor':7,'roughnessFactor':-1},'alphaMode':'ODD'", ""));
+    CHECK(s->materials->metallic == 1 && s->materials->roughness == 0 && s->materials->alpha_mode == EC_ALPHA_OPAQUE);
+    CHECK_MSG(strstr(messages, "clamped") && strstr(messages, "alphaMode is ODD"), "%s", messages);
+    ec_scene_free(s);
+}
+
+static void test_images(void)
+{
+    ec_scene *s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
+                                "{'index':1}},'emissiveTexture':{'index':5}", ""));
+    const ec_material *m = s->materials;
+    CHECK(s->image_count == 2 && s->texture_count == 3);
+    if (s->texture_count != 3) exit(1);
+    const ec_texture *base = &s->textures[m->base_color_texture.texture];
+    const ec_texture *rough = &s->textures[m->metallic_roughness_texture.texture];
+    const ec_texture *glow = &s->textures[m->emission_texture.texture];
+    CHECK(base->nearest && base->wrap_s == EC_WRAP_CLAMP && base->wrap_t == EC_WRAP_MIRROR);
+    CHECK(!rough->nearest && rough->wrap_s == EC_WRAP_REPEAT && rough->wrap_t == EC_WRAP_REPEAT);
+    CHECK(glow->image == base->image && !glow->nearest);
+    const ec_image *color = &s->images[base->image], *deep = &s->images[rough->image];
+    CHECK(color->width == 2 && color->height == 1 && color->rgba8 && !color->rgba16);
+    CHECK(color->rgba8[0] == 255 && color->rgba8[1] == 0 && color->rgba8[3] == 255 && color->rgba8[5] == 255);
+    CHECK(deep->width == 2 && deep->rgba16 && !deep->rgba8);
+    CHECK(deep->rgba16[0] == 0x0102 && deep->rgba16[2] == 0x0102 && deep->rgba16[3] == 0xffff && deep->rgba16[5] == 0xfffe);
+    ec_scene_free(s);
+    /* broken, absent and missing images count as white; the rest of the material stays */
+    s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':2},'metallicRoughnessTexture':{'index':3}},"
+                      "'normalTexture':{'index':4},'emissiveTexture':{'index':0}", ""));
+    m = s->materials;
+    CHECK(m->base_color_texture.texture < 0 && m->metallic_roughness_texture.texture < 0 && m->normal_texture.texture < 0);
+    CHECK(m->emission_texture.texture == 0 && s->texture_count == 1);
+    CHECK_MSG(strstr(messages, "images[2] \"broken\" cannot be decoded") && strstr(messages, "textures[3] has no image") &&
+              strstr(messages, "missing.png: cannot open"), "%s", messages);
+    ec_scene_free(s);
+    expect_failure(TEXTURED(",'emissiveTexture':{'index':6}", ""), textured_blobs,
+                   "materials[0].emissiveTexture.index is 6 but the file has 6 textures");
+}
+
+/* KHR_texture_transform's own example: the (u, v) of the corners after offset, rotation and scale. */
+static void test_transform(void)
+{
+    ec_scene *s = load(TEXTURED(",'emissiveTexture':{'index':0,'texCoord':1,'extensions':{'KHR_texture_transform':"
+                                "{'offset':[0.25,1],'rotation':1.5707963267948966,'scale':[2,3],'texCoord':0}}}", ""));
+    const ec_texture_use *use = &s->materials[0].emission_texture;
+    CHECK(use->texture == 0 && use->uv_set == 0);
+    /* (1, 0): scaled to (2, 0), then turned a quarter counter-clockwise where v points down: (0, -2) */
+    CHECK_NEAR(use->transform[0] + use->transform[2], 0.25, 1e-6);
+    CHECK_NEAR(use->transform[3] + use->transform[5], 1 - 2, 1e-6);
+    /* (0, 1): (0, 3), then (3, 0) */
+    CHECK_NEAR(use->transform[1] + use->transform[2], 0.25 + 3, 1e-6);
+    CHECK_NEAR(use->transform[4] + use->transform[5], 1, 1e-6);
+    ec_scene_free(s);
+    /* Khronos' TextureTransformTest: turned by 22.5 degrees, the green marker's place (0.421, 1.016) on the quad must
+     * show the tip of the arrow, which lies at (0.778, 0.778) in the picture. */
+    s = load(TEXTURED(",'emissiveTexture':{'index':0,'extensions':{'KHR_texture_transform':{'rotation':"
+                      "0.39269908169872414}}}", ""));
+    const float *m = s->materials[0].emission_texture.transform;
+    CHECK_NEAR(m[0] * 0.420952 + m[1] * 1.016267 + m[2], 0.7778, 1e-3);
+    CHECK_NEAR(m[3] * 0.420952 + m[4] * 1.016267 + m[5], 0.7778, 1e-3);
+    ec_scene_free(s);
+}
+
+static void test_missing_coordinates(void)
+{
+    /* Two primitives share a material on TEXCOORD_0 and TEXCOORD_1; neither has the latter, one lacks both. */
+    ec_error err;
+    ec_scene *s = load_text(
+        "{'asset':{'version':'2.0'},'nodes':[{'mesh':0}],'meshes':[{'primitives':["
+        "{'attributes':{'POSITION':0,'TEXCOORD_0':1},'material':0},{'attributes':{'POSITION':0},'material':0}]}],"
+        "'buffers':[{'byteLength':36,'uri':'@pos@'},{'byteLength':24,'uri':'@uv@'}],"
+        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':1,'byteLength':24}],"
+        "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+        "{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}],"
+        "'images':[{'uri':'@png8@'}],'textures':[{'source':0}],'materials':[{'name':'m',"
+        "'pbrMetallicRoughness':{'baseColorTexture':{'index':0}},'emissiveTexture':{'index':0,'texCoord':1},"
+        "'normalTexture':{'index':0,'texCoord':2}}]}", textured_blobs, &err);
+    CHECK_MSG(s != NULL, "%s", err.text);
+    if (!s) return;
+    const ec_material *first = &s->materials[s->triangle_material[0]], *second = &s->materials[s->triangle_material[1]];
+    CHECK(s->triangle_count == 2 && first != second);
+    CHECK(first->base_color_texture.texture == 0 && first->emission_texture.texture == -1);
+    CHECK(second->base_color_texture.texture == -1 && second->emission_texture.texture == -1);
+    CHECK(first->normal_texture.texture == -1 && !strcmp(second->name, "m"));
+    CHECK_MSG(strstr(messages, "TEXCOORD_1, which meshes[0] lacks") && strstr(messages, "TEXCOORD_2"), "%s", messages);
+    CHECK(s->uv[0][0] == 0 && s->uv[0][2 * 3] == 0 && !s->uv[1]);
+    ec_scene_free(s);
+}
+
+static void test_quantization(void)
+{
+    struct {
+        int8_t position[12]; /* stride 4 */
+        int8_t normal[12];
+    } data = {{0, 0, 0, 0, 10, 0, 0, 0, 0, 10, 0, 0}, {0, 0, 127, 0, 0, 0, 127, 0, 0, 0, -128, 0}};
+    const char *text = "{'asset':{'version':'2.0'}%EXT%,'nodes':[{'mesh':0}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}],"
+        "'buffers':[{'byteLength':24,'uri':'@pos@'}],'bufferViews':[{'buffer':0,'byteLength':24,'byteStride':4}],"
+        "'accessors':[{'bufferView':0,'componentType':5120,'count':3,'type':'VEC3'},"
+        "{'bufferView':0,'byteOffset':12,'componentType':5120,'normalized':true,'count':3,'type':'VEC3'}]}";
+    const blob blobs[] = {{"@pos@", &data, sizeof data}, {0}};
+    char *with = replace(text, "%EXT%", ",'extensionsRequired':['KHR_mesh_quantization']");
+    ec_error err;
+    ec_scene *s = load_text(with, blobs, &err);
+    CHECK_MSG(s != NULL, "%s", err.text);
+    if (s) {
+        CHECK_NEAR(s->bounds_max[0] - s->bounds_min[0], 10, 0);
+        CHECK_NEAR(s->normals[2], 1, 0);
+        CHECK_NEAR(s->normals[8], -1, 0);
+    }
+    ec_scene_free(s);
+    free(with);
+    with = replace(text, "%EXT%", "");
+    expect_failure(with, blobs, "does not allow");
+    free(with);
+}
+
+int main(void)
+{
+    test_defaults();
+    test_factors();
+    test_images();
+    test_transform();
+    test_missing_coordinates();
+    test_quantization();
+    TEST_END();
+}
