@@ -9,6 +9,7 @@
 
 #define SUBTREE 4096u /* triangles; not tied to the number of cores, since the numbering follows from it */
 #define LOAD_CHUNK 16384u
+#define TEAM_MIN 4096u /* fewer triangles are built sooner than a second thread wakes */
 
 static void fail(ec_builder *builder)
 {
@@ -110,7 +111,7 @@ ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t
                        ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
 {
     double start = ec_now();
-    int team = threads ? (int)threads : omp_get_max_threads();
+    int team = triangle_count < TEAM_MIN ? 1 : threads ? (int)threads : omp_get_max_threads();
     memset(bvh, 0, sizeof *bvh);
     if (triangle_count > INT32_MAX) return ec_fail(err, "%u triangles are more than a BVH can hold", triangle_count);
     ec_builder builder = {0};

@@ -7,6 +7,7 @@
 #define COST_WIDE_NODE 1.0f
 #define COST_WIDE_BLOCK 1.0f
 #define TASK_DEPTH 8 /* 256 tasks at most */
+#define TEAM_MIN 1024 /* nodes */
 
 /* cost[j - 1]: of a subtree that may become up to j children of the node above it. */
 typedef struct slot_costs {
@@ -85,7 +86,7 @@ int ec_collapse8(const ec_bvh *bvh, const ec_subtree *subtrees, ec_collapse *col
     }
     dp d = {.bvh = bvh, .subtrees = subtrees, .slots = collapse->slots, .scale = 1.0f / longest};
     slot_costs costs;
-#pragma omp parallel
+#pragma omp parallel if (bvh->node_count > TEAM_MIN)
 #pragma omp single
     solve(&d, 0, 0, &costs);
     return 1;

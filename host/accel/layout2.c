@@ -167,7 +167,7 @@ static ec_bvh2_node *build_small(plan *p, uint32_t *node_count)
 
 static void fill_triangles(const plan *p, ec_tri *triangles)
 {
-#pragma omp parallel for schedule(dynamic, 4096)
+#pragma omp parallel for schedule(dynamic, 4096) if (p->bvh->triangle_count > 4096)
     for (uint32_t i = 0; i < p->bvh->triangle_count; i++) {
         const uint32_t *corner = p->indices + 3 * (size_t)p->ids[i];
         triangles[i] = (ec_tri){.id = p->ids[i]};

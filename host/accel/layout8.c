@@ -7,6 +7,7 @@
 
 /* A traversal may have the siblings along one path on its stack and eight more children before it takes the next. */
 #define STACK_MAX (EC_BVH_STACK - 8)
+#define CHUNK 1024u /* nodes or blocks that a thread fills at a time */
 
 typedef struct wide {
     uint32_t child[8]; /* binary nodes; the children that are nodes, then those that are leaves */
@@ -103,11 +104,11 @@ static void fill_block(const plan *p, uint32_t index, const float *positions, co
 
 static void fill(const plan *p, const float *positions, const uint32_t *indices, ec_bvh8_node *nodes, ec_tri8 *blocks)
 {
-#pragma omp parallel
+#pragma omp parallel if (p->leaf_count > CHUNK)
     {
-#pragma omp for nowait schedule(dynamic, 1024)
+#pragma omp for nowait schedule(dynamic, CHUNK)
         for (uint32_t i = 0; i < p->node_count; i++) fill_node(p, &p->nodes[i], &nodes[i]);
-#pragma omp for schedule(dynamic, 1024)
+#pragma omp for schedule(dynamic, CHUNK)
         for (uint32_t i = 0; i < p->leaf_count; i++) fill_block(p, p->leaves[i], positions, indices, &blocks[i]);
     }
 }

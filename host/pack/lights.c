@@ -5,6 +5,7 @@
 
 #include "pack/alias.h"
 #include "pack/pack.h"
+#include "pack/texture_mean.h"
 
 #define PI 3.14159265358979323846
 
@@ -13,20 +14,15 @@ static double luminance(const double rgb[3])
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
-/* Mean linear colour of an emission texture, so that power is right to the order of magnitude; 1 without one. */
-static void texture_mean(const ec_scene *scene, const ec_texture_use *use, double mean[3])
+/* A triangle's mean emission colour. Its own part of the texture decides how often it is sampled; a little of the whole
+ * texture's mean keeps what the points below miss from never being sampled at all. */
+static void textured_mean(const ec_scene *scene, const ec_texture_mean *whole, const ec_material *m, uint32_t prim, double mean[3])
 {
-    mean[0] = mean[1] = mean[2] = 1.0;
-    if (use->texture < 0) return;
-    const ec_image *image = &scene->images[scene->textures[use->texture].image];
-    size_t count = (size_t)image->width * image->height;
-    mean[0] = mean[1] = mean[2] = 0.0;
-    double table[256];
-    for (int i = 0; i < 256; i++) table[i] = ec_srgb_to_linear(i / 255.0);
-    for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < 3; k++)
-            mean[k] += image->rgba16 ? ec_srgb_to_linear(image->rgba16[4 * i + k] / 65535.0) : table[image->rgba8[4 * i + k]];
-    for (int k = 0; k < 3; k++) mean[k] /= (double)count;
+    for (int k = 0; k < 3; k++) mean[k] = whole->rgb[k];
+    if (m->emission_texture.texture < 0) return;
+    double own[3];
+    ec_texture_triangle_mean(scene, &m->emission_texture, prim, own);
+    for (int k = 0; k < 3; k++) mean[k] = 0.98 * own[k] + 0.02 * whole->rgb[k];
 }
 
 typedef struct light_list {
@@ -35,10 +31,12 @@ typedef struct light_list {
     uint32_t count;
 } light_list;
 
-static void add_triangle(const ec_scene *scene, const ec_pack *pack, uint32_t prim, const double mean[3], light_list *list)
+static void add_triangle(const ec_scene *scene, const ec_pack *pack, uint32_t prim, const ec_texture_mean *whole, light_list *list)
 {
     const ec_prim *p = &pack->prims[prim];
     const ec_material *m = &scene->materials[p->material];
+    double mean[3];
+    textured_mean(scene, whole, m, prim, mean);
     double e[3], f[3];
     for (int k = 0; k < 3; k++) {
         e[k] = (double)p->v1[k] - p->v0[k];
@@ -105,7 +103,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     double environment_luminance;
     EC_TRY(ec_pack_environment(scene, pack, &environment_luminance, err));
-    double(*mean)[3] = malloc(scene->material_count * sizeof *mean);
+    ec_texture_mean *mean = malloc(scene->material_count * sizeof *mean);
     bool *emits = calloc(scene->material_count, sizeof *emits);
     if (!mean || !emits) {
         free(mean);
@@ -116,7 +114,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
         const ec_material *material = &scene->materials[m];
         double e[3] = {material->emission[0], material->emission[1], material->emission[2]};
         emits[m] = luminance(e) > 0.0 && !material->unlit;
-        if (emits[m]) texture_mean(scene, &material->emission_texture, mean[m]);
+        if (emits[m]) mean[m] = ec_texture_whole_mean(scene, &material->emission_texture);
     }
     uint32_t most = scene->light_count + 1;
     for (uint32_t p = 0; p < pack->prim_count; p++) most += emits[pack->prims[p].material];
@@ -127,7 +125,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
         result = ec_fail(err, "out of memory for %u lights", most);
     } else {
         for (uint32_t p = 0; p < pack->prim_count; p++)
-            if (emits[pack->prims[p].material]) add_triangle(scene, pack, p, mean[pack->prims[p].material], &list);
+            if (emits[pack->prims[p].material]) add_triangle(scene, pack, p, &mean[pack->prims[p].material], &list);
         for (uint32_t i = 0; i < scene->light_count; i++) add_punctual(&scene->lights[i], pack->scene_radius, &list);
         if (environment_luminance > 0.0) {
             double r = pack->scene_radius;

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #define NO_VERTEX UINT32_MAX
+/* Beyond this squares of distances no longer fit a float; such a position counts as infinite. */
+#define MAX_COORDINATE 1e18
 
 typedef ec_result (*draw_function)(ec_flattener *f, const ec_draw *d);
 
@@ -30,7 +32,7 @@ static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_place
 static bool is_finite3(const double v[3])
 {
     for (int i = 0; i < 3; i++)
-        if (!isfinite((float)v[i])) return false;
+        if (!(fabs(v[i]) < MAX_COORDINATE)) return false;
     return true;
 }
 
@@ -115,7 +117,7 @@ static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], 
     cross_edges(position[0], position[1], position[2], normal);
     double size = largest_component(normal);
     bool finite = isfinite((float)size);
-    for (int i = 0; i < 9; i++) finite = finite && isfinite(position[i / 3][i % 3]);
+    for (int i = 0; i < 9; i++) finite = finite && fabs((double)position[i / 3][i % 3]) < MAX_COORDINATE;
     if (!finite) {
         f->scene->dropped_nonfinite++;
         return false;
@@ -154,7 +156,7 @@ static ec_result fill_draw(ec_flattener *f, const ec_draw *d)
     return EC_OK;
 }
 
-static ec_result allocate(ec_flattener *f)
+static ec_result allocate(ec_flattener *f, const char *path)
 {
     ec_scene *s = f->scene;
     size_t v = f->vertex_bound, t = f->triangle_bound;
@@ -168,7 +170,7 @@ static ec_result allocate(ec_flattener *f)
     if (f->has_colors) ok = (s->colors = malloc(v * 4 * sizeof(float))) && ok;
     for (int i = 0; i < 2; i++)
         if (f->has_uv[i]) ok = (s->uv[i] = malloc(v * 2 * sizeof(float))) && ok;
-    return ok ? EC_OK : ec_fail(f->err, "out of memory for %zu triangles", t);
+    return ok ? EC_OK : ec_fail(f->err, "%s: out of memory for %zu triangles", path, t);
 }
 
 /* Gives back what dropped triangles and unused vertices had reserved. */
@@ -213,7 +215,7 @@ ec_result ec_flatten(const ec_gltf *g, const ec_placement_list *placements, ec_s
     EC_TRY(for_each_draw(&f, g, placements, measure_draw));
     bool any_finite = f.low[0] <= f.high[0];
     for (int k = 0; k < 3; k++) s->center[k] = any_finite ? 0.5 * (f.low[k] + f.high[k]) : 0;
-    ec_result result = allocate(&f);
+    ec_result result = allocate(&f, g->path);
     if (result == EC_OK) result = for_each_draw(&f, g, placements, fill_draw);
     free(f.remap);
     EC_TRY(result);
@@ -227,7 +229,7 @@ ec_result ec_flatten(const ec_gltf *g, const ec_placement_list *placements, ec_s
     if (s->dropped_degenerate)
         ec_note(log, "%s: %u triangles without area are left out", g->path, s->dropped_degenerate);
     if (f.odd_values)
-        ec_warn(log, "%s: %llu NaN or infinite texture coordinates or colours are taken as 0", g->path,
+        ec_warn(log, "%s: %llu texture coordinates or colours are NaN, infinite or (colours) out of 0..1; they are clamped", g->path,
                 (unsigned long long)f.odd_values);
     return EC_OK;
 }

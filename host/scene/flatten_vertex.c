@@ -1,6 +1,7 @@
 /* One vertex with its streams, from a primitive's accessors to the scene's arrays. */
 #include "scene/flatten_vertex.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -48,13 +49,15 @@ static void store_frame(const ec_draw *d, uint32_t vertex, float *normal, float 
     }
 }
 
-static void store_values(ec_flattener *f, const ec_draw *d, int32_t accessor, uint32_t vertex, uint32_t count, float *out)
+/* Clamped to low..high; NaN becomes 0. */
+static void store_values(ec_flattener *f, const ec_draw *d, int32_t accessor, uint32_t vertex, uint32_t count, float low,
+                         float high, float *out)
 {
     if (accessor < 0) return;
     ec_gltf_accessor_floats(&d->g->accessors[accessor], vertex, count, out);
     for (uint32_t i = 0; i < count; i++) {
-        if (isfinite(out[i])) continue;
-        out[i] = 0;
+        if (out[i] >= low && out[i] <= high) continue;
+        out[i] = isnan(out[i]) ? 0 : out[i] < low ? low : high;
         f->odd_values++;
     }
 }
@@ -71,12 +74,12 @@ uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t 
     for (int i = 0; i < 2; i++) {
         if (!s->uv[i]) continue;
         memset(s->uv[i] + 2 * n, 0, 2 * sizeof(float));
-        store_values(f, d, d->p->uv[i], vertex, 2, s->uv[i] + 2 * n);
+        store_values(f, d, d->p->uv[i], vertex, 2, -FLT_MAX, FLT_MAX, s->uv[i] + 2 * n);
     }
     if (s->colors) {
         for (int i = 0; i < 4; i++) s->colors[4 * n + (size_t)i] = 1;
         uint32_t components = d->p->color >= 0 ? d->g->accessors[d->p->color].components : 0;
-        store_values(f, d, d->p->color, vertex, components, s->colors + 4 * n);
+        store_values(f, d, d->p->color, vertex, components, 0, 1, s->colors + 4 * n);
     }
     return (uint32_t)n;
 }

@@ -154,12 +154,11 @@ class checker {
 void check_document(json &root, const char *path, const ec_log *log)
 {
     checker(root, path, log).check_object(root, document_schema, "");
-    size_t i = 0;
-    for (const json &v : root.value("bufferViews", json::array())) {
-        if (v.value("byteStride", 4) % 4)
+    if (!root.contains("bufferViews")) return;
+    const json &views = root["bufferViews"];
+    for (size_t i = 0; i < views.size(); i++)
+        if (views[i].value("byteStride", 4) % 4)
             throw bad_file("bufferViews[" + std::to_string(i) + "].byteStride must be a multiple of 4");
-        i++;
-    }
 }
 
 } // namespace eclat

@@ -80,8 +80,10 @@ static void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
 /* The members that hold files are taken out of the tree, so that tinygltf has nothing to open. */
 static json take(json &root, const char *key)
 {
-    json taken = root.value(key, json::array());
-    root.erase(key);
+    auto found = root.find(key);
+    if (found == root.end()) return json::array();
+    json taken = std::move(*found); /* embedded buffers are large: no copies */
+    root.erase(found);
     return taken;
 }
 
@@ -96,7 +98,7 @@ static void check_uris(const json &list, const char *key)
     }
 }
 
-static void load_buffer(ec_gltf_buffer &out, const json &in, const std::string &where, const container &file,
+static void load_buffer(ec_gltf_buffer &out, json &in, const std::string &where, const container &file,
                         const ec_gltf *gltf)
 {
     out.length = in["byteLength"];
@@ -107,6 +109,7 @@ static void load_buffer(ec_gltf_buffer &out, const json &in, const std::string &
         if (ec_gltf_uri_load(gltf->folder, where.c_str(), uri.c_str(), &out.owned, &available, &err) != EC_OK)
             throw bad_file(err.text);
         out.data = out.owned;
+        in = json();
     } else if (&out == gltf->buffers && file.chunk) {
         out.data = file.chunk;
         available = file.chunk_length;
@@ -118,7 +121,7 @@ static void load_buffer(ec_gltf_buffer &out, const json &in, const std::string &
                        std::to_string(available) + "; the file is damaged or truncated");
 }
 
-static void load_buffers(const json &list, const container &file, ec_gltf *gltf)
+static void load_buffers(json &list, const container &file, ec_gltf *gltf)
 {
     gltf->buffers = make_array<ec_gltf_buffer>(list.size());
     for (size_t i = 0; i < list.size(); i++) {
@@ -192,7 +195,6 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_log *log)
     check_uris(buffers, "buffers");
     check_uris(images, "images");
     load_buffers(buffers, file, gltf);
-    buffers = json();
     convert_images(images, gltf);
     images = json();
     size_t view_count = root.contains("bufferViews") ? root["bufferViews"].size() : 0;

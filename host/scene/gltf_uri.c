@@ -152,7 +152,8 @@ static ec_result load_data_uri(const char *where, const char *uri, uint8_t **byt
         free(text);
         return ec_fail(err, "%s: the data URI's base64 is broken; export the file again", where);
     }
-    *bytes = (uint8_t *)text;
+    char *smaller = realloc(text, *length + 1); /* base64 was a third longer */
+    *bytes = (uint8_t *)(smaller ? smaller : text);
     return EC_OK;
 }
 

@@ -1,4 +1,4 @@
-/* What a scene can call for, one bit each: the host sets the mask (pipeline/features.c), the kernels are built with it.
+/* What a scene can call for, one bit each: the host sets the mask (host/pack/features.c), the kernels are built with it.
  * A bit says that code is structurally needed; values stay in buffers. */
 #ifndef EC_SHARED_FEATURES_H
 #define EC_SHARED_FEATURES_H

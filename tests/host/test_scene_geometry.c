@@ -241,6 +241,37 @@ static void test_unused_vertices_are_left_out(void)
     free(text);
 }
 
+/* Two small triangles 4e37 apart: finite, but no picture can be computed at such distances. */
+static void test_far_apart(void)
+{
+    ec_error err;
+    ec_scene *s = load_text(TRIANGLE("},{'mesh':0,'translation':[4e37,0,0]", "", "", ",'scene':0"), triangle_blobs, &err);
+    CHECK_MSG(s && s->triangle_count == 1, "%s", err.text); /* the scene lists only the first */
+    ec_scene_free(s);
+    s = load_text(TRIANGLE(",'children':[1]},{'mesh':0,'translation':[4e37,0,0]", "", "", ""), triangle_blobs, &err);
+    CHECK_MSG(s && s->triangle_count == 1 && s->dropped_nonfinite == 1, "%s", err.text);
+    if (s) CHECK_NEAR(s->center[0], 0.5, 1e-9);
+    ec_scene_free(s);
+}
+
+static void test_odd_values(void)
+{
+    const float data[21] = {0, 0, 0, 1, 0, 0, 0, 1, 0, /* colours */ 2, -1, NAN, 0.5f, 0, 1, 1, 1, 1, /* unused */ 0, 0, 0};
+    const blob blobs[] = {{"@pos@", data, sizeof data}, {0}};
+    ec_error err;
+    ec_scene *s = load_text("{'asset':{'version':'2.0'},'nodes':[{'mesh':0}],"
+                            "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'COLOR_0':1}}]}],"
+                            "'buffers':[{'byteLength':84,'uri':'@pos@'}],'bufferViews':[{'buffer':0,'byteLength':84}],"
+                            "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                            "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':3,'type':'VEC3'}]}", blobs, &err);
+    CHECK_MSG(s != NULL, "%s", err.text);
+    if (!s) return;
+    const float expected[8] = {1, 0, 0, 1, 0.5f, 0, 1, 1};
+    for (int i = 0; i < 8; i++) CHECK_NEAR(s->colors[i], expected[i], 0);
+    CHECK_MSG(strstr(messages, "3 texture coordinates or colours") != NULL, "%s", messages);
+    ec_scene_free(s);
+}
+
 static void test_singular_transforms(void)
 {
     ec_error err;
@@ -262,6 +293,8 @@ int main(void)
     test_recentring();
     test_dropped();
     test_unused_vertices_are_left_out();
+    test_far_apart();
+    test_odd_values();
     test_singular_transforms();
     TEST_END();
 }

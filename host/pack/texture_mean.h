@@ -1,0 +1,17 @@
+/* How bright is a texture, whole and on one triangle? Only sampling probabilities depend on it, never an image's mean. */
+#ifndef EC_PACK_TEXTURE_MEAN_H
+#define EC_PACK_TEXTURE_MEAN_H
+
+#include "scene/scene.h"
+
+typedef struct ec_texture_mean {
+    double rgb[3]; /* linear */
+} ec_texture_mean;
+
+/* Of an sRGB texture's whole image; 1 without a texture. */
+ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_use *use);
+
+/* Over triangle `prim`, from 64 nearest texels at stratified points. */
+void ec_texture_triangle_mean(const ec_scene *scene, const ec_texture_use *use, uint32_t prim, double rgb[3]);
+
+#endif
