@@ -2,23 +2,25 @@
  *
  * Setting. Pixel p has n batch means of luminance, independent of each other and of other pixels' (true of this renderer:
  * each pixel has its own random numbers and no filter shares samples), with true mean mu_p and variance v_p.
- *   E^2    = mean_p e_p^2,        e_p the pixel's real error           -- unknown
- *   est^2  = mean_p s_p^2 / n,    s_p^2 the sample variance            -- the stated error, unbiased for E^2
- * and both are divided by the image's mean luminance. A render of few pixels or batches may well err by more than est.
+ *   E^2    = mean_p e_p^2,       e_p the pixel's real error        -- unknown
+ *   est^2  = mean_p s_p^2 / n,   s_p^2 the sample variance         -- the stated error, unbiased for E^2
+ * and both are divided by the image's mean luminance. A given render may well err by more than est.
  *
- * How much more? With y_i the deviations of a pixel's batch means from mu_p, n e_p^2 - s_p^2 = sum_{i!=j} y_i y_j / (n-1).
- * So, whatever the distribution (skewed or not: no third or fourth moment enters),
+ * How much more? With y_i the deviations of a pixel's batch means from mu_p,
+ *   n e_p^2 - s_p^2 = sum_{i!=j} y_i y_j / (n-1),
+ * so whatever the distribution, skewed or not (no third or fourth moment enters),
  *   Var(E^2 - est^2) = 2 G / (P n)^2 * n / (n-1),   G = sum_p v_p^2.
- * It is the variance of a ratio of two independent chi-squares with nu = (sum_p v_p)^2 / G and nu (n-1) degrees of freedom
- * (Satterthwaite, Biometrics 2, 1946): exact for normal pixels of equal variance, right in mean and variance for all.
- * Hence E^2 <= est^2 F, F the 95 % quantile of Fisher's F(nu, nu (n-1)); with nu in the thousands F is near 1.
+ * That is the variance of the ratio of two independent chi-squares with nu = (sum_p v_p)^2 / G and nu (n-1) degrees of
+ * freedom (Satterthwaite, Biometrics 2, 1946): exact for normal pixels of equal variance, right in mean and variance for
+ * all. Hence E^2 <= est^2 F with F the 95 % quantile of Fisher's F(nu, nu (n-1)), near 1 for nu in the thousands.
  *
- * The divisor M, the image's mean, is an estimate too, with relative variance r = est^2 / (P M^2). Its error is uncorrelated
- * with E^2 - est^2 (each term has a factor y of mean 0 left), so the two half-widths add in squares: F - 1 and 2 z sqrt(r).
+ * The divisor M, the image's mean, is an estimate too, with relative variance r = est^2 / (P M^2). Its error is
+ * uncorrelated with E^2 - est^2 (each term keeps a factor y of mean 0), so the two half-widths, F - 1 and 2 z sqrt(r),
+ * add in squares.
  *
- * Where it holds: tests/host/test_film_coverage.c prints the table. With n = 2 or 3 the variance of a sample variance
- * cannot be told apart from the pixel's own kurtosis; normal pixels are assumed, which is too wide for skewed ones and too
- * narrow if one or a few pixels hold nearly all the noise. Light that no batch has met yet no estimate can know of. */
+ * Where it holds: tests/host/test_film_coverage.c prints the table. With n = 2 or 3 the spread of a sample variance cannot
+ * be told from the pixel's own kurtosis; normal pixels are assumed, which is too wide for skewed ones and too narrow if
+ * one or a few pixels hold nearly all the noise. Of light that no batch has met no estimate can know. */
 #include <math.h>
 
 #include "film/film.h"

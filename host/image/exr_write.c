@@ -119,7 +119,7 @@ static ec_result check(const exr_picture *picture, ec_error *err)
     for (uint32_t i = 0; i < picture->channel_count; i++) {
         const ec_channel *channel = &picture->channels[i];
         if ((uint64_t)picture->width * channel->stride > INT32_MAX / sizeof(float) || picture->height > INT32_MAX)
-            return ec_fail(err, "cannot write '%s': %u x %u pixels are too many for an OpenEXR file; render a smaller image",
+            return ec_fail(err, "cannot write '%s': %u x %u pixels are too many for OpenEXR; render a smaller image",
                            picture->path, picture->width, picture->height);
         for (uint32_t j = 0; j < i; j++)
             if (strcmp(channel->name, picture->channels[j].name) == 0)

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* SIDE_MAX in pixels: beyond it a header is taken for damaged. Only widths in the other range are run-length encoded. */
 enum { SIDE_MAX = 1 << 17, RLE_WIDTH_MIN = 8, RLE_WIDTH_MAX = 0x7fff };
 
 static const char cut_short[] = "it ends too early";

@@ -48,7 +48,8 @@ ec_result ec_image_read_rgb(const char *path, uint32_t *width, uint32_t *height,
     else if (start[0] == '#' && start[1] == '?' && fseek(file, 0, SEEK_SET) == 0)
         result = ec_hdr_read(file, path, width, height, rgb, err);
     else
-        result = ec_fail(err, "cannot read '%s': it is neither OpenEXR nor Radiance .hdr; convert it to one of them", path);
+        result = ec_fail(err, "cannot read '%s': it is neither OpenEXR nor Radiance .hdr; convert it to one of them",
+                         path);
     fclose(file);
     return result;
 }

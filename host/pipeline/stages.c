@@ -4,7 +4,7 @@
     (EC_FEATURE_ALPHA | EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE)
 
 #define FILTER_ARGS                                                                                \
-    EC_ARG_PRIMS, EC_ARG_INDICES, EC_ARG_UV0, EC_ARG_UV1, EC_ARG_COLORS, EC_ARG_MATERIALS,         \
+    EC_ARG_PRIMS, EC_ARG_INDICES, EC_ARG_UVS, EC_ARG_COLORS, EC_ARG_MATERIALS,         \
         EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS, EC_ARG_SRGB
 #define WAVE_ARGS EC_ARG_PARAMS, EC_ARG_SEED, EC_ARG_FIRST_PIXEL, EC_ARG_BOUNCE, EC_ARG_STEP, EC_ARG_COUNTERS
 
@@ -16,7 +16,7 @@ static const ec_arg shade[] = {WAVE_ARGS,          EC_ARG_INVALID,     EC_ARG_PA
                                EC_ARG_HITS,        EC_ARG_NEXT,        EC_ARG_SHADOWS,
                                EC_ARG_RADIANCE,    EC_ARG_AOV,         EC_ARG_PRIMS,
                                EC_ARG_INDICES,     EC_ARG_NORMALS,     EC_ARG_TANGENTS,
-                               EC_ARG_UV0,         EC_ARG_UV1,         EC_ARG_COLORS,
+                               EC_ARG_UVS,         EC_ARG_COLORS,
                                EC_ARG_MATERIALS,   EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS,
                                EC_ARG_SRGB,        EC_ARG_LIGHT_TABLE, EC_ARG_LIGHT_ALIAS,
                                EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_ALIAS};

@@ -12,16 +12,27 @@ static ec_result upload(ec_pipeline *p, ec_arg arg, const char *label, uint64_t 
     return ec_buffer_create(p->cl, label, bytes, data, &p->buffers[arg], err);
 }
 
-/* Texture coordinates must be finite and small enough for the kernels' integer texels. */
-static ec_result upload_uv(ec_pipeline *p, ec_arg arg, const char *label, const float *uv, uint32_t vertex_count, ec_error *err)
+/* The same with 16 spare bytes behind the end, for streams that are read in fours of words but not made of them. */
+static ec_result upload_padded(ec_pipeline *p, ec_arg arg, const char *label, uint64_t bytes, const void *data, ec_error *err)
 {
-    if (!uv) return EC_OK;
-    size_t count = 2 * (size_t)vertex_count;
-    float *clean = malloc(count * sizeof *clean);
-    if (!clean) return ec_fail(err, "out of memory for texture coordinates of %u vertices", vertex_count);
-    for (size_t i = 0; i < count; i++) clean[i] = isfinite(uv[i]) ? fminf(fmaxf(uv[i], -1e6f), 1e6f) : 0.0f;
-    ec_result result = upload(p, arg, label, count * sizeof *clean, clean, err);
-    free(clean);
+    if (!data || !bytes) return EC_OK;
+    EC_TRY(ec_buffer_create(p->cl, label, bytes + 16, NULL, &p->buffers[arg], err));
+    return ec_buffer_write(p->cl, p->buffers[arg], 0, bytes, data, err);
+}
+
+/* Both sets side by side. They must be finite and small enough for the kernels' integer texels. */
+static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, ec_error *err)
+{
+    if (!scene->uv[0] && !scene->uv[1]) return EC_OK;
+    float *uvs = calloc(4 * (size_t)scene->vertex_count, sizeof *uvs);
+    if (!uvs) return ec_fail(err, "out of memory for texture coordinates of %u vertices", scene->vertex_count);
+    for (int set = 0; set < 2; set++)
+        for (size_t i = 0; scene->uv[set] && i < 2 * (size_t)scene->vertex_count; i++) {
+            float c = scene->uv[set][i];
+            uvs[4 * (i / 2) + 2 * set + i % 2] = isfinite(c) ? fminf(fmaxf(c, -1e6f), 1e6f) : 0.0f;
+        }
+    ec_result result = upload(p, EC_ARG_UVS, "texture coordinates", 16 * (uint64_t)scene->vertex_count, uvs, err);
+    free(uvs);
     return result;
 }
 
@@ -35,13 +46,12 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     EC_TRY(upload(p, EC_ARG_MATERIALS, "materials", (uint64_t)pack->material_count * sizeof *pack->materials, pack->materials, err));
     EC_TRY(upload(p, EC_ARG_SRGB, "sRGB table", sizeof pack->srgb, pack->srgb, err));
     if (textured || (f & (EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)))
-        EC_TRY(upload(p, EC_ARG_INDICES, "indices", 12 * (uint64_t)scene->triangle_count, scene->indices, err));
-    if (f & EC_FEATURE_SMOOTH_NORMALS) EC_TRY(upload(p, EC_ARG_NORMALS, "normals", 12 * vertices, scene->normals, err));
+        EC_TRY(upload_padded(p, EC_ARG_INDICES, "indices", 12 * (uint64_t)scene->triangle_count, scene->indices, err));
+    if (f & EC_FEATURE_SMOOTH_NORMALS) EC_TRY(upload_padded(p, EC_ARG_NORMALS, "normals", 12 * vertices, scene->normals, err));
     if (f & EC_FEATURE_NORMAL_TEXTURE) EC_TRY(upload(p, EC_ARG_TANGENTS, "tangents", 16 * vertices, scene->tangents, err));
     if (f & EC_FEATURE_VERTEX_COLORS) EC_TRY(upload(p, EC_ARG_COLORS, "colours", 16 * vertices, scene->colors, err));
     if (textured) {
-        EC_TRY(upload_uv(p, EC_ARG_UV0, "texture coordinates 0", scene->uv[0], scene->vertex_count, err));
-        EC_TRY(upload_uv(p, EC_ARG_UV1, "texture coordinates 1", scene->uv[1], scene->vertex_count, err));
+        EC_TRY(upload_uvs(p, scene, err));
         EC_TRY(upload(p, EC_ARG_TEXTURE_TABLE, "textures", (uint64_t)pack->texture_count * sizeof *pack->textures, pack->textures, err));
         EC_TRY(upload(p, EC_ARG_TEXELS, "texels", (uint64_t)pack->texel_words * 4, pack->texels, err));
     }

@@ -19,9 +19,6 @@ ec_result ec_gltf_materials_assign(ec_gltf *gltf, ec_scene *scene, const ec_log 
 /* textures.c: decodes the images that drawn materials use; a texture whose image is unusable is left out. */
 ec_result ec_gltf_textures_load(ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
 
-/* image_decode.c: PNG and JPEG. false: cannot be decoded, *reason says why. */
-bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, const char **reason);
-
 /* camera.c */
 ec_result ec_gltf_cameras_place(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
                                 ec_error *err);

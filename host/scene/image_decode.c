@@ -1,56 +1,34 @@
-/* PNG and JPEG, glTF's two formats, through stb_image, whose other formats are left out: less to attack. */
-#include "scene/flatten.h"
+/* Which format is it, and may it be so large? */
+#include "scene/image_decode.h"
 
-#include <limits.h>
-#include <stdlib.h>
-
-/* To the end of the file: of what is left out, declarations remain. */
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wsign-compare"
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
-#define STBI_NO_STDIO
-#include <stb_image.h>
-#pragma GCC diagnostic pop
+#include <stdio.h>
+#include <string.h>
 
 #define MAX_SIDE 16384
-/* No PNG or JPEG packs more pixels into a byte; a header that claims more would cost a gigabyte for nothing. */
-#define MAX_PIXELS_PER_BYTE 10000
 
-bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, const char **reason)
+bool ec_decode_fail(ec_decode_error *err, const char *reason)
 {
-    int width, height, channels;
-    if (!length || length > INT_MAX) {
-        *reason = "it is empty or larger than 2 GiB";
-        return false;
-    }
-    if (!stbi_info_from_memory(bytes, (int)length, &width, &height, &channels)) {
-        *reason = "it is neither PNG nor JPEG";
-        return false;
-    }
-    if (width < 1 || height < 1 || width > MAX_SIDE || height > MAX_SIDE) {
-        *reason = "a side is longer than 16384 pixels";
-        return false;
-    }
-    if ((uint64_t)width * (uint64_t)height / MAX_PIXELS_PER_BYTE > length) {
-        *reason = "its header claims more pixels than its bytes can hold";
-        return false;
-    }
-    if (stbi_is_16_bit_from_memory(bytes, (int)length))
-        image->rgba16 = stbi_load_16_from_memory(bytes, (int)length, &width, &height, &channels, 4);
-    else
-        image->rgba8 = stbi_load_from_memory(bytes, (int)length, &width, &height, &channels, 4);
-    if (!image->rgba8 && !image->rgba16) {
-        *reason = stbi_failure_reason();
-        return false;
-    }
-    image->width = (uint32_t)width;
-    image->height = (uint32_t)height;
-    return true;
+    snprintf(err->text, sizeof err->text, "%s", reason);
+    for (char *c = err->text; *c; c++)
+        if ((unsigned char)*c < 32 || *c == 127) *c = '?';
+    return false;
+}
+
+const char *ec_image_check_size(uint64_t width, uint64_t height, size_t length, uint64_t pixels_per_byte)
+{
+    if (!width || !height) return "it has no pixels";
+    if (width > MAX_SIDE || height > MAX_SIDE) return "a side is longer than 16384 pixels";
+    if (width * height / pixels_per_byte > length) return "its header claims more pixels than its bytes can hold";
+    return NULL;
+}
+
+bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_decode_error *err)
+{
+    static const uint8_t png[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}, jpeg[3] = {0xff, 0xd8, 0xff};
+    if (length > INT32_MAX) return ec_decode_fail(err, "it is larger than 2 GiB");
+    if (length >= sizeof png && !memcmp(bytes, png, sizeof png))
+        return ec_image_decode_png(bytes, (size_t)length, image, err);
+    if (length >= sizeof jpeg && !memcmp(bytes, jpeg, sizeof jpeg))
+        return ec_image_decode_jpeg(bytes, (size_t)length, image, err);
+    return ec_decode_fail(err, "it is neither PNG nor JPEG");
 }

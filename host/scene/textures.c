@@ -1,5 +1,6 @@
 /* The textures and images that the scene's triangles use; no others are opened. */
 #include "scene/flatten.h"
+#include "scene/image_decode.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,13 +42,13 @@ static bool decode(const table *t, uint32_t index, ec_image *out)
     uint8_t *owned = NULL;
     uint64_t length = 0;
     ec_error err;
-    const char *reason;
+    ec_decode_error reason;
     bool ok = get_bytes(t->g, in, where, &bytes, &length, &owned, &err) == EC_OK;
     if (!ok) {
         ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
     } else if (!ec_image_decode(bytes, length, out, &reason)) {
         ok = false;
-        ec_warn(t->log, "%s: %s cannot be decoded: %s; taken as white", t->g->path, where, reason);
+        ec_warn(t->log, "%s: %s cannot be decoded: %s; taken as white", t->g->path, where, reason.text);
     }
     free(owned);
     out->name = in->name ? strdup(in->name) : NULL;

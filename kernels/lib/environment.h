@@ -20,7 +20,8 @@ EC_FN void environment_uv(v3 d, lane_f *u, lane_f *v)
 
 EC_FN v3 environment_texel(const environment *e, lane_u at)
 {
-    return v3_make(gather_f(e->texels, at * 4u), gather_f(e->texels, at * 4u + 1u), gather_f(e->texels, at * 4u + 2u));
+    quad q = gather_quad(e->texels, at * 4u);
+    return v3_make(q.a, q.b, q.c);
 }
 
 /* Density, per solid angle, with which the light sampling picks direction d at (u, v), the choice of this light included. */

@@ -24,18 +24,28 @@ typedef struct light_sample {
     lane_i valid;
 } light_sample;
 
-EC_FN lane_f light_word(const lights *l, lane_u at, uint word) { return gather_f(l->table, at + word); }
-EC_FN v3 light_v3(const lights *l, lane_u at, uint word)
+/* One light's 16 words. */
+typedef struct light_record {
+    v3 a, b, c, emission;
+    lane_u kind, prim;
+    lane_f pmf, pdf_a;
+} light_record;
+
+EC_FN light_record light_load(const lights *l, lane_u id)
 {
-    return v3_make(light_word(l, at, word), light_word(l, at, word + 1), light_word(l, at, word + 2));
+    lane_u at = id * EC_LIGHT_WORDS;
+    quad q0 = gather_quad(l->table, at), q1 = gather_quad(l->table, at + 4u), q2 = gather_quad(l->table, at + 8u),
+         q3 = gather_quad(l->table, at + 12u);
+    light_record r = {v3_make(q0.a, q0.b, q0.c), v3_make(q0.d, q1.a, q1.b), v3_make(q1.c, q1.d, q2.a),
+                      v3_make(q2.b, q2.c, q2.d), as_lane_u(q3.a), as_lane_u(q3.b), q3.c, q3.d};
+    return r;
 }
 
 /* Uniform point on a triangle, seen from p. */
-EC_FN light_sample light_sample_triangle(const lights *l, const geometry *g, lane_i m, lane_u at, lane_u kind, v3 p,
-                                          lane_f u1, lane_f u2)
+EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f u1, lane_f u2)
 {
     light_sample s;
-    v3 a = light_v3(l, at, 0), b = light_v3(l, at, 3), c = light_v3(l, at, 6);
+    v3 a = l->a, b = l->b, c = l->c;
     lane_f root = sqrt(u1);
     lane_f b0 = 1.0f - root, b1 = u2 * root, b2 = 1.0f - b0 - b1;
     v3 q = v3_fma(c, b2, v3_fma(b, b1, v3_scale(a, b0)));
@@ -46,12 +56,12 @@ EC_FN light_sample light_sample_triangle(const lights *l, const geometry *g, lan
     lane_f d2 = v3_dot(s.towards, s.towards);
     s.wi = v3_scale(s.towards, 1.0f / sqrt(d2));
     lane_f cosine = -v3_dot(s.wi, s.end_normal);
-    cosine = (kind & EC_LIGHT_TWO_SIDED) != 0u ? fabs(cosine) : cosine;
-    s.target = as_lane_u(light_word(l, at, 13));
-    s.pdf = light_word(l, at, 15) * d2 / cosine;
-    s.radiance = light_v3(l, at, 9);
+    cosine = (l->kind & EC_LIGHT_TWO_SIDED) != 0u ? fabs(cosine) : cosine;
+    s.target = l->prim;
+    s.pdf = l->pdf_a * d2 / cosine;
+    s.radiance = l->emission;
     if (HAS(EMISSION_TEXTURE)) {
-        lane_i textured = m & ((kind & EC_LIGHT_TEXTURED) != 0u);
+        lane_i textured = m & ((l->kind & EC_LIGHT_TEXTURED) != 0u);
         if (any_lane(textured)) {
             hit_point h = hit_point_make(g, textured ? s.target : U(0), b1, b2);
             s.radiance = v3_mul(s.radiance, material_texture(g, &h, textured, EC_SLOT_EMISSION, true).rgb);
@@ -63,25 +73,25 @@ EC_FN light_sample light_sample_triangle(const lights *l, const geometry *g, lan
 }
 
 /* KHR_lights_punctual: inverse square with a smooth range window, cone falloff squared. */
-EC_FN light_sample light_sample_punctual(const lights *l, lane_i m, lane_u at, lane_u kind, v3 p, float scene_radius)
+EC_FN light_sample light_sample_punctual(const light_record *l, lane_i m, v3 p, float scene_radius)
 {
     light_sample s;
-    v3 position = light_v3(l, at, 0), direction = light_v3(l, at, 3);
-    lane_i is_directional = (kind & EC_LIGHT_KIND_MASK) == EC_KIND_DIRECTIONAL;
-    lane_i is_spot = (kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT;
+    v3 position = l->a, direction = l->b;
+    lane_i is_directional = (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_DIRECTIONAL;
+    lane_i is_spot = (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT;
     v3 to_point = v3_sub(position, p);
     v3 far = v3_scale(direction, F(-2.0f * scene_radius)); /* leaves the scene from any point in it */
     s.towards = v3_select(is_directional, far, to_point);
     lane_f d2 = v3_dot(to_point, to_point);
     s.wi = v3_select(is_directional, v3_negate(direction), v3_scale(to_point, 1.0f / sqrt(d2)));
-    lane_f cone = (-v3_dot(s.wi, direction) - light_word(l, at, 7)) * light_word(l, at, 6);
+    lane_f cone = (-v3_dot(s.wi, direction) - l->c.y) * l->c.x;
     cone = min(max(cone, F(0.0f)), F(1.0f));
-    lane_f inverse_range = light_word(l, at, 8);
+    lane_f inverse_range = l->c.z;
     lane_f x2 = d2 * inverse_range * inverse_range;
     lane_f window = min(max(1.0f - x2 * x2, F(0.0f)), F(1.0f));
     lane_f falloff = window / d2 * (is_spot ? cone * cone : F(1.0f));
-    s.radiance = v3_scale(light_v3(l, at, 9), is_directional ? F(1.0f) : falloff);
-    s.pdf = light_word(l, at, 14);
+    s.radiance = v3_scale(l->emission, is_directional ? F(1.0f) : falloff);
+    s.pdf = l->pmf;
     s.is_delta = m;
     s.target = U(EC_NO_ID);
     s.end_error = s.end_normal = v3_zero();
@@ -124,16 +134,15 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     lane_u column = mul_hi(choice, U(count)), rest = choice * count;
     lane_u threshold = gather_u(l->alias, column * 2u);
     lane_u id = rest < threshold ? column : gather_u(l->alias, column * 2u + 1u);
-    lane_u at = id * EC_LIGHT_WORDS;
-    lane_u kind = as_lane_u(gather_f(l->table, at + 12u));
-    lane_u type = kind & EC_LIGHT_KIND_MASK;
+    light_record one = light_load(l, id);
+    lane_u type = one.kind & EC_LIGHT_KIND_MASK;
 
     light_sample s;
     s.valid = !TRUE_MASK;
-    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(l, g, m & (type == EC_KIND_TRIANGLE), at, kind, p, u1, u2);
+    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(&one, g, m & (type == EC_KIND_TRIANGLE), p, u1, u2);
     if (HAS(PUNCTUAL_LIGHTS)) {
         lane_i is = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
-        light_sample other = light_sample_punctual(l, m & is, at, kind, p, params->scene_radius);
+        light_sample other = light_sample_punctual(&one, m & is, p, params->scene_radius);
         s = HAS(AREA_LIGHTS) ? light_sample_select(is, other, s) : other;
     }
     if (HAS(ENVIRONMENT)) {

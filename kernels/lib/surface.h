@@ -17,16 +17,10 @@ typedef struct surface {
     lane_f f90;    /* and at grazing */
 } surface;
 
-EC_FN v3 prim_vertex(const geometry *g, lane_u prim, uint k)
-{
-    lane_u at = prim * EC_PRIM_WORDS + 4u * k;
-    return v3_make(gather_f(g->prims, at), gather_f(g->prims, at + 1u), gather_f(g->prims, at + 2u));
-}
-
 /* Position, its error bound and the geometric normal; wo points away from the surface. */
-EC_FN void surface_place(const geometry *g, const hit_point *h, v3 wo, surface *s)
+EC_FN void surface_place(const hit_point *h, v3 wo, surface *s)
 {
-    v3 v0 = prim_vertex(g, h->prim, 0), v1 = prim_vertex(g, h->prim, 1), v2 = prim_vertex(g, h->prim, 2);
+    v3 v0 = h->p0, v1 = h->p1, v2 = h->p2;
     s->p = v3_fma(v2, h->b2, v3_fma(v1, h->b1, v3_scale(v0, h->b0)));
     /* pbrt-v4 6.8.5: gamma_7 sum |b_i v_i|; two more for rounding the offset itself. */
     v3 sum = v3_fma(v3_abs(v2), h->b2, v3_fma(v3_abs(v1), h->b1, v3_scale(v3_abs(v0), h->b0)));
@@ -44,33 +38,23 @@ EC_FN v3 surface_offset(v3 p, v3 p_error, v3 n, v3 towards)
     return v3_fma(n, d, p);
 }
 
-EC_FN lane_f vertex_uv(const geometry *g, lane_i second, lane_u vertex, uint component)
-{
-    lane_f a = F(0.0f);
-    if (g->uv0) a = gather_f(g->uv0, vertex * 2u + component);
-    if (g->uv1) a = second ? gather_f(g->uv1, vertex * 2u + component) : a;
-    return a;
-}
-
 /* Tangent and handedness of the normal map: the vertices' own, else dp/du of the triangle. Green points up in the texture,
  * towards smaller v: on a front face the uv triangle of an unmirrored map then runs clockwise. */
-EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_f *handedness)
+EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, lane_f *handedness)
 {
     v3 tangent = v3_zero();
     *handedness = F(1.0f);
     if (g->tangents) {
-        tangent = v3_make(interpolate(g->tangents, 4, 0, h), interpolate(g->tangents, 4, 1, h),
-                          interpolate(g->tangents, 4, 2, h));
-        *handedness = gather_f(g->tangents, h->i0 * 4u + 3u) < 0.0f ? F(-1.0f) : F(1.0f);
+        quad t = interpolate_stream(g->tangents, 4, h);
+        tangent = v3_make(t.a, t.b, t.c);
+        *handedness = t.d < 0.0f ? F(-1.0f) : F(1.0f);
     }
     lane_i missing = v3_dot(tangent, tangent) == 0.0f;
     if (!any_lane(missing)) return tangent;
-    lane_i second = as_lane_u(material_word(g, h, EC_MATERIAL_SLOTS + EC_SLOT_NORMAL * 8u + 1u)) != 0u;
-    lane_f u0 = vertex_uv(g, second, h->i0, 0), v0 = vertex_uv(g, second, h->i0, 1);
-    lane_f du1 = vertex_uv(g, second, h->i1, 0) - u0, dv1 = vertex_uv(g, second, h->i1, 1) - v0;
-    lane_f du2 = vertex_uv(g, second, h->i2, 0) - u0, dv2 = vertex_uv(g, second, h->i2, 1) - v0;
-    v3 p0 = prim_vertex(g, h->prim, 0);
-    v3 e1 = v3_sub(prim_vertex(g, h->prim, 1), p0), e2 = v3_sub(prim_vertex(g, h->prim, 2), p0);
+    lane_f u0 = second ? h->uv0.c : h->uv0.a, v0 = second ? h->uv0.d : h->uv0.b;
+    lane_f du1 = (second ? h->uv1.c : h->uv1.a) - u0, dv1 = (second ? h->uv1.d : h->uv1.b) - v0;
+    lane_f du2 = (second ? h->uv2.c : h->uv2.a) - u0, dv2 = (second ? h->uv2.d : h->uv2.b) - v0;
+    v3 e1 = v3_sub(h->p1, h->p0), e2 = v3_sub(h->p2, h->p0);
     lane_f det = du1 * dv2 - du2 * dv1;
     v3 dpdu = v3_scale(v3_sub(v3_scale(e1, dv2), v3_scale(e2, dv1)), det < 0.0f ? F(-1.0f) : F(1.0f));
     dpdu = v3_select(det != 0.0f, dpdu, v3_zero());
@@ -81,13 +65,14 @@ EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_f *handedne
 /* The normal n bent by the normal map. */
 EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, v3 n)
 {
-    m = m & (uint_to_lane_i(as_lane_u(material_word(g, h, EC_MATERIAL_SLOTS + EC_SLOT_NORMAL * 8u))) >= 0);
+    quad slot = material_quad(g, h, EC_MATERIAL_SLOTS + EC_SLOT_NORMAL * 8u);
+    m = m & (uint_to_lane_i(as_lane_u(slot.a)) >= 0);
     if (!any_lane(m)) return n;
-    lane_f scale = material_word(g, h, EC_MATERIAL_NORMAL_SCALE), handedness;
+    lane_f scale = material_quad(g, h, EC_MATERIAL_METALLIC).c, handedness;
     v3 texel = material_texture(g, h, m, EC_SLOT_NORMAL, false).rgb;
     lane_f x = fma(texel.x, F(2.0f), F(-1.0f)) * scale, y = fma(texel.y, F(2.0f), F(-1.0f)) * scale;
     lane_f z = fma(texel.z, F(2.0f), F(-1.0f));
-    v3 t = surface_tangent(g, h, &handedness);
+    v3 t = surface_tangent(g, h, as_lane_u(slot.b) != 0u, &handedness);
     t = v3_fma(n, -v3_dot(n, t), t); /* Gram-Schmidt */
     lane_f t2 = v3_dot(t, t);
     t = v3_scale(t, 1.0f / sqrt(t2));
@@ -105,8 +90,8 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
     if (HAS(SMOOTH_NORMALS) || HAS(NORMAL_TEXTURE)) {
         v3 n = v3_select(s->front, s->ng, v3_negate(s->ng));
         if (HAS(SMOOTH_NORMALS) && g->normals) {
-            v3 smooth = v3_make(interpolate(g->normals, 3, 0, h), interpolate(g->normals, 3, 1, h),
-                                interpolate(g->normals, 3, 2, h));
+            quad q = interpolate_stream(g->normals, 3, h);
+            v3 smooth = v3_make(q.a, q.b, q.c);
             lane_f length2 = v3_dot(smooth, smooth);
             n = v3_select(length2 > 0.0f, v3_scale(smooth, 1.0f / sqrt(length2)), n);
         }
@@ -129,8 +114,9 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->f0 = v3_zero();
     s->f90 = F(0.0f);
     if (!HAS(SPECULAR)) return;
-    lane_f roughness = material_word(g, h, EC_MATERIAL_ROUGHNESS);
-    s->metallic = material_word(g, h, EC_MATERIAL_METALLIC);
+    quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_SPECULAR_COLOR);
+    lane_f roughness = factors.b;
+    s->metallic = factors.a;
     if (HAS(METALLIC_ROUGHNESS_TEXTURE)) {
         rgba t = material_texture(g, h, m, EC_SLOT_METALLIC_ROUGHNESS, false);
         roughness *= t.rgb.y;
@@ -138,8 +124,8 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     }
     /* Below 10^-4 a lobe is narrower than float directions resolve. */
     s->alpha_ggx = max(roughness * roughness, F(1e-4f));
-    lane_f weight = material_word(g, h, EC_MATERIAL_SPECULAR);
-    v3 color = material_v3(g, h, EC_MATERIAL_SPECULAR_COLOR);
+    lane_f weight = specular.d;
+    v3 color = v3_make(specular.a, specular.b, specular.c);
     if (HAS(SPECULAR_TEXTURE)) {
         weight *= material_texture(g, h, m, EC_SLOT_SPECULAR, false).a;
         color = v3_mul(color, material_texture(g, h, m, EC_SLOT_SPECULAR_COLOR, true).rgb);

@@ -8,7 +8,7 @@
 #include "math.h"
 
 typedef struct textures {
-    global const uint *table;   /* ec_texture_data, 4 words each */
+    global const float *table;  /* ec_texture_data by word */
     global const uint *texels;
     constant float *srgb;       /* linear value of each sRGB byte */
 } textures;
@@ -38,11 +38,9 @@ EC_FN rgba texture_texel(textures t, lane_u offset, lane_u index, lane_i is_floa
     lane_u at = offset + (is_float ? index * 4u : index);
     rgba r = texel_bytes(t, gather_u(t.texels, at), is_srgb);
     if (any_lane(is_float)) {
-        lane_u x = is_float ? at : U(0); /* the others must not read past the end */
-        v3 c = v3_make(as_lane_f(gather_u(t.texels, x)), as_lane_f(gather_u(t.texels, x + (is_float ? U(1) : U(0)))),
-                       as_lane_f(gather_u(t.texels, x + (is_float ? U(2) : U(0)))));
-        r.rgb = v3_select(is_float, c, r.rgb);
-        r.a = is_float ? as_lane_f(gather_u(t.texels, x + (is_float ? U(3) : U(0)))) : r.a;
+        quad q = gather_quad((global const float *)t.texels, is_float ? at : U(0));
+        r.rgb = v3_select(is_float, v3_make(q.a, q.b, q.c), r.rgb);
+        r.a = is_float ? q.d : r.a;
     }
     return r;
 }
@@ -76,8 +74,8 @@ EC_FN void texture_axis(lane_f u, lane_i size, lane_u wrap, lane_i is_nearest, l
 EC_FN rgba texture_sample(textures t, lane_i m, lane_i id, lane_f u, lane_f v, bool is_srgb)
 {
     lane_u entry = int_to_lane_u(m ? id : I(0)) * 4u;
-    lane_u offset = gather_u(t.table, entry), flags = gather_u(t.table, entry + 3u);
-    lane_u width = gather_u(t.table, entry + 1u), height = gather_u(t.table, entry + 2u);
+    quad row = gather_quad(t.table, entry);
+    lane_u offset = as_lane_u(row.a), width = as_lane_u(row.b), height = as_lane_u(row.c), flags = as_lane_u(row.d);
     lane_i is_nearest = (flags & EC_TEXTURE_NEAREST) != 0u, is_float = (flags & EC_TEXTURE_FLOAT) != 0u;
     lane_u x0, x1, y0, y1;
     lane_f fx, fy;

@@ -5,7 +5,7 @@
 #include "types.h"
 
 #define EC_BVH_STACK 96         /* entries of a binary traversal stack; the builder keeps trees no deeper than 64 */
-#define EC_BVH8_STACK 448      /* the same for eight children: 7 a level, 64 levels */
+#define EC_BVH8_STACK 96        /* the same for eight children; layout8.c keeps every path within it */
 #define EC_LEAF_BIT 0x80000000u
 #define EC_NO_CHILD 0xffffffffu
 

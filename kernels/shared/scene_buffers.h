@@ -1,5 +1,6 @@
-/* Geometry, materials, lights and textures as the kernels read them. Kernels read most of these word by word (a lane-wide
- * gather each), so the word offsets are named beside the structs. */
+/* Geometry, materials, lights and textures as the kernels read them: in fours of words, so records are laid out in fours and
+ * the word offsets are named beside the structs. Streams that are not made of fours (indices, normals) have 16 spare bytes
+ * behind their end. */
 #ifndef EC_SHARED_SCENE_BUFFERS_H
 #define EC_SHARED_SCENE_BUFFERS_H
 

@@ -7,9 +7,9 @@
 kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                             global const ec_counters *counters, volatile global uint *invalid,
                             global const float *shadows, global float *radiance, global const ec_bvh8_node *nodes,
-                            global const ec_tri8 *blocks, global const float *prims, global const uint *indices,
-                            global const float *uv0, global const float *uv1, global const float *colors,
-                            global const float *materials, global const uint *texture_table,
+                            global const ec_tri8 *blocks, global const float *prims, global const float *indices, global const float *uvs,
+                                global const float *colors,
+                            global const float *materials, global const float *texture_table,
                             global const uint *texels, constant float *srgb)
 {
     uint i = get_global_id(0), wave = params->wave;
@@ -18,7 +18,7 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
     ray8 q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
                        p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
     uint slot = as_uint(p[EC_SHADOW_SLOT * wave]);
-    hit_filter filter = {{prims, indices, 0, 0, uv0, uv1, colors, materials, {texture_table, texels, srgb}}, U(0), false};
+    hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}, U(0), false};
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, U(slot), &pixel, &sample);

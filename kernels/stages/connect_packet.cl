@@ -6,9 +6,9 @@
 kernel void ec_connect_packet(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                               global const ec_counters *counters, volatile global uint *invalid,
                               global const float *shadows, global float *radiance, global const ec_bvh2_node *nodes,
-                              global const ec_tri *tris, global const float *prims, global const uint *indices,
-                              global const float *uv0, global const float *uv1, global const float *colors,
-                              global const float *materials, global const uint *texture_table,
+                              global const ec_tri *tris, global const float *prims, global const float *indices, global const float *uvs,
+                                global const float *colors,
+                              global const float *materials, global const float *texture_table,
                               global const uint *texels, constant float *srgb)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave, count = counters->shadows[step];
@@ -18,7 +18,7 @@ kernel void ec_connect_packet(constant ec_params *params, uint seed, uint first_
                      params->scene_max);
     lane_u slot = queue_load_u(shadows, wave, EC_SHADOW_SLOT, i);
     slot = active ? slot : U(0);
-    hit_filter filter = {{prims, indices, 0, 0, uv0, uv1, colors, materials, {texture_table, texels, srgb}}, U(0), false};
+    hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}, U(0), false};
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, slot, &pixel, &sample);

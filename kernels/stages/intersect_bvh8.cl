@@ -6,16 +6,16 @@
 kernel void ec_intersect_bvh8(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                               global const ec_counters *counters, global const float *paths, global float *hits,
                               global const ec_bvh8_node *nodes, global const ec_tri8 *blocks, global const float *prims,
-                              global const uint *indices, global const float *uv0, global const float *uv1,
-                              global const float *colors, global const float *materials,
-                              global const uint *texture_table, global const uint *texels, constant float *srgb)
+                              global const float *indices, global const float *uvs,
+                                global const float *colors, global const float *materials,
+                              global const float *texture_table, global const uint *texels, constant float *srgb)
 {
     uint i = get_global_id(0), wave = params->wave;
     if (i >= counters->rays[step]) return;
     global const float *p = paths + i;
     ray8 q = ray8_make(p[EC_PATH_OX * wave], p[EC_PATH_OY * wave], p[EC_PATH_OZ * wave], p[EC_PATH_DX * wave],
                        p[EC_PATH_DY * wave], p[EC_PATH_DZ * wave], params->scene_max);
-    hit_filter filter = {{prims, indices, 0, 0, uv0, uv1, colors, materials, {texture_table, texels, srgb}}, U(0), bounce == 0};
+    hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}, U(0), bounce == 0};
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, U(as_uint(p[EC_PATH_SLOT * wave])), &pixel, &sample);

@@ -6,15 +6,15 @@
 kernel void ec_intersect_packet(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                                 global const ec_counters *counters, global const float *paths, global float *hits,
                                 global const ec_bvh2_node *nodes, global const ec_tri *tris, global const float *prims,
-                                global const uint *indices, global const float *uv0, global const float *uv1,
+                                global const float *indices, global const float *uvs,
                                 global const float *colors, global const float *materials,
-                                global const uint *texture_table, global const uint *texels, constant float *srgb)
+                                global const float *texture_table, global const uint *texels, constant float *srgb)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave, count = counters->rays[step];
     if (i >= count) return;
     lane_i active = (LANE_NUMBERS + i) < count;
     ray r = ray_make(queue_load_v3(paths, wave, EC_PATH_OX, i), queue_load_v3(paths, wave, EC_PATH_DX, i), params->scene_max);
-    hit_filter filter = {{prims, indices, 0, 0, uv0, uv1, colors, materials, {texture_table, texels, srgb}}, U(0), bounce == 0};
+    hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}, U(0), bounce == 0};
     if (HAS(ALPHA)) {
         lane_u pixel, sample, slot = queue_load_u(paths, wave, EC_PATH_SLOT, i);
         slot_to_pixel(params, first_pixel, active ? slot : U(0), &pixel, &sample);

@@ -9,11 +9,11 @@
 #define FIRST_ROULETTE 5u /* path segments that are never cut short */
 
 /* Density of light sampling for a point that this ray found on an emissive triangle. */
-EC_FN lane_f emitter_pdf(const geometry *g, const hit_point *h, const surface *s, v3 o, v3 wo)
+EC_FN lane_f emitter_pdf(const hit_point *h, const surface *s, v3 o, v3 wo)
 {
     v3 d = v3_sub(s->p, o);
     lane_f cosine = fabs(v3_dot(s->ng, wo));
-    return gather_f(g->prims, h->prim * EC_PRIM_WORDS + 7u) * v3_dot(d, d) / cosine;
+    return h->light_pdf_a * v3_dot(d, d) / cosine;
 }
 
 /* Weight of light found by following the BSDF, against light_pdf; 1 where light sampling cannot find it. */
@@ -40,16 +40,16 @@ EC_FN void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, 
 kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                      volatile global ec_counters *counters, volatile global uint *invalid, global const float *paths,
                      global const float *hits, global float *next, global float *shadows, global float *radiance,
-                     global float *aov, global const float *prims, global const uint *indices,
-                     global const float *normals, global const float *tangents, global const float *uv0,
-                     global const float *uv1, global const float *colors, global const float *materials,
-                     global const uint *texture_table, global const uint *texels, constant float *srgb,
+                     global float *aov, global const float *prims, global const float *indices,
+                     global const float *normals, global const float *tangents, global const float *uvs,
+                     global const float *colors, global const float *materials, global const float *texture_table,
+                     global const uint *texels, constant float *srgb,
                      global const float *light_table, global const uint *light_alias,
                      global const float *environment_texels, global const uint *environment_alias)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave, count = counters->rays[step];
     if (i >= count) return;
-    geometry g = {prims, indices, normals, tangents, uv0, uv1, colors, materials, {texture_table, texels, srgb}};
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
     lights light = {light_table, light_alias, {params, environment_texels, environment_alias}};
 
     lane_i active = (LANE_NUMBERS + i) < count;
@@ -73,20 +73,22 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
         }
     }
 
-    hit_point h = hit_point_make(&g, found ? prim : U(0), queue_load_f(hits, wave, EC_HIT_B1, i),
+    prim = found ? prim : U(0);
+    hit_point h = hit_point_make(&g, prim, queue_load_f(hits, wave, EC_HIT_B1, i),
                                  queue_load_f(hits, wave, EC_HIT_B2, i));
     surface s;
-    surface_place(&g, &h, wo, &s);
+    surface_place(&h, wo, &s);
     surface_frame(&g, &h, found, wo, &s);
     surface_material(&g, &h, found, &s);
-    lane_u flags = as_lane_u(material_word(&g, &h, EC_MATERIAL_FLAGS));
+    quad emission = material_quad(&g, &h, EC_MATERIAL_EMISSION);
+    lane_u flags = as_lane_u(emission.d);
 
     if (HAS(EMISSION)) {
         lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
-            v3 Le = v3_scale(surface_emission(&g, &h, m),
-                             found_weight(params->strategy, path_pdf, emitter_pdf(&g, &h, &s, o, wo)));
+            v3 Le = v3_scale(surface_emission(&g, &h, m, emission),
+                             found_weight(params->strategy, path_pdf, emitter_pdf(&h, &s, o, wo)));
             emitted = v3_select(m, Le, emitted);
             emits = emits | m;
         }
@@ -140,7 +142,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
             queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
             queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);
             queue_push_f(shadows, wave, EC_SHADOW_SLOT, at, as_lane_f(slot), bits);
-            queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(h.prim), bits);
+            queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(prim), bits);
             queue_push_f(shadows, wave, EC_SHADOW_TARGET, at, as_lane_f(l.target), bits);
         }
     }
@@ -171,5 +173,5 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     queue_push_v3(next, wave, EC_PATH_BR, at, beta, bits);
     queue_push_f(next, wave, EC_PATH_PDF, at, pdf, bits);
     queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
-    queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(h.prim), bits);
+    queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(prim), bits);
 }

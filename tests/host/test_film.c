@@ -103,7 +103,8 @@ static void error_never_lies_about_corner_cases(void)
         ec_film film = filled(cases[i].batches, cases[i].f);
         ec_film_error error = ec_film_estimate_error(&film);
         CHECK_MSG(!isnan(error.error) && !isnan(error.error_bound), "case %zu", i);
-        CHECK_MSG(isinf(error.error) == cases[i].infinite && isinf(error.error_bound) == cases[i].infinite, "case %zu: %g", i, error.error);
+        CHECK_MSG(isinf(error.error) == cases[i].infinite && isinf(error.error_bound) == cases[i].infinite,
+                  "case %zu: %g %g", i, error.error, error.error_bound);
         CHECK_MSG((error.error == 0) == cases[i].zero && (error.error_bound == 0) == cases[i].zero, "case %zu", i);
         CHECK_MSG(cases[i].zero || isinf(error.error) || error.error_bound > error.error, "case %zu: %g %g", i,
                   error.error, error.error_bound);

@@ -37,6 +37,19 @@ static void student_table(void)
         CHECK_NEAR(ec_student_t_quantile(p, 100000 * (1 - 1e-12)), ec_student_t_quantile(p, 100000 * (1 + 1e-12)), 1e-8);
 }
 
+/* mpmath, 30 digits. */
+static void student_tails(void)
+{
+    static const struct { double t, nu, tail; } rows[] = {
+        {2, 30, 0.0273125224814916}, {6, 1e5, 9.89964727800881e-10}, {10.5, 15, 1.30998318873499e-8},
+        {3, 63, 0.00193191923804958}, {1, 2.5, 0.202030513639137},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        CHECK_RELATIVE(ec_student_t_upper_tail(rows[i].t, rows[i].nu), rows[i].tail, 1e-11);
+        CHECK_RELATIVE(ec_student_t_upper_tail(-rows[i].t, rows[i].nu), 1 - rows[i].tail, 1e-14);
+    }
+}
+
 static void student_inverts_its_tail(void)
 {
     const double nus[] = {1, 1.5, 2, 3, 7, 15, 63, 1000, 99999, 200000, INFINITY};
@@ -72,6 +85,7 @@ int main(void)
 {
     student_closed_forms();
     student_table();
+    student_tails();
     student_inverts_its_tail();
     fisher();
     incomplete_beta();

@@ -79,8 +79,27 @@ static void no_cut_picture_is_taken_for_whole(void)
     }
 }
 
+/* A writer that was killed leaves blocks but a table of zeros; what it wrote is not a picture. */
+static void an_unfinished_picture_is_refused(void)
+{
+    const float data[20 * 20] = {1};
+    const ec_channel channel = {"R", data, 1};
+    CHECK_OK(ec_exr_write(path, 20, 20, &channel, 1, NULL, 0, &err), err);
+    size_t size = load(path), table = 0;
+    for (uint64_t at = 0, first; at + 16 < size && !table; at++) /* two blocks: the first starts behind two offsets */
+        if (memcpy(&first, original + at, 8), first == at + 16) table = at;
+    CHECK(table > 0);
+    memset(original + table, 0, 16);
+    FILE *file = fopen(path, "wb");
+    fwrite(original, 1, size, file);
+    fclose(file);
+    ec_exr exr;
+    CHECK(ec_exr_read(path, &exr, &err) == EC_FAILED && strstr(err.text, "damaged"));
+}
+
 int main(void)
 {
+    an_unfinished_picture_is_refused();
     no_cut_picture_is_taken_for_whole();
     damage(ECLAT_SHARED "/assets/exr/openexr-images/TestImages/GammaChart.exr");
     damage(ECLAT_SHARED "/assets/exr/openexr-images/TestImages/AllHalfValues.exr");

@@ -1,8 +1,8 @@
 /* Are two renders the same picture but for noise? Needs both pictures' standard errors.
  *
- * Per value (pixel and channel) a two-sided t-test, alpha = 0.01 with Sidak's correction for the number of values; up to 0.25 %
- * may fail, as in Mitsuba 3's test_renders.py. That cannot see a small bias of the whole picture, so the mean of each
- * channel is tested too: |difference| <= 0.1 % of the reference + 4 standard errors.
+ * Per value (pixel and channel) a two-sided t-test, alpha = 0.01 with Sidak's correction for the number of values; up to
+ * 0.25 % may fail, as in Mitsuba 3's test_renders.py. That cannot see a small bias of the whole picture, so the mean of
+ * each channel is tested too: |difference| <= 0.1 % of the reference + 4 standard errors.
  *
  *     ztest_picture reference = {0};
  *     CHECK_OK(ztest_load(ECLAT_SHARED "/reference/x.exr", 31, &reference, &err), err);
@@ -186,8 +186,8 @@ static inline ztest_result ztest_compare(const ztest_picture *image, const ztest
     ztest_values(image, reference, &o, z, &r);
     r.pass = means_agree && r.outlier_share <= o.outlier_share;
     int length = snprintf(r.text, sizeof r.text,
-                          "%.4f %% outliers (%.2f %% allowed), worst t %.2f (limit %.2f) at (%u, %u) in %c; channel means off by "
-                          "%+.3f %% %+.3f %% %+.3f %% (z %+.1f %+.1f %+.1f)",
+                          "%.4f %% outliers (%.2f %% allowed), worst t %.2f (limit %.2f) at (%u, %u) in %c; "
+                          "channel means off by %+.3f %% %+.3f %% %+.3f %% (z %+.1f %+.1f %+.1f)",
                           100 * r.outlier_share, 100 * o.outlier_share, r.worst_z, r.threshold, r.worst_x, r.worst_y,
                           "RGB"[r.worst_channel], 100 * r.mean_difference[0] / r.reference_mean[0],
                           100 * r.mean_difference[1] / r.reference_mean[1],
