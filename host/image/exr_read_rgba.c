@@ -6,14 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Weak: a program linked without libOpenEXR (C++) still reads every other file. */
-#pragma weak ImfOpenInputFile
-#pragma weak ImfInputSetFrameBuffer
-#pragma weak ImfInputReadPixels
-#pragma weak ImfCloseInputFile
-#pragma weak ImfErrorMessage
-#pragma weak ImfHalfToFloat
-
 static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *exr, ec_error *err)
 {
     uint64_t count = (uint64_t)exr->width * exr->height;
@@ -33,8 +25,6 @@ static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *ex
 
 ec_result ec_exr_read_rgba(const char *path, int32_t origin_x, int32_t origin_y, ec_exr *exr, ec_error *err)
 {
-    if (!ImfOpenInputFile)
-        return ec_fail(err, "cannot read '%s': this build has no DWA decompression; save it with ZIP compression", path);
     ImfRgba *pixels = calloc((uint64_t)exr->width * exr->height, sizeof *pixels);
     ImfInputFile *file = pixels ? ImfOpenInputFile(path) : NULL;
     ec_result result;

@@ -25,7 +25,8 @@ typedef struct ec_attribute {
 ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const ec_channel *channels,
                        uint32_t channel_count, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err);
 
-/* All channels of an EXR file's first part as float planes, half and uint converted. Tiled (first level) and scan-line. */
+/* All channels of an EXR file's first part as float planes, half and uint converted. Tiled (first level) and scan-line,
+ * every compression; of DWAA and DWAB files only R, G, B and A. Deep and subsampled images are refused. */
 typedef struct ec_exr {
     uint32_t width, height, channel_count;
     char **names;       /* owned, as in the file */

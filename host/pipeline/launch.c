@@ -1,7 +1,7 @@
 /* Binds a stage's arguments from its table entry and enqueues it. */
 #include "pipeline/pipeline.h"
 
-ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *scalars, uint64_t items, ec_error *err)
+ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *scalars, ec_error *err)
 {
     const ec_stage_entry *stage = &ec_stages[id];
     for (uint32_t i = 0; i < stage->argument_count; i++) {
@@ -11,7 +11,10 @@ ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *sca
                           : clSetKernelArg(p->kernels[id], i, sizeof(cl_mem), p->buffers[arg] ? &p->buffers[arg] : NULL);
         EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
     }
-    bool is_per_ray = id == EC_INTERSECT_BVH8 || id == EC_CONNECT_BVH8 || stage->lanes == 1;
-    uint64_t global = is_per_ray ? items : (items + p->lanes - 1) / p->lanes;
+    /* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, and PoCL
+     * need not compile again for a smaller grid. */
+    uint64_t global = p->wave;
+    if (stage->lanes == EC_LANES_OF_PIPELINE) global /= p->lanes;
+    if (id == EC_ACCUMULATE || id == EC_STORE_FEATURES) global /= p->params.batch;
     return ec_kernel_run(p->cl, stage->label, p->kernels[id], global, EC_LOCAL_SIZE, err);
 }

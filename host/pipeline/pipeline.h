@@ -47,7 +47,7 @@ ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, ec_error *err);
 /* build.c */
 ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
 /* launch.c */
-ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, uint64_t items, ec_error *err);
+ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
 
 /* Names of the features in a mask, blank separated. */
 void ec_feature_names(uint32_t features, char *text, size_t size);

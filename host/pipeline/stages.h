@@ -74,6 +74,6 @@ typedef struct ec_stage_entry {
 
 extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
 
-#define EC_LOCAL_SIZE 64 /* one fixed local size a kernel: PoCL compiles again for each new one */
+#define EC_LOCAL_SIZE 16 /* one fixed local size a kernel: PoCL compiles again for each new one */
 
 #endif

@@ -28,16 +28,16 @@ static bool is_tuning(const ec_pipeline *p, int connect, uint32_t bounce)
     return false;
 }
 
-static ec_result trace(ec_pipeline *p, int connect, uint32_t bounce, const uint32_t *scalars, uint32_t paths, ec_error *err)
+static ec_result trace(ec_pipeline *p, int connect, uint32_t bounce, const uint32_t *scalars, ec_error *err)
 {
     static const ec_stage_id stages[2][EC_TRACE_COUNT] = {{EC_INTERSECT_PACKET, EC_INTERSECT_BVH8},
                                                           {EC_CONNECT_PACKET, EC_CONNECT_BVH8}};
     ec_trace t = choose_trace(p, connect, bounce);
-    if (!is_tuning(p, connect, bounce)) return ec_pipeline_launch(p, stages[connect][t], scalars, paths, err);
+    if (!is_tuning(p, connect, bounce)) return ec_pipeline_launch(p, stages[connect][t], scalars, err);
     ec_counters counters;
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
     double start = ec_now();
-    EC_TRY(ec_pipeline_launch(p, stages[connect][t], scalars, paths, err));
+    EC_TRY(ec_pipeline_launch(p, stages[connect][t], scalars, err));
     EC_TRY(ec_cl_finish(p->cl, err));
     uint32_t rays = connect ? counters.shadows[scalars[EC_ARG_STEP]] : counters.rays[scalars[EC_ARG_STEP]];
     if (p->tuning[connect][bounce].trials[t]++ > 0) { /* the first run may compile */
@@ -62,9 +62,9 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_b
         scalars[EC_ARG_BOUNCE] = first_bounce + step;
         scalars[EC_ARG_STEP] = step;
         swap_queues(p, first_bounce + step);
-        EC_TRY(trace(p, 0, first_bounce + step, scalars, *alive, err));
-        EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, *alive, err));
-        if (p->params.light_count) EC_TRY(trace(p, 1, first_bounce + step, scalars, *alive, err));
+        EC_TRY(trace(p, 0, first_bounce + step, scalars, err));
+        EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
+        if (p->params.light_count) EC_TRY(trace(p, 1, first_bounce + step, scalars, err));
     }
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
     for (uint32_t step = 0; step < EC_SEGMENT; step++) p->rays += counters.rays[step] + counters.shadows[step];
@@ -85,11 +85,11 @@ ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pix
     cl_mem aov = p->buffers[EC_ARG_AOV];
     if (!with_features) p->buffers[EC_ARG_AOV] = NULL;
 
-    ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, alive, err);
+    ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
     for (uint32_t bounce = 0; result == EC_OK && alive && bounce < p->params.max_depth; bounce += EC_SEGMENT)
         result = run_segment(p, scalars, bounce, &alive, err);
     p->buffers[EC_ARG_AOV] = aov;
-    if (result == EC_OK) result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, pixel_count, err);
-    if (result == EC_OK && with_features) result = ec_pipeline_launch(p, EC_STORE_FEATURES, scalars, pixel_count, err);
+    if (result == EC_OK) result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, err);
+    if (result == EC_OK && with_features) result = ec_pipeline_launch(p, EC_STORE_FEATURES, scalars, err);
     return result;
 }

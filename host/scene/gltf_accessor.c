@@ -100,7 +100,9 @@ ec_result ec_gltf_accessor_open(ec_gltf *g, int32_t accessor, const char *what, 
     if (a->open) return EC_OK;
     char where[256];
     snprintf(where, sizeof where, "%s: accessors[%d]", what, accessor);
-    if (!a->components) return ec_fail(err, "%s: %s has a type other than SCALAR, VEC2, VEC3 or VEC4, which cannot be used there", g->path, where);
+    if (!a->components)
+        return ec_fail(err, "%s: %s has a type other than SCALAR, VEC2, VEC3 or VEC4, which cannot be used there",
+                       g->path, where);
     uint64_t size = (uint64_t)a->components * component_size(a->component_type);
     a->stride = size;
     if (a->view >= 0) {

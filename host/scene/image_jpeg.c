@@ -1,5 +1,4 @@
 /* JPEG through libjpeg-turbo. */
-#ifdef ECLAT_LIBJPEG
 #include "scene/image_decode.h"
 
 #include <setjmp.h>
@@ -102,6 +101,3 @@ bool ec_image_decode_jpeg(const uint8_t *bytes, size_t length, ec_image *image, 
     free(r);
     return image->rgba8 != NULL;
 }
-#else
-typedef int ec_image_jpeg_is_elsewhere; /* image_jpeg_stb.c */
-#endif

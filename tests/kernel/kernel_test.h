@@ -1,10 +1,14 @@
 /* What a kernel test is written with. A test is one file tests/kernel/test_NAME.cl and nothing else: every kernel in it
- * takes the one argument `global test_result *result`, and is run as a single work-item for each LANES (1, 4, 8, 16).
+ * takes the argument `global test_result *result`, and if it wants memory `global uint *scratch` (TEST_SCRATCH_WORDS of
+ * 0), and is run as a single work-item for each LANES (1, 4, 8, 16). A line that starts with "// options: " asks for a
+ * build with these options; several such lines for several builds.
  * Functions that check take `result` by that name too. Legal in C11, for the driver. */
 #ifndef EC_TESTS_KERNEL_TEST_H
 #define EC_TESTS_KERNEL_TEST_H
 
 #include "shared/types.h"
+
+#define TEST_SCRATCH_WORDS 4096
 
 enum test_value_kind { TEST_NO_VALUES, TEST_FLOATS, TEST_UINTS };
 

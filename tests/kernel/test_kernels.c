@@ -2,11 +2,8 @@
  * kernel_test.h. `kernel_test_kernels driver lanes` runs test_driver.cl and test_lanes.cl only. */
 #include <dirent.h>
 
-#include "cl/cl.h"
+#include "kernel/kernel_run.h"
 #include "kernel/kernel_test.h"
-#include "support/test.h"
-
-static const int lane_widths[] = {1, 4, 8, 16};
 
 static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
@@ -26,26 +23,10 @@ static int find_tests(char **names, int capacity) {
     return count;
 }
 
-/* The text of a test with its includes; NULL after a message from the tool. */
 static char *flatten(const char *name) {
-    char command[4096];
-    snprintf(command, sizeof command, "python3 '%s/tools/embed_kernels.py' --stdout '%s/tests/kernel/test_%s.cl'",
-             ECLAT_SOURCE_DIR, ECLAT_SOURCE_DIR, name);
-    FILE *pipe = popen(command, "r");
-    if (!pipe) return NULL;
-    size_t size = 0, capacity = 1 << 16;
-    char *text = malloc(capacity);
-    while (text) {
-        size += fread(text + size, 1, capacity - 1 - size, pipe);
-        if (size < capacity - 1) break;
-        text = realloc(text, capacity *= 2);
-    }
-    if (pclose(pipe) != 0 || !text) {
-        free(text);
-        return NULL;
-    }
-    text[size] = 0;
-    return text;
+    char file[512];
+    snprintf(file, sizeof file, "test_%s.cl", name);
+    return kernel_flatten(file);
 }
 
 static void print_failure(const char *file, const char *kernel, int lanes, const test_result *r) {
@@ -63,15 +44,20 @@ static void print_failure(const char *file, const char *kernel, int lanes, const
 
 static ec_result run_kernel(ec_cl *cl, cl_program program, const char *name, test_result *r, ec_error *err) {
     cl_kernel kernel = NULL;
-    cl_mem buffer = NULL;
+    cl_mem buffer = NULL, scratch = NULL;
     ec_result result;
     memset(r, 0, sizeof *r);
     EC_TRY(ec_kernel_create(program, name, &kernel, err));
     EC_TRY_CLEANUP(ec_buffer_create(cl, "test result", sizeof *r, r, &buffer, err));
-    EC_TRY_CLEANUP(ec_kernel_arguments(kernel, (ec_argument[]){EC_ARGUMENT(buffer)}, 1, err));
+    cl_uint count = 1;
+    clGetKernelInfo(kernel, CL_KERNEL_NUM_ARGS, sizeof count, &count, NULL);
+    if (count > 1) EC_TRY_CLEANUP(ec_buffer_create(cl, "test scratch", TEST_SCRATCH_WORDS * 4, NULL, &scratch, err));
+    if (count > 1) EC_TRY_CLEANUP(ec_buffer_zero(cl, scratch, 0, TEST_SCRATCH_WORDS * 4, err));
+    EC_TRY_CLEANUP(ec_kernel_arguments(kernel, (ec_argument[]){EC_ARGUMENT(buffer), EC_ARGUMENT(scratch)}, count, err));
     EC_TRY_CLEANUP(ec_kernel_run(cl, name, kernel, 1, 1, err));
     EC_TRY_CLEANUP(ec_buffer_read(cl, buffer, 0, sizeof *r, r, err));
 cleanup:
+    ec_buffer_release(cl, &scratch);
     ec_buffer_release(cl, &buffer);
     clReleaseKernel(kernel);
     return result;
@@ -98,20 +84,37 @@ static void run_program(ec_cl *cl, cl_program program, const char *file, int lan
     CHECK_MSG(kernels > 0, "test_%s.cl has no kernels", file);
 }
 
+/* One lane width, one set of options more. */
+static void run_variant(ec_cl *cl, const char *name, const char *source, int lanes, const char *more) {
+    char options[512], label[128];
+    snprintf(options, sizeof options, "-DLANES=%d%s %s", lanes,
+             cl->info.correctly_rounded_divide_sqrt ? " -DCORRECTLY_ROUNDED" : "", more);
+    snprintf(label, sizeof label, "test_%.90s_%d", name, lanes);
+    ec_error err = {""};
+    cl_program program = NULL;
+    int before = test_failures;
+    CHECK_OK(ec_program_build(cl, label, source, options, &program, &err), err);
+    if (program) {
+        run_program(cl, program, name, lanes);
+        clReleaseProgram(program);
+    }
+    if (test_failures > before && *more) fprintf(stderr, "(built with %s)\n", more);
+}
+
+/* Every "// options: -DX …" line of a test is one more build; without such a line there is one without options. */
 static void run_test(ec_cl *cl, const char *name) {
+    static const char directive[] = "\n// options:";
     char *source = flatten(name);
     CHECK_MSG(source, "test_%s.cl cannot be flattened", name);
-    for (size_t i = 0; source && i < sizeof lane_widths / sizeof *lane_widths; i++) {
-        char options[128], label[128];
-        snprintf(options, sizeof options, "-DLANES=%d%s", lane_widths[i],
-                 cl->info.correctly_rounded_divide_sqrt ? " -DCORRECTLY_ROUNDED" : "");
-        snprintf(label, sizeof label, "test_%.90s_%d", name, lane_widths[i]);
-        ec_error err = {""};
-        cl_program program;
-        CHECK_OK(ec_program_build(cl, label, source, options, &program, &err), err);
-        if (!program) continue;
-        run_program(cl, program, name, lane_widths[i]);
-        clReleaseProgram(program);
+    for (int i = 0; source && i < LANE_WIDTHS; i++) {
+        const char *at = strstr(source, directive);
+        if (!at) run_variant(cl, name, source, lane_widths[i], "");
+        for (; at; at = strstr(at + 1, directive)) {
+            char more[256];
+            const char *text = at + sizeof directive - 1;
+            snprintf(more, sizeof more, "%.*s", (int)strcspn(text, "\n"), text);
+            run_variant(cl, name, source, lane_widths[i], more);
+        }
     }
     free(source);
 }

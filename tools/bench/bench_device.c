@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "accel/bvh.h"
-#include "base/clock.h"
 #include "shared/params.h"
 #include "shared/path_state.h"
 
@@ -77,12 +76,16 @@ void bench_device_close(bench_device *d)
     ec_cl_close(&d->cl);
 }
 
-static char *read_text(const char *path)
+/* What tools/embed_kernels.py puts in front of every unit. */
+static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";
+
+static char *read_source(const char *path)
 {
     FILE *file = fopen(path, "rb");
     if (!file) return NULL;
-    size_t capacity = 1 << 20, length = 0, got;
+    size_t capacity = 1 << 20, length = sizeof prelude - 1, got;
     char *text = malloc(capacity + 1);
+    if (text) memcpy(text, prelude, length);
     while (text && length < capacity && (got = fread(text + length, 1, capacity - length, file)) > 0) length += got;
     fclose(file);
     if (text) text[length] = 0;
@@ -99,7 +102,7 @@ static ec_result build_stage(bench_device *d, bench_kernels *k, ec_stage_id id, 
     char *text = NULL;
     if (k->folder) {
         snprintf(path, sizeof path, "%s/stages/%s.cl", k->folder, stage->source);
-        source = text = read_text(path);
+        source = text = read_source(path);
         snprintf(options + used, sizeof options - (size_t)used, " -I %s/stages", k->folder);
     }
     if (!source) return ec_fail(err, "no kernel source %s", k->folder ? path : stage->source);
@@ -180,10 +183,10 @@ ec_result bench_device_trace(bench_device *d, const bench_kernels *k, bench_trac
                              ec_error *err)
 {
     EC_TRY(prepare(d, kind, err));
-    double start = ec_now();
+    double start = bench_clock();
     EC_TRY(launch(d, k, trace, kind, err));
     EC_TRY(ec_cl_finish(&d->cl, err));
-    *seconds = ec_now() - start;
+    *seconds = bench_clock() - start;
     return EC_OK;
 }
 

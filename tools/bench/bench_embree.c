@@ -9,7 +9,6 @@
 #include <xmmintrin.h>
 #endif
 
-#include "base/clock.h"
 
 #define CHUNK 4096
 
@@ -80,7 +79,7 @@ static void trace_chunk(const bench_embree *e, const bench_rays *rays, bench_hit
 
 static double trace(const bench_embree *e, const bench_rays *rays, bench_hit *hits, bool any)
 {
-    double start = ec_now();
+    double start = bench_clock();
 #pragma omp parallel num_threads(e->threads)
     {
 #ifdef __SSE2__
@@ -93,7 +92,7 @@ static double trace(const bench_embree *e, const bench_rays *rays, bench_hit *hi
         _mm_setcsr(state);
 #endif
     }
-    return ec_now() - start;
+    return bench_clock() - start;
 }
 
 double bench_embree_closest(const bench_embree *e, const bench_rays *rays, bench_hit *hits)

@@ -2,7 +2,20 @@
 #include "bench_rays.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
+#include <time.h>
+
+#include "base/clock.h"
+
+static bool is_cpu_time;
+void bench_clock_use_cpu_time(void) { is_cpu_time = true; }
+double bench_clock(void)
+{
+    struct timespec t;
+    if (!is_cpu_time || clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t)) return ec_now();
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
 
 static void bounds(const bench_mesh *mesh, float lo[3], float hi[3])
 {

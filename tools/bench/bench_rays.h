@@ -33,4 +33,8 @@ bench_rays bench_bounce_rays(const bench_mesh *mesh, const bench_rays *camera, c
 /* The same rays, ended after 0.3 diagonals of the scene, as d with t in (0, 1). */
 bench_rays bench_shadow_rays(const bench_mesh *mesh, const bench_rays *bounce);
 
+/* Seconds: of the wall clock, or, where others use the machine too, of processor time spent by this process. */
+double bench_clock(void);
+void bench_clock_use_cpu_time(void);
+
 #endif

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "bench_device.h"
 #include "bench_embree.h"
 #include "scene/scene.h"
@@ -25,6 +24,7 @@ static const char usage[] =
     "  --lanes N        of the packet kernels (default: the device's)\n"
     "  --device ID      OpenCL device, as for eclat\n"
     "  --kernels DIR    measure the kernels of another kernels/ folder too, and compare their hits bit by bit; may be repeated\n"
+    "  --cpu-time       count processor time instead of wall time: steadier on a shared machine (set OMP_WAIT_POLICY=passive)\n"
     "  --json           one JSON object instead of the table\n";
 
 typedef struct options {
@@ -72,6 +72,7 @@ static options parse(int argc, char **argv)
         if (!strcmp(a, "--robust")) o.robust = true;
         else if (!strcmp(a, "--no-packet")) o.no_packet = true;
         else if (!strcmp(a, "--json")) o.json = true;
+        else if (!strcmp(a, "--cpu-time")) bench_clock_use_cpu_time();
         else if (a[0] != '-') o.scene = a;
         else if (!value) break;
         else if (!strcmp(a, "--size") && ++i) o.size = (uint32_t)atoi(value);

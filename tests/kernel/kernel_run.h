@@ -1,0 +1,123 @@
+/* For C tests that run kernels over arrays: a device, flattened sources, calls. Kernels for such tests stand in
+ * tests/kernel/run_NAME.cl, which the driver of kernel_test.h leaves alone. */
+#ifndef EC_TESTS_KERNEL_RUN_H
+#define EC_TESTS_KERNEL_RUN_H
+
+#include "cl/cl.h"
+#include "support/test.h"
+
+static const int lane_widths[] = {1, 4, 8, 16};
+#define LANE_WIDTHS 4
+
+/* Opens the device that ECLAT_DEVICE or the rule chooses. 0; 77 without a device; 1 after a failure. */
+static inline int kernel_open(ec_cl *cl)
+{
+    ec_device_info *devices;
+    uint32_t count, index = 0;
+    const char *why = "";
+    ec_error err = {""};
+    if (ec_devices_list(&devices, &count, &err) != EC_OK) TEST_SKIP("%s", err.text);
+    CHECK_OK(ec_device_choose(devices, count, NULL, &index, &why, &err), err);
+    if (!test_failures) CHECK_OK(ec_cl_open(&devices[index], cl, &err), err);
+    if (!test_failures) printf("%s (%s)\n", devices[index].name, why);
+    free(devices);
+    return test_failures ? 1 : 0;
+}
+
+/* The text of tests/kernel/FILE with its includes; NULL after a message from the tool. */
+static inline char *kernel_flatten(const char *file)
+{
+    char command[4096];
+    snprintf(command, sizeof command, "python3 '%s/tools/embed_kernels.py' --stdout '%s/tests/kernel/%s'", ECLAT_SOURCE_DIR,
+             ECLAT_SOURCE_DIR, file);
+    FILE *pipe = popen(command, "r");
+    if (!pipe) return NULL;
+    size_t size = 0, capacity = 1 << 16;
+    char *text = malloc(capacity);
+    while (text) {
+        size += fread(text + size, 1, capacity - 1 - size, pipe);
+        if (size < capacity - 1) break;
+        text = realloc(text, capacity *= 2);
+    }
+    if (pclose(pipe) != 0 || !text) {
+        free(text);
+        return NULL;
+    }
+    text[size] = 0;
+    return text;
+}
+
+/* run_NAME.cl built for a lane width; NULL after a failed check. */
+static inline cl_program kernel_build(ec_cl *cl, const char *name, int lanes, const char *more)
+{
+    char file[256], label[256], options[512];
+    snprintf(file, sizeof file, "run_%s.cl", name);
+    snprintf(label, sizeof label, "run_%s_%d", name, lanes);
+    snprintf(options, sizeof options, "-DLANES=%d %s", lanes, more ? more : "");
+    char *source = kernel_flatten(file);
+    CHECK_MSG(source, "%s cannot be flattened", file);
+    ec_error err = {""};
+    cl_program program = NULL;
+    if (source) CHECK_OK(ec_program_build(cl, label, source, options, &program, &err), err);
+    free(source);
+    return program;
+}
+
+/* One argument: an array that is copied to the device and, if wanted, back; or a scalar (no array). */
+typedef struct kernel_array {
+    void *data;
+    size_t bytes;
+    int kind; /* kernel_argument_kind */
+} kernel_array;
+enum kernel_argument_kind { KERNEL_IN, KERNEL_OUT, KERNEL_SCALAR };
+#define IN(pointer, count) {(void *)(pointer), (size_t)(count) * sizeof *(pointer), KERNEL_IN}
+#define OUT(pointer, count) {(void *)(pointer), (size_t)(count) * sizeof *(pointer), KERNEL_OUT}
+#define SCALAR(variable) {(void *)&(variable), sizeof(variable), KERNEL_SCALAR}
+#define KERNEL_ARRAYS 24
+
+/* Runs kernel `name` over items work-items and brings OUT arrays back. Lane-wide loads may go past the end: buffers have
+ * 64 bytes more than their arrays. False after a failed check. */
+static inline bool kernel_call(ec_cl *cl, cl_program program, const char *name, uint64_t items, uint32_t local,
+                               const kernel_array *arrays, uint32_t count)
+{
+    ec_error err = {""};
+    cl_kernel kernel = NULL;
+    cl_mem buffers[KERNEL_ARRAYS] = {NULL};
+    ec_argument arguments[KERNEL_ARRAYS];
+    int before = test_failures;
+    CHECK_OK(ec_kernel_create(program, name, &kernel, &err), err);
+    for (uint32_t i = 0; kernel && i < count; i++) {
+        arguments[i] = (ec_argument){arrays[i].bytes, arrays[i].data};
+        if (arrays[i].kind == KERNEL_SCALAR) continue;
+        CHECK_OK(ec_buffer_create(cl, name, arrays[i].bytes + 64, NULL, &buffers[i], &err), err);
+        if (buffers[i] && arrays[i].bytes) CHECK_OK(ec_buffer_write(cl, buffers[i], 0, arrays[i].bytes, arrays[i].data, &err), err);
+        arguments[i] = (ec_argument)EC_ARGUMENT(buffers[i]);
+    }
+    if (kernel && test_failures == before) {
+        CHECK_OK(ec_kernel_arguments(kernel, arguments, count, &err), err);
+        if (test_failures == before) CHECK_OK(ec_kernel_run(cl, name, kernel, items, local, &err), err);
+        for (uint32_t i = 0; test_failures == before && i < count; i++)
+            if (arrays[i].kind == KERNEL_OUT)
+                CHECK_OK(ec_buffer_read(cl, buffers[i], 0, arrays[i].bytes, arrays[i].data, &err), err);
+    }
+    for (uint32_t i = 0; i < count; i++) ec_buffer_release(cl, &buffers[i]);
+    if (kernel) clReleaseKernel(kernel);
+    return test_failures == before;
+}
+#define KERNEL_CALL(cl, program, name, items, ...)                                                 \
+    kernel_call(cl, program, name, items, 64, (kernel_array[]){__VA_ARGS__},                       \
+                sizeof((kernel_array[]){__VA_ARGS__}) / sizeof(kernel_array))
+
+/* Random numbers for tests (SplitMix64, Steele et al. 2014). */
+static uint64_t test_random_state = 1;
+static inline uint64_t test_random_u64(void)
+{
+    uint64_t z = (test_random_state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+static inline double test_random(void) { return (double)(test_random_u64() >> 11) * 0x1p-53; } /* [0, 1) */
+static inline double test_random_in(double a, double b) { return a + (b - a) * test_random(); }
+
+#endif
