@@ -177,6 +177,41 @@ static void fill_triangles(const plan *p, ec_tri *triangles)
     }
 }
 
+/* Does `second` continue `first` to a quad: (p, q, r) and (p, r, s)? */
+static int is_quad(const ec_tri *first, const ec_tri *second)
+{
+    return !memcmp(first->v0, second->v0, sizeof first->v0) && !memcmp(first->v2, second->v1, sizeof first->v2);
+}
+
+/* Brings the two halves of quads together within one leaf. */
+static void pair_leaf(ec_tri *leaf, uint32_t count)
+{
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        uint32_t k = i + 1;
+        while (k < count && !is_quad(&leaf[i], &leaf[k]) && !is_quad(&leaf[k], &leaf[i])) k++;
+        if (k == count) continue;
+        ec_tri other = leaf[k];
+        leaf[k] = leaf[i + 1];
+        leaf[i + 1] = other;
+        if (!is_quad(&leaf[i], &leaf[i + 1])) {
+            leaf[i + 1] = leaf[i];
+            leaf[i] = other;
+        }
+        leaf[i++].has_pair = 1;
+    }
+}
+
+static void pair_leaves(const ec_bvh2_node *nodes, uint32_t node_count, ec_tri *triangles)
+{
+#pragma omp parallel for schedule(dynamic, 4096) if (node_count > 4096)
+    for (uint32_t i = 0; i < node_count; i++)
+        for (int side = 0; side < 2; side++) {
+            uint32_t child = nodes[i].child[side];
+            if (child == EC_NO_CHILD || !(child & EC_LEAF_BIT)) continue;
+            pair_leaf(triangles + ((child & ~EC_LEAF_BIT) >> 4), child & 15u);
+        }
+}
+
 ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh2_node **nodes,
                          uint32_t *node_count, ec_tri **triangles, uint32_t *triangle_count, ec_error *err)
 {
@@ -187,6 +222,7 @@ ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32
     ec_tri *t = n ? ec_allocate_lines(bvh->triangle_count, sizeof *t) : NULL;
     if (t) {
         fill_triangles(&p, t);
+        pair_leaves(n, *node_count, t);
         *nodes = n;
         *triangles = t;
         *triangle_count = bvh->triangle_count;

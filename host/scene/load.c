@@ -26,7 +26,9 @@ static ec_result build(ec_gltf *g, const ec_placement_list *placements, ec_scene
     EC_TRY(ec_gltf_cameras_place(g, placements, s, log, err));
     EC_TRY(ec_gltf_lights_place(g, placements, s, log, err));
     ec_scene_clamp_materials(s, g->path, log);
-    return ec_scene_validate(s, err);
+    EC_TRY(ec_scene_validate(s, err));
+    ec_scene_join_quads(s);
+    return EC_OK;
 }
 
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err)

@@ -11,4 +11,7 @@ void ec_scene_clamp_materials(ec_scene *scene, const char *path, const ec_log *l
  * file; it is cheap beside building a BVH, so it always runs. */
 ec_result ec_scene_validate(const ec_scene *scene, ec_error *err);
 
+/* Rotates neighbouring triangles that share an edge to (p, q, r), (p, r, s). */
+void ec_scene_join_quads(ec_scene *scene);
+
 #endif

@@ -6,8 +6,6 @@
 #include "geometry.h"
 #include "sampler.h"
 
-#define HAS_FILTER (HAS(ALPHA) || HAS(CULLING))
-
 typedef struct hit_filter {
     geometry g;
     lane_u key;      /* random key of this ray */
@@ -23,7 +21,7 @@ EC_FN lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, boo
 /* Which of the candidate hits (mask m) count. */
 EC_FN lane_i filter_hits(const hit_filter *f, lane_i m, lane_u prim, lane_f b1, lane_f b2, lane_i front)
 {
-    if (!HAS_FILTER) return m;
+    if (!HAS(ALPHA) && !(HAS(CULLING) && f->cull_backs)) return m;
     lane_u id = m ? prim : U(0);
     lane_u flags = as_lane_u(gather_f(f->g.prims, id * EC_PRIM_WORDS + 11u));
     if (HAS(CULLING) && f->cull_backs) m = m & (front | ((flags & EC_PRIM_SINGLE_SIDED) == 0u));

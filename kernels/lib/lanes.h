@@ -169,15 +169,24 @@ EC_FN quad gather_quad(global const float *restrict p, lane_u i)
 }
 #endif
 
-/* p[i] += v on the lanes of m; no two lanes share an index. */
-EC_FN void scatter_add_f(global float *restrict p, lane_u i, lane_f v, uint bits)
+/* p[i], p[i + stride], p[i + 2 stride] += x, y, z on the lanes of `bits`; no two lanes share an index. Through memory, as a
+ * loop over the lanes that are on: a branch a lane would be mispredicted half the time. */
+EC_FN void scatter_add_3(global float *restrict p, uint stride, lane_u i, lane_f x, lane_f y, lane_f z, uint bits)
 {
-    uint bit = 1;
-#define SCATTER_ONE(k)                                                                             \
-    if (bits & bit) p[LANE(i, k)] += LANE(v, k);                                                   \
-    bit <<= 1;
-    EACH_LANE(SCATTER_ONE)
-#undef SCATTER_ONE
+    uint at[LANES];
+    float v[3 * LANES];
+    LANE_STORE(i, at);
+    LANE_STORE(x, v);
+    LANE_STORE(y, v + LANES);
+    LANE_STORE(z, v + 2 * LANES);
+    while (bits) {
+        uint k = 31u - clz(bits & -bits);
+        bits &= bits - 1u;
+        global float *to = p + at[k];
+        to[0] += v[k];
+        to[stride] += v[LANES + k];
+        to[2 * stride] += v[2 * LANES + k];
+    }
 }
 
 EC_FN void scatter_f(global float *restrict p, lane_u i, lane_f v, uint bits)

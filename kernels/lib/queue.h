@@ -47,9 +47,7 @@ EC_FN void radiance_add(global float *radiance, uint wave, lane_u slot, v3 light
     uint bad = mask_bits(m & !finite);
     if (bad) atomic_add(invalid, popcount(bad));
     uint bits = mask_bits(m & finite);
-    scatter_add_f(radiance, slot, light.x, bits);
-    scatter_add_f(radiance + wave, slot, light.y, bits);
-    scatter_add_f(radiance + 2 * wave, slot, light.z, bits);
+    scatter_add_3(radiance, wave, slot, light.x, light.y, light.z, bits);
 }
 
 #endif

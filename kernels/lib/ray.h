@@ -73,35 +73,47 @@ typedef struct edges {
     lane_f z0, z1, z2;    /* unscaled depths of the vertices */
 } edges;
 
-/* a, b, c: permuted vertices minus permuted origin. Products are rounded one by one and compared: the sign is never wrong,
- * only sometimes 0, and 0 counts as inside, so no ray slips between two triangles (Woop et al. 2013). */
-EC_FN lane_i edges_inside(lane_f shear_x, lane_f shear_y, v3 a, v3 b, v3 c, edges *e)
+/* A vertex in the ray's frame: x and y sheared, z the unscaled depth. v: permuted vertex minus permuted origin. */
+EC_FN v3 ray_shear(lane_f shear_x, lane_f shear_y, v3 v)
 {
-    lane_f ax = fma(-shear_x, a.z, a.x), ay = fma(-shear_y, a.z, a.y);
-    lane_f bx = fma(-shear_x, b.z, b.x), by = fma(-shear_y, b.z, b.y);
-    lane_f cx = fma(-shear_x, c.z, c.x), cy = fma(-shear_y, c.z, c.y);
-    e->u = cx * by - cy * bx;
-    e->v = ax * cy - ay * cx;
-    e->w = bx * ay - by * ax;
-    e->z0 = a.z;
-    e->z1 = b.z;
-    e->z2 = c.z;
+    return v3_make(fma(-shear_x, v.z, v.x), fma(-shear_y, v.z, v.y), v.z);
+}
+
+/* Which side of the edge from q to p the ray passes. Products are rounded one by one and compared: the sign is never wrong,
+ * only sometimes 0, and seen from the other side it is exactly the negative (Woop et al. 2013). */
+EC_FN lane_f ray_edge(v3 p, v3 q) { return p.x * q.y - p.y * q.x; }
+
+/* 0 counts as inside, so no ray slips between two triangles. */
+EC_FN lane_i edges_inside(edges *e)
+{
     e->det = e->u + e->v + e->w;
     return ((min(e->u, min(e->v, e->w)) >= 0.0f) | (max(e->u, max(e->v, e->w)) <= 0.0f)) & (e->det != 0.0f);
 }
 
-/* Distance of the hit, clamped into the triangle's own slab, and whether it lies in (0, t_max]. v0..v2 unpermuted. */
-EC_FN lane_i edges_distance(const ray *r, const edges *e, v3 v0, v3 v1, v3 v2, lane_f t_max, lane_f *t)
+/* a, b, c: sheared vertices. */
+EC_FN edges edges_make(v3 a, v3 b, v3 c)
+{
+    edges e = {ray_edge(c, b), ray_edge(a, c), ray_edge(b, a), F(0.0f), a.z, b.z, c.z};
+    return e;
+}
+
+/* Distance of the hit on the triangle's plane and whether it lies in (0, t_max]; inverse = 1 / det. */
+EC_FN lane_i edges_distance(const ray *r, const edges *e, lane_f t_max, lane_f *inverse, lane_f *t)
 {
     lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z;
-    lane_f distance = fma(e->u, z0, fma(e->v, z1, e->w * z2)) / e->det;
+    *inverse = 1.0f / e->det;
+    *t = fma(e->u, z0, fma(e->v, z1, e->w * z2)) * *inverse;
     /* Below the rounding of the weighted mean itself the sign of t means nothing (pbrt-v4, section 6.8.7, delta_t). */
-    lane_i ahead = distance > max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP);
-    v3 lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
-    v3 hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
+    lane_f least = max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP);
+    return (*t > least) & (*t <= t_max);
+}
+
+/* The distance clamped into the slab of the triangle's own box; false where that leaves (0, t_max]. */
+EC_FN lane_i triangle_clamp(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *t)
+{
     lane_f far, near = slab_near(r, lo, hi, F(EC_HUGE), &far);
-    *t = max(distance, near);
-    return ahead & (near <= far) & (*t <= t_max);
+    *t = max(*t, near);
+    return (near <= far) & (*t <= t_max);
 }
 
 /* Seen from its front (counter-clockwise)? Exchanging two axes mirrors the triangle. */

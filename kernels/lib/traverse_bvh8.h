@@ -62,27 +62,29 @@ EC_FN v3 tri8_vertex(global const ec_tri8 *b, uint k)
     global const float8 *v = (global const float8 *)b->v[k];
     return v3_make(v[0], v[1], v[2]);
 }
-EC_FN v3 tri8_permuted(const ray8 *q, global const ec_tri8 *b, uint k)
+EC_FN v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
 {
     global const float8 *v = (global const float8 *)b->v[k];
-    return v3_make(v[q->axis_x] - q->r.o_permuted.x, v[q->axis_y] - q->r.o_permuted.y, v[q->axis_z] - q->r.o_permuted.z);
+    v3 p = v3_make(v[q->axis_x] - q->r.o_permuted.x, v[q->axis_y] - q->r.o_permuted.y, v[q->axis_z] - q->r.o_permuted.z);
+    return ray_shear(q->r.shear_x, q->r.shear_y, p);
 }
 
 /* Eight triangles against the ray. */
 EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, uint skip0, uint skip1,
                              hit8 *h)
 {
-    edges e;
-    int8 m = edges_inside(q->r.shear_x, q->r.shear_y, tri8_permuted(q, b, 0), tri8_permuted(q, b, 1),
-                          tri8_permuted(q, b, 2), &e);
+    edges e = edges_make(tri8_sheared(q, b, 0), tri8_sheared(q, b, 1), tri8_sheared(q, b, 2));
+    int8 m = edges_inside(&e);
     if (!mask_bits8(m)) return;
     uint8 id = *(global const uint8 *)b->id;
-    float8 t;
-    m = m & (id != skip0) & (id != skip1);
-    m = m & edges_distance(&q->r, &e, tri8_vertex(b, 0), tri8_vertex(b, 1), tri8_vertex(b, 2), (float8)(h->t), &t);
-    m = m & ((t < h->t) | (id < h->prim));
+    float8 t, inverse;
+    m = m & (id != skip0) & (id != skip1) & edges_distance(&q->r, &e, (float8)(h->t), &inverse, &t);
     if (!mask_bits8(m)) return;
-    float8 inverse = 1.0f / e.det, b1 = e.v * inverse, b2 = e.w * inverse;
+    v3 v0 = tri8_vertex(b, 0), v1 = tri8_vertex(b, 1), v2 = tri8_vertex(b, 2);
+    v3 lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
+    v3 hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
+    m = m & triangle_clamp(&q->r, lo, hi, (float8)(h->t), &t) & ((t < h->t) | (id < h->prim));
+    float8 b1 = e.v * inverse, b2 = e.w * inverse;
     m = filter_hits(filter, m, id, b1, b2, edges_front(&q->r, &e));
     uint bits = mask_bits8(m), bit = 1;
 #define BLOCK8_ONE(k)                                                                              \

@@ -15,28 +15,72 @@ typedef struct hit {
 
 EC_FN v3 splat_point(global const float *p) { return v3_make(F(p[0]), F(p[1]), F(p[2])); }
 
-/* One triangle against the packet. Closest is by (t, triangle id); skip0 and skip1 are triangles a lane ignores. */
-EC_FN void packet_triangle(const ray *r, const hit_filter *filter, global const ec_tri *tri, lane_u skip0, lane_u skip1,
-                            hit *h)
+EC_FN v3 box_low(global const ec_tri *t)
 {
-    v3 v0 = splat_point(tri->v0), v1 = splat_point(tri->v1), v2 = splat_point(tri->v2);
-    v3 a = v3_sub(ray_permute(r->z_is_x, r->z_is_y, v0), r->o_permuted);
-    v3 b = v3_sub(ray_permute(r->z_is_x, r->z_is_y, v1), r->o_permuted);
-    v3 c = v3_sub(ray_permute(r->z_is_x, r->z_is_y, v2), r->o_permuted);
-    edges e;
-    lane_i m = edges_inside(r->shear_x, r->shear_y, a, b, c, &e);
+    return v3_make(F(min(t->v0[0], min(t->v1[0], t->v2[0]))), F(min(t->v0[1], min(t->v1[1], t->v2[1]))),
+                   F(min(t->v0[2], min(t->v1[2], t->v2[2]))));
+}
+EC_FN v3 box_high(global const ec_tri *t)
+{
+    return v3_make(F(max(t->v0[0], max(t->v1[0], t->v2[0]))), F(max(t->v0[1], max(t->v1[1], t->v2[1]))),
+                   F(max(t->v0[2], max(t->v1[2], t->v2[2]))));
+}
+
+EC_FN v3 packet_vertex(const ray *r, global const float *p)
+{
+    v3 v = v3_sub(ray_permute(r->z_is_x, r->z_is_y, splat_point(p)), r->o_permuted);
+    return ray_shear(r->shear_x, r->shear_y, v);
+}
+
+/* Lanes m pass inside the edges e of triangle tri, or of the one after it where `second`: is it the closest so far, by (t,
+ * triangle id)? skip0 and skip1 are triangles a lane ignores. */
+EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_tri *tri, lane_i second, const edges *e,
+                       lane_i m, lane_u skip0, lane_u skip1, hit *h)
+{
+    lane_u id = second ? U(tri[1].id) : U(tri[0].id);
+    lane_f t, inverse;
+    m = m & (skip0 != id) & (skip1 != id) & edges_distance(r, e, h->t, &inverse, &t);
     if (!any_lane(m)) return;
-    uint id = tri->id;
-    lane_f t;
-    m = m & (skip0 != id) & (skip1 != id) & edges_distance(r, &e, v0, v1, v2, h->t, &t);
-    m = m & ((t < h->t) | (U(id) < h->prim));
-    if (!any_lane(m)) return;
-    lane_f inverse = 1.0f / e.det, b1 = e.v * inverse, b2 = e.w * inverse;
-    m = filter_hits(filter, m, U(id), b1, b2, edges_front(r, &e));
+    v3 lo = v3_select(second, box_low(tri + 1), box_low(tri)), hi = v3_select(second, box_high(tri + 1), box_high(tri));
+    m = m & triangle_clamp(r, lo, hi, h->t, &t) & ((t < h->t) | (id < h->prim));
+    lane_f b1 = e->v * inverse, b2 = e->w * inverse;
+    m = filter_hits(filter, m, id, b1, b2, edges_front(r, e));
     h->t = m ? t : h->t;
-    h->prim = m ? U(id) : h->prim;
+    h->prim = m ? id : h->prim;
     h->b1 = m ? b1 : h->b1;
     h->b2 = m ? b2 : h->b2;
+}
+
+EC_FN edges edges_select(lane_i m, edges a, edges b)
+{
+    edges e = {m ? a.u : b.u, m ? a.v : b.v, m ? a.w : b.w, m ? a.det : b.det,
+               m ? a.z0 : b.z0, m ? a.z1 : b.z1, m ? a.z2 : b.z2};
+    return e;
+}
+
+/* One triangle, or two that form a quad, against the packet. Returns how many. */
+EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const ec_tri *tri, lane_u skip0, lane_u skip1,
+                            hit *h)
+{
+    v3 a = packet_vertex(r, tri->v0), b = packet_vertex(r, tri->v1), c = packet_vertex(r, tri->v2);
+    edges e = edges_make(a, b, c);
+    lane_i m = edges_inside(&e), none = !TRUE_MASK;
+    if (!tri->has_pair) {
+        if (any_lane(m)) packet_take(r, filter, tri, none, &e, m, skip0, skip1, h);
+        return 1;
+    }
+    v3 d = packet_vertex(r, tri[1].v2);
+    edges f = {ray_edge(d, c), ray_edge(a, d), -e.v, F(0.0f), a.z, c.z, d.z};
+    lane_i n = edges_inside(&f);
+    if (!any_lane(m | n)) return 2;
+    /* A lane is inside one of the two; inside both only on the diagonal, or where the quad is folded. */
+    if (any_lane(m & n)) {
+        packet_take(r, filter, tri, none, &e, m, skip0, skip1, h);
+        m = m & !n;
+    }
+    e = edges_select(n, f, e);
+    packet_take(r, filter, tri, n, &e, m | n, skip0, skip1, h);
+    return 2;
 }
 
 /* h->t holds t_max on entry (negative: lane off), h->prim EC_NO_ID. any_hit: a lane is done at its first hit, whose t
@@ -49,7 +93,7 @@ EC_FN void traverse_packet(const ray *r, const hit_filter *filter, global const 
     for (;;) {
         if (current & EC_LEAF_BIT) {
             uint first = (current & ~EC_LEAF_BIT) >> 4, end = first + (current & 15u);
-            for (uint i = first; i < end; i++) packet_triangle(r, filter, tris + i, skip0, skip1, h);
+            for (uint i = first; i < end;) i += packet_triangles(r, filter, tris + i, skip0, skip1, h);
             if (any_hit) {
                 h->t = h->prim != EC_NO_ID ? F(-1.0f) : h->t;
                 if (!any_lane(h->t >= 0.0f)) return;
@@ -65,7 +109,7 @@ EC_FN void traverse_packet(const ray *r, const hit_filter *filter, global const 
             bool hit0 = any_lane(m0), hit1 = any_lane(m1) && child1 != EC_NO_CHILD;
             if (hit0 | hit1) {
                 if (hit0 & hit1) {
-                    bool swap = 2u * count_lanes(m0 & m1 & (near1 < near0)) > count_lanes(m0 & m1);
+                    bool swap = !any_hit && 2u * count_lanes(m0 & m1 & (near1 < near0)) > count_lanes(m0 & m1);
                     stack[depth++] = swap ? child0 : child1;
                     current = swap ? child1 : child0;
                 } else {

@@ -20,12 +20,13 @@ typedef struct ec_bvh2_node {
 } ec_bvh2_node;
 EC_ASSERT_SIZE(ec_bvh2_node, 64);
 
-/* One triangle in leaf order for the binary layout. */
+/* One triangle in leaf order for the binary layout. Where the next one in the leaf is (v0, v2, s), the two form a quad and
+ * are tested together: four vertices and five edges instead of six and six. */
 typedef struct ec_tri {
     ec_float v0[3];
     ec_uint id;          /* index in the scene: breaks ties, names the triangle in hits */
     ec_float v1[3];
-    ec_uint pad0;
+    ec_uint has_pair;    /* 1: forms a quad with the next one */
     ec_float v2[3];
     ec_uint pad1;
 } ec_tri;

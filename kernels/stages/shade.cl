@@ -150,7 +150,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     lane_f u1, u2, pdf;
     sample_pair(random, pair + EC_PAIR_BSDF, &u1, &u2);
     v3 wi_local = bsdf_sample(&b, u1, u2, to_unit(lobe));
-    v3 wi = v3_normalize(surface_to_world(&s, wi_local));
+    v3 wi = surface_to_world(&s, wi_local); /* unit to 8 u: frame and wi_local are */
     v3 f = bsdf_eval(&b, wi_local, &pdf);
     lane_i alive = scatters & (pdf > 0.0f) & (v3_dot(s.ng, wi) > 0.0f);
     beta = v3_mul(beta, v3_scale(f, 1.0f / pdf));

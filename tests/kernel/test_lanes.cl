@@ -144,15 +144,25 @@ kernel void scatters_touch_their_lanes_only(global test_result *result, global u
     global float *p = (global float *)scratch;
     for (uint i = 0; i < MASKS; i++) {
         uint bits = mask_number(i), good = 1;
-        for (uint k = 0; k < 64; k++) p[k] = 1000.0f + k, p[64 + k] = 2000.0f + k;
+        for (uint k = 0; k < 64; k++) p[k] = 1000.0f + k;
+        for (uint k = 64; k < 256; k++) p[k] = 2000.0f + k;
         lane_u at = (LANE_NUMBERS * 3u + i) & 63u; /* no two lanes alike */
-        scatter_f(p, at, to_lane_f(LANE_NUMBERS), bits);
-        scatter_add_f(p + 64, at, to_lane_f(LANE_NUMBERS) + 0.5f, bits);
-        float set[64], added[64];
-        for (uint k = 0; k < 64; k++) set[k] = 1000.0f + k, added[k] = 2000.0f + k;
-        for (uint k = 0; k < LANES; k++)
-            if ((bits >> k) & 1u) set[(k * 3u + i) & 63u] = (float)k, added[(k * 3u + i) & 63u] += (float)k + 0.5f;
-        for (uint k = 0; k < 64; k++) good &= p[k] == set[k] && p[64 + k] == added[k];
+        lane_f x = to_lane_f(U(0) + LANE_NUMBERS);
+        scatter_f(p, at, x, bits);
+        scatter_add_3(p + 64, 64, at, x + 0.5f, x + 100.0f, -x, bits);
+        float set[64], added[192];
+        for (uint k = 0; k < 64; k++) set[k] = 1000.0f + k;
+        for (uint k = 0; k < 192; k++) added[k] = 2064.0f + k;
+        for (uint k = 0; k < LANES; k++) {
+            if (!((bits >> k) & 1u)) continue;
+            uint to = (k * 3u + i) & 63u;
+            set[to] = (float)k;
+            added[to] += (float)k + 0.5f;
+            added[64 + to] += (float)k + 100.0f;
+            added[128 + to] -= (float)k;
+        }
+        for (uint k = 0; k < 64; k++) good &= p[k] == set[k];
+        for (uint k = 0; k < 192; k++) good &= p[64 + k] == added[k];
         CHECK_UINTS(good, bits, 0, 0, 0);
     }
 }
