@@ -37,8 +37,8 @@ static uint32_t fit_wave(const ec_cl *cl, const ec_render_options *o, uint32_t b
     uint64_t samples = (uint64_t)o->width * o->height * batch;
     if (wave > samples) wave = samples;
     if (wave < batch) wave = batch;
-    wave = wave / batch * batch;          /* whole pixels … */
-    return (uint32_t)((wave + lanes - 1) / lanes * lanes); /* … in whole packets */
+    uint64_t unit = (uint64_t)EC_PARTS * lanes; /* every part of a queue holds whole packets */
+    return (uint32_t)((wave + unit - 1) / unit * unit);
 }
 
 static void choose_traces(ec_pipeline *p, const ec_scene *scene, const char *trace)
@@ -78,6 +78,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->height = options->height;
     params->batch = batch;
     params->wave = p->wave;
+    params->part = p->wave / EC_PARTS;
     params->max_depth = options->max_depth ? options->max_depth : UINT32_MAX - EC_SEGMENT;
     params->strategy = options->strategy == EC_STRATEGY_MIS   ? EC_STRATEGY_LIGHT_BIT | EC_STRATEGY_BSDF_BIT
                        : options->strategy == EC_STRATEGY_NEE ? EC_STRATEGY_LIGHT_BIT

@@ -16,6 +16,7 @@ typedef enum ec_trace { EC_TRACE_PACKET, EC_TRACE_BVH8, EC_TRACE_COUNT } ec_trac
 typedef struct ec_pipeline {
     ec_cl *cl;
     ec_params params;
+    ec_counters counters;         /* the host's copy */
     uint32_t features, lanes, wave;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];

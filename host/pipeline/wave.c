@@ -28,18 +28,26 @@ static bool is_tuning(const ec_pipeline *p, int connect, uint32_t bounce)
     return false;
 }
 
+static uint64_t total(const uint32_t *parts)
+{
+    uint64_t sum = 0;
+    for (int k = 0; k < EC_PARTS; k++) sum += parts[k * EC_PART_STRIDE];
+    return sum;
+}
+
 static ec_result trace(ec_pipeline *p, int connect, uint32_t bounce, const uint32_t *scalars, ec_error *err)
 {
     static const ec_stage_id stages[2][EC_TRACE_COUNT] = {{EC_INTERSECT_PACKET, EC_INTERSECT_BVH8},
                                                           {EC_CONNECT_PACKET, EC_CONNECT_BVH8}};
     ec_trace t = choose_trace(p, connect, bounce);
     if (!is_tuning(p, connect, bounce)) return ec_pipeline_launch(p, stages[connect][t], scalars, err);
-    ec_counters counters;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
+    ec_counters *counters = &p->counters;
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     double start = ec_now();
     EC_TRY(ec_pipeline_launch(p, stages[connect][t], scalars, err));
     EC_TRY(ec_cl_finish(p->cl, err));
-    uint32_t rays = connect ? counters.shadows[scalars[EC_ARG_STEP]] : counters.rays[scalars[EC_ARG_STEP]];
+    uint32_t step = scalars[EC_ARG_STEP];
+    uint64_t rays = total(connect ? counters->shadows[step] : counters->rays[step]);
     if (p->tuning[connect][bounce].trials[t]++ > 0) { /* the first run may compile */
         p->tuning[connect][bounce].seconds[t] += ec_now() - start;
         p->tuning[connect][bounce].rays[t] += rays;
@@ -53,11 +61,13 @@ static void swap_queues(ec_pipeline *p, uint32_t bounce)
     p->buffers[EC_ARG_NEXT] = p->path_queues[~bounce & 1];
 }
 
-/* Up to EC_SEGMENT bounces, then what is left of the wave. */
-static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_bounce, uint32_t *alive, ec_error *err)
+/* Up to EC_SEGMENT bounces. In p->counters, rays[0] says how many paths each part holds at the start; at the end rays[0]
+ * says what is left. */
+static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_bounce, ec_error *err)
 {
-    ec_counters counters = {.rays = {*alive}};
-    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
+    ec_counters *counters = &p->counters;
+    memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     for (uint32_t step = 0; step < EC_SEGMENT && first_bounce + step < p->params.max_depth; step++) {
         scalars[EC_ARG_BOUNCE] = first_bounce + step;
         scalars[EC_ARG_STEP] = step;
@@ -66,28 +76,38 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_b
         EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
         if (p->params.light_count) EC_TRY(trace(p, 1, first_bounce + step, scalars, err));
     }
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
-    for (uint32_t step = 0; step < EC_SEGMENT; step++) p->rays += counters.rays[step] + counters.shadows[step];
-    *alive = counters.rays[EC_SEGMENT];
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    for (uint32_t step = 0; step < EC_SEGMENT; step++) p->rays += total(counters->rays[step]) + total(counters->shadows[step]);
+    memcpy(counters->rays[0], counters->rays[EC_SEGMENT], sizeof counters->rays[0]);
     return EC_OK;
+}
+
+/* Paths fill the parts one after the other. */
+static void fill_parts(ec_pipeline *p, uint32_t paths)
+{
+    for (uint32_t k = 0; k < EC_PARTS; k++) {
+        uint32_t before = k * p->params.part, left = paths > before ? paths - before : 0;
+        p->counters.rays[0][k * EC_PART_STRIDE] = left < p->params.part ? left : p->params.part;
+    }
 }
 
 ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err)
 {
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
-    uint32_t alive = pixel_count * p->params.batch;
+    uint32_t paths = pixel_count * p->params.batch;
     scalars[EC_ARG_SEED] = seed;
     scalars[EC_ARG_FIRST_PIXEL] = first_pixel;
-    scalars[EC_ARG_PATH_COUNT] = alive;
+    scalars[EC_ARG_PATH_COUNT] = paths;
     scalars[EC_ARG_PIXEL_COUNT] = pixel_count;
     swap_queues(p, 0);
     cl_mem aov = p->buffers[EC_ARG_AOV];
     if (!with_features) p->buffers[EC_ARG_AOV] = NULL;
 
     ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
-    for (uint32_t bounce = 0; result == EC_OK && alive && bounce < p->params.max_depth; bounce += EC_SEGMENT)
-        result = run_segment(p, scalars, bounce, &alive, err);
+    fill_parts(p, paths);
+    for (uint32_t bounce = 0; result == EC_OK && total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
+        result = run_segment(p, scalars, bounce, err);
     p->buffers[EC_ARG_AOV] = aov;
     if (result == EC_OK) result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, err);
     if (result == EC_OK && with_features) result = ec_pipeline_launch(p, EC_STORE_FEATURES, scalars, err);

@@ -2,8 +2,22 @@
 #ifndef EC_LIB_QUEUE_H
 #define EC_LIB_QUEUE_H
 
+#include "../shared/params.h"
 #include "../shared/path_state.h"
 #include "math.h"
+
+/* How many entries of i's part stand at i or after it. */
+EC_FN uint queue_left(global const uint *counts, uint part, uint i)
+{
+    uint k = i / part, before = i - k * part, count = counts[k * EC_PART_STRIDE];
+    return count > before ? count - before : 0u;
+}
+/* Room for n entries in i's part. */
+EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint i, uint n)
+{
+    uint k = i / part;
+    return k * part + atomic_add(&counts[k * EC_PART_STRIDE], n);
+}
 
 EC_FN lane_f queue_load_f(global const float *queue, uint wave, uint field, uint i)
 {

@@ -17,7 +17,8 @@ typedef struct ec_params {
     ec_uint orthographic;
     ec_uint width, height;        /* pixels */
     ec_uint batch;                /* m: samples a pixel in a batch */
-    ec_uint wave;                 /* N: capacity of the queues = stride of their fields */
+    ec_uint wave;                 /* N: capacity of the queues = stride of their fields = EC_PARTS * part */
+    ec_uint part;                 /* entries in one part of a queue, a multiple of LANES */
     ec_uint max_depth;            /* path segments */
     ec_uint strategy;             /* ec_strategy_bits: both = MIS */
     ec_uint light_count;
@@ -25,7 +26,7 @@ typedef struct ec_params {
     ec_float environment_pmf;     /* probability that light sampling chooses the environment */
     ec_float scene_radius;        /* of a sphere around the recentred origin that holds the scene */
     ec_float scene_max;           /* largest |coordinate| of the scene */
-    ec_uint pad[3];
+    ec_uint pad[2];
 } ec_params;
 EC_ASSERT_SIZE(ec_params, 144);
 
@@ -40,10 +41,14 @@ enum ec_stage {
 };
 
 #define EC_SEGMENT 8 /* bounces between two looks of the host at the queues */
+
+/* A queue is cut in parts with a counter each, on a cache line of its own: entries stay in their part from bounce to bounce,
+ * so that work-items far apart do not fight for one counter (a fifth of the shading time on two cores). */
+#define EC_PARTS 32
+#define EC_PART_STRIDE 16
 typedef struct ec_counters {
-    ec_uint rays[EC_SEGMENT + 1]; /* paths alive at each bounce of the segment */
-    ec_uint shadows[EC_SEGMENT];  /* shadow rays asked for at each bounce */
-    ec_uint pad;
+    ec_uint rays[EC_SEGMENT + 1][EC_PARTS * EC_PART_STRIDE]; /* paths alive at each bounce of the segment */
+    ec_uint shadows[EC_SEGMENT][EC_PARTS * EC_PART_STRIDE];  /* shadow rays asked for at each bounce */
 } ec_counters;
 
 #endif

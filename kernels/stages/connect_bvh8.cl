@@ -13,7 +13,7 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
                             global const uint *texels, constant float *srgb)
 {
     uint i = get_global_id(0), wave = params->wave;
-    if (i >= counters->shadows[step]) return;
+    if (i >= wave || !queue_left(counters->shadows[step], params->part, i)) return;
     global const float *p = shadows + i;
     ray8 q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
                        p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);

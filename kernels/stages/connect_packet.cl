@@ -11,9 +11,11 @@ kernel void ec_connect_packet(constant ec_params *params, uint seed, uint first_
                               global const float *materials, global const float *texture_table,
                               global const uint *texels, constant float *srgb)
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave, count = counters->shadows[step];
-    if (i >= count) return;
-    lane_i active = (LANE_NUMBERS + i) < count;
+    uint i = get_global_id(0) * LANES, wave = params->wave;
+    if (i >= wave) return;
+    uint left = queue_left(counters->shadows[step], params->part, i);
+    if (!left) return;
+    lane_i active = LANE_NUMBERS < left;
     ray r = ray_make(queue_load_v3(shadows, wave, EC_SHADOW_OX, i), queue_load_v3(shadows, wave, EC_SHADOW_DX, i),
                      params->scene_max);
     lane_u slot = queue_load_u(shadows, wave, EC_SHADOW_SLOT, i);

@@ -11,7 +11,7 @@ kernel void ec_intersect_bvh8(constant ec_params *params, uint seed, uint first_
                               global const float *texture_table, global const uint *texels, constant float *srgb)
 {
     uint i = get_global_id(0), wave = params->wave;
-    if (i >= counters->rays[step]) return;
+    if (i >= wave || !queue_left(counters->rays[step], params->part, i)) return;
     global const float *p = paths + i;
     ray8 q = ray8_make(p[EC_PATH_OX * wave], p[EC_PATH_OY * wave], p[EC_PATH_OZ * wave], p[EC_PATH_DX * wave],
                        p[EC_PATH_DY * wave], p[EC_PATH_DZ * wave], params->scene_max);

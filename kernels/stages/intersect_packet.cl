@@ -10,9 +10,11 @@ kernel void ec_intersect_packet(constant ec_params *params, uint seed, uint firs
                                 global const float *colors, global const float *materials,
                                 global const float *texture_table, global const uint *texels, constant float *srgb)
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave, count = counters->rays[step];
-    if (i >= count) return;
-    lane_i active = (LANE_NUMBERS + i) < count;
+    uint i = get_global_id(0) * LANES, wave = params->wave;
+    if (i >= wave) return;
+    uint left = queue_left(counters->rays[step], params->part, i);
+    if (!left) return;
+    lane_i active = LANE_NUMBERS < left;
     ray r = ray_make(queue_load_v3(paths, wave, EC_PATH_OX, i), queue_load_v3(paths, wave, EC_PATH_DX, i), params->scene_max);
     hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}, U(0), bounce == 0};
     if (HAS(ALPHA)) {

@@ -47,12 +47,14 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
                      global const float *light_table, global const uint *light_alias,
                      global const float *environment_texels, global const uint *environment_alias)
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave, count = counters->rays[step];
-    if (i >= count) return;
+    uint i = get_global_id(0) * LANES, wave = params->wave;
+    if (i >= wave) return;
+    uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
+    if (!left) return;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
     lights light = {light_table, light_alias, {params, environment_texels, environment_alias}};
 
-    lane_i active = (LANE_NUMBERS + i) < count;
+    lane_i active = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
     v3 beta = queue_load_v3(paths, wave, EC_PATH_BR, i);
     lane_f path_pdf = queue_load_f(paths, wave, EC_PATH_PDF, i);
@@ -135,7 +137,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
         if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
         uint bits = mask_bits(m & finite);
         if (bits) {
-            uint at = atomic_add(&counters->shadows[step], popcount(bits));
+            uint at = queue_reserve(counters->shadows[step], params->part, i, popcount(bits));
             v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
             v3 end = surface_offset(v3_add(s.p, l.towards), l.end_error, l.end_normal, v3_negate(l.wi));
             queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
@@ -167,7 +169,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     }
     uint bits = mask_bits(alive);
     if (!bits) return;
-    uint at = atomic_add(&counters->rays[step + 1], popcount(bits));
+    uint at = queue_reserve(counters->rays[step + 1], params->part, i, popcount(bits));
     queue_push_v3(next, wave, EC_PATH_OX, at, surface_offset(s.p, s.p_error, s.ng, wi), bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);
     queue_push_v3(next, wave, EC_PATH_BR, at, beta, bits);

@@ -54,13 +54,16 @@ kernel void albedo_of(uint count, global const float *cosine, global const float
     s.alpha_ggx = F(alpha[at]);
     lane_f z = F(cosine[at]);
     bsdf b = bsdf_make(&s, v3_make(sqrt(max(1.0f - z * z, F(0.0f))), F(0.0f), z));
-    lane_f total = F(0.0f);
+    lane_f total = F(0.0f), lost = F(0.0f);
     for (uint i = 0; i < count; i += LANES) {
         lane_u k = LANE_NUMBERS + i;
         lane_f u1 = (to_lane_f(k) + 0.5f) / (float)count, u2 = to_lane_f(reverse_bits(k) >> 8) * 0x1p-24f + 0x1p-25f, pdf;
         v3 wi = bsdf_sample(&b, u1, u2, F(0.5f));
         v3 f = bsdf_eval(&b, wi, &pdf);
-        total += pdf > 0.0f ? f.y / pdf : F(0.0f);
+        /* Kahan's sum: plain floats lose 10^-4 here. */
+        lane_f add = (pdf > 0.0f ? f.y / pdf : F(0.0f)) - lost, next = total + add;
+        lost = (next - total) - add;
+        total = next;
     }
     LANE_STORE(total, sum + at * 16);
 }

@@ -1,0 +1,37 @@
+/* Everything whose place host and device must agree on: L(SIZE, FIELD, NUMBER). Used on both sides by test_layouts.c. */
+#ifndef EC_TESTS_KERNEL_LAYOUTS_H
+#define EC_TESTS_KERNEL_LAYOUTS_H
+
+#define LAYOUTS(S, F, N)                                                                           \
+    S(ec_bvh2_node) F(ec_bvh2_node, lo) F(ec_bvh2_node, lo[1]) F(ec_bvh2_node, hi) F(ec_bvh2_node, hi[1][2])   \
+    F(ec_bvh2_node, child) F(ec_bvh2_node, child[1])                                               \
+    S(ec_tri) F(ec_tri, v0) F(ec_tri, id) F(ec_tri, v1) F(ec_tri, v2[2])                           \
+    S(ec_bvh8_node) F(ec_bvh8_node, bound) F(ec_bvh8_node, bound[5][7]) F(ec_bvh8_node, child) F(ec_bvh8_node, child[7]) \
+    S(ec_tri8) F(ec_tri8, v) F(ec_tri8, v[1]) F(ec_tri8, v[2][2][7]) F(ec_tri8, id)                \
+    S(ec_params) F(ec_params, camera_origin) F(ec_params, camera_right) F(ec_params, camera_up) F(ec_params, camera_forward) \
+    F(ec_params, environment) F(ec_params, orthographic) F(ec_params, width) F(ec_params, height) F(ec_params, batch) \
+    F(ec_params, wave) F(ec_params, max_depth) F(ec_params, strategy) F(ec_params, light_count)    \
+    F(ec_params, environment_width) F(ec_params, environment_height) F(ec_params, environment_pmf) \
+    F(ec_params, scene_radius) F(ec_params, scene_max)                                             \
+    S(ec_counters) F(ec_counters, rays) F(ec_counters, rays[EC_SEGMENT]) F(ec_counters, shadows)   \
+    S(ec_prim) F(ec_prim, v0) F(ec_prim, material) F(ec_prim, v1) F(ec_prim, light_pdf_a) F(ec_prim, v2) F(ec_prim, flags) \
+    S(ec_texture_slot) F(ec_texture_slot, texture) F(ec_texture_slot, uv_set) F(ec_texture_slot, transform) \
+    S(ec_material_data) F(ec_material_data, base_color) F(ec_material_data, emission) F(ec_material_data, flags) \
+    F(ec_material_data, metallic) F(ec_material_data, roughness) F(ec_material_data, normal_scale) \
+    F(ec_material_data, alpha_cutoff) F(ec_material_data, specular_color) F(ec_material_data, specular) \
+    F(ec_material_data, slots) F(ec_material_data, slots[EC_SLOT_COUNT - 1].transform[5])          \
+    S(ec_texture_data) F(ec_texture_data, offset) F(ec_texture_data, width) F(ec_texture_data, height) F(ec_texture_data, flags) \
+    S(ec_light_data) F(ec_light_data, a) F(ec_light_data, b) F(ec_light_data, c) F(ec_light_data, emission) \
+    F(ec_light_data, kind) F(ec_light_data, prim) F(ec_light_data, pmf) F(ec_light_data, pdf_a)    \
+    S(ec_alias) F(ec_alias, threshold) F(ec_alias, other)                                          \
+    N(EC_STAGE_COUNT) N(EC_SLOT_COUNT) N(EC_KIND_ENVIRONMENT) N(EC_NO_ID) N(EC_LEAF_BIT)
+
+/* Word offsets that kernels name, and what they are of: W(EC_NAME, type, field). */
+#define WORDS(W)                                                                                   \
+    W(EC_MATERIAL_BASE_COLOR, ec_material_data, base_color) W(EC_MATERIAL_EMISSION, ec_material_data, emission) \
+    W(EC_MATERIAL_FLAGS, ec_material_data, flags) W(EC_MATERIAL_METALLIC, ec_material_data, metallic) \
+    W(EC_MATERIAL_ROUGHNESS, ec_material_data, roughness) W(EC_MATERIAL_NORMAL_SCALE, ec_material_data, normal_scale) \
+    W(EC_MATERIAL_ALPHA_CUTOFF, ec_material_data, alpha_cutoff) W(EC_MATERIAL_SPECULAR_COLOR, ec_material_data, specular_color) \
+    W(EC_MATERIAL_SPECULAR, ec_material_data, specular) W(EC_MATERIAL_SLOTS, ec_material_data, slots)
+
+#endif

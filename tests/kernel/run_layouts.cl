@@ -1,0 +1,17 @@
+/* What the device's compiler makes of kernels/shared. One number a line of layouts.h. */
+#include "layouts.h"
+#include "shared/accel.h"
+#include "shared/params.h"
+#include "shared/scene_buffers.h"
+
+/* __builtin_offsetof is Clang's and GCC's; this is every compiler's. */
+#define OFFSET(type, field) (uint)((size_t)&((global type *)0)->field)
+#define SIZE_(type) out[i++] = (uint)sizeof(type);
+#define FIELD_(type, field) out[i++] = OFFSET(type, field);
+#define NUMBER_(x) out[i++] = (uint)(x);
+
+kernel void layouts(global uint *out)
+{
+    uint i = 0;
+    LAYOUTS(SIZE_, FIELD_, NUMBER_)
+}

@@ -1,0 +1,45 @@
+/* The structs of kernels/shared are the same bytes to the device's compiler as to the host's. */
+#include <stddef.h>
+
+#include "kernel/kernel_run.h"
+#include "kernel/layouts.h"
+#include "shared/accel.h"
+#include "shared/params.h"
+#include "shared/scene_buffers.h"
+
+#define HOST_SIZE(type) {#type, (uint32_t)sizeof(type)},
+#define HOST_FIELD(type, field) {#type "." #field, (uint32_t)offsetof(type, field)},
+#define HOST_NUMBER(x) {#x, (uint32_t)(x)},
+static const struct expected {
+    const char *name;
+    uint32_t value;
+} expected[] = {LAYOUTS(HOST_SIZE, HOST_FIELD, HOST_NUMBER)};
+#define COUNT (sizeof expected / sizeof *expected)
+
+static void words_are_those_of_the_structs(void)
+{
+#define WORD(name, type, field) CHECK(name * 4 == offsetof(type, field));
+    WORDS(WORD)
+    CHECK(EC_PRIM_WORDS * 4 == sizeof(ec_prim));
+    CHECK(EC_MATERIAL_WORDS * 4 == sizeof(ec_material_data));
+    CHECK(EC_LIGHT_WORDS * 4 == sizeof(ec_light_data));
+    CHECK(sizeof(ec_texture_slot) == 32 && sizeof(ec_texture_data) == 16 && sizeof(ec_alias) == 8); /* as kernels count */
+    CHECK(offsetof(ec_prim, flags) == 44 && offsetof(ec_prim, light_pdf_a) == 28 && offsetof(ec_prim, material) == 12);
+}
+
+int main(void)
+{
+    ec_cl cl;
+    int open = kernel_open(&cl);
+    if (open) return open;
+    words_are_those_of_the_structs();
+    uint32_t device[COUNT + 1];
+    memset(device, 0xee, sizeof device);
+    cl_program program = kernel_build(&cl, "layouts", 1, NULL);
+    if (program && KERNEL_CALL(&cl, program, "layouts", 1, OUT(device, COUNT + 1)))
+        for (size_t i = 0; i < COUNT; i++)
+            CHECK_MSG(device[i] == expected[i].value, "%s: %u on the device, %u here", expected[i].name, device[i], expected[i].value);
+    if (program) clReleaseProgram(program);
+    ec_cl_close(&cl);
+    TEST_END();
+}

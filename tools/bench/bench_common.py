@@ -1,0 +1,76 @@
+"""What the benchmark scripts share: where things are, running eclat, medians and tables."""
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+SHARED = os.environ.get("ECLAT_SHARED", os.path.join(os.path.dirname(ROOT), "shared"))
+
+
+def fail(text):
+    sys.exit(f"{os.path.basename(sys.argv[0])}: {text}")
+
+
+def eclat_path(given=None):
+    """The program: --eclat, $ECLAT, or the build folders in which it usually stands."""
+    places = [given, os.environ.get("ECLAT"), os.path.join(ROOT, "build-bench", "eclat"), os.path.join(ROOT, "build", "eclat")]
+    for place in places:
+        if place and os.access(place, os.X_OK):
+            return os.path.abspath(place)
+    fail("no eclat program; build one (tools/bench/run does) and name it with --eclat")
+
+
+def shared(*parts):
+    """A file under ../shared, or None where it is not there."""
+    path = os.path.join(SHARED, *parts)
+    return path if os.path.exists(path) else None
+
+
+def cornell_box():
+    return shared("reference", "cornell-box", "cornell-box.gltf") or os.path.join(ROOT, "scenes", "cornell-box", "cornell-box.gltf")
+
+
+def run_eclat(eclat, arguments, environment=None):
+    """`eclat render` with --json: its object, with the wall time of the whole process as wall_seconds."""
+    command = [eclat, "render", *arguments, "--json", "--quiet"]
+    start = time.monotonic()
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    wall = time.monotonic() - start
+    if done.returncode:
+        fail(f"{' '.join(command)}\nended with {done.returncode}: {done.stderr.strip()}")
+    report = json.loads(done.stdout)
+    report["wall_seconds"] = wall
+    return report
+
+
+def median(values):
+    return statistics.median(values)
+
+
+def spread(values):
+    """Half the distance between the quartiles, relative to the median: how far runs lie apart."""
+    if len(values) < 4:
+        return (max(values) - min(values)) / (2 * median(values))
+    low, _, high = statistics.quantiles(values, n=4)
+    return (high - low) / (2 * median(values))
+
+
+def row(figure, value, target, met, note=""):
+    """One line of the table that tools/bench/run collects."""
+    return {"figure": figure, "value": value, "target": target, "met": met, "note": note}
+
+
+def print_rows(rows):
+    for r in rows:
+        met = {True: "met", False: "NOT met", None: "-"}[r["met"]]
+        print(f"  {r['figure']:<58} {r['value']:>14} {r['target']:>12}  {met:<8}{r['note']}")
+
+
+def write_json(path, data):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(data, file, indent=1)
+        file.write("\n")
