@@ -20,7 +20,7 @@ ec_result ec_picture_resolve(const ec_film *film, ec_picture *picture, ec_error 
     ec_film_resolve(film, picture->rgb, picture->stderr_rgb);
     float samples = (float)((double)film->batch_count * film->samples_per_batch);
     for (size_t i = 0; i < pixel_count; i++) {
-        picture->constants[2 * i] = samples;
+        picture->constants[2 * i] = film->unsampled && film->unsampled[i] ? 0.0f : samples;
         picture->constants[2 * i + 1] = 1;
     }
     return EC_OK;

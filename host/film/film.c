@@ -24,6 +24,7 @@ void ec_film_destroy(ec_film *film)
     free(film->m2);
     free(film->m34);
     free(film->aov);
+    free(film->unsampled);
     *film = (ec_film){0};
 }
 

@@ -29,6 +29,8 @@ typedef struct ec_film {
     /* First-hit features, from the first batch; may be NULL. albedo 3, normal 3, depth 1, alpha 1 per pixel.
      * ec_film_create leaves it NULL; whoever sets it mallocs it, ec_film_destroy frees it. */
     float *aov;                   /* 8 per pixel */
+    /* Set only where the render was stopped within its first batch: 1 for pixels that have no sample. malloc'ed. */
+    uint8_t *unsampled;
 } ec_film;
 
 ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_t samples_per_batch, ec_error *err);

@@ -46,7 +46,7 @@ static void choose_traces(ec_pipeline *p, const ec_scene *scene, const char *tra
     bool is_auto = !trace || !strcmp(trace, "auto");
     bool is_cpu = p->cl->info.type & CL_DEVICE_TYPE_CPU;
     /* A GPU gets the scalar kernel. On a CPU packets cannot win any more where a scene has many small triangles. */
-    p->has_trace[EC_TRACE_PACKET] = is_auto ? !is_cpu || scene->triangle_count <= 4096 : !strcmp(trace, "packet");
+    p->has_trace[EC_TRACE_PACKET] = is_auto ? !is_cpu || scene->triangle_count <= (1u << 20) : !strcmp(trace, "packet");
     p->has_trace[EC_TRACE_BVH8] = is_auto ? is_cpu && scene->triangle_count > 64 : !strcmp(trace, "bvh8");
 }
 

@@ -20,6 +20,7 @@ typedef struct render_state {
     uint32_t batches_wanted;   /* by --spp; 0 = no limit */
     ec_film_error error;
     const char *stopped_by;
+    uint64_t samples;          /* really taken */
 } render_state;
 
 /* Largest divisor of the sample count that still leaves 16 batches: whole batches, and enough of them for an error. */
@@ -90,6 +91,7 @@ static ec_result run_batch(render_state *r, uint32_t batch, bool *complete, ec_e
     for (uint32_t first = 0; first < pixels; first += per_wave) {
         uint32_t count = pixels - first < per_wave ? pixels - first : per_wave;
         EC_TRY(ec_pipeline_run_wave(p, seed, first, count, batch == 0, err));
+        r->samples += (uint64_t)count * p->params.batch;
         if (batch == 0 && first == 0) {
             EC_TRY(ec_cl_finish(p->cl, err));
             r->stats->first_pixel_seconds = ec_now() - r->start;
@@ -107,11 +109,27 @@ static ec_result run_batch(render_state *r, uint32_t batch, bool *complete, ec_e
     return EC_OK;
 }
 
-static ec_result add_batch(render_state *r, float *host, ec_error *err)
+/* Radiance is never negative: what still holds this has not been reached. */
+#define NOT_REACHED (-1.0f)
+
+static ec_result mark_unsampled(render_state *r, float *host, uint64_t pixels, ec_error *err)
+{
+    r->film->unsampled = calloc(pixels, 1);
+    if (!r->film->unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
+    for (uint64_t i = 0; i < pixels; i++) {
+        if (host[3 * i] != NOT_REACHED) continue;
+        r->film->unsampled[i] = 1;
+        host[3 * i] = host[3 * i + 1] = host[3 * i + 2] = 0.0f;
+    }
+    return EC_OK;
+}
+
+static ec_result add_batch(render_state *r, float *host, bool complete, ec_error *err)
 {
     ec_pipeline *p = &r->pipeline;
     uint64_t pixels = (uint64_t)p->params.width * p->params.height;
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, host, err));
+    if (!complete) EC_TRY(mark_unsampled(r, host, pixels, err));
     for (uint64_t i = 0; i < 3 * pixels; i++)
         if (!isfinite(host[i])) { /* finite samples whose sum is not */
             host[i] = 0.0f;
@@ -153,15 +171,16 @@ static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
     uint64_t pixels = (uint64_t)p->params.width * p->params.height;
     float *host = malloc(pixels * 12);
     if (!host) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
-    ec_result result = EC_OK;
+    for (uint64_t i = 0; i < 3 * pixels; i++) host[i] = NOT_REACHED;
+    ec_result result = ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, host, err);
     r->render_start = r->last_report = ec_now();
     for (uint32_t batch = 0; result == EC_OK && !r->stopped_by; batch++) {
         bool complete;
         result = run_batch(r, batch, &complete, err);
         if (result != EC_OK) break;
         if (!complete && batch > 0) break; /* the batches before it stand */
-        if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples and are black");
-        result = add_batch(r, host, err);
+        if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
+        result = add_batch(r, host, complete, err);
         if (result == EC_OK && batch == 0) result = read_features(r, err);
         if (result == EC_OK && complete) is_done(r);
     }
@@ -183,7 +202,7 @@ static ec_result finish_stats(render_state *r, ec_error *err)
     s->invalid_accumulate += invalid[EC_STAGE_ACCUMULATE];
     s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
     s->samples_per_pixel = (uint64_t)r->film->batch_count * p->params.batch;
-    s->samples = s->samples_per_pixel * p->params.width * p->params.height;
+    s->samples = r->samples;
     s->rays = p->rays;
     s->samples_per_second = s->seconds > 0.0 ? (double)s->samples / s->seconds : 0.0;
     s->rays_per_second = s->seconds > 0.0 ? (double)s->rays / s->seconds : 0.0;

@@ -108,6 +108,5 @@ ec_result ec_pipeline_create_queues(ec_pipeline *p, ec_error *err)
     EC_TRY(ec_buffer_create(cl, "counters", sizeof(ec_counters), NULL, &p->buffers[EC_ARG_COUNTERS], err));
     EC_TRY(ec_buffer_create(cl, "invalid counts", EC_STAGE_COUNT * 4, NULL, &p->buffers[EC_ARG_INVALID], err));
     EC_TRY(ec_buffer_zero(cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * 4, err));
-    EC_TRY(ec_buffer_zero(cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, err));
     return ec_buffer_create(cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
 }

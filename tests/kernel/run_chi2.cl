@@ -1,0 +1,81 @@
+/* Directions from the sampling routines, with the densities that they claim, for test_chi2.c. */
+#include "lib/bsdf.h"
+#include "lib/light.h"
+
+/* Numbers of a hash: what is tested is the map from them to directions. */
+static void numbers(lane_u i, uint seed, lane_f *u1, lane_f *u2, lane_u *choice)
+{
+    lane_u h = hash_u(hash_u(i) ^ seed);
+    *u1 = to_unit(h);
+    *u2 = to_unit(hash_u(h ^ 0x9e3779b9u));
+    *choice = hash_u(h + 0x85ebca6bu);
+}
+
+static void store(global float *out, uint n, v3 w, lane_f pdf)
+{
+    uint at = get_global_id(0) * LANES;
+    LANE_STORE(w.x, out + at);
+    LANE_STORE(w.y, out + n + at);
+    LANE_STORE(w.z, out + 2 * n + at);
+    LANE_STORE(pdf, out + 3 * n + at);
+}
+
+static bsdf make_bsdf(constant float *m)
+{
+    surface s;
+    s.base = v3_make(F(m[0]), F(m[1]), F(m[2]));
+    s.f0 = v3_splat(F(m[3]));
+    s.f90 = F(m[4]);
+    s.metallic = F(m[5]);
+    s.alpha_ggx = F(m[6]);
+    return bsdf_make(&s, v3_make(F(sqrt(max(1.0f - m[7] * m[7], 0.0f))), F(0.0f), F(m[7])));
+}
+
+/* m: base (3), f0, f90, metallic, alpha, cosine of wo */
+kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out)
+{
+    lane_f u1, u2, pdf;
+    lane_u choice;
+    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &u1, &u2, &choice);
+    bsdf b = make_bsdf(m);
+    v3 wi = bsdf_sample(&b, u1, u2, to_unit(choice));
+    bsdf_eval(&b, wi, &pdf);
+    store(out, n, wi, pdf);
+}
+
+/* The density of given directions. */
+kernel void bsdf_densities(uint n, constant float *m, global const float *wi, global float *pdf)
+{
+    uint at = get_global_id(0) * LANES;
+    if (at >= n) return;
+    bsdf b = make_bsdf(m);
+    lane_f p;
+    bsdf_eval(&b, v3_make(LANE_LOAD(wi + at), LANE_LOAD(wi + n + at), LANE_LOAD(wi + 2 * n + at)), &p);
+    LANE_STORE(p, pdf + at);
+}
+
+/* One light of a table, seen from p. */
+kernel void light_samples(uint n, uint seed, constant ec_params *params, constant float *p, global const float *table,
+                          global const uint *alias, global const float *texels, global const uint *texel_alias, global float *out)
+{
+    lane_f u1, u2;
+    lane_u choice;
+    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &u1, &u2, &choice);
+    geometry g = {0, 0, 0, 0, 0, 0, 0, {0, 0, 0}};
+    lights l = {table, alias, {params, texels, texel_alias}};
+    light_sample s = light_sample_one(&l, &g, TRUE_MASK, v3_make(F(p[0]), F(p[1]), F(p[2])), choice, u1, u2);
+    store(out, n, s.wi, s.valid ? s.pdf : F(0.0f));
+}
+
+/* Density and red radiance of the environment in given directions. */
+kernel void environment_densities(uint n, constant ec_params *params, global const float *texels, global const uint *texel_alias,
+                                  global const float *wi, global float *pdf)
+{
+    uint at = get_global_id(0) * LANES;
+    if (at >= n) return;
+    environment e = {params, texels, texel_alias};
+    lane_f p;
+    v3 radiance = environment_look_up(&e, v3_make(LANE_LOAD(wi + at), LANE_LOAD(wi + n + at), LANE_LOAD(wi + 2 * n + at)), &p);
+    LANE_STORE(p, pdf + at);
+    LANE_STORE(radiance.x, pdf + n + at);
+}

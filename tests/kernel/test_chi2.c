@@ -1,0 +1,354 @@
+/* Sampling routines against their densities by chi-square; densities against 1 and against the alias tables' exact
+ * probabilities. Cells that expect fewer than 5 are pooled; significance 0.01 over all tests (Sidak). A sample where the
+ * density is 0 fails at once. */
+#include "kernel/kernel_run.h"
+#include "pack/alias.h"
+#include "pack/pack.h"
+#include "shared/params.h"
+
+#define SAMPLES (1u << 17)
+#define CELLS 512
+#define TESTS 40 /* at least as many as there are */
+
+static ec_cl cl;
+static cl_program programs[LANE_WIDTHS];
+static const double pi = 3.14159265358979323846;
+static float out[4 * SAMPLES];
+static uint32_t samples = SAMPLES, seed = 1;
+static int tests;
+
+/* Upper tail of chi-square by Wilson and Hilferty 1931: good to a few per cent of p for the k here. */
+static double chi2_p(double chi2, double k)
+{
+    double z = (cbrt(chi2 / k) - (1 - 2 / (9 * k))) / sqrt(2 / (9 * k));
+    return 0.5 * erfc(z / sqrt(2));
+}
+
+static void check_chi2(const char *name, const double *expected, const uint32_t *count, uint32_t cells)
+{
+    double chi2 = 0, pooled = 0, pooled_count = 0;
+    uint32_t k = 0;
+    for (uint32_t i = 0; i < cells; i++) {
+        if (expected[i] >= 5) {
+            chi2 += (count[i] - expected[i]) * (count[i] - expected[i]) / expected[i];
+            k++;
+        } else {
+            pooled += expected[i];
+            pooled_count += count[i];
+        }
+    }
+    if (pooled >= 5) chi2 += (pooled_count - pooled) * (pooled_count - pooled) / pooled, k++;
+    else CHECK_MSG(pooled_count <= 25, "%s: %g samples where %g are expected", name, pooled_count, pooled);
+    double p = k > 1 ? chi2_p(chi2, k - 1) : 1, least = 1 - pow(0.99, 1.0 / TESTS);
+    CHECK_MSG(p > least && k > 1, "%s: chi^2 %.1f with %u degrees of freedom, p = %.2g < %.2g", name, chi2, k - 1, p, least);
+    tests++;
+}
+
+/* ---- the BRDF: polar cells about the mirror direction, finer where the lobe is ---- */
+
+#define RINGS 20
+#define SECTORS 24
+#define FINE 12 /* points of a cell's integral: along the radius … */
+#define FINEST 96 /* … and around, where the horizon cuts cells in two */
+
+typedef struct frame {
+    double r[3], s[3], t[3]; /* r: the mirror direction */
+    double width;
+} frame;
+
+/* Angle from r at x in [0, 1], and its derivative times the sine. */
+static double ring_angle(const frame *f, double x, double *density)
+{
+    double tangent = f->width * x / (1 - x), angle = 2 * atan(tangent);
+    *density = 2 / (1 + tangent * tangent) * f->width / ((1 - x) * (1 - x)) * sin(angle);
+    return angle;
+}
+
+static uint32_t cell_of(const frame *f, const double *w)
+{
+    double z = w[0] * f->r[0] + w[1] * f->r[1] + w[2] * f->r[2], x = w[0] * f->s[0] + w[1] * f->s[1] + w[2] * f->s[2];
+    double y = w[0] * f->t[0] + w[1] * f->t[1] + w[2] * f->t[2], angle = atan2(sqrt(x * x + y * y), z);
+    double tangent = tan(angle / 2) / f->width, ring = tangent / (1 + tangent), sector = atan2(y, x) / (2 * pi) + 0.5;
+    uint32_t i = (uint32_t)fmin(ring * RINGS, RINGS - 1), j = (uint32_t)fmin(sector * SECTORS, SECTORS - 1);
+    return i * SECTORS + j;
+}
+
+static void integrate_cells(const frame *f, const float *material, double *mass)
+{
+    uint32_t n = RINGS * SECTORS * FINE * FINEST;
+    float *wi = malloc(4 * n * sizeof *wi), *pdf = wi + 3 * n;
+    double *weight = malloc(n * sizeof *weight);
+    for (uint32_t p = 0; p < n; p++) {
+        uint32_t cell = p / (FINE * FINEST), a = p / FINEST % FINE, b = p % FINEST;
+        double density, angle = ring_angle(f, (cell / SECTORS + (a + 0.5) / FINE) / RINGS, &density);
+        double phi = 2 * pi * ((cell % SECTORS + (b + 0.5) / FINEST) / SECTORS - 0.5);
+        for (uint32_t k = 0; k < 3; k++)
+            wi[k * n + p] = (float)(cos(angle) * f->r[k] + sin(angle) * (cos(phi) * f->s[k] + sin(phi) * f->t[k]));
+        weight[p] = density / RINGS / FINE * 2 * pi / SECTORS / FINEST;
+    }
+    memset(mass, 0, CELLS * sizeof *mass);
+    if (KERNEL_CALL(&cl, programs[2], "bsdf_densities", n / 8, SCALAR(n), IN(material, 8), IN(wi, 3 * n), OUT(pdf, n)))
+        for (uint32_t p = 0; p < n; p++) mass[p / (FINE * FINEST)] += weight[p] * pdf[p];
+    free(wi);
+    free(weight);
+}
+
+static void check_bsdf(int lanes, float metallic, float alpha, float cosine, float base)
+{
+    char name[128];
+    snprintf(name, sizeof name, "BRDF, metallic %g alpha %g cosine %g", (double)metallic, (double)alpha, (double)cosine);
+    const float material[8] = {base, base * 0.5f, 0.1f, 0.04f, 1.0f, metallic, alpha, cosine};
+    double sine = sqrt(1 - (double)cosine * cosine), mass[CELLS], expected[CELLS + 1], total = 0;
+    frame f = {{-sine, 0, cosine}, {cosine, 0, sine}, {0, 1, 0}, metallic == 1 ? 2 * (double)alpha : 0.5};
+    uint32_t count[CELLS + 1] = {0}, cells = RINGS * SECTORS, dark = 0, astray = 0;
+    integrate_cells(&f, material, mass);
+    if (!KERNEL_CALL(&cl, programs[lanes], "bsdf_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
+                     IN(material, 8), OUT(out, 4 * SAMPLES)))
+        return;
+    for (uint32_t i = 0; i < cells; i++) total += mass[i], expected[i] = mass[i] * SAMPLES;
+    expected[cells] = fmax(0, 1 - total) * SAMPLES; /* below the surface */
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]};
+        bool below = w[2] <= 0;
+        dark += !below && !(out[3 * SAMPLES + i] > 0);
+        astray += fabs(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1) > 1e-5 || (below && out[3 * SAMPLES + i] != 0);
+        count[below ? cells : cell_of(&f, w)]++;
+    }
+    CHECK_MSG(dark == 0, "%s: %u samples above the surface where the density is 0", name, dark);
+    CHECK_MSG(astray == 0, "%s: %u samples are no unit vectors or have a density below the surface", name, astray);
+    CHECK_MSG(total < 1 + 2e-3, "%s: the density integrates to %g", name, total);
+    check_chi2(name, expected, count, cells + 1);
+}
+
+/* ---- a triangle: cells of equal area ---- */
+
+static void check_triangle(int lanes, bool two_sided, float side)
+{
+    const float v[3][3] = {{-1.0f, 2.0f, 0.5f}, {1.5f, 2.5f, -0.5f}, {0.25f, 3.0f, 2.0f}}, p[4] = {0.1f, side > 0 ? 6.0f : -0.3f, 0.2f};
+    ec_params params = {.light_count = 2, .scene_radius = 10};
+    ec_light_data table[2] = {{.kind = EC_KIND_TRIANGLE | (two_sided ? EC_LIGHT_TWO_SIDED : 0), .prim = 7},
+                              {.kind = EC_KIND_POINT, .prim = EC_NO_ID, .a = {5, 5, 5}, .b = {0, 0, 1}}};
+    double e1[3], e2[3], n[3], pmf[2], area = 0;
+    for (int k = 0; k < 3; k++) e1[k] = (double)v[1][k] - v[0][k], e2[k] = (double)v[2][k] - v[0][k];
+    for (int k = 0; k < 3; k++) n[k] = e1[(k + 1) % 3] * e2[(k + 2) % 3] - e1[(k + 2) % 3] * e2[(k + 1) % 3];
+    area = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+    ec_alias alias[2];
+    ec_error err = {""};
+    CHECK_OK(ec_alias_build((const double[]){3, 1}, 2, alias, pmf, &err), err);
+    memcpy(table[0].a, v[0], sizeof v[0]);
+    memcpy(table[0].b, v[1], sizeof v[1]);
+    memcpy(table[0].c, v[2], sizeof v[2]);
+    for (int i = 0; i < 2; i++) table[i].pmf = (float)pmf[i];
+    table[0].pdf_a = (float)(pmf[0] / area);
+    const float nothing[16] = {0};
+    if (!KERNEL_CALL(&cl, programs[lanes], "light_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
+                     IN(&params, 1), IN(p, 4), IN(table, 2), IN(alias, 2), IN(nothing, 16), IN(nothing, 16), OUT(out, 4 * SAMPLES)))
+        return;
+    uint32_t count[101] = {0}, wrong = 0, points = 0, hidden = 0;
+    double expected[101];
+    for (int i = 0; i < 100; i++) expected[i] = pmf[0] * SAMPLES / 100;
+    expected[100] = pmf[1] * SAMPLES;
+    bool seen = two_sided;
+    double from_front = 0;
+    for (int k = 0; k < 3; k++) from_front += n[k] * ((double)p[k] - v[0][k]);
+    seen |= from_front > 0;
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]}, q[3], s[3], det = 0, b1 = 0, b2 = 0, t = 0, pdf = out[3 * SAMPLES + i];
+        if (fabs(w[0] - (5 - p[0]) / sqrt(pow(5 - p[0], 2) + pow(5 - p[1], 2) + pow(5 - p[2], 2))) < 1e-5 && pdf == (double)table[1].pmf) {
+            points++;
+            count[100]++;
+            continue;
+        }
+        if (pdf == 0) {
+            hidden++;
+            continue;
+        }
+        for (int k = 0; k < 3; k++) q[k] = w[(k + 1) % 3] * e2[(k + 2) % 3] - w[(k + 2) % 3] * e2[(k + 1) % 3], s[k] = (double)p[k] - v[0][k];
+        for (int k = 0; k < 3; k++) det += e1[k] * q[k], b1 += s[k] * q[k];
+        for (int k = 0; k < 3; k++) q[k] = s[(k + 1) % 3] * e1[(k + 2) % 3] - s[(k + 2) % 3] * e1[(k + 1) % 3];
+        for (int k = 0; k < 3; k++) b2 += w[k] * q[k], t += e2[k] * q[k];
+        b1 /= det, b2 /= det, t /= det;
+        double cosine = fabs(n[0] * w[0] + n[1] * w[1] + n[2] * w[2]) / (2 * area), want = pmf[0] / area * t * t / cosine;
+        wrong += fabs(pdf / want - 1) > 1e-4 || fmin(fmin(b1, b2), 1 - b1 - b2) < -1e-5;
+        double root = fmin(fmax(b1 + b2, 0), 1), across = fmin(fmax(b2 / fmax(root, 1e-12), 0), 1);
+        count[(uint32_t)fmin(root * root * 10, 9) * 10 + (uint32_t)fmin(across * 10, 9)]++;
+    }
+    CHECK_MSG(wrong == 0, "triangle light: %u samples off the triangle or with another density than pmf d^2 / (A cos)", wrong);
+    if (seen) check_chi2(two_sided ? "triangle light, two-sided" : "triangle light", expected, count, 101);
+    else CHECK_MSG(hidden + points == SAMPLES, "a light seen from behind gives %u samples", SAMPLES - hidden - points);
+    CHECK(!seen || hidden == 0);
+}
+
+/* ---- the environment ---- */
+
+#define WIDTH 24u
+#define HEIGHT 12u
+
+static void directions_of(double u, double v, double *w)
+{
+    double phi = 2 * pi * (u - 0.5), theta = pi * v;
+    w[0] = sin(theta) * cos(phi), w[1] = cos(theta), w[2] = sin(theta) * sin(phi);
+}
+
+static double bilinear(const float *rgb, double u, double v)
+{
+    double x = u * WIDTH - 0.5, y = v * HEIGHT - 0.5, fx = x - floor(x), fy = y - floor(y), sum = 0;
+    for (int k = 0; k < 4; k++) {
+        int64_t i = ((int64_t)floor(x) + (k & 1) + WIDTH) % WIDTH, j = (int64_t)floor(y) + (k >> 1);
+        j = j < 0 ? 0 : (j >= (int64_t)HEIGHT ? HEIGHT - 1 : j);
+        sum += (k & 1 ? fx : 1 - fx) * (k & 2 ? fy : 1 - fy) * rgb[3 * (j * WIDTH + i)];
+    }
+    return sum;
+}
+
+static void check_environment(void)
+{
+    static float rgb[3 * WIDTH * HEIGHT], wi[3 * SAMPLES], look[2 * SAMPLES], factor[4] = {2, 2, 2, 0};
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        bool black = i % WIDTH > 14 && i / WIDTH > 2 && i / WIDTH < 10;
+        float value = black ? 0.0f : (float)pow(10, test_random_in(-2, 0.5));
+        if (i == 5 * WIDTH + 4) value = 200;
+        for (int k = 0; k < 3; k++) rgb[3 * i + (uint32_t)k] = value;
+    }
+    ec_scene scene = {.has_environment = true};
+    scene.environment.width = WIDTH;
+    scene.environment.height = HEIGHT;
+    scene.environment.rgb = rgb;
+    ec_pack pack = {0};
+    double mean;
+    ec_error err = {""};
+    CHECK_OK(ec_pack_environment(&scene, &pack, &mean, &err), err);
+    if (!pack.environment_alias) return;
+    ec_params params = {.light_count = 1, .environment_width = WIDTH, .environment_height = HEIGHT, .environment_pmf = 1, .scene_radius = 3};
+    memcpy(params.environment, factor, sizeof factor);
+    const ec_light_data light = {.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID, .pmf = 1};
+    const ec_alias only = {UINT32_MAX, 0};
+    const float p[4] = {0};
+    for (int lanes = 0; lanes < LANE_WIDTHS; lanes += 3) {
+        if (!KERNEL_CALL(&cl, programs[lanes], "light_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
+                         IN(&params, 1), IN(p, 4), IN(&light, 1), IN(&only, 1), IN(pack.environment_texels, 4 * WIDTH * HEIGHT),
+                         IN(pack.environment_alias, WIDTH * HEIGHT), OUT(out, 4 * SAMPLES)))
+            break;
+        uint32_t count[WIDTH * HEIGHT] = {0}, dark = 0, wrong = 0;
+        double expected[WIDTH * HEIGHT];
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) expected[i] = (double)pack.environment_texels[4 * i + 3] * SAMPLES;
+        for (uint32_t i = 0; i < SAMPLES; i++) {
+            double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]};
+            double x = (atan2(w[2], w[0]) / (2 * pi) + 0.5) * WIDTH, y = acos(fmin(fmax(w[1], -1), 1)) / pi * HEIGHT;
+            uint32_t cell = (uint32_t)fmin(y, HEIGHT - 1) * WIDTH + (uint32_t)fmin(x, WIDTH - 1);
+            bool inside = fabs(x - round(x)) > 1e-4 && fabs(y - round(y)) > 1e-4;
+            double want = expected[cell] / SAMPLES * WIDTH * HEIGHT / (2 * pi * pi * sqrt(w[0] * w[0] + w[2] * w[2]));
+            count[cell]++;
+            dark += inside && expected[cell] == 0;
+            wrong += inside && expected[cell] > 0 && fabs(out[3 * SAMPLES + i] / want - 1) > 1e-3 * (y < 0.1 || y > HEIGHT - 0.1 ? 10 : 1);
+        }
+        CHECK_MSG(dark == 0, "environment: %u samples where it is black", dark);
+        CHECK_MSG(wrong == 0, "environment: %u samples with another density than their texel's", wrong);
+        check_chi2("environment", expected, count, WIDTH * HEIGHT);
+    }
+    /* The density of look-ups integrates to 1, and what is looked up is the bilinear map. 288 texels of 21 x 21 points. */
+    uint32_t n = WIDTH * HEIGHT * 21 * 21 / 16 * 16;
+    for (uint32_t i = 0; i < n; i++) {
+        double w[3];
+        uint32_t x = i % (WIDTH * 21), y = i / (WIDTH * 21);
+        directions_of((x + 0.5) / (WIDTH * 21), (y + 0.5) / (HEIGHT * 21), w);
+        for (uint32_t k = 0; k < 3; k++) wi[k * n + i] = (float)w[k];
+    }
+    if (KERNEL_CALL(&cl, programs[3], "environment_densities", n / 16, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * WIDTH * HEIGHT),
+                    IN(pack.environment_alias, WIDTH * HEIGHT), IN(wi, 3 * n), OUT(look, 2 * n))) {
+        double total = 0, worst = 0;
+        uint32_t at = 0;
+        for (uint32_t i = 0; i < n; i++) {
+            uint32_t x = i % (WIDTH * 21), y = i / (WIDTH * 21);
+            double u = (x + 0.5) / (WIDTH * 21), v = (y + 0.5) / (HEIGHT * 21), sine = sin(pi * v), want = 2 * bilinear(rgb, u, v);
+            total += (double)look[i] * sine * 2 * pi / (WIDTH * 21) * pi / (HEIGHT * 21);
+            double error = fabs(look[n + i] - want) / (want + 4);
+            if (error > worst) worst = error, at = i;
+        }
+        printf("environment: density integrates to 1 %+.1e, bilinear error %.1e\n", total - 1, worst);
+        CHECK_MSG(fabs(total - 1) < 1e-4, "the environment's density integrates to %.6f", total);
+        CHECK_MSG(worst < 1e-4, "the environment's bilinear look-up is off by %g at column %u, row %u of %u: %g", worst, at % (WIDTH * 21), at / (WIDTH * 21), HEIGHT * 21, (double)look[n + at]);
+    }
+    free(pack.environment_texels);
+    free(pack.environment_alias);
+}
+
+/* ---- alias tables: the probabilities are those of the kernels' 2^32 random numbers, exactly ---- */
+
+/* What light_sample_one and environment_sample do with a random number. */
+static uint32_t picked(const ec_alias *table, uint32_t n, uint32_t r)
+{
+    uint32_t column = (uint32_t)((uint64_t)r * n >> 32), rest = r * n;
+    return rest < table[column].threshold ? column : table[column].other;
+}
+
+static void check_alias(uint32_t n, int kind)
+{
+    double *weights = malloc(n * sizeof *weights), *pmf = malloc(n * sizeof *pmf), sum = 0, total = 0, worst = 0;
+    uint64_t *count = calloc(n, sizeof *count);
+    ec_alias *table = malloc(n * sizeof *table);
+    for (uint32_t i = 0; i < n; i++) {
+        weights[i] = kind == 0 ? 1 : pow(10, test_random_in(-6, 3));
+        if (kind == 2 && i % 3 == 1) weights[i] = 0;
+        sum += weights[i];
+    }
+    ec_error err = {""};
+    CHECK_OK(ec_alias_build(weights, n, table, pmf, &err), err);
+    for (uint32_t c = 0; c < n; c++) {
+        uint64_t first = (((uint64_t)c << 32) + n - 1) / n, end = (((uint64_t)(c + 1) << 32) + n - 1) / n, low = first, high = end;
+        while (low < high) { /* the column's numbers below its threshold come first */
+            uint64_t middle = (low + high) / 2;
+            if ((uint32_t)((uint32_t)middle * n) < table[c].threshold) low = middle + 1;
+            else high = middle;
+        }
+        count[c] += low - first;
+        count[table[c].other] += end - low;
+        for (uint64_t r = first; r < end && r < first + 3; r++) CHECK(weights[picked(table, n, (uint32_t)r)] > 0);
+        CHECK(end > first && weights[picked(table, n, (uint32_t)(end - 1))] > 0);
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        total += pmf[i];
+        worst = fmax(worst, fabs(pmf[i] - weights[i] / sum));
+        if ((double)count[i] * 0x1p-32 != pmf[i]) {
+            CHECK_MSG(false, "alias table of %u: entry %u is picked %llu times in 2^32, not %.17g", n, i, (unsigned long long)count[i], pmf[i] * 0x1p32);
+            break;
+        }
+        CHECK(weights[i] > 0 ? pmf[i] > 0 : pmf[i] == 0);
+    }
+    CHECK_MSG(total == 1.0, "alias table of %u: probabilities sum to %.17g", n, total);
+    CHECK_MSG(worst <= 1e-9 + 4 * n * 0x1p-32, "alias table of %u: a probability is off by %g", n, worst);
+    free(weights);
+    free(pmf);
+    free(count);
+    free(table);
+}
+
+int main(void)
+{
+    int open = kernel_open(&cl);
+    if (open) return open;
+    for (int i = 0; i < LANE_WIDTHS; i++)
+        programs[i] = kernel_build(&cl, "chi2", lane_widths[i],
+                                   "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_AREA_LIGHTS+EC_FEATURE_PUNCTUAL_LIGHTS+EC_FEATURE_ENVIRONMENT"
+                                   "+EC_FEATURE_ENVIRONMENT_MAP)");
+    if (!test_failures) {
+        static const float alphas[3] = {0.1f, 0.5f, 1.0f}, cosines[3] = {1.0f, 0.5f, 1e-2f}, metals[3] = {0.0f, 1.0f, 0.5f};
+        for (int m = 0; m < 3; m++)
+            for (int a = 0; a < 3; a++)
+                for (int c = 0; c < 3; c++, seed++) check_bsdf((m + a + c) % LANE_WIDTHS, metals[m], alphas[a], cosines[c], 0.8f);
+        check_bsdf(2, 1.0f, 1e-3f, 0.5f, 0.8f);
+        check_bsdf(1, 0.0f, 0.5f, 0.5f, 0.0f); /* black: one lobe */
+        check_triangle(0, false, -1);
+        check_triangle(3, false, 1);
+        check_triangle(2, true, 1);
+        check_environment();
+        for (int kind = 0; kind < 3; kind++)
+            for (uint32_t n = 1; n <= 100000; n *= 10) check_alias(n + (uint32_t)kind * 2, kind);
+        printf("%d chi-square tests\n", tests);
+        CHECK(tests <= TESTS);
+    }
+    for (int i = 0; i < LANE_WIDTHS; i++)
+        if (programs[i]) clReleaseProgram(programs[i]);
+    ec_cl_close(&cl);
+    TEST_END();
+}
