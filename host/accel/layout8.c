@@ -54,11 +54,30 @@ static int gather_within(const plan *p, uint32_t index, uint32_t stack, uint32_t
     return count;
 }
 
+static float half_area(const ec_bvh_build_node *n)
+{
+    float x = n->hi[0] - n->lo[0], y = n->hi[1] - n->lo[1], z = n->hi[2] - n->lo[2];
+    return x * y + y * z + z * x;
+}
+
+/* Small ones first: shadow rays go through a node's children from the last to the first, and large leaves stop most. */
+static void sort_by_area(const plan *p, uint32_t *children, int count)
+{
+    for (int i = 1; i < count; i++) {
+        uint32_t child = children[i];
+        float area = half_area(&p->bvh->nodes[child]);
+        int k = i;
+        for (; k > 0 && half_area(&p->bvh->nodes[children[k - 1]]) > area; k--) children[k] = children[k - 1];
+        children[k] = child;
+    }
+}
+
 /* stack: entries that a traversal below this node may need; at least its height. */
 static void plan_node(plan *p, uint32_t at, uint32_t index, uint32_t stack)
 {
     uint32_t children[8];
     int count = is_leaf(p, index) ? (children[0] = index, 1) : gather_within(p, index, stack, children);
+    sort_by_area(p, children, count);
     wide *node = &p->nodes[at];
     *node = (wide){.first_node = p->node_count, .first_leaf = p->leaf_count};
     for (int k = 0; k < count; k++)

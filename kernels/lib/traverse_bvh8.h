@@ -69,9 +69,9 @@ EC_FN v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
     return ray_shear(q->r.shear_x, q->r.shear_y, p);
 }
 
-/* Eight triangles against the ray. */
+/* Eight triangles against the ray. any_hit: only whether there is one. */
 EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, uint skip0, uint skip1,
-                             hit8 *h)
+                             bool any_hit, hit8 *h)
 {
     edges e = edges_make(tri8_sheared(q, b, 0), tri8_sheared(q, b, 1), tri8_sheared(q, b, 2));
     int8 m = edges_inside(&e);
@@ -87,6 +87,10 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
     float8 b1 = e.v * inverse, b2 = e.w * inverse;
     m = filter_hits(filter, m, id, b1, b2, edges_front(&q->r, &e));
     uint bits = mask_bits8(m), bit = 1;
+    if (any_hit) {
+        if (bits) h->prim = 0; /* which one does not matter */
+        return;
+    }
 #define BLOCK8_ONE(k)                                                                              \
     if ((bits & bit) && (t.s##k < h->t || (t.s##k == h->t && id.s##k < h->prim))) {                \
         h->t = t.s##k;                                                                             \
@@ -114,7 +118,7 @@ EC_FN void traverse8_closest(const ray8 *q, const hit_filter *filter, global con
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
-            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, h);
+            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, false, h);
         } else {
             global const ec_bvh8_node *n = nodes + current;
             uint mask;
@@ -160,7 +164,7 @@ EC_FN bool traverse8_any(const ray8 *q, const hit_filter *filter, global const e
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
-            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, h);
+            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, true, h);
             if (h->prim != EC_NO_ID) return true;
         } else {
             global const ec_bvh8_node *n = nodes + current;

@@ -241,8 +241,8 @@ static float nothing[256];
 /* Closest hits of a path queue. lanes_index LANE_WIDTHS is the 8-wide BVH. */
 static bool intersect(const set *s, const layouts *l, int lanes_index, uint32_t wave, uint32_t count, const float *paths, float *hits)
 {
-    ec_params params = {.wave = wave, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
-    ec_counters counters = {.rays = {count}};
+    ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
+    ec_counters counters = {.rays = {{count}}};
     if (lanes_index == LANE_WIDTHS)
         return KERNEL_CALL(&cl, wide_program, "ec_intersect_bvh8", count, WAVE, IN(paths, EC_PATH_FIELDS * wave),
                            OUT(hits, EC_HIT_FIELDS * wave), IN(l->wide_nodes, l->wide_node_count), IN(l->blocks, l->block_count),
@@ -255,8 +255,8 @@ static bool intersect(const set *s, const layouts *l, int lanes_index, uint32_t 
 
 static bool connect(const set *s, const layouts *l, int lanes_index, const float *shadows, float *radiance)
 {
-    ec_params params = {.wave = RAYS, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
-    ec_counters counters = {.shadows = {COUNT}};
+    ec_params params = {.wave = RAYS, .part = RAYS, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
+    ec_counters counters = {.shadows = {{COUNT}}};
     uint32_t invalid[EC_STAGE_COUNT] = {0};
     memset(radiance, 0, 3 * RAYS * sizeof *radiance);
     bool good;

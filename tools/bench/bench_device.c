@@ -58,7 +58,7 @@ ec_result bench_device_open(bench_device *d, const char *id, uint32_t lanes, con
     d->scene_max = scene_max;
     EC_TRY(upload_bvh(d, mesh, with_packet, err));
     const uint64_t field = (uint64_t)d->stride * 4;
-    ec_params params = {.width = 8, .height = 8, .batch = 1, .wave = d->stride, .max_depth = 8, .scene_max = scene_max,
+    ec_params params = {.width = 8, .height = 8, .batch = 1, .wave = d->stride, .part = d->stride, .max_depth = 8, .scene_max = scene_max,
                         .scene_radius = 2.0f * scene_max};
     EC_TRY(ec_buffer_create(&d->cl, "parameters", sizeof params, &params, &d->buffers[EC_ARG_PARAMS], err));
     EC_TRY(ec_buffer_create(&d->cl, "counters", sizeof(ec_counters), NULL, &d->buffers[EC_ARG_COUNTERS], err));
@@ -155,7 +155,7 @@ ec_result bench_device_rays(bench_device *d, bench_kind kind, const bench_rays *
 static ec_result prepare(bench_device *d, bench_kind kind, ec_error *err)
 {
     d->buffers[kind == BENCH_SHADOW ? EC_ARG_SHADOWS : EC_ARG_PATHS] = d->queues[kind];
-    ec_counters counters = {.rays = {d->counts[kind]}, .shadows = {d->counts[kind]}};
+    ec_counters counters = {.rays = {{d->counts[kind]}}, .shadows = {{d->counts[kind]}}};
     EC_TRY(ec_buffer_write(&d->cl, d->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
     if (kind == BENCH_SHADOW) EC_TRY(ec_buffer_zero(&d->cl, d->buffers[EC_ARG_RADIANCE], 0, (uint64_t)d->stride * 12, err));
     return ec_cl_finish(&d->cl, err);

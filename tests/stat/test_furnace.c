@@ -1,0 +1,113 @@
+/* Scenes whose radiance is known without rendering (NUMERICS.md D, rows 1, 3 and 13; scenes/furnace/README.md). */
+#include "support/render_case.h"
+
+static const char *const strategy_names[] = {"mis", "nee", "bsdf"};
+
+/* A closed Lambert box that emits 1 everywhere: each segment k adds albedo^(k-1), so d segments give
+ * (1 - a^d) / (1 - a), and unlimited ones 1 / (1 - a). In every pixel, for every strategy. */
+static void check_box(const char *path, double albedo)
+{
+    static const uint32_t depths[] = {1, 2, 3, 9, 0};
+    if (!case_present(path)) {
+        printf("not there: %s\n", path);
+        return;
+    }
+    ec_scene *scene = case_load(path, NULL);
+    for (int s = 0; s < 3; s++)
+        for (int d = 0; d < 5; d++) {
+            ec_render_options o = case_options(16, 16, 1024);
+            o.strategy = (ec_strategy)s;
+            o.max_depth = depths[d];
+            o.sampler = d % 2 ? EC_SAMPLER_INDEPENDENT : EC_SAMPLER_SOBOL;
+            case_image image = case_render(scene, &o);
+            double expected = depths[d] ? (1 - pow(albedo, depths[d])) / (1 - albedo) : 1 / (1 - albedo);
+            CASE_NEAR(&image, expected, 4, 0.002);
+            /* And in each pixel, with Sidak's threshold for 768 values at 1 %: t(15 dof) = 6.6. */
+            for (int i = 0; i < 3 * 16 * 16; i++)
+                CHECK_MSG(fabs(image.rgb[i] - expected) <= 6.6 * image.se[i] + 1e-5 * expected,
+                          "%s %s depth %u value %d: %g +- %g, expected %g", path, strategy_names[s], depths[d], i, image.rgb[i],
+                          image.se[i], expected);
+            if (depths[d] == 0)
+                printf("box %.1f %-4s %.6f +- %.6f, expected %g\n", albedo, strategy_names[s], image.mean[1], image.mean_se[1],
+                       expected);
+            case_free(&image);
+        }
+    ec_scene_free(scene);
+}
+
+/* Six emitting walls of different materials: plastics, metals, in between. Strategies must agree. */
+static void check_mixed_box(void)
+{
+    ec_scene *scene = case_load(OWN_SCENE("furnace/box-materials.gltf"), NULL);
+    case_image images[3];
+    for (int s = 0; s < 3; s++) {
+        ec_render_options o = case_options(24, 24, 2048);
+        o.batch = 64;
+        o.strategy = (ec_strategy)s;
+        o.sampler = EC_SAMPLER_INDEPENDENT;
+        o.seed = (uint64_t)s;
+        images[s] = case_render(scene, &o);
+    }
+    case_check_same(&images[0], &images[1], "box of six materials, mis and nee");
+    case_check_same(&images[0], &images[2], "box of six materials, mis and bsdf");
+    for (int s = 0; s < 3; s++) case_free(&images[s]);
+    ec_scene_free(scene);
+}
+
+/* Directional albedo in an environment of 1: the table of scenes/furnace/README.md, by quadrature, good to 1e-5. */
+static void check_plates(void)
+{
+    static const double table[3][4] = {
+        {0.8, 0.98830, 0.68785, 0.30685}, {0.8, 0.96921, 0.69825, 0.45069}, {0.8, 0.88346, 0.86010, 0.76021}};
+    ec_scene *scene = case_load(OWN_SCENE("furnace/plates.gltf"), "1,1,1");
+    for (uint32_t camera = 0; camera < 3; camera++)
+        for (int s = 0; s < 3; s++) {
+            ec_render_options o = case_options(64, 16, 4096);
+            o.camera = camera;
+            o.strategy = (ec_strategy)s;
+            o.batch = 128;
+            case_image image = case_render(scene, &o);
+            for (uint32_t plate = 0; plate < 4; plate++) {
+                double se, mean = case_region(&image, (uint32_t[4]){16 * plate, 16 * plate + 16, 0, 16}, 1, &se);
+                CHECK_MSG(fabs(mean - table[camera][plate]) <= 4 * se + 1e-5 && se < 1e-3,
+                          "camera %u, plate %u, %s: %.6f +- %.6f, expected %.5f", camera, plate, strategy_names[s], mean, se,
+                          table[camera][plate]);
+            }
+            case_free(&image);
+        }
+    ec_scene_free(scene);
+}
+
+/* White spheres in a white environment: the Lambert one cannot be seen, none gains energy. A faceted sphere is convex, so
+ * shading normals alone bend paths: below the horizon light is lost, never won. */
+static void check_spheres(void)
+{
+    ec_scene *scene = case_load(OWN_SCENE("furnace/spheres.gltf"), "1,1,1");
+    for (int s = 0; s < 3; s++) {
+        ec_render_options o = case_options(128, 16, 1024);
+        o.strategy = (ec_strategy)s;
+        case_image image = case_render(scene, &o);
+        for (uint32_t ball = 0; ball < 8; ball++) {
+            /* The central half of a ball: x spans 16 pixels each, of which its radius takes 6.4. */
+            double se, mean = case_region(&image, (uint32_t[4]){16 * ball + 5, 16 * ball + 11, 5, 11}, 1, &se);
+            CHECK_MSG(mean <= 1 + 4 * se + 1e-5, "ball %u, %s: %.6f +- %.6f is more than comes in", ball, strategy_names[s], mean, se);
+            if (ball == 0)
+                CHECK_MSG(fabs(mean - 1) <= 4 * se + 1e-3 && se < 2e-3, "Lambert ball, %s: %.6f +- %.6f", strategy_names[s], mean, se);
+            if (s == 0) printf("ball %u %.5f +- %.5f\n", ball, mean, se);
+        }
+        case_free(&image);
+    }
+    ec_scene_free(scene);
+}
+
+int main(void)
+{
+    check_box(SHARED("assets/classic/gltf/furnace-nori/furnace-albedo-0.5.gltf"), 0.5);
+    check_box(SHARED("assets/classic/gltf/furnace-nori/furnace-albedo-0.8.gltf"), 0.8);
+    check_box(OWN_SCENE("furnace/box-albedo-0.5.gltf"), 0.5);
+    check_box(OWN_SCENE("furnace/box-albedo-0.8.gltf"), 0.8);
+    check_mixed_box();
+    check_plates();
+    check_spheres();
+    TEST_END();
+}
