@@ -23,10 +23,9 @@ typedef struct ec_pipeline {
     cl_program programs[EC_STAGE_ID_COUNT];
     cl_kernel kernels[EC_STAGE_ID_COUNT];
     bool has_trace[EC_TRACE_COUNT];
-    /* Measured choice of traversal: seconds and rays of each kind at each bounce while both are being tried. */
+    /* Measured choice of traversal, at each bounce: the best rays a second of each kind while both are being tried. */
     struct {
-        double seconds[EC_TRACE_COUNT];
-        uint64_t rays[EC_TRACE_COUNT];
+        double best_rate[EC_TRACE_COUNT];
         uint32_t trials[EC_TRACE_COUNT];
     } tuning[2][EC_TUNED_BOUNCES]; /* [0] intersect, [1] connect */
     uint64_t rays;                /* traced so far, shadow rays included */

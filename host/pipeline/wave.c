@@ -5,8 +5,9 @@
 #include "base/clock.h"
 #include "pipeline/pipeline.h"
 
-/* Tries each traversal twice at each of the first bounces, then keeps the faster. Hits are the same, so this is free. */
-#define TRIALS 2
+/* Tries each traversal at each of the first bounces, then keeps the faster. Hits are the same, so only time is at stake. The
+ * best of three counts (after one that may compile), since other programs can only slow a trial down. */
+#define TRIALS 4
 static ec_trace choose_trace(const ec_pipeline *p, int connect, uint32_t bounce)
 {
     if (!p->has_trace[EC_TRACE_BVH8]) return EC_TRACE_PACKET;
@@ -14,10 +15,8 @@ static ec_trace choose_trace(const ec_pipeline *p, int connect, uint32_t bounce)
     uint32_t b = bounce < EC_TUNED_BOUNCES ? bounce : EC_TUNED_BOUNCES - 1;
     for (int t = 0; t < EC_TRACE_COUNT; t++)
         if (p->tuning[connect][b].trials[t] < TRIALS) return (ec_trace)t;
-    const double *s = p->tuning[connect][b].seconds;
-    const uint64_t *r = p->tuning[connect][b].rays;
-    return s[EC_TRACE_BVH8] * (double)r[EC_TRACE_PACKET] < s[EC_TRACE_PACKET] * (double)r[EC_TRACE_BVH8] ? EC_TRACE_BVH8
-                                                                                                 : EC_TRACE_PACKET;
+    const double *rate = p->tuning[connect][b].best_rate;
+    return rate[EC_TRACE_BVH8] > rate[EC_TRACE_PACKET] ? EC_TRACE_BVH8 : EC_TRACE_PACKET;
 }
 
 static bool is_tuning(const ec_pipeline *p, int connect, uint32_t bounce)
@@ -48,10 +47,8 @@ static ec_result trace(ec_pipeline *p, int connect, uint32_t bounce, const uint3
     EC_TRY(ec_cl_finish(p->cl, err));
     uint32_t step = scalars[EC_ARG_STEP];
     uint64_t rays = total(connect ? counters->shadows[step] : counters->rays[step]);
-    if (p->tuning[connect][bounce].trials[t]++ > 0) { /* the first run may compile */
-        p->tuning[connect][bounce].seconds[t] += ec_now() - start;
-        p->tuning[connect][bounce].rays[t] += rays;
-    }
+    double rate = (double)rays / (ec_now() - start), *best = &p->tuning[connect][bounce].best_rate[t];
+    if (p->tuning[connect][bounce].trials[t]++ > 0 && rate > *best) *best = rate;
     return EC_OK;
 }
 

@@ -10,10 +10,10 @@
     S(ec_tri8) F(ec_tri8, v) F(ec_tri8, v[1]) F(ec_tri8, v[2][2][7]) F(ec_tri8, id)                \
     S(ec_params) F(ec_params, camera_origin) F(ec_params, camera_right) F(ec_params, camera_up) F(ec_params, camera_forward) \
     F(ec_params, environment) F(ec_params, orthographic) F(ec_params, width) F(ec_params, height) F(ec_params, batch) \
-    F(ec_params, wave) F(ec_params, max_depth) F(ec_params, strategy) F(ec_params, light_count)    \
+    F(ec_params, wave) F(ec_params, part) F(ec_params, max_depth) F(ec_params, strategy) F(ec_params, light_count)    \
     F(ec_params, environment_width) F(ec_params, environment_height) F(ec_params, environment_pmf) \
     F(ec_params, scene_radius) F(ec_params, scene_max)                                             \
-    S(ec_counters) F(ec_counters, rays) F(ec_counters, rays[EC_SEGMENT]) F(ec_counters, shadows)   \
+    S(ec_counters) F(ec_counters, rays) F(ec_counters, rays[1]) F(ec_counters, rays[EC_SEGMENT]) F(ec_counters, shadows)   \
     S(ec_prim) F(ec_prim, v0) F(ec_prim, material) F(ec_prim, v1) F(ec_prim, light_pdf_a) F(ec_prim, v2) F(ec_prim, flags) \
     S(ec_texture_slot) F(ec_texture_slot, texture) F(ec_texture_slot, uv_set) F(ec_texture_slot, transform) \
     S(ec_material_data) F(ec_material_data, base_color) F(ec_material_data, emission) F(ec_material_data, flags) \
@@ -24,7 +24,7 @@
     S(ec_light_data) F(ec_light_data, a) F(ec_light_data, b) F(ec_light_data, c) F(ec_light_data, emission) \
     F(ec_light_data, kind) F(ec_light_data, prim) F(ec_light_data, pmf) F(ec_light_data, pdf_a)    \
     S(ec_alias) F(ec_alias, threshold) F(ec_alias, other)                                          \
-    N(EC_STAGE_COUNT) N(EC_SLOT_COUNT) N(EC_KIND_ENVIRONMENT) N(EC_NO_ID) N(EC_LEAF_BIT)
+    N(EC_PARTS) N(EC_PART_STRIDE) N(EC_STAGE_COUNT) N(EC_SLOT_COUNT) N(EC_KIND_ENVIRONMENT) N(EC_NO_ID) N(EC_LEAF_BIT)
 
 /* Word offsets that kernels name, and what they are of: W(EC_NAME, type, field). */
 #define WORDS(W)                                                                                   \

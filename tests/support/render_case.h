@@ -132,6 +132,28 @@ static inline ztest_picture case_picture(const case_image *image)
     return (ztest_picture){image->width, image->height, image->rgb, image->se, image->film.batch_count - 1.0};
 }
 
+/* Means of blocks of n x n pixels (n divides both sides), to be freed by ztest_free. Where single pixels' batches are far
+ * from normal (rare bright paths), blocks' are less so; and a reference without standard errors has less noise. */
+static inline ztest_picture case_blocks(const ztest_picture *p, uint32_t n)
+{
+    uint32_t w = p->width / n, h = p->height / n;
+    ztest_picture out = {w, h, calloc((size_t)w * h, 12), calloc((size_t)w * h, 12), p->dof};
+    if (!out.rgb || !out.se) exit(1);
+    for (size_t i = 0; i < 3 * (size_t)w * h; i++) {
+        double sum = 0, variance = 0;
+        size_t x0 = i / 3 % w * n, y0 = i / 3 / w * n;
+        for (size_t y = y0; y < y0 + n; y++)
+            for (size_t x = x0; x < x0 + n; x++) {
+                size_t at = 3 * (y * p->width + x) + i % 3;
+                sum += p->rgb[at];
+                variance += (double)p->se[at] * p->se[at];
+            }
+        out.rgb[i] = (float)(sum / n / n);
+        out.se[i] = (float)(sqrt(variance) / n / n);
+    }
+    return out;
+}
+
 /* The mean of a rectangle of pixels [x0, x1) x [y0, y1), one channel, and its standard error. */
 static inline double case_region(const case_image *image, const uint32_t box[4], int channel, double *se)
 {

@@ -62,7 +62,8 @@ def measure(name, options, eclat, python, llvm):
         mitsuba = bench_mitsuba.Mitsuba(python, llvm, name, scene)
         samples = scene["width"] * scene["height"] * options.spp
         ours, theirs = [], []
-        for run in range(-1, options.runs):  # the first is for warming up: both compile
+        mitsuba.render(seed=options.runs + 1, spp=options.spp)  # Dr.Jit compiles, and may once more for another seed
+        for run in range(-1, options.runs):  # the first is for warming up
             m = mitsuba.render(seed=run + 1, spp=options.spp, image=npy)
             e = common.run_eclat(eclat, arguments + ["--seed", str(run + 1)])
             if run < 0:

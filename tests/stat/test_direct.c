@@ -1,0 +1,237 @@
+/* Direct light against closed forms: Lambert's formula, inverse squares, environments. Scenes are made here, so that every
+ * number in a check stands beside its derivation. */
+#include "support/gltf_writer.h"
+#include "support/render_case.h"
+
+#define PI 3.14159265358979323846
+
+static const char *const strategy_names[] = {"mis", "nee", "bsdf"};
+enum { ALL = 7, LIGHT_ONLY = 3 /* mis and nee: BSDF sampling would take too long */ };
+
+/* Renders what a camera sees through a needle's eye (8 x 8 pixels of one point). */
+static void check_point(const char *path, const char *environment, double expected, int strategies, uint32_t spp, double most_se)
+{
+    ec_scene *scene = case_load(path, environment);
+    for (int s = 0; s < 3; s++) {
+        if (!(strategies >> s & 1)) continue;
+        ec_render_options o = case_options(8, 8, spp);
+        o.max_depth = 2;
+        o.strategy = (ec_strategy)s;
+        o.seed = 7;
+        case_image image = case_render(scene, &o);
+        printf("%-40s %-4s %.7f +- %.7f, expected %.7f\n", strrchr(path, '/') + 1, strategy_names[s], image.mean[1],
+               image.mean_se[1], expected);
+        CASE_NEAR(&image, expected, 4.5, most_se);
+        case_free(&image);
+    }
+    ec_scene_free(scene);
+}
+
+/* Radiance 1 from triangles on a Lambert floor of albedo 0.5; numbers from Nori's polylum.py by way of ASSETS.md. */
+static void check_polylum(void)
+{
+    static const double expected[3] = {0.0898394, 0.02292, 0.0534198};
+    for (int i = 0; i < 3; i++) {
+        char path[512];
+        snprintf(path, sizeof path, SHARED("assets/classic/gltf/direct-nori/polylum%d.gltf"), i + 1);
+        if (case_present(path)) check_point(path, NULL, expected[i], ALL, 16384, 2e-3);
+    }
+}
+
+/* Lambert 1760: irradiance / radiance of a polygon above the horizon: half the sum over edges of the angle an edge subtends
+ * times the cosine between the normal and the edge plane's. */
+static double lambert(const double (*p)[3], int count, const double normal[3])
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        const double *a = p[i], *b = p[(i + 1) % count];
+        double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        double sine = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]), cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        sum += atan2(sine, cosine) * (c[0] * normal[0] + c[1] * normal[1] + c[2] * normal[2]) / sine;
+    }
+    return fabs(0.5 * sum);
+}
+
+static const double up[3] = {0, 1, 0};
+
+/* A floor of albedo 0.6 around the origin, seen from just beside the normal at a height below everything else. */
+static gltf_writer *floor_scene(double camera_height)
+{
+    gltf_writer *w = gltf_new();
+    int grey = gltf_lambert(w, 0.6, 0);
+    gltf_quad(w, grey, (double[3]){-3, 0, 3}, (double[3]){6, 0, 0}, (double[3]){0, 0, -6});
+    gltf_camera(w, (double[3]){0, camera_height, 0}, (double[3]){0, 0, 0}, 1e-5);
+    return w;
+}
+
+/* A 2 x 2 lamp of radiance 3 at height h over its centre: the form factor is that of NUMERICS.md A3. */
+static void check_square_lamp(void)
+{
+    static const double heights[3] = {1, 0.1, 0.01}, form_factors[3] = {0.5541264, 0.9918856, 0.9999182};
+    for (int i = 0; i < 3; i++) {
+        double h = heights[i], lamp[4][3] = {{-1, h, -1}, {1, h, -1}, {1, h, 1}, {-1, h, 1}};
+        CHECK_NEAR(lambert((const double(*)[3])lamp, 4, up) / PI, form_factors[i], 1e-7);
+        gltf_writer *w = floor_scene(0.5 * h);
+        gltf_quad(w, gltf_lambert(w, 0, 3), lamp[0], (double[3]){2, 0, 0}, (double[3]){0, 0, 2}); /* x cross z = -y: down */
+        char name[64];
+        snprintf(name, sizeof name, "direct-square-lamp-%g", h);
+        /* Uniform points on a near lamp: nearly all of them are far away, so NEE alone is left out below h = 1. */
+        check_point(gltf_write(w, name), NULL, 0.6 * 3 * form_factors[i], i == 0 ? ALL : 5, 8192, 2e-3);
+        free(w);
+    }
+}
+
+/* Triangles anywhere above the floor, by a fixed sequence. */
+static void check_random_triangles(void)
+{
+    uint32_t state = 12345;
+    for (int i = 0; i < 6; i++) {
+        double p[3][3], e[2][3];
+        for (int v = 0; v < 9; v++) {
+            state = state * 1664525u + 1013904223u;
+            p[v / 3][v % 3] = (state >> 8) / 16777216.0 * 2 - (v % 3 == 1 ? -0.3 : 1);
+        }
+        for (int k = 0; k < 3; k++) {
+            e[0][k] = p[1][k] - p[0][k];
+            e[1][k] = p[2][k] - p[0][k];
+        }
+        double n[3] = {e[0][1] * e[1][2] - e[0][2] * e[1][1], e[0][2] * e[1][0] - e[0][0] * e[1][2],
+                       e[0][0] * e[1][1] - e[0][1] * e[1][0]};
+        int faces_floor = n[0] * p[0][0] + n[1] * p[0][1] + n[2] * p[0][2] < 0;
+        gltf_writer *w = floor_scene(0.2);
+        float positions[9];
+        for (int v = 0; v < 9; v++) positions[v] = (float)p[v / 3][v % 3];
+        gltf_triangles(w, gltf_lambert(w, 0, 2), &(gltf_mesh){3, positions, NULL, NULL, NULL});
+        char name[64];
+        snprintf(name, sizeof name, "direct-triangle-%d", i);
+        double expected = faces_floor ? 0.6 * 2 / PI * lambert((const double(*)[3])p, 3, up) : 0; /* dark from behind */
+        check_point(gltf_write(w, name), NULL, expected, ALL, 8192, 5e-3);
+        free(w);
+    }
+}
+
+/* KHR_lights_punctual, 1 cd = 1 W/sr: albedo / pi times I cos / d^2, exactly. */
+static void check_punctual(void)
+{
+    static const double position[3] = {1, 2, 2}; /* d = 3, cos = 2/3 */
+    static const double towards[3] = {-1, -2, -2};
+    const double plain = 0.6 / PI * (2.0 / 3) / 9;
+    gltf_writer *w = floor_scene(0.5);
+    gltf_light(w, position, towards, "{\"type\":\"point\",\"intensity\":90}");
+    check_point(gltf_write(w, "direct-point"), NULL, 90 * plain, ALL, 16, 1e-5);
+    free(w);
+
+    w = floor_scene(0.5); /* range 4: (1 - (d / r)^4) / d^2 */
+    gltf_light(w, position, towards, "{\"type\":\"point\",\"intensity\":90,\"range\":4}");
+    check_point(gltf_write(w, "direct-point-range"), NULL, 90 * plain * (1 - pow(0.75, 4)), ALL, 16, 1e-5);
+    free(w);
+
+    w = floor_scene(0.5); /* beyond its range */
+    gltf_light(w, position, towards, "{\"type\":\"point\",\"intensity\":90,\"range\":2.9}");
+    check_point(gltf_write(w, "direct-point-out-of-range"), NULL, 0, ALL, 16, 1e-5);
+    free(w);
+
+    /* Spots turned away by 0.2 rad (within the axis' plane of y): inside the inner cone, between, outside. */
+    static const double inner[3] = {0.3, 0.1, 0.05}, outer[3] = {0.5, 0.4, 0.1};
+    double axis[3], length = 3, side[3] = {-2 / sqrt(5), 1 / sqrt(5), 0}; /* perpendicular to towards */
+    for (int i = 0; i < 3; i++) {
+        char json[160], name[64];
+        for (int k = 0; k < 3; k++) axis[k] = cos(0.2) * towards[k] / length + sin(0.2) * side[k];
+        double t = (cos(0.2) - cos(outer[i])) / (cos(inner[i]) - cos(outer[i]));
+        t = fmin(fmax(t, 0), 1);
+        snprintf(json, sizeof json, "{\"type\":\"spot\",\"intensity\":90,\"spot\":{\"innerConeAngle\":%g,\"outerConeAngle\":%g}}",
+                 inner[i], outer[i]);
+        w = floor_scene(0.5);
+        gltf_light(w, position, axis, json);
+        snprintf(name, sizeof name, "direct-spot-%d", i);
+        ec_scene *scene = case_load(gltf_write(w, name), NULL);
+        ec_render_options o = case_options(8, 8, 16);
+        o.max_depth = 2;
+        case_image image = case_render(scene, &o);
+        /* The extension asks for an angular attenuation squared; cosines near each other cost digits. */
+        CHECK_NEAR(image.mean[1], 90 * plain * t * t, 2e-5 * 90 * plain);
+        printf("%-40s %.7f, expected %.7f\n", name, image.mean[1], 90 * plain * t * t);
+        case_free(&image);
+        ec_scene_free(scene);
+        free(w);
+    }
+
+    w = floor_scene(0.5); /* 5 lx on a plane turned away by cos = 2/3 */
+    gltf_light(w, (double[3]){0, 0, 0}, towards, "{\"type\":\"directional\",\"intensity\":5}");
+    check_point(gltf_write(w, "direct-directional"), NULL, 0.6 / PI * 5 * 2 / 3, ALL, 16, 1e-5);
+    gltf_quad(w, 0, (double[3]){0.2, 1, 0.7}, (double[3]){0.6, 0, 0}, (double[3]){0, 0, 0.6}); /* in its way */
+    check_point(gltf_write(w, "direct-directional-blocked"), NULL, 0, ALL, 16, 1e-5);
+    free(w);
+}
+
+/* A single-sided emitter: its front shines, camera rays pass through its back, and it lights nothing behind itself. */
+static void check_single_sided(void)
+{
+    for (int turned = 0; turned < 2; turned++) {
+        gltf_writer *w = gltf_new();
+        gltf_quad(w, gltf_lambert(w, 0.6, 0), (double[3]){-3, 0, 3}, (double[3]){6, 0, 0}, (double[3]){0, 0, -6});
+        gltf_camera(w, (double[3]){0, 2, 0}, (double[3]){0, 0, 0}, 1e-5);
+        int lamp = gltf_lambert(w, 0, 3);
+        if (turned) /* faces the camera above it */
+            gltf_quad(w, lamp, (double[3]){-1, 1, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
+        else
+            gltf_quad(w, lamp, (double[3]){-1, 1, -1}, (double[3]){2, 0, 0}, (double[3]){0, 0, 2});
+        /* From above: the lamp itself, or through its back the floor that it lights from h = 1. */
+        check_point(gltf_write(w, turned ? "direct-lamp-front" : "direct-lamp-back"), NULL, turned ? 3 : 0.6 * 3 * 0.5541264, ALL,
+                    8192, 2e-3);
+        free(w);
+    }
+}
+
+/* A plane that sees nothing but a constant environment L: albedo L. */
+static void check_constant_environment(void)
+{
+    gltf_writer *w = floor_scene(0.5);
+    check_point(gltf_write(w, "direct-environment"), "2,2,2", 0.6 * 2, ALL, 4096, 2e-3);
+    /* Under an infinite-looking half wall: a wall of height 1 along x at z = -1 hides part of the sky. For a long wall the
+     * hidden part of the irradiance is (1 - d / sqrt(d^2 + h^2)) / 2 (NUMERICS.md D 7); here the wall is 2000 long and black:
+     * the ends cost less than 1e-6. */
+    gltf_quad(w, gltf_lambert(w, 0, 0), (double[3]){-1000, 0, -1}, (double[3]){2000, 0, 0}, (double[3]){0, 1, 0});
+    check_point(gltf_write(w, "direct-environment-wall"), "2,2,2", 0.6 * 2 * 0.85355339, ALL, 16384, 2e-3);
+    free(w);
+}
+
+/* An environment of `background` with one texel of 1000 at (tx, ty) of 64 x 32. Bilinear look-up makes it a pyramid over
+ * 2 x 2 texels: E = pi background + sum of (L - background) cos d(omega) over it, by midpoint quadrature. */
+static void check_hot_texel(uint32_t tx, uint32_t ty, float background)
+{
+    enum { WIDTH = 64, HEIGHT = 32, STEPS = 400 };
+    static float rgb[3 * WIDTH * HEIGHT];
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) rgb[i] = background;
+    for (int k = 0; k < 3; k++) rgb[3 * (ty * WIDTH + tx) + k] = 1000;
+    double irradiance = PI * background;
+    for (int j = 0; j < STEPS; j++)
+        for (int i = 0; i < STEPS; i++) {
+            double x = 2 * (i + 0.5) / STEPS - 1, y = 2 * (j + 0.5) / STEPS - 1, hat = (1 - fabs(x)) * (1 - fabs(y));
+            double theta = PI * (ty + 0.5 + y) / HEIGHT, area = pow(2.0 / STEPS, 2) * 2 * PI / WIDTH * PI / HEIGHT;
+            irradiance += fmax(cos(theta), 0) * sin(theta) * area * hat * (1000 - background);
+        }
+    char file[512], name[64];
+    snprintf(file, sizeof file, "%s/direct-hot-texel.exr", ECLAT_TEST_OUT);
+    ec_channel channels[3] = {{"R", rgb, 3}, {"G", rgb + 1, 3}, {"B", rgb + 2, 3}};
+    ec_error err = {{0}};
+    CHECK_OK(ec_exr_write(file, WIDTH, HEIGHT, channels, 3, NULL, 0, &err), err);
+    gltf_writer *w = floor_scene(0.5);
+    snprintf(name, sizeof name, "direct-hot-texel-%u-%u-%g", tx, ty, background);
+    check_point(gltf_write(w, name), file, 0.6 / PI * irradiance, ALL, 16384, 2e-2);
+    free(w);
+}
+
+int main(void)
+{
+    check_polylum();
+    check_square_lamp();
+    check_random_triangles();
+    check_punctual();
+    check_single_sided();
+    check_constant_environment();
+    check_hot_texel(20, 6, 0.1f);
+    check_hot_texel(0, 10, 0); /* across the seam */
+    check_hot_texel(40, 15, 0); /* half of it under the horizon */
+    TEST_END();
+}
