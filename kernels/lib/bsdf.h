@@ -66,8 +66,9 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
         *pdf = above ? ni * EC_INV_PI : F(0.0f);
         return v3_scale(b->base, *pdf);
     }
-    v3 h = v3_normalize(v3_add(b->wo, wi));
-    lane_f oh = min(max(v3_dot(b->wo, h), F(0.0f)), F(1.0f));
+    v3 sum = v3_add(b->wo, wi);
+    lane_f length = sqrt(v3_dot(sum, sum)), oh = min(length * 0.5f, F(1.0f)); /* wo . h, the same for either direction */
+    v3 h = v3_scale(sum, 1.0f / length);
     lane_f diffuse_share;
     v3 fresnel = bsdf_fresnel(b, oh, &diffuse_share);
     /* D from components: 1 - cos^2 would lose every digit of a narrow lobe. */
@@ -81,7 +82,7 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     v3 f = v3_fma(fresnel, specular, v3_scale(b->base, diffuse));
     /* Visible normals: D G1 / (4 no) without the quotient G1 / no (Heitz 2018). */
     lane_f pdf_specular = d * 0.5f / (no + lambda_o);
-    *pdf = above ? fma(b->p_specular, pdf_specular - ni * EC_INV_PI, ni * EC_INV_PI) : F(0.0f);
+    *pdf = above ? fma(b->p_specular, pdf_specular, (1.0f - b->p_specular) * ni * EC_INV_PI) : F(0.0f);
     return v3_select(above, f, v3_zero());
 }
 

@@ -63,7 +63,7 @@ EC_FN void texture_axis(lane_f u, lane_i size, lane_u wrap, lane_i is_nearest, l
     lane_f x = fma(texture_fold(u, wrap), int_to_lane_f(size), is_nearest ? F(0.0f) : F(-0.5f));
     lane_f base = floor(x);
     lane_i i0 = to_lane_i(base), i1 = i0 + 1, last = size - 1;
-    lane_i w0 = i0 < 0 ? last : min(i0, last), w1 = i1 > last ? I(0) : i1; /* repeat: neighbours across the seam */
+    lane_i w0 = i0 < 0 ? last : min(i0, last), w1 = i1 > last ? I(0) : max(i1, I(0)); /* repeat: across the seam */
     lane_i c0 = min(max(i0, I(0)), last), c1 = min(max(i1, I(0)), last);
     *first = int_to_lane_u(wrap == 0u ? w0 : c0);
     *second = int_to_lane_u(is_nearest ? uint_to_lane_i(*first) : (wrap == 0u ? w1 : c1));

@@ -84,7 +84,7 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
     v3 lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
     v3 hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
     m = m & triangle_clamp(&q->r, lo, hi, (float8)(h->t), &t) & ((t < h->t) | (id < h->prim));
-    float8 b1 = e.v * inverse, b2 = e.w * inverse;
+    float8 b1 = e.v * inverse + 0.0f, b2 = e.w * inverse + 0.0f; /* no -0: a shared edge is negated */
     m = filter_hits(filter, m, id, b1, b2, edges_front(&q->r, &e));
     uint bits = mask_bits8(m), bit = 1;
     if (any_hit) {

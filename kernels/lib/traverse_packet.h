@@ -43,7 +43,7 @@ EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_t
     if (!any_lane(m)) return;
     v3 lo = v3_select(second, box_low(tri + 1), box_low(tri)), hi = v3_select(second, box_high(tri + 1), box_high(tri));
     m = m & triangle_clamp(r, lo, hi, h->t, &t) & ((t < h->t) | (id < h->prim));
-    lane_f b1 = e->v * inverse, b2 = e->w * inverse;
+    lane_f b1 = e->v * inverse + 0.0f, b2 = e->w * inverse + 0.0f; /* no -0: a shared edge is negated */
     m = filter_hits(filter, m, id, b1, b2, edges_front(r, e));
     h->t = m ? t : h->t;
     h->prim = m ? id : h->prim;

@@ -59,6 +59,23 @@ static set set_coplanar(uint32_t n, int axis)
     return s;
 }
 
+/* A plane that no axis is parallel to: rays in it see every triangle edge-on, and what they compute is rounding alone. Only
+ * the clamping of t keeps boxes and triangles in agreement there. */
+static set set_tilted(uint32_t n)
+{
+    set s = set_make("tilted plane", n, 1.0f);
+    for (uint32_t i = 0; i < n; i++) {
+        double at[2] = {test_random_in(-1, 1), test_random_in(-1, 1)}, size = pow(10, test_random_in(-2, 0));
+        for (int corner = 0; corner < 3; corner++) {
+            double a = at[0] + size * test_random_in(-1, 1), b = at[1] + size * test_random_in(-1, 1);
+            s.vertices[9 * i + 3 * corner] = (float)(0.61 * a + 0.23 * b);
+            s.vertices[9 * i + 3 * corner + 1] = (float)(-0.37 * a + 0.71 * b);
+            s.vertices[9 * i + 3 * corner + 2] = (float)(0.53 * a + 0.29 * b);
+        }
+    }
+    return s;
+}
+
 /* Four copies of everything: all four at the same distance. */
 static set set_duplicated(uint32_t n)
 {
@@ -528,6 +545,7 @@ int main(void)
         check_set(set_random("huge", 1000, 1e6f, 0.1f));
         check_set(set_slivers(1500));
         for (int axis = 0; axis < 3; axis++) check_set(set_coplanar(500, axis));
+        check_set(set_tilted(800));
         check_set(set_duplicated(800));
         check_set(set_blocks(1500));
         check_set(set_mixed(1000));

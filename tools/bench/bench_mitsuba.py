@@ -89,14 +89,15 @@ def film(width, height):
             "component_format": "float32"}
 
 
-INTEGRATOR = {"type": "path", "max_depth": 8, "rr_depth": 5}
+def integrator(arguments):
+    return {"type": "path", "max_depth": arguments.get("max_depth", 8), "rr_depth": 5}
 
 
 def cornell(mi, arguments):
     scene = mi.cornell_box()
     scene["sensor"]["film"] = film(arguments["width"], arguments["height"])
     scene["sensor"]["sampler"] = {"type": "independent"}
-    scene["integrator"] = INTEGRATOR
+    scene["integrator"] = integrator(arguments)
     return mi.load_dict(scene)
 
 
@@ -159,7 +160,7 @@ def material_of(gltf, index):
         assert factor == [1, 1, 1], "a factor on top of a texture is not converted"
         texture = gltf.json["textures"][pbr["baseColorTexture"]["index"]]
         image = gltf.json["images"][texture["source"]]["uri"]
-        # Mitsuba's v points up and glTF's down; the vertices' v is turned, see mesh_of. No mip maps on either side.
+        # v points down in glTF and in Mitsuba (its OBJ loader turns v for that reason). No mip maps on either side.
         reflectance = {"type": "bitmap", "filename": os.path.join(gltf.folder, image), "filter_type": "bilinear",
                        "wrap_mode": "repeat", "raw": False}
     bsdf = {"type": "diffuse", "reflectance": reflectance}
@@ -182,19 +183,19 @@ def mesh_of(mi, gltf, name, primitive, world, bsdf, emission):
     properties["mesh_bsdf"] = mi.load_dict(bsdf)
     if any(emission):
         properties["mesh_emitter"] = mi.load_dict({"type": "area", "radiance": {"type": "rgb", "value": emission}})
+    # Mitsuba samples a light by its interpolated normals, which is 2 % off for a lamp of few triangles: leave them out there.
+    smooth = "NORMAL" in attributes and not any(emission)
     mesh = mi.Mesh(name, vertex_count=len(positions), face_count=len(faces) // 3, props=properties,
-                   has_vertex_normals="NORMAL" in attributes, has_vertex_texcoords="TEXCOORD_0" in attributes)
+                   has_vertex_normals=smooth, has_vertex_texcoords="TEXCOORD_0" in attributes)
     parameters = mi.traverse(mesh)
     parameters["vertex_positions"] = positions.astype(np.float32).ravel()
     parameters["faces"] = faces
-    if "NORMAL" in attributes:
+    if smooth:
         normals = gltf.accessor(attributes["NORMAL"]).astype(np.float64) @ np.linalg.inv(world[:3, :3])
         length = np.linalg.norm(normals, axis=1, keepdims=True)
         parameters["vertex_normals"] = (normals / np.where(length > 0, length, 1)).astype(np.float32).ravel()
     if "TEXCOORD_0" in attributes:
-        uv = gltf.accessor(attributes["TEXCOORD_0"]).astype(np.float32).copy()
-        uv[:, 1] = 1.0 - uv[:, 1]
-        parameters["vertex_texcoords"] = uv.ravel()
+        parameters["vertex_texcoords"] = gltf.accessor(attributes["TEXCOORD_0"]).astype(np.float32).ravel()
     parameters.update()
     return mesh
 
@@ -203,7 +204,7 @@ def sponza(mi, arguments):
     import math
     np = __import__("numpy")
     gltf = Gltf(arguments["scene"])
-    scene = {"type": "scene", "integrator": INTEGRATOR}
+    scene = {"type": "scene", "integrator": integrator(arguments)}
     for node, world in gltf.nodes():
         if "mesh" in node:
             for primitive in gltf.json["meshes"][node["mesh"]]["primitives"]:
@@ -219,7 +220,7 @@ def sponza(mi, arguments):
                                "film": film(arguments["width"], arguments["height"]), "sampler": {"type": "independent"}}
     if arguments.get("environment"):
         # Ours: u = 0.5 + atan2(z, x) / 2 pi. Mitsuba's: u = atan2(x, -z) / 2 pi. A quarter turn about y makes them one.
-        turn = mi.ScalarTransform4f().rotate([0, 1, 0], arguments.get("turn", -90.0))
+        turn = mi.ScalarTransform4f().rotate([0, 1, 0], 90.0)
         scene["environment"] = {"type": "envmap", "filename": arguments["environment"], "to_world": turn}
     return mi.load_dict(scene)
 

@@ -1,0 +1,74 @@
+/* The picture is a function of scene, seed and options, not of how it was computed: LANES, traversal kernel, wave size, effects
+ * built in, and the time of day change no bit of any number in the film. (Threads: tests/cli/test_render.py.) */
+#include "support/render_case.h"
+
+enum { WIDTH = 48, HEIGHT = 36 };
+
+static int films_equal(const ec_film *a, const ec_film *b)
+{
+    size_t pixels = WIDTH * HEIGHT;
+    return a->batch_count == b->batch_count && !memcmp(a->mean, b->mean, pixels * 3 * sizeof *a->mean) &&
+           !memcmp(a->m2, b->m2, pixels * 4 * sizeof *a->m2) && !memcmp(a->m34, b->m34, pixels * 2 * sizeof *a->m34) &&
+           !memcmp(a->aov, b->aov, pixels * 8 * sizeof *a->aov);
+}
+
+static ec_render_options base_options(void)
+{
+    ec_render_options o = case_options(WIDTH, HEIGHT, 8);
+    o.batch = 4;
+    o.seed = 5;
+    return o;
+}
+
+static void check_one(const ec_scene *scene, const case_image *expected, const ec_render_options *o, const char *what)
+{
+    case_image image = case_render(scene, o);
+    CHECK_MSG(films_equal(&image.film, &expected->film), "%s: lanes %u, trace %s, wave %u, all effects %d: other bits", what,
+              o->lanes, o->trace ? o->trace : "auto", o->wave, o->all_effects);
+    case_free(&image);
+}
+
+static void check_scene(const char *what, const ec_scene *scene)
+{
+    static const uint32_t lanes[] = {1, 4, 8, 16}, waves[] = {512, 4096, 5000};
+    static const char *const traces[] = {"packet", "bvh8"};
+    ec_render_options o = base_options();
+    case_image expected = case_render(scene, &o);
+    CHECK(expected.mean[0] > 0);
+    check_one(scene, &expected, &o, what); /* twice in a row */
+    for (int l = 0; l < 4; l++)
+        for (int t = 0; t < 2; t++) {
+            o = base_options();
+            o.lanes = lanes[l];
+            o.trace = traces[t];
+            check_one(scene, &expected, &o, what);
+        }
+    for (int i = 0; i < 3; i++) {
+        o = base_options();
+        o.wave = waves[i];
+        check_one(scene, &expected, &o, what);
+    }
+    o = base_options();
+    o.all_effects = true;
+    check_one(scene, &expected, &o, what);
+    o.lanes = 1;
+    check_one(scene, &expected, &o, what);
+    o = base_options();
+    o.seed = 6; /* and the comparison can see a difference */
+    case_image other = case_render(scene, &o);
+    CHECK(!films_equal(&other.film, &expected.film));
+    printf("%s: %s\n", what, expected.stats.effects);
+    case_free(&other);
+    case_free(&expected);
+}
+
+int main(void)
+{
+    ec_scene *scene = case_load(OWN_SCENE("cornell-box/cornell-box.gltf"), NULL);
+    check_scene("cornell-box", scene);
+    ec_scene_free(scene);
+    scene = case_load(OWN_SCENE("lamps/lamps.gltf"), "0.1,0.2,0.3"); /* every effect of core glTF */
+    check_scene("lamps", scene);
+    ec_scene_free(scene);
+    TEST_END();
+}

@@ -1,0 +1,219 @@
+/* Light sampling, BSDF sampling and both together must converge to one picture, whatever emits and whatever stands in the
+ * way: they share no code for finding light. Small pictures with many samples, compared by ztest.h with no allowance for a
+ * common bias. */
+#include "support/gltf_writer.h"
+#include "support/render_case.h"
+
+static void agree(const char *name, const char *path, const char *environment, uint32_t spp)
+{
+    static const char *const names[] = {"mis", "nee", "bsdf"};
+    ec_scene *scene = case_load(path, environment);
+    case_image image[3];
+    for (int s = 0; s < 3; s++) {
+        ec_render_options o = case_options(16, 16, s == EC_STRATEGY_BSDF ? 4 * spp : spp);
+        o.max_depth = 5;
+        o.batch = o.spp / 32;
+        o.strategy = (ec_strategy)s;
+        o.sampler = EC_SAMPLER_INDEPENDENT;
+        o.seed = (uint64_t)s + 11;
+        image[s] = case_render(scene, &o);
+        CHECK_MSG(image[s].mean[1] > 0, "%s, %s: black", name, names[s]);
+    }
+    char what[128];
+    for (int s = 1; s < 3; s++) {
+        snprintf(what, sizeof what, "%s, %s and mis", name, names[s]);
+        case_check_same(&image[s], &image[0], what);
+    }
+    for (int s = 0; s < 3; s++) case_free(&image[s]);
+    ec_scene_free(scene);
+}
+
+/* A floor of the given material with a white block on it, seen obliquely; a light is still to come. */
+static gltf_writer *stage(int (*floor_material)(gltf_writer *))
+{
+    gltf_writer *w = gltf_new();
+    gltf_quad(w, floor_material(w), (double[3]){-2, 0, 2}, (double[3]){4, 0, 0}, (double[3]){0, 0, -4});
+    int white = gltf_lambert(w, 0.7, 0);
+    gltf_quad(w, white, (double[3]){0.2, 0.4, 0.6}, (double[3]){0.5, 0, 0}, (double[3]){0, 0, -0.5});
+    gltf_quad(w, white, (double[3]){0.2, 0, 0.6}, (double[3]){0.5, 0, 0}, (double[3]){0, 0.4, 0});
+    gltf_camera(w, (double[3]){0, 2, 3}, (double[3]){0, 0.2, 0}, 0.8);
+    return w;
+}
+static int matt(gltf_writer *w) { return gltf_lambert(w, 0.6, 0); }
+static int glossy_metal(gltf_writer *w)
+{
+    return gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.9,0.7,0.4,1],\"metallicFactor\":1,"
+                                   "\"roughnessFactor\":0.35}}");
+}
+static int plastic(gltf_writer *w)
+{
+    return gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.2,0.5,0.7,1],\"metallicFactor\":0.2,"
+                                   "\"roughnessFactor\":0.45}}");
+}
+static int shining(gltf_writer *w) { return gltf_lambert(w, 0.6, 0.2); }
+
+/* Facing down at height 1. */
+static void add_lamp(gltf_writer *w, int material, double side)
+{
+    gltf_quad(w, material, (double[3]){-0.5 - side / 2, 1, -side / 2}, (double[3]){side, 0, 0}, (double[3]){0, 0, side});
+}
+
+static void run(gltf_writer *w, const char *name, const char *environment, uint32_t spp)
+{
+    char file[96];
+    snprintf(file, sizeof file, "strategies-%s", name);
+    agree(name, gltf_write(w, file), environment, spp);
+    free(w);
+}
+
+static const char *write_environment(void)
+{
+    enum { WIDTH = 32, HEIGHT = 16 };
+    static float rgb[3 * WIDTH * HEIGHT];
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            int is_sun = (x == 9 || x == 10) && (y == 4 || y == 5), is_sky = y < HEIGHT / 2;
+            for (int k = 0; k < 3; k++) rgb[3 * (y * WIDTH + x) + k] = is_sun ? 40 : is_sky ? 0.3f + 0.1f * (float)k : 0.1f;
+        }
+    ec_channel channels[3] = {{"R", rgb, 3}, {"G", rgb + 1, 3}, {"B", rgb + 2, 3}};
+    ec_error err = {{0}};
+    CHECK_OK(ec_exr_write(ECLAT_TEST_OUT "/strategies-sky.exr", WIDTH, HEIGHT, channels, 3, NULL, 0, &err), err);
+    return ECLAT_TEST_OUT "/strategies-sky.exr";
+}
+
+/* Pictures of `size` squared for texture `index` of the scene NAME. */
+static int add_texture(gltf_writer *w, const char *name, uint32_t size, const uint8_t *rgb)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/strategies-%s-%d.png", ECLAT_TEST_OUT, name, w->textures.count);
+    ec_error err = {{0}};
+    CHECK_OK(ec_png_write(path, size, size, rgb, &err), err);
+    return gltf_add(&w->textures, "{\"source\":%d}", w->textures.count);
+}
+
+/* Most of the lamp is dark; two bright, coloured texels. */
+static void textured_emission(void)
+{
+    uint8_t rgb[3 * 8 * 8] = {0};
+    static const uint8_t bright[2][3] = {{255, 200, 60}, {40, 90, 255}};
+    memcpy(rgb + 3 * 10, bright[0], 3);
+    memcpy(rgb + 3 * 45, bright[1], 3);
+    memcpy(rgb + 3 * 46, bright[1], 3);
+    gltf_writer *w = stage(matt);
+    int texture = add_texture(w, "textured-emission", 8, rgb);
+    int lamp = gltf_add(&w->materials, "{\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":%d},\"extensions\":{"
+                        "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":20}}}", texture);
+    add_lamp(w, lamp, 1);
+    run(w, "textured-emission", NULL, 8192);
+}
+
+static int see_through(gltf_writer *w, const char *mode, double alpha)
+{
+    return gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.3,0.8,0.5,%g],\"metallicFactor\":0},"
+                    "\"alphaMode\":\"%s\",\"doubleSided\":true,\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}}",
+                    alpha, mode);
+}
+
+/* Coverage between lamp and floor: from 0 to 1 across the panel by vertex colour. BLEND lets a share through, MASK half. */
+static void panels(const char *mode)
+{
+    static const float colors[16] = {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0};
+    gltf_writer *w = stage(matt);
+    add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
+    gltf_quad_with(w, see_through(w, mode, 1), (double[3]){-1.2, 0.6, 0.6}, (double[3]){1.4, 0, 0}, (double[3]){0, 0, -1.2}, colors,
+                   NULL);
+    run(w, !strcmp(mode, "MASK") ? "mask-panel" : "blend-panel", NULL, 8192);
+}
+
+/* In closed form: a black BLEND sheet of coverage 0.4 (and behind it one of 0.5) before all the light leaves 0.6 x 0.5 of it,
+ * however it is found. The sheets are far wider than the lamp. */
+static void blend_in_closed_form(void)
+{
+    double bare[3] = {0}, se[3] = {0};
+    for (int sheets = 0; sheets < 2; sheets++)
+        for (int s = 0; s < 3; s++) {
+            gltf_writer *w = gltf_new();
+            gltf_quad(w, gltf_lambert(w, 0.6, 0), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
+            gltf_camera(w, (double[3]){0, 0.2, 0}, (double[3]){0, 0, 0}, 1e-5);
+            add_lamp(w, gltf_lambert(w, 0, 4), 1);
+            for (int i = 0; sheets && i < 2; i++) {
+                int black = gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,%g],\"metallicFactor\":0},"
+                                     "\"alphaMode\":\"BLEND\",\"doubleSided\":true,\"extensions\":{\"KHR_materials_specular\":"
+                                     "{\"specularFactor\":0}}}", i ? 0.5 : 0.4);
+                gltf_quad(w, black, (double[3]){-50, 0.4 + 0.1 * i, 50}, (double[3]){100, 0, 0}, (double[3]){0, 0, -100});
+            }
+            ec_render_options o = case_options(8, 8, 16384);
+            o.max_depth = 2;
+            o.strategy = (ec_strategy)s;
+            case_image image = case_render_file(gltf_write(w, "strategies-sheets"), NULL, &o);
+            if (!sheets) {
+                bare[s] = image.mean[1];
+                se[s] = image.mean_se[1];
+            } else {
+                double sigma = hypot(image.mean_se[1], 0.3 * se[s]);
+                printf("two sheets, strategy %d: %.5f +- %.5f of the light\n", s, image.mean[1] / bare[s], sigma / bare[s]);
+                CHECK_MSG(fabs(image.mean[1] - 0.3 * bare[s]) <= 4 * sigma && sigma < 5e-3 * bare[s],
+                          "strategy %d: %.5f of the light, expected 0.3", s, image.mean[1] / bare[s]);
+            }
+            case_free(&image);
+            free(w);
+        }
+}
+
+/* Shading normals far from the geometric ones, by vertex normals and a normal map, with vertex colours. */
+static void bent_normals(void)
+{
+    static const float normals[12] = {-0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0, 0.8f, -0.6f, 0, 0.8f, 0.6f};
+    static const float colors[16] = {1, 0.2f, 0.2f, 1, 0.2f, 1, 0.2f, 1, 0.2f, 0.2f, 1, 1, 1, 1, 1, 1};
+    uint8_t rgb[3 * 4 * 4];
+    for (int i = 0; i < 16; i++) {
+        rgb[3 * i] = (uint8_t)(60 + 130 * (i % 2));
+        rgb[3 * i + 1] = (uint8_t)(80 + 100 * (i / 4 % 2));
+        rgb[3 * i + 2] = 220;
+    }
+    gltf_writer *w = gltf_new();
+    int texture = add_texture(w, "bent-normals", 4, rgb);
+    int bent = gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"metallicFactor\":0.3,\"roughnessFactor\":0.5},"
+                        "\"normalTexture\":{\"index\":%d,\"scale\":1.2}}", texture);
+    gltf_quad_with(w, bent, (double[3]){-1.5, 0, 1.5}, (double[3]){3, 0, 0}, (double[3]){0, 0, -3}, colors, normals);
+    gltf_camera(w, (double[3]){0, 2, 3}, (double[3]){0, 0, 0}, 0.8);
+    add_lamp(w, gltf_lambert(w, 0.3, 8), 0.6);
+    run(w, "bent-normals", "0.2,0.3,0.4", 8192);
+}
+
+/* All kinds of light at once; the lamp shines on both sides and is lit itself. */
+static void everything(const char *sky)
+{
+    gltf_writer *w = stage(shining);
+    int lamp = gltf_add(&w->materials, "{\"doubleSided\":true,\"emissiveFactor\":[1,0.5,0.25],\"extensions\":{"
+                        "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":5}}}");
+    gltf_quad(w, lamp, (double[3]){-1, 0.3, -0.5}, (double[3]){0.5, 0.2, 0}, (double[3]){0, 0.4, 0.3});
+    gltf_light(w, (double[3]){1, 1.5, 1}, (double[3]){0, -1, 0}, "{\"type\":\"point\",\"intensity\":3}");
+    gltf_light(w, (double[3]){-1, 1.5, 1}, (double[3]){0.2, -1, 0},
+               "{\"type\":\"spot\",\"intensity\":5,\"spot\":{\"outerConeAngle\":0.4}}");
+    gltf_light(w, (double[3]){0, 0, 0}, (double[3]){0.3, -1, 0.2}, "{\"type\":\"directional\",\"intensity\":0.5}");
+    run(w, "everything", sky, 8192);
+}
+
+int main(void)
+{
+    const char *sky = write_environment();
+    gltf_writer *w = stage(matt);
+    add_lamp(w, gltf_lambert(w, 0.3, 30), 0.25);
+    run(w, "small-lamp", NULL, 8192);
+    w = stage(glossy_metal);
+    add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
+    run(w, "glossy-metal", NULL, 8192);
+    w = stage(plastic);
+    add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
+    run(w, "plastic", NULL, 8192);
+    run(stage(matt), "environment-map", sky, 8192);
+    run(stage(plastic), "environment-map-on-plastic", sky, 8192);
+    textured_emission();
+    panels("BLEND");
+    panels("MASK");
+    blend_in_closed_form();
+    bent_normals();
+    everything(sky);
+    TEST_END();
+}
