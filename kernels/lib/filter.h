@@ -21,10 +21,11 @@ EC_FN lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, boo
 /* Which of the candidate hits (mask m) count. */
 EC_FN lane_i filter_hits(const hit_filter *f, lane_i m, lane_u prim, lane_f b1, lane_f b2, lane_i front)
 {
-    if (!HAS(ALPHA) && !(HAS(CULLING) && f->cull_backs)) return m;
+    bool culls = HAS(CULLING) ? f->cull_backs : false;
+    if (!HAS(ALPHA) & !culls) return m;
     lane_u id = m ? prim : U(0);
     lane_u flags = as_lane_u(gather_f(f->g.prims, id * EC_PRIM_WORDS + 11u));
-    if (HAS(CULLING) && f->cull_backs) m = m & (front | ((flags & EC_PRIM_SINGLE_SIDED) == 0u));
+    if (culls) m = m & (front | ((flags & EC_PRIM_SINGLE_SIDED) == 0u));
     if (HAS(ALPHA)) {
         lane_i look = m & ((flags & EC_PRIM_ALPHA) != 0u);
         if (any_lane(look)) {
