@@ -6,7 +6,7 @@
 #define PI 3.14159265358979323846
 
 static const char *const strategy_names[] = {"mis", "nee", "bsdf"};
-enum { ALL = 7, LIGHT_ONLY = 3 /* mis and nee: BSDF sampling would take too long */ };
+enum { ALL = 7, NOT_NEE = 5 };
 
 /* Renders what a camera sees through a needle's eye (8 x 8 pixels of one point). */
 static void check_point(const char *path, const char *environment, double expected, int strategies, uint32_t spp, double most_se)
@@ -34,7 +34,7 @@ static void check_polylum(void)
     for (int i = 0; i < 3; i++) {
         char path[512];
         snprintf(path, sizeof path, SHARED("assets/classic/gltf/direct-nori/polylum%d.gltf"), i + 1);
-        if (case_present(path)) check_point(path, NULL, expected[i], ALL, 16384, 2e-3);
+        if (case_present(path)) check_point(path, NULL, expected[i], ALL, 16384, 4e-3);
     }
 }
 
@@ -76,7 +76,7 @@ static void check_square_lamp(void)
         char name[64];
         snprintf(name, sizeof name, "direct-square-lamp-%g", h);
         /* Uniform points on a near lamp: nearly all of them are far away, so NEE alone is left out below h = 1. */
-        check_point(gltf_write(w, name), NULL, 0.6 * 3 * form_factors[i], i == 0 ? ALL : 5, 8192, 2e-3);
+        check_point(gltf_write(w, name), NULL, 0.6 * 3 * form_factors[i], i == 0 ? ALL : NOT_NEE, 8192, 2e-3);
         free(w);
     }
 }
@@ -218,7 +218,7 @@ static void check_hot_texel(uint32_t tx, uint32_t ty, float background)
     CHECK_OK(ec_exr_write(file, WIDTH, HEIGHT, channels, 3, NULL, 0, &err), err);
     gltf_writer *w = floor_scene(0.5);
     snprintf(name, sizeof name, "direct-hot-texel-%u-%u-%g", tx, ty, background);
-    check_point(gltf_write(w, name), file, 0.6 / PI * irradiance, ALL, 16384, 2e-2);
+    check_point(gltf_write(w, name), file, 0.6 / PI * irradiance, ALL, 16384, 8e-2);
     free(w);
 }
 

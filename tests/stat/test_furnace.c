@@ -56,7 +56,7 @@ static void check_mixed_box(void)
         images[s] = case_render(scene, &o);
     }
     for (int c = 0; c < 3; c++) CHECK_NEAR(images[1].mean[c], images[0].mean[c], 0.03 * images[0].mean[c]);
-    case_check_same(&images[0], &images[2], "box of six materials, mis and bsdf");
+    case_check_same(&images[0], &images[2], 1, "box of six materials, mis and bsdf");
     for (int s = 0; s < 3; s++) case_free(&images[s]);
     ec_scene_free(scene);
 }

@@ -1,6 +1,7 @@
 /* Light sampling, BSDF sampling and both together must converge to one picture, whatever emits and whatever stands in the
  * way: they share no code for finding light. Small pictures with many samples, compared by ztest.h with no allowance for a
- * common bias. */
+ * common bias. BSDF sampling meets a lamp seldom, so that 32 batches of a single dark pixel say little of its variance: it is
+ * compared in squares of 4 x 4 pixels. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
@@ -22,17 +23,17 @@ static void agree(const char *name, const char *path, const char *environment, u
     char what[128];
     for (int s = 1; s < 3; s++) {
         snprintf(what, sizeof what, "%s, %s and mis", name, names[s]);
-        case_check_same(&image[s], &image[0], what);
+        case_check_same(&image[s], &image[0], s == EC_STRATEGY_BSDF ? 4 : 1, what);
     }
     for (int s = 0; s < 3; s++) case_free(&image[s]);
     ec_scene_free(scene);
 }
 
-/* A floor of the given material with a white block on it, seen obliquely; a light is still to come. */
+/* A floor of the given material that fills the picture, a white block on it; a light is still to come. */
 static gltf_writer *stage(int (*floor_material)(gltf_writer *))
 {
     gltf_writer *w = gltf_new();
-    gltf_quad(w, floor_material(w), (double[3]){-2, 0, 2}, (double[3]){4, 0, 0}, (double[3]){0, 0, -4});
+    gltf_quad(w, floor_material(w), (double[3]){-12, 0, 2}, (double[3]){24, 0, 0}, (double[3]){0, 0, -20});
     int white = gltf_lambert(w, 0.7, 0);
     gltf_quad(w, white, (double[3]){0.2, 0.4, 0.6}, (double[3]){0.5, 0, 0}, (double[3]){0, 0, -0.5});
     gltf_quad(w, white, (double[3]){0.2, 0, 0.6}, (double[3]){0.5, 0, 0}, (double[3]){0, 0.4, 0});

@@ -180,14 +180,17 @@ static inline double case_region(const case_image *image, const uint32_t box[4],
         }                                                                                                              \
     } while (0)
 
-/* Two renders of one converged picture: ztest.h with no allowance for a common bias. */
-static inline void case_check_same(const case_image *a, const case_image *b, const char *what)
+/* Two renders of one converged picture, in squares of `block` pixels: ztest.h with no allowance for a common bias. */
+static inline void case_check_same(const case_image *a, const case_image *b, uint32_t block, const char *what)
 {
-    ztest_picture image = case_picture(a), reference = case_picture(b);
+    ztest_picture one = case_picture(a), two = case_picture(b);
+    ztest_picture image = case_blocks(&one, block), reference = case_blocks(&two, block);
     ztest_options options = {.mean_tolerance = 1e-5};
     ztest_result r = ztest_compare(&image, &reference, &options, NULL);
     CHECK_MSG(r.pass, "%s: %s", what, r.text);
     printf("%-44s %s\n", what, r.text);
+    ztest_free(&image);
+    ztest_free(&reference);
 }
 
 #endif
