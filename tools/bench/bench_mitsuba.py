@@ -183,7 +183,7 @@ def mesh_of(mi, gltf, name, primitive, world, bsdf, emission):
     properties["mesh_bsdf"] = mi.load_dict(bsdf)
     if any(emission):
         properties["mesh_emitter"] = mi.load_dict({"type": "area", "radiance": {"type": "rgb", "value": emission}})
-    # Mitsuba samples a light by its interpolated normals, which is 2 % off for a lamp of few triangles: leave them out there.
+    # The lamp goes without vertex normals; whether they matter to Mitsuba's light sampling was not shown.
     smooth = "NORMAL" in attributes and not any(emission)
     mesh = mi.Mesh(name, vertex_count=len(positions), face_count=len(faces) // 3, props=properties,
                    has_vertex_normals=smooth, has_vertex_texcoords="TEXCOORD_0" in attributes)
