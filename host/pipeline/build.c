@@ -1,6 +1,6 @@
 /* The kernels a scene calls for, each built with the features that can change its code and no others. */
 #include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "pipeline/pipeline.h"
 
@@ -31,17 +31,40 @@ static bool is_needed(const ec_pipeline *p, ec_stage_id id)
     return true;
 }
 
+static uint32_t lanes_of(const ec_pipeline *p, const ec_stage_entry *stage)
+{
+    return stage->lanes == EC_LANES_OF_PIPELINE ? p->lanes : stage->lanes;
+}
+
+/* One program for all stages of a lane width: each parse of the shared headers costs as much as compiling a stage. */
+static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program, ec_error *err)
+{
+    const char *names[EC_STAGE_ID_COUNT + 1] = {NULL};
+    uint32_t features = 0, count = 0;
+    for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
+        if (!is_needed(p, (ec_stage_id)id) || lanes_of(p, &ec_stages[id]) != lanes) continue;
+        names[count++] = ec_stages[id].source;
+        features |= canonical(&ec_stages[id], p->features);
+    }
+    char options[64], label[32], *source;
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%xu", lanes, features);
+    snprintf(label, sizeof label, "lanes%u", lanes);
+    EC_TRY(ec_kernel_sources_join(names, &source, err));
+    ec_result result = ec_program_build(p->cl, label, source, options, program, err);
+    free(source);
+    return result;
+}
+
 ec_result ec_pipeline_build(ec_pipeline *p, ec_error *err)
 {
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
-        const ec_stage_entry *stage = &ec_stages[id];
         if (!is_needed(p, (ec_stage_id)id)) continue;
-        char options[128], name[64];
-        snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%xu",
-                 stage->lanes == EC_LANES_OF_PIPELINE ? p->lanes : stage->lanes, canonical(stage, p->features));
-        snprintf(name, sizeof name, "ec_%s", stage->source);
-        EC_TRY(ec_program_build(p->cl, stage->source, ec_kernel_source(stage->source), options, &p->programs[id], err));
-        EC_TRY(ec_kernel_create(p->programs[id], name, &p->kernels[id], err));
+        uint32_t lanes = lanes_of(p, &ec_stages[id]);
+        cl_program *program = &p->programs[lanes];
+        if (!*program) EC_TRY(build_width(p, lanes, program, err));
+        char name[64];
+        snprintf(name, sizeof name, "ec_%s", ec_stages[id].source);
+        EC_TRY(ec_kernel_create(*program, name, &p->kernels[id], err));
     }
     return EC_OK;
 }

@@ -110,10 +110,10 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
 void ec_pipeline_destroy(ec_pipeline *p)
 {
     if (!p->cl) return;
-    for (int i = 0; i < EC_STAGE_ID_COUNT; i++) {
+    for (int i = 0; i < EC_STAGE_ID_COUNT; i++)
         if (p->kernels[i]) clReleaseKernel(p->kernels[i]);
+    for (int i = 0; i <= EC_LANES_MOST; i++)
         if (p->programs[i]) clReleaseProgram(p->programs[i]);
-    }
     p->buffers[EC_ARG_PATHS] = p->buffers[EC_ARG_NEXT] = NULL; /* views of path_queues */
     for (int i = 0; i < EC_ARG_COUNT; i++) ec_buffer_release(p->cl, &p->buffers[i]);
     for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);

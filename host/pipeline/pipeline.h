@@ -11,6 +11,7 @@
 
 /* Which traversal a bounce uses; both give the same hits. */
 typedef enum ec_trace { EC_TRACE_PACKET, EC_TRACE_BVH8, EC_TRACE_COUNT } ec_trace;
+#define EC_LANES_MOST 16
 #define EC_TUNED_BOUNCES 4 /* bounces with a choice of their own; later ones share the last */
 
 typedef struct ec_pipeline {
@@ -20,7 +21,7 @@ typedef struct ec_pipeline {
     uint32_t features, lanes, wave;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
-    cl_program programs[EC_STAGE_ID_COUNT];
+    cl_program programs[EC_LANES_MOST + 1]; /* by lane width */
     cl_kernel kernels[EC_STAGE_ID_COUNT];
     bool has_trace[EC_TRACE_COUNT];
     /* Measured choice of traversal, at each bounce: the best rays a second of each kind while both are being tried. */

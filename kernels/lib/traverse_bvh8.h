@@ -28,19 +28,21 @@ EC_FN ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz,
 {
     ray8 q;
     q.r = ray_make(v3_make(F(ox), F(oy), F(oz)), v3_make(F(dx), F(dy), F(dz)), scene_max);
-    bool nx = q.r.inverse.x.s0 < 0.0f, ny = q.r.inverse.y.s0 < 0.0f, nz = q.r.inverse.z.s0 < 0.0f;
-    q.near_x = nx ? 1 : 0;
-    q.near_y = ny ? 3 : 2;
-    q.near_z = nz ? 5 : 4;
+    /* Selects, not branches: nobody can predict the signs of a bounced ray. */
+    lane_i nx = q.r.inverse.x < 0.0f, ny = q.r.inverse.y < 0.0f, nz = q.r.inverse.z < 0.0f;
+    q.near_x = 0 | (nx.s0 & 1);
+    q.near_y = 2 | (ny.s0 & 1);
+    q.near_z = 4 | (nz.s0 & 1);
     q.near_offset_x = nx ? q.r.hi_offset.x : q.r.lo_offset.x;
     q.near_offset_y = ny ? q.r.hi_offset.y : q.r.lo_offset.y;
     q.near_offset_z = nz ? q.r.hi_offset.z : q.r.lo_offset.z;
     q.far_offset_x = nx ? q.r.lo_offset.x : q.r.hi_offset.x;
     q.far_offset_y = ny ? q.r.lo_offset.y : q.r.hi_offset.y;
     q.far_offset_z = nz ? q.r.lo_offset.z : q.r.hi_offset.z;
-    q.axis_z = q.r.z_is_x.s0 ? 0 : (q.r.z_is_y.s0 ? 1 : 2);
-    q.axis_x = q.axis_z == 0 ? 2 : 0;
-    q.axis_y = q.axis_z == 1 ? 2 : 1;
+    uint z_is_x = q.r.z_is_x.s0 & 1, z_is_y = q.r.z_is_y.s0 & 1;
+    q.axis_x = 2 * z_is_x;
+    q.axis_y = 1 + z_is_y;
+    q.axis_z = 2 - 2 * z_is_x - z_is_y;
     return q;
 }
 
@@ -106,6 +108,34 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
 /* Index of the lowest set bit. */
 EC_FN uint lowest_bit(uint m) { return 31u - clz(m & -m); }
 
+/* Asks for a node's or a block's cache lines; every second one is enough, processors fetch them in pairs. */
+#if defined(__x86_64__) && __has_builtin(__builtin_prefetch)
+#define PREFETCH(p) __builtin_prefetch((const void *)(p), 0, 3)
+#else
+#define PREFETCH(p) (void)(p)
+#endif
+EC_FN void prefetch8(global const ec_bvh8_node *nodes, global const ec_tri8 *blocks, uint child)
+{
+    bool is_leaf = (child & EC_LEAF_BIT) != 0u;
+    ulong at = is_leaf ? (ulong)(blocks + (child & ~EC_LEAF_BIT)) : (ulong)(nodes + child);
+    PREFETCH(at);
+    PREFETCH(at + 128u);
+    PREFETCH(at + 256u);
+}
+
+/* The lanes of m close together, in the low ones. */
+EC_FN uint8 pack8(uint8 v, uint mask)
+{
+#if defined(__AVX512VL__) && __has_builtin(__builtin_ia32_compresssi256_mask)
+    return as_uint8(__builtin_ia32_compresssi256_mask(as_int8(v), (int8)(0), (uchar)mask));
+#else
+    uint from[8], to[8] = {0}, count = 0;
+    vstore8(v, 0, from);
+    for (; mask; mask &= mask - 1) to[count++] = from[lowest_bit(mask)];
+    return vload8(0, to);
+#endif
+}
+
 typedef struct stack8 {
     uint node;
     float near;
@@ -123,15 +153,17 @@ EC_FN void traverse8_closest(const ray8 *q, const hit_filter *filter, global con
             global const ec_bvh8_node *n = nodes + current;
             uint mask;
             float near[8];
+            uint child[8];
+            vstore8(*(global const uint8 *)n->child, 0, child); /* now, and not only once `near` is known */
             vstore8(node8_near(q, (global const float8 *)n->bound, h->t, &mask), 0, near);
             if (mask) {
                 uint base = depth, i = lowest_bit(mask);
-                stack8 entry = {n->child[i], near[i]};
+                stack8 entry = {child[i], near[i]};
                 mask &= mask - 1;
                 while (mask) { /* insertion sort on the stack, farthest first; `entry` is the nearest so far */
                     i = lowest_bit(mask);
                     mask &= mask - 1;
-                    stack8 next = {n->child[i], near[i]};
+                    stack8 next = {child[i], near[i]};
                     if (next.near < entry.near) {
                         stack8 swap = entry;
                         entry = next;
@@ -145,6 +177,7 @@ EC_FN void traverse8_closest(const ray8 *q, const hit_filter *filter, global con
                     stack[k] = next;
                 }
                 current = entry.node;
+                if (depth > base) prefetch8(nodes, blocks, stack[depth - 1].node);
                 continue;
             }
         }
@@ -169,14 +202,14 @@ EC_FN bool traverse8_any(const ray8 *q, const hit_filter *filter, global const e
         } else {
             global const ec_bvh8_node *n = nodes + current;
             uint mask;
+            uint8 child = *(global const uint8 *)n->child;
             node8_near(q, (global const float8 *)n->bound, h->t, &mask);
-            while (mask) {
-                stack[depth++] = n->child[lowest_bit(mask)];
-                mask &= mask - 1;
-            }
+            vstore8(pack8(child, mask), 0, stack + depth);
+            depth += popcount(mask);
         }
         if (depth == 0) return false;
         current = stack[--depth];
+        if (depth) prefetch8(nodes, blocks, stack[depth - 1]);
     }
 }
 
