@@ -1,4 +1,5 @@
-/* The table of everything that can be sampled as light, chosen by power (radiant flux, luminance-weighted). */
+/* The table of everything that can be sampled as light. Half of the samples go to lights at infinity, half to those in the
+ * scene, and within each half by power (radiant flux, luminance-weighted). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,8 +83,26 @@ static void add_punctual(const ec_light *in, double scene_radius, light_list *li
     list->power[list->count++] = power;
 }
 
+static bool is_far(const ec_light_data *light)
+{
+    uint32_t kind = light->kind & EC_LIGHT_KIND_MASK;
+    return kind == EC_KIND_ENVIRONMENT || kind == EC_KIND_DIRECTIONAL;
+}
+
+/* The power of a sky or a sun goes with the size of the scene and says nothing of what reaches a corner that a lamp lights:
+ * by power alone that lamp would be chosen so seldom that its light is fireflies. Halving costs the other side at most
+ * twice the variance. */
+static void balance(light_list *list)
+{
+    double sum[2] = {0.0, 0.0};
+    for (uint32_t i = 0; i < list->count; i++) sum[is_far(&list->lights[i])] += list->power[i];
+    if (!(sum[0] > 0.0 && sum[1] > 0.0)) return;
+    for (uint32_t i = 0; i < list->count; i++) list->power[i] /= sum[is_far(&list->lights[i])];
+}
+
 static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
 {
+    balance(list);
     double *pmf = malloc((list->count + 1) * sizeof *pmf);
     pack->light_alias = malloc((list->count + 1) * sizeof *pack->light_alias);
     ec_result result = pmf && pack->light_alias ? EC_OK : ec_fail(err, "out of memory for %u lights", list->count);
