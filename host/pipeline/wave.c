@@ -6,25 +6,25 @@
 #include "pipeline/pipeline.h"
 
 /* Tries each traversal at each of the first bounces, then keeps the faster. Hits are the same, so only time is at stake. The
- * best of three counts (after one that may compile), since other programs can only slow a trial down. */
+ * best of three counts (after one that may compile), since other programs can only slow a trial down. Rays only lose
+ * coherence from bounce to bounce: packets are tried where they have won the bounce before. */
 #define TRIALS 4
-static ec_trace choose_trace(const ec_pipeline *p, int connect, uint32_t bounce)
+static ec_trace choose_trace(const ec_pipeline *p, int connect, uint32_t bounce, bool *is_trial)
 {
+    *is_trial = false;
     if (!p->has_trace[EC_TRACE_BVH8]) return EC_TRACE_PACKET;
     if (!p->has_trace[EC_TRACE_PACKET]) return EC_TRACE_BVH8;
-    uint32_t b = bounce < EC_TUNED_BOUNCES ? bounce : EC_TUNED_BOUNCES - 1;
-    for (int t = 0; t < EC_TRACE_COUNT; t++)
-        if (p->tuning[connect][b].trials[t] < TRIALS) return (ec_trace)t;
-    const double *rate = p->tuning[connect][b].best_rate;
-    return rate[EC_TRACE_BVH8] > rate[EC_TRACE_PACKET] ? EC_TRACE_BVH8 : EC_TRACE_PACKET;
-}
-
-static bool is_tuning(const ec_pipeline *p, int connect, uint32_t bounce)
-{
-    if (!p->has_trace[EC_TRACE_BVH8] || !p->has_trace[EC_TRACE_PACKET] || bounce >= EC_TUNED_BOUNCES) return false;
-    for (int t = 0; t < EC_TRACE_COUNT; t++)
-        if (p->tuning[connect][bounce].trials[t] < TRIALS) return true;
-    return false;
+    for (uint32_t b = 0; b <= bounce && b < EC_TUNED_BOUNCES; b++) {
+        const uint32_t *trials = p->tuning[connect][b].trials;
+        const double *rate = p->tuning[connect][b].best_rate;
+        for (int t = 0; t < EC_TRACE_COUNT; t++) {
+            if (trials[t] >= TRIALS) continue;
+            *is_trial = b == bounce;
+            return *is_trial ? (ec_trace)t : EC_TRACE_BVH8;
+        }
+        if (rate[EC_TRACE_BVH8] > rate[EC_TRACE_PACKET]) return EC_TRACE_BVH8;
+    }
+    return EC_TRACE_PACKET;
 }
 
 static uint64_t total(const uint32_t *parts)
@@ -38,8 +38,9 @@ static ec_result trace(ec_pipeline *p, int connect, uint32_t bounce, const uint3
 {
     static const ec_stage_id stages[2][EC_TRACE_COUNT] = {{EC_INTERSECT_PACKET, EC_INTERSECT_BVH8},
                                                           {EC_CONNECT_PACKET, EC_CONNECT_BVH8}};
-    ec_trace t = choose_trace(p, connect, bounce);
-    if (!is_tuning(p, connect, bounce)) return ec_pipeline_launch(p, stages[connect][t], scalars, err);
+    bool is_trial;
+    ec_trace t = choose_trace(p, connect, bounce, &is_trial);
+    if (!is_trial) return ec_pipeline_launch(p, stages[connect][t], scalars, err);
     ec_counters *counters = &p->counters;
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     double start = ec_now();
