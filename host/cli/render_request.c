@@ -6,6 +6,7 @@
 #include "cli/numbers.h"
 #include "cli/options.h"
 #include "cli/usage.h"
+#include "accel/accel.h"
 #include "report/names.h"
 
 /* One setter an option; all have the signature of ec_option_set. */
@@ -28,6 +29,14 @@
         REQUEST->field = value;                                                                     \
         return EC_OK;                                                                               \
     }
+
+SETTER(accel)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_accel_names, &index, err));
+    REQUEST->options.accel = ec_accel_names[index];
+    return EC_OK;
+}
 
 FLAG_SETTER(all_effects, options.all_effects)
 FLAG_SETTER(json, json)
@@ -124,20 +133,13 @@ SETTER(tonemap)
     return EC_OK;
 }
 
-SETTER(trace)
-{
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, ec_trace_names, &index, err));
-    REQUEST->options.trace = ec_trace_names[index];
-    return EC_OK;
-}
-
 SETTER(wave)
 {
     return ec_parse_u32(option, value, 1, 1u << 28, &REQUEST->options.wave, err);
 }
 
 static const ec_option options[] = {
+    {"accel", 0, true, set_accel},
     {"all-effects", 0, false, set_all_effects},
     {"batch", 0, true, set_batch},
     {"camera", 0, true, set_camera},
@@ -157,7 +159,6 @@ static const ec_option options[] = {
     {"strategy", 0, true, set_strategy},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
-    {"trace", 0, true, set_trace},
     {"wave", 0, true, set_wave},
 };
 

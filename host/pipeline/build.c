@@ -24,27 +24,24 @@ static uint32_t canonical(const ec_stage_entry *stage, uint32_t features)
     return f;
 }
 
-static bool is_needed(const ec_pipeline *p, ec_stage_id id)
-{
-    if (id == EC_INTERSECT_PACKET || id == EC_CONNECT_PACKET) return p->has_trace[EC_TRACE_PACKET];
-    if (id == EC_INTERSECT_BVH8 || id == EC_CONNECT_BVH8) return p->has_trace[EC_TRACE_BVH8];
-    return true;
-}
-
-static uint32_t lanes_of(const ec_pipeline *p, const ec_stage_entry *stage)
-{
-    return stage->lanes == EC_LANES_OF_PIPELINE ? p->lanes : stage->lanes;
-}
+static uint32_t lanes_of(const ec_pipeline *p, uint32_t lanes) { return lanes == EC_LANES_OF_PIPELINE ? p->lanes : lanes; }
 
 /* One program for all stages of a lane width: each parse of the shared headers costs as much as compiling a stage. */
 static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program, ec_error *err)
 {
-    const char *names[EC_STAGE_ID_COUNT + 1] = {NULL};
+    const char *names[EC_STAGE_ID_COUNT + EC_ACCEL_COUNT + 1] = {NULL};
+    char traversals[EC_ACCEL_COUNT][32];
     uint32_t features = 0, count = 0;
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
-        if (!is_needed(p, (ec_stage_id)id) || lanes_of(p, &ec_stages[id]) != lanes) continue;
+        if (ec_stages[id].lanes == EC_LANES_OF_ACCEL || lanes_of(p, ec_stages[id].lanes) != lanes) continue;
         names[count++] = ec_stages[id].source;
         features |= canonical(&ec_stages[id], p->features);
+    }
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
+        if (!p->accels[a].in_use || lanes_of(p, ec_accels[a].lanes) != lanes) continue;
+        snprintf(traversals[a], sizeof traversals[a], "traverse_%s", ec_accels[a].name);
+        names[count++] = traversals[a];
+        features |= canonical(&ec_stages[EC_INTERSECT], p->features) | canonical(&ec_stages[EC_CONNECT], p->features);
     }
     char options[64], label[32], *source;
     snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%xu", lanes, features);
@@ -55,16 +52,26 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
     return result;
 }
 
+/* accel: the name of one, or NULL where the stage has nothing to do with them. */
+static ec_result build_kernel(ec_pipeline *p, const char *source, const char *accel, uint32_t lanes, cl_kernel *kernel, ec_error *err)
+{
+    char name[64];
+    snprintf(name, sizeof name, "ec_%s%s%s", source, accel ? "_" : "", accel ? accel : "");
+    cl_program *program = &p->programs[lanes];
+    if (!*program) EC_TRY(build_width(p, lanes, program, err));
+    return ec_kernel_create(*program, name, kernel, err);
+}
+
 ec_result ec_pipeline_build(ec_pipeline *p, ec_error *err)
 {
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
-        if (!is_needed(p, (ec_stage_id)id)) continue;
-        uint32_t lanes = lanes_of(p, &ec_stages[id]);
-        cl_program *program = &p->programs[lanes];
-        if (!*program) EC_TRY(build_width(p, lanes, program, err));
-        char name[64];
-        snprintf(name, sizeof name, "ec_%s", ec_stages[id].source);
-        EC_TRY(ec_kernel_create(*program, name, &p->kernels[id], err));
+        const ec_stage_entry *stage = &ec_stages[id];
+        if (stage->lanes != EC_LANES_OF_ACCEL)
+            EC_TRY(build_kernel(p, stage->source, NULL, lanes_of(p, stage->lanes), &p->kernels[id], err));
     }
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
+        for (int connect = 0; p->accels[a].in_use && connect < 2; connect++)
+            EC_TRY(build_kernel(p, ec_stages[connect ? EC_CONNECT : EC_INTERSECT].source, ec_accels[a].name,
+                                lanes_of(p, ec_accels[a].lanes), &p->accels[a].kernels[connect], err));
     return EC_OK;
 }

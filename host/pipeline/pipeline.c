@@ -41,13 +41,12 @@ static uint32_t fit_wave(const ec_cl *cl, const ec_render_options *o, uint32_t b
     return (uint32_t)((wave + unit - 1) / unit * unit);
 }
 
-static void choose_traces(ec_pipeline *p, const ec_scene *scene, const char *trace)
+static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char *name, ec_error *err)
 {
-    bool is_auto = !trace || !strcmp(trace, "auto");
-    bool is_cpu = p->cl->info.type & CL_DEVICE_TYPE_CPU;
-    /* A GPU gets the scalar kernel. On a CPU packets cannot win any more where a scene has many small triangles. */
-    p->has_trace[EC_TRACE_PACKET] = is_auto ? !is_cpu || scene->triangle_count <= (1u << 20) : !strcmp(trace, "packet");
-    p->has_trace[EC_TRACE_BVH8] = is_auto ? is_cpu && scene->triangle_count > 64 : !strcmp(trace, "bvh8");
+    uint32_t chosen;
+    EC_TRY(ec_accels_choose(name, scene->triangle_count, p->cl->info.type & CL_DEVICE_TYPE_CPU, &chosen, err));
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) p->accels[a].in_use = chosen >> a & 1;
+    return EC_OK;
 }
 
 ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
@@ -59,10 +58,10 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     if (p->lanes != 1 && p->lanes != 4 && p->lanes != 8 && p->lanes != 16)
         p->lanes = p->lanes > 16 ? 16 : (p->lanes > 8 ? 8 : (p->lanes > 4 ? 4 : 1));
     if (!options->lanes && cl->info.type & CL_DEVICE_TYPE_GPU) p->lanes = 1;
-    choose_traces(p, scene, options->trace);
+    EC_TRY(choose_accels(p, scene, options->accel, err));
 
     double start = ec_now();
-    ec_result result = ec_pipeline_upload_accel(p, scene, err);
+    ec_result result = ec_pipeline_upload_accels(p, scene, err);
     stats->accel_seconds = ec_now() - start;
     if (result != EC_OK) return result;
 
@@ -112,9 +111,15 @@ void ec_pipeline_destroy(ec_pipeline *p)
     if (!p->cl) return;
     for (int i = 0; i < EC_STAGE_ID_COUNT; i++)
         if (p->kernels[i]) clReleaseKernel(p->kernels[i]);
+    for (int a = 0; a < EC_ACCEL_COUNT; a++) {
+        for (int i = 0; i < 2; i++)
+            if (p->accels[a].kernels[i]) clReleaseKernel(p->accels[a].kernels[i]);
+        for (int k = 0; k < EC_ACCEL_BUFFERS; k++) ec_buffer_release(p->cl, &p->accels[a].buffers[k]);
+    }
     for (int i = 0; i <= EC_LANES_MOST; i++)
         if (p->programs[i]) clReleaseProgram(p->programs[i]);
-    p->buffers[EC_ARG_PATHS] = p->buffers[EC_ARG_NEXT] = NULL; /* views of path_queues */
+    p->buffers[EC_ARG_PATHS] = p->buffers[EC_ARG_NEXT] = NULL; /* views of path_queues, as these of accels */
+    memset(&p->buffers[EC_ARG_ACCEL], 0, EC_ACCEL_BUFFERS * sizeof *p->buffers);
     for (int i = 0; i < EC_ARG_COUNT; i++) ec_buffer_release(p->cl, &p->buffers[i]);
     for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);
     memset(p, 0, sizeof *p);

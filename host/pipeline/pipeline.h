@@ -2,15 +2,13 @@
 #ifndef EC_PIPELINE_PIPELINE_H
 #define EC_PIPELINE_PIPELINE_H
 
-#include "accel/bvh.h"
+#include "accel/accel.h"
 #include "pack/pack.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
 #include "shared/params.h"
 #include "shared/path_state.h"
 
-/* Which traversal a bounce uses; both give the same hits. */
-typedef enum ec_trace { EC_TRACE_PACKET, EC_TRACE_BVH8, EC_TRACE_COUNT } ec_trace;
 #define EC_LANES_MOST 16
 #define EC_TUNED_BOUNCES 4 /* bounces with a choice of their own; later ones share the last */
 
@@ -23,12 +21,16 @@ typedef struct ec_pipeline {
     cl_mem path_queues[2];
     cl_program programs[EC_LANES_MOST + 1]; /* by lane width */
     cl_kernel kernels[EC_STAGE_ID_COUNT];
-    bool has_trace[EC_TRACE_COUNT];
-    /* Measured choice of traversal, at each bounce: the best rays a second of each kind while both are being tried. */
     struct {
-        double best_rate[EC_TRACE_COUNT];
-        uint32_t trials[EC_TRACE_COUNT];
-    } tuning[2][EC_TUNED_BOUNCES]; /* [0] intersect, [1] connect */
+        bool in_use;
+        cl_mem buffers[EC_ACCEL_BUFFERS];
+        cl_kernel kernels[2];     /* [0] intersect, [1] connect, as everywhere */
+        /* Where several are in use, all give the same hits: rays a second of each, the best trial at each bounce. */
+        struct {
+            double best_rate;
+            uint32_t trials;
+        } tuning[2][EC_TUNED_BOUNCES];
+    } accels[EC_ACCEL_COUNT];
     uint64_t rays;                /* traced so far, shadow rays included */
 } ec_pipeline;
 
@@ -41,14 +43,21 @@ void ec_pipeline_destroy(ec_pipeline *pipeline);
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err);
 
+/* wave.c: the sum of a queue's parts */
+uint64_t ec_pipeline_total(const uint32_t *parts);
+
 /* upload.c */
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
-ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, const ec_scene *scene, ec_error *err);
+/* Builds and uploads the accelerators that are in use. */
+ec_result ec_pipeline_upload_accels(ec_pipeline *pipeline, const ec_scene *scene, ec_error *err);
 ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, ec_error *err);
 /* build.c */
 ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
 /* launch.c */
 ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
+ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
+/* trace.c: the closest hits or the shadow rays of a bounce, through the accelerator that has proved the fastest there. */
+ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce, const uint32_t *scalars, ec_error *err);
 
 /* Names of the features in a mask, blank separated. */
 void ec_feature_names(uint32_t features, char *text, size_t size);

@@ -29,7 +29,7 @@ typedef struct ec_render_options {
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
-    const char *trace;          /* "auto" (NULL), "packet" or "bvh8": traversal kernel */
+    const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
 } ec_render_options;
 
 typedef struct ec_progress {

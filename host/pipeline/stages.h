@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "cl/cl.h"
+#include "shared/accel.h"
 #include "shared/features.h"
 
 /* Everything a kernel can be handed. The first ones are scalars that change from launch to launch. */
@@ -27,10 +28,8 @@ typedef enum ec_arg {
     EC_ARG_AOV,
     EC_ARG_BATCH_FILM,
     EC_ARG_FEATURE_FILM,
-    EC_ARG_BVH2_NODES,
-    EC_ARG_BVH2_TRIS,
-    EC_ARG_BVH8_NODES,
-    EC_ARG_BVH8_BLOCKS,
+    EC_ARG_ACCEL,      /* the buffers of the accelerator that the launch goes through */
+    EC_ARG_ACCEL_END = EC_ARG_ACCEL + EC_ACCEL_BUFFERS - 1,
     EC_ARG_PRIMS,
     EC_ARG_INDICES,
     EC_ARG_NORMALS,
@@ -50,21 +49,21 @@ typedef enum ec_arg {
 
 typedef enum ec_stage_id {
     EC_GENERATE,
-    EC_INTERSECT_PACKET,
-    EC_INTERSECT_BVH8,
+    EC_INTERSECT,
     EC_SHADE,
-    EC_CONNECT_PACKET,
-    EC_CONNECT_BVH8,
+    EC_CONNECT,
     EC_ACCUMULATE,
     EC_STORE_FEATURES,
     EC_STAGE_ID_COUNT
 } ec_stage_id;
 
-/* How many lanes a stage's program is built with: the pipeline's, or a fixed number. */
+/* How many lanes a stage's program is built with: the pipeline's, the accelerator's, or a fixed number. */
 #define EC_LANES_OF_PIPELINE 0
+#define EC_LANES_OF_ACCEL UINT32_MAX
 
 typedef struct ec_stage_entry {
-    const char *source;        /* kernels/stages/SOURCE.cl; its kernel is ec_SOURCE */
+    const char *source;        /* kernels/stages/SOURCE.cl; its kernel is ec_SOURCE. With EC_LANES_OF_ACCEL there is one
+                                  for each accelerator: ec_SOURCE_NAME in kernels/lib/traverse_NAME.h */
     const char *label;         /* for messages and profiles */
     uint32_t lanes;
     uint32_t features;         /* bits that can change its code; others do not multiply binaries */

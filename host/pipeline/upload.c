@@ -1,9 +1,8 @@
 /* The scene and the queues as device buffers. Host copies are freed as soon as the device has them. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "base/clock.h"
 #include "pipeline/pipeline.h"
 
 static ec_result upload(ec_pipeline *p, ec_arg arg, const char *label, uint64_t bytes, const void *data, ec_error *err)
@@ -62,32 +61,28 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     return upload(p, EC_ARG_ENVIRONMENT_ALIAS, "environment table", texels * sizeof *pack->environment_alias, pack->environment_alias, err);
 }
 
-ec_result ec_pipeline_upload_accel(ec_pipeline *p, const ec_scene *scene, ec_error *err)
+static ec_result upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *input, ec_error *err)
 {
-    ec_bvh bvh = {0};
-    ec_bvh_stats stats;
-    EC_TRY(ec_bvh_build(scene->positions, scene->indices, scene->triangle_count, 0, &bvh, &stats, err));
+    ec_accel accel = {0};
+    char label[64];
+    ec_result result = ec_accel_build(which, input, &accel, err);
+    for (int k = 0; result == EC_OK && k < EC_ACCEL_BUFFERS; k++) {
+        const ec_accel_buffer *buffer = &accel.buffers[k];
+        if (!buffer->data) continue;
+        snprintf(label, sizeof label, "%s %s", ec_accels[which].name, buffer->label);
+        result = ec_buffer_create(p->cl, label, buffer->bytes, buffer->data, &p->accels[which].buffers[k], err);
+    }
+    ec_accel_free(&accel);
+    return result;
+}
+
+ec_result ec_pipeline_upload_accels(ec_pipeline *p, const ec_scene *scene, ec_error *err)
+{
+    ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count};
     ec_result result = EC_OK;
-    void *nodes = NULL, *leaves = NULL;
-    uint32_t node_count, leaf_count;
-    if (p->has_trace[EC_TRACE_PACKET]) {
-        result = ec_bvh2_layout(&bvh, scene->positions, scene->indices, (ec_bvh2_node **)&nodes, &node_count,
-                                (ec_tri **)&leaves, &leaf_count, err);
-        if (result == EC_OK) result = upload(p, EC_ARG_BVH2_NODES, "BVH2 nodes", (uint64_t)node_count * sizeof(ec_bvh2_node), nodes, err);
-        if (result == EC_OK) result = upload(p, EC_ARG_BVH2_TRIS, "BVH2 triangles", (uint64_t)leaf_count * sizeof(ec_tri), leaves, err);
-        free(nodes);
-        free(leaves);
-        nodes = leaves = NULL;
-    }
-    if (result == EC_OK && p->has_trace[EC_TRACE_BVH8]) {
-        result = ec_bvh8_layout(&bvh, scene->positions, scene->indices, (ec_bvh8_node **)&nodes, &node_count,
-                                (ec_tri8 **)&leaves, &leaf_count, err);
-        if (result == EC_OK) result = upload(p, EC_ARG_BVH8_NODES, "BVH8 nodes", (uint64_t)node_count * sizeof(ec_bvh8_node), nodes, err);
-        if (result == EC_OK) result = upload(p, EC_ARG_BVH8_BLOCKS, "BVH8 triangle blocks", (uint64_t)leaf_count * sizeof(ec_tri8), leaves, err);
-        free(nodes);
-        free(leaves);
-    }
-    ec_bvh_free(&bvh);
+    for (uint32_t a = 0; result == EC_OK && a < EC_ACCEL_COUNT; a++)
+        if (p->accels[a].in_use) result = upload_accel(p, a, &input, err);
+    ec_accel_input_free(&input);
     return result;
 }
 

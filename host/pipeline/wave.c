@@ -2,55 +2,13 @@
  * only every EC_SEGMENT bounces. */
 #include <string.h>
 
-#include "base/clock.h"
 #include "pipeline/pipeline.h"
 
-/* Tries each traversal at each of the first bounces, then keeps the faster. Hits are the same, so only time is at stake. The
- * best of three counts (after one that may compile), since other programs can only slow a trial down. Rays only lose
- * coherence from bounce to bounce: packets are tried where they have won the bounce before. */
-#define TRIALS 4
-static ec_trace choose_trace(const ec_pipeline *p, int connect, uint32_t bounce, bool *is_trial)
-{
-    *is_trial = false;
-    if (!p->has_trace[EC_TRACE_BVH8]) return EC_TRACE_PACKET;
-    if (!p->has_trace[EC_TRACE_PACKET]) return EC_TRACE_BVH8;
-    for (uint32_t b = 0; b <= bounce && b < EC_TUNED_BOUNCES; b++) {
-        const uint32_t *trials = p->tuning[connect][b].trials;
-        const double *rate = p->tuning[connect][b].best_rate;
-        for (int t = 0; t < EC_TRACE_COUNT; t++) {
-            if (trials[t] >= TRIALS) continue;
-            *is_trial = b == bounce;
-            return *is_trial ? (ec_trace)t : EC_TRACE_BVH8;
-        }
-        if (rate[EC_TRACE_BVH8] > rate[EC_TRACE_PACKET]) return EC_TRACE_BVH8;
-    }
-    return EC_TRACE_PACKET;
-}
-
-static uint64_t total(const uint32_t *parts)
+uint64_t ec_pipeline_total(const uint32_t *parts)
 {
     uint64_t sum = 0;
     for (int k = 0; k < EC_PARTS; k++) sum += parts[k * EC_PART_STRIDE];
     return sum;
-}
-
-static ec_result trace(ec_pipeline *p, int connect, uint32_t bounce, const uint32_t *scalars, ec_error *err)
-{
-    static const ec_stage_id stages[2][EC_TRACE_COUNT] = {{EC_INTERSECT_PACKET, EC_INTERSECT_BVH8},
-                                                          {EC_CONNECT_PACKET, EC_CONNECT_BVH8}};
-    bool is_trial;
-    ec_trace t = choose_trace(p, connect, bounce, &is_trial);
-    if (!is_trial) return ec_pipeline_launch(p, stages[connect][t], scalars, err);
-    ec_counters *counters = &p->counters;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    double start = ec_now();
-    EC_TRY(ec_pipeline_launch(p, stages[connect][t], scalars, err));
-    EC_TRY(ec_cl_finish(p->cl, err));
-    uint32_t step = scalars[EC_ARG_STEP];
-    uint64_t rays = total(connect ? counters->shadows[step] : counters->rays[step]);
-    double rate = (double)rays / (ec_now() - start), *best = &p->tuning[connect][bounce].best_rate[t];
-    if (p->tuning[connect][bounce].trials[t]++ > 0 && rate > *best) *best = rate;
-    return EC_OK;
 }
 
 static void swap_queues(ec_pipeline *p, uint32_t bounce)
@@ -70,12 +28,12 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_b
         scalars[EC_ARG_BOUNCE] = first_bounce + step;
         scalars[EC_ARG_STEP] = step;
         swap_queues(p, first_bounce + step);
-        EC_TRY(trace(p, 0, first_bounce + step, scalars, err));
+        EC_TRY(ec_pipeline_trace(p, 0, first_bounce + step, scalars, err));
         EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
-        if (p->params.light_count) EC_TRY(trace(p, 1, first_bounce + step, scalars, err));
+        if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, first_bounce + step, scalars, err));
     }
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    for (uint32_t step = 0; step < EC_SEGMENT; step++) p->rays += total(counters->rays[step]) + total(counters->shadows[step]);
+    for (uint32_t step = 0; step < EC_SEGMENT; step++) p->rays += ec_pipeline_total(counters->rays[step]) + ec_pipeline_total(counters->shadows[step]);
     memcpy(counters->rays[0], counters->rays[EC_SEGMENT], sizeof counters->rays[0]);
     return EC_OK;
 }
@@ -104,7 +62,7 @@ ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pix
 
     ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
     fill_parts(p, paths);
-    for (uint32_t bounce = 0; result == EC_OK && total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
+    for (uint32_t bounce = 0; result == EC_OK && ec_pipeline_total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
         result = run_segment(p, scalars, bounce, err);
     p->buffers[EC_ARG_AOV] = aov;
     if (result == EC_OK) result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, err);

@@ -11,4 +11,3 @@ const char *const ec_strategy_names[] = {
     [EC_STRATEGY_MIS] = "mis", [EC_STRATEGY_NEE] = "nee", [EC_STRATEGY_BSDF] = "bsdf", NULL};
 const char *const ec_tonemap_names[] = {
     [EC_TONEMAP_NEUTRAL] = "neutral", [EC_TONEMAP_NONE] = "none", NULL};
-const char *const ec_trace_names[] = {"auto", "packet", "bvh8", NULL};

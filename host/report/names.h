@@ -5,6 +5,5 @@
 extern const char *const ec_sampler_names[];  /* ec_sampler_type */
 extern const char *const ec_strategy_names[]; /* ec_strategy */
 extern const char *const ec_tonemap_names[];  /* ec_tonemap */
-extern const char *const ec_trace_names[];    /* ec_render_options.trace */
 
 #endif

@@ -55,7 +55,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_made(attributes, "eclat.seed", "%" PRIu64, options->seed);
     add_text(attributes, "eclat.sampler", ec_sampler_names[options->sampler]);
     add_text(attributes, "eclat.strategy", ec_strategy_names[options->strategy]);
-    add_text(attributes, "eclat.trace", options->trace ? options->trace : "auto");
+    add_text(attributes, "eclat.accel", options->accel ? options->accel : "auto");
     if (options->max_depth)
         add_made(attributes, "eclat.maxDepth", "%u", options->max_depth);
     else

@@ -15,7 +15,7 @@ static void add_setting(cJSON *root, const ec_render_report *report)
     ec_json_whole(root, "height", options->height);
     ec_json_text(root, "sampler", ec_sampler_names[options->sampler]);
     ec_json_text(root, "strategy", ec_strategy_names[options->strategy]);
-    ec_json_text(root, "trace", options->trace ? options->trace : "auto");
+    ec_json_text(root, "accel", options->accel ? options->accel : "auto");
     ec_json_whole(root, "seed", options->seed);
     if (options->max_depth)
         ec_json_whole(root, "max_depth", options->max_depth);

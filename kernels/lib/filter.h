@@ -12,6 +12,13 @@ typedef struct hit_filter {
     bool cull_backs; /* camera rays */
 } hit_filter;
 
+/* What a kernel must be given for it: alpha is a matter of textures. */
+#define FILTER_PARAMETERS                                                                          \
+    global const float *prims, global const float *indices, global const float *uvs,               \
+        global const float *colors, global const float *materials,                                 \
+        global const float *texture_table, global const uint *texels, constant float *srgb
+#define FILTER_GEOMETRY {prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}
+
 /* Random key of a ray: bounce counts the vertices before it, shadow rays differ from path rays. */
 EC_FN lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, bool is_shadow)
 {

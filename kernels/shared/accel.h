@@ -4,6 +4,8 @@
 
 #include "types.h"
 
+#define EC_ACCEL_BUFFERS 4      /* that an accelerator may have on the device */
+
 #define EC_BVH_STACK 96         /* entries of a binary traversal stack; the builder keeps trees no deeper than 64 */
 #define EC_BVH8_STACK 96        /* the same for eight children; layout8.c keeps every path within it */
 #define EC_LEAF_BIT 0x80000000u
@@ -48,5 +50,36 @@ typedef struct ec_tri8 {
     ec_uint id[8];
 } ec_tri8;
 EC_ASSERT_SIZE(ec_tri8, 320);
+
+/* Uniform grid. Behind the header stand the planes between the cells, cells[0] + 1 along x, then y, then z, ascending: the
+ * host says where a cell ends and the kernels only compare. Cell (x, y, z) is x + cells[0] * (y + cells[1] * z). */
+typedef struct ec_grid {
+    ec_uint cells[3];    /* along each axis */
+    ec_uint pad0;
+    ec_float per_unit[3]; /* cells a scene unit, for first guesses only */
+    ec_uint pad1;
+} ec_grid;
+EC_ASSERT_SIZE(ec_grid, 32);
+
+/* Kd-tree: eight bytes a node. Inner: axis 0 to 2, children at index and index + 1 (below and above the plane). Leaf: axis 3,
+ * `count` blocks of up to eight triangles from `first` on. A triangle is in every leaf that its box overlaps. */
+typedef struct ec_kd_node {
+    union {
+        ec_float plane;
+        ec_uint first;
+    } at;
+    ec_uint word;        /* axis | (index or count) << 2 */
+} ec_kd_node;
+EC_ASSERT_SIZE(ec_kd_node, 8);
+#define EC_KD_STACK 64   /* the builder goes no deeper */
+
+/* Before the nodes, the box of everything. */
+typedef struct ec_kd_header {
+    ec_float lo[3];
+    ec_uint pad0;
+    ec_float hi[3];
+    ec_uint pad1;
+} ec_kd_header;
+EC_ASSERT_SIZE(ec_kd_header, 32);
 
 #endif

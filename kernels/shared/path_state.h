@@ -15,7 +15,10 @@ enum ec_path_field {
 enum ec_hit_field {
     EC_HIT_PRIM,                           /* uint: EC_NO_ID on a miss */
     EC_HIT_B1, EC_HIT_B2,                  /* barycentrics of v1, v2 */
-    EC_HIT_FIELDS
+    EC_HIT_FIELDS,
+    EC_HIT_T = EC_HIT_FIELDS,              /* written by kernels built with PROBE only (lib/tally.h): distance, and */
+    EC_HIT_NODES, EC_HIT_TESTS,            /* uint: nodes or cells visited, triangles tested */
+    EC_HIT_PROBE_FIELDS
 };
 
 enum ec_shadow_field {

@@ -148,7 +148,8 @@ class SameBits(Render):
         options = ["--size", "33x17", "--spp", "8", "--max-depth", "5"]
         first = self.render(*options, scene=CORNELL)["image_sha256"]
         for change in [[], ["--lanes", "1"], ["--lanes", "4"], ["--lanes", "8"], ["--lanes", "16"], ["--wave", "1000"],
-                       ["--wave", "100000"], ["--all-effects"], ["--trace", "packet"], ["--trace", "bvh8"]]:
+                       ["--wave", "100000"], ["--all-effects"], ["--accel", "bvh2"], ["--accel", "bvh8"],
+                       ["--accel", "none"]]:
             with self.subTest(change=change):
                 self.assertEqual(self.render(*options, *change, scene=CORNELL)["image_sha256"], first)
         with self.subTest("threads"):

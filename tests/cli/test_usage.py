@@ -98,7 +98,7 @@ class WrongOptions(Case):
             "--sampler": ["halton", ""],
             "--tonemap": ["aces"],
             "--strategy": ["all"],
-            "--trace": ["grid"],
+            "--accel": ["octree"],
         }.items():
             for value in values:
                 with self.subTest(option=option, value=value):

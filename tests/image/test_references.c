@@ -82,7 +82,7 @@ static void hard_variants(void)
     case_free(&plain);
 }
 
-/* No NaN, the same picture twice and from both traversals. */
+/* No NaN, the same picture twice and from both BVHs. */
 static void degenerate(const char *file)
 {
     char path[512];
@@ -91,9 +91,9 @@ static void degenerate(const char *file)
     ec_scene *scene = case_load(path, NULL);
     ec_render_options o = case_options(64, 64, 16);
     case_image first;
-    static const char *const traces[] = {"bvh8", "packet", "bvh8"};
+    static const char *const accels[] = {"bvh8", "bvh2", "bvh8"};
     for (int i = 0; i < 3; i++) {
-        o.trace = traces[i];
+        o.accel = accels[i];
         case_image image = case_render(scene, &o);
         if (i == 0) {
             first = image;

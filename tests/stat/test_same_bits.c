@@ -1,5 +1,6 @@
-/* The picture is a function of scene, seed and options, not of how it was computed: LANES, traversal kernel, wave size, effects
+/* The picture is a function of scene, seed and options, not of how it was computed: LANES, acceleration structure, wave size, effects
  * built in, and the time of day change no bit of any number in the film. (Threads: tests/cli/test_render.py.) */
+#include "accel/accel.h"
 #include "support/render_case.h"
 
 enum { WIDTH = 48, HEIGHT = 36 };
@@ -23,24 +24,23 @@ static ec_render_options base_options(void)
 static void check_one(const ec_scene *scene, const case_image *expected, const ec_render_options *o, const char *what)
 {
     case_image image = case_render(scene, o);
-    CHECK_MSG(films_equal(&image.film, &expected->film), "%s: lanes %u, trace %s, wave %u, all effects %d: other bits", what,
-              o->lanes, o->trace ? o->trace : "auto", o->wave, o->all_effects);
+    CHECK_MSG(films_equal(&image.film, &expected->film), "%s: lanes %u, %s, wave %u, all effects %d: other bits", what,
+              o->lanes, o->accel ? o->accel : "auto", o->wave, o->all_effects);
     case_free(&image);
 }
 
 static void check_scene(const char *what, const ec_scene *scene)
 {
     static const uint32_t lanes[] = {1, 4, 8, 16}, waves[] = {512, 4096, 5000};
-    static const char *const traces[] = {"packet", "bvh8"};
     ec_render_options o = base_options();
     case_image expected = case_render(scene, &o);
     CHECK(expected.mean[0] > 0);
     check_one(scene, &expected, &o, what); /* twice in a row */
     for (int l = 0; l < 4; l++)
-        for (int t = 0; t < 2; t++) {
+        for (int a = 0; a < EC_ACCEL_COUNT; a++) {
             o = base_options();
             o.lanes = lanes[l];
-            o.trace = traces[t];
+            o.accel = ec_accels[a].name;
             check_one(scene, &expected, &o, what);
         }
     for (int i = 0; i < 3; i++) {

@@ -4,43 +4,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/bvh.h"
 #include "shared/params.h"
 #include "shared/path_state.h"
 
-static const ec_stage_id stages[BENCH_TRACE_COUNT][2] = {{EC_INTERSECT_BVH8, EC_CONNECT_BVH8},
-                                                         {EC_INTERSECT_PACKET, EC_CONNECT_PACKET}};
+static ec_stage_id stage_of(bench_kind kind) { return kind == BENCH_SHADOW ? EC_CONNECT : EC_INTERSECT; }
 
-static ec_stage_id stage_of(bench_trace trace, bench_kind kind) { return stages[trace][kind == BENCH_SHADOW]; }
-
-static ec_result upload_bvh(bench_device *d, const bench_mesh *mesh, bool with_packet, ec_error *err)
+static ec_result upload_accels(bench_device *d, const bench_mesh *mesh, uint32_t accels, float grid_density, ec_error *err)
 {
-    ec_bvh bvh;
-    ec_bvh_stats stats;
-    ec_bvh8_node *wide;
-    ec_tri8 *blocks;
-    ec_bvh2_node *binary;
-    ec_tri *triangles;
-    uint32_t nodes, leaves;
-    EC_TRY(ec_bvh_build(mesh->positions, mesh->indices, mesh->triangle_count, 0, &bvh, &stats, err));
-    EC_TRY(ec_bvh8_layout(&bvh, mesh->positions, mesh->indices, &wide, &nodes, &blocks, &leaves, err));
-    EC_TRY(ec_buffer_create(&d->cl, "BVH8 nodes", (uint64_t)nodes * sizeof *wide, wide, &d->buffers[EC_ARG_BVH8_NODES], err));
-    EC_TRY(ec_buffer_create(&d->cl, "BVH8 blocks", (uint64_t)leaves * sizeof *blocks, blocks, &d->buffers[EC_ARG_BVH8_BLOCKS], err));
-    free(wide);
-    free(blocks);
-    if (with_packet) {
-        EC_TRY(ec_bvh2_layout(&bvh, mesh->positions, mesh->indices, &binary, &nodes, &triangles, &leaves, err));
-        EC_TRY(ec_buffer_create(&d->cl, "BVH2 nodes", (uint64_t)nodes * sizeof *binary, binary, &d->buffers[EC_ARG_BVH2_NODES], err));
-        EC_TRY(ec_buffer_create(&d->cl, "BVH2 triangles", (uint64_t)leaves * sizeof *triangles, triangles, &d->buffers[EC_ARG_BVH2_TRIS], err));
-        free(binary);
-        free(triangles);
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
+        if (!(accels >> a & 1)) continue;
+        ec_accel_input input = {.positions = mesh->positions, .indices = mesh->indices, .triangle_count = mesh->triangle_count,
+                                .grid_density = grid_density};
+        ec_accel accel;
+        ec_result result = ec_accel_build(a, &input, &accel, err);
+        for (int k = 0; result == EC_OK && k < EC_ACCEL_BUFFERS; k++)
+            if (accel.buffers[k].data)
+                result = ec_buffer_create(&d->cl, accel.buffers[k].label, accel.buffers[k].bytes, accel.buffers[k].data,
+                                          &d->accel_buffers[a][k], err);
+        d->accel_stats[a] = accel.stats;
+        ec_accel_free(&accel);
+        ec_accel_input_free(&input);
+        EC_TRY(result);
     }
-    ec_bvh_free(&bvh);
     return EC_OK;
 }
 
 ec_result bench_device_open(bench_device *d, const char *id, uint32_t lanes, const bench_mesh *mesh, float scene_max,
-                            uint32_t most_rays, bool with_packet, ec_error *err)
+                            uint32_t most_rays, uint32_t accels, float grid_density, ec_error *err)
 {
     memset(d, 0, sizeof *d);
     ec_device_info *devices;
@@ -56,7 +46,7 @@ ec_result bench_device_open(bench_device *d, const char *id, uint32_t lanes, con
     d->most_rays = most_rays;
     d->stride = (most_rays + 127) / 64 * 64;
     d->scene_max = scene_max;
-    EC_TRY(upload_bvh(d, mesh, with_packet, err));
+    EC_TRY(upload_accels(d, mesh, accels, grid_density, err));
     const uint64_t field = (uint64_t)d->stride * 4;
     ec_params params = {.width = 8, .height = 8, .batch = 1, .wave = d->stride, .part = d->stride, .max_depth = 8, .scene_max = scene_max,
                         .scene_radius = 2.0f * scene_max};
@@ -72,6 +62,9 @@ void bench_device_close(bench_device *d)
 {
     d->buffers[EC_ARG_PATHS] = d->buffers[EC_ARG_SHADOWS] = NULL;
     for (int i = 0; i < BENCH_KIND_COUNT; i++) ec_buffer_release(&d->cl, &d->queues[i]);
+    for (int a = 0; a < EC_ACCEL_COUNT; a++)
+        for (int k = 0; k < EC_ACCEL_BUFFERS; k++) ec_buffer_release(&d->cl, &d->accel_buffers[a][k]);
+    memset(&d->buffers[EC_ARG_ACCEL], 0, sizeof d->accel_buffers[0]);
     for (int i = 0; i < EC_ARG_COUNT; i++) ec_buffer_release(&d->cl, &d->buffers[i]);
     ec_cl_close(&d->cl);
 }
@@ -92,39 +85,42 @@ static char *read_source(const char *path)
     return text;
 }
 
-static ec_result build_stage(bench_device *d, bench_kernels *k, ec_stage_id id, ec_error *err)
+static ec_result build_accel(bench_device *d, bench_kernels *k, uint32_t accel, ec_error *err)
 {
-    const ec_stage_entry *stage = &ec_stages[id];
-    char options[4400], path[4200], name[64];
-    uint32_t lanes = stage->lanes == EC_LANES_OF_PIPELINE ? d->lanes : stage->lanes;
+    char options[4400], path[4200], name[64], unit[64];
+    uint32_t lanes = ec_accels[accel].lanes == EC_LANES_OF_PIPELINE ? d->lanes : ec_accels[accel].lanes;
     int used = snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u", lanes);
-    const char *source = ec_kernel_source(stage->source);
+    snprintf(unit, sizeof unit, "traverse_%s", ec_accels[accel].name);
+    const char *source = ec_kernel_source(unit);
     char *text = NULL;
     if (k->folder) {
-        snprintf(path, sizeof path, "%s/stages/%s.cl", k->folder, stage->source);
+        snprintf(path, sizeof path, "%s/lib/%s.h", k->folder, unit);
         source = text = read_source(path);
-        snprintf(options + used, sizeof options - (size_t)used, " -I %s/stages", k->folder);
+        snprintf(options + used, sizeof options - (size_t)used, " -I %s/lib", k->folder);
     }
-    if (!source) return ec_fail(err, "no kernel source %s", k->folder ? path : stage->source);
-    snprintf(name, sizeof name, "ec_%s", stage->source);
-    ec_result result = ec_program_build(&d->cl, stage->source, source, options, &k->programs[id], err);
-    if (result == EC_OK) result = ec_kernel_create(k->programs[id], name, &k->kernels[id], err);
+    if (!source) return ec_fail(err, "no kernel source %s", k->folder ? path : unit);
+    ec_result result = ec_program_build(&d->cl, unit, source, options, &k->programs[accel], err);
+    for (int connect = 0; result == EC_OK && connect < 2; connect++) {
+        snprintf(name, sizeof name, "ec_%s_%s", ec_stages[connect ? EC_CONNECT : EC_INTERSECT].source, ec_accels[accel].name);
+        result = ec_kernel_create(k->programs[accel], name, &k->kernels[accel][connect], err);
+    }
     free(text);
     return result;
 }
 
-ec_result bench_device_kernels(bench_device *d, bench_kernels *k, bool with_packet, ec_error *err)
+ec_result bench_device_kernels(bench_device *d, bench_kernels *k, uint32_t accels, ec_error *err)
 {
-    for (int trace = 0; trace < (with_packet ? BENCH_TRACE_COUNT : 1); trace++)
-        for (int connect = 0; connect < 2; connect++) EC_TRY(build_stage(d, k, stages[trace][connect], err));
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
+        if (accels >> a & 1) EC_TRY(build_accel(d, k, a, err));
     return EC_OK;
 }
 
 void bench_device_release(bench_kernels *k)
 {
-    for (int i = 0; i < EC_STAGE_ID_COUNT; i++) {
-        if (k->kernels[i]) clReleaseKernel(k->kernels[i]);
-        if (k->programs[i]) clReleaseProgram(k->programs[i]);
+    for (int a = 0; a < EC_ACCEL_COUNT; a++) {
+        for (int i = 0; i < 2; i++)
+            if (k->kernels[a][i]) clReleaseKernel(k->kernels[a][i]);
+        if (k->programs[a]) clReleaseProgram(k->programs[a]);
     }
 }
 
@@ -161,40 +157,41 @@ static ec_result prepare(bench_device *d, bench_kind kind, ec_error *err)
     return ec_cl_finish(&d->cl, err);
 }
 
-static ec_result launch(bench_device *d, const bench_kernels *k, bench_trace trace, bench_kind kind, ec_error *err)
+static ec_result launch(bench_device *d, const bench_kernels *k, uint32_t accel, bench_kind kind, ec_error *err)
 {
-    ec_stage_id id = stage_of(trace, kind);
-    const ec_stage_entry *stage = &ec_stages[id];
+    const ec_stage_entry *stage = &ec_stages[stage_of(kind)];
+    cl_kernel kernel = k->kernels[accel][kind == BENCH_SHADOW];
+    memcpy(&d->buffers[EC_ARG_ACCEL], d->accel_buffers[accel], sizeof d->accel_buffers[accel]);
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
     scalars[EC_ARG_BOUNCE] = kind == BENCH_CAMERA ? 0 : 1;
     scalars[EC_ARG_PATH_COUNT] = d->counts[kind];
     for (uint32_t i = 0; i < stage->argument_count; i++) {
         ec_arg arg = stage->arguments[i];
         cl_int code = arg < EC_ARG_SCALAR_COUNT
-                          ? clSetKernelArg(k->kernels[id], i, sizeof(cl_uint), &scalars[arg])
-                          : clSetKernelArg(k->kernels[id], i, sizeof(cl_mem), d->buffers[arg] ? &d->buffers[arg] : NULL);
+                          ? clSetKernelArg(kernel, i, sizeof(cl_uint), &scalars[arg])
+                          : clSetKernelArg(kernel, i, sizeof(cl_mem), d->buffers[arg] ? &d->buffers[arg] : NULL);
         EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
     }
-    uint64_t items = trace == BENCH_BVH8 ? d->counts[kind] : (d->counts[kind] + d->lanes - 1) / d->lanes;
-    return ec_kernel_run(&d->cl, stage->label, k->kernels[id], items, EC_LOCAL_SIZE, err);
+    uint64_t items = ec_accels[accel].lanes != EC_LANES_OF_PIPELINE ? d->counts[kind] : (d->counts[kind] + d->lanes - 1) / d->lanes;
+    return ec_kernel_run(&d->cl, stage->label, kernel, items, EC_LOCAL_SIZE, err);
 }
 
-ec_result bench_device_trace(bench_device *d, const bench_kernels *k, bench_trace trace, bench_kind kind, double *seconds,
+ec_result bench_device_trace(bench_device *d, const bench_kernels *k, uint32_t accel, bench_kind kind, double *seconds,
                              ec_error *err)
 {
     EC_TRY(prepare(d, kind, err));
     double start = bench_clock();
-    EC_TRY(launch(d, k, trace, kind, err));
+    EC_TRY(launch(d, k, accel, kind, err));
     EC_TRY(ec_cl_finish(&d->cl, err));
     *seconds = bench_clock() - start;
     return EC_OK;
 }
 
-ec_result bench_device_found(bench_device *d, const bench_kernels *k, bench_trace trace, bench_kind kind,
+ec_result bench_device_found(bench_device *d, const bench_kernels *k, uint32_t accel, bench_kind kind,
                              bench_found *found, ec_error *err)
 {
     EC_TRY(prepare(d, kind, err));
-    EC_TRY(launch(d, k, trace, kind, err));
+    EC_TRY(launch(d, k, accel, kind, err));
     const size_t stride = d->stride;
     bool is_shadow = kind == BENCH_SHADOW;
     float *words = malloc(3 * stride * 4);

@@ -1,16 +1,18 @@
 /* LANES rays through the binary BVH together. Wins on small scenes and coherent rays; with LANES 1 it is the ordinary GPU
  * kernel. */
-#ifndef EC_LIB_TRAVERSE_PACKET_H
-#define EC_LIB_TRAVERSE_PACKET_H
+#ifndef EC_LIB_TRAVERSE_BVH2_H
+#define EC_LIB_TRAVERSE_BVH2_H
 
 #include "../shared/accel.h"
 #include "filter.h"
 #include "ray.h"
+#include "tally.h"
 
 typedef struct hit {
     lane_f t;
     lane_u prim; /* EC_NO_ID: none */
     lane_f b1, b2;
+    TALLIES
 } hit;
 
 EC_FN v3 splat_point(global const float *p) { return v3_make(F(p[0]), F(p[1]), F(p[2])); }
@@ -85,14 +87,16 @@ EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const
 
 /* h->t holds t_max on entry (negative: lane off), h->prim EC_NO_ID. any_hit: a lane is done at its first hit, whose t
  * becomes negative. */
-EC_FN void traverse_packet(const ray *r, const hit_filter *filter, global const ec_bvh2_node *nodes,
-                            global const ec_tri *tris, lane_u skip0, lane_u skip1, bool any_hit, hit *h)
+EC_FN void bvh2_trace(const accel *a, const ray *r, const hit_filter *filter, lane_u skip0, lane_u skip1, bool any_hit, hit *h)
 {
+    global const ec_bvh2_node *nodes = a->at[0];
+    global const ec_tri *tris = a->at[1];
     uint stack[EC_BVH_STACK];
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
             uint first = (current & ~EC_LEAF_BIT) >> 4, end = first + (current & 15u);
+            TALLY_TESTS(h, end - first);
             for (uint i = first; i < end;) i += packet_triangles(r, filter, tris + i, skip0, skip1, h);
             if (any_hit) {
                 h->t = h->prim != EC_NO_ID ? F(-1.0f) : h->t;
@@ -100,6 +104,7 @@ EC_FN void traverse_packet(const ray *r, const hit_filter *filter, global const 
             }
         } else {
             global const ec_bvh2_node *n = nodes + current;
+            TALLY_NODE(h);
             lane_f far0, far1;
             lane_f near0 = slab_near(r, splat_point(n->lo[0]), splat_point(n->hi[0]), h->t, &far0);
             lane_f near1 = slab_near(r, splat_point(n->lo[1]), splat_point(n->hi[1]), h->t, &far1);
@@ -122,5 +127,9 @@ EC_FN void traverse_packet(const ray *r, const hit_filter *filter, global const 
         current = stack[--depth];
     }
 }
+
+#define ACCEL bvh2
+#include "trace_packets.h"
+#undef ACCEL
 
 #endif

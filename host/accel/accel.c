@@ -1,0 +1,70 @@
+/* The table of acceleration structures, and what they share. */
+#include "accel/accel_internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+
+/* Packets come first: trials begin with them (host/pipeline/trace.c). */
+const ec_accel_kind ec_accels[EC_ACCEL_COUNT] = {
+    {"bvh2", "binary BVH, packets of rays", 0, ec_bvh2_accel},
+    {"bvh8", "8-wide BVH, one ray against eight boxes", 8, ec_bvh8_accel},
+    {"none", "every triangle with every ray", 8, ec_none_accel},
+};
+const char *const ec_accel_names[] = {"auto", "bvh2", "bvh8", "none", NULL};
+
+uint32_t ec_accel_find(const char *name)
+{
+    uint32_t i = 0;
+    while (i < EC_ACCEL_COUNT && strcmp(ec_accels[i].name, name)) i++;
+    return i;
+}
+
+/* A GPU gets the scalar kernel. On a CPU packets cannot win any more where a scene has many small triangles. */
+ec_result ec_accels_choose(const char *name, uint32_t triangle_count, bool is_cpu, uint32_t *chosen, ec_error *err)
+{
+    if (!name || !strcmp(name, "auto")) {
+        uint32_t bvh2 = !is_cpu || triangle_count <= (1u << 20), bvh8 = is_cpu && triangle_count > 64;
+        *chosen = bvh2 << ec_accel_find("bvh2") | bvh8 << ec_accel_find("bvh8");
+        return EC_OK;
+    }
+    uint32_t one = ec_accel_find(name);
+    if (one == EC_ACCEL_COUNT) return ec_fail(err, "no acceleration structure is named %s", name);
+    *chosen = 1u << one;
+    return EC_OK;
+}
+
+ec_result ec_accel_build(uint32_t which, ec_accel_input *input, ec_accel *accel, ec_error *err)
+{
+    double start = ec_now();
+    memset(accel, 0, sizeof *accel);
+    ec_result result = ec_accels[which].build(input, accel, err);
+    if (result != EC_OK) ec_accel_free(accel);
+    accel->stats.build_seconds = ec_now() - start;
+    for (int k = 0; k < EC_ACCEL_BUFFERS; k++) accel->stats.bytes += accel->buffers[k].bytes;
+    return result;
+}
+
+void ec_accel_free(ec_accel *accel)
+{
+    for (int k = 0; k < EC_ACCEL_BUFFERS; k++) free(accel->buffers[k].data);
+    memset(accel, 0, sizeof *accel);
+}
+
+void ec_accel_input_free(ec_accel_input *input)
+{
+    ec_bvh_free(&input->bvh);
+}
+
+void ec_accel_block(const ec_accel_input *input, const uint32_t *ids, uint32_t count, ec_tri8 *block)
+{
+    memset(block, 0, sizeof *block);
+    for (uint32_t slot = 0; slot < 8; slot++) {
+        block->id[slot] = slot < count ? ids[slot] : EC_NO_ID;
+        for (int corner = 0; slot < count && corner < 3; corner++) {
+            const float *v = input->positions + 3 * (size_t)input->indices[3 * (size_t)ids[slot] + corner];
+            for (int axis = 0; axis < 3; axis++) block->v[corner][axis][slot] = v[axis];
+        }
+    }
+}

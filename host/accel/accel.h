@@ -1,0 +1,65 @@
+/* Acceleration structures behind one interface. Each is a builder that writes the buffers its kernels read
+ * (kernels/lib/traverse_NAME.h); who renders knows only this table. All find the same hits bit for bit. Knows nothing of
+ * OpenCL. */
+#ifndef EC_ACCEL_ACCEL_H
+#define EC_ACCEL_ACCEL_H
+
+#include <stdbool.h>
+
+#include "accel/bvh.h"
+
+/* What is built from. positions: 3 floats a vertex; indices: 3 a triangle; both the caller's. */
+typedef struct ec_accel_input {
+    const float *positions;
+    const uint32_t *indices;
+    uint32_t triangle_count;
+    uint32_t threads;           /* 0 = all; the result is the same for any number */
+    float grid_density;         /* cells a reference; 0 = EC_GRID_DENSITY */
+    ec_bvh bvh;                 /* built when first asked for, and shared: see ec_accel_bvh */
+    ec_bvh_stats bvh_stats;
+} ec_accel_input;
+void ec_accel_input_free(ec_accel_input *input); /* what was built on the way, not what the caller gave */
+
+typedef struct ec_accel_buffer {
+    const char *label;
+    void *data;                 /* malloc'ed, owned */
+    uint64_t bytes;
+} ec_accel_buffer;
+
+typedef struct ec_accel_stats {
+    double build_seconds;       /* of this build; a BVH that was there already is not in it */
+    uint64_t bytes;             /* of all buffers */
+    uint64_t nodes;             /* or cells */
+    uint64_t leaves;            /* blocks of triangles, or cells that are not empty */
+    uint64_t references;        /* triangles in all leaves */
+    double sah_cost;            /* expected cost of a ray in visits to a binary node; 0 where that means nothing */
+} ec_accel_stats;
+
+typedef struct ec_accel {
+    ec_accel_buffer buffers[EC_ACCEL_BUFFERS]; /* in the order of the kernels' arguments; data NULL: not used */
+    ec_accel_stats stats;
+} ec_accel;
+
+typedef struct ec_accel_kind {
+    const char *name;           /* of --accel, and of kernels/lib/traverse_NAME.h */
+    const char *summary;
+    uint32_t lanes;             /* of its kernels: 8 = one ray a work-item, 0 = packets as wide as the device likes */
+    ec_result (*build)(ec_accel_input *input, ec_accel *accel, ec_error *err); /* may leave half of it on failure */
+} ec_accel_kind;
+
+#define EC_GRID_DENSITY 27.0f   /* three cells along each axis for every object that a row holds */
+
+#define EC_ACCEL_COUNT 3
+extern const ec_accel_kind ec_accels[EC_ACCEL_COUNT];
+extern const char *const ec_accel_names[]; /* "auto" and theirs, NULL-terminated */
+
+/* Index of the kind with that name; EC_ACCEL_COUNT if there is none. */
+uint32_t ec_accel_find(const char *name);
+/* "auto" or NULL, or a name: a bit for each kind worth having. Where there are several, the fastest wins by trial. */
+ec_result ec_accels_choose(const char *name, uint32_t triangle_count, bool is_cpu, uint32_t *chosen, ec_error *err);
+
+/* accel need not be initialised; it is empty after a failure. */
+ec_result ec_accel_build(uint32_t which, ec_accel_input *input, ec_accel *accel, ec_error *err);
+void ec_accel_free(ec_accel *accel);
+
+#endif

@@ -1,0 +1,34 @@
+/* For the builders behind accel.h. Private to host/accel. */
+#ifndef EC_ACCEL_ACCEL_INTERNAL_H
+#define EC_ACCEL_ACCEL_INTERNAL_H
+
+#include "accel/accel.h"
+
+/* The kinds, each in the file of its name. */
+ec_result ec_bvh2_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
+ec_result ec_bvh8_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
+ec_result ec_grid_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
+ec_result ec_kdtree_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
+ec_result ec_none_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
+
+/* What grids and kd-trees hold: a triangle, or a part of one, in a box of its own. A hit's t is clamped to the near side of
+ * this very box (kernels/lib/ray.h), so whoever puts a reference into every cell that the box overlaps, and leaves no cell
+ * out that the ray enters before t, cannot lose a hit. Cutting triangles to their cells would be tighter, but a triangle seen
+ * edge-on has a t of any error, and would be missed where its box has no part. */
+typedef struct ec_ref {
+    float lo[3], hi[3]; /* no -0, no NaN */
+    uint32_t triangle;
+} ec_ref;
+/* Malloc'ed, the caller's. bounds: of all of them; 0 where there are none. */
+ec_result ec_accel_refs(const ec_accel_input *input, ec_ref **refs, uint32_t *count, ec_ref *bounds, ec_error *err);
+
+/* The team a builder may use. */
+int ec_accel_threads(const ec_accel_input *input, uint32_t count);
+
+/* The binary tree, built now if it has not been. */
+ec_result ec_accel_bvh(ec_accel_input *input, ec_error *err);
+
+/* Writes triangles ids[0 .. count), at most 8, into a block. */
+void ec_accel_block(const ec_accel_input *input, const uint32_t *ids, uint32_t count, ec_tri8 *block);
+
+#endif

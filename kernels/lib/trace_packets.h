@@ -1,0 +1,67 @@
+/* The two kernels of an accelerator that sends LANES rays a packet: a template. ACCEL is its name, and before this stands
+ *
+ *     void ACCEL_trace(const accel *, const ray *, const hit_filter *, lane_u skip0, lane_u skip1, bool any_hit, hit *h);
+ *
+ * h->t comes in as the largest t of interest (negative: lane off), h->prim as EC_NO_ID. */
+#include "film.h"
+#include "queue.h"
+
+/* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
+kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+                                         global const ec_counters *counters, global const float *paths, global float *hits,
+                                         ACCEL_PARAMETERS, FILTER_PARAMETERS)
+{
+    uint i = get_global_id(0) * LANES, wave = params->wave;
+    if (i >= wave) return;
+    uint left = queue_left(counters->rays[step], params->part, i);
+    if (!left) return;
+    lane_i active = LANE_NUMBERS < left;
+    ray r = ray_make(queue_load_v3(paths, wave, EC_PATH_OX, i), queue_load_v3(paths, wave, EC_PATH_DX, i), params->scene_max);
+    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0};
+    if (HAS(ALPHA)) {
+        lane_u pixel, sample, slot = queue_load_u(paths, wave, EC_PATH_SLOT, i);
+        slot_to_pixel(params, first_pixel, active ? slot : U(0), &pixel, &sample);
+        filter.key = filter_key(seed, pixel, sample, bounce, false);
+    }
+    const accel a = ACCEL_ARGUMENTS;
+    hit h = {active ? F(EC_HUGE) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
+    lane_u skip = queue_load_u(paths, wave, EC_PATH_PRIM, i);
+    EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, U(EC_NO_ID), false, &h);
+    queue_store_f(hits, wave, EC_HIT_PRIM, i, as_lane_f(h.prim));
+    queue_store_f(hits, wave, EC_HIT_B1, i, h.b1);
+    queue_store_f(hits, wave, EC_HIT_B2, i, h.b2);
+#ifdef PROBE
+    queue_store_f(hits, wave, EC_HIT_T, i, h.t);
+    queue_store_f(hits, wave, EC_HIT_NODES, i, as_lane_f(U(h.nodes)));
+    queue_store_f(hits, wave, EC_HIT_TESTS, i, as_lane_f(U(h.tests)));
+#endif
+}
+
+/* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
+kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+                                       global const ec_counters *counters, volatile global uint *invalid,
+                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS)
+{
+    uint i = get_global_id(0) * LANES, wave = params->wave;
+    if (i >= wave) return;
+    uint left = queue_left(counters->shadows[step], params->part, i);
+    if (!left) return;
+    lane_i active = LANE_NUMBERS < left;
+    ray r = ray_make(queue_load_v3(shadows, wave, EC_SHADOW_OX, i), queue_load_v3(shadows, wave, EC_SHADOW_DX, i),
+                     params->scene_max);
+    lane_u slot = queue_load_u(shadows, wave, EC_SHADOW_SLOT, i);
+    slot = active ? slot : U(0);
+    hit_filter filter = {FILTER_GEOMETRY, U(0), false};
+    if (HAS(ALPHA)) {
+        lane_u pixel, sample;
+        slot_to_pixel(params, first_pixel, slot, &pixel, &sample);
+        filter.key = filter_key(seed, pixel, sample, bounce, true);
+    }
+    const accel a = ACCEL_ARGUMENTS;
+    hit h = {active ? F(1.0f) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
+    EC_CAT(ACCEL, _trace)(&a, &r, &filter, queue_load_u(shadows, wave, EC_SHADOW_PRIM, i),
+                          queue_load_u(shadows, wave, EC_SHADOW_TARGET, i), true, &h);
+    lane_i open = active & (h.prim == EC_NO_ID);
+    if (any_lane(open))
+        radiance_add(radiance, wave, slot, queue_load_v3(shadows, wave, EC_SHADOW_LR, i), open, invalid + EC_STAGE_CONNECT);
+}

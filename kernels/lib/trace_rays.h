@@ -1,0 +1,63 @@
+/* The two kernels of an accelerator that sends one ray a work-item: a template. ACCEL is its name, and before this stand
+ *
+ *     void ACCEL_closest(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, hit8 *h);
+ *     bool ACCEL_any(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, hit8 *h);
+ *
+ * h->t comes in as the largest t of interest, h->prim as EC_NO_ID. Triangles skip0 and skip1 are passed through. */
+#include "film.h"
+#include "queue.h"
+
+/* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
+kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+                                         global const ec_counters *counters, global const float *paths, global float *hits,
+                                         ACCEL_PARAMETERS, FILTER_PARAMETERS)
+{
+    uint i = get_global_id(0), wave = params->wave;
+    if (i >= wave || !queue_left(counters->rays[step], params->part, i)) return;
+    global const float *p = paths + i;
+    ray8 q = ray8_make(p[EC_PATH_OX * wave], p[EC_PATH_OY * wave], p[EC_PATH_OZ * wave], p[EC_PATH_DX * wave],
+                       p[EC_PATH_DY * wave], p[EC_PATH_DZ * wave], params->scene_max);
+    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0};
+    if (HAS(ALPHA)) {
+        lane_u pixel, sample;
+        slot_to_pixel(params, first_pixel, U(as_uint(p[EC_PATH_SLOT * wave])), &pixel, &sample);
+        filter.key = filter_key(seed, pixel, sample, bounce, false);
+    }
+    const accel a = ACCEL_ARGUMENTS;
+    hit8 h = {EC_HUGE, EC_NO_ID, 0.0f, 0.0f};
+    EC_CAT(ACCEL, _closest)(&a, &q, &filter, as_uint(p[EC_PATH_PRIM * wave]), EC_NO_ID, &h);
+    hits[EC_HIT_PRIM * wave + i] = as_float(h.prim);
+    hits[EC_HIT_B1 * wave + i] = h.b1;
+    hits[EC_HIT_B2 * wave + i] = h.b2;
+#ifdef PROBE
+    hits[EC_HIT_T * wave + i] = h.t;
+    hits[EC_HIT_NODES * wave + i] = as_float(h.nodes);
+    hits[EC_HIT_TESTS * wave + i] = as_float(h.tests);
+#endif
+}
+
+/* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
+kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+                                       global const ec_counters *counters, volatile global uint *invalid,
+                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS)
+{
+    uint i = get_global_id(0), wave = params->wave;
+    if (i >= wave || !queue_left(counters->shadows[step], params->part, i)) return;
+    global const float *p = shadows + i;
+    ray8 q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
+                       p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
+    uint slot = as_uint(p[EC_SHADOW_SLOT * wave]);
+    hit_filter filter = {FILTER_GEOMETRY, U(0), false};
+    if (HAS(ALPHA)) {
+        lane_u pixel, sample;
+        slot_to_pixel(params, first_pixel, U(slot), &pixel, &sample);
+        filter.key = filter_key(seed, pixel, sample, bounce, true);
+    }
+    const accel a = ACCEL_ARGUMENTS;
+    hit8 h = {1.0f, EC_NO_ID, 0.0f, 0.0f};
+    if (EC_CAT(ACCEL, _any)(&a, &q, &filter, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), &h)) return;
+    for (uint c = 0; c < 3; c++) {
+        float light = p[(EC_SHADOW_LR + c) * wave];
+        radiance[c * wave + slot] += light;
+    }
+}
