@@ -1,0 +1,221 @@
+/* The uniform grid: cells about as many as `density` times the references, near cubes; which references each cell holds, in two
+ * parallel passes, one that counts and one that fills. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accel/accel_internal.h"
+#include "accel/build_internal.h"
+
+#define CELLS_AXIS_MOST 2048u
+#define CELLS_MOST (1u << 28)
+/* Entries a reference on average before the grid is made coarser: large triangles lie in thousands of small cells. */
+#define ENTRIES_MOST 64u
+
+typedef struct grid {
+    const ec_ref *refs;
+    uint32_t ref_count, cells[3], threads;
+    float *planes[3]; /* cells + 1 each, ascending */
+    double per_unit[3];
+    ec_ref bounds;
+} grid;
+
+/* As many cubes as wanted, if no axis were shorter than a cube; axes that are get one cell and the others share. */
+static void choose_cells(grid *g, double wanted)
+{
+    int taken[3] = {0};
+    double extent[3], edge = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        extent[axis] = (double)g->bounds.hi[axis] - g->bounds.lo[axis];
+        taken[axis] = extent[axis] <= 0.0;
+    }
+    for (int again = 1; again;) {
+        double log_volume = 0.0, axes = 0.0;
+        for (int axis = 0; axis < 3; axis++)
+            if (!taken[axis]) log_volume += log(extent[axis]), axes += 1.0;
+        edge = axes > 0.0 ? exp((log_volume - log(fmax(wanted, 1.0))) / axes) : 1.0;
+        again = 0;
+        for (int axis = 0; axis < 3; axis++)
+            if (!taken[axis] && extent[axis] < edge) taken[axis] = again = 1;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        double cells = taken[axis] ? 1.0 : round(extent[axis] / edge);
+        g->cells[axis] = (uint32_t)fmin(fmax(cells, 1.0), CELLS_AXIS_MOST);
+    }
+}
+
+static uint64_t cell_count(const grid *g) { return (uint64_t)g->cells[0] * g->cells[1] * g->cells[2]; }
+
+static void place_planes(grid *g, float *planes)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        uint32_t n = g->cells[axis];
+        double lo = g->bounds.lo[axis], extent = (double)g->bounds.hi[axis] - lo;
+        for (uint32_t i = 0; i <= n; i++) planes[i] = (float)(lo + extent * i / n);
+        planes[n] = g->bounds.hi[axis];
+        g->planes[axis] = planes;
+        g->per_unit[axis] = extent > 0.0 ? n / extent : 0.0;
+        planes += n + 1;
+    }
+}
+
+/* The cells that [lo, hi] needs: the last that begins no later than lo, the first that ends no earlier than hi. */
+static void range_of(const grid *g, int axis, float lo, float hi, uint32_t range[2])
+{
+    const float *planes = g->planes[axis];
+    uint32_t last = g->cells[axis] - 1;
+    double guess = ((double)lo - planes[0]) * g->per_unit[axis], guess_end = ((double)hi - planes[0]) * g->per_unit[axis];
+    uint32_t i = (uint32_t)fmin(fmax(guess, 0.0), last), k = (uint32_t)fmin(fmax(guess_end, 0.0), last);
+    while (i > 0 && planes[i] > lo) i--;
+    while (i < last && planes[i + 1] <= lo) i++;
+    while (k < last && planes[k + 1] < hi) k++;
+    while (k > 0 && planes[k] >= hi) k--;
+    range[0] = i;
+    range[1] = k > i ? k : i;
+}
+
+typedef struct cell_box {
+    uint32_t at[3][2];
+} cell_box;
+
+static cell_box cells_of(const grid *g, const ec_ref *ref)
+{
+    cell_box box;
+    for (int axis = 0; axis < 3; axis++) range_of(g, axis, ref->lo[axis], ref->hi[axis], box.at[axis]);
+    return box;
+}
+
+static uint64_t entry_count(const grid *g)
+{
+    uint64_t sum = 0;
+#pragma omp parallel for num_threads(g->threads) reduction(+ : sum)
+    for (uint32_t i = 0; i < g->ref_count; i++) {
+        cell_box b = cells_of(g, &g->refs[i]);
+        sum += (uint64_t)(b.at[0][1] - b.at[0][0] + 1) * (b.at[1][1] - b.at[1][0] + 1) * (b.at[2][1] - b.at[2][0] + 1);
+    }
+    return sum;
+}
+
+/* counts[c] is the place behind cell c's entries; filling moves it to their first. NULL entries: only count. */
+static void deal(const grid *g, uint32_t *counts, uint32_t *entries)
+{
+#pragma omp parallel for num_threads(g->threads) schedule(dynamic, 1024)
+    for (uint32_t i = 0; i < g->ref_count; i++) {
+        cell_box b = cells_of(g, &g->refs[i]);
+        for (uint32_t z = b.at[2][0]; z <= b.at[2][1]; z++)
+            for (uint32_t y = b.at[1][0]; y <= b.at[1][1]; y++)
+                for (uint32_t x = b.at[0][0]; x <= b.at[0][1]; x++) {
+                    uint32_t *count = &counts[x + g->cells[0] * (y + (size_t)g->cells[1] * z)];
+                    if (entries) entries[__atomic_sub_fetch(count, 1, __ATOMIC_RELAXED)] = i;
+                    else __atomic_add_fetch(count, 1, __ATOMIC_RELAXED);
+                }
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Threads fill in any order; sorted, the grid is the same for any number of them. */
+static void sort_cells(const grid *g, const uint32_t *starts, uint32_t *entries)
+{
+    int64_t cells = (int64_t)cell_count(g);
+#pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4096)
+    for (int64_t c = 0; c < cells; c++) {
+        uint32_t *first = entries + starts[c], count = starts[c + 1] - starts[c];
+        if (count > 32) {
+            qsort(first, count, sizeof *first, ascending);
+            continue;
+        }
+        for (uint32_t i = 1; i < count; i++) {
+            uint32_t entry = first[i], k = i;
+            for (; k > 0 && first[k - 1] > entry; k--) first[k] = first[k - 1];
+            first[k] = entry;
+        }
+    }
+}
+
+/* Counts, sums up, fills. Returns how many cells hold something. */
+static uint64_t fill_cells(const grid *g, uint32_t *starts, uint32_t *entries)
+{
+    uint64_t cells = cell_count(g), used = 0;
+    uint32_t sum = 0;
+    memset(starts, 0, (cells + 1) * sizeof *starts);
+    deal(g, starts, NULL);
+    for (uint64_t c = 0; c < cells; c++) {
+        used += starts[c] > 0;
+        starts[c] = sum += starts[c];
+    }
+    starts[cells] = sum;
+    deal(g, starts, entries);
+    sort_cells(g, starts, entries);
+    return used;
+}
+
+static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *triangles)
+{
+#pragma omp parallel for num_threads(g->threads)
+    for (uint32_t i = 0; i < g->ref_count; i++) {
+        const uint32_t *corner = in->indices + 3 * (size_t)g->refs[i].triangle;
+        memset(&triangles[i], 0, sizeof triangles[i]);
+        memcpy(triangles[i].v0, in->positions + 3 * (size_t)corner[0], 12);
+        memcpy(triangles[i].v1, in->positions + 3 * (size_t)corner[1], 12);
+        memcpy(triangles[i].v2, in->positions + 3 * (size_t)corner[2], 12);
+        triangles[i].id = g->refs[i].triangle;
+    }
+}
+
+/* Cells and planes, coarser until the entries are no more than the memory that they are worth. */
+static ec_grid *make_header(grid *g, double density, uint64_t *entries, uint64_t *bytes)
+{
+    ec_grid *header = NULL;
+    for (double wanted = fmin(density * g->ref_count, CELLS_MOST);; wanted *= 0.5) {
+        choose_cells(g, wanted);
+        uint32_t planes = g->cells[0] + g->cells[1] + g->cells[2] + 3;
+        free(header);
+        *bytes = sizeof *header + planes * sizeof(float);
+        header = calloc(1, *bytes);
+        if (!header) return NULL;
+        place_planes(g, (float *)(header + 1));
+        *entries = entry_count(g);
+        if (*entries <= (uint64_t)ENTRIES_MOST * g->ref_count || cell_count(g) <= 1) break;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        header->cells[axis] = g->cells[axis];
+        header->per_unit[axis] = (float)fmin(g->per_unit[axis], 3e38);
+    }
+    return header;
+}
+
+ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
+{
+    grid g = {0};
+    ec_ref *refs;
+    EC_TRY(ec_accel_refs(in, &refs, &g.ref_count, &g.bounds, err));
+    g.refs = refs;
+    g.threads = (uint32_t)ec_accel_threads(in, g.ref_count);
+    uint64_t entry_count = 0, header_bytes = 0, used = 0;
+    uint32_t *starts = NULL, *entries = NULL;
+    ec_tri *triangles = NULL;
+    ec_grid *header = make_header(&g, in->grid_density > 0.0f ? in->grid_density : EC_GRID_DENSITY, &entry_count, &header_bytes);
+    bool fits = header && entry_count < UINT32_MAX;
+    if (fits) {
+        starts = ec_allocate_lines(cell_count(&g) + 1, sizeof *starts);
+        entries = ec_allocate_lines(entry_count, sizeof *entries);
+        triangles = ec_allocate_lines(g.ref_count, sizeof *triangles);
+    }
+    ec_result result = starts && entries && triangles ? EC_OK : ec_fail(err, "out of memory for a grid of %u triangles", g.ref_count);
+    if (result == EC_OK) {
+        used = fill_cells(&g, starts, entries);
+        fill_triangles(&g, in, triangles);
+    }
+    free(refs);
+    accel->buffers[0] = (ec_accel_buffer){"planes", header, header_bytes};
+    accel->buffers[1] = (ec_accel_buffer){"cells", starts, header ? (cell_count(&g) + 1) * sizeof *starts : 0};
+    accel->buffers[2] = (ec_accel_buffer){"entries", entries, (entry_count ? entry_count : 1) * sizeof *entries};
+    accel->buffers[3] = (ec_accel_buffer){"triangles", triangles, (g.ref_count ? g.ref_count : 1) * sizeof *triangles};
+    accel->stats = (ec_accel_stats){.nodes = header ? cell_count(&g) : 0, .leaves = used, .references = entry_count};
+    return result;
+}

@@ -1,0 +1,189 @@
+/* One ray through a uniform grid, cell by cell: the 3D-DDA of Amanatides and Woo 1987 for a ray as wide as its rounding.
+ *
+ * Along each axis the ray is in one cell or, near a plane, in two: a cell begins for it at its near plane with the widened offset
+ * and ends at its far one, by the arithmetic of slab_near. The next cell to begin along any axis is the next step, and the cells
+ * visited are the new one with those along the other axes that have not ended. So every cell is visited whose widened slab the
+ * ray meets, once, in the order of entry.
+ *
+ * Why no hit is lost: let t be a hit's distance, clamped to the near side of the triangle's box, and s <= t that near side. Along
+ * each axis the box is covered by cells that hold the triangle, and one of them has begun and not ended at s, because planes
+ * and box go through the same monotone arithmetic. These three make a cell that is entered no later than t. */
+#ifndef EC_LIB_TRAVERSE_GRID_H
+#define EC_LIB_TRAVERSE_GRID_H
+
+#include "block8.h"
+
+#define GRID_MAIL 32u  /* triangles tested last, by the low bits of their index: a triangle in many cells is tested about once */
+#define GRID_PATIENCE 3 /* cells that triangles wait for others to make up eight with */
+
+typedef struct grid_axis {
+    global const float *plane;   /* plane[i]: the far plane of cell i, seen along the ray */
+    float inverse, near_offset, far_offset;
+    int step, stride;            /* to the next cell, in cells along the axis and in cells of the grid */
+    int oldest, newest, end;     /* cells that the ray is in; the last one of the grid */
+    float begins, ends;          /* when the cell after `newest` begins, when `oldest` ends */
+} grid_axis;
+
+/* Triangles on their way to be tested. */
+typedef struct grid_mail {
+    uint seen[GRID_MAIL];
+    uint pending[8], count;
+    int patience;
+} grid_mail;
+
+EC_FN float grid_begins(const grid_axis *x, int cell) { return fma(x->plane[cell], x->inverse, x->near_offset); }
+EC_FN float grid_ends(const grid_axis *x, int cell) { return fma(x->plane[cell], x->inverse, x->far_offset) * EC_SLAB_PAD; }
+
+/* When the cell after `cell` begins: never behind the last one. */
+EC_FN float grid_next(const grid_axis *x, int cell) { return cell == x->end ? INFINITY : grid_begins(x, cell); }
+
+/* The axis with the ray at t = start, found from a guess; exit and entry of the whole grid along it are min- and maximised. */
+EC_FN void grid_axis_make(grid_axis *x, global const float *planes, int cells, float inverse, float lo_offset, float hi_offset,
+                          int stride, float *enter, float *leave)
+{
+    bool down = inverse < 0.0f;
+    x->plane = planes + (down ? 0 : 1);
+    x->inverse = inverse;
+    x->near_offset = down ? hi_offset : lo_offset;
+    x->far_offset = down ? lo_offset : hi_offset;
+    x->step = down ? -1 : 1;
+    x->stride = down ? -stride : stride;
+    x->end = down ? 0 : cells - 1;
+    *enter = max(*enter, fma(planes[down ? cells : 0], inverse, x->near_offset));
+    *leave = min(*leave, grid_ends(x, x->end));
+}
+EC_FN void grid_axis_start(grid_axis *x, int cells, float guess, float start)
+{
+    int cell = (int)fmin(fmax(guess, 0.0f), (float)(cells - 1)), first = x->end == 0 ? cells - 1 : 0;
+    while (cell != x->end && grid_begins(x, cell) <= start) cell += x->step;
+    while (cell != first && grid_begins(x, cell - x->step) > start) cell -= x->step;
+    x->newest = cell;
+    x->begins = grid_next(x, cell);
+    while (cell != first && grid_ends(x, cell - x->step) >= start) cell -= x->step;
+    x->oldest = cell;
+    x->ends = grid_ends(x, cell);
+}
+
+#define GRID_ROW(k, axis)                                                                          \
+    ((float8)(t0[4 * (k) + (axis)], t1[4 * (k) + (axis)], t2[4 * (k) + (axis)], t3[4 * (k) + (axis)],              \
+              t4[4 * (k) + (axis)], t5[4 * (k) + (axis)], t6[4 * (k) + (axis)], t7[4 * (k) + (axis)]))
+#define GRID_SHEARED(k)                                                                            \
+    ray_shear(q->r.shear_x, q->r.shear_y,                                                          \
+              v3_make(GRID_ROW(k, q->axis_x) - q->r.o_permuted.x, GRID_ROW(k, q->axis_y) - q->r.o_permuted.y,  \
+                      GRID_ROW(k, q->axis_z) - q->r.o_permuted.z))
+#define GRID_SPAN(op, axis) op(GRID_ROW(0, axis), op(GRID_ROW(1, axis), GRID_ROW(2, axis)))
+
+/* The pending ones, gathered from wherever they lie; free places repeat the first. */
+EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, global const ec_tri *tris, uint skip0, uint skip1,
+                     bool any_hit, hit8 *h)
+{
+    TALLY_TESTS(h, mail->count);
+    for (uint k = mail->count; k < 8u; k++) mail->pending[k] = mail->pending[0];
+    mail->count = 0;
+#define GRID_TRIANGLE(k) global const float *t##k = (global const float *)(tris + mail->pending[k]);
+    EACH_LANE(GRID_TRIANGLE)
+#undef GRID_TRIANGLE
+    uint8 id = as_uint8(GRID_ROW(0, 3));
+    edges e = edges_make(GRID_SHEARED(0), GRID_SHEARED(1), GRID_SHEARED(2));
+    float8 t, inverse;
+    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &t, &inverse);
+    if (!mask_bits8(m)) return;
+    v3 lo = v3_make(GRID_SPAN(min, 0), GRID_SPAN(min, 1), GRID_SPAN(min, 2));
+    v3 hi = v3_make(GRID_SPAN(max, 0), GRID_SPAN(max, 1), GRID_SPAN(max, 2));
+    eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);
+}
+
+EC_FN void grid_visit(grid_mail *mail, global const uint *entries, uint first, uint end, const ray8 *q, const hit_filter *filter,
+                      global const ec_tri *tris, uint skip0, uint skip1, bool any_hit, hit8 *h)
+{
+    for (uint i = first; i < end; i++) {
+        uint which = entries[i];
+        if (mail->seen[which % GRID_MAIL] == which) continue;
+        mail->seen[which % GRID_MAIL] = which;
+        if (mail->count == 0) mail->patience = GRID_PATIENCE;
+        mail->pending[mail->count++] = which;
+        if (mail->count == 8u) grid_test(mail, q, filter, tris, skip0, skip1, any_hit, h);
+    }
+}
+
+EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, bool any_hit, hit8 *h)
+{
+    global const ec_grid *grid = a->at[0];
+    global const uint *starts = a->at[1], *entries = a->at[2];
+    global const ec_tri *tris = a->at[3];
+    global const float *planes = (global const float *)(grid + 1);
+    const int nx = (int)grid->cells[0], ny = (int)grid->cells[1], nz = (int)grid->cells[2];
+    global const float *planes_y = planes + nx + 1, *planes_z = planes_y + ny + 1;
+    const ray *r = &q->r;
+    grid_axis axis[3];
+    float now = 0.0f, leave = h->t;
+    grid_axis_make(&axis[0], planes, nx, r->inverse.x.s0, r->lo_offset.x.s0, r->hi_offset.x.s0, 1, &now, &leave);
+    grid_axis_make(&axis[1], planes_y, ny, r->inverse.y.s0, r->lo_offset.y.s0, r->hi_offset.y.s0, nx, &now, &leave);
+    grid_axis_make(&axis[2], planes_z, nz, r->inverse.z.s0, r->lo_offset.z.s0, r->hi_offset.z.s0, nx * ny, &now, &leave);
+    if (!(now <= leave)) return;
+    grid_axis_start(&axis[0], nx, (fma(now, r->d.x.s0, r->o.x.s0) - planes[0]) * grid->per_unit[0], now);
+    grid_axis_start(&axis[1], ny, (fma(now, r->d.y.s0, r->o.y.s0) - planes_y[0]) * grid->per_unit[1], now);
+    grid_axis_start(&axis[2], nz, (fma(now, r->d.z.s0, r->o.z.s0) - planes_z[0]) * grid->per_unit[2], now);
+
+    grid_mail mail;
+    for (uint k = 0; k < GRID_MAIL; k++) mail.seen[k] = EC_NO_ID;
+    mail.count = 0;
+    mail.patience = 0;
+    int cell = axis[0].newest + nx * (axis[1].newest + ny * axis[2].newest);
+    int x = 0, u = 1, v = 2, first = axis[0].oldest; /* the axis of the step, the two others; at the start all cells are new */
+    for (;;) {
+        int along = cell - (axis[x].newest - first) * (axis[x].stride * axis[x].step); /* cells `first` to `newest` along x */
+        for (;; along += axis[x].stride) {
+            int row = along;
+            for (int i = axis[u].newest;; i -= axis[u].step, row -= axis[u].stride) {
+                int at = row;
+                for (int k = axis[v].newest;; k -= axis[v].step, at -= axis[v].stride) {
+                    TALLY_NODE(h);
+                    grid_visit(&mail, entries, starts[at], starts[at + 1], q, filter, tris, skip0, skip1, any_hit, h);
+                    if (k == axis[v].oldest) break;
+                }
+                if (i == axis[u].oldest) break;
+            }
+            if (along == cell) break;
+        }
+        if (mail.count && --mail.patience < 0) grid_test(&mail, q, filter, tris, skip0, skip1, any_hit, h);
+        if (any_hit && h->prim != EC_NO_ID) return;
+
+        x = axis[0].begins < axis[1].begins ? 0 : 1;
+        x = axis[x].begins <= axis[2].begins ? x : 2;
+        u = x == 0 ? 1 : 0;
+        v = x == 2 ? 1 : 2;
+        now = axis[x].begins;
+        if (now > min(leave, h->t)) break;
+        axis[x].newest += axis[x].step;
+        axis[x].begins = grid_next(&axis[x], axis[x].newest);
+        cell += axis[x].stride;
+        first = axis[x].newest;
+        while (axis[u].ends < now) {
+            axis[u].oldest += axis[u].step;
+            axis[u].ends = grid_ends(&axis[u], axis[u].oldest);
+        }
+        while (axis[v].ends < now) {
+            axis[v].oldest += axis[v].step;
+            axis[v].ends = grid_ends(&axis[v], axis[v].oldest);
+        }
+    }
+    if (mail.count) grid_test(&mail, q, filter, tris, skip0, skip1, any_hit, h);
+}
+
+EC_FN void grid_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+{
+    grid_trace(a, q, filter, skip0, skip1, false, h);
+}
+
+EC_FN bool grid_any(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+{
+    grid_trace(a, q, filter, skip0, skip1, true, h);
+    return h->prim != EC_NO_ID;
+}
+
+#define ACCEL grid
+#include "trace_rays.h"
+#undef ACCEL
+
+#endif
