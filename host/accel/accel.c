@@ -11,9 +11,10 @@ const ec_accel_kind ec_accels[EC_ACCEL_COUNT] = {
     {"bvh2", "binary BVH, packets of rays", 0, ec_bvh2_accel},
     {"bvh8", "8-wide BVH, one ray against eight boxes", 8, ec_bvh8_accel},
     {"grid", "uniform grid, one ray from cell to cell", 8, ec_grid_accel},
+    {"kdtree", "kd-tree, one ray against eight triangles", 8, ec_kdtree_accel},
     {"none", "every triangle with every ray", 8, ec_none_accel},
 };
-const char *const ec_accel_names[] = {"auto", "bvh2", "bvh8", "grid", "none", NULL};
+const char *const ec_accel_names[] = {"auto", "bvh2", "bvh8", "grid", "kdtree", "none", NULL};
 
 uint32_t ec_accel_find(const char *name)
 {

@@ -49,7 +49,7 @@ typedef struct ec_accel_kind {
 
 #define EC_GRID_DENSITY 27.0f   /* three cells along each axis for every object that a row holds */
 
-#define EC_ACCEL_COUNT 4
+#define EC_ACCEL_COUNT 5
 extern const ec_accel_kind ec_accels[EC_ACCEL_COUNT];
 extern const char *const ec_accel_names[]; /* "auto" and theirs, NULL-terminated */
 
