@@ -5,7 +5,7 @@
 #include "accel/accel_internal.h"
 
 /* In visits to an inner node: what a block of eight costs a ray of PoCL's on a CPU (measured with bench_traversal). */
-#define EC_KD_COST_BLOCK 4.0f
+#define EC_KD_COST_BLOCK 2.0f
 #define EC_KD_EMPTY 0.8f /* a split that cuts off empty space is worth this much more than its cost says */
 
 /* A reference within a cell: its box cut to the cell. */
@@ -13,6 +13,16 @@ typedef struct ec_kd_item {
     float lo[3], hi[3];
     uint32_t ref;
 } ec_kd_item;
+
+/* A node of the binary tree. Inner: children at `index` and index + 1 (below and above the plane); leaf, axis EC_KD_NO_PLANE: `index`
+ * blocks from `first` on. */
+typedef struct ec_kd_binary {
+    float plane;
+    uint32_t first, axis, index;
+} ec_kd_binary;
+
+/* kd_collapse.c: the layout of the kernels. Malloc'ed, the caller's; NULL when out of memory. */
+ec_kd_node *ec_kd_collapse(const ec_kd_binary *tree, uint32_t *node_count);
 
 typedef struct ec_kd_cell {
     float lo[3], hi[3];

@@ -9,8 +9,8 @@
 
 #define SUBTREE 4096u     /* items; not tied to the number of threads, since the numbering follows from it */
 #define REFUSALS 3        /* splits in a row that do not pay by themselves: better ones may lie below */
+#define DEPTH_MOST 36.0  /* twelve levels of kernel nodes: see EC_KD_STACK */
 #define REFS_MOST 16u     /* times as many references as at the root; then leaves stay large */
-#define LEAF_AXIS 3u
 
 /* A cell, and what it may cost. */
 typedef struct range {
@@ -24,8 +24,8 @@ typedef struct range {
 /* A node with two children, or a subtree in arrays. */
 typedef struct piece {
     struct piece *child[2];
-    ec_kd_node node;
-    ec_kd_node *nodes;  /* nodes[0] its root; owned */
+    ec_kd_binary node;
+    ec_kd_binary *nodes;  /* nodes[0] its root; owned */
     uint32_t *ids;      /* eight a block, EC_NO_ID where free; owned */
     uint32_t node_count, node_room, block_count, block_room;
     uint64_t references;
@@ -114,7 +114,7 @@ static void make_leaf(builder *b, piece *p, uint32_t index, range *r)
         return;
     }
     for (uint32_t i = 0; i < 8 * blocks; i++) p->ids[8 * (size_t)first + i] = i < r->count ? r->items[i].ref : EC_NO_ID;
-    p->nodes[index] = (ec_kd_node){.at.first = first, .word = LEAF_AXIS | blocks << 2};
+    p->nodes[index] = (ec_kd_binary){.first = first, .axis = EC_KD_NO_PLANE, .index = blocks};
     p->block_count += blocks;
     p->references += r->count;
     p->cost += r->area * ec_kd_leaf_cost(r->count);
@@ -133,7 +133,7 @@ static void build_subtree(builder *b, piece *p, uint32_t index, range *r)
     uint32_t left = p->node_count;
     if (reserve((void **)&p->nodes, left, 2, &p->node_room, sizeof *p->nodes)) {
         p->node_count += 2;
-        p->nodes[index] = (ec_kd_node){.at.plane = s.plane, .word = (uint32_t)s.axis | left << 2};
+        p->nodes[index] = (ec_kd_binary){.plane = s.plane, .axis = (uint32_t)s.axis, .index = left};
         p->cost += r->area;
         build_subtree(b, p, left, &children[0]);
         build_subtree(b, p, left + 1, &children[1]);
@@ -152,7 +152,7 @@ static void build_piece(builder *b, range r, piece **result)
     piece *p = *result = calloc(1, sizeof *p);
     int good = p != NULL;
     if (good && r.count > SUBTREE && split(b, &r, &s, children)) {
-        p->node = (ec_kd_node){.at.plane = s.plane, .word = (uint32_t)s.axis};
+        p->node = (ec_kd_binary){.plane = s.plane, .axis = (uint32_t)s.axis};
         p->cost = r.area;
         range right = children[1];
         piece **place = &p->child[1];
@@ -182,7 +182,7 @@ static void free_piece(piece *p)
 }
 
 typedef struct joined {
-    ec_kd_node *nodes;
+    ec_kd_binary *nodes;
     uint32_t *ids;
     uint32_t node_count, block_count;
     uint64_t references;
@@ -205,14 +205,14 @@ static void join_piece(const piece *p, uint32_t slot, joined *j)
     if (!p->nodes) {
         j->node_count += 2;
         j->nodes[slot] = p->node;
-        j->nodes[slot].word |= rest << 2;
+        j->nodes[slot].index = rest;
         for (uint32_t side = 0; side < 2; side++) join_piece(p->child[side], rest + side, j);
         return;
     }
     for (uint32_t i = 0; i < p->node_count; i++) {
-        ec_kd_node node = p->nodes[i];
-        if ((node.word & 3u) == LEAF_AXIS) node.at.first += j->block_count;
-        else node.word += (rest - 1) << 2;
+        ec_kd_binary node = p->nodes[i];
+        if (node.axis == EC_KD_NO_PLANE) node.first += j->block_count;
+        else node.index += rest - 1;
         j->nodes[i ? rest + i - 1 : slot] = node;
     }
     if (p->block_count) memcpy(j->ids + 8 * (size_t)j->block_count, p->ids, 32 * (size_t)p->block_count);
@@ -224,7 +224,7 @@ static ec_result join(const piece *p, joined *j, ec_error *err)
 {
     j->node_count = 1;
     count_piece(p, j);
-    if (j->node_count >= 1u << 30) return ec_fail(err, "a kd-tree of %u nodes is larger than 30 bits", j->node_count);
+    if (j->block_count >= 1u << 25) return ec_fail(err, "a kd-tree with %u blocks of triangles is more than the kernels can address", j->block_count);
     j->nodes = ec_allocate_lines(j->node_count, sizeof *j->nodes);
     j->ids = malloc((8 * (size_t)j->block_count + 1) * sizeof *j->ids);
     if (!j->nodes || !j->ids) return ec_fail(err, "out of memory for a kd-tree of %u nodes", j->node_count);
@@ -269,7 +269,7 @@ ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     EC_TRY(ec_accel_refs(in, &refs, &count, &bounds, err));
     int threads = ec_accel_threads(in, count);
     /* Havran's rule of thumb, within the kernels' stack. */
-    builder b = {.depth_most = (uint32_t)fmin(8.0 + 1.3 * log2(count + 1.0), EC_KD_STACK - 1)};
+    builder b = {.depth_most = (uint32_t)fmin(8.0 + 1.3 * log2(count + 1.0), DEPTH_MOST)};
     range root = root_of(refs, count, &bounds);
     piece *tree = NULL;
     if (root.items) {
@@ -280,11 +280,16 @@ ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     joined j = {0};
     ec_kd_header *header = ec_allocate_lines(1, sizeof *header);
     ec_tri8 *blocks = NULL;
+    ec_kd_node *nodes = NULL;
+    uint32_t node_count = 0;
     ec_result result = EC_OK;
     if (!root.items || b.failed || !header) result = ec_fail(err, "out of memory for a kd-tree of %u triangles", count);
     if (result == EC_OK) result = join(tree, &j, err);
-    if (result == EC_OK && !(blocks = ec_allocate_lines(j.block_count, sizeof *blocks)))
-        result = ec_fail(err, "out of memory for %u blocks of triangles", j.block_count);
+    if (result == EC_OK) {
+        blocks = ec_allocate_lines(j.block_count, sizeof *blocks);
+        nodes = ec_kd_collapse(j.nodes, &node_count);
+        if (!blocks || !nodes) result = ec_fail(err, "out of memory for %u blocks of triangles", j.block_count);
+    }
     if (result == EC_OK) {
         memset(header, 0, sizeof *header);
         memcpy(header->lo, bounds.lo, sizeof header->lo);
@@ -292,11 +297,12 @@ ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
         fill_blocks(in, refs, &j, blocks, threads);
     }
     free_piece(tree);
+    free(j.nodes);
     free(j.ids);
     free(refs);
     accel->buffers[0] = (ec_accel_buffer){"bounds", header, sizeof *header};
-    accel->buffers[1] = (ec_accel_buffer){"nodes", j.nodes, (uint64_t)j.node_count * sizeof *j.nodes};
+    accel->buffers[1] = (ec_accel_buffer){"nodes", nodes, (uint64_t)node_count * sizeof *nodes};
     accel->buffers[2] = (ec_accel_buffer){"triangle blocks", blocks, (uint64_t)j.block_count * sizeof *blocks};
-    accel->stats = (ec_accel_stats){.nodes = j.node_count, .leaves = j.block_count, .references = j.references, .sah_cost = j.cost};
+    accel->stats = (ec_accel_stats){.nodes = node_count, .leaves = j.block_count, .references = j.references, .sah_cost = j.cost};
     return result;
 }

@@ -61,17 +61,19 @@ typedef struct ec_grid {
 } ec_grid;
 EC_ASSERT_SIZE(ec_grid, 32);
 
-/* Kd-tree: eight bytes a node. Inner: axis 0 to 2, children at index and index + 1 (below and above the plane). Leaf: axis 3,
- * `count` blocks of up to eight triangles from `first` on. A triangle is in every leaf that its box overlaps. */
+/* Kd-tree, three levels of splits a node, in a cache line. Planes in the order of a heap: 0 divides all eight children, 1 and 2 the
+ * first and the last four, 3 to 6 the pairs; bit 2 of a child's number says on which side of plane 0 it lies (1: above), bit 1 and
+ * bit 0 of those below. axes: two bits a plane, x first; EC_KD_NO_PLANE divides nothing. child: EC_NO_CHILD; a node; or a
+ * leaf, EC_LEAF_BIT | first block << 6 | count. A triangle is in every leaf that its box overlaps. */
 typedef struct ec_kd_node {
-    union {
-        ec_float plane;
-        ec_uint first;
-    } at;
-    ec_uint word;        /* axis | (index or count) << 2 */
+    ec_float plane[7];
+    ec_uint axes;
+    ec_uint child[8];
 } ec_kd_node;
-EC_ASSERT_SIZE(ec_kd_node, 8);
-#define EC_KD_STACK 64   /* the builder goes no deeper */
+EC_ASSERT_SIZE(ec_kd_node, 64);
+#define EC_KD_NO_PLANE 3u
+#define EC_KD_LEAF_MOST 63u /* blocks */
+#define EC_KD_STACK 160     /* seven entries a level, 12 levels of planes and 8 that leaves of any size may need */
 
 /* Before the nodes, the box of everything. */
 typedef struct ec_kd_header {
