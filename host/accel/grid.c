@@ -7,7 +7,7 @@
 #include "accel/accel_internal.h"
 #include "accel/build_internal.h"
 
-#define CELLS_AXIS_MOST 2048u
+#define CELLS_AXIS_MOST 2048u /* a multiple of 4 */
 #define CELLS_MOST (1u << 28)
 /* Entries a reference on average before the grid is made coarser: large triangles lie in thousands of small cells. */
 #define ENTRIES_MOST 64u
@@ -20,7 +20,7 @@ typedef struct grid {
     ec_ref bounds;
 } grid;
 
-/* As many cubes as wanted, if no axis were shorter than a cube; axes that are get one cell and the others share. */
+/* As many cubes as wanted, if no axis were shorter than a cube; axes that are get the fewest cells and the others share. */
 static void choose_cells(grid *g, double wanted)
 {
     int taken[3] = {0};
@@ -39,8 +39,8 @@ static void choose_cells(grid *g, double wanted)
             if (!taken[axis] && extent[axis] < edge) taken[axis] = again = 1;
     }
     for (int axis = 0; axis < 3; axis++) {
-        double cells = taken[axis] ? 1.0 : round(extent[axis] / edge);
-        g->cells[axis] = (uint32_t)fmin(fmax(cells, 1.0), CELLS_AXIS_MOST);
+        double cells = taken[axis] ? 4.0 : 4.0 * round(0.25 * extent[axis] / edge);
+        g->cells[axis] = (uint32_t)fmin(fmax(cells, 4.0), CELLS_AXIS_MOST);
     }
 }
 
@@ -96,6 +96,13 @@ static uint64_t entry_count(const grid *g)
     return sum;
 }
 
+/* Cells are numbered block by block. */
+static size_t cell_index(const grid *g, uint32_t x, uint32_t y, uint32_t z)
+{
+    size_t block = x / 4 + (size_t)(g->cells[0] / 4) * (y / 4 + (size_t)(g->cells[1] / 4) * (z / 4));
+    return 64 * block + (x % 4 + 4 * (y % 4) + 16 * (z % 4));
+}
+
 /* counts[c] is the place behind cell c's entries; filling moves it to their first. NULL entries: only count. */
 static void deal(const grid *g, uint32_t *counts, uint32_t *entries)
 {
@@ -105,7 +112,7 @@ static void deal(const grid *g, uint32_t *counts, uint32_t *entries)
         for (uint32_t z = b.at[2][0]; z <= b.at[2][1]; z++)
             for (uint32_t y = b.at[1][0]; y <= b.at[1][1]; y++)
                 for (uint32_t x = b.at[0][0]; x <= b.at[0][1]; x++) {
-                    uint32_t *count = &counts[x + g->cells[0] * (y + (size_t)g->cells[1] * z)];
+                    uint32_t *count = &counts[cell_index(g, x, y, z)];
                     if (entries) entries[__atomic_sub_fetch(count, 1, __ATOMIC_RELAXED)] = i;
                     else __atomic_add_fetch(count, 1, __ATOMIC_RELAXED);
                 }
@@ -118,12 +125,11 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Threads fill in any order; sorted, the grid is the same for any number of them. */
-static void sort_cells(const grid *g, const uint32_t *starts, uint32_t *entries)
+/* Threads fill in any order; sorted, the grid is the same for any number of them. starts: of the cells that hold something. */
+static void sort_cells(const grid *g, const uint32_t *starts, uint32_t cells, uint32_t *entries)
 {
-    int64_t cells = (int64_t)cell_count(g);
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4096)
-    for (int64_t c = 0; c < cells; c++) {
+    for (uint32_t c = 0; c < cells; c++) {
         uint32_t *first = entries + starts[c], count = starts[c + 1] - starts[c];
         if (count > 32) {
             qsort(first, count, sizeof *first, ascending);
@@ -137,21 +143,32 @@ static void sort_cells(const grid *g, const uint32_t *starts, uint32_t *entries)
     }
 }
 
-/* Counts, sums up, fills. Returns how many cells hold something. */
-static uint64_t fill_cells(const grid *g, uint32_t *starts, uint32_t *entries)
+/* Counts a cell's entries, marks the blocks' occupied cells, and turns counts into places. Returns how many are occupied. */
+static uint32_t count_cells(const grid *g, uint32_t *counts, ec_grid_block *blocks)
 {
-    uint64_t cells = cell_count(g), used = 0;
-    uint32_t sum = 0;
-    memset(starts, 0, (cells + 1) * sizeof *starts);
-    deal(g, starts, NULL);
+    uint64_t cells = cell_count(g);
+    uint32_t sum = 0, used = 0;
+    memset(counts, 0, cells * sizeof *counts);
+    deal(g, counts, NULL);
     for (uint64_t c = 0; c < cells; c++) {
-        used += starts[c] > 0;
-        starts[c] = sum += starts[c];
+        ec_grid_block *block = &blocks[c / 64];
+        if (c % 64 == 0) *block = (ec_grid_block){.first = used};
+        if (counts[c]) block->occupied[c / 32 % 2] |= 1u << c % 32, used++;
+        counts[c] = sum += counts[c];
     }
-    starts[cells] = sum;
-    deal(g, starts, entries);
-    sort_cells(g, starts, entries);
     return used;
+}
+
+/* starts: one more than there are occupied cells; the entries behind them. */
+static void fill_cells(const grid *g, uint32_t *counts, const ec_grid_block *blocks, uint32_t *starts, uint32_t used, uint32_t entry_count)
+{
+    uint64_t cells = cell_count(g);
+    uint32_t *entries = starts + used + 1, next = 0;
+    deal(g, counts, entries);
+    for (uint64_t c = 0; c < cells; c++)
+        if (blocks[c / 64].occupied[c / 32 % 2] >> c % 32 & 1) starts[next++] = counts[c];
+    starts[used] = entry_count;
+    sort_cells(g, starts, used, entries);
 }
 
 static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *triangles)
@@ -180,11 +197,11 @@ static ec_grid *make_header(grid *g, double density, uint64_t *entries, uint64_t
         if (!header) return NULL;
         place_planes(g, (float *)(header + 1));
         *entries = entry_count(g);
-        if (*entries <= (uint64_t)ENTRIES_MOST * g->ref_count || cell_count(g) <= 1) break;
+        if (*entries <= (uint64_t)ENTRIES_MOST * g->ref_count || cell_count(g) <= 64) break;
     }
     for (int axis = 0; axis < 3; axis++) {
-        header->cells[axis] = g->cells[axis];
-        header->per_unit[axis] = (float)fmin(g->per_unit[axis], 3e38);
+        header->blocks[axis] = g->cells[axis] / 4;
+        header->per_unit[axis] = (float)fmin(0.25 * g->per_unit[axis], 3e38);
     }
     return header;
 }
@@ -196,25 +213,30 @@ ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     EC_TRY(ec_accel_refs(in, &refs, &g.ref_count, &g.bounds, err));
     g.refs = refs;
     g.threads = (uint32_t)ec_accel_threads(in, g.ref_count);
-    uint64_t entry_count = 0, header_bytes = 0, used = 0;
-    uint32_t *starts = NULL, *entries = NULL;
+    uint64_t entry_count = 0, header_bytes = 0;
+    uint32_t used = 0, *counts = NULL, *starts = NULL;
+    ec_grid_block *blocks = NULL;
     ec_tri *triangles = NULL;
     ec_grid *header = make_header(&g, in->grid_density > 0.0f ? in->grid_density : EC_GRID_DENSITY, &entry_count, &header_bytes);
-    bool fits = header && entry_count < UINT32_MAX;
-    if (fits) {
-        starts = ec_allocate_lines(cell_count(&g) + 1, sizeof *starts);
-        entries = ec_allocate_lines(entry_count, sizeof *entries);
+    if (header && entry_count < UINT32_MAX) {
+        counts = malloc(cell_count(&g) * sizeof *counts);
+        blocks = ec_allocate_lines(cell_count(&g) / 64, sizeof *blocks);
         triangles = ec_allocate_lines(g.ref_count, sizeof *triangles);
     }
-    ec_result result = starts && entries && triangles ? EC_OK : ec_fail(err, "out of memory for a grid of %u triangles", g.ref_count);
+    if (counts && blocks) {
+        header->start_count = 1 + (used = count_cells(&g, counts, blocks));
+        starts = ec_allocate_lines(header->start_count + entry_count, sizeof *starts);
+    }
+    ec_result result = starts && triangles ? EC_OK : ec_fail(err, "out of memory for a grid of %u triangles", g.ref_count);
     if (result == EC_OK) {
-        used = fill_cells(&g, starts, entries);
+        fill_cells(&g, counts, blocks, starts, used, (uint32_t)entry_count);
         fill_triangles(&g, in, triangles);
     }
     free(refs);
+    free(counts);
     accel->buffers[0] = (ec_accel_buffer){"planes", header, header_bytes};
-    accel->buffers[1] = (ec_accel_buffer){"cells", starts, header ? (cell_count(&g) + 1) * sizeof *starts : 0};
-    accel->buffers[2] = (ec_accel_buffer){"entries", entries, (entry_count ? entry_count : 1) * sizeof *entries};
+    accel->buffers[1] = (ec_accel_buffer){"cells", blocks, header ? cell_count(&g) / 64 * sizeof *blocks : 0};
+    accel->buffers[2] = (ec_accel_buffer){"entries", starts, (used + 1 + entry_count) * sizeof *starts};
     accel->buffers[3] = (ec_accel_buffer){"triangles", triangles, (g.ref_count ? g.ref_count : 1) * sizeof *triangles};
     accel->stats = (ec_accel_stats){.nodes = header ? cell_count(&g) : 0, .leaves = used, .references = entry_count};
     return result;

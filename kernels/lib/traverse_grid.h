@@ -1,9 +1,10 @@
-/* One ray through a uniform grid, cell by cell: the 3D-DDA of Amanatides and Woo 1987 for a ray as wide as its rounding.
+/* One ray through a uniform grid: the 3D-DDA of Amanatides and Woo 1987 for a ray as wide as its rounding, over blocks of 4 x 4 x 4
+ * cells; within a block all 64 cells are compared at once, in the lanes of vectors, and most are empty.
  *
- * Along each axis the ray is in one cell or, near a plane, in two: a cell begins for it at its near plane with the widened offset
- * and ends at its far one, by the arithmetic of slab_near. The next cell to begin along any axis is the next step, and the cells
- * visited are the new one with those along the other axes that have not ended. So every cell is visited whose widened slab the
- * ray meets, once, in the order of entry.
+ * Along each axis the ray is in one block or, near a plane, in two: a block begins for it at its near plane with the widened offset
+ * and ends at its far one, by the arithmetic of slab_near. The next block to begin along any axis is the next step, and the blocks
+ * visited are the new one with those along the other axes that have not ended. So every block is visited whose widened slab
+ * the ray meets, once, in the order of entry; and within it every cell of which the same is true.
  *
  * Why no hit is lost: let t be a hit's distance, clamped to the near side of the triangle's box, and s <= t that near side. Along
  * each axis the box is covered by cells that hold the triangle, and one of them has begun and not ended at s, because planes
@@ -14,54 +15,52 @@
 #include "block8.h"
 
 #define GRID_MAIL 32u  /* triangles tested last, by the low bits of their index: a triangle in many cells is tested about once */
-#define GRID_PATIENCE 3 /* cells that triangles wait for others to make up eight with */
 
 typedef struct grid_axis {
-    global const float *plane;   /* plane[i]: the far plane of cell i, seen along the ray */
+    global const float *plane;   /* plane[4 i]: the far plane of block i, seen along the ray */
     float inverse, near_offset, far_offset;
-    int step, stride;            /* to the next cell, in cells along the axis and in cells of the grid */
-    int oldest, newest, end;     /* cells that the ray is in; the last one of the grid */
-    float begins, ends;          /* when the cell after `newest` begins, when `oldest` ends */
+    int step, stride;            /* to the next block, in blocks along the axis and in blocks of the grid */
+    int oldest, newest, end;     /* blocks that the ray is in; the last one of the grid */
+    float begins, ends;          /* when the block after `newest` begins, when `oldest` ends */
 } grid_axis;
 
 /* Triangles on their way to be tested. */
 typedef struct grid_mail {
     uint seen[GRID_MAIL];
     uint pending[8], count;
-    int patience;
 } grid_mail;
 
-EC_FN float grid_begins(const grid_axis *x, int cell) { return fma(x->plane[cell], x->inverse, x->near_offset); }
-EC_FN float grid_ends(const grid_axis *x, int cell) { return fma(x->plane[cell], x->inverse, x->far_offset) * EC_SLAB_PAD; }
+EC_FN float grid_begins(const grid_axis *x, int block) { return fma(x->plane[4 * block], x->inverse, x->near_offset); }
+EC_FN float grid_ends(const grid_axis *x, int block) { return fma(x->plane[4 * block], x->inverse, x->far_offset) * EC_SLAB_PAD; }
 
-/* When the cell after `cell` begins: never behind the last one. */
-EC_FN float grid_next(const grid_axis *x, int cell) { return cell == x->end ? INFINITY : grid_begins(x, cell); }
+/* When the block after `block` begins: never behind the last one. */
+EC_FN float grid_next(const grid_axis *x, int block) { return block == x->end ? INFINITY : grid_begins(x, block); }
 
 /* The axis with the ray at t = start, found from a guess; exit and entry of the whole grid along it are min- and maximised. */
-EC_FN void grid_axis_make(grid_axis *x, global const float *planes, int cells, float inverse, float lo_offset, float hi_offset,
+EC_FN void grid_axis_make(grid_axis *x, global const float *planes, int blocks, float inverse, float lo_offset, float hi_offset,
                           int stride, float *enter, float *leave)
 {
     bool down = inverse < 0.0f;
-    x->plane = planes + (down ? 0 : 1);
+    x->plane = planes + (down ? 0 : 4);
     x->inverse = inverse;
     x->near_offset = down ? hi_offset : lo_offset;
     x->far_offset = down ? lo_offset : hi_offset;
     x->step = down ? -1 : 1;
     x->stride = down ? -stride : stride;
-    x->end = down ? 0 : cells - 1;
-    *enter = max(*enter, fma(planes[down ? cells : 0], inverse, x->near_offset));
+    x->end = down ? 0 : blocks - 1;
+    *enter = max(*enter, fma(planes[down ? 4 * blocks : 0], inverse, x->near_offset));
     *leave = min(*leave, grid_ends(x, x->end));
 }
-EC_FN void grid_axis_start(grid_axis *x, int cells, float guess, float start)
+EC_FN void grid_axis_start(grid_axis *x, int blocks, float guess, float start)
 {
-    int cell = (int)fmin(fmax(guess, 0.0f), (float)(cells - 1)), first = x->end == 0 ? cells - 1 : 0;
-    while (cell != x->end && grid_begins(x, cell) <= start) cell += x->step;
-    while (cell != first && grid_begins(x, cell - x->step) > start) cell -= x->step;
-    x->newest = cell;
-    x->begins = grid_next(x, cell);
-    while (cell != first && grid_ends(x, cell - x->step) >= start) cell -= x->step;
-    x->oldest = cell;
-    x->ends = grid_ends(x, cell);
+    int block = (int)fmin(fmax(guess, 0.0f), (float)(blocks - 1)), first = x->end == 0 ? blocks - 1 : 0;
+    while (block != x->end && grid_begins(x, block) <= start) block += x->step;
+    while (block != first && grid_begins(x, block - x->step) > start) block -= x->step;
+    x->newest = block;
+    x->begins = grid_next(x, block);
+    while (block != first && grid_ends(x, block - x->step) >= start) block -= x->step;
+    x->oldest = block;
+    x->ends = grid_ends(x, block);
 }
 
 #define GRID_ROW(k, axis)                                                                          \
@@ -100,20 +99,53 @@ EC_FN void grid_visit(grid_mail *mail, global const uint *entries, uint first, u
         uint which = entries[i];
         if (mail->seen[which % GRID_MAIL] == which) continue;
         mail->seen[which % GRID_MAIL] = which;
-        if (mail->count == 0) mail->patience = GRID_PATIENCE;
         mail->pending[mail->count++] = which;
         if (mail->count == 8u) grid_test(mail, q, filter, tris, skip0, skip1, any_hit, h);
     }
 }
 
+/* When the ray is in each of the four cells of a block along an axis. */
+EC_FN void grid_four(const grid_axis *x, int block, float4 *begins, float4 *ends)
+{
+    bool down = x->step < 0;
+    global const float *planes = x->plane - (down ? 0 : 4) + 4 * block;
+    float4 lo = vload4(0, planes), hi = vload4(0, planes + 1);
+    *begins = fma(down ? hi : lo, (float4)(x->inverse), (float4)(x->near_offset));
+    *ends = fma(down ? lo : hi, (float4)(x->inverse), (float4)(x->far_offset)) * EC_SLAB_PAD;
+}
+
+/* A bit for each cell of block (bx, by, bz) that the ray meets before t_max. */
+EC_FN ulong grid_cells(const grid_axis *axis, int bx, int by, int bz, float t_max)
+{
+    float4 x0, x1, y0, y1, z0, z1;
+    grid_four(&axis[0], bx, &x0, &x1);
+    grid_four(&axis[1], by, &y0, &y1);
+    grid_four(&axis[2], bz, &z0, &z1);
+    x0 = max(x0, (float4)(0.0f));
+    x1 = min(x1, (float4)(t_max));
+    float8 low0 = max(x0.s01230123, y0.s00001111), low1 = min(x1.s01230123, y1.s00001111);
+    float8 high0 = max(x0.s01230123, y0.s22223333), high1 = min(x1.s01230123, y1.s22223333);
+    ulong bits = 0;
+#define GRID_LAYER(k)                                                                              \
+    bits |= (ulong)(mask_bits8(max(low0, (float8)(z0.s##k)) <= min(low1, (float8)(z1.s##k))) |     \
+                    mask_bits8(max(high0, (float8)(z0.s##k)) <= min(high1, (float8)(z1.s##k))) << 8) << (16 * k);
+    GRID_LAYER(0)
+    GRID_LAYER(1)
+    GRID_LAYER(2)
+    GRID_LAYER(3)
+#undef GRID_LAYER
+    return bits;
+}
+
 EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     global const ec_grid *grid = a->at[0];
-    global const uint *starts = a->at[1], *entries = a->at[2];
+    global const ec_grid_block *blocks = a->at[1];
     global const ec_tri *tris = a->at[3];
     global const float *planes = (global const float *)(grid + 1);
-    const int nx = (int)grid->cells[0], ny = (int)grid->cells[1], nz = (int)grid->cells[2];
-    global const float *planes_y = planes + nx + 1, *planes_z = planes_y + ny + 1;
+    const int nx = (int)grid->blocks[0], ny = (int)grid->blocks[1], nz = (int)grid->blocks[2];
+    global const float *planes_y = planes + 4 * nx + 1, *planes_z = planes_y + 4 * ny + 1;
+    global const uint *starts = a->at[2], *entries = starts + grid->start_count;
     const ray *r = &q->r;
     grid_axis axis[3];
     float now = 0.0f, leave = h->t;
@@ -128,25 +160,36 @@ EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, u
     grid_mail mail;
     for (uint k = 0; k < GRID_MAIL; k++) mail.seen[k] = EC_NO_ID;
     mail.count = 0;
-    mail.patience = 0;
-    int cell = axis[0].newest + nx * (axis[1].newest + ny * axis[2].newest);
-    int x = 0, u = 1, v = 2, first = axis[0].oldest; /* the axis of the step, the two others; at the start all cells are new */
+    int block = axis[0].newest + nx * (axis[1].newest + ny * axis[2].newest);
+    int x = 0, u = 1, v = 2; /* the axis of the step, the two others */
+    int at[3];               /* the block being visited */
+    at[0] = axis[0].oldest;  /* at the start all blocks are new, and after a step the newest */
     for (;;) {
-        int along = cell - (axis[x].newest - first) * (axis[x].stride * axis[x].step); /* cells `first` to `newest` along x */
-        for (;; along += axis[x].stride) {
+        int along = block - (axis[x].newest - at[x]) * axis[x].step * axis[x].stride;
+        for (;; along += axis[x].stride, at[x] += axis[x].step) {
             int row = along;
-            for (int i = axis[u].newest;; i -= axis[u].step, row -= axis[u].stride) {
-                int at = row;
-                for (int k = axis[v].newest;; k -= axis[v].step, at -= axis[v].stride) {
+            for (at[u] = axis[u].newest;; at[u] -= axis[u].step, row -= axis[u].stride) {
+                int one = row;
+                for (at[v] = axis[v].newest;; at[v] -= axis[v].step, one -= axis[v].stride) {
+                    global const ec_grid_block *b = blocks + one;
+                    ulong occupied = upsample(b->occupied[1], b->occupied[0]);
                     TALLY_NODE(h);
-                    grid_visit(&mail, entries, starts[at], starts[at + 1], q, filter, tris, skip0, skip1, any_hit, h);
-                    if (k == axis[v].oldest) break;
+                    if (occupied) {
+                        ulong cells = occupied & grid_cells(axis, at[0], at[1], at[2], h->t);
+                        for (; cells; cells &= cells - 1) {
+                            ulong below = (cells & -cells) - 1;
+                            global const uint *start = starts + b->first + (uint)popcount(occupied & below);
+                            TALLY_NODE(h);
+                            grid_visit(&mail, entries, start[0], start[1], q, filter, tris, skip0, skip1, any_hit, h);
+                        }
+                    }
+                    if (at[v] == axis[v].oldest) break;
                 }
-                if (i == axis[u].oldest) break;
+                if (at[u] == axis[u].oldest) break;
             }
-            if (along == cell) break;
+            if (along == block) break;
         }
-        if (mail.count && --mail.patience < 0) grid_test(&mail, q, filter, tris, skip0, skip1, any_hit, h);
+        if (mail.count) grid_test(&mail, q, filter, tris, skip0, skip1, any_hit, h);
         if (any_hit && h->prim != EC_NO_ID) return;
 
         x = axis[0].begins < axis[1].begins ? 0 : 1;
@@ -154,11 +197,11 @@ EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, u
         u = x == 0 ? 1 : 0;
         v = x == 2 ? 1 : 2;
         now = axis[x].begins;
-        if (now > min(leave, h->t)) break;
+        if (now > min(leave, h->t)) return;
         axis[x].newest += axis[x].step;
         axis[x].begins = grid_next(&axis[x], axis[x].newest);
-        cell += axis[x].stride;
-        first = axis[x].newest;
+        block += axis[x].stride;
+        at[x] = axis[x].newest;
         while (axis[u].ends < now) {
             axis[u].oldest += axis[u].step;
             axis[u].ends = grid_ends(&axis[u], axis[u].oldest);
@@ -168,7 +211,6 @@ EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, u
             axis[v].ends = grid_ends(&axis[v], axis[v].oldest);
         }
     }
-    if (mail.count) grid_test(&mail, q, filter, tris, skip0, skip1, any_hit, h);
 }
 
 EC_FN void grid_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)

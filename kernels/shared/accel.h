@@ -51,15 +51,23 @@ typedef struct ec_tri8 {
 } ec_tri8;
 EC_ASSERT_SIZE(ec_tri8, 320);
 
-/* Uniform grid. Behind the header stand the planes between the cells, cells[0] + 1 along x, then y, then z, ascending: the
- * host says where a cell ends and the kernels only compare. Cell (x, y, z) is x + cells[0] * (y + cells[1] * z). */
+/* Uniform grid, in blocks of 4 x 4 x 4 cells. Behind the header stand the planes between the cells, 4 blocks[0] + 1 along x, then
+ * y, then z, ascending: the host says where a cell ends and the kernels only compare. Block (x, y, z) is x + blocks[0] *
+ * (y + blocks[1] * z); bit x + 4 y + 16 z of occupied stands for a cell of it. The n-th cell of the block that is occupied
+ * has the entries from starts[first + n] to starts[first + n + 1]; an entry is the index of an ec_tri. */
 typedef struct ec_grid {
-    ec_uint cells[3];    /* along each axis */
-    ec_uint pad0;
-    ec_float per_unit[3]; /* cells a scene unit, for first guesses only */
+    ec_uint blocks[3];    /* along each axis */
+    ec_uint start_count;  /* starts; the entries stand behind them */
+    ec_float per_unit[3]; /* blocks a scene unit, for first guesses only */
     ec_uint pad1;
 } ec_grid;
 EC_ASSERT_SIZE(ec_grid, 32);
+typedef struct ec_grid_block {
+    ec_uint occupied[2];  /* low and high half */
+    ec_uint first;
+    ec_uint pad;
+} ec_grid_block;
+EC_ASSERT_SIZE(ec_grid_block, 16);
 
 /* Kd-tree, three levels of splits a node, in a cache line. Planes in the order of a heap: 0 divides all eight children, 1 and 2 the
  * first and the last four, 3 to 6 the pairs; bit 2 of a child's number says on which side of plane 0 it lies (1: above), bit 1 and
