@@ -1,0 +1,4 @@
+/* The same hits from every accelerator, on ten million rays in each scene. ctest label: slow */
+#include "kernel/traversal_scenes.h"
+
+int main(void) { return check_scenes(10000000); }
