@@ -1,15 +1,17 @@
 /* eclat info SCENE */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "accel/bvh.h"
 #include "base/clock.h"
 #include "cli/cli.h"
+#include "cli/numbers.h"
 #include "cli/options.h"
 #include "pipeline/render.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
-    const char *scene;
+    const char *scene, *accel, *device; /* accel: a name, "all", or NULL for none */
     bool json, quiet;
 } info_request;
 
@@ -27,7 +29,25 @@ static ec_result set_quiet(void *target, const char *option, const char *value, 
     return EC_OK;
 }
 
-static const ec_option options[] = {{"json", 0, false, set_json}, {"quiet", 'q', false, set_quiet}};
+static ec_result set_accel(void *target, const char *option, const char *value, ec_error *err)
+{
+    static const char all[] = "all";
+    const char *names[EC_ACCEL_COUNT + 2] = {all};
+    uint32_t index = 0;
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) names[a + 1] = ec_accels[a].name;
+    EC_TRY(ec_parse_choice(option, value, names, &index, err));
+    ((info_request *)target)->accel = names[index];
+    return EC_OK;
+}
+
+static ec_result set_device(void *target, const char *option, const char *value, ec_error *err)
+{
+    (void)option, (void)err;
+    ((info_request *)target)->device = value;
+    return EC_OK;
+}
+
+static const ec_option options[] = {{"accel", 0, true, set_accel}, {"device", 0, true, set_device}, {"json", 0, false, set_json}, {"quiet", 'q', false, set_quiet}};
 
 static ec_result measure(ec_scene_report *report, char *effects, size_t effects_size, ec_error *err)
 {
@@ -41,6 +61,40 @@ static ec_result measure(ec_scene_report *report, char *effects, size_t effects_
     return EC_OK;
 }
 
+static ec_result probe_all(ec_cl *cl, const info_request *request, ec_scene_report *report, ec_error *err)
+{
+    bool all = !strcmp(request->accel, "all");
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
+        ec_accel_report *one = &report->accels[report->accel_count];
+        if (!all && strcmp(request->accel, ec_accels[a].name)) continue;
+        one->name = ec_accels[a].name;
+        if (ec_probe_accel(cl, report->scene, a, &one->probe, err) != EC_OK) {
+            if (!all) return EC_FAILED;
+            snprintf(one->refused, sizeof one->refused, "%.255s", err->text);
+        }
+        report->accel_count++;
+    }
+    return EC_OK;
+}
+
+static ec_result probe(const info_request *request, ec_scene_report *report, ec_device_info *device, ec_error *err)
+{
+    ec_device_info *devices = NULL;
+    uint32_t count = 0, index = 0;
+    const char *why;
+    ec_cl cl;
+    EC_TRY(ec_devices_list(&devices, &count, err));
+    ec_result result = ec_device_choose(devices, count, request->device, &index, &why, err);
+    if (result == EC_OK) *device = devices[index];
+    free(devices);
+    EC_TRY(result);
+    report->device = device->name;
+    EC_TRY(ec_cl_open(device, &cl, err));
+    result = probe_all(&cl, request, report, err);
+    ec_cl_close(&cl);
+    return result;
+}
+
 static ec_result tell(const info_request *request, const ec_log *log, ec_error *err)
 {
     char effects[512] = "";
@@ -51,7 +105,9 @@ static ec_result tell(const info_request *request, const ec_log *log, ec_error *
     report.load_seconds = ec_now() - start;
     report.scene = scene;
 
+    ec_device_info device;
     ec_result result = measure(&report, effects, sizeof effects, err);
+    if (result == EC_OK && request->accel) result = probe(request, &report, &device, err);
     if (result == EC_OK && request->json)
         result = ec_scene_report_json(&report, stdout, err);
     else if (result == EC_OK)

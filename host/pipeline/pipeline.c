@@ -49,15 +49,19 @@ static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char
     return EC_OK;
 }
 
+uint32_t ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted)
+{
+    uint32_t lanes = wanted ? wanted : cl->info.native_float_width;
+    if (!wanted && cl->info.type & CL_DEVICE_TYPE_GPU) return 1;
+    return lanes >= 16 ? 16 : lanes >= 8 ? 8 : lanes >= 4 ? 4 : 1;
+}
+
 ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
                              ec_pipeline *p, ec_render_stats *stats, ec_error *err)
 {
     memset(p, 0, sizeof *p);
     p->cl = cl;
-    p->lanes = options->lanes ? options->lanes : cl->info.native_float_width;
-    if (p->lanes != 1 && p->lanes != 4 && p->lanes != 8 && p->lanes != 16)
-        p->lanes = p->lanes > 16 ? 16 : (p->lanes > 8 ? 8 : (p->lanes > 4 ? 4 : 1));
-    if (!options->lanes && cl->info.type & CL_DEVICE_TYPE_GPU) p->lanes = 1;
+    p->lanes = ec_pipeline_lanes(cl, options->lanes);
     EC_TRY(choose_accels(p, scene, options->accel, err));
 
     double start = ec_now();

@@ -38,6 +38,8 @@ typedef struct ec_pipeline {
 ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
                              ec_pipeline *pipeline, ec_render_stats *stats, ec_error *err);
 void ec_pipeline_destroy(ec_pipeline *pipeline);
+/* How many lanes a device gets; wanted 0: what suits it. */
+uint32_t ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted);
 
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
@@ -48,7 +50,9 @@ uint64_t ec_pipeline_total(const uint32_t *parts);
 
 /* upload.c */
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
-/* Builds and uploads the accelerators that are in use. */
+/* Builds an accelerator and uploads it; stats may be NULL. */
+ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
+/* Those that are in use. */
 ec_result ec_pipeline_upload_accels(ec_pipeline *pipeline, const ec_scene *scene, ec_error *err);
 ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, ec_error *err);
 /* build.c */

@@ -61,7 +61,7 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     return upload(p, EC_ARG_ENVIRONMENT_ALIAS, "environment table", texels * sizeof *pack->environment_alias, pack->environment_alias, err);
 }
 
-static ec_result upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *input, ec_error *err)
+ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)
 {
     ec_accel accel = {0};
     char label[64];
@@ -72,6 +72,7 @@ static ec_result upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *in
         snprintf(label, sizeof label, "%s %s", ec_accels[which].name, buffer->label);
         result = ec_buffer_create(p->cl, label, buffer->bytes, buffer->data, &p->accels[which].buffers[k], err);
     }
+    if (stats) *stats = accel.stats;
     ec_accel_free(&accel);
     return result;
 }
@@ -81,7 +82,7 @@ ec_result ec_pipeline_upload_accels(ec_pipeline *p, const ec_scene *scene, ec_er
     ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count};
     ec_result result = EC_OK;
     for (uint32_t a = 0; result == EC_OK && a < EC_ACCEL_COUNT; a++)
-        if (p->accels[a].in_use) result = upload_accel(p, a, &input, err);
+        if (p->accels[a].in_use) result = ec_pipeline_upload_accel(p, a, &input, NULL, err);
     ec_accel_input_free(&input);
     return result;
 }

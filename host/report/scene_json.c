@@ -63,6 +63,33 @@ static void add_bvh(cJSON *root, const ec_bvh_stats *stats)
     ec_json_real(bvh, "build_seconds", stats->build_seconds);
 }
 
+static void add_accels(cJSON *root, const ec_scene_report *report)
+{
+    if (!report->accel_count) return;
+    ec_json_text(root, "accel_device", report->device);
+    cJSON *array = cJSON_AddArrayToObject(root, "accels");
+    for (uint32_t i = 0; i < report->accel_count; i++) {
+        const ec_accel_report *a = &report->accels[i];
+        const ec_accel_stats *b = &a->probe.build;
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddItemToArray(array, object);
+        ec_json_text(object, "name", a->name);
+        if (*a->refused) {
+            ec_json_text(object, "refused", a->refused);
+            continue;
+        }
+        ec_json_real(object, "build_seconds", b->build_seconds);
+        ec_json_whole(object, "bytes", b->bytes);
+        ec_json_whole(object, "nodes", b->nodes);
+        ec_json_whole(object, "leaves", b->leaves);
+        ec_json_whole(object, "references", b->references);
+        ec_json_real(object, "sah_cost", b->sah_cost > 0 ? b->sah_cost : INFINITY); /* null: means nothing */
+        ec_json_real(object, "nodes_per_ray", a->probe.nodes);
+        ec_json_real(object, "triangles_per_ray", a->probe.triangles);
+        ec_json_real(object, "rays_per_second", a->probe.rays_per_second);
+    }
+}
+
 ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error *err)
 {
     const ec_scene *scene = report->scene;
@@ -76,6 +103,7 @@ ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error
     add_list(root, "extensions_unsupported", scene->extensions_ignored, scene->extension_ignored_count);
     ec_json_words(root, "effects", report->effects);
     add_bvh(root, &report->bvh);
+    add_accels(root, report);
     ec_json_real(root, "load_seconds", report->load_seconds);
     ec_json_whole(root, "device_bytes", report->device_bytes);
     ec_json_whole(root, "peak_memory_bytes", report->peak_memory_bytes);

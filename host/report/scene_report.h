@@ -5,8 +5,15 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "accel/bvh.h"
+#include "pipeline/probe.h"
 #include "scene/scene.h"
+
+/* One accelerator, measured; refused: why it was not, or empty. */
+typedef struct ec_accel_report {
+    const char *name;
+    ec_accel_probe probe;
+    char refused[256];
+} ec_accel_report;
 
 typedef struct ec_scene_report {
     const char *path;
@@ -19,6 +26,9 @@ typedef struct ec_scene_report {
     double load_seconds;
     ec_bvh_stats bvh;
     bool has_light;
+    const char *device;          /* on which they were measured */
+    ec_accel_report accels[EC_ACCEL_COUNT];
+    uint32_t accel_count;        /* 0: none was asked for */
 } ec_scene_report;
 
 /* Fills what can be counted in the scene. */

@@ -75,6 +75,34 @@ static void print_cost(const ec_scene_report *report, FILE *to)
     fprintf(to, "time        %s to load, %s to build the BVH\n", load, build);
 }
 
+static void print_accel(const ec_accel_report *a, FILE *to)
+{
+    const ec_accel_stats *b = &a->probe.build;
+    char build[32], bytes[32], nodes[32], leaves[32], references[32], rate[32], cost[32] = "-";
+    if (*a->refused) {
+        fprintf(to, "%-8s %s\n", a->name, a->refused);
+        return;
+    }
+    ec_format_seconds(b->build_seconds, build, sizeof build);
+    ec_format_bytes(b->bytes, bytes, sizeof bytes);
+    ec_format_count((double)b->nodes, nodes, sizeof nodes);
+    ec_format_count((double)b->leaves, leaves, sizeof leaves);
+    ec_format_count((double)b->references, references, sizeof references);
+    ec_format_count(a->probe.rays_per_second, rate, sizeof rate);
+    if (b->sah_cost > 0) snprintf(cost, sizeof cost, "%.4g", b->sah_cost);
+    fprintf(to, "%-8s %9s %10s %8s %8s %10s %8s %10.1f %14.1f %9s\n", a->name, build, bytes, nodes, leaves, references, cost,
+            a->probe.nodes, a->probe.triangles, rate);
+}
+
+static void print_accels(const ec_scene_report *report, FILE *to)
+{
+    if (!report->accel_count) return;
+    fprintf(to, "\n%u rays from the surfaces in all directions, on %s\n", EC_PROBE_RAYS, report->device);
+    fprintf(to, "%-8s %9s %10s %8s %8s %10s %8s %10s %14s %9s\n", "accel", "build", "memory", "nodes", "leaves", "references",
+            "SAH cost", "nodes/ray", "triangles/ray", "rays/s");
+    for (uint32_t i = 0; i < report->accel_count; i++) print_accel(&report->accels[i], to);
+}
+
 void ec_scene_report_text(const ec_scene_report *report, FILE *to)
 {
     const ec_scene *scene = report->scene;
@@ -85,4 +113,5 @@ void ec_scene_report_text(const ec_scene_report *report, FILE *to)
     print_list("extensions  ", scene->extensions_used, scene->extension_count, to);
     print_list("unsupported ", scene->extensions_ignored, scene->extension_ignored_count, to);
     print_cost(report, to);
+    print_accels(report, to);
 }

@@ -38,6 +38,33 @@ class Info(Case):
                      "memory", "BVH"]:
             self.assertRegex(run.stdout, rf"(?m)^{word} ")
 
+    def test_accelerators_are_measured(self):
+        report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", "all", CORNELL)).stdout)
+        rows = {row["name"]: row for row in report["accels"]}
+        self.assertEqual(set(rows), {"bvh2", "bvh8", "grid", "kdtree", "none"})
+        triangles = report["triangles"]
+        self.assertEqual((rows["none"]["nodes_per_ray"], rows["none"]["triangles_per_ray"]), (0, triangles))
+        self.assertIsNone(rows["grid"]["sah_cost"])
+        for name, row in rows.items():
+            with self.subTest(name):
+                self.assertGreaterEqual(row["references"], triangles)
+                self.assertGreater(row["rays_per_second"], 0)
+                self.assertGreater(row["bytes"], 0)
+                self.assertLessEqual(row["triangles_per_ray"], 2 * triangles)
+                self.assertTrue(name == "none" or 1 <= row["nodes_per_ray"] < 100)
+        run = self.assert_ok(eclat("info", "--accel", "grid", CORNELL))
+        self.assertRegex(run.stdout, r"(?m)^accel +build +memory +nodes")
+        self.assertRegex(run.stdout, r"(?m)^grid ")
+        self.assertNotIn("kdtree", run.stdout)
+        self.assert_one_error(eclat("info", "--accel", "octree", CORNELL), 2)
+
+    def test_an_empty_scene_has_nothing_to_measure(self):
+        scene, _ = quad_scene()
+        del scene["nodes"][0]["mesh"]
+        path = write_gltf(self.path("empty.gltf"), scene)
+        report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", "all", path)).stdout)
+        self.assertEqual({row["rays_per_second"] for row in report["accels"]}, {0})
+
     def test_unsupported_extensions_are_told_and_required_ones_refused(self):
         scene, _ = quad_scene()
         scene["extensionsUsed"] = ["EXT_of_another_world"]
