@@ -51,6 +51,14 @@ SETTER(exposure)
     return ec_parse_real(option, value, -100, 100, &REQUEST->exposure, err);
 }
 
+SETTER(integrator)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_integrator_names, &index, err));
+    REQUEST->options.integrator = (ec_integrator)index;
+    return EC_OK;
+}
+
 SETTER(lanes)
 {
     static const char *const names[] = {"auto", "1", "4", "8", "16", NULL};
@@ -145,6 +153,7 @@ static const ec_option options[] = {
     {"env", 0, true, set_env},
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
+    {"integrator", 0, true, set_integrator},
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},
     {"max-depth", 0, true, set_max_depth},

@@ -26,6 +26,9 @@ static uint32_t canonical(const ec_stage_entry *stage, uint32_t features)
 
 static bool is_needed(const ec_pipeline *p, ec_stage_id id)
 {
+    bool is_raster_stage = id >= EC_RASTER_SETUP && id <= EC_SHADE_RASTER;
+    if (p->integrator == EC_INTEGRATOR_RASTER) return is_raster_stage || id == EC_GENERATE || id >= EC_ACCUMULATE;
+    if (is_raster_stage) return false;
     if (id == EC_INTERSECT_PACKET || id == EC_CONNECT_PACKET) return p->has_trace[EC_TRACE_PACKET];
     if (id == EC_INTERSECT_BVH8 || id == EC_CONNECT_BVH8) return p->has_trace[EC_TRACE_BVH8];
     return true;

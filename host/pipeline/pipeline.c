@@ -55,14 +55,16 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
 {
     memset(p, 0, sizeof *p);
     p->cl = cl;
+    p->triangle_count = scene->triangle_count;
     p->lanes = options->lanes ? options->lanes : cl->info.native_float_width;
     if (p->lanes != 1 && p->lanes != 4 && p->lanes != 8 && p->lanes != 16)
         p->lanes = p->lanes > 16 ? 16 : (p->lanes > 8 ? 8 : (p->lanes > 4 ? 4 : 1));
     if (!options->lanes && cl->info.type & CL_DEVICE_TYPE_GPU) p->lanes = 1;
-    choose_traces(p, scene, options->trace);
+    p->integrator = options->integrator;
+    if (p->integrator == EC_INTEGRATOR_PATH) choose_traces(p, scene, options->trace);
 
     double start = ec_now();
-    ec_result result = ec_pipeline_upload_accel(p, scene, err);
+    ec_result result = p->integrator == EC_INTEGRATOR_PATH ? ec_pipeline_upload_accel(p, scene, err) : EC_OK;
     stats->accel_seconds = ec_now() - start;
     if (result != EC_OK) return result;
 
@@ -89,6 +91,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->environment_pmf = pack.environment_pmf;
     for (int k = 0; k < 3; k++)
         params->environment[k] = !scene->has_environment ? 0.0f : scene->environment.rgb ? 1.0f : scene->environment.constant[k];
+    memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;
     result = ec_pipeline_upload(p, scene, &pack, err);

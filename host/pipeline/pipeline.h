@@ -18,11 +18,12 @@ typedef struct ec_pipeline {
     ec_cl *cl;
     ec_params params;
     ec_counters counters;         /* the host's copy */
-    uint32_t features, lanes, wave;
+    uint32_t features, lanes, wave, triangle_count;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
     cl_program programs[EC_LANES_MOST + 1]; /* by lane width */
     cl_kernel kernels[EC_STAGE_ID_COUNT];
+    ec_integrator integrator;
     bool has_trace[EC_TRACE_COUNT];
     /* Measured choice of traversal, at each bounce: the best rays a second of each kind while both are being tried. */
     struct {
@@ -41,6 +42,8 @@ void ec_pipeline_destroy(ec_pipeline *pipeline);
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err);
 
+/* raster.c */
+ec_result ec_raster_run(ec_pipeline *pipeline, const uint32_t *scalars, ec_error *err);
 /* upload.c */
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
 ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, const ec_scene *scene, ec_error *err);

@@ -15,7 +15,11 @@ typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sam
 /* Which direct-light strategies take part; all unbiased settings converge to the same image. */
 typedef enum ec_strategy { EC_STRATEGY_MIS, EC_STRATEGY_NEE, EC_STRATEGY_BSDF } ec_strategy;
 
+/* What a sample is. PATH: global illumination. RASTER: direct light from the lights' centres, without shadows. */
+typedef enum ec_integrator { EC_INTEGRATOR_PATH, EC_INTEGRATOR_RASTER } ec_integrator;
+
 typedef struct ec_render_options {
+    ec_integrator integrator;
     uint32_t width, height;     /* pixels */
     uint32_t camera;            /* index into the scene's cameras */
     uint32_t spp;               /* stop after so many samples a pixel; 0 = no such limit */

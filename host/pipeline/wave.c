@@ -98,11 +98,17 @@ ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pix
     scalars[EC_ARG_FIRST_PIXEL] = first_pixel;
     scalars[EC_ARG_PATH_COUNT] = paths;
     scalars[EC_ARG_PIXEL_COUNT] = pixel_count;
+    scalars[EC_ARG_TRIANGLE_COUNT] = p->triangle_count;
     swap_queues(p, 0);
     cl_mem aov = p->buffers[EC_ARG_AOV];
     if (!with_features) p->buffers[EC_ARG_AOV] = NULL;
 
     ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
+    if (p->integrator == EC_INTEGRATOR_RASTER) {
+        if (result == EC_OK) result = ec_raster_run(p, scalars, err);
+        p->rays += paths;
+        paths = 0;
+    }
     fill_parts(p, paths);
     for (uint32_t bounce = 0; result == EC_OK && total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
         result = run_segment(p, scalars, bounce, err);

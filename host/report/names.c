@@ -5,6 +5,8 @@
 #include "image/image.h"
 #include "pipeline/render.h"
 
+const char *const ec_integrator_names[] = {
+    [EC_INTEGRATOR_PATH] = "path", [EC_INTEGRATOR_RASTER] = "raster", NULL};
 const char *const ec_sampler_names[] = {
     [EC_SAMPLER_SOBOL] = "sobol", [EC_SAMPLER_INDEPENDENT] = "independent", NULL};
 const char *const ec_strategy_names[] = {

@@ -14,6 +14,7 @@ typedef struct ec_params {
     ec_float camera_up[4];
     ec_float camera_forward[4];
     ec_float environment[4];      /* constant radiance, or factor of the map */
+    ec_float environment_mean[4]; /* over all directions */
     ec_uint orthographic;
     ec_uint width, height;        /* pixels */
     ec_uint batch;                /* m: samples a pixel in a batch */
@@ -28,7 +29,7 @@ typedef struct ec_params {
     ec_float scene_max;           /* largest |coordinate| of the scene */
     ec_uint pad[2];
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 144);
+EC_ASSERT_SIZE(ec_params, 160);
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

@@ -2,6 +2,7 @@
  * Reads: path queue and hits. Writes: radiance of the slots, the shadow queue (next: connect), the next path queue (next:
  * intersect), first-hit features at bounce 0 where asked for. Every path either ends here or is pushed once. */
 #include "../lib/bsdf.h"
+#include "../lib/features.h"
 #include "../lib/film.h"
 #include "../lib/light.h"
 #include "../lib/queue.h"
@@ -23,18 +24,6 @@ EC_FN lane_f found_weight(uint strategy, lane_f path_pdf, lane_f light_pdf)
     if (!(strategy & EC_STRATEGY_LIGHT_BIT)) return F(1.0f);
     if (!(strategy & EC_STRATEGY_BSDF_BIT)) return sampled ? F(0.0f) : F(1.0f);
     return sampled ? mis_weight(path_pdf, light_pdf) : F(1.0f);
-}
-
-EC_FN void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, v3 n, lane_f depth, lane_f alpha, uint bits)
-{
-    scatter_f(aov, slot, albedo.x, bits);
-    scatter_f(aov + wave, slot, albedo.y, bits);
-    scatter_f(aov + 2 * wave, slot, albedo.z, bits);
-    scatter_f(aov + 3 * wave, slot, n.x, bits);
-    scatter_f(aov + 4 * wave, slot, n.y, bits);
-    scatter_f(aov + 5 * wave, slot, n.z, bits);
-    scatter_f(aov + 6 * wave, slot, depth, bits);
-    scatter_f(aov + 7 * wave, slot, alpha, bits);
 }
 
 kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
