@@ -79,6 +79,14 @@ SETTER(output)
     return ec_outputs_add(&REQUEST->outputs, value, err);
 }
 
+SETTER(sample)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_sample_names, &index, err));
+    REQUEST->options.sample = (ec_sample)index;
+    return EC_OK;
+}
+
 SETTER(sampler)
 {
     uint32_t index = 0;
@@ -101,14 +109,6 @@ SETTER(size)
 SETTER(spp)
 {
     return ec_parse_u32(option, value, 1, EC_MAX_SPP, &REQUEST->options.spp, err);
-}
-
-SETTER(strategy)
-{
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, ec_strategy_names, &index, err));
-    REQUEST->options.strategy = (ec_strategy)index;
-    return EC_OK;
 }
 
 SETTER(time)
@@ -150,11 +150,11 @@ static const ec_option options[] = {
     {"max-depth", 0, true, set_max_depth},
     {"output", 'o', true, set_output},
     {"quiet", 'q', false, set_quiet},
+    {"sample", 0, true, set_sample},
     {"sampler", 0, true, set_sampler},
     {"seed", 0, true, set_seed},
     {"size", 0, true, set_size},
     {"spp", 0, true, set_spp},
-    {"strategy", 0, true, set_strategy},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
     {"trace", 0, true, set_trace},

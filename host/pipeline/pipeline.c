@@ -80,10 +80,9 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->wave = p->wave;
     params->part = p->wave / EC_PARTS;
     params->max_depth = options->max_depth ? options->max_depth : UINT32_MAX - EC_SEGMENT;
-    params->strategy = options->strategy == EC_STRATEGY_MIS   ? EC_STRATEGY_LIGHT_BIT | EC_STRATEGY_BSDF_BIT
-                       : options->strategy == EC_STRATEGY_NEE ? EC_STRATEGY_LIGHT_BIT
-                                                              : EC_STRATEGY_BSDF_BIT;
-    params->light_count = pack.light_count;
+    params->sample = options->sample;
+    bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
+    params->light_count = joins ? pack.light_count : 0;
     params->environment_width = pack.environment_width;
     params->environment_height = pack.environment_height;
     params->environment_pmf = pack.environment_pmf;

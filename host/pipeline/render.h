@@ -9,11 +9,9 @@
 #include "cl/cl.h"
 #include "film/film.h"
 #include "scene/scene.h"
+#include "shared/params.h"
 
 typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
-
-/* Which direct-light strategies take part; all unbiased settings converge to the same image. */
-typedef enum ec_strategy { EC_STRATEGY_MIS, EC_STRATEGY_NEE, EC_STRATEGY_BSDF } ec_strategy;
 
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
@@ -24,7 +22,7 @@ typedef struct ec_render_options {
     uint32_t batch;             /* samples a pixel in one independent batch; 0 = chosen from the limits */
     uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited */
     ec_sampler_type sampler;
-    ec_strategy strategy;
+    ec_sample sample;           /* all converge to the same image */
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */

@@ -53,8 +53,8 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_text(attributes, "eclat.camera", report->camera);
     add_text(attributes, "eclat.environment", report->environment);
     add_made(attributes, "eclat.seed", "%" PRIu64, options->seed);
+    add_text(attributes, "eclat.sample", ec_sample_names[options->sample]);
     add_text(attributes, "eclat.sampler", ec_sampler_names[options->sampler]);
-    add_text(attributes, "eclat.strategy", ec_strategy_names[options->strategy]);
     add_text(attributes, "eclat.trace", options->trace ? options->trace : "auto");
     if (options->max_depth)
         add_made(attributes, "eclat.maxDepth", "%u", options->max_depth);

@@ -43,7 +43,7 @@ class Files(Render):
         attributes, planes = read_exr(self.path("a.exr"))
         self.assertEqual(sorted(planes), CHANNELS)
         self.assertEqual([kind for _, kind in attributes["channels"]], [2] * len(CHANNELS))
-        for name in ["command", "version", "scene", "camera", "environment", "seed", "sampler", "strategy", "batch",
+        for name in ["command", "version", "scene", "camera", "environment", "seed", "sample", "sampler", "batch",
                      "samplesPerPixel", "maxDepth", "lanes", "wave", "device", "device.version", "device.driver",
                      "device.platform", "seconds", "error", "errorBound", "effects", "invalid", "stoppedBy", "host",
                      "png.exposure", "png.tonemap"]:

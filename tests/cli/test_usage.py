@@ -78,7 +78,7 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "-z", says="unknown option '-z'")
 
     def test_ambiguous_missing_and_superfluous_values(self):
-        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sampler, --seed")
+        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --seed")
         self.usage("render", "s.gltf", "--spp", says="'--spp' needs a value")
         self.usage("render", "s.gltf", "-o", says="needs a value")
         self.usage("render", "s.gltf", "--quiet=yes", says="takes no value")
@@ -97,7 +97,7 @@ class WrongOptions(Case):
             "--wave": ["0", "-5"],
             "--sampler": ["halton", ""],
             "--tonemap": ["aces"],
-            "--strategy": ["all"],
+            "--sample": ["all", "nee", ""],
             "--trace": ["grid"],
         }.items():
             for value in values:
