@@ -41,6 +41,15 @@ static uint32_t fit_wave(const ec_cl *cl, const ec_render_options *o, uint32_t b
     return (uint32_t)((wave + unit - 1) / unit * unit);
 }
 
+/* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
+ * starts late, since it tells least from bright short paths. Rounded to a multiple of 2^-24, the step of the random numbers,
+ * so that what is divided by is what is sampled. */
+static void set_roulette(double survival, ec_params *params)
+{
+    params->first_roulette = survival == 0.0 ? 5 : survival < 1.0 ? 1 : UINT32_MAX;
+    params->survival = (float)ldexp(ceil(ldexp(survival, 24)), -24);
+}
+
 static void choose_traces(ec_pipeline *p, const ec_scene *scene, const char *trace)
 {
     bool is_auto = !trace || !strcmp(trace, "auto");
@@ -55,6 +64,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
 {
     memset(p, 0, sizeof *p);
     p->cl = cl;
+    p->integrator = options->integrator;
     p->lanes = options->lanes ? options->lanes : cl->info.native_float_width;
     if (p->lanes != 1 && p->lanes != 4 && p->lanes != 8 && p->lanes != 16)
         p->lanes = p->lanes > 16 ? 16 : (p->lanes > 8 ? 8 : (p->lanes > 4 ? 4 : 1));
@@ -80,6 +90,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->wave = p->wave;
     params->part = p->wave / EC_PARTS;
     params->max_depth = options->max_depth ? options->max_depth : UINT32_MAX - EC_SEGMENT;
+    set_roulette(options->survival, params);
     params->sample = options->sample;
     bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
     params->light_count = joins ? pack.light_count : 0;
@@ -104,6 +115,13 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     stats->batch = batch;
     ec_feature_names(p->features, stats->effects, sizeof stats->effects);
     return result;
+}
+
+ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
+                               bool with_features, ec_error *err)
+{
+    static ec_run_wave *const run[EC_INTEGRATOR_COUNT] = {[EC_INTEGRATOR_PATH] = ec_run_path_wave};
+    return run[p->integrator](p, seed, first_pixel, pixel_count, with_features, err);
 }
 
 void ec_pipeline_destroy(ec_pipeline *p)

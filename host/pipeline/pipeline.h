@@ -16,6 +16,7 @@ typedef enum ec_trace { EC_TRACE_PACKET, EC_TRACE_BVH8, EC_TRACE_COUNT } ec_trac
 
 typedef struct ec_pipeline {
     ec_cl *cl;
+    ec_integrator integrator;
     ec_params params;
     ec_counters counters;         /* the host's copy */
     uint32_t features, lanes, wave;
@@ -37,9 +38,12 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
                              ec_pipeline *pipeline, ec_render_stats *stats, ec_error *err);
 void ec_pipeline_destroy(ec_pipeline *pipeline);
 
-/* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
-ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
-                               bool with_features, ec_error *err);
+/* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. An integrator is a
+ * function of this type; ec_pipeline_run_wave calls that of the pipeline's. */
+typedef ec_result ec_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
+                              bool with_features, ec_error *err);
+ec_run_wave ec_pipeline_run_wave;
+ec_run_wave ec_run_path_wave; /* wave.c */
 
 /* upload.c */
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);

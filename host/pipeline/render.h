@@ -13,6 +13,10 @@
 
 typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
 
+/* What makes the picture; the words are in report/names.c, the waves in pipeline.c, the options of each in
+ * cli/combinations.c. */
+typedef enum ec_integrator { EC_INTEGRATOR_PATH, EC_INTEGRATOR_COUNT } ec_integrator;
+
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
     uint32_t camera;            /* index into the scene's cameras */
@@ -20,7 +24,9 @@ typedef struct ec_render_options {
     double time_limit;          /* stop before this many seconds of rendering; 0 = none */
     double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */
     uint32_t batch;             /* samples a pixel in one independent batch; 0 = chosen from the limits */
+    ec_integrator integrator;
     uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited */
+    double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: needs a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
     uint64_t seed;

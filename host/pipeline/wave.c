@@ -1,4 +1,4 @@
-/* The bounce loop. A wave's paths go generate → (intersect → shade → connect)* → accumulate; the host looks at the queues
+/* The path tracer's bounce loop. A wave's paths go generate → (intersect → shade → connect)* → accumulate; the host looks at the queues
  * only every EC_SEGMENT bounces. */
 #include <string.h>
 
@@ -89,8 +89,8 @@ static void fill_parts(ec_pipeline *p, uint32_t paths)
     }
 }
 
-ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
-                               bool with_features, ec_error *err)
+ec_result ec_run_path_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count, bool with_features,
+                           ec_error *err)
 {
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
     uint32_t paths = pixel_count * p->params.batch;

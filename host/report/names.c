@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "pipeline/render.h"
 
+const char *const ec_integrator_names[] = {[EC_INTEGRATOR_PATH] = "path", NULL};
 const char *const ec_sample_names[] = {
     [EC_SAMPLE_MIS] = "mis", [EC_SAMPLE_LIGHT] = "light", [EC_SAMPLE_BSDF] = "bsdf", [EC_SAMPLE_HEMISPHERE] = "hemisphere", NULL};
 const char *const ec_sampler_names[] = {

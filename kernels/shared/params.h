@@ -33,7 +33,8 @@ typedef struct ec_params {
     ec_float environment_pmf;     /* probability that light sampling chooses the environment */
     ec_float scene_radius;        /* of a sphere around the recentred origin that holds the scene */
     ec_float scene_max;           /* largest |coordinate| of the scene */
-    ec_uint pad[2];
+    ec_uint first_roulette;       /* path segments that are never cut short */
+    ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
 } ec_params;
 EC_ASSERT_SIZE(ec_params, 144);
 

@@ -6,8 +6,6 @@
 #include "../lib/light.h"
 #include "../lib/queue.h"
 
-#define FIRST_ROULETTE 5u /* path segments that are never cut short */
-
 /* Density of light sampling for a point that this ray found on an emissive triangle. */
 EC_FN lane_f emitter_pdf(const hit_point *h, const surface *s, v3 o, v3 wo)
 {
@@ -168,8 +166,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
     lane_f brightest = v3_max_component(beta);
     alive = alive & finite & (brightest > 0.0f);
-    if (bounce + 1 >= FIRST_ROULETTE) {
-        lane_f survival = min(brightest, F(0.95f)), u, unused;
+    if (bounce + 1 >= params->first_roulette) {
+        lane_f survival = params->survival > 0.0f ? F(params->survival) : min(brightest, F(0.95f)), u, unused;
         sample_pair(random, pair + EC_PAIR_ROULETTE, &u, &unused);
         alive = alive & (u < survival);
         beta = v3_scale(beta, 1.0f / survival);

@@ -99,10 +99,17 @@ class WrongOptions(Case):
             "--tonemap": ["aces"],
             "--sample": ["all", "nee", ""],
             "--trace": ["grid"],
+            "--integrator": ["raytrace", ""],
+            "--rr": ["0", "-0.5", "1.5", "on", "nan", "inf", "50%", ""],
         }.items():
             for value in values:
                 with self.subTest(option=option, value=value):
                     self.usage("render", "s.gltf", f"{option}={value}", says=option)
+
+    def test_a_path_must_end_somewhere(self):
+        for end in [["--rr", "off"], ["--rr", "off", "--max-depth", "inf"], ["--max-depth", "inf", "--rr=1"]]:
+            with self.subTest(end=end):
+                self.usage("render", "s.gltf", *end, says="--rr off belongs with a finite --max-depth")
 
     def test_outputs(self):
         for name in ["a.jpg", "a", ".png", "a.exr.txt", "folder.png/"]:
