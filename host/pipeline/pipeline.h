@@ -16,6 +16,7 @@ typedef enum ec_trace { EC_TRACE_PACKET, EC_TRACE_BVH8, EC_TRACE_COUNT } ec_trac
 
 typedef struct ec_pipeline {
     ec_cl *cl;
+    ec_integrator integrator;
     ec_params params;
     ec_counters counters;         /* the host's copy */
     uint32_t features, lanes, wave, triangle_count;
@@ -23,7 +24,6 @@ typedef struct ec_pipeline {
     cl_mem path_queues[2];
     cl_program programs[EC_LANES_MOST + 1]; /* by lane width */
     cl_kernel kernels[EC_STAGE_ID_COUNT];
-    ec_integrator integrator;
     bool has_trace[EC_TRACE_COUNT];
     /* Measured choice of traversal, at each bounce: the best rays a second of each kind while both are being tried. */
     struct {
@@ -41,9 +41,11 @@ void ec_pipeline_destroy(ec_pipeline *pipeline);
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err);
+/* What an integrator does with a wave's camera rays: adds to their slots' radiance. scalars: by ec_arg. */
+typedef ec_result ec_integrate(ec_pipeline *pipeline, uint32_t *scalars, ec_error *err);
+ec_integrate ec_integrate_paths;  /* wave.c */
+ec_integrate ec_integrate_raster; /* raster.c */
 
-/* raster.c */
-ec_result ec_raster_run(ec_pipeline *pipeline, const uint32_t *scalars, ec_error *err);
 /* upload.c */
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
 ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, const ec_scene *scene, ec_error *err);

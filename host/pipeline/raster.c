@@ -45,9 +45,10 @@ static ec_result prepare(ec_pipeline *p, const uint32_t *scalars, ec_error *err)
     return result;
 }
 
-ec_result ec_raster_run(ec_pipeline *p, const uint32_t *scalars, ec_error *err)
+ec_result ec_integrate_raster(ec_pipeline *p, uint32_t *scalars, ec_error *err)
 {
     if (!p->buffers[EC_ARG_TILE_LIST]) EC_TRY(prepare(p, scalars, err));
+    p->rays += scalars[EC_ARG_PATH_COUNT];
     EC_TRY(ec_pipeline_launch(p, EC_RASTER, scalars, err));
     return ec_pipeline_launch(p, EC_SHADE_RASTER, scalars, err);
 }
