@@ -121,7 +121,7 @@ ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err)
     info_request request = {0};
     int first = 0;
     ec_request asked;
-    EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &request, argc, argv, &first, &asked, err));
+    EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &request, argc, argv, &first, NULL, &asked, err));
     if (ec_request_serve(asked, argv[0])) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &request.scene, err));
     cli->console.quiet = request.quiet;

@@ -71,7 +71,7 @@ static ec_result complain(const parser *p, const ec_option *options, int count, 
 }
 
 ec_result ec_options_parse(const ec_option *options, int count, void *target, int argc, char **argv, int *first,
-                           ec_request *request, ec_error *err)
+                           bool *given, ec_request *request, ec_error *err)
 {
     parser p = make_parser(options, count);
     int code;
@@ -86,6 +86,7 @@ ec_result ec_options_parse(const ec_option *options, int count, void *target, in
         if (code == '?' || code == ':') return complain(&p, options, count, code, argv, err);
         const ec_option *option = find_option(options, count, code);
         EC_TRY(option->set(target, option->name, option->takes_value ? optarg : NULL, err));
+        if (given) given[option - options] = true;
     }
     *first = optind;
     return EC_OK;

@@ -21,9 +21,9 @@ enum { EC_OPTIONS_MAX = 40 };
 typedef enum ec_request { EC_REQUEST_RUN, EC_REQUEST_HELP, EC_REQUEST_VERSION } ec_request;
 
 /* Every table gets --help (-h) and --version too. Sets values in target; what is left in argv are operands, and *first
- * is the index of the first of them. */
+ * is the index of the first of them. given, if not NULL, has a place for each option: was it there? */
 ec_result ec_options_parse(const ec_option *options, int count, void *target, int argc, char **argv, int *first,
-                           ec_request *request, ec_error *err);
+                           bool *given, ec_request *request, ec_error *err);
 
 /* Does what --help and --version ask for; true when that was all. */
 bool ec_request_serve(ec_request request, const char *command);

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
+#include "cli/combinations.h"
 #include "cli/defaults.h"
 #include "cli/numbers.h"
-#include "cli/options.h"
 #include "cli/usage.h"
 #include "accel/accel.h"
 #include "report/names.h"
@@ -60,6 +60,14 @@ SETTER(exposure)
     return ec_parse_real(option, value, -100, 100, &REQUEST->exposure, err);
 }
 
+SETTER(integrator)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_integrator_names, &index, err));
+    REQUEST->options.integrator = (ec_integrator)index;
+    return EC_OK;
+}
+
 SETTER(lanes)
 {
     static const char *const names[] = {"auto", "1", "4", "8", "16", NULL};
@@ -88,6 +96,24 @@ SETTER(output)
     return ec_outputs_add(&REQUEST->outputs, value, err);
 }
 
+SETTER(rr)
+{
+    double survival = !strcmp(value, "off");
+    if (survival == 0 && strcmp(value, "auto") &&
+        (ec_parse_real(option, value, 0, 1, &survival, err) != EC_OK || survival == 0))
+        return ec_usage(err, "--%s: '%s' is neither a probability over 0 and up to 1 nor auto nor off", option, value);
+    REQUEST->options.survival = survival;
+    return EC_OK;
+}
+
+SETTER(sample)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_sample_names, &index, err));
+    REQUEST->options.sample = (ec_sample)index;
+    return EC_OK;
+}
+
 SETTER(sampler)
 {
     uint32_t index = 0;
@@ -110,14 +136,6 @@ SETTER(size)
 SETTER(spp)
 {
     return ec_parse_u32(option, value, 1, EC_MAX_SPP, &REQUEST->options.spp, err);
-}
-
-SETTER(strategy)
-{
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, ec_strategy_names, &index, err));
-    REQUEST->options.strategy = (ec_strategy)index;
-    return EC_OK;
 }
 
 SETTER(time)
@@ -147,16 +165,18 @@ static const ec_option options[] = {
     {"env", 0, true, set_env},
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
+    {"integrator", 0, true, set_integrator},
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},
     {"max-depth", 0, true, set_max_depth},
     {"output", 'o', true, set_output},
     {"quiet", 'q', false, set_quiet},
+    {"rr", 0, true, set_rr},
+    {"sample", 0, true, set_sample},
     {"sampler", 0, true, set_sampler},
     {"seed", 0, true, set_seed},
     {"size", 0, true, set_size},
     {"spp", 0, true, set_spp},
-    {"strategy", 0, true, set_strategy},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
     {"wave", 0, true, set_wave},
@@ -164,12 +184,14 @@ static const ec_option options[] = {
 
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)
 {
-    int first = 0;
+    int first = 0, count = sizeof options / sizeof options[0];
+    bool given[EC_OPTIONS_MAX] = {false};
     ec_request asked;
-    EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], request, argc, argv, &first, &asked, err));
+    EC_TRY(ec_options_parse(options, count, request, argc, argv, &first, given, &asked, err));
     *done = ec_request_serve(asked, argv[0]);
     if (*done) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &request->scene, err));
+    EC_TRY(ec_combinations_check(options, count, given, &request->options, err));
 
     ec_render_options *limits = &request->options;
     bool limited = limits->time_limit > 0 || limits->error_target > 0;

@@ -30,6 +30,7 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
     const ec_environment *e = &scene->environment;
     *mean_luminance = 0.0;
     if (!scene->has_environment) return EC_OK;
+    for (int k = 0; k < 3; k++) pack->environment_mean[k] = e->constant[k];
     if (!e->rgb) {
         *mean_luminance = luminance(e->constant);
         return EC_OK;
@@ -45,16 +46,18 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
         result = ec_fail(err, "out of memory for an environment map of %u x %u", e->width, e->height);
         goto cleanup;
     }
-    double sum = 0.0, solid = 0.0;
+    double sum = 0.0, solid = 0.0, mean[3] = {0.0};
     for (uint32_t y = 0; y < e->height; y++) {
         double sine = sin(3.14159265358979323846 * (y + 0.5) / e->height);
         for (uint32_t x = 0; x < e->width; x++) {
             double w = texel_mean(e, x, y) * sine;
             weights[(size_t)y * e->width + x] = w;
+            for (int k = 0; k < 3; k++) mean[k] += sine * e->rgb[3 * ((size_t)y * e->width + x) + k];
             sum += w;
             solid += sine;
         }
     }
+    for (int k = 0; k < 3; k++) pack->environment_mean[k] = (float)(mean[k] / solid);
     if (!(sum > 0.0)) {
         free(pack->environment_alias);
         pack->environment_alias = NULL; /* black: looked up, never sampled */

@@ -26,6 +26,7 @@ typedef struct ec_pack {
     uint32_t environment_width, environment_height;
     float *environment_texels;     /* R, G, B, pmf; NULL where the environment is constant */
     ec_alias *environment_alias;
+    float environment_mean[3];     /* radiance over all directions */
     float environment_pmf;         /* chance that light sampling chooses the environment */
     float scene_radius, scene_max;
     float srgb[256];               /* linear value of each sRGB byte */

@@ -24,6 +24,14 @@ static uint32_t canonical(const ec_stage_entry *stage, uint32_t features)
     return f;
 }
 
+static bool is_needed(const ec_pipeline *p, ec_stage_id id)
+{
+    bool is_raster_stage = id >= EC_RASTER_SETUP && id <= EC_SHADE_RASTER;
+    if (ec_stages[id].lanes == EC_LANES_OF_ACCEL) return false; /* there is one for each accelerator: see below */
+    if (p->integrator == EC_INTEGRATOR_RASTER) return is_raster_stage || id == EC_GENERATE || id >= EC_ACCUMULATE;
+    return !is_raster_stage;
+}
+
 static uint32_t lanes_of(const ec_pipeline *p, uint32_t lanes) { return lanes == EC_LANES_OF_PIPELINE ? p->lanes : lanes; }
 
 /* One program for all stages of a lane width: each parse of the shared headers costs as much as compiling a stage. */
@@ -33,7 +41,7 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
     char traversals[EC_ACCEL_COUNT][32];
     uint32_t features = 0, count = 0;
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
-        if (ec_stages[id].lanes == EC_LANES_OF_ACCEL || lanes_of(p, ec_stages[id].lanes) != lanes) continue;
+        if (!is_needed(p, (ec_stage_id)id) || lanes_of(p, ec_stages[id].lanes) != lanes) continue;
         names[count++] = ec_stages[id].source;
         features |= canonical(&ec_stages[id], p->features);
     }
@@ -66,7 +74,7 @@ ec_result ec_pipeline_build(ec_pipeline *p, ec_error *err)
 {
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
         const ec_stage_entry *stage = &ec_stages[id];
-        if (stage->lanes != EC_LANES_OF_ACCEL)
+        if (is_needed(p, (ec_stage_id)id))
             EC_TRY(build_kernel(p, stage->source, NULL, lanes_of(p, stage->lanes), &p->kernels[id], err));
     }
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)

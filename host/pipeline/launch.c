@@ -15,7 +15,7 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32
     }
     /* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, and PoCL
      * need not compile again for a smaller grid. */
-    uint64_t global = p->wave;
+    uint64_t global = id == EC_RASTER_SETUP || id == EC_RASTER_FILL ? scalars[EC_ARG_TRIANGLE_COUNT] : p->wave;
     if (lanes == EC_LANES_OF_PIPELINE) global /= p->lanes;
     if (id == EC_ACCUMULATE || id == EC_STORE_FEATURES) global /= p->params.batch;
     return ec_kernel_run(p->cl, stage->label, kernel, global, EC_LOCAL_SIZE, err);

@@ -41,6 +41,15 @@ static uint32_t fit_wave(const ec_cl *cl, const ec_render_options *o, uint32_t b
     return (uint32_t)((wave + unit - 1) / unit * unit);
 }
 
+/* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
+ * starts late, since it tells least from bright short paths. Rounded to a multiple of 2^-24, the step of the random numbers,
+ * so that what is divided by is what is sampled. */
+static void set_roulette(double survival, ec_params *params)
+{
+    params->first_roulette = survival == 0.0 ? 5 : survival < 1.0 ? 1 : UINT32_MAX;
+    params->survival = (float)ldexp(ceil(ldexp(survival, 24)), -24);
+}
+
 static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char *name, ec_error *err)
 {
     uint32_t chosen;
@@ -61,8 +70,10 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
 {
     memset(p, 0, sizeof *p);
     p->cl = cl;
+    p->triangle_count = scene->triangle_count;
+    p->integrator = options->integrator;
     p->lanes = ec_pipeline_lanes(cl, options->lanes);
-    EC_TRY(choose_accels(p, scene, options->accel, err));
+    if (p->integrator == EC_INTEGRATOR_PATH) EC_TRY(choose_accels(p, scene, options->accel, err));
 
     double start = ec_now();
     ec_result result = ec_pipeline_upload_accels(p, scene, err);
@@ -83,15 +94,16 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->wave = p->wave;
     params->part = p->wave / EC_PARTS;
     params->max_depth = options->max_depth ? options->max_depth : UINT32_MAX - EC_SEGMENT;
-    params->strategy = options->strategy == EC_STRATEGY_MIS   ? EC_STRATEGY_LIGHT_BIT | EC_STRATEGY_BSDF_BIT
-                       : options->strategy == EC_STRATEGY_NEE ? EC_STRATEGY_LIGHT_BIT
-                                                              : EC_STRATEGY_BSDF_BIT;
-    params->light_count = pack.light_count;
+    set_roulette(options->survival, params);
+    params->sample = options->sample;
+    bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
+    params->light_count = joins ? pack.light_count : 0;
     params->environment_width = pack.environment_width;
     params->environment_height = pack.environment_height;
     params->environment_pmf = pack.environment_pmf;
     for (int k = 0; k < 3; k++)
         params->environment[k] = !scene->has_environment ? 0.0f : scene->environment.rgb ? 1.0f : scene->environment.constant[k];
+    memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;
     result = ec_pipeline_upload(p, scene, &pack, err);

@@ -14,9 +14,10 @@
 
 typedef struct ec_pipeline {
     ec_cl *cl;
+    ec_integrator integrator;
     ec_params params;
     ec_counters counters;         /* the host's copy */
-    uint32_t features, lanes, wave;
+    uint32_t features, lanes, wave, triangle_count;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
     cl_program programs[EC_LANES_MOST + 1]; /* by lane width */
@@ -44,6 +45,10 @@ uint32_t ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted);
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err);
+/* What an integrator does with a wave's camera rays: adds to their slots' radiance. scalars: by ec_arg. */
+typedef ec_result ec_integrate(ec_pipeline *pipeline, uint32_t *scalars, ec_error *err);
+ec_integrate ec_integrate_paths;  /* wave.c */
+ec_integrate ec_integrate_raster; /* raster.c */
 
 /* wave.c: the sum of a queue's parts */
 uint64_t ec_pipeline_total(const uint32_t *parts);

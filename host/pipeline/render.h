@@ -9,11 +9,17 @@
 #include "cl/cl.h"
 #include "film/film.h"
 #include "scene/scene.h"
+#include "shared/params.h"
 
 typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
 
-/* Which direct-light strategies take part; all unbiased settings converge to the same image. */
-typedef enum ec_strategy { EC_STRATEGY_MIS, EC_STRATEGY_NEE, EC_STRATEGY_BSDF } ec_strategy;
+/* What makes the picture; the words are in report/names.c, the functions in wave.c, the options of each in
+ * cli/combinations.c. */
+typedef enum ec_integrator {
+    EC_INTEGRATOR_PATH,   /* global illumination */
+    EC_INTEGRATOR_RASTER, /* direct light from the lights' centres, without shadows */
+    EC_INTEGRATOR_COUNT
+} ec_integrator;
 
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
@@ -22,9 +28,11 @@ typedef struct ec_render_options {
     double time_limit;          /* stop before this many seconds of rendering; 0 = none */
     double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */
     uint32_t batch;             /* samples a pixel in one independent batch; 0 = chosen from the limits */
+    ec_integrator integrator;
     uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited */
+    double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: needs a max_depth */
     ec_sampler_type sampler;
-    ec_strategy strategy;
+    ec_sample sample;           /* all converge to the same image */
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */

@@ -1,4 +1,4 @@
-/* The bounce loop. A wave's paths go generate → (intersect → shade → connect)* → accumulate; the host looks at the queues
+/* The path tracer's bounce loop. A wave's paths go generate → (intersect → shade → connect)* → accumulate; the host looks at the queues
  * only every EC_SEGMENT bounces. */
 #include <string.h>
 
@@ -47,23 +47,31 @@ static void fill_parts(ec_pipeline *p, uint32_t paths)
     }
 }
 
+ec_result ec_integrate_paths(ec_pipeline *p, uint32_t *scalars, ec_error *err)
+{
+    fill_parts(p, scalars[EC_ARG_PATH_COUNT]);
+    for (uint32_t bounce = 0; ec_pipeline_total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
+        EC_TRY(run_segment(p, scalars, bounce, err));
+    return EC_OK;
+}
+
 ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err)
 {
+    static ec_integrate *const integrate[EC_INTEGRATOR_COUNT] = {
+        [EC_INTEGRATOR_PATH] = ec_integrate_paths, [EC_INTEGRATOR_RASTER] = ec_integrate_raster};
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
-    uint32_t paths = pixel_count * p->params.batch;
     scalars[EC_ARG_SEED] = seed;
     scalars[EC_ARG_FIRST_PIXEL] = first_pixel;
-    scalars[EC_ARG_PATH_COUNT] = paths;
+    scalars[EC_ARG_PATH_COUNT] = pixel_count * p->params.batch;
     scalars[EC_ARG_PIXEL_COUNT] = pixel_count;
+    scalars[EC_ARG_TRIANGLE_COUNT] = p->triangle_count;
     swap_queues(p, 0);
     cl_mem aov = p->buffers[EC_ARG_AOV];
     if (!with_features) p->buffers[EC_ARG_AOV] = NULL;
 
     ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
-    fill_parts(p, paths);
-    for (uint32_t bounce = 0; result == EC_OK && ec_pipeline_total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
-        result = run_segment(p, scalars, bounce, err);
+    if (result == EC_OK) result = integrate[p->integrator](p, scalars, err);
     p->buffers[EC_ARG_AOV] = aov;
     if (result == EC_OK) result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, err);
     if (result == EC_OK && with_features) result = ec_pipeline_launch(p, EC_STORE_FEATURES, scalars, err);

@@ -30,6 +30,14 @@ void ec_format_bytes(uint64_t bytes, char *text, size_t size)
     snprintf(text, size, "%.*f %s", i == 0 || value >= 100 ? 0 : 1, value, units[i]);
 }
 
+void ec_format_roulette(double survival, char *text, size_t size)
+{
+    if (survival == 0 || survival == 1)
+        snprintf(text, size, "%s", survival == 0 ? "auto" : "off");
+    else
+        snprintf(text, size, "%.9g", survival);
+}
+
 void ec_format_seconds(double seconds, char *text, size_t size)
 {
     if (seconds < 0.9995)

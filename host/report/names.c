@@ -5,9 +5,10 @@
 #include "image/image.h"
 #include "pipeline/render.h"
 
+const char *const ec_integrator_names[] = {[EC_INTEGRATOR_PATH] = "path", [EC_INTEGRATOR_RASTER] = "raster", NULL};
+const char *const ec_sample_names[] = {
+    [EC_SAMPLE_MIS] = "mis", [EC_SAMPLE_LIGHT] = "light", [EC_SAMPLE_BSDF] = "bsdf", [EC_SAMPLE_HEMISPHERE] = "hemisphere", NULL};
 const char *const ec_sampler_names[] = {
     [EC_SAMPLER_SOBOL] = "sobol", [EC_SAMPLER_INDEPENDENT] = "independent", NULL};
-const char *const ec_strategy_names[] = {
-    [EC_STRATEGY_MIS] = "mis", [EC_STRATEGY_NEE] = "nee", [EC_STRATEGY_BSDF] = "bsdf", NULL};
 const char *const ec_tonemap_names[] = {
     [EC_TONEMAP_NEUTRAL] = "neutral", [EC_TONEMAP_NONE] = "none", NULL};

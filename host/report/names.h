@@ -2,8 +2,9 @@
 #ifndef EC_REPORT_NAMES_H
 #define EC_REPORT_NAMES_H
 
-extern const char *const ec_sampler_names[];  /* ec_sampler_type */
-extern const char *const ec_strategy_names[]; /* ec_strategy */
-extern const char *const ec_tonemap_names[];  /* ec_tonemap */
+extern const char *const ec_integrator_names[]; /* ec_integrator */
+extern const char *const ec_sample_names[];     /* ec_sample */
+extern const char *const ec_sampler_names[];    /* ec_sampler_type */
+extern const char *const ec_tonemap_names[];    /* ec_tonemap */
 
 #endif

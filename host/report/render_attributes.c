@@ -3,6 +3,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "report/format.h"
 #include "report/names.h"
 #include "report/render_report.h"
 
@@ -53,8 +54,12 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_text(attributes, "eclat.camera", report->camera);
     add_text(attributes, "eclat.environment", report->environment);
     add_made(attributes, "eclat.seed", "%" PRIu64, options->seed);
+    add_text(attributes, "eclat.integrator", ec_integrator_names[options->integrator]);
+    char roulette[32];
+    ec_format_roulette(options->survival, roulette, sizeof roulette);
+    add_made(attributes, "eclat.rr", "%s", roulette);
+    add_text(attributes, "eclat.sample", ec_sample_names[options->sample]);
     add_text(attributes, "eclat.sampler", ec_sampler_names[options->sampler]);
-    add_text(attributes, "eclat.strategy", ec_strategy_names[options->strategy]);
     add_text(attributes, "eclat.accel", options->accel ? options->accel : "auto");
     if (options->max_depth)
         add_made(attributes, "eclat.maxDepth", "%u", options->max_depth);

@@ -1,4 +1,5 @@
 #include "report/device_report.h"
+#include "report/format.h"
 #include "report/json.h"
 #include "report/names.h"
 #include "report/render_report.h"
@@ -13,8 +14,12 @@ static void add_setting(cJSON *root, const ec_render_report *report)
     ec_json_text(root, "environment", report->environment);
     ec_json_whole(root, "width", options->width);
     ec_json_whole(root, "height", options->height);
+    ec_json_text(root, "integrator", ec_integrator_names[options->integrator]);
+    char roulette[32];
+    ec_format_roulette(options->survival, roulette, sizeof roulette);
+    ec_json_text(root, "rr", roulette);
+    ec_json_text(root, "sample", ec_sample_names[options->sample]);
     ec_json_text(root, "sampler", ec_sampler_names[options->sampler]);
-    ec_json_text(root, "strategy", ec_strategy_names[options->strategy]);
     ec_json_text(root, "accel", options->accel ? options->accel : "auto");
     ec_json_whole(root, "seed", options->seed);
     if (options->max_depth)

@@ -86,6 +86,14 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     return v3_select(above, f, v3_zero());
 }
 
+/* What knows nothing of the material: uniform over the hemisphere, of density EC_HEMISPHERE_PDF. */
+#define EC_HEMISPHERE_PDF (0.5f * EC_INV_PI)
+EC_FN v3 hemisphere_sample(lane_f u1, lane_f u2)
+{
+    lane_f cosine, sine = sincos_2pi(u1, &cosine), r = sqrt(max(fma(-u2, u2, F(1.0f)), F(0.0f)));
+    return v3_make(r * cosine, r * sine, u2);
+}
+
 /* A direction from (u1, u2); choice picks the lobe. GGX: visible normals by spherical caps (Dupuy, Benyoub 2023). */
 EC_FN v3 bsdf_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f choice)
 {

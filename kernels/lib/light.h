@@ -41,6 +41,15 @@ EC_FN light_record light_load(const lights *l, lane_u id)
     return r;
 }
 
+/* The same light for every lane. */
+EC_FN light_record light_load_one(global const float *table, uint id)
+{
+    global const float *p = table + id * EC_LIGHT_WORDS;
+    light_record r = {v3_make(F(p[0]), F(p[1]), F(p[2])), v3_make(F(p[3]), F(p[4]), F(p[5])), v3_make(F(p[6]), F(p[7]), F(p[8])),
+                      v3_make(F(p[9]), F(p[10]), F(p[11])), U(as_uint(p[12])), U(as_uint(p[13])), F(p[14]), F(p[15])};
+    return r;
+}
+
 /* Uniform point on a triangle, seen from p. */
 EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f u1, lane_f u2)
 {

@@ -4,7 +4,14 @@
 
 #include "types.h"
 
-enum ec_strategy_bits { EC_STRATEGY_LIGHT_BIT = 1, EC_STRATEGY_BSDF_BIT = 2 };
+/* How a path finds area lights and the environment. All converge to the same picture. Punctual lights are joined to in every
+ * one: no direction that is sampled ever meets a point. */
+typedef enum ec_sample {
+    EC_SAMPLE_MIS,       /* light and BSDF sampling, weighed by the power heuristic */
+    EC_SAMPLE_LIGHT,     /* a point on a light; BSDF sampling leads the path on and counts no light found again */
+    EC_SAMPLE_BSDF,      /* only what directions sampled by the BSDF meet */
+    EC_SAMPLE_HEMISPHERE /* only what directions meet that are uniform over the hemisphere about ns */
+} ec_sample;
 
 typedef struct ec_params {
     /* Camera, recentred frame: d = forward + x * right + y * up with x, y in [-1, 1]; right and up hold the field of view.
@@ -14,21 +21,23 @@ typedef struct ec_params {
     ec_float camera_up[4];
     ec_float camera_forward[4];
     ec_float environment[4];      /* constant radiance, or factor of the map */
+    ec_float environment_mean[4]; /* over all directions */
     ec_uint orthographic;
     ec_uint width, height;        /* pixels */
     ec_uint batch;                /* m: samples a pixel in a batch */
     ec_uint wave;                 /* N: capacity of the queues = stride of their fields = EC_PARTS * part */
     ec_uint part;                 /* entries in one part of a queue, a multiple of LANES */
     ec_uint max_depth;            /* path segments */
-    ec_uint strategy;             /* ec_strategy_bits: both = MIS */
-    ec_uint light_count;
+    ec_uint sample;               /* ec_sample */
+    ec_uint light_count;          /* 0: nothing to join a surface to */
     ec_uint environment_width, environment_height;
     ec_float environment_pmf;     /* probability that light sampling chooses the environment */
     ec_float scene_radius;        /* of a sphere around the recentred origin that holds the scene */
     ec_float scene_max;           /* largest |coordinate| of the scene */
-    ec_uint pad[2];
+    ec_uint first_roulette;       /* path segments that are never cut short */
+    ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 144);
+EC_ASSERT_SIZE(ec_params, 160);
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

@@ -1,8 +1,7 @@
 /* Camera rays. Reads: params. Writes: the path queue, one entry a slot, and zeroes the slots' radiance. Next: intersect.
  * Slot s of a wave is sample s % batch of the wave's pixel s / batch. */
-#include "../lib/film.h"
+#include "../lib/camera.h"
 #include "../lib/queue.h"
-#include "../lib/sampler.h"
 #include "../shared/params.h"
 
 kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel, uint path_count, global float *paths,
@@ -11,16 +10,9 @@ kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel,
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= path_count) return;
     lane_u slot = LANE_NUMBERS + i;
-    lane_u pixel, sample;
-    slot_to_pixel(params, first_pixel, slot, &pixel, &sample);
     lane_u x, y;
-    pixel_to_xy(params, pixel, &x, &y);
-    sampler random = sampler_make(seed, pixel, sample);
-    lane_f jx, jy;
-    sample_pair(random, EC_PAIR_PIXEL, &jx, &jy);
-
-    lane_f sx = fma(to_lane_f(x) + jx, F(2.0f / (float)params->width), F(-1.0f));
-    lane_f sy = fma(to_lane_f(y) + jy, F(-2.0f / (float)params->height), F(1.0f));
+    lane_f sx, sy;
+    camera_sample(params, seed, first_pixel, slot, &x, &y, &sx, &sy);
     v3 offset = v3_make(fma(sx, F(params->camera_right[0]), sy * params->camera_up[0]),
                         fma(sx, F(params->camera_right[1]), sy * params->camera_up[1]),
                         fma(sx, F(params->camera_right[2]), sy * params->camera_up[2]));

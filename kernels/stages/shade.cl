@@ -2,11 +2,10 @@
  * Reads: path queue and hits. Writes: radiance of the slots, the shadow queue (next: connect), the next path queue (next:
  * intersect), first-hit features at bounce 0 where asked for. Every path either ends here or is pushed once. */
 #include "../lib/bsdf.h"
+#include "../lib/features.h"
 #include "../lib/film.h"
 #include "../lib/light.h"
 #include "../lib/queue.h"
-
-#define FIRST_ROULETTE 5u /* path segments that are never cut short */
 
 /* Density of light sampling for a point that this ray found on an emissive triangle. */
 EC_FN lane_f emitter_pdf(const hit_point *h, const surface *s, v3 o, v3 wo)
@@ -16,25 +15,21 @@ EC_FN lane_f emitter_pdf(const hit_point *h, const surface *s, v3 o, v3 wo)
     return h->light_pdf_a * v3_dot(d, d) / cosine;
 }
 
-/* Weight of light found by following the BSDF, against light_pdf; 1 where light sampling cannot find it. */
-EC_FN lane_f found_weight(uint strategy, lane_f path_pdf, lane_f light_pdf)
+/* Weight of light that a path meets, against light_pdf; 1 where light sampling cannot find it or is not asked to. */
+EC_FN lane_f found_weight(uint sample, lane_f path_pdf, lane_f light_pdf)
 {
     lane_i sampled = (path_pdf >= 0.0f) & (light_pdf > 0.0f);
-    if (!(strategy & EC_STRATEGY_LIGHT_BIT)) return F(1.0f);
-    if (!(strategy & EC_STRATEGY_BSDF_BIT)) return sampled ? F(0.0f) : F(1.0f);
-    return sampled ? mis_weight(path_pdf, light_pdf) : F(1.0f);
+    if (sample == EC_SAMPLE_MIS) return sampled ? mis_weight(path_pdf, light_pdf) : F(1.0f);
+    if (sample == EC_SAMPLE_LIGHT) return sampled ? F(0.0f) : F(1.0f);
+    return F(1.0f);
 }
 
-EC_FN void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, v3 n, lane_f depth, lane_f alpha, uint bits)
+/* Weight of light that a shadow ray joins to: the same shares the other way round. */
+EC_FN lane_f joined_weight(uint sample, const light_sample *l, lane_f path_pdf)
 {
-    scatter_f(aov, slot, albedo.x, bits);
-    scatter_f(aov + wave, slot, albedo.y, bits);
-    scatter_f(aov + 2 * wave, slot, albedo.z, bits);
-    scatter_f(aov + 3 * wave, slot, n.x, bits);
-    scatter_f(aov + 4 * wave, slot, n.y, bits);
-    scatter_f(aov + 5 * wave, slot, n.z, bits);
-    scatter_f(aov + 6 * wave, slot, depth, bits);
-    scatter_f(aov + 7 * wave, slot, alpha, bits);
+    lane_f weight = F(sample == EC_SAMPLE_LIGHT ? 1.0f : 0.0f);
+    if (sample == EC_SAMPLE_MIS) weight = mis_weight(l->pdf, path_pdf);
+    return l->is_delta ? F(1.0f) : weight;
 }
 
 kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
@@ -70,7 +65,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
         if (any_lane(missed)) {
             lane_f pdf;
             v3 Le = environment_look_up(&light.env, d, &pdf);
-            emitted = v3_scale(Le, found_weight(params->strategy, path_pdf, pdf));
+            emitted = v3_scale(Le, found_weight(params->sample, path_pdf, pdf));
             emits = missed;
         }
     }
@@ -90,7 +85,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
             v3 Le = v3_scale(surface_emission(&g, &h, m, emission),
-                             found_weight(params->strategy, path_pdf, emitter_pdf(&h, &s, o, wo)));
+                             found_weight(params->sample, path_pdf, emitter_pdf(&h, &s, o, wo)));
             emitted = v3_select(m, Le, emitted);
             emits = emits | m;
         }
@@ -126,10 +121,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
         sample_pair(random, pair + EC_PAIR_LIGHT, &u1, &u2);
         light_sample l = light_sample_one(&light, &g, scatters, s.p, choice, u1, u2);
         v3 f = bsdf_eval(&b, surface_to_local(&s, l.wi), &pdf_bsdf);
-        lane_f weight = mis_weight(l.pdf, pdf_bsdf);
-        weight = l.is_delta ? F(1.0f) : weight;
-        if (!(params->strategy & EC_STRATEGY_BSDF_BIT)) weight = F(1.0f);
-        if (!(params->strategy & EC_STRATEGY_LIGHT_BIT)) weight = l.is_delta ? F(1.0f) : F(0.0f);
+        lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
         lane_i m = l.valid & (pdf_bsdf > 0.0f) & (v3_dot(s.ng, l.wi) > 0.0f) & (v3_max_component(arriving) != 0.0f);
         lane_i finite = v3_is_finite(arriving);
@@ -151,9 +143,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
 
     lane_f u1, u2, pdf;
     sample_pair(random, pair + EC_PAIR_BSDF, &u1, &u2);
-    v3 wi_local = bsdf_sample(&b, u1, u2, to_unit(lobe));
+    bool blind = params->sample == EC_SAMPLE_HEMISPHERE;
+    v3 wi_local = blind ? hemisphere_sample(u1, u2) : bsdf_sample(&b, u1, u2, to_unit(lobe));
     v3 wi = surface_to_world(&s, wi_local); /* unit to 8 u: frame and wi_local are */
     v3 f = bsdf_eval(&b, wi_local, &pdf);
+    if (blind) pdf = F(EC_HEMISPHERE_PDF);
     lane_i alive = scatters & (pdf > 0.0f) & (v3_dot(s.ng, wi) > 0.0f);
     beta = v3_mul(beta, v3_scale(f, 1.0f / pdf));
     lane_i finite = v3_is_finite(beta);
@@ -161,8 +155,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
     lane_f brightest = v3_max_component(beta);
     alive = alive & finite & (brightest > 0.0f);
-    if (bounce + 1 >= FIRST_ROULETTE) {
-        lane_f survival = min(brightest, F(0.95f)), u, unused;
+    if (bounce + 1 >= params->first_roulette) {
+        lane_f survival = params->survival > 0.0f ? F(params->survival) : min(brightest, F(0.95f)), u, unused;
         sample_pair(random, pair + EC_PAIR_ROULETTE, &u, &unused);
         alive = alive & (u < survival);
         beta = v3_scale(beta, 1.0f / survival);

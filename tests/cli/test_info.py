@@ -58,13 +58,6 @@ class Info(Case):
         self.assertNotIn("kdtree", run.stdout)
         self.assert_one_error(eclat("info", "--accel", "octree", CORNELL), 2)
 
-    def test_an_empty_scene_has_nothing_to_measure(self):
-        scene, _ = quad_scene()
-        del scene["nodes"][0]["mesh"]
-        path = write_gltf(self.path("empty.gltf"), scene)
-        report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", "all", path)).stdout)
-        self.assertEqual({row["rays_per_second"] for row in report["accels"]}, {0})
-
     def test_unsupported_extensions_are_told_and_required_ones_refused(self):
         scene, _ = quad_scene()
         scene["extensionsUsed"] = ["EXT_of_another_world"]

@@ -43,7 +43,7 @@ class Files(Render):
         attributes, planes = read_exr(self.path("a.exr"))
         self.assertEqual(sorted(planes), CHANNELS)
         self.assertEqual([kind for _, kind in attributes["channels"]], [2] * len(CHANNELS))
-        for name in ["command", "version", "scene", "camera", "environment", "seed", "sampler", "strategy", "batch",
+        for name in ["command", "version", "scene", "camera", "environment", "seed", "integrator", "rr", "sample", "sampler", "batch",
                      "samplesPerPixel", "maxDepth", "lanes", "wave", "device", "device.version", "device.driver",
                      "device.platform", "seconds", "error", "errorBound", "effects", "invalid", "stoppedBy", "host",
                      "png.exposure", "png.tonemap"]:
@@ -141,6 +141,36 @@ class Reports(Render):
             run = eclat("render", self.scene, *SMALL, "-o", self.path("a.png"), stdout=full)
         self.assertEqual(run.returncode, 1)
         self.assertEqual(png_size(self.path("a.png")), (24, 16))
+
+
+class Pieces(Render):
+    def test_settings_are_told_as_they_were_asked_for(self):
+        options = {"--integrator": "path", "--rr": "0.8", "--sample": "hemisphere", "--max-depth": "3"}
+        report = self.render(*SMALL, "-o", "a.exr", *[word for pair in options.items() for word in pair])
+        attributes, _ = read_exr(self.path("a.exr"))
+        self.assertEqual([report[key] for key in ["integrator", "sample", "max_depth"]], ["path", "hemisphere", 3])
+        self.assertEqual([float(report["rr"]), float(attributes["eclat.rr"])], [0.8, 0.8])
+        self.assertEqual([attributes["eclat." + key] for key in ["integrator", "sample", "maxDepth"]],
+                         ["path", "hemisphere", "3"])
+
+    def test_the_rasteriser_takes_no_rays_beyond_the_camera(self):
+        report = self.render(*SMALL, "--integrator", "raster", scene=CORNELL)
+        self.assertEqual([report["integrator"], report["invalid_samples"]], ["raster", 0])
+        self.assertEqual(report["rays"], report["samples"])
+
+    def test_defaults_are_those_of_the_help(self):
+        report = self.render(*SMALL)
+        self.assertEqual([report[key] for key in ["integrator", "rr", "sample", "max_depth"]], ["path", "auto", "mis", None])
+        again = self.render(*SMALL, "--integrator", "path", "--rr", "auto", "--sample", "mis", "--max-depth", "inf")
+        self.assertEqual(again["image_sha256"], report["image_sha256"])
+
+    def test_roulette_off_needs_a_depth_and_one_is_off(self):
+        off = self.render(*SMALL, "--rr", "off", "--max-depth", "9", scene=CORNELL)
+        one = self.render(*SMALL, "--rr", "1", "--max-depth", "9", scene=CORNELL)
+        self.assertEqual([off["rr"], off["image_sha256"]], ["off", one["image_sha256"]])
+        for other in ["auto", "0.5"]:
+            self.assertNotEqual(self.render(*SMALL, "--rr", other, "--max-depth", "9", scene=CORNELL)["image_sha256"],
+                                off["image_sha256"])
 
 
 class SameBits(Render):

@@ -78,7 +78,7 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "-z", says="unknown option '-z'")
 
     def test_ambiguous_missing_and_superfluous_values(self):
-        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sampler, --seed")
+        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --seed")
         self.usage("render", "s.gltf", "--spp", says="'--spp' needs a value")
         self.usage("render", "s.gltf", "-o", says="needs a value")
         self.usage("render", "s.gltf", "--quiet=yes", says="takes no value")
@@ -97,12 +97,24 @@ class WrongOptions(Case):
             "--wave": ["0", "-5"],
             "--sampler": ["halton", ""],
             "--tonemap": ["aces"],
-            "--strategy": ["all"],
+            "--sample": ["all", "nee", ""],
             "--accel": ["octree"],
+            "--integrator": ["raytrace", ""],
+            "--rr": ["0", "-0.5", "1.5", "on", "nan", "inf", "50%", ""],
         }.items():
             for value in values:
                 with self.subTest(option=option, value=value):
                     self.usage("render", "s.gltf", f"{option}={value}", says=option)
+
+    def test_a_path_must_end_somewhere(self):
+        for end in [["--rr", "off"], ["--rr", "off", "--max-depth", "inf"], ["--max-depth", "inf", "--rr=1"]]:
+            with self.subTest(end=end):
+                self.usage("render", "s.gltf", *end, says="--rr off belongs with a finite --max-depth")
+
+    def test_options_of_another_integrator(self):
+        for option in [["--rr", "0.5"], ["--sample", "light"], ["--max-depth", "3"], ["--accel", "bvh8"]]:
+            with self.subTest(option=option):
+                self.usage("render", "s.gltf", "--integrator", "raster", *option, says="belongs to --integrator path")
 
     def test_outputs(self):
         for name in ["a.jpg", "a", ".png", "a.exr.txt", "folder.png/"]:

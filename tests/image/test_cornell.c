@@ -5,7 +5,7 @@
 
 typedef struct cornell_case {
     const char *name;
-    ec_strategy strategy;
+    ec_sample sample;
     ec_sampler_type sampler;
     uint32_t spp, block; /* samples a pixel; pixels along a compared square */
 } cornell_case;
@@ -15,7 +15,7 @@ static void compare(const cornell_case *c, const ec_scene *scene, const ztest_pi
     ec_render_options o = case_options(256, 256, c->spp);
     o.max_depth = 8;
     o.batch = c->spp / 16;
-    o.strategy = c->strategy;
+    o.sample = c->sample;
     o.sampler = c->sampler;
     case_image image = case_render(scene, &o);
     ztest_picture picture = case_picture(&image), compared = case_blocks(&picture, c->block), blocks = case_blocks(reference, c->block);
@@ -38,12 +38,12 @@ int main(void)
     static const char reference_path[] = SHARED("reference/cornell-box/reference.exr");
     if (!case_present(scene_path) || !case_present(reference_path)) TEST_SKIP("no %s", reference_path);
     static const cornell_case cases[] = {
-        {"mis-sobol", EC_STRATEGY_MIS, EC_SAMPLER_SOBOL, 256, 1},
-        {"mis-independent", EC_STRATEGY_MIS, EC_SAMPLER_INDEPENDENT, 256, 1},
-        {"nee-sobol", EC_STRATEGY_NEE, EC_SAMPLER_SOBOL, 256, 1},
-        {"nee-independent", EC_STRATEGY_NEE, EC_SAMPLER_INDEPENDENT, 256, 1},
-        {"bsdf-sobol", EC_STRATEGY_BSDF, EC_SAMPLER_SOBOL, 512, 8},
-        {"bsdf-independent", EC_STRATEGY_BSDF, EC_SAMPLER_INDEPENDENT, 512, 8},
+        {"mis-sobol", EC_SAMPLE_MIS, EC_SAMPLER_SOBOL, 256, 1},
+        {"mis-independent", EC_SAMPLE_MIS, EC_SAMPLER_INDEPENDENT, 256, 1},
+        {"light-sobol", EC_SAMPLE_LIGHT, EC_SAMPLER_SOBOL, 256, 1},
+        {"light-independent", EC_SAMPLE_LIGHT, EC_SAMPLER_INDEPENDENT, 256, 1},
+        {"bsdf-sobol", EC_SAMPLE_BSDF, EC_SAMPLER_SOBOL, 512, 8},
+        {"bsdf-independent", EC_SAMPLE_BSDF, EC_SAMPLER_INDEPENDENT, 512, 8},
     };
     ec_error err = {{0}};
     ztest_picture reference = {0};

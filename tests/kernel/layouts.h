@@ -9,10 +9,10 @@
     S(ec_bvh8_node) F(ec_bvh8_node, bound) F(ec_bvh8_node, bound[5][7]) F(ec_bvh8_node, child) F(ec_bvh8_node, child[7]) \
     S(ec_tri8) F(ec_tri8, v) F(ec_tri8, v[1]) F(ec_tri8, v[2][2][7]) F(ec_tri8, id)                \
     S(ec_params) F(ec_params, camera_origin) F(ec_params, camera_right) F(ec_params, camera_up) F(ec_params, camera_forward) \
-    F(ec_params, environment) F(ec_params, orthographic) F(ec_params, width) F(ec_params, height) F(ec_params, batch) \
-    F(ec_params, wave) F(ec_params, part) F(ec_params, max_depth) F(ec_params, strategy) F(ec_params, light_count)    \
+    F(ec_params, environment) F(ec_params, environment_mean) F(ec_params, orthographic) F(ec_params, width) F(ec_params, height) F(ec_params, batch) \
+    F(ec_params, wave) F(ec_params, part) F(ec_params, max_depth) F(ec_params, sample) F(ec_params, light_count)    \
     F(ec_params, environment_width) F(ec_params, environment_height) F(ec_params, environment_pmf) \
-    F(ec_params, scene_radius) F(ec_params, scene_max)                                             \
+    F(ec_params, scene_radius) F(ec_params, scene_max) F(ec_params, first_roulette) F(ec_params, survival)                                            \
     S(ec_counters) F(ec_counters, rays) F(ec_counters, rays[1]) F(ec_counters, rays[EC_SEGMENT]) F(ec_counters, shadows)   \
     S(ec_prim) F(ec_prim, v0) F(ec_prim, material) F(ec_prim, v1) F(ec_prim, light_pdf_a) F(ec_prim, v2) F(ec_prim, flags) \
     S(ec_texture_slot) F(ec_texture_slot, texture) F(ec_texture_slot, uv_set) F(ec_texture_slot, transform) \

@@ -5,8 +5,8 @@
 
 #define PI 3.14159265358979323846
 
-static const char *const strategy_names[] = {"mis", "nee", "bsdf"};
-enum { ALL = 7, NOT_NEE = 5 };
+static const char *const sample_names[] = {"mis", "light", "bsdf"};
+enum { ALL = 7, NOT_LIGHT = 5 };
 
 /* Renders what a camera sees through a needle's eye (8 x 8 pixels of one point). */
 static void check_point(const char *path, const char *environment, double expected, int strategies, uint32_t spp, double most_se)
@@ -16,10 +16,10 @@ static void check_point(const char *path, const char *environment, double expect
         if (!(strategies >> s & 1)) continue;
         ec_render_options o = case_options(8, 8, spp);
         o.max_depth = 2;
-        o.strategy = (ec_strategy)s;
+        o.sample = (ec_sample)s;
         o.seed = 7;
         case_image image = case_render(scene, &o);
-        printf("%-40s %-4s %.7f +- %.7f, expected %.7f\n", strrchr(path, '/') + 1, strategy_names[s], image.mean[1],
+        printf("%-40s %-4s %.7f +- %.7f, expected %.7f\n", strrchr(path, '/') + 1, sample_names[s], image.mean[1],
                image.mean_se[1], expected);
         CASE_NEAR(&image, expected, 4.5, most_se);
         case_free(&image);
@@ -76,7 +76,7 @@ static void check_square_lamp(void)
         char name[64];
         snprintf(name, sizeof name, "direct-square-lamp-%g", h);
         /* Uniform points on a near lamp: nearly all of them are far away, so NEE alone is left out below h = 1. */
-        check_point(gltf_write(w, name), NULL, 0.6 * 3 * form_factors[i], i == 0 ? ALL : NOT_NEE, 8192, 2e-3);
+        check_point(gltf_write(w, name), NULL, 0.6 * 3 * form_factors[i], i == 0 ? ALL : NOT_LIGHT, 8192, 2e-3);
         free(w);
     }
 }

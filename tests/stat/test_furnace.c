@@ -1,7 +1,7 @@
 /* Scenes whose radiance is known without rendering (NUMERICS.md D, rows 1, 3 and 13; scenes/furnace/README.md). */
 #include "support/render_case.h"
 
-static const char *const strategy_names[] = {"mis", "nee", "bsdf"};
+static const char *const sample_names[] = {"mis", "light", "bsdf"};
 
 /* A closed Lambert box that emits 1 everywhere: each segment k adds albedo^(k-1), so d segments give
  * (1 - a^d) / (1 - a), and unlimited ones 1 / (1 - a). In every pixel, for every strategy; but light sampling alone has
@@ -18,23 +18,23 @@ static void check_box(const char *path, double albedo)
     for (int s = 0; s < 3; s++)
         for (int d = 0; d < 5; d++) {
             ec_render_options o = case_options(16, 16, 768);
-            o.strategy = (ec_strategy)s;
+            o.sample = (ec_sample)s;
             o.max_depth = depths[d];
             o.sampler = d % 2 ? EC_SAMPLER_INDEPENDENT : EC_SAMPLER_SOBOL;
             case_image image = case_render(scene, &o);
             double expected = depths[d] ? (1 - pow(albedo, depths[d])) / (1 - albedo) : 1 / (1 - albedo);
-            if (o.strategy == EC_STRATEGY_NEE && depths[d] != 1) {
+            if (o.sample == EC_SAMPLE_LIGHT && depths[d] != 1) {
                 CHECK_NEAR(image.mean[1], expected, 0.03 * expected);
             } else {
                 CASE_NEAR(&image, expected, 4, 0.002);
                 /* And in each pixel, with Sidak's threshold for 768 values at 1 %: t(15 dof) = 6.6. */
                 for (int i = 0; i < 3 * 16 * 16; i++)
                     CHECK_MSG(fabs(image.rgb[i] - expected) <= 6.6 * image.se[i] + 1e-5 * expected,
-                              "%s %s depth %u value %d: %g +- %g, expected %g", path, strategy_names[s], depths[d], i,
+                              "%s %s depth %u value %d: %g +- %g, expected %g", path, sample_names[s], depths[d], i,
                               image.rgb[i], image.se[i], expected);
             }
             if (depths[d] == 0)
-                printf("box %.1f %-4s %.6f +- %.6f, expected %g\n", albedo, strategy_names[s], image.mean[1], image.mean_se[1],
+                printf("box %.1f %-4s %.6f +- %.6f, expected %g\n", albedo, sample_names[s], image.mean[1], image.mean_se[1],
                        expected);
             case_free(&image);
         }
@@ -50,7 +50,7 @@ static void check_mixed_box(void)
     for (int s = 0; s < 3; s++) {
         ec_render_options o = case_options(24, 24, 2048);
         o.batch = 64;
-        o.strategy = (ec_strategy)s;
+        o.sample = (ec_sample)s;
         o.sampler = EC_SAMPLER_INDEPENDENT;
         o.seed = (uint64_t)s;
         images[s] = case_render(scene, &o);
@@ -71,13 +71,13 @@ static void check_plates(void)
         for (int s = 0; s < 3; s++) {
             ec_render_options o = case_options(64, 16, 4096);
             o.camera = camera;
-            o.strategy = (ec_strategy)s;
+            o.sample = (ec_sample)s;
             o.batch = 128;
             case_image image = case_render(scene, &o);
             for (uint32_t plate = 0; plate < 4; plate++) {
                 double se, mean = case_region(&image, (uint32_t[4]){16 * plate, 16 * plate + 16, 0, 16}, 1, &se);
                 CHECK_MSG(fabs(mean - table[camera][plate]) <= 4 * se + 1e-5 && se < (s == 1 ? 2e-2 : 1e-3),
-                          "camera %u, plate %u, %s: %.6f +- %.6f, expected %.5f", camera, plate, strategy_names[s], mean, se,
+                          "camera %u, plate %u, %s: %.6f +- %.6f, expected %.5f", camera, plate, sample_names[s], mean, se,
                           table[camera][plate]);
             }
             case_free(&image);
@@ -92,14 +92,14 @@ static void check_spheres(void)
     ec_scene *scene = case_load(OWN_SCENE("furnace/spheres.gltf"), "1,1,1");
     for (int s = 0; s < 3; s++) {
         ec_render_options o = case_options(128, 16, 1024);
-        o.strategy = (ec_strategy)s;
+        o.sample = (ec_sample)s;
         case_image image = case_render(scene, &o);
         for (uint32_t ball = 0; ball < 8; ball++) {
             /* The central half of a ball: x spans 16 pixels each, of which its radius takes 6.4. */
             double se, mean = case_region(&image, (uint32_t[4]){16 * ball + 5, 16 * ball + 11, 5, 11}, 1, &se);
-            CHECK_MSG(mean <= 1 + 4 * se + 1e-5, "ball %u, %s: %.6f +- %.6f is more than comes in", ball, strategy_names[s], mean, se);
+            CHECK_MSG(mean <= 1 + 4 * se + 1e-5, "ball %u, %s: %.6f +- %.6f is more than comes in", ball, sample_names[s], mean, se);
             if (ball == 0)
-                CHECK_MSG(fabs(mean - 1) <= 4 * se + 1e-3 && se < 2e-3, "Lambert ball, %s: %.6f +- %.6f", strategy_names[s], mean, se);
+                CHECK_MSG(fabs(mean - 1) <= 4 * se + 1e-3 && se < 2e-3, "Lambert ball, %s: %.6f +- %.6f", sample_names[s], mean, se);
             if (s == 0) printf("ball %u %.5f +- %.5f\n", ball, mean, se);
         }
         case_free(&image);

@@ -38,6 +38,7 @@ static void check_scene(const char *what, const ec_scene *scene)
     check_one(scene, &expected, &o, what); /* twice in a row */
     for (int l = 0; l < 4; l++)
         for (int a = 0; a < EC_ACCEL_COUNT; a++) {
+            if (lanes[l] != 8 && a != l && ec_accels[a].lanes) continue; /* packets in each width, each other with 8 and one more */
             o = base_options();
             o.lanes = lanes[l];
             o.accel = ec_accels[a].name;

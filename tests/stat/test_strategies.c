@@ -7,14 +7,14 @@
 
 static void agree(const char *name, const char *path, const char *environment, uint32_t spp)
 {
-    static const char *const names[] = {"mis", "nee", "bsdf"};
+    static const char *const names[] = {"mis", "light", "bsdf"};
     ec_scene *scene = case_load(path, environment);
     case_image image[3];
     for (int s = 0; s < 3; s++) {
-        ec_render_options o = case_options(16, 16, s == EC_STRATEGY_BSDF ? 4 * spp : spp);
+        ec_render_options o = case_options(16, 16, s == EC_SAMPLE_BSDF ? 4 * spp : spp);
         o.max_depth = 5;
         o.batch = o.spp / 32;
-        o.strategy = (ec_strategy)s;
+        o.sample = (ec_sample)s;
         o.sampler = EC_SAMPLER_INDEPENDENT;
         o.seed = (uint64_t)s + 11;
         image[s] = case_render(scene, &o);
@@ -23,7 +23,7 @@ static void agree(const char *name, const char *path, const char *environment, u
     char what[128];
     for (int s = 1; s < 3; s++) {
         snprintf(what, sizeof what, "%s, %s and mis", name, names[s]);
-        case_check_same(&image[s], &image[0], s == EC_STRATEGY_BSDF ? 4 : 1, what);
+        case_check_same(&image[s], &image[0], s == EC_SAMPLE_BSDF ? 4 : 1, what);
     }
     for (int s = 0; s < 3; s++) case_free(&image[s]);
     ec_scene_free(scene);
@@ -145,7 +145,7 @@ static void blend_in_closed_form(void)
             }
             ec_render_options o = case_options(8, 8, 16384);
             o.max_depth = 2;
-            o.strategy = (ec_strategy)s;
+            o.sample = (ec_sample)s;
             case_image image = case_render_file(gltf_write(w, "strategies-sheets"), NULL, &o);
             if (!sheets) {
                 bare[s] = image.mean[1];

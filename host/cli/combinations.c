@@ -1,0 +1,46 @@
+/* The one place that refuses what does not go together, so that no option is ever silently without effect. */
+#include "cli/combinations.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/usage.h"
+#include "report/names.h"
+
+#define ONLY(integrator) (1u << EC_INTEGRATOR_##integrator)
+
+/* Options that some integrators know nothing of; what is not here belongs to all of them. */
+static const struct {
+    const char *option;
+    uint32_t integrators;
+} owners[] = {
+    {"max-depth", ONLY(PATH)},
+    {"rr", ONLY(PATH)},
+    {"sample", ONLY(PATH)},
+    {"accel", ONLY(PATH)},
+};
+
+static ec_result check_owner(const char *option, ec_integrator integrator, ec_error *err)
+{
+    for (size_t i = 0; i < sizeof owners / sizeof owners[0]; i++) {
+        if (strcmp(owners[i].option, option) || owners[i].integrators >> integrator & 1) continue;
+        char names[128] = "";
+        for (uint32_t k = 0; k < EC_INTEGRATOR_COUNT; k++) {
+            if (!(owners[i].integrators >> k & 1)) continue;
+            size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%s", used ? " or " : "", ec_integrator_names[k]);
+        }
+        return ec_usage(err, "--%s belongs to --integrator %s; leave it out or choose that", option, names);
+    }
+    return EC_OK;
+}
+
+ec_result ec_combinations_check(const ec_option *options, int count, const bool *given, const ec_render_options *asked,
+                                ec_error *err)
+{
+    for (int i = 0; i < count; i++)
+        if (given[i]) EC_TRY(check_owner(options[i].name, asked->integrator, err));
+    if (asked->survival == 1 && asked->max_depth == 0)
+        return ec_usage(err, "--rr off belongs with a finite --max-depth: nothing else would end a path; give --max-depth N too");
+    return EC_OK;
+}
