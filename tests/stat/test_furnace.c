@@ -1,7 +1,8 @@
 /* Scenes whose radiance is known without rendering (NUMERICS.md D, rows 1, 3 and 13; scenes/furnace/README.md). */
+#include "report/names.h"
 #include "support/render_case.h"
 
-static const char *const sample_names[] = {"mis", "light", "bsdf"};
+enum { SAMPLE_COUNT = EC_SAMPLE_HEMISPHERE + 1 };
 
 /* A closed Lambert box that emits 1 everywhere: each segment k adds albedo^(k-1), so d segments give
  * (1 - a^d) / (1 - a), and unlimited ones 1 / (1 - a). In every pixel, for every strategy; but light sampling alone has
@@ -15,7 +16,7 @@ static void check_box(const char *path, double albedo)
         return;
     }
     ec_scene *scene = case_load(path, NULL);
-    for (int s = 0; s < 3; s++)
+    for (int s = 0; s < SAMPLE_COUNT; s++)
         for (int d = 0; d < 5; d++) {
             ec_render_options o = case_options(16, 16, 768);
             o.sample = (ec_sample)s;
@@ -26,18 +27,55 @@ static void check_box(const char *path, double albedo)
             if (o.sample == EC_SAMPLE_LIGHT && depths[d] != 1) {
                 CHECK_NEAR(image.mean[1], expected, 0.03 * expected);
             } else {
-                CASE_NEAR(&image, expected, 4, 0.002);
+                CASE_NEAR(&image, expected, 4, o.sample == EC_SAMPLE_HEMISPHERE ? 0.005 : 0.002);
                 /* And in each pixel, with Sidak's threshold for 768 values at 1 %: t(15 dof) = 6.6. */
                 for (int i = 0; i < 3 * 16 * 16; i++)
                     CHECK_MSG(fabs(image.rgb[i] - expected) <= 6.6 * image.se[i] + 1e-5 * expected,
-                              "%s %s depth %u value %d: %g +- %g, expected %g", path, sample_names[s], depths[d], i,
+                              "%s %s depth %u value %d: %g +- %g, expected %g", path, ec_sample_names[s], depths[d], i,
                               image.rgb[i], image.se[i], expected);
             }
             if (depths[d] == 0)
-                printf("box %.1f %-4s %.6f +- %.6f, expected %g\n", albedo, sample_names[s], image.mean[1], image.mean_se[1],
+                printf("box %.1f %-10s %.6f +- %.6f, expected %g\n", albedo, ec_sample_names[s], image.mean[1], image.mean_se[1],
                        expected);
             case_free(&image);
         }
+    ec_scene_free(scene);
+}
+
+/* In the closed box BSDF sampling knows each path's radiance before it starts: segment k adds albedo^(k - 1), and no ray leaves.
+ * So without roulette the picture is the series cut off after max_depth, with no noise at all, and every sample takes
+ * max_depth rays. With a constant survival P it is the whole series, and a sample takes 1 / (1 - P) rays in the mean, with
+ * variance P / (1 - P)^2: a path may end at its first surface. Its noise is finite, since 0.5^2 is less than P. */
+static void check_roulette(void)
+{
+    static const uint32_t depths[] = {2, 3, 9, 40};
+    static const double survival[] = {0.5, 0.8};
+    const double albedo = 0.5;
+    ec_scene *scene = case_load(OWN_SCENE("furnace/box-albedo-0.5.gltf"), NULL);
+    ec_render_options o = case_options(16, 16, 768);
+    o.sample = EC_SAMPLE_BSDF;
+    o.sampler = EC_SAMPLER_INDEPENDENT; /* or rays would vary less than that */
+    o.survival = 1;
+    for (int d = 0; d < 4; d++) {
+        o.max_depth = depths[d];
+        case_image image = case_render(scene, &o);
+        CHECK_NEAR(image.mean[1], (1 - pow(albedo, depths[d])) / (1 - albedo), 1e-5);
+        CHECK_MSG(image.mean_se[1] < 1e-6, "off, depth %u: noise of %g", depths[d], image.mean_se[1]);
+        CHECK(image.stats.rays == depths[d] * image.stats.samples);
+        printf("box, roulette off, depth %-2u %.6f +- %.1g\n", depths[d], image.mean[1], image.mean_se[1]);
+        case_free(&image);
+    }
+    o.max_depth = 0;
+    for (int i = 0; i < 2; i++) {
+        o.survival = survival[i];
+        case_image image = case_render(scene, &o);
+        double rays = (double)image.stats.rays / (double)image.stats.samples, expected = 1 / (1 - survival[i]);
+        double se = expected * sqrt(survival[i] / (double)image.stats.samples);
+        CASE_NEAR(&image, 1 / (1 - albedo), 4, 0.005);
+        CHECK_MSG(fabs(rays - expected) <= 4 * se, "survival %g: %g rays a sample, expected %g +- %g", survival[i], rays, expected, se);
+        printf("box, roulette %.1f %.6f +- %.6f, %.4f rays a sample\n", survival[i], image.mean[1], image.mean_se[1], rays);
+        case_free(&image);
+    }
     ec_scene_free(scene);
 }
 
@@ -46,8 +84,8 @@ static void check_box(const char *path, double albedo)
 static void check_mixed_box(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("furnace/box-materials.gltf"), NULL);
-    case_image images[3];
-    for (int s = 0; s < 3; s++) {
+    case_image images[SAMPLE_COUNT];
+    for (int s = 0; s < SAMPLE_COUNT; s++) {
         ec_render_options o = case_options(24, 24, 2048);
         o.batch = 64;
         o.sample = (ec_sample)s;
@@ -56,8 +94,9 @@ static void check_mixed_box(void)
         images[s] = case_render(scene, &o);
     }
     for (int c = 0; c < 3; c++) CHECK_NEAR(images[1].mean[c], images[0].mean[c], 0.03 * images[0].mean[c]);
-    case_check_same(&images[0], &images[2], 1, "box of six materials, mis and bsdf");
-    for (int s = 0; s < 3; s++) case_free(&images[s]);
+    case_check_same(&images[EC_SAMPLE_BSDF], &images[EC_SAMPLE_MIS], 1, "box of six materials, bsdf and mis");
+    case_check_same(&images[EC_SAMPLE_HEMISPHERE], &images[EC_SAMPLE_MIS], 4, "box of six materials, hemisphere and mis");
+    for (int s = 0; s < SAMPLE_COUNT; s++) case_free(&images[s]);
     ec_scene_free(scene);
 }
 
@@ -68,7 +107,7 @@ static void check_plates(void)
         {0.8, 0.98830, 0.68785, 0.30685}, {0.8, 0.96921, 0.69825, 0.45069}, {0.8, 0.88346, 0.86010, 0.76021}};
     ec_scene *scene = case_load(OWN_SCENE("furnace/plates.gltf"), "1,1,1");
     for (uint32_t camera = 0; camera < 3; camera++)
-        for (int s = 0; s < 3; s++) {
+        for (int s = 0; s < SAMPLE_COUNT; s++) {
             ec_render_options o = case_options(64, 16, 4096);
             o.camera = camera;
             o.sample = (ec_sample)s;
@@ -76,8 +115,8 @@ static void check_plates(void)
             case_image image = case_render(scene, &o);
             for (uint32_t plate = 0; plate < 4; plate++) {
                 double se, mean = case_region(&image, (uint32_t[4]){16 * plate, 16 * plate + 16, 0, 16}, 1, &se);
-                CHECK_MSG(fabs(mean - table[camera][plate]) <= 4 * se + 1e-5 && se < (s == 1 ? 2e-2 : 1e-3),
-                          "camera %u, plate %u, %s: %.6f +- %.6f, expected %.5f", camera, plate, sample_names[s], mean, se,
+                CHECK_MSG(fabs(mean - table[camera][plate]) <= 4 * se + 1e-5 && se < (s == EC_SAMPLE_MIS || s == EC_SAMPLE_BSDF ? 1e-3 : 2e-2),
+                          "camera %u, plate %u, %s: %.6f +- %.6f, expected %.5f", camera, plate, ec_sample_names[s], mean, se,
                           table[camera][plate]);
             }
             case_free(&image);
@@ -86,20 +125,22 @@ static void check_plates(void)
 }
 
 /* White spheres in a white environment: the Lambert one cannot be seen, none gains energy. A faceted sphere is convex, so
- * shading normals alone bend paths: below the horizon light is lost, never won. */
+ * shading normals alone bend paths: below the horizon light is lost, never won. The Lambert ball sees the smooth metal one
+ * at its side, black to whom does not sample its lobe: 0.4 % less in all. */
 static void check_spheres(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("furnace/spheres.gltf"), "1,1,1");
-    for (int s = 0; s < 3; s++) {
+    for (int s = 0; s < SAMPLE_COUNT; s++) {
         ec_render_options o = case_options(128, 16, 1024);
+        bool finds_lobes = s == EC_SAMPLE_MIS || s == EC_SAMPLE_BSDF;
         o.sample = (ec_sample)s;
         case_image image = case_render(scene, &o);
         for (uint32_t ball = 0; ball < 8; ball++) {
             /* The central half of a ball: x spans 16 pixels each, of which its radius takes 6.4. */
             double se, mean = case_region(&image, (uint32_t[4]){16 * ball + 5, 16 * ball + 11, 5, 11}, 1, &se);
-            CHECK_MSG(mean <= 1 + 4 * se + 1e-5, "ball %u, %s: %.6f +- %.6f is more than comes in", ball, sample_names[s], mean, se);
-            if (ball == 0)
-                CHECK_MSG(fabs(mean - 1) <= 4 * se + 1e-3 && se < 2e-3, "Lambert ball, %s: %.6f +- %.6f", sample_names[s], mean, se);
+            CHECK_MSG(mean <= 1 + 4 * se + 1e-5, "ball %u, %s: %.6f +- %.6f is more than comes in", ball, ec_sample_names[s], mean, se);
+            if (ball == 0 && finds_lobes)
+                CHECK_MSG(fabs(mean - 1) <= 4 * se + 1e-3 && se < 2e-3, "Lambert ball, %s: %.6f +- %.6f", ec_sample_names[s], mean, se);
             if (s == 0) printf("ball %u %.5f +- %.5f\n", ball, mean, se);
         }
         case_free(&image);
@@ -113,6 +154,7 @@ int main(void)
     check_box(SHARED("assets/classic/gltf/furnace-nori/furnace-albedo-0.8.gltf"), 0.8);
     check_box(OWN_SCENE("furnace/box-albedo-0.5.gltf"), 0.5);
     check_box(OWN_SCENE("furnace/box-albedo-0.8.gltf"), 0.8);
+    check_roulette();
     check_mixed_box();
     check_plates();
     check_spheres();
