@@ -46,16 +46,14 @@ EC_FN uint8 pack8(uint8 v, uint mask)
 #endif
 }
 
-typedef struct stack8 {
-    uint node;
-    float near;
-} stack8;
+/* A child to visit: the bits of its distance, which order as it does, above its index. */
+EC_FN ulong8 entries8(float8 near, uint8 child) { return convert_ulong8(as_uint8(near)) << 32 | convert_ulong8(child); }
 
 EC_FN void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
     global const ec_bvh8_node *nodes = a->at[0];
     global const ec_tri8 *blocks = a->at[1];
-    stack8 stack[EC_BVH8_STACK];
+    ulong stack[EC_BVH8_STACK];
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
@@ -64,40 +62,37 @@ EC_FN void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter,
             global const ec_bvh8_node *n = nodes + current;
             TALLY_NODE(h);
             uint mask;
-            float near[8];
-            uint child[8];
-            vstore8(*(global const uint8 *)n->child, 0, child); /* now, and not only once `near` is known */
-            vstore8(node8_near(q, (global const float8 *)n->bound, h->t, &mask), 0, near);
+            ulong entry[8];
+            uint8 child = *(global const uint8 *)n->child; /* now, and not only once the distances are known */
+            float8 near = node8_near(q, (global const float8 *)n->bound, h->t, &mask);
+            vstore8(entries8(near, child), 0, entry);
             if (mask) {
-                uint base = depth, i = lowest_bit(mask);
-                stack8 entry = {child[i], near[i]};
+                ulong nearest = entry[lowest_bit(mask)];
                 mask &= mask - 1;
-                while (mask) { /* insertion sort on the stack, farthest first; `entry` is the nearest so far */
-                    i = lowest_bit(mask);
-                    mask &= mask - 1;
-                    stack8 next = {child[i], near[i]};
-                    if (next.near < entry.near) {
-                        stack8 swap = entry;
-                        entry = next;
-                        next = swap;
+                if (mask) { /* two are sorted without a branch, which nobody could predict; the others by insertion */
+                    ulong next = entry[lowest_bit(mask)];
+                    uint base = depth;
+                    stack[depth++] = max(nearest, next);
+                    nearest = min(nearest, next);
+                    for (mask &= mask - 1; mask; mask &= mask - 1) {
+                        next = entry[lowest_bit(mask)];
+                        ulong far = max(nearest, next);
+                        nearest = min(nearest, next);
+                        uint k = depth++;
+                        for (; k > base && stack[k - 1] < far; k--) stack[k] = stack[k - 1];
+                        stack[k] = far;
                     }
-                    uint k = depth++;
-                    while (k > base && stack[k - 1].near < next.near) {
-                        stack[k] = stack[k - 1];
-                        k--;
-                    }
-                    stack[k] = next;
+                    prefetch8(nodes, blocks, (uint)stack[depth - 1]);
                 }
-                current = entry.node;
-                if (depth > base) prefetch8(nodes, blocks, stack[depth - 1].node);
+                current = (uint)nearest;
                 continue;
             }
         }
         do {
             if (depth == 0) return;
             depth--;
-        } while (stack[depth].near > h->t);
-        current = stack[depth].node;
+        } while ((uint)(stack[depth] >> 32) > as_uint(h->t));
+        current = (uint)stack[depth];
     }
 }
 
