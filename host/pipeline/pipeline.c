@@ -42,12 +42,12 @@ static uint32_t fit_wave(const ec_cl *cl, const ec_render_options *o, uint32_t b
 }
 
 /* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
- * starts late, since it tells least from bright short paths. Rounded to a multiple of 2^-24, the step of the random numbers,
- * so that what is divided by is what is sampled. */
+ * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
+ * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
 static void set_roulette(double survival, ec_params *params)
 {
     params->first_roulette = survival == 0.0 ? 5 : survival < 1.0 ? 1 : UINT32_MAX;
-    params->survival = (float)ldexp(ceil(ldexp(survival, 24)), -24);
+    params->survival = survival == 0.0 ? 0.0f : (float)ldexp(fmax(floor(ldexp(survival, 24)), 1.0), -24);
 }
 
 static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char *name, ec_error *err)

@@ -1,5 +1,5 @@
-/* The path tracer's bounce loop. A wave's paths go generate → (intersect → shade → connect)* → accumulate; the host looks at the queues
- * only every EC_SEGMENT bounces. */
+/* The path tracer's bounce loop. A wave's paths go generate → (intersect → shade → connect)* → accumulate; the host looks at
+ * the queues only every EC_SEGMENT bounces. */
 #include <string.h>
 
 #include "pipeline/pipeline.h"
