@@ -10,8 +10,8 @@
 
 static const ec_arg generate[] = {EC_ARG_PARAMS,     EC_ARG_SEED,  EC_ARG_FIRST_PIXEL,
                                   EC_ARG_PATH_COUNT, EC_ARG_PATHS, EC_ARG_RADIANCE};
-static const ec_arg intersect_packet[] = {WAVE_ARGS, EC_ARG_PATHS, EC_ARG_HITS, EC_ARG_BVH2_NODES, EC_ARG_BVH2_TRIS, FILTER_ARGS};
-static const ec_arg intersect_bvh8[] = {WAVE_ARGS, EC_ARG_PATHS, EC_ARG_HITS, EC_ARG_BVH8_NODES, EC_ARG_BVH8_BLOCKS, FILTER_ARGS};
+static const ec_arg intersect_packet[] = {WAVE_ARGS, EC_ARG_PATHS, EC_ARG_HITS, EC_ARG_BVH2_NODES, EC_ARG_BVH2_TRIS, EC_ARG_BVH2_BOXES, FILTER_ARGS};
+static const ec_arg intersect_bvh8[] = {WAVE_ARGS, EC_ARG_PATHS, EC_ARG_HITS, EC_ARG_BVH8_NODES, EC_ARG_BVH8_BLOCKS, EC_ARG_BVH8_BOXES, FILTER_ARGS};
 static const ec_arg shade[] = {WAVE_ARGS,          EC_ARG_INVALID,     EC_ARG_PATHS,
                                EC_ARG_HITS,        EC_ARG_NEXT,        EC_ARG_SHADOWS,
                                EC_ARG_RADIANCE,    EC_ARG_AOV,         EC_ARG_PRIMS,
@@ -21,9 +21,9 @@ static const ec_arg shade[] = {WAVE_ARGS,          EC_ARG_INVALID,     EC_ARG_PA
                                EC_ARG_SRGB,        EC_ARG_LIGHT_TABLE, EC_ARG_LIGHT_ALIAS,
                                EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_ALIAS};
 static const ec_arg connect_packet[] = {WAVE_ARGS,         EC_ARG_INVALID,   EC_ARG_SHADOWS, EC_ARG_RADIANCE,
-                                        EC_ARG_BVH2_NODES, EC_ARG_BVH2_TRIS, FILTER_ARGS};
+                                        EC_ARG_BVH2_NODES, EC_ARG_BVH2_TRIS, EC_ARG_BVH2_BOXES, FILTER_ARGS};
 static const ec_arg connect_bvh8[] = {WAVE_ARGS,         EC_ARG_INVALID,     EC_ARG_SHADOWS, EC_ARG_RADIANCE,
-                                      EC_ARG_BVH8_NODES, EC_ARG_BVH8_BLOCKS, FILTER_ARGS};
+                                      EC_ARG_BVH8_NODES, EC_ARG_BVH8_BLOCKS, EC_ARG_BVH8_BOXES, FILTER_ARGS};
 static const ec_arg accumulate[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE, EC_ARG_BATCH_FILM};
 static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_COUNT, EC_ARG_AOV, EC_ARG_FEATURE_FILM};
 

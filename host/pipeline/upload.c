@@ -62,31 +62,45 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     return upload(p, EC_ARG_ENVIRONMENT_ALIAS, "environment table", texels * sizeof *pack->environment_alias, pack->environment_alias, err);
 }
 
+static ec_result upload_bvh2(ec_pipeline *p, const ec_scene *scene, const ec_bvh *bvh, ec_error *err)
+{
+    ec_bvh2_node *nodes = NULL;
+    ec_tri *triangles = NULL;
+    ec_box *boxes = NULL;
+    uint32_t node_count, count;
+    EC_TRY(ec_bvh2_layout(bvh, scene->positions, scene->indices, &nodes, &node_count, &triangles, &boxes, &count, err));
+    ec_result result = upload(p, EC_ARG_BVH2_NODES, "BVH2 nodes", (uint64_t)node_count * sizeof *nodes, nodes, err);
+    if (result == EC_OK) result = upload(p, EC_ARG_BVH2_TRIS, "BVH2 triangles", (uint64_t)count * sizeof *triangles, triangles, err);
+    if (result == EC_OK) result = upload(p, EC_ARG_BVH2_BOXES, "BVH2 boxes", (uint64_t)count * sizeof *boxes, boxes, err);
+    free(nodes);
+    free(triangles);
+    free(boxes);
+    return result;
+}
+
+static ec_result upload_bvh8(ec_pipeline *p, const ec_scene *scene, const ec_bvh *bvh, ec_error *err)
+{
+    ec_bvh8_node *nodes = NULL;
+    ec_tri8 *blocks = NULL;
+    ec_box8 *boxes = NULL;
+    uint32_t node_count, count;
+    EC_TRY(ec_bvh8_layout(bvh, scene->positions, scene->indices, &nodes, &node_count, &blocks, &boxes, &count, err));
+    ec_result result = upload(p, EC_ARG_BVH8_NODES, "BVH8 nodes", (uint64_t)node_count * sizeof *nodes, nodes, err);
+    if (result == EC_OK) result = upload(p, EC_ARG_BVH8_BLOCKS, "BVH8 triangle blocks", (uint64_t)count * sizeof *blocks, blocks, err);
+    if (result == EC_OK) result = upload(p, EC_ARG_BVH8_BOXES, "BVH8 boxes", (uint64_t)count * sizeof *boxes, boxes, err);
+    free(nodes);
+    free(blocks);
+    free(boxes);
+    return result;
+}
+
 ec_result ec_pipeline_upload_accel(ec_pipeline *p, const ec_scene *scene, ec_error *err)
 {
     ec_bvh bvh = {0};
-    ec_bvh_stats stats;
-    EC_TRY(ec_bvh_build(scene->positions, scene->indices, scene->triangle_count, 0, &bvh, &stats, err));
+    EC_TRY(ec_bvh_build(scene->positions, scene->indices, scene->triangle_count, 0, &bvh, NULL, err));
     ec_result result = EC_OK;
-    void *nodes = NULL, *leaves = NULL;
-    uint32_t node_count, leaf_count;
-    if (p->has_trace[EC_TRACE_PACKET]) {
-        result = ec_bvh2_layout(&bvh, scene->positions, scene->indices, (ec_bvh2_node **)&nodes, &node_count,
-                                (ec_tri **)&leaves, &leaf_count, err);
-        if (result == EC_OK) result = upload(p, EC_ARG_BVH2_NODES, "BVH2 nodes", (uint64_t)node_count * sizeof(ec_bvh2_node), nodes, err);
-        if (result == EC_OK) result = upload(p, EC_ARG_BVH2_TRIS, "BVH2 triangles", (uint64_t)leaf_count * sizeof(ec_tri), leaves, err);
-        free(nodes);
-        free(leaves);
-        nodes = leaves = NULL;
-    }
-    if (result == EC_OK && p->has_trace[EC_TRACE_BVH8]) {
-        result = ec_bvh8_layout(&bvh, scene->positions, scene->indices, (ec_bvh8_node **)&nodes, &node_count,
-                                (ec_tri8 **)&leaves, &leaf_count, err);
-        if (result == EC_OK) result = upload(p, EC_ARG_BVH8_NODES, "BVH8 nodes", (uint64_t)node_count * sizeof(ec_bvh8_node), nodes, err);
-        if (result == EC_OK) result = upload(p, EC_ARG_BVH8_BLOCKS, "BVH8 triangle blocks", (uint64_t)leaf_count * sizeof(ec_tri8), leaves, err);
-        free(nodes);
-        free(leaves);
-    }
+    if (p->has_trace[EC_TRACE_PACKET]) result = upload_bvh2(p, scene, &bvh, err);
+    if (result == EC_OK && p->has_trace[EC_TRACE_BVH8]) result = upload_bvh8(p, scene, &bvh, err);
     ec_bvh_free(&bvh);
     return result;
 }

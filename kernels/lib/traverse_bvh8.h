@@ -64,6 +64,20 @@ EC_FN v3 tri8_vertex(global const ec_tri8 *b, uint k)
     global const float8 *v = (global const float8 *)b->v[k];
     return v3_make(v[0], v[1], v[2]);
 }
+/* Boxes of eight references: their own, or without those (`boxes` NULL) what the vertices span. */
+EC_FN void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxes, v3 *lo, v3 *hi)
+{
+    if (boxes) {
+        global const float8 *x = (global const float8 *)boxes;
+        *lo = v3_make(x[0], x[1], x[2]);
+        *hi = v3_make(x[3], x[4], x[5]);
+        return;
+    }
+    v3 v0 = tri8_vertex(b, 0), v1 = tri8_vertex(b, 1), v2 = tri8_vertex(b, 2);
+    *lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
+    *hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
+}
+
 EC_FN v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
 {
     global const float8 *v = (global const float8 *)b->v[k];
@@ -72,8 +86,8 @@ EC_FN v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
 }
 
 /* Eight triangles against the ray. any_hit: only whether there is one. */
-EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, uint skip0, uint skip1,
-                             bool any_hit, hit8 *h)
+EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b,
+                             global const ec_box8 *boxes, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     edges e = edges_make(tri8_sheared(q, b, 0), tri8_sheared(q, b, 1), tri8_sheared(q, b, 2));
     int8 m = edges_inside(&e);
@@ -82,10 +96,9 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
     float8 t, inverse;
     m = m & (id != skip0) & (id != skip1) & edges_distance(&q->r, &e, (float8)(h->t), &inverse, &t);
     if (!mask_bits8(m)) return;
-    v3 v0 = tri8_vertex(b, 0), v1 = tri8_vertex(b, 1), v2 = tri8_vertex(b, 2);
-    v3 lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
-    v3 hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
-    m = m & triangle_clamp(&q->r, lo, hi, (float8)(h->t), &t) & ((t < h->t) | (id < h->prim));
+    v3 lo, hi;
+    block8_boxes(b, boxes, &lo, &hi);
+    m = m & reference_clamp(&q->r, lo, hi, (float8)(h->t), &t) & ((t < h->t) | (id < h->prim));
     float8 b1 = e.v * inverse + 0.0f, b2 = e.w * inverse + 0.0f; /* no -0: a shared edge is negated */
     m = filter_hits(filter, m, id, b1, b2, edges_front(&q->r, &e));
     uint bits = mask_bits8(m), bit = 1;
@@ -136,19 +149,27 @@ EC_FN uint8 pack8(uint8 v, uint mask)
 #endif
 }
 
+/* A leaf's block, with its boxes where there are any. */
+EC_FN void leaf8(const ray8 *q, const hit_filter *filter, global const ec_tri8 *blocks, global const ec_box8 *boxes,
+                 uint child, uint skip0, uint skip1, bool any_hit, hit8 *h)
+{
+    uint i = child & ~EC_LEAF_BIT;
+    block8_triangles(q, filter, blocks + i, boxes ? boxes + i : 0, skip0, skip1, any_hit, h);
+}
+
 typedef struct stack8 {
     uint node;
     float near;
 } stack8;
 
 EC_FN void traverse8_closest(const ray8 *q, const hit_filter *filter, global const ec_bvh8_node *nodes,
-                              global const ec_tri8 *blocks, uint skip0, uint skip1, hit8 *h)
+                              global const ec_tri8 *blocks, global const ec_box8 *boxes, uint skip0, uint skip1, hit8 *h)
 {
     stack8 stack[EC_BVH8_STACK];
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
-            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, false, h);
+            leaf8(q, filter, blocks, boxes, current, skip0, skip1, false, h);
         } else {
             global const ec_bvh8_node *n = nodes + current;
             uint mask;
@@ -191,13 +212,13 @@ EC_FN void traverse8_closest(const ray8 *q, const hit_filter *filter, global con
 
 /* Is anything in the way before t = h->t? */
 EC_FN bool traverse8_any(const ray8 *q, const hit_filter *filter, global const ec_bvh8_node *nodes,
-                          global const ec_tri8 *blocks, uint skip0, uint skip1, hit8 *h)
+                          global const ec_tri8 *blocks, global const ec_box8 *boxes, uint skip0, uint skip1, hit8 *h)
 {
     uint stack[EC_BVH8_STACK];
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
-            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, true, h);
+            leaf8(q, filter, blocks, boxes, current, skip0, skip1, true, h);
             if (h->prim != EC_NO_ID) return true;
         } else {
             global const ec_bvh8_node *n = nodes + current;

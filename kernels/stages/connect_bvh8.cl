@@ -7,7 +7,7 @@
 kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                             global const ec_counters *counters, volatile global uint *invalid,
                             global const float *shadows, global float *radiance, global const ec_bvh8_node *nodes,
-                            global const ec_tri8 *blocks, global const float *prims, global const float *indices, global const float *uvs,
+                            global const ec_tri8 *blocks, global const ec_box8 *boxes, global const float *prims, global const float *indices, global const float *uvs,
                                 global const float *colors,
                             global const float *materials, global const float *texture_table,
                             global const uint *texels, constant float *srgb)
@@ -25,7 +25,7 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
         filter.key = filter_key(seed, pixel, sample, bounce, true);
     }
     hit8 h = {1.0f, EC_NO_ID, 0.0f, 0.0f};
-    if (traverse8_any(&q, &filter, nodes, blocks, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), &h))
+    if (traverse8_any(&q, &filter, nodes, blocks, boxes, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), &h))
         return;
     for (uint c = 0; c < 3; c++) {
         float light = p[(EC_SHADOW_LR + c) * wave];

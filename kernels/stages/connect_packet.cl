@@ -6,7 +6,7 @@
 kernel void ec_connect_packet(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                               global const ec_counters *counters, volatile global uint *invalid,
                               global const float *shadows, global float *radiance, global const ec_bvh2_node *nodes,
-                              global const ec_tri *tris, global const float *prims, global const float *indices, global const float *uvs,
+                              global const ec_tri *tris, global const ec_box *boxes, global const float *prims, global const float *indices, global const float *uvs,
                                 global const float *colors,
                               global const float *materials, global const float *texture_table,
                               global const uint *texels, constant float *srgb)
@@ -27,7 +27,7 @@ kernel void ec_connect_packet(constant ec_params *params, uint seed, uint first_
         filter.key = filter_key(seed, pixel, sample, bounce, true);
     }
     hit h = {active ? F(1.0f) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
-    traverse_packet(&r, &filter, nodes, tris, queue_load_u(shadows, wave, EC_SHADOW_PRIM, i),
+    traverse_packet(&r, &filter, nodes, tris, boxes, queue_load_u(shadows, wave, EC_SHADOW_PRIM, i),
                     queue_load_u(shadows, wave, EC_SHADOW_TARGET, i), true, &h);
     lane_i open = active & (h.prim == EC_NO_ID);
     if (any_lane(open))

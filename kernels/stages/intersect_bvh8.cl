@@ -5,7 +5,7 @@
 
 kernel void ec_intersect_bvh8(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                               global const ec_counters *counters, global const float *paths, global float *hits,
-                              global const ec_bvh8_node *nodes, global const ec_tri8 *blocks, global const float *prims,
+                              global const ec_bvh8_node *nodes, global const ec_tri8 *blocks, global const ec_box8 *boxes, global const float *prims,
                               global const float *indices, global const float *uvs,
                                 global const float *colors, global const float *materials,
                               global const float *texture_table, global const uint *texels, constant float *srgb)
@@ -22,7 +22,7 @@ kernel void ec_intersect_bvh8(constant ec_params *params, uint seed, uint first_
         filter.key = filter_key(seed, pixel, sample, bounce, false);
     }
     hit8 h = {EC_HUGE, EC_NO_ID, 0.0f, 0.0f};
-    traverse8_closest(&q, &filter, nodes, blocks, as_uint(p[EC_PATH_PRIM * wave]), EC_NO_ID, &h);
+    traverse8_closest(&q, &filter, nodes, blocks, boxes, as_uint(p[EC_PATH_PRIM * wave]), EC_NO_ID, &h);
     hits[EC_HIT_PRIM * wave + i] = as_float(h.prim);
     hits[EC_HIT_B1 * wave + i] = h.b1;
     hits[EC_HIT_B2 * wave + i] = h.b2;

@@ -5,7 +5,7 @@
 
 kernel void ec_intersect_packet(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
                                 global const ec_counters *counters, global const float *paths, global float *hits,
-                                global const ec_bvh2_node *nodes, global const ec_tri *tris, global const float *prims,
+                                global const ec_bvh2_node *nodes, global const ec_tri *tris, global const ec_box *boxes, global const float *prims,
                                 global const float *indices, global const float *uvs,
                                 global const float *colors, global const float *materials,
                                 global const float *texture_table, global const uint *texels, constant float *srgb)
@@ -24,7 +24,7 @@ kernel void ec_intersect_packet(constant ec_params *params, uint seed, uint firs
     }
     hit h = {active ? F(EC_HUGE) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
     lane_u skip = queue_load_u(paths, wave, EC_PATH_PRIM, i);
-    traverse_packet(&r, &filter, nodes, tris, skip, U(EC_NO_ID), false, &h);
+    traverse_packet(&r, &filter, nodes, tris, boxes, skip, U(EC_NO_ID), false, &h);
     queue_store_f(hits, wave, EC_HIT_PRIM, i, as_lane_f(h.prim));
     queue_store_f(hits, wave, EC_HIT_B1, i, h.b1);
     queue_store_f(hits, wave, EC_HIT_B2, i, h.b2);

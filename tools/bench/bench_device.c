@@ -21,19 +21,25 @@ static ec_result upload_bvh(bench_device *d, const bench_mesh *mesh, bool with_p
     ec_tri8 *blocks;
     ec_bvh2_node *binary;
     ec_tri *triangles;
+    ec_box *boxes;
+    ec_box8 *wide_boxes;
     uint32_t nodes, leaves;
     EC_TRY(ec_bvh_build(mesh->positions, mesh->indices, mesh->triangle_count, 0, &bvh, &stats, err));
-    EC_TRY(ec_bvh8_layout(&bvh, mesh->positions, mesh->indices, &wide, &nodes, &blocks, &leaves, err));
+    EC_TRY(ec_bvh8_layout(&bvh, mesh->positions, mesh->indices, &wide, &nodes, &blocks, &wide_boxes, &leaves, err));
     EC_TRY(ec_buffer_create(&d->cl, "BVH8 nodes", (uint64_t)nodes * sizeof *wide, wide, &d->buffers[EC_ARG_BVH8_NODES], err));
     EC_TRY(ec_buffer_create(&d->cl, "BVH8 blocks", (uint64_t)leaves * sizeof *blocks, blocks, &d->buffers[EC_ARG_BVH8_BLOCKS], err));
+    if (wide_boxes) EC_TRY(ec_buffer_create(&d->cl, "BVH8 boxes", (uint64_t)leaves * sizeof *wide_boxes, wide_boxes, &d->buffers[EC_ARG_BVH8_BOXES], err));
     free(wide);
     free(blocks);
+    free(wide_boxes);
     if (with_packet) {
-        EC_TRY(ec_bvh2_layout(&bvh, mesh->positions, mesh->indices, &binary, &nodes, &triangles, &leaves, err));
+        EC_TRY(ec_bvh2_layout(&bvh, mesh->positions, mesh->indices, &binary, &nodes, &triangles, &boxes, &leaves, err));
         EC_TRY(ec_buffer_create(&d->cl, "BVH2 nodes", (uint64_t)nodes * sizeof *binary, binary, &d->buffers[EC_ARG_BVH2_NODES], err));
         EC_TRY(ec_buffer_create(&d->cl, "BVH2 triangles", (uint64_t)leaves * sizeof *triangles, triangles, &d->buffers[EC_ARG_BVH2_TRIS], err));
+        if (boxes) EC_TRY(ec_buffer_create(&d->cl, "BVH2 boxes", (uint64_t)leaves * sizeof *boxes, boxes, &d->buffers[EC_ARG_BVH2_BOXES], err));
         free(binary);
         free(triangles);
+        free(boxes);
     }
     ec_bvh_free(&bvh);
     return EC_OK;
