@@ -67,14 +67,14 @@ static void grow_three(ec_box4 box[3], const ec_box4 by[3])
 
 /* Costs of every plane on the three axes at a time; a plane with nothing on one side has a cost that is NaN or
  * infinite and never wins. */
-static void sweep(const ec_bins *bins, ec_v4 scale, ec_v4 *best, ec_i4 *best_bin)
+static void sweep(const ec_bins *bins, const ec_i4 ends[EC_BINS], ec_v4 scale, ec_v4 *best, ec_i4 *best_bin)
 {
     ec_v4 right_cost[EC_BINS];
     ec_box4 box[3] = {ec_box4_empty(), ec_box4_empty(), ec_box4_empty()};
     ec_i4 below = ec_i4_all(0);
     for (int i = EC_BINS - 1; i > 0; i--) {
         grow_three(box, bins->box[i]);
-        below += bins->count[i];
+        below += ends[i];
         right_cost[i] = leaf_costs(below, ec_half_areas(box, scale));
     }
     box[0] = box[1] = box[2] = ec_box4_empty();
@@ -91,11 +91,11 @@ static void sweep(const ec_bins *bins, ec_v4 scale, ec_v4 *best, ec_i4 *best_bin
     }
 }
 
-ec_split ec_bins_split(const ec_bins *bins, const ec_range *range)
+ec_split ec_bins_split(const ec_bins *bins, const ec_i4 ends[EC_BINS], const ec_range *range)
 {
     ec_v4 scale = ec_box4_scale(&range->box), best;
     ec_i4 best_bin;
-    sweep(bins, scale, &best, &best_bin);
+    sweep(bins, ends, scale, &best, &best_bin);
 
     ec_box4 parent[3] = {range->box, range->box, range->box};
     float area = ec_half_areas(parent, scale)[0];

@@ -55,6 +55,7 @@ void ec_branch_join(const ec_branch *branch, ec_bvh_build_node *nodes)
         return;
     }
     nodes[branch->slot] = ec_node_of(&branch->range);
+    nodes[branch->slot].first = branch->first;
     nodes[branch->slot].left = branch->rest;
     const ec_branch *right = branch->child[1];
 #pragma omp task if (branch->range.count > TASK_TRIANGLES)

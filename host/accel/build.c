@@ -1,5 +1,5 @@
-/* The binary tree: large ranges are split by all cores together, small ones become subtrees that one core builds alone,
- * and the pieces are then joined in their order. */
+/* The binary tree: large ranges are split by all cores together, and triangles cut where that pays; small ranges become
+ * subtrees that one core builds alone; the pieces are then joined in their order. */
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,9 @@
 #include "accel/build_internal.h"
 #include "base/clock.h"
 
-#define SUBTREE 4096u /* triangles; not tied to the number of cores, since the numbering follows from it */
+#define SUBTREE 1024u /* references; not tied to the number of cores, since the numbering follows from it */
+#define PARTS_SHARE 0.3     /* at most so many parts more than triangles */
+#define REFS_MAX (1u << 27) /* what the binary layout can number; scenes that come near it are not cut */
 #define LOAD_CHUNK 16384u
 #define TEAM_MIN 4096u /* fewer triangles are built sooner than a second thread wakes */
 
@@ -17,14 +19,24 @@ static void fail(ec_builder *builder)
     builder->failed = 1;
 }
 
+static void fill_leaf(const ec_builder *builder, const ec_range *range, uint32_t first)
+{
+    const ec_prim *prims = builder->prims[range->buffer] + range->first;
+    for (uint32_t i = 0; i < range->count; i++) builder->order[first + i] = ec_prim_id(&prims[i]);
+    for (uint32_t i = 0; builder->boxes && i < range->count; i++) {
+        memcpy(builder->boxes[first + i].lo, &prims[i].lo, sizeof builder->boxes->lo);
+        memcpy(builder->boxes[first + i].hi, &prims[i].hi, sizeof builder->boxes->hi);
+    }
+}
+
 /* Fills tree->nodes[index] and all below it. */
 static void build_subtree(ec_builder *builder, ec_branch *tree, uint32_t index, const ec_range *range)
 {
     ec_range children[2];
     tree->nodes[index] = ec_node_of(range);
+    tree->nodes[index].first = tree->first + (range->first - tree->range.first);
     if (!ec_range_split(builder, range, children)) {
-        const ec_prim *prims = builder->prims[range->buffer] + range->first;
-        for (uint32_t i = 0; i < range->count; i++) builder->order[range->first + i] = ec_prim_id(&prims[i]);
+        fill_leaf(builder, range, tree->nodes[index].first);
         tree->nodes[index].count = range->count;
         return;
     }
@@ -39,7 +51,7 @@ static void build_subtree(ec_builder *builder, ec_branch *tree, uint32_t index, 
     build_subtree(builder, tree, left + 1, &children[1]);
 }
 
-/* The tree over a range, by tasks; whole when all of them have ended. */
+/* The tree over a range, down to what subtrees are made of, by tasks; whole when all of them have ended. */
 static void build_branch(ec_builder *builder, const ec_range *range, ec_branch **result)
 {
     ec_range children[2];
@@ -50,11 +62,7 @@ static void build_branch(ec_builder *builder, const ec_range *range, ec_branch *
     }
     tree->range = *range;
     if (range->count <= SUBTREE) {
-        tree->node_count = 1;
-        if (ec_branch_reserve(tree, 1 + range->count / 4))
-            build_subtree(builder, tree, 0, range);
-        else
-            fail(builder);
+        tree->range.capacity = range->count; /* no more cutting: finer parts gain little */
         return;
     }
     if (!ec_range_split(builder, range, children)) return; /* out of memory: the range is too long for a leaf */
@@ -65,41 +73,77 @@ static void build_branch(ec_builder *builder, const ec_range *range, ec_branch *
     build_branch(builder, &children[0], &tree->child[0]);
 }
 
-static ec_range load(ec_builder *builder, const float *positions, const uint32_t *indices, uint32_t count)
+/* Gives every branch its place in the order; returns where it ends. */
+static uint32_t place_branches(ec_branch *tree, uint32_t first)
 {
-    ec_range root = {.box = ec_box4_empty(), .centroids = ec_box4_empty(), .count = count};
+    tree->first = first;
+    if (!tree->child[0]) return first + tree->range.count;
+    return place_branches(tree->child[1], place_branches(tree->child[0], first));
+}
+
+static void build_subtrees(ec_builder *builder, ec_branch *tree)
+{
+    if (tree->child[0]) {
+        build_subtrees(builder, tree->child[0]);
+        build_subtrees(builder, tree->child[1]);
+        return;
+    }
+#pragma omp task
+    {
+        tree->node_count = 1;
+        if (ec_branch_reserve(tree, 1 + tree->range.count / 4))
+            build_subtree(builder, tree, 0, &tree->range);
+        else
+            fail(builder);
+    }
+}
+
+static ec_range load(const ec_builder *builder, uint32_t count)
+{
+    ec_range root = {.count = count};
+    ec_range_clear(&root);
 #pragma omp taskloop default(shared) grainsize(1)
     for (uint32_t first = 0; first < count; first += LOAD_CHUNK) {
         uint32_t left = count - first;
         ec_range part;
-        ec_prims_load(positions, indices, first, left < LOAD_CHUNK ? left : LOAD_CHUNK, builder->prims[0], &part);
+        ec_prims_load(builder->positions, builder->indices, first, left < LOAD_CHUNK ? left : LOAD_CHUNK,
+                      builder->prims[0], &part);
 #pragma omp critical(ec_accel_load)
-        {
-            ec_box4_grow(&root.box, part.box.lo, part.box.hi);
-            ec_box4_grow(&root.centroids, part.centroids.lo, part.centroids.hi);
-        }
+        ec_range_join(&root, &part);
     }
     return root;
 }
 
-static void build_all(ec_builder *builder, const float *positions, const uint32_t *indices, uint32_t count,
-                      ec_branch **tree)
+static void build_all(ec_builder *builder, uint32_t count, uint32_t capacity, ec_branch **tree, uint32_t *ref_count)
 {
-    ec_range root = load(builder, positions, indices, count);
+    ec_range root = load(builder, count);
+    root.capacity = capacity;
+    builder->scene = root.box;
 #pragma omp taskgroup
     build_branch(builder, &root, tree);
+    if (builder->failed) return;
+    *ref_count = place_branches(*tree, 0);
+    builder->order = malloc(((size_t)*ref_count + 1) * sizeof *builder->order);
+    if (*ref_count > count) builder->boxes = malloc(*ref_count * sizeof *builder->boxes);
+    if (!builder->order || (*ref_count > count && !builder->boxes)) {
+        builder->failed = 1;
+        return;
+    }
+#pragma omp taskgroup
+    build_subtrees(builder, *tree);
 }
 
-static ec_branch *build_pieces(ec_builder *builder, const float *positions, const uint32_t *indices, uint32_t count,
-                               int team)
+static ec_branch *build_pieces(ec_builder *builder, uint32_t count, int team, uint32_t *ref_count)
 {
     ec_branch *tree = NULL;
-    builder->order = malloc(((size_t)count + 1) * sizeof *builder->order);
-    for (int i = 0; i < 2; i++) builder->prims[i] = ec_allocate_lines(count, sizeof(ec_prim));
-    if (builder->order && builder->prims[0] && builder->prims[1]) {
+    /* Memory for parts that nobody cuts is never touched. */
+    uint32_t spare = count < REFS_MAX ? REFS_MAX - count : 0, share = (uint32_t)(count * PARTS_SHARE);
+    uint32_t capacity = count + (share < spare ? share : spare);
+    for (int i = 0; i < 2; i++) builder->prims[i] = ec_allocate_lines(capacity, sizeof(ec_prim));
+    if (builder->prims[0] && builder->prims[1]) {
 #pragma omp parallel num_threads(team)
 #pragma omp single
-        build_all(builder, positions, indices, count, &tree);
+        build_all(builder, count, capacity, &tree, ref_count);
     } else {
         builder->failed = 1;
     }
@@ -114,26 +158,26 @@ ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t
     int team = triangle_count < TEAM_MIN ? 1 : threads ? (int)threads : omp_get_max_threads();
     memset(bvh, 0, sizeof *bvh);
     if (triangle_count > INT32_MAX) return ec_fail(err, "%u triangles are more than a BVH can hold", triangle_count);
-    ec_builder builder = {0};
-    ec_branch *tree = build_pieces(&builder, positions, indices, triangle_count, team);
+    ec_builder builder = {.positions = positions, .indices = indices};
+    ec_branch *tree = build_pieces(&builder, triangle_count, team, &bvh->ref_count);
     if (!builder.failed) {
         bvh->node_count = 1;
         ec_branch_number(tree, 0, &bvh->node_count);
         bvh->nodes = malloc(bvh->node_count * sizeof *bvh->nodes);
     }
+    bvh->triangle_count = triangle_count;
+    bvh->order = builder.order;
+    bvh->boxes = builder.boxes;
     if (bvh->nodes) {
 #pragma omp parallel num_threads(team)
 #pragma omp single
         ec_branch_join(tree, bvh->nodes);
-        bvh->triangle_count = triangle_count;
-        bvh->order = builder.order;
+        if (stats) ec_bvh_measure(bvh, ec_now() - start, stats);
     } else {
-        free(builder.order);
+        ec_bvh_free(bvh);
     }
     ec_branch_free(tree);
-    if (!bvh->nodes) return ec_fail(err, "out of memory for the BVH of %u triangles", triangle_count);
-    if (stats) ec_bvh_measure(bvh, ec_now() - start, stats);
-    return EC_OK;
+    return bvh->nodes ? EC_OK : ec_fail(err, "out of memory for the BVH of %u triangles", triangle_count);
 }
 
 void ec_bvh_free(ec_bvh *bvh)
@@ -141,5 +185,6 @@ void ec_bvh_free(ec_bvh *bvh)
     if (!bvh) return;
     free(bvh->nodes);
     free(bvh->order);
+    free(bvh->boxes);
     memset(bvh, 0, sizeof *bvh);
 }

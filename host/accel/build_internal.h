@@ -15,7 +15,8 @@
 #define EC_DEPTH_MAX 63u /* edges from the root to the deepest leaf */
 #define EC_BINS 16
 
-/* A triangle on its way down the tree, moved rather than pointed to, so that every pass streams through memory. */
+/* A triangle, or what planes have left of one, on its way down the tree; moved rather than pointed to, so that every pass
+ * streams through memory. */
 typedef struct ec_prim {
     ec_v4 lo; /* lane 3: the bits of the triangle's index */
     ec_v4 hi; /* lane 3: 0 */
@@ -25,7 +26,9 @@ typedef struct ec_prim {
 typedef struct ec_range {
     ec_box4 box;       /* of the triangles */
     ec_box4 centroids; /* of their box centres, doubled */
+    ec_v4 longest;     /* of their boxes' edges along each axis */
     uint32_t first, count, depth;
+    uint32_t capacity; /* places from first on; those past count are for the parts of triangles to be cut */
     uint32_t buffer;
 } ec_range;
 
@@ -45,9 +48,28 @@ typedef struct ec_split {
     float node_cost;     /* of visiting the parent, to be added to cost */
     int axis;            /* -1: nothing to split, or costs that are not numbers */
     int bin;             /* first bin of the right side */
-    uint32_t left_count;
+    uint32_t left_count, right_count;
     ec_box4 left, right;
 } ec_split;
+
+/* Bounds of ranges, from those of their parts. */
+static inline void ec_range_clear(ec_range *range)
+{
+    range->box = range->centroids = ec_box4_empty();
+    range->longest = ec_v4_all(0.0f);
+}
+static inline void ec_range_add(ec_range *range, ec_v4 lo, ec_v4 hi)
+{
+    ec_v4 centroid = lo + hi;
+    ec_box4_grow(&range->centroids, centroid, centroid);
+    range->longest = ec_v4_max(hi - lo, range->longest);
+}
+static inline void ec_range_join(ec_range *range, const ec_range *part)
+{
+    ec_box4_grow(&range->box, part->box.lo, part->box.hi);
+    ec_box4_grow(&range->centroids, part->centroids.lo, part->centroids.hi);
+    range->longest = ec_v4_max(part->longest, range->longest);
+}
 
 /* Reading and moving: prim.c */
 static inline ec_v4 ec_prim_lo(const ec_prim *prim)
@@ -56,6 +78,11 @@ static inline ec_v4 ec_prim_lo(const ec_prim *prim)
     return (ec_v4)((ec_i4)prim->lo & (ec_i4){-1, -1, -1, 0});
 }
 static inline uint32_t ec_prim_id(const ec_prim *prim) { return (uint32_t)((ec_i4)prim->lo)[3]; }
+static inline ec_prim ec_prim_of(const ec_box4 *box, uint32_t id)
+{
+    const ec_i4 xyz = {-1, -1, -1, 0};
+    return (ec_prim){(ec_v4)(((ec_i4)box->lo & xyz) | (ec_i4){0, 0, 0, (int32_t)id}), (ec_v4)((ec_i4)box->hi & xyz)};
+}
 static inline ec_i4 ec_bin_of(const ec_binning *binning, ec_v4 centroid)
 {
     return ec_v4_truncate(ec_v4_min((centroid - binning->origin) * binning->scale, binning->last));
@@ -64,24 +91,49 @@ static inline ec_i4 ec_bin_of(const ec_binning *binning, ec_v4 centroid)
 void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, ec_prim *prims,
                    ec_range *bounds);
 void ec_prims_bound(const ec_prim *prims, uint32_t count, ec_range *bounds);
-/* Copies prims to *left or *right, which move on, in their order; grows the centroid boxes of the sides. */
+void ec_prim_vertices(const float *positions, const uint32_t *indices, uint32_t id, ec_v4 vertices[3]);
+/* Copies prims to *left or *right, which move on, in their order; bounds the sides, but for their boxes. */
 void ec_prims_partition(const ec_prim *prims, uint32_t count, const ec_binning *binning, const ec_split *split,
-                        ec_prim *left, ec_prim *right, ec_box4 centroids[2]);
+                        ec_prim *left, ec_prim *right, ec_range sides[2]);
 
 /* bins.c */
 ec_binning ec_binning_of(const ec_range *range);
 void ec_bins_fill(ec_bins *bins, const ec_binning *binning, const ec_prim *prims, uint32_t count);
 void ec_bins_merge(ec_bins *bins, const ec_bins *more);
 uint32_t ec_bins_left(const ec_bins *bins, const ec_split *split);
-ec_split ec_bins_split(const ec_bins *bins, const ec_range *range);
+/* ends: as bins->count, but of the last bins that triangles reach into. */
+ec_split ec_bins_split(const ec_bins *bins, const ec_i4 ends[EC_BINS], const ec_range *range);
+
+/* Long ranges go chunk by chunk on all cores; the chunks are the same for any number of cores, and so is everything that
+ * comes out. */
+#define EC_CHUNK 16384u
+static inline uint32_t ec_chunk_count(const ec_range *range)
+{
+    return range->count < 4 * EC_CHUNK ? 1 : (range->count + EC_CHUNK - 1) / EC_CHUNK;
+}
+static inline uint32_t ec_chunk_length(const ec_range *range, uint32_t index)
+{
+    return index + 1 < ec_chunk_count(range) ? EC_CHUNK : range->count - index * EC_CHUNK;
+}
 
 /* split.c: divides a range in two, in parallel when it is long. False when it should be a leaf. */
 typedef struct ec_builder {
+    const float *positions;
+    const uint32_t *indices;
     ec_prim *prims[2];
     uint32_t *order;
-    int failed; /* out of memory somewhere; written atomically */
+    ec_box *boxes; /* NULL until triangles have been cut */
+    ec_box4 scene; /* the box of all */
+    int failed;    /* out of memory somewhere; written atomically */
 } ec_builder;
 int ec_range_split(ec_builder *builder, const ec_range *range, ec_range children[2]);
+/* Numbers of the children; the places left over are shared out among them, `slack` of these to the left one. */
+void ec_range_place(const ec_range *range, uint32_t left_count, uint32_t right_count, uint32_t slack, uint32_t buffer,
+                    ec_range children[2]);
+
+/* cut.c: splits a range by a plane that cuts triangles, where there are places for the parts and that is cheaper than
+ * `objects`, the best split of whole ones. */
+int ec_range_cut(ec_builder *builder, const ec_range *range, const ec_split *objects, ec_range children[2]);
 
 /* branch.c: a node of the upper tree is two children, or a subtree whose nodes[0] is its root and whose nodes number
  * their children within it. */
@@ -90,8 +142,9 @@ typedef struct ec_branch {
     struct ec_branch *child[2];
     ec_bvh_build_node *nodes; /* owned; NULL where there are children */
     uint32_t node_count, capacity;
-    uint32_t slot; /* place in the joined tree */
-    uint32_t rest; /* there: of the children, or of nodes[1] */
+    uint32_t first; /* of its references in the order */
+    uint32_t slot;  /* place in the joined tree */
+    uint32_t rest;  /* there: of the children, or of nodes[1] */
 } ec_branch;
 ec_bvh_build_node ec_node_of(const ec_range *range); /* inner until told otherwise */
 int ec_branch_reserve(ec_branch *branch, uint32_t count);

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
-#include "shared/accel.h" /* ec_bvh2_node, ec_bvh8_node, ec_tri, ec_tri8: kernels/shared */
+#include "shared/accel.h" /* nodes, triangles, boxes: kernels/shared */
 
 typedef struct ec_bvh_build_node {
     float lo[3], hi[3];
@@ -17,31 +17,39 @@ typedef struct ec_bvh {
     uint32_t node_count;
     ec_bvh_build_node *nodes;  /* nodes[0] is the root; owned */
     uint32_t triangle_count;
-    uint32_t *order;           /* triangle ids in leaf order; owned */
+    uint32_t ref_count;        /* what the leaves hold: triangles, of which some may have been cut into several parts */
+    uint32_t *order;           /* triangle ids of the references in leaf order; owned */
+    ec_box *boxes;             /* of the references, NULL where none was cut: then a triangle's own box is meant; owned */
 } ec_bvh;
 
 typedef struct ec_bvh_stats {
     double build_seconds;
     double sah_cost;           /* of the binary tree, in units of one node visit */
     uint32_t node_count, leaf_count, max_depth;
-    double leaf_fill;          /* triangles / slots of the 8-wide leaf blocks */
+    uint32_t ref_count;        /* as in ec_bvh */
+    double leaf_fill;          /* references / slots of the 8-wide leaf blocks */
 } ec_bvh_stats;
 
 /* Binned SAH (Wald 2007) on all cores; leaves hold at most 8 triangles and are charged by the block of 8, as
- * DESIGN 4 asks. positions: 3 floats a vertex; indices: 3 a triangle. The result is the same for any thread count.
+ * DESIGN 4 asks. In the upper tree, triangles may be cut along a plane (Stich et al. 2009), each part a reference with a
+ * box of its own; all boxes of a triangle's references together hold it. positions: 3 floats a vertex; indices: 3 a
+ * triangle. The result is the same for any thread count.
  * threads 0 = all. Also correct for 0 triangles (one empty leaf) and for any number of coincident ones (no recursion
  * deeper than 64 + log2 n, no quadratic time). */
 ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                        ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
 void ec_bvh_free(ec_bvh *bvh);
 
-/* Every triangle exactly once, children inside parents, depth within the kernels' stack. */
+/* Every triangle once, or in parts whose boxes reach as far as its own; children inside parents; depth within the kernels'
+ * stack. */
 ec_result ec_bvh_check(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_error *err);
 
-/* Layouts; arrays are malloc'ed and the caller's. BVH2 leaves are split further (SAH per triangle, leaves of <= 4). */
+/* Layouts; arrays are malloc'ed and the caller's. BVH2 leaves are split further (SAH per triangle, leaves of <= 4).
+ * boxes: one beside each triangle or block; NULL where bvh->boxes is. */
 ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh2_node **nodes,
-                         uint32_t *node_count, ec_tri **triangles, uint32_t *triangle_count, ec_error *err);
+                         uint32_t *node_count, ec_tri **triangles, ec_box **boxes, uint32_t *triangle_count,
+                         ec_error *err);
 ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh8_node **nodes,
-                         uint32_t *node_count, ec_tri8 **blocks, uint32_t *block_count, ec_error *err);
+                         uint32_t *node_count, ec_tri8 **blocks, ec_box8 **boxes, uint32_t *block_count, ec_error *err);
 
 #endif

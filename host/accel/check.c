@@ -1,4 +1,6 @@
-/* The promises of a binary tree, verified: every triangle once, boxes that hold what is below them, bounded depth. */
+/* The promises of a binary tree, verified: every triangle once or in parts, boxes that hold what is below them, bounded
+ * depth. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "accel/build_internal.h"
@@ -7,7 +9,7 @@ typedef struct check {
     const ec_bvh *bvh;
     const float *positions;
     const uint32_t *indices;
-    uint8_t *seen;      /* by triangle */
+    ec_box *seen;       /* by triangle: what its references reach over */
     uint32_t next;      /* leaves cover the order from left to right */
     uint32_t visited;
     ec_error *err;
@@ -20,22 +22,59 @@ static int inside(const float *point_lo, const float *point_hi, const ec_bvh_bui
     return 1;
 }
 
+static ec_box triangle_box(const check *c, uint32_t id)
+{
+    ec_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t corner = 0; corner < 3; corner++)
+        for (int axis = 0; axis < 3; axis++) {
+            float x = c->positions[3 * (size_t)c->indices[3 * (size_t)id + corner] + (size_t)axis];
+            box.lo[axis] = fminf(box.lo[axis], x);
+            box.hi[axis] = fmaxf(box.hi[axis], x);
+        }
+    return box;
+}
+
+static int is_unseen(const ec_box *box) { return box->lo[0] > box->hi[0] && box->lo[0] == INFINITY; }
+
+/* Adds a reference to what has been seen of a triangle. */
+static int see(check *c, uint32_t i)
+{
+    uint32_t id = c->bvh->order[i];
+    if (id >= c->bvh->triangle_count) return 0;
+    ec_box *seen = &c->seen[id], box = c->bvh->boxes ? c->bvh->boxes[i] : triangle_box(c, id);
+    if (!c->bvh->boxes && !is_unseen(seen)) return 0;
+    for (int axis = 0; axis < 3; axis++) {
+        seen->lo[axis] = fminf(seen->lo[axis], box.lo[axis]);
+        seen->hi[axis] = fmaxf(seen->hi[axis], box.hi[axis]);
+    }
+    return 1;
+}
+
+/* Parts reach as far as the triangle: what a plane cuts off, another reference has. */
+static ec_result check_seen(const check *c)
+{
+    for (uint32_t id = 0; id < c->bvh->triangle_count; id++) {
+        ec_box box = triangle_box(c, id);
+        for (int axis = 0; axis < 3; axis++)
+            if (c->seen[id].lo[axis] != box.lo[axis] || c->seen[id].hi[axis] != box.hi[axis])
+                return ec_fail(c->err, "the BVH does not hold all of triangle %u", id);
+    }
+    return EC_OK;
+}
+
 static ec_result check_leaf(check *c, uint32_t index)
 {
     const ec_bvh_build_node *node = &c->bvh->nodes[index];
     if (node->count > EC_LEAF_MAX) return ec_fail(c->err, "BVH leaf %u holds %u triangles", index, node->count);
     if (node->first != c->next) return ec_fail(c->err, "BVH leaf %u starts at %u, not %u", index, node->first, c->next);
-    if (node->count > c->bvh->triangle_count - node->first)
+    if (node->count > c->bvh->ref_count - node->first)
         return ec_fail(c->err, "BVH leaf %u ends past the last triangle", index);
     c->next += node->count;
     for (uint32_t i = node->first; i < c->next; i++) {
         uint32_t id = c->bvh->order[i];
-        if (id >= c->bvh->triangle_count || c->seen[id]++)
-            return ec_fail(c->err, "BVH leaf %u holds triangle %u, unknown or held already", index, id);
-        for (int corner = 0; corner < 3; corner++) {
-            const float *p = c->positions + 3 * (size_t)c->indices[3 * (size_t)id + corner];
-            if (!inside(p, p, node)) return ec_fail(c->err, "triangle %u sticks out of BVH leaf %u", id, index);
-        }
+        if (!see(c, i)) return ec_fail(c->err, "BVH leaf %u holds triangle %u, unknown or held already", index, id);
+        ec_box box = c->bvh->boxes ? c->bvh->boxes[i] : triangle_box(c, id);
+        if (!inside(box.lo, box.hi, node)) return ec_fail(c->err, "triangle %u sticks out of BVH leaf %u", id, index);
     }
     return EC_OK;
 }
@@ -62,11 +101,14 @@ ec_result ec_bvh_check(const ec_bvh *bvh, const float *positions, const uint32_t
 {
     check c = {.bvh = bvh, .positions = positions, .indices = indices, .err = err};
     if (!bvh->node_count || !bvh->nodes || !bvh->order) return ec_fail(err, "the BVH has not been built");
-    c.seen = calloc(bvh->triangle_count + 1, 1);
+    c.seen = malloc((bvh->triangle_count + 1) * sizeof *c.seen);
     if (!c.seen) return ec_fail(err, "out of memory for checking the BVH");
+    for (uint32_t id = 0; id < bvh->triangle_count; id++)
+        c.seen[id] = (ec_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     ec_result result = check_node(&c, 0, 0);
-    if (result == EC_OK && c.next != bvh->triangle_count)
-        result = ec_fail(err, "the BVH holds %u of %u triangles", c.next, bvh->triangle_count);
+    if (result == EC_OK && c.next != bvh->ref_count)
+        result = ec_fail(err, "the BVH's leaves hold %u of %u references", c.next, bvh->ref_count);
+    if (result == EC_OK) result = check_seen(&c);
     if (result == EC_OK && c.visited != bvh->node_count)
         result = ec_fail(err, "%u of %u BVH nodes can be reached", c.visited, bvh->node_count);
     free(c.seen);

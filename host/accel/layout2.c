@@ -30,6 +30,7 @@ typedef struct plan {
     subtree *subtrees;
     group *groups;
     uint32_t *ids; /* triangles in the order of the new leaves */
+    ec_box *boxes; /* the same; NULL where the tree has none */
     uint32_t upper_count, subtree_count, group_count;
     int failed;
 } plan;
@@ -71,8 +72,8 @@ static void build_group(plan *p, uint32_t index)
     for (uint32_t i = begin; i < end; i++) {
         subtree *s = &p->subtrees[i];
         uint32_t first = p->bvh->nodes[s->root].first, count = p->below[s->root].count;
-        s->child = ec_sweep_build(p->positions, p->indices, p->ids + first, count, first, s->depth, g->nodes,
-                                  &g->node_count);
+        s->child = ec_sweep_build(p->positions, p->indices, p->ids + first, p->boxes ? p->boxes + first : NULL, count,
+                                  first, s->depth, g->nodes, &g->node_count);
     }
     ec_bvh2_node *trimmed = realloc(g->nodes, (g->node_count + 1) * sizeof *g->nodes);
     if (trimmed) g->nodes = trimmed;
@@ -99,13 +100,22 @@ static int allocate_plan(plan *p)
     p->below = ec_bvh_subtrees(p->bvh);
     p->upper = malloc(p->bvh->node_count * sizeof *p->upper); /* far too much, and never touched */
     p->subtrees = malloc(p->bvh->node_count * sizeof *p->subtrees);
-    p->ids = malloc(p->bvh->triangle_count * sizeof *p->ids);
-    if (!p->below || !p->upper || !p->subtrees || !p->ids) return 0;
-    memcpy(p->ids, p->bvh->order, p->bvh->triangle_count * sizeof *p->ids);
+    if (!p->below || !p->upper || !p->subtrees) return 0;
     plan_upper(p, 0, 0);
     p->group_count = (p->subtree_count + GROUP - 1) / GROUP;
     p->groups = calloc(p->group_count, sizeof *p->groups);
     return p->groups != NULL;
+}
+
+static int copy_references(plan *p)
+{
+    size_t count = p->bvh->ref_count;
+    p->ids = malloc((count + 1) * sizeof *p->ids);
+    if (p->bvh->boxes) p->boxes = malloc(count * sizeof *p->boxes);
+    if (!p->ids || (p->bvh->boxes && !p->boxes)) return 0;
+    memcpy(p->ids, p->bvh->order, count * sizeof *p->ids);
+    if (p->boxes) memcpy(p->boxes, p->bvh->boxes, count * sizeof *p->boxes);
+    return 1;
 }
 
 static void free_plan(plan *p)
@@ -116,6 +126,7 @@ static void free_plan(plan *p)
     free(p->upper);
     free(p->subtrees);
     free(p->ids);
+    free(p->boxes);
 }
 
 /* The nodes of a tree of more than EC_SWEEP_MAX triangles; NULL when out of memory. */
@@ -141,16 +152,11 @@ static ec_bvh2_node *build_large(plan *p, uint32_t *node_count)
 /* The same for any smaller tree. A root is always a node, if need be with a single child. */
 static ec_bvh2_node *build_small(plan *p, uint32_t *node_count)
 {
-    uint32_t count = p->bvh->triangle_count;
-    p->ids = malloc((count + 1) * sizeof *p->ids);
+    uint32_t count = p->bvh->ref_count;
     ec_bvh2_node *nodes = ec_allocate_lines(count, sizeof *nodes);
-    if (!nodes || !p->ids) {
-        free(nodes);
-        return NULL;
-    }
-    memcpy(p->ids, p->bvh->order, count * sizeof *p->ids);
+    if (!nodes) return NULL;
     *node_count = 0;
-    uint32_t root = ec_sweep_build(p->positions, p->indices, p->ids, count, 0, 0, nodes, node_count);
+    uint32_t root = ec_sweep_build(p->positions, p->indices, p->ids, p->boxes, count, 0, 0, nodes, node_count);
     if (root & EC_LEAF_BIT) {
         *node_count = 1;
         memset(&nodes[0], 0, sizeof nodes[0]);
@@ -167,8 +173,8 @@ static ec_bvh2_node *build_small(plan *p, uint32_t *node_count)
 
 static void fill_triangles(const plan *p, ec_tri *triangles)
 {
-#pragma omp parallel for schedule(dynamic, 4096) if (p->bvh->triangle_count > 4096)
-    for (uint32_t i = 0; i < p->bvh->triangle_count; i++) {
+#pragma omp parallel for schedule(dynamic, 4096) if (p->bvh->ref_count > 4096)
+    for (uint32_t i = 0; i < p->bvh->ref_count; i++) {
         const uint32_t *corner = p->indices + 3 * (size_t)p->ids[i];
         triangles[i] = (ec_tri){.id = p->ids[i]};
         memcpy(triangles[i].v0, p->positions + 3 * (size_t)corner[0], sizeof triangles[i].v0);
@@ -183,49 +189,60 @@ static int is_quad(const ec_tri *first, const ec_tri *second)
     return !memcmp(first->v0, second->v0, sizeof first->v0) && !memcmp(first->v2, second->v1, sizeof first->v2);
 }
 
+static void exchange(ec_tri *leaf, ec_box *boxes, uint32_t i, uint32_t k)
+{
+    ec_tri tri = leaf[i];
+    leaf[i] = leaf[k];
+    leaf[k] = tri;
+    if (!boxes) return;
+    ec_box box = boxes[i];
+    boxes[i] = boxes[k];
+    boxes[k] = box;
+}
+
 /* Brings the two halves of quads together within one leaf. */
-static void pair_leaf(ec_tri *leaf, uint32_t count)
+static void pair_leaf(ec_tri *leaf, ec_box *boxes, uint32_t count)
 {
     for (uint32_t i = 0; i + 1 < count; i++) {
         uint32_t k = i + 1;
         while (k < count && !is_quad(&leaf[i], &leaf[k]) && !is_quad(&leaf[k], &leaf[i])) k++;
         if (k == count) continue;
-        ec_tri other = leaf[k];
-        leaf[k] = leaf[i + 1];
-        leaf[i + 1] = other;
-        if (!is_quad(&leaf[i], &leaf[i + 1])) {
-            leaf[i + 1] = leaf[i];
-            leaf[i] = other;
-        }
+        exchange(leaf, boxes, i + 1, k);
+        if (!is_quad(&leaf[i], &leaf[i + 1])) exchange(leaf, boxes, i, i + 1);
         leaf[i++].has_pair = 1;
     }
 }
 
-static void pair_leaves(const ec_bvh2_node *nodes, uint32_t node_count, ec_tri *triangles)
+static void pair_leaves(const ec_bvh2_node *nodes, uint32_t node_count, ec_tri *triangles, ec_box *boxes)
 {
 #pragma omp parallel for schedule(dynamic, 4096) if (node_count > 4096)
     for (uint32_t i = 0; i < node_count; i++)
         for (int side = 0; side < 2; side++) {
             uint32_t child = nodes[i].child[side];
             if (child == EC_NO_CHILD || !(child & EC_LEAF_BIT)) continue;
-            pair_leaf(triangles + ((child & ~EC_LEAF_BIT) >> 4), child & 15u);
+            uint32_t first = (child & ~EC_LEAF_BIT) >> 4;
+            pair_leaf(triangles + first, boxes ? boxes + first : NULL, child & 15u);
         }
 }
 
 ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh2_node **nodes,
-                         uint32_t *node_count, ec_tri **triangles, uint32_t *triangle_count, ec_error *err)
+                         uint32_t *node_count, ec_tri **triangles, ec_box **boxes, uint32_t *triangle_count,
+                         ec_error *err)
 {
-    if (bvh->triangle_count >= 1u << 27)
+    if (bvh->ref_count >= 1u << 27)
         return ec_fail(err, "%u triangles are more than the binary BVH layout can number", bvh->triangle_count);
     plan p = {.bvh = bvh, .positions = positions, .indices = indices};
-    ec_bvh2_node *n = bvh->triangle_count > EC_SWEEP_MAX ? build_large(&p, node_count) : build_small(&p, node_count);
-    ec_tri *t = n ? ec_allocate_lines(bvh->triangle_count, sizeof *t) : NULL;
+    ec_bvh2_node *n = NULL;
+    if (copy_references(&p)) n = bvh->ref_count > EC_SWEEP_MAX ? build_large(&p, node_count) : build_small(&p, node_count);
+    ec_tri *t = n ? ec_allocate_lines(bvh->ref_count, sizeof *t) : NULL;
     if (t) {
         fill_triangles(&p, t);
-        pair_leaves(n, *node_count, t);
+        pair_leaves(n, *node_count, t, p.boxes);
         *nodes = n;
         *triangles = t;
-        *triangle_count = bvh->triangle_count;
+        *boxes = p.boxes;
+        *triangle_count = bvh->ref_count;
+        p.boxes = NULL;
     } else {
         free(n);
     }

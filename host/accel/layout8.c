@@ -19,6 +19,7 @@ typedef struct plan {
     const ec_bvh *bvh;
     ec_subtree *subtrees;
     ec_collapse collapse;
+    float *promise; /* by binary node, of occlusion.c */
     wide *nodes;
     uint32_t *leaves; /* the binary node of each block */
     uint32_t node_count, leaf_count;
@@ -54,20 +55,13 @@ static int gather_within(const plan *p, uint32_t index, uint32_t stack, uint32_t
     return count;
 }
 
-static float half_area(const ec_bvh_build_node *n)
-{
-    float x = n->hi[0] - n->lo[0], y = n->hi[1] - n->lo[1], z = n->hi[2] - n->lo[2];
-    return x * y + y * z + z * x;
-}
-
-/* Small ones first: shadow rays go through a node's children from the last to the first, and large leaves stop most. */
-static void sort_by_area(const plan *p, uint32_t *children, int count)
+/* The best for shadow rays last: they go through a node's children from the last to the first. */
+static void sort_by_promise(const plan *p, uint32_t *children, int count)
 {
     for (int i = 1; i < count; i++) {
         uint32_t child = children[i];
-        float area = half_area(&p->bvh->nodes[child]);
         int k = i;
-        for (; k > 0 && half_area(&p->bvh->nodes[children[k - 1]]) > area; k--) children[k] = children[k - 1];
+        for (; k > 0 && p->promise[children[k - 1]] > p->promise[child]; k--) children[k] = children[k - 1];
         children[k] = child;
     }
 }
@@ -77,7 +71,7 @@ static void plan_node(plan *p, uint32_t at, uint32_t index, uint32_t stack)
 {
     uint32_t children[8];
     int count = is_leaf(p, index) ? (children[0] = index, 1) : gather_within(p, index, stack, children);
-    sort_by_area(p, children, count);
+    sort_by_promise(p, children, count);
     wide *node = &p->nodes[at];
     *node = (wide){.first_node = p->node_count, .first_leaf = p->leaf_count};
     for (int k = 0; k < count; k++)
@@ -121,21 +115,37 @@ static void fill_block(const plan *p, uint32_t index, const float *positions, co
     }
 }
 
-static void fill(const plan *p, const float *positions, const uint32_t *indices, ec_bvh8_node *nodes, ec_tri8 *blocks)
+static void fill_boxes(const plan *p, uint32_t index, ec_box8 *boxes)
+{
+    const ec_box *from = p->bvh->boxes + p->bvh->nodes[index].first;
+    memset(boxes, 0, sizeof *boxes);
+    for (uint32_t slot = 0; slot < p->subtrees[index].count; slot++)
+        for (int axis = 0; axis < 3; axis++) {
+            boxes->lo[axis][slot] = from[slot].lo[axis];
+            boxes->hi[axis][slot] = from[slot].hi[axis];
+        }
+}
+
+static void fill(const plan *p, const float *positions, const uint32_t *indices, ec_bvh8_node *nodes, ec_tri8 *blocks,
+                 ec_box8 *boxes)
 {
 #pragma omp parallel if (p->leaf_count > CHUNK)
     {
 #pragma omp for nowait schedule(dynamic, CHUNK)
         for (uint32_t i = 0; i < p->node_count; i++) fill_node(p, &p->nodes[i], &nodes[i]);
 #pragma omp for schedule(dynamic, CHUNK)
-        for (uint32_t i = 0; i < p->leaf_count; i++) fill_block(p, p->leaves[i], positions, indices, &blocks[i]);
+        for (uint32_t i = 0; i < p->leaf_count; i++) {
+            fill_block(p, p->leaves[i], positions, indices, &blocks[i]);
+            if (boxes) fill_boxes(p, p->leaves[i], &boxes[i]);
+        }
     }
 }
 
 static int make_plan(plan *p)
 {
     p->subtrees = ec_bvh_subtrees(p->bvh);
-    if (!p->subtrees || !ec_collapse8(p->bvh, p->subtrees, &p->collapse)) return 0;
+    p->promise = ec_bvh_promises(p->bvh);
+    if (!p->subtrees || !p->promise || !ec_collapse8(p->bvh, p->subtrees, &p->collapse)) return 0;
     /* A binary tree has one more leaf than inner nodes. Wide nodes are fewer, and untouched memory costs nothing. */
     p->nodes = malloc((p->bvh->node_count / 2 + 1) * sizeof *p->nodes);
     p->leaves = malloc((p->bvh->node_count / 2 + 1) * sizeof *p->leaves);
@@ -146,27 +156,32 @@ static int make_plan(plan *p)
 }
 
 ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh8_node **nodes,
-                         uint32_t *node_count, ec_tri8 **blocks, uint32_t *block_count, ec_error *err)
+                         uint32_t *node_count, ec_tri8 **blocks, ec_box8 **boxes, uint32_t *block_count, ec_error *err)
 {
     plan p = {.bvh = bvh};
     ec_bvh8_node *n = NULL;
     ec_tri8 *b = NULL;
+    ec_box8 *x = NULL;
     if (make_plan(&p)) {
         n = ec_allocate_lines(p.node_count, sizeof *n);
         b = ec_allocate_lines(p.leaf_count, sizeof *b);
+        if (bvh->boxes) x = ec_allocate_lines(p.leaf_count, sizeof *x);
     }
-    ec_result result = n && b ? EC_OK : ec_fail(err, "out of memory for the 8-wide BVH of %u triangles", bvh->triangle_count);
+    ec_result result = n && b && (x || !bvh->boxes) ? EC_OK : ec_fail(err, "out of memory for the 8-wide BVH of %u triangles", bvh->triangle_count);
     if (result == EC_OK) {
-        fill(&p, positions, indices, n, b);
+        fill(&p, positions, indices, n, b, x);
         *nodes = n;
         *blocks = b;
+        *boxes = x;
         *node_count = p.node_count;
         *block_count = p.leaf_count;
     } else {
         free(n);
         free(b);
+        free(x);
     }
     free(p.subtrees);
+    free(p.promise);
     free(p.collapse.slots);
     free(p.nodes);
     free(p.leaves);

@@ -8,7 +8,7 @@
 
 /* What a node does not say about the subtree below it. */
 typedef struct ec_subtree {
-    uint32_t count;  /* triangles: order[node.first .. node.first + count) */
+    uint32_t count;  /* references: order[node.first .. node.first + count) */
     uint32_t height; /* edges down to the deepest leaf */
 } ec_subtree;
 
@@ -22,12 +22,16 @@ typedef struct ec_collapse {
 } ec_collapse;
 int ec_collapse8(const ec_bvh *bvh, const ec_subtree *subtrees, ec_collapse *collapse);
 
+/* occlusion.c: how promising each node is to a shadow ray inside it; one a node, malloc'ed and the caller's, NULL when
+ * out of memory. */
+float *ec_bvh_promises(const ec_bvh *bvh);
+
 /* sweep.c: exact SAH over at most EC_SWEEP_MAX triangles, for leaves of at most EC_SWEEP_LEAF that are tested triangle
- * by triangle. Reorders ids; appends to nodes (children numbered within them) and returns the reference to the root,
- * whose leaves count triangles from `first`. */
+ * by triangle. Reorders ids, and boxes with them (NULL: the triangles' own); appends to nodes (children numbered within
+ * them) and returns the reference to the root, whose leaves count triangles from `first`. */
 #define EC_SWEEP_MAX 64u
 #define EC_SWEEP_LEAF 4u
-uint32_t ec_sweep_build(const float *positions, const uint32_t *indices, uint32_t *ids, uint32_t count, uint32_t first,
-                        uint32_t depth, ec_bvh2_node *nodes, uint32_t *node_count);
+uint32_t ec_sweep_build(const float *positions, const uint32_t *indices, uint32_t *ids, ec_box *boxes, uint32_t count,
+                        uint32_t first, uint32_t depth, ec_bvh2_node *nodes, uint32_t *node_count);
 
 #endif

@@ -1,38 +1,27 @@
-/* One range of triangles into two: bin, choose, deal. Long ranges go chunk by chunk on all cores; the chunks are the same
- * for any number of cores, and so is everything that comes out. */
+/* One range of triangles into two: bin, choose, deal. */
 #include <stdlib.h>
 
 #include "accel/build_internal.h"
 
-#define CHUNK 16384u
-#define PARALLEL_MIN (4 * CHUNK)
-
 typedef struct chunk {
     ec_bins bins;
     uint32_t left, right; /* where its triangles go */
-    ec_box4 centroids[2];
+    ec_range sides[2];
 } chunk;
-
-static uint32_t chunk_count_of(uint32_t count) { return count < PARALLEL_MIN ? 1 : (count + CHUNK - 1) / CHUNK; }
-
-static uint32_t chunk_length(const ec_range *range, uint32_t chunk_count, uint32_t index)
-{
-    return index + 1 < chunk_count ? CHUNK : range->count - index * CHUNK;
-}
 
 static ec_split bin(const ec_prim *prims, const ec_range *range, const ec_binning *binning, chunk *chunks,
                     uint32_t chunk_count)
 {
     if (chunk_count == 1) {
         ec_bins_fill(&chunks[0].bins, binning, prims, range->count);
-        return ec_bins_split(&chunks[0].bins, range);
+        return ec_bins_split(&chunks[0].bins, chunks[0].bins.count, range);
     }
 #pragma omp taskloop default(shared)
     for (uint32_t i = 0; i < chunk_count; i++)
-        ec_bins_fill(&chunks[i].bins, binning, prims + i * CHUNK, chunk_length(range, chunk_count, i));
+        ec_bins_fill(&chunks[i].bins, binning, prims + i * EC_CHUNK, ec_chunk_length(range, i));
     ec_bins total = chunks[0].bins;
     for (uint32_t i = 1; i < chunk_count; i++) ec_bins_merge(&total, &chunks[i].bins);
-    return ec_bins_split(&total, range);
+    return ec_bins_split(&total, total.count, range);
 }
 
 static void deal(const ec_builder *builder, const ec_range *range, const ec_binning *binning, const ec_split *split,
@@ -40,12 +29,11 @@ static void deal(const ec_builder *builder, const ec_range *range, const ec_binn
 {
     const ec_prim *from = builder->prims[range->buffer] + range->first;
     ec_prim *to = builder->prims[1 - range->buffer] + range->first;
-    uint32_t left = 0, right = split->left_count;
+    uint32_t left = 0, right = children[1].first - range->first;
     if (chunk_count == 1) {
-        ec_box4 centroids[2];
-        ec_prims_partition(from, range->count, binning, split, to, to + right, centroids);
-        children[0].centroids = centroids[0];
-        children[1].centroids = centroids[1];
+        ec_range sides[2];
+        ec_prims_partition(from, range->count, binning, split, to, to + right, sides);
+        for (int side = 0; side < 2; side++) ec_range_join(&children[side], &sides[side]);
         return;
     }
     for (uint32_t i = 0; i < chunk_count; i++) {
@@ -53,26 +41,27 @@ static void deal(const ec_builder *builder, const ec_range *range, const ec_binn
         chunks[i].left = left;
         chunks[i].right = right;
         left += lefts;
-        right += chunk_length(range, chunk_count, i) - lefts;
+        right += ec_chunk_length(range, i) - lefts;
     }
 #pragma omp taskloop default(shared)
     for (uint32_t i = 0; i < chunk_count; i++)
-        ec_prims_partition(from + i * CHUNK, chunk_length(range, chunk_count, i), binning, split, to + chunks[i].left,
-                           to + chunks[i].right, chunks[i].centroids);
-    for (int side = 0; side < 2; side++) {
-        children[side].centroids = ec_box4_empty();
-        for (uint32_t i = 0; i < chunk_count; i++)
-            ec_box4_grow(&children[side].centroids, chunks[i].centroids[side].lo, chunks[i].centroids[side].hi);
-    }
+        ec_prims_partition(from + i * EC_CHUNK, ec_chunk_length(range, i), binning, split, to + chunks[i].left,
+                           to + chunks[i].right, chunks[i].sides);
+    for (int side = 0; side < 2; side++)
+        for (uint32_t i = 0; i < chunk_count; i++) ec_range_join(&children[side], &chunks[i].sides[side]);
 }
 
-static void place_children(const ec_range *range, uint32_t left_count, uint32_t buffer, ec_range children[2])
+void ec_range_place(const ec_range *range, uint32_t left_count, uint32_t right_count, uint32_t slack, uint32_t buffer,
+                    ec_range children[2])
 {
     children[0].first = range->first;
     children[0].count = left_count;
-    children[1].first = range->first + left_count;
-    children[1].count = range->count - left_count;
+    children[0].capacity = left_count + slack;
+    children[1].first = range->first + children[0].capacity;
+    children[1].count = right_count;
+    children[1].capacity = range->capacity - children[0].capacity;
     for (int side = 0; side < 2; side++) {
+        ec_range_clear(&children[side]);
         children[side].depth = range->depth + 1;
         children[side].buffer = buffer;
     }
@@ -82,14 +71,15 @@ static void place_children(const ec_range *range, uint32_t left_count, uint32_t 
  * too deep. */
 static void split_in_the_middle(const ec_builder *builder, const ec_range *range, ec_range children[2])
 {
-    place_children(range, range->count / 2, range->buffer, children);
+    uint32_t left = range->count / 2;
+    ec_range_place(range, left, range->count - left, 0, range->buffer, children);
     for (int side = 0; side < 2; side++)
         ec_prims_bound(builder->prims[range->buffer] + children[side].first, children[side].count, &children[side]);
 }
 
 int ec_range_split(ec_builder *builder, const ec_range *range, ec_range children[2])
 {
-    uint32_t chunk_count = chunk_count_of(range->count);
+    uint32_t chunk_count = ec_chunk_count(range);
     if (range->count <= 1) return 0;
     chunk one, *chunks = chunk_count == 1 ? &one : malloc(chunk_count * sizeof *chunks);
     if (!chunks) {
@@ -105,9 +95,11 @@ int ec_range_split(ec_builder *builder, const ec_range *range, ec_range children
         inner = 0;
     } else if (split.axis < 0 || !ec_depth_allows(range->depth + 1, larger)) {
         split_in_the_middle(builder, range, children);
-    } else {
+    } else if (!ec_range_cut(builder, range, &split, children)) {
+        uint64_t slack = range->capacity - range->count;
+        ec_range_place(range, split.left_count, range->count - split.left_count,
+                       (uint32_t)(slack * split.left_count / range->count), 1 - range->buffer, children);
         deal(builder, range, &binning, &split, chunks, chunk_count, children);
-        place_children(range, split.left_count, 1 - range->buffer, children);
         children[0].box = split.left;
         children[1].box = split.right;
     }

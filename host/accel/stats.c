@@ -25,10 +25,11 @@ static void visit(const ec_bvh *bvh, uint32_t index, uint32_t depth, ec_bvh_stat
 
 void ec_bvh_measure(const ec_bvh *bvh, double build_seconds, ec_bvh_stats *stats)
 {
-    *stats = (ec_bvh_stats){.build_seconds = build_seconds, .node_count = bvh->node_count};
+    *stats = (ec_bvh_stats){.build_seconds = build_seconds, .node_count = bvh->node_count,
+                             .ref_count = bvh->ref_count};
     if (bvh->triangle_count) visit(bvh, 0, 0, stats);
     else stats->leaf_count = 1;
     double root = bvh->triangle_count ? half_area(&bvh->nodes[0]) : 0.0;
     stats->sah_cost = root > 0.0 ? stats->sah_cost / root : 0.0;
-    stats->leaf_fill = bvh->triangle_count / ((double)EC_LEAF_MAX * stats->leaf_count);
+    stats->leaf_fill = bvh->ref_count / ((double)EC_LEAF_MAX * stats->leaf_count);
 }

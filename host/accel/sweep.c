@@ -34,6 +34,11 @@ static ec_box4 triangle_box(const float *positions, const uint32_t *corner)
     return box;
 }
 
+static ec_box4 box4_of(const ec_box *box)
+{
+    return (ec_box4){{box->lo[0], box->lo[1], box->lo[2], 0.0f}, {box->hi[0], box->hi[1], box->hi[2], 0.0f}};
+}
+
 /* Insertion, since most ranges come nearly sorted from the builder. Equal centroids keep their order. */
 static void sort_axis(sweep *s, int axis, uint32_t count)
 {
@@ -144,16 +149,21 @@ static uint32_t build(sweep *s, const ec_box4 *box, uint32_t begin, uint32_t end
     return index;
 }
 
-uint32_t ec_sweep_build(const float *positions, const uint32_t *indices, uint32_t *ids, uint32_t count, uint32_t first,
-                        uint32_t depth, ec_bvh2_node *nodes, uint32_t *node_count)
+uint32_t ec_sweep_build(const float *positions, const uint32_t *indices, uint32_t *ids, ec_box *boxes, uint32_t count,
+                        uint32_t first, uint32_t depth, ec_bvh2_node *nodes, uint32_t *node_count)
 {
     sweep s = {.first = first, .nodes = nodes, .node_count = node_count};
     uint32_t given[EC_SWEEP_MAX];
-    for (uint32_t i = 0; i < count; i++) s.box[i] = triangle_box(positions, indices + 3 * (size_t)ids[i]);
+    for (uint32_t i = 0; i < count; i++)
+        s.box[i] = boxes ? box4_of(&boxes[i]) : triangle_box(positions, indices + 3 * (size_t)ids[i]);
     for (int axis = 0; axis < 3; axis++) sort_axis(&s, axis, count);
     ec_box4 box = bound(&s, 0, 0, count);
     uint32_t root = build(&s, &box, 0, count, depth);
     memcpy(given, ids, count * sizeof *ids);
     for (uint32_t i = 0; i < count; i++) ids[i] = given[s.leaf_order[i]];
+    for (uint32_t i = 0; boxes && i < count; i++) {
+        memcpy(boxes[i].lo, &s.box[s.leaf_order[i]].lo, sizeof boxes[i].lo);
+        memcpy(boxes[i].hi, &s.box[s.leaf_order[i]].hi, sizeof boxes[i].hi);
+    }
     return root;
 }

@@ -41,6 +41,8 @@ static inline ec_i4 ec_v4_truncate(ec_v4 v)
 }
 #endif
 
+static inline ec_v4 ec_v4_abs(ec_v4 v) { return (ec_v4)((ec_i4)v & ec_i4_all(0x7fffffff)); }
+
 static inline ec_v4 ec_v4_select(ec_i4 mask, ec_v4 yes, ec_v4 no)
 {
     return (ec_v4)((mask & (ec_i4)yes) | (~mask & (ec_i4)no));

@@ -56,7 +56,7 @@ static ec_result measure(ec_scene_report *report, char *effects, size_t effects_
     ec_scene_report_count(report);
     EC_TRY(ec_bvh_build(scene->positions, scene->indices, scene->triangle_count, 0, &bvh, &report->bvh, err));
     ec_bvh_free(&bvh);
-    EC_TRY(ec_scene_estimate(scene, &report->device_bytes, effects, effects_size, err));
+    EC_TRY(ec_scene_estimate(scene, report->bvh.ref_count, &report->device_bytes, effects, effects_size, err));
     report->peak_memory_bytes = ec_peak_memory_bytes();
     return EC_OK;
 }

@@ -231,7 +231,7 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     return result;
 }
 
-ec_result ec_scene_estimate(const ec_scene *scene, uint64_t *device_bytes, char *effects, size_t effects_size, ec_error *err)
+ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, char *effects, size_t effects_size, ec_error *err)
 {
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));
@@ -241,7 +241,8 @@ ec_result ec_scene_estimate(const ec_scene *scene, uint64_t *device_bytes, char 
     bytes += (scene->uv[0] ? 8 * vertices : 0) + (scene->uv[1] ? 8 * vertices : 0);
     bytes += pack.texel_words * 4 + (uint64_t)pack.light_count * (sizeof(ec_light_data) + sizeof(ec_alias));
     bytes += (uint64_t)pack.environment_width * pack.environment_height * 24;
-    bytes += triangles / 7 * sizeof(ec_tri8) + triangles / 20 * sizeof(ec_bvh8_node); /* leaf blocks seven eighths full */
+    uint64_t blocks = ref_count / 7, boxes = ref_count > triangles ? blocks : 0; /* leaf blocks seven eighths full */
+    bytes += blocks * sizeof(ec_tri8) + boxes * sizeof(ec_box8) + ref_count / 20 * sizeof(ec_bvh8_node);
     *device_bytes = bytes;
     ec_feature_names(pack.features, effects, effects_size);
     ec_pack_free(&pack);

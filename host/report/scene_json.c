@@ -55,6 +55,7 @@ static void add_list(cJSON *root, const char *key, char **names, uint32_t count)
 static void add_bvh(cJSON *root, const ec_bvh_stats *stats)
 {
     cJSON *bvh = cJSON_AddObjectToObject(root, "bvh");
+    ec_json_whole(bvh, "references", stats->ref_count);
     ec_json_whole(bvh, "nodes", stats->node_count);
     ec_json_whole(bvh, "leaves", stats->leaf_count);
     ec_json_whole(bvh, "max_depth", stats->max_depth);

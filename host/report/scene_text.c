@@ -72,6 +72,10 @@ static void print_cost(const ec_scene_report *report, FILE *to)
     fprintf(to, "memory      %s on the device for the scene, without the film; %s on the host at peak\n", device, host);
     fprintf(to, "BVH         %u nodes, %u leaves, depth %u, SAH cost %.4g, leaf blocks %.0f %% full\n", bvh->node_count,
             bvh->leaf_count, bvh->max_depth, bvh->sah_cost, 100 * bvh->leaf_fill);
+    uint32_t triangles = report->scene->triangle_count;
+    if (bvh->ref_count > triangles)
+        fprintf(to, "            %u references: triangles cut into %.1f %% more parts\n", bvh->ref_count,
+                100.0 * (bvh->ref_count - triangles) / triangles);
     fprintf(to, "time        %s to load, %s to build the BVH\n", load, build);
 }
 

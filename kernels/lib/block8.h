@@ -61,7 +61,7 @@ EC_FN int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1,
 EC_FN void eight_take(const ray8 *q, const hit_filter *filter, const edges *e, int8 m, uint8 id, float8 t, float8 inverse,
                       v3 lo, v3 hi, bool any_hit, hit8 *h)
 {
-    m = m & triangle_clamp(&q->r, lo, hi, (float8)(h->t), &t) & ((t < h->t) | (id < h->prim));
+    m = m & reference_clamp(&q->r, lo, hi, (float8)(h->t), &t) & ((t < h->t) | (id < h->prim));
     float8 b1 = e->v * inverse + 0.0f, b2 = e->w * inverse + 0.0f; /* no -0: a shared edge is negated */
     m = filter_hits(filter, m, id, b1, b2, edges_front(&q->r, e));
     uint bits = mask_bits8(m), bit = 1;
@@ -93,9 +93,23 @@ EC_FN v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
     return ray_shear(q->r.shear_x, q->r.shear_y, p);
 }
 
-/* A block of up to eight triangles that lie side by side. */
-EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, uint skip0, uint skip1,
-                             bool any_hit, hit8 *h)
+/* Boxes of eight references: their own, or without those (`boxes` NULL) what the vertices span. */
+EC_FN void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxes, v3 *lo, v3 *hi)
+{
+    if (boxes) {
+        global const float8 *x = (global const float8 *)boxes;
+        *lo = v3_make(x[0], x[1], x[2]);
+        *hi = v3_make(x[3], x[4], x[5]);
+        return;
+    }
+    v3 v0 = tri8_vertex(b, 0), v1 = tri8_vertex(b, 1), v2 = tri8_vertex(b, 2);
+    *lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
+    *hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
+}
+
+/* A block of up to eight triangles that lie side by side. boxes: NULL where they are whole. */
+EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, global const ec_box8 *boxes,
+                             uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     edges e = edges_make(tri8_sheared(q, b, 0), tri8_sheared(q, b, 1), tri8_sheared(q, b, 2));
     uint8 id = *(global const uint8 *)b->id;
@@ -103,9 +117,8 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
     TALLY_TESTS(h, popcount(mask_bits8(id != EC_NO_ID)));
     int8 m = eight_meet(q, &e, id, skip0, skip1, h, &t, &inverse);
     if (!mask_bits8(m)) return;
-    v3 v0 = tri8_vertex(b, 0), v1 = tri8_vertex(b, 1), v2 = tri8_vertex(b, 2);
-    v3 lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
-    v3 hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
+    v3 lo, hi;
+    block8_boxes(b, boxes, &lo, &hi);
     eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);
 }
 

@@ -2,8 +2,15 @@
  * functions, so that all give the same hits bit for bit: packets put one ray in each lane and splat the triangle, the wide
  * BVH splats the ray and puts one triangle in each lane.
  *
- * Why culling can never change the answer: a hit's t is clamped into the triangle's own bounding slab, computed with the
- * same monotone arithmetic as any box above it. A box that holds the triangle therefore is entered no later than t. */
+ * Leaves hold references: a triangle and a box, its own or, where the builder has cut it, that of one part; the boxes of all
+ * its references together hold it. A reference is hit at t_R = max(t, near_R), t being the triangle's distance and near_R, far_R
+ * where the ray enters and leaves the reference's box, if near_R <= far_R. The answer is the least t_R of all references,
+ * of equal ones that of the least triangle id.
+ *
+ * Why culling can never change it: every box above a reference holds the reference's box, and is computed with the same
+ * monotone arithmetic. It therefore is entered no later than near_R <= t_R, and left no sooner than far_R.
+ * Why it is right: the hit lies in one of the triangle's boxes, and there t_R is t itself. Boxes before it give t as well,
+ * boxes behind it something larger, and it is the least that counts. */
 #ifndef EC_LIB_RAY_H
 #define EC_LIB_RAY_H
 
@@ -108,8 +115,8 @@ EC_FN lane_i edges_distance(const ray *r, const edges *e, lane_f t_max, lane_f *
     return (*t > least) & (*t <= t_max);
 }
 
-/* The distance clamped into the slab of the triangle's own box; false where that leaves (0, t_max]. */
-EC_FN lane_i triangle_clamp(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *t)
+/* The distance clamped into the slab of the reference's box; false where that leaves (0, t_max]. */
+EC_FN lane_i reference_clamp(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *t)
 {
     lane_f far, near = slab_near(r, lo, hi, F(EC_HUGE), &far);
     *t = max(*t, near);

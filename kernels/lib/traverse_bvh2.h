@@ -17,13 +17,16 @@ typedef struct hit {
 
 EC_FN v3 splat_point(global const float *p) { return v3_make(F(p[0]), F(p[1]), F(p[2])); }
 
-EC_FN v3 box_low(global const ec_tri *t)
+/* The box of a reference: its own, or without those (`box` NULL) what the vertices span. */
+EC_FN v3 box_low(global const ec_tri *t, global const ec_box *box)
 {
+    if (box) return splat_point(box->lo);
     return v3_make(F(min(t->v0[0], min(t->v1[0], t->v2[0]))), F(min(t->v0[1], min(t->v1[1], t->v2[1]))),
                    F(min(t->v0[2], min(t->v1[2], t->v2[2]))));
 }
-EC_FN v3 box_high(global const ec_tri *t)
+EC_FN v3 box_high(global const ec_tri *t, global const ec_box *box)
 {
+    if (box) return splat_point(box->hi);
     return v3_make(F(max(t->v0[0], max(t->v1[0], t->v2[0]))), F(max(t->v0[1], max(t->v1[1], t->v2[1]))),
                    F(max(t->v0[2], max(t->v1[2], t->v2[2]))));
 }
@@ -36,15 +39,17 @@ EC_FN v3 packet_vertex(const ray *r, global const float *p)
 
 /* Lanes m pass inside the edges e of triangle tri, or of the one after it where `second`: is it the closest so far, by (t,
  * triangle id)? skip0 and skip1 are triangles a lane ignores. */
-EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_tri *tri, lane_i second, const edges *e,
-                       lane_i m, lane_u skip0, lane_u skip1, hit *h)
+EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
+                       lane_i second, const edges *e, lane_i m, lane_u skip0, lane_u skip1, hit *h)
 {
     lane_u id = second ? U(tri[1].id) : U(tri[0].id);
     lane_f t, inverse;
     m = m & (skip0 != id) & (skip1 != id) & edges_distance(r, e, h->t, &inverse, &t);
     if (!any_lane(m)) return;
-    v3 lo = v3_select(second, box_low(tri + 1), box_low(tri)), hi = v3_select(second, box_high(tri + 1), box_high(tri));
-    m = m & triangle_clamp(r, lo, hi, h->t, &t) & ((t < h->t) | (id < h->prim));
+    global const ec_box *next = box ? box + 1 : 0;
+    v3 lo = v3_select(second, box_low(tri + 1, next), box_low(tri, box));
+    v3 hi = v3_select(second, box_high(tri + 1, next), box_high(tri, box));
+    m = m & reference_clamp(r, lo, hi, h->t, &t) & ((t < h->t) | (id < h->prim));
     lane_f b1 = e->v * inverse + 0.0f, b2 = e->w * inverse + 0.0f; /* no -0: a shared edge is negated */
     m = filter_hits(filter, m, id, b1, b2, edges_front(r, e));
     h->t = m ? t : h->t;
@@ -61,14 +66,14 @@ EC_FN edges edges_select(lane_i m, edges a, edges b)
 }
 
 /* One triangle, or two that form a quad, against the packet. Returns how many. */
-EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const ec_tri *tri, lane_u skip0, lane_u skip1,
-                            hit *h)
+EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
+                            lane_u skip0, lane_u skip1, hit *h)
 {
     v3 a = packet_vertex(r, tri->v0), b = packet_vertex(r, tri->v1), c = packet_vertex(r, tri->v2);
     edges e = edges_make(a, b, c);
     lane_i m = edges_inside(&e), none = !TRUE_MASK;
     if (!tri->has_pair) {
-        if (any_lane(m)) packet_take(r, filter, tri, none, &e, m, skip0, skip1, h);
+        if (any_lane(m)) packet_take(r, filter, tri, box, none, &e, m, skip0, skip1, h);
         return 1;
     }
     v3 d = packet_vertex(r, tri[1].v2);
@@ -77,11 +82,11 @@ EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const
     if (!any_lane(m | n)) return 2;
     /* A lane is inside one of the two; inside both only on the diagonal, or where the quad is folded. */
     if (any_lane(m & n)) {
-        packet_take(r, filter, tri, none, &e, m, skip0, skip1, h);
+        packet_take(r, filter, tri, box, none, &e, m, skip0, skip1, h);
         m = m & !n;
     }
     e = edges_select(n, f, e);
-    packet_take(r, filter, tri, n, &e, m | n, skip0, skip1, h);
+    packet_take(r, filter, tri, box, n, &e, m | n, skip0, skip1, h);
     return 2;
 }
 
@@ -91,13 +96,15 @@ EC_FN void bvh2_trace(const accel *a, const ray *r, const hit_filter *filter, la
 {
     global const ec_bvh2_node *nodes = a->at[0];
     global const ec_tri *tris = a->at[1];
+    global const ec_box *boxes = a->at[2];
     uint stack[EC_BVH_STACK];
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
             uint first = (current & ~EC_LEAF_BIT) >> 4, end = first + (current & 15u);
             TALLY_TESTS(h, end - first);
-            for (uint i = first; i < end;) i += packet_triangles(r, filter, tris + i, skip0, skip1, h);
+            for (uint i = first; i < end;)
+                i += packet_triangles(r, filter, tris + i, boxes ? boxes + i : 0, skip0, skip1, h);
             if (any_hit) {
                 h->t = h->prim != EC_NO_ID ? F(-1.0f) : h->t;
                 if (!any_lane(h->t >= 0.0f)) return;

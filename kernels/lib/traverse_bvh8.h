@@ -49,6 +49,15 @@ EC_FN uint8 pack8(uint8 v, uint mask)
 /* A child to visit: the bits of its distance, which order as it does, above its index. */
 EC_FN ulong8 entries8(float8 near, uint8 child) { return convert_ulong8(as_uint8(near)) << 32 | convert_ulong8(child); }
 
+/* A leaf's block, with its references' boxes where the builder has cut triangles. */
+EC_FN void leaf8(const accel *a, const ray8 *q, const hit_filter *filter, uint child, uint skip0, uint skip1, bool any_hit, hit8 *h)
+{
+    uint i = child & ~EC_LEAF_BIT;
+    global const ec_tri8 *blocks = a->at[1];
+    global const ec_box8 *boxes = a->at[2];
+    block8_triangles(q, filter, blocks + i, boxes ? boxes + i : 0, skip0, skip1, any_hit, h);
+}
+
 EC_FN void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
     global const ec_bvh8_node *nodes = a->at[0];
@@ -57,7 +66,7 @@ EC_FN void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter,
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
-            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, false, h);
+            leaf8(a, q, filter, current, skip0, skip1, false, h);
         } else {
             global const ec_bvh8_node *n = nodes + current;
             TALLY_NODE(h);
@@ -105,7 +114,7 @@ EC_FN bool bvh8_any(const accel *a, const ray8 *q, const hit_filter *filter, uin
     uint depth = 0, current = 0;
     for (;;) {
         if (current & EC_LEAF_BIT) {
-            block8_triangles(q, filter, blocks + (current & ~EC_LEAF_BIT), skip0, skip1, true, h);
+            leaf8(a, q, filter, current, skip0, skip1, true, h);
             if (h->prim != EC_NO_ID) return true;
         } else {
             global const ec_bvh8_node *n = nodes + current;

@@ -56,7 +56,7 @@ EC_FN void kdtree_trace(const accel *a, const ray8 *q, const hit_filter *filter,
     for (;;) {
         if (current & EC_LEAF_BIT) {
             uint at = (current & ~EC_LEAF_BIT) >> 6, end = at + (current & EC_KD_LEAF_MOST);
-            for (uint i = at; i < end; i++) block8_triangles(q, filter, blocks + i, skip0, skip1, any_hit, h);
+            for (uint i = at; i < end; i++) block8_triangles(q, filter, blocks + i, 0, skip0, skip1, any_hit, h);
             if (any_hit && h->prim != EC_NO_ID) return;
         } else {
             global const ec_kd_node *n = nodes + current;

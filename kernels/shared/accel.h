@@ -91,5 +91,17 @@ typedef struct ec_kd_header {
     ec_uint pad1;
 } ec_kd_header;
 EC_ASSERT_SIZE(ec_kd_header, 32);
+/* Boxes of references, in scenes where the builder has cut triangles: one beside each ec_tri, eight beside each ec_tri8.
+ * Elsewhere there are none, and the boxes meant are those of the vertices. */
+typedef struct ec_box {
+    ec_float lo[3], hi[3];
+} ec_box;
+EC_ASSERT_SIZE(ec_box, 24);
+
+/* Unused slots are 0. */
+typedef struct ec_box8 {
+    ec_float lo[3][8], hi[3][8];
+} ec_box8;
+EC_ASSERT_SIZE(ec_box8, 192);
 
 #endif

@@ -65,22 +65,26 @@ static void build_ours(const bench_mesh *mesh, times *t, int run)
     ec_tri8 *blocks;
     ec_bvh2_node *binary;
     ec_tri *triangles;
+    ec_box *boxes;
+    ec_box8 *wide_boxes;
     uint32_t count;
     double start = ec_now();
     if (ec_bvh_build(mesh->positions, mesh->indices, mesh->triangle_count, 0, &bvh, &t->stats, &err)) die(err.text);
     t->tree[run] = t->stats.build_seconds;
     start = ec_now();
-    if (ec_bvh8_layout(&bvh, mesh->positions, mesh->indices, &wide, &t->wide_nodes, &blocks, &t->blocks, &err))
+    if (ec_bvh8_layout(&bvh, mesh->positions, mesh->indices, &wide, &t->wide_nodes, &blocks, &wide_boxes, &t->blocks, &err))
         die(err.text);
     t->wide[run] = ec_now() - start;
     free(wide);
     free(blocks);
+    free(wide_boxes);
     start = ec_now();
-    if (ec_bvh2_layout(&bvh, mesh->positions, mesh->indices, &binary, &t->binary_nodes, &triangles, &count, &err))
+    if (ec_bvh2_layout(&bvh, mesh->positions, mesh->indices, &binary, &t->binary_nodes, &triangles, &boxes, &count, &err))
         die(err.text);
     t->binary[run] = ec_now() - start;
     free(binary);
     free(triangles);
+    free(boxes);
     ec_bvh_free(&bvh);
 }
 
@@ -116,9 +120,9 @@ int main(int argc, char **argv)
     printf("tree             %7.1f ms  %.2f x embree\n", 1e3 * tree, tree / embree);
     printf("tree + 8-wide    %7.1f ms  %.2f x embree\n", 1e3 * (tree + wide), (tree + wide) / embree);
     printf("tree + binary    %7.1f ms  %.2f x embree\n", 1e3 * (tree + binary), (tree + binary) / embree);
-    printf("tree: nodes %u leaves %u depth %u fill %.3f sah %.2f; 8-wide: nodes %u blocks %u fill %.3f; binary: nodes %u\n",
-           t.stats.node_count, t.stats.leaf_count, t.stats.max_depth, t.stats.leaf_fill, t.stats.sah_cost,
-           t.wide_nodes, t.blocks, mesh.triangle_count / (8.0 * t.blocks), t.binary_nodes);
+    printf("tree: references %u nodes %u leaves %u depth %u fill %.3f sah %.2f; 8-wide: nodes %u blocks %u fill %.3f; binary: nodes %u\n",
+           t.stats.ref_count, t.stats.node_count, t.stats.leaf_count, t.stats.max_depth, t.stats.leaf_fill, t.stats.sah_cost,
+           t.wide_nodes, t.blocks, t.stats.ref_count / (8.0 * t.blocks), t.binary_nodes);
     bench_mesh_free(&mesh);
     return 0;
 }
