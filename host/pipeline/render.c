@@ -231,7 +231,8 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     return result;
 }
 
-ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, char *effects, size_t effects_size, ec_error *err)
+ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, char *effects, size_t effects_size,
+                            ec_error *err)
 {
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));

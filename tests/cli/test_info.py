@@ -22,7 +22,7 @@ class Info(Case):
         self.assertGreater(report["device_bytes"], 0)
         self.assertGreater(report["peak_memory_bytes"], 0)
         self.assertIsInstance(report["effects"], list)
-        for key in ["nodes", "leaves", "max_depth", "sah_cost", "leaf_fill", "build_seconds"]:
+        for key in ["references", "nodes", "leaves", "max_depth", "sah_cost", "leaf_fill", "build_seconds"]:
             self.assertIn(key, report["bvh"])
 
     def test_glb_says_the_same(self):

@@ -64,11 +64,75 @@ static void test_thread_counts_agree(void)
             CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, threads, &other, NULL, &err), err);
             int same = one.node_count == other.node_count &&
                        !memcmp(one.nodes, other.nodes, one.node_count * sizeof *one.nodes) &&
-                       !memcmp(one.order, other.order, one.triangle_count * sizeof *one.order);
+                       one.ref_count == other.ref_count && !one.boxes == !other.boxes &&
+                       !memcmp(one.order, other.order, one.ref_count * sizeof *one.order) &&
+                       (!one.boxes || !memcmp(one.boxes, other.boxes, one.ref_count * sizeof *one.boxes));
             CHECK_MSG(same, "%s: %u threads build another tree than one", m.name, threads);
             ec_bvh_free(&other);
         }
         ec_bvh_free(&one);
+        mesh_free(&m);
+    }
+}
+
+static int is_in(const ec_box *box, const double p[3], double slack)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (p[axis] < box->lo[axis] - slack || p[axis] > box->hi[axis] + slack) return 0;
+    return 1;
+}
+
+/* No point of a triangle is lost where it has been cut: not in it, not on its edges, not at its corners. */
+static void check_coverage(const mesh *m, const ec_bvh *bvh)
+{
+    uint32_t *first = calloc(m->triangle_count + 2, sizeof *first), *refs = malloc(bvh->ref_count * sizeof *refs);
+    for (uint32_t i = 0; i < bvh->ref_count; i++) first[bvh->order[i] + 2]++;
+    for (uint32_t id = 0; id < m->triangle_count; id++) first[id + 2] += first[id + 1];
+    for (uint32_t i = 0; i < bvh->ref_count; i++) refs[first[bvh->order[i] + 1]++] = i;
+    uint32_t lost = 0, most = 0;
+    for (uint32_t id = 0; id < m->triangle_count; id++) {
+        uint32_t count = first[id + 1] - first[id];
+        if (count > most) most = count;
+        for (int k = 0; count > 1 && k < 200; k++) {
+            double a = k % 3 ? mesh_random() : k % 2, b = k % 5 < 2 ? 0.0 : (1.0 - a) * mesh_random(), p[3];
+            const float *v = m->positions + 9 * (size_t)id;
+            for (int axis = 0; axis < 3; axis++) p[axis] = (1.0 - a - b) * v[axis] + a * v[3 + axis] + b * v[6 + axis];
+            int found = 0; /* a few roundings of the point itself, in double */
+            for (uint32_t i = first[id]; i < first[id + 1] && !found; i++) found = is_in(&bvh->boxes[refs[i]], p, 1e-14);
+            lost += !found;
+        }
+    }
+    printf("%s: %u references of %u triangles, at most %u of one\n", m->name, bvh->ref_count, m->triangle_count, most);
+    CHECK_MSG(!lost, "%s: %u points lie in no box of their triangle", m->name, lost);
+    CHECK_MSG(most > 2, "%s: %u references of one triangle at most: nothing to see", m->name, most);
+    free(first);
+    free(refs);
+}
+
+static void test_cuts(void)
+{
+    ec_error err;
+    const mesh_kind cut[] = {{"beams", triangle_beam, 4000}, {"many beams", triangle_beam, 70000},
+                             {"room", triangle_room, 4000}, {"slivers", triangle_sliver, 3000}};
+    const mesh_kind whole[] = {{"small", triangle_small, 5000}, {"line-up", triangle_line_up, 20000},
+                               {"few beams", triangle_beam, 1000}};
+    for (int k = 0; k < 4; k++) {
+        mesh m = mesh_make(&cut[k]);
+        ec_bvh bvh;
+        ec_bvh_stats stats;
+        CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, &stats, &err), err);
+        CHECK(bvh.boxes && bvh.ref_count == stats.ref_count);
+        CHECK_MSG(bvh.ref_count > m.triangle_count && bvh.ref_count <= 1.3 * m.triangle_count, "%s: %u", m.name, bvh.ref_count);
+        if (bvh.boxes) check_coverage(&m, &bvh);
+        ec_bvh_free(&bvh);
+        mesh_free(&m);
+    }
+    for (int k = 0; k < 3; k++) { /* nothing to gain, or too little to matter */
+        mesh m = mesh_make(&whole[k]);
+        ec_bvh bvh;
+        CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, NULL, &err), err);
+        CHECK_MSG(!bvh.boxes && bvh.ref_count == m.triangle_count, "%s: %u references", m.name, bvh.ref_count);
+        ec_bvh_free(&bvh);
         mesh_free(&m);
     }
 }
@@ -102,6 +166,20 @@ static void test_check_sees_damage(void)
     CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED);
     bvh.nodes[leaf].count++;
     CHECK_OK(ec_bvh_check(&bvh, m.positions, m.indices, &err), err);
+    ec_bvh_free(&bvh);
+    mesh_free(&m);
+
+    m = mesh_make(&(mesh_kind){"beams", triangle_beam, 4000});
+    CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, NULL, &err), err);
+    CHECK_OK(ec_bvh_check(&bvh, m.positions, m.indices, &err), err);
+    for (uint32_t i = 0; bvh.boxes && i < bvh.ref_count; i++) {
+        float hi_0 = bvh.boxes[i].hi[0];
+        if (bvh.order[i] % 10) continue;
+        for (int k = 0; k < 3; k++) bvh.boxes[i].hi[0] = nextafterf(bvh.boxes[i].hi[0], -1.0f);
+        if (ec_bvh_check(&bvh, m.positions, m.indices, &err) != EC_OK) break; /* the part that has the far end */
+        bvh.boxes[i].hi[0] = hi_0;
+    }
+    CHECK(strstr(err.text, "does not hold all of triangle"));
     ec_bvh_free(&bvh);
     mesh_free(&m);
 }
@@ -190,6 +268,7 @@ int main(void)
     test_no_negative_zeros();
     test_not_numbers();
     test_thread_counts_agree();
+    test_cuts();
     test_check_sees_damage();
     test_cost();
     ec_bvh_free(NULL);

@@ -11,6 +11,8 @@ typedef struct layouts {
     ec_tri *triangles;
     ec_bvh8_node *nodes8;
     ec_tri8 *blocks;
+    ec_box *boxes2;
+    ec_box8 *boxes8;
     uint32_t count2, triangle_count, count8, block_count;
 } layouts;
 
@@ -19,10 +21,10 @@ static layouts make_layouts(const mesh *m)
     ec_error err;
     layouts l;
     CHECK_OK(ec_bvh_build(m->positions, m->indices, m->triangle_count, 0, &l.bvh, NULL, &err), err);
-    CHECK_OK(ec_bvh2_layout(&l.bvh, m->positions, m->indices, &l.nodes2, &l.count2, &l.triangles, &l.triangle_count,
-                            &err), err);
-    CHECK_OK(ec_bvh8_layout(&l.bvh, m->positions, m->indices, &l.nodes8, &l.count8, &l.blocks, &l.block_count, &err),
-             err);
+    CHECK_OK(ec_bvh2_layout(&l.bvh, m->positions, m->indices, &l.nodes2, &l.count2, &l.triangles, &l.boxes2,
+                            &l.triangle_count, &err), err);
+    CHECK_OK(ec_bvh8_layout(&l.bvh, m->positions, m->indices, &l.nodes8, &l.count8, &l.blocks, &l.boxes8,
+                            &l.block_count, &err), err);
     return l;
 }
 
@@ -33,6 +35,8 @@ static void free_layouts(layouts *l)
     free(l->triangles);
     free(l->nodes8);
     free(l->blocks);
+    free(l->boxes2);
+    free(l->boxes8);
 }
 
 /* ---- invariants ---- */
@@ -40,24 +44,17 @@ static void free_layouts(layouts *l)
 typedef struct walk {
     const mesh *m;
     const layouts *l;
-    uint32_t *seen; /* by triangle */
+    uint32_t *seen; /* by triangle: a number that its references make together, in whatever order they come */
     uint32_t visited;
     uint32_t bad;
 } walk;
 
-static void see(walk *w, uint32_t id, const float *v[3], const float lo[3], const float hi[3])
+/* 1 for a whole triangle. */
+static uint32_t number_of(const ec_box *box)
 {
-    if (id >= w->m->triangle_count) {
-        w->bad++;
-        return;
-    }
-    w->seen[id]++;
-    for (int corner = 0; corner < 3; corner++) {
-        const float *p = w->m->positions + 3 * (size_t)w->m->indices[3 * (size_t)id + corner];
-        if (memcmp(p, v[corner], 12)) w->bad++;
-        for (int axis = 0; axis < 3; axis++)
-            if (p[axis] < lo[axis] || p[axis] > hi[axis]) w->bad++;
-    }
+    uint32_t number = 1;
+    for (size_t i = 0; box && i < sizeof *box; i++) number = (number ^ ((const unsigned char *)box)[i]) * 16777619u;
+    return number;
 }
 
 static int inside(const float a_lo[3], const float a_hi[3], const float lo[3], const float hi[3])
@@ -65,6 +62,23 @@ static int inside(const float a_lo[3], const float a_hi[3], const float lo[3], c
     for (int axis = 0; axis < 3; axis++)
         if (a_lo[axis] < lo[axis] || a_hi[axis] > hi[axis]) return 0;
     return 1;
+}
+
+/* A reference: the vertices are the triangle's, and what counts as its box lies within the leaf's. */
+static void see(walk *w, uint32_t id, const float *v[3], const ec_box *box, const float lo[3], const float hi[3])
+{
+    if (id >= w->m->triangle_count) {
+        w->bad++;
+        return;
+    }
+    w->seen[id] += number_of(box);
+    if (box && !inside(box->lo, box->hi, lo, hi)) w->bad++;
+    for (int corner = 0; corner < 3; corner++) {
+        const float *p = w->m->positions + 3 * (size_t)w->m->indices[3 * (size_t)id + corner];
+        if (memcmp(p, v[corner], 12)) w->bad++;
+        for (int axis = 0; axis < 3; axis++)
+            if (!box && (p[axis] < lo[axis] || p[axis] > hi[axis])) w->bad++;
+    }
 }
 
 /* Returns the height: what an ordered traversal needs of its stack. */
@@ -85,7 +99,8 @@ static uint32_t walk2(walk *w, uint32_t index, const float lo[3], const float hi
             if (count > 4 || first + count > w->l->triangle_count) w->bad++;
             for (uint32_t i = first; i < first + count; i++) {
                 const ec_tri *t = &w->l->triangles[i];
-                see(w, t->id, (const float *[3]){t->v0, t->v1, t->v2}, node->lo[side], node->hi[side]);
+                see(w, t->id, (const float *[3]){t->v0, t->v1, t->v2}, w->l->boxes2 ? &w->l->boxes2[i] : NULL,
+                    node->lo[side], node->hi[side]);
             }
         } else {
             if (child <= index || child >= w->l->count2) {
@@ -134,8 +149,14 @@ static uint32_t walk8(walk *w, uint32_t index, const float lo[3], const float hi
             float v[3][3];
             for (int corner = 0; corner < 3; corner++)
                 for (int axis = 0; axis < 3; axis++) v[corner][axis] = b->v[corner][axis][slot];
+            const ec_box8 *boxes = w->l->boxes8 ? &w->l->boxes8[child & ~EC_LEAF_BIT] : NULL;
+            ec_box box;
+            for (int axis = 0; boxes && axis < 3; axis++) {
+                box.lo[axis] = boxes->lo[axis][slot];
+                box.hi[axis] = boxes->hi[axis][slot];
+            }
             if (b->id[slot] != EC_NO_ID) {
-                see(w, b->id[slot], (const float *[3]){v[0], v[1], v[2]}, a_lo, a_hi);
+                see(w, b->id[slot], (const float *[3]){v[0], v[1], v[2]}, boxes ? &box : NULL, a_lo, a_hi);
             } else {
                 for (int c = 0; c < 9; c++) w->bad += v[c / 3][c % 3] != 0.0f;
             }
@@ -147,8 +168,10 @@ static uint32_t walk8(walk *w, uint32_t index, const float lo[3], const float hi
 static void check_seen(walk *w, const char *layout, uint32_t node_count)
 {
     uint32_t wrong = 0;
-    for (uint32_t i = 0; i < w->m->triangle_count; i++) wrong += w->seen[i] != 1;
-    CHECK_MSG(!wrong, "%s, %s: %u triangles not seen once", w->m->name, layout, wrong);
+    const ec_bvh *bvh = &w->l->bvh;
+    for (uint32_t i = 0; i < bvh->ref_count; i++) w->seen[bvh->order[i]] -= number_of(bvh->boxes ? &bvh->boxes[i] : NULL);
+    for (uint32_t i = 0; i < w->m->triangle_count; i++) wrong += w->seen[i] != 0;
+    CHECK_MSG(!wrong, "%s, %s: %u triangles without just the references of the tree", w->m->name, layout, wrong);
     CHECK_MSG(!w->bad, "%s, %s: %u things wrong", w->m->name, layout, w->bad);
     CHECK_MSG(w->visited == node_count, "%s, %s: %u of %u nodes", w->m->name, layout, w->visited, node_count);
     memset(w->seen, 0, w->m->triangle_count * sizeof *w->seen);
@@ -197,11 +220,13 @@ static void test_thread_counts_agree(void)
         omp_set_num_threads(3);
         layouts three = make_layouts(&m);
         CHECK_MSG(one.count2 == three.count2 && !memcmp(one.nodes2, three.nodes2, one.count2 * sizeof *one.nodes2) &&
-                      !memcmp(one.triangles, three.triangles, one.triangle_count * sizeof *one.triangles),
+                      !memcmp(one.triangles, three.triangles, one.triangle_count * sizeof *one.triangles) &&
+                      (!one.boxes2 || !memcmp(one.boxes2, three.boxes2, one.triangle_count * sizeof *one.boxes2)),
                   "%s: binary", m.name);
         CHECK_MSG(one.count8 == three.count8 && !memcmp(one.nodes8, three.nodes8, one.count8 * sizeof *one.nodes8) &&
                       one.block_count == three.block_count &&
-                      !memcmp(one.blocks, three.blocks, one.block_count * sizeof *one.blocks),
+                      !memcmp(one.blocks, three.blocks, one.block_count * sizeof *one.blocks) &&
+                      (!one.boxes8 || !memcmp(one.boxes8, three.boxes8, one.block_count * sizeof *one.boxes8)),
                   "%s: 8-wide", m.name);
         free_layouts(&one);
         free_layouts(&three);

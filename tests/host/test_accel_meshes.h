@@ -117,6 +117,29 @@ static inline void triangle_signed_zero(uint32_t i, uint32_t n, float *p)
     for (int k = 0; k < 9; k++) p[k] = i % 3 ? fabsf(p[k]) : i % 2 ? -0.0f : 0.0f;
 }
 
+/* Every tenth goes across the room at a slant, thin: small triangles all along it. Cut, or the tree is poor. */
+static inline void triangle_beam(uint32_t i, uint32_t n, float *p)
+{
+    triangle_small(i, n, p);
+    if (i % 10) return;
+    for (int k = 0; k < 6; k++) p[k] = mesh_random();
+    for (int k = 0; k < 3; k++) p[6 + k] = p[k] + 0.02f * mesh_random();
+}
+
+/* The twelve triangles of a cube's sides, each axis-aligned, and a few large ones within, among small ones. */
+static inline void triangle_room(uint32_t i, uint32_t n, float *p)
+{
+    triangle_small(i, n, p);
+    if (i >= 64) return;
+    int axis = (int)(i / 4 % 3), side = (int)(i / 2 % 2), half = (int)(i % 2);
+    for (int corner = 0; corner < 3; corner++) {
+        int along = corner == 1 || (half && corner == 0), across = corner == 2 || (half && corner == 0);
+        p[3 * corner + axis] = i < 12 ? (float)side : (float)i / 64.0f;
+        p[3 * corner + (axis + 1) % 3] = (float)along;
+        p[3 * corner + (axis + 2) % 3] = (float)across;
+    }
+}
+
 typedef struct mesh_kind {
     const char *name;
     mesh_triangle *triangle;
@@ -145,6 +168,9 @@ static const mesh_kind mesh_kinds[] = {
     {"denormal", triangle_denormal, 2000},
     {"exponential", triangle_exponential, 4000},
     {"signed zeros", triangle_signed_zero, 70000},
+    {"beams", triangle_beam, 4000},
+    {"many beams", triangle_beam, 70000},
+    {"room", triangle_room, 4000},
 };
 #define MESH_KIND_COUNT (sizeof mesh_kinds / sizeof mesh_kinds[0])
 

@@ -76,7 +76,7 @@ enum kernel_argument_kind { KERNEL_IN, KERNEL_OUT, KERNEL_SCALAR };
 #define KERNEL_ARRAYS 24
 
 /* Runs kernel `name` over items work-items and brings OUT arrays back. Lane-wide loads may go past the end: buffers have
- * 64 bytes more than their arrays. False after a failed check. */
+ * 64 bytes more than their arrays. An array that is NULL is a NULL buffer. False after a failed check. */
 static inline bool kernel_call(ec_cl *cl, cl_program program, const char *name, uint64_t items, uint32_t local,
                                const kernel_array *arrays, uint32_t count)
 {
@@ -89,6 +89,10 @@ static inline bool kernel_call(ec_cl *cl, cl_program program, const char *name, 
     for (uint32_t i = 0; kernel && i < count; i++) {
         arguments[i] = (ec_argument){arrays[i].bytes, arrays[i].data};
         if (arrays[i].kind == KERNEL_SCALAR) continue;
+        if (!arrays[i].data) {
+            arguments[i] = (ec_argument)EC_ARGUMENT(buffers[i]);
+            continue;
+        }
         CHECK_OK(ec_buffer_create(cl, name, arrays[i].bytes + 64, NULL, &buffers[i], &err), err);
         if (buffers[i] && arrays[i].bytes) CHECK_OK(ec_buffer_write(cl, buffers[i], 0, arrays[i].bytes, arrays[i].data, &err), err);
         arguments[i] = (ec_argument)EC_ARGUMENT(buffers[i]);

@@ -8,6 +8,7 @@
     S(ec_tri) F(ec_tri, v0) F(ec_tri, id) F(ec_tri, v1) F(ec_tri, v2[2])                           \
     S(ec_bvh8_node) F(ec_bvh8_node, bound) F(ec_bvh8_node, bound[5][7]) F(ec_bvh8_node, child) F(ec_bvh8_node, child[7]) \
     S(ec_tri8) F(ec_tri8, v) F(ec_tri8, v[1]) F(ec_tri8, v[2][2][7]) F(ec_tri8, id)                \
+    S(ec_box) F(ec_box, lo) F(ec_box, hi[2]) S(ec_box8) F(ec_box8, lo[1]) F(ec_box8, hi[2][7])     \
     S(ec_params) F(ec_params, camera_origin) F(ec_params, camera_right) F(ec_params, camera_up) F(ec_params, camera_forward) \
     F(ec_params, environment) F(ec_params, environment_mean) F(ec_params, orthographic) F(ec_params, width) F(ec_params, height) F(ec_params, batch) \
     F(ec_params, wave) F(ec_params, part) F(ec_params, max_depth) F(ec_params, sample) F(ec_params, light_count)    \

@@ -20,7 +20,7 @@ kernel void intersection_of(uint n, float scene_max, global const float *rays, g
     m = m & edges_distance(&r, &e, F(EC_HUGE), &inverse, &t);
     v3 lo = v3_make(min(v0.x, min(v1.x, v2.x)), min(v0.y, min(v1.y, v2.y)), min(v0.z, min(v1.z, v2.z)));
     v3 hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
-    m = m & triangle_clamp(&r, lo, hi, F(EC_HUGE), &t);
+    m = m & reference_clamp(&r, lo, hi, F(EC_HUGE), &t);
     LANE_STORE(m ? t : F(-1.0f), hit + at);
     LANE_STORE(m ? e.v * inverse : F(0.0f), hit + n + at);
     LANE_STORE(m ? e.w * inverse : F(0.0f), hit + 2 * n + at);
