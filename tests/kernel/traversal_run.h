@@ -86,7 +86,7 @@ static float nothing[256];
 #define NO_ATTRIBUTES IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 64), IN(nothing, 16), \
     IN(nothing, 16), IN(nothing, 256)
 #define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), SCALAR(zero), SCALAR(zero), IN(&counters, 1)
-#define BUFFER(k) {a->buffers[k].data ? a->buffers[k].data : nothing, a->buffers[k].data ? a->buffers[k].bytes : 64, KERNEL_IN}
+#define BUFFER(k) {a->buffers[k].data, a->buffers[k].data ? a->buffers[k].bytes : 0, KERNEL_IN}
 #define BUFFERS BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3)
 
 /* Closest hits of the first `count` of `wave` paths, EC_HIT_PROBE_FIELDS each. */
