@@ -113,10 +113,10 @@ static void test_cuts(void)
 {
     ec_error err;
     const mesh_kind cut[] = {{"beams", triangle_beam, 4000}, {"many beams", triangle_beam, 70000},
-                             {"room", triangle_room, 4000}, {"slivers", triangle_sliver, 3000}};
+                             {"room", triangle_room, 4000}};
     const mesh_kind whole[] = {{"small", triangle_small, 5000}, {"line-up", triangle_line_up, 20000},
                                {"few beams", triangle_beam, 1000}};
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 3; k++) {
         mesh m = mesh_make(&cut[k]);
         ec_bvh bvh;
         ec_bvh_stats stats;
