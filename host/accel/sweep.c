@@ -161,7 +161,7 @@ uint32_t ec_sweep_build(const float *positions, const uint32_t *indices, uint32_
     uint32_t root = build(&s, &box, 0, count, depth);
     memcpy(given, ids, count * sizeof *ids);
     for (uint32_t i = 0; i < count; i++) ids[i] = given[s.leaf_order[i]];
-    for (uint32_t i = 0; 0 && boxes && i < count; i++) {
+    for (uint32_t i = 0; boxes && i < count; i++) {
         memcpy(boxes[i].lo, &s.box[s.leaf_order[i]].lo, sizeof boxes[i].lo);
         memcpy(boxes[i].hi, &s.box[s.leaf_order[i]].hi, sizeof boxes[i].hi);
     }
