@@ -58,15 +58,3 @@ void ec_accel_input_free(ec_accel_input *input)
 {
     ec_bvh_free(&input->bvh);
 }
-
-void ec_accel_block(const ec_accel_input *input, const uint32_t *ids, uint32_t count, ec_tri8 *block)
-{
-    memset(block, 0, sizeof *block);
-    for (uint32_t slot = 0; slot < 8; slot++) {
-        block->id[slot] = slot < count ? ids[slot] : EC_NO_ID;
-        for (int corner = 0; slot < count && corner < 3; corner++) {
-            const float *v = input->positions + 3 * (size_t)input->indices[3 * (size_t)ids[slot] + corner];
-            for (int axis = 0; axis < 3; axis++) block->v[corner][axis][slot] = v[axis];
-        }
-    }
-}

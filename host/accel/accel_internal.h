@@ -20,7 +20,7 @@ typedef struct ec_ref {
     uint32_t triangle;
 } ec_ref;
 /* Malloc'ed, the caller's. bounds: of all of them; 0 where there are none. */
-ec_result ec_accel_refs(const ec_accel_input *input, ec_ref **refs, uint32_t *count, ec_ref *bounds, ec_error *err);
+ec_result ec_accel_refs(ec_accel_input *input, ec_ref **refs, uint32_t *count, ec_ref *bounds, ec_error *err);
 
 /* The team a builder may use. */
 int ec_accel_threads(const ec_accel_input *input, uint32_t count);
@@ -28,7 +28,8 @@ int ec_accel_threads(const ec_accel_input *input, uint32_t count);
 /* The binary tree, built now if it has not been. */
 ec_result ec_accel_bvh(ec_accel_input *input, ec_error *err);
 
-/* Writes triangles ids[0 .. count), at most 8, into a block. */
-void ec_accel_block(const ec_accel_input *input, const uint32_t *ids, uint32_t count, ec_tri8 *block);
+/* Writes references which[0 .. count), at most 8, into a block; their boxes too where `boxes` is not NULL. */
+void ec_accel_block(const ec_accel_input *input, const ec_ref *refs, const uint32_t *which, uint32_t count, ec_tri8 *block,
+                    ec_box8 *boxes);
 
 #endif

@@ -171,7 +171,7 @@ static void fill_cells(const grid *g, uint32_t *counts, const ec_grid_block *blo
     sort_cells(g, starts, used, entries);
 }
 
-static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *triangles)
+static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *triangles, ec_box *boxes)
 {
 #pragma omp parallel for num_threads(g->threads)
     for (uint32_t i = 0; i < g->ref_count; i++) {
@@ -181,6 +181,9 @@ static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *tria
         memcpy(triangles[i].v1, in->positions + 3 * (size_t)corner[1], 12);
         memcpy(triangles[i].v2, in->positions + 3 * (size_t)corner[2], 12);
         triangles[i].id = g->refs[i].triangle;
+        if (!boxes) continue;
+        memcpy(boxes[i].lo, g->refs[i].lo, sizeof boxes[i].lo);
+        memcpy(boxes[i].hi, g->refs[i].hi, sizeof boxes[i].hi);
     }
 }
 
@@ -217,20 +220,22 @@ ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     uint32_t used = 0, *counts = NULL, *starts = NULL;
     ec_grid_block *blocks = NULL;
     ec_tri *triangles = NULL;
+    ec_box *boxes = NULL;
     ec_grid *header = make_header(&g, in->grid_density > 0.0f ? in->grid_density : EC_GRID_DENSITY, &entry_count, &header_bytes);
     if (header && entry_count < UINT32_MAX) {
         counts = malloc(cell_count(&g) * sizeof *counts);
         blocks = ec_allocate_lines(cell_count(&g) / 64, sizeof *blocks);
         triangles = ec_allocate_lines(g.ref_count, sizeof *triangles);
+        if (in->bvh.boxes) boxes = ec_allocate_lines(g.ref_count, sizeof *boxes);
     }
     if (counts && blocks) {
         header->start_count = 1 + (used = count_cells(&g, counts, blocks));
         starts = ec_allocate_lines(header->start_count + entry_count, sizeof *starts);
     }
-    ec_result result = starts && triangles ? EC_OK : ec_fail(err, "out of memory for a grid of %u triangles", g.ref_count);
+    ec_result result = starts && triangles && (boxes || !in->bvh.boxes) ? EC_OK : ec_fail(err, "out of memory for a grid of %u triangles", g.ref_count);
     if (result == EC_OK) {
         fill_cells(&g, counts, blocks, starts, used, (uint32_t)entry_count);
-        fill_triangles(&g, in, triangles);
+        fill_triangles(&g, in, triangles, boxes);
     }
     free(refs);
     free(counts);
@@ -238,6 +243,7 @@ ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     accel->buffers[1] = (ec_accel_buffer){"cells", blocks, header ? cell_count(&g) / 64 * sizeof *blocks : 0};
     accel->buffers[2] = (ec_accel_buffer){"entries", starts, (used + 1 + entry_count) * sizeof *starts};
     accel->buffers[3] = (ec_accel_buffer){"triangles", triangles, (g.ref_count ? g.ref_count : 1) * sizeof *triangles};
+    if (boxes) accel->buffers[4] = (ec_accel_buffer){"boxes", boxes, g.ref_count * sizeof *boxes};
     accel->stats = (ec_accel_stats){.nodes = header ? cell_count(&g) : 0, .leaves = used, .references = entry_count};
     return result;
 }

@@ -235,16 +235,15 @@ static ec_result join(const piece *p, joined *j, ec_error *err)
 }
 
 /* Reference numbers in, triangles out: every block in its own place. */
-static void fill_blocks(const ec_accel_input *in, const ec_ref *refs, const joined *j, ec_tri8 *blocks, int threads)
+static void fill_blocks(const ec_accel_input *in, const ec_ref *refs, const joined *j, ec_tri8 *blocks, ec_box8 *boxes,
+                        int threads)
 {
 #pragma omp parallel for num_threads(threads)
     for (uint32_t i = 0; i < j->block_count; i++) {
-        uint32_t ids[8], count = 0;
-        while (count < 8 && j->ids[8 * (size_t)i + count] != EC_NO_ID) {
-            ids[count] = refs[j->ids[8 * (size_t)i + count]].triangle;
-            count++;
-        }
-        ec_accel_block(in, ids, count, &blocks[i]);
+        const uint32_t *which = j->ids + 8 * (size_t)i;
+        uint32_t count = 0;
+        while (count < 8 && which[count] != EC_NO_ID) count++;
+        ec_accel_block(in, refs, which, count, &blocks[i], boxes ? &boxes[i] : NULL);
     }
 }
 
@@ -280,6 +279,7 @@ ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     joined j = {0};
     ec_kd_header *header = ec_allocate_lines(1, sizeof *header);
     ec_tri8 *blocks = NULL;
+    ec_box8 *boxes = NULL;
     ec_kd_node *nodes = NULL;
     uint32_t node_count = 0;
     ec_result result = EC_OK;
@@ -288,13 +288,14 @@ ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     if (result == EC_OK) {
         blocks = ec_allocate_lines(j.block_count, sizeof *blocks);
         nodes = ec_kd_collapse(j.nodes, &node_count);
-        if (!blocks || !nodes) result = ec_fail(err, "out of memory for %u blocks of triangles", j.block_count);
+        if (in->bvh.boxes) boxes = ec_allocate_lines(j.block_count, sizeof *boxes);
+        if (!blocks || !nodes || (in->bvh.boxes && !boxes)) result = ec_fail(err, "out of memory for %u blocks of triangles", j.block_count);
     }
     if (result == EC_OK) {
         memset(header, 0, sizeof *header);
         memcpy(header->lo, bounds.lo, sizeof header->lo);
         memcpy(header->hi, bounds.hi, sizeof header->hi);
-        fill_blocks(in, refs, &j, blocks, threads);
+        fill_blocks(in, refs, &j, blocks, boxes, threads);
     }
     free_piece(tree);
     free(j.nodes);
@@ -303,6 +304,7 @@ ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     accel->buffers[0] = (ec_accel_buffer){"bounds", header, sizeof *header};
     accel->buffers[1] = (ec_accel_buffer){"nodes", nodes, (uint64_t)node_count * sizeof *nodes};
     accel->buffers[2] = (ec_accel_buffer){"triangle blocks", blocks, (uint64_t)j.block_count * sizeof *blocks};
+    if (boxes) accel->buffers[3] = (ec_accel_buffer){"boxes", boxes, (uint64_t)j.block_count * sizeof *boxes};
     accel->stats = (ec_accel_stats){.nodes = node_count, .leaves = j.block_count, .references = j.references, .sah_cost = j.cost};
     return result;
 }

@@ -40,20 +40,31 @@ static void grow(ec_ref *box, const ec_ref *by)
     }
 }
 
-ec_result ec_accel_refs(const ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_ref *bounds, ec_error *err)
+/* The parts that the BVH has cut triangles into: all structures must hold the same ones to give the same hits. */
+static ec_ref part_of(const ec_bvh *bvh, uint32_t i)
 {
-    uint32_t n = in->triangle_count;
+    ec_ref ref = {.triangle = bvh->order[i]};
+    memcpy(ref.lo, bvh->boxes[i].lo, sizeof ref.lo);
+    memcpy(ref.hi, bvh->boxes[i].hi, sizeof ref.hi);
+    return ref;
+}
+
+ec_result ec_accel_refs(ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_ref *bounds, ec_error *err)
+{
+    EC_TRY(ec_accel_bvh(in, err));
+    const ec_bvh *bvh = in->bvh.boxes ? &in->bvh : NULL;
+    uint32_t n = bvh ? bvh->ref_count : in->triangle_count;
     ec_ref *r = malloc((n + (size_t)1) * sizeof *r);
     if (!r) return ec_fail(err, "out of memory for the boxes of %u triangles", n);
     memset(bounds, 0, sizeof *bounds);
-    if (n) *bounds = ref_of(in, 0);
+    if (n) *bounds = bvh ? part_of(bvh, 0) : ref_of(in, 0);
 #pragma omp parallel num_threads(ec_accel_threads(in, n))
     {
         ec_ref mine = *bounds;
 #pragma omp barrier
 #pragma omp for
         for (uint32_t i = 0; i < n; i++) {
-            r[i] = ref_of(in, i);
+            r[i] = bvh ? part_of(bvh, i) : ref_of(in, i);
             grow(&mine, &r[i]);
         }
 #pragma omp critical(ec_accel_refs)
@@ -62,4 +73,21 @@ ec_result ec_accel_refs(const ec_accel_input *in, ec_ref **refs, uint32_t *count
     *refs = r;
     *count = n;
     return EC_OK;
+}
+
+void ec_accel_block(const ec_accel_input *in, const ec_ref *refs, const uint32_t *which, uint32_t count, ec_tri8 *block, ec_box8 *boxes)
+{
+    memset(block, 0, sizeof *block);
+    if (boxes) memset(boxes, 0, sizeof *boxes);
+    for (uint32_t slot = 0; slot < 8; slot++) {
+        const ec_ref *ref = slot < count ? &refs[which[slot]] : NULL;
+        block->id[slot] = ref ? ref->triangle : EC_NO_ID;
+        for (int axis = 0; ref && axis < 3; axis++) {
+            for (int corner = 0; corner < 3; corner++)
+                block->v[corner][axis][slot] = in->positions[3 * (size_t)in->indices[3 * (size_t)ref->triangle + corner] + axis];
+            if (!boxes) continue;
+            boxes->lo[axis][slot] = ref->lo[axis];
+            boxes->hi[axis][slot] = ref->hi[axis];
+        }
+    }
 }

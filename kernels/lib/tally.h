@@ -10,8 +10,9 @@ typedef struct accel {
     global const void *at[EC_ACCEL_BUFFERS];
 } accel;
 #define ACCEL_PARAMETERS                                                                           \
-    global const uint *accel0, global const uint *accel1, global const uint *accel2, global const uint *accel3
-#define ACCEL_ARGUMENTS {{accel0, accel1, accel2, accel3}}
+    global const uint *accel0, global const uint *accel1, global const uint *accel2,                \
+        global const uint *accel3, global const uint *accel4
+#define ACCEL_ARGUMENTS {{accel0, accel1, accel2, accel3, accel4}}
 
 #ifdef PROBE
 #define TALLIES uint nodes, tests;

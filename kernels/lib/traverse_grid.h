@@ -73,7 +73,7 @@ EC_FN void grid_axis_start(grid_axis *x, int blocks, float guess, float start)
 #define GRID_SPAN(op, axis) op(GRID_ROW(0, axis), op(GRID_ROW(1, axis), GRID_ROW(2, axis)))
 
 /* The pending ones, gathered from wherever they lie; free places repeat the first. */
-EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, global const ec_tri *tris, uint skip0, uint skip1,
+EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, global const ec_tri *tris, global const ec_box *boxes, uint skip0, uint skip1,
                      bool any_hit, hit8 *h)
 {
     TALLY_TESTS(h, mail->count);
@@ -89,18 +89,27 @@ EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, g
     if (!mask_bits8(m)) return;
     v3 lo = v3_make(GRID_SPAN(min, 0), GRID_SPAN(min, 1), GRID_SPAN(min, 2));
     v3 hi = v3_make(GRID_SPAN(max, 0), GRID_SPAN(max, 1), GRID_SPAN(max, 2));
+    if (boxes) {
+#define GRID_BOX(k) global const ec_box *b##k = boxes + mail->pending[k];
+        EACH_LANE(GRID_BOX)
+#undef GRID_BOX
+#define GRID_SIDE(s, axis) (float8)(b0->s[axis], b1->s[axis], b2->s[axis], b3->s[axis], b4->s[axis], b5->s[axis], b6->s[axis], b7->s[axis])
+        lo = v3_make(GRID_SIDE(lo, 0), GRID_SIDE(lo, 1), GRID_SIDE(lo, 2));
+        hi = v3_make(GRID_SIDE(hi, 0), GRID_SIDE(hi, 1), GRID_SIDE(hi, 2));
+#undef GRID_SIDE
+    }
     eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);
 }
 
 EC_FN void grid_visit(grid_mail *mail, global const uint *entries, uint first, uint end, const ray8 *q, const hit_filter *filter,
-                      global const ec_tri *tris, uint skip0, uint skip1, bool any_hit, hit8 *h)
+                      global const ec_tri *tris, global const ec_box *boxes, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     for (uint i = first; i < end; i++) {
         uint which = entries[i];
         if (mail->seen[which % GRID_MAIL] == which) continue;
         mail->seen[which % GRID_MAIL] = which;
         mail->pending[mail->count++] = which;
-        if (mail->count == 8u) grid_test(mail, q, filter, tris, skip0, skip1, any_hit, h);
+        if (mail->count == 8u) grid_test(mail, q, filter, tris, boxes, skip0, skip1, any_hit, h);
     }
 }
 
@@ -142,6 +151,7 @@ EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, u
     global const ec_grid *grid = a->at[0];
     global const ec_grid_block *blocks = a->at[1];
     global const ec_tri *tris = a->at[3];
+    global const ec_box *boxes = a->at[4];
     global const float *planes = (global const float *)(grid + 1);
     const int nx = (int)grid->blocks[0], ny = (int)grid->blocks[1], nz = (int)grid->blocks[2];
     global const float *planes_y = planes + 4 * nx + 1, *planes_z = planes_y + 4 * ny + 1;
@@ -180,7 +190,7 @@ EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, u
                             ulong below = (cells & -cells) - 1;
                             global const uint *start = starts + b->first + (uint)popcount(occupied & below);
                             TALLY_NODE(h);
-                            grid_visit(&mail, entries, start[0], start[1], q, filter, tris, skip0, skip1, any_hit, h);
+                            grid_visit(&mail, entries, start[0], start[1], q, filter, tris, boxes, skip0, skip1, any_hit, h);
                         }
                     }
                     if (at[v] == axis[v].oldest) break;
@@ -189,7 +199,7 @@ EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, u
             }
             if (along == block) break;
         }
-        if (mail.count) grid_test(&mail, q, filter, tris, skip0, skip1, any_hit, h);
+        if (mail.count) grid_test(&mail, q, filter, tris, boxes, skip0, skip1, any_hit, h);
         if (any_hit && h->prim != EC_NO_ID) return;
 
         x = axis[0].begins < axis[1].begins ? 0 : 1;

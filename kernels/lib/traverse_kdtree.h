@@ -46,6 +46,7 @@ EC_FN void kdtree_trace(const accel *a, const ray8 *q, const hit_filter *filter,
     global const ec_kd_header *header = a->at[0];
     global const ec_kd_node *nodes = a->at[1];
     global const ec_tri8 *blocks = a->at[2];
+    global const ec_box8 *boxes = a->at[3];
     const v3 lo = v3_make(F(header->lo[0]), F(header->lo[1]), F(header->lo[2]));
     const v3 hi = v3_make(F(header->hi[0]), F(header->hi[1]), F(header->hi[2]));
     float8 all_leave, all_enter = slab_near(&q->r, lo, hi, F(h->t), &all_leave);
@@ -56,7 +57,8 @@ EC_FN void kdtree_trace(const accel *a, const ray8 *q, const hit_filter *filter,
     for (;;) {
         if (current & EC_LEAF_BIT) {
             uint at = (current & ~EC_LEAF_BIT) >> 6, end = at + (current & EC_KD_LEAF_MOST);
-            for (uint i = at; i < end; i++) block8_triangles(q, filter, blocks + i, 0, skip0, skip1, any_hit, h);
+            for (uint i = at; i < end; i++)
+                block8_triangles(q, filter, blocks + i, boxes ? boxes + i : 0, skip0, skip1, any_hit, h);
             if (any_hit && h->prim != EC_NO_ID) return;
         } else {
             global const ec_kd_node *n = nodes + current;

@@ -4,7 +4,7 @@
 
 #include "types.h"
 
-#define EC_ACCEL_BUFFERS 4      /* that an accelerator may have on the device */
+#define EC_ACCEL_BUFFERS 5      /* that an accelerator may have on the device */
 
 #define EC_BVH_STACK 96         /* entries of a binary traversal stack; the builder keeps trees no deeper than 64 */
 #define EC_BVH8_STACK 96        /* the same for eight children; layout8.c keeps every path within it */

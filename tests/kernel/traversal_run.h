@@ -87,7 +87,7 @@ static float nothing[256];
     IN(nothing, 16), IN(nothing, 256)
 #define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), SCALAR(zero), SCALAR(zero), IN(&counters, 1)
 #define BUFFER(k) {a->buffers[k].data, a->buffers[k].data ? a->buffers[k].bytes : 0, KERNEL_IN}
-#define BUFFERS BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3)
+#define BUFFERS BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3), BUFFER(4)
 
 /* Closest hits of the first `count` of `wave` paths, EC_HIT_PROBE_FIELDS each. */
 static inline bool intersect(const set *s, const tracer *t, const ec_accel *a, uint32_t wave, uint32_t count, const float *paths,
