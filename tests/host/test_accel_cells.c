@@ -13,12 +13,29 @@ static ec_accel build(const char *name, const mesh *m, uint32_t threads)
     return accel;
 }
 
-static void box_of(const mesh *m, uint32_t triangle, float lo[3], float hi[3])
+/* The references that cells must hold: those of the BVH over the same mesh, which may be parts of triangles. */
+typedef struct parts {
+    ec_bvh bvh;
+    uint32_t count;
+} parts;
+
+static parts parts_of(const mesh *m)
+{
+    ec_error err;
+    parts p = {.count = m->triangle_count};
+    CHECK_OK(ec_bvh_build(m->positions, m->indices, m->triangle_count, 0, &p.bvh, NULL, &err), err);
+    if (p.bvh.boxes) p.count = p.bvh.ref_count;
+    return p;
+}
+
+static uint32_t triangle_of(const parts *p, uint32_t ref) { return p->bvh.boxes ? p->bvh.order[ref] : ref; }
+
+static void box_of(const mesh *m, const parts *parts, uint32_t ref, float lo[3], float hi[3])
 {
     for (int axis = 0; axis < 3; axis++) {
-        const float *p = m->positions + 9 * (size_t)triangle + axis;
-        lo[axis] = fminf(p[0], fminf(p[3], p[6]));
-        hi[axis] = fmaxf(p[0], fmaxf(p[3], p[6]));
+        const float *p = m->positions + 9 * (size_t)triangle_of(parts, ref) + axis;
+        lo[axis] = parts->bvh.boxes ? parts->bvh.boxes[ref].lo[axis] : fminf(p[0], fminf(p[3], p[6]));
+        hi[axis] = parts->bvh.boxes ? parts->bvh.boxes[ref].hi[axis] : fmaxf(p[0], fmaxf(p[3], p[6]));
     }
 }
 
@@ -29,13 +46,13 @@ typedef struct held {
     uint32_t first[3], last[3], count;
 } held;
 
-static held *grid_held(const ec_accel *accel, const mesh *m)
+static held *grid_held(const ec_accel *accel, const parts *parts)
 {
     const ec_grid *grid = accel->buffers[0].data;
     const ec_grid_block *blocks = accel->buffers[1].data;
     const uint32_t *starts = accel->buffers[2].data, *entries = starts + grid->start_count;
     const ec_tri *triangles = accel->buffers[3].data;
-    held *h = calloc(m->triangle_count + 1, sizeof *h);
+    held *h = calloc(parts->count + 1, sizeof *h);
     uint32_t block_count = grid->blocks[0] * grid->blocks[1] * grid->blocks[2], next = 0;
     for (uint32_t b = 0; b < block_count; b++) {
         CHECK(blocks[b].first == next);
@@ -46,7 +63,8 @@ static held *grid_held(const ec_accel *accel, const mesh *m)
             CHECK(starts[next] < starts[next + 1]);
             for (uint32_t i = starts[next]; i < starts[next + 1]; i++) {
                 CHECK(i == starts[next] || entries[i] > entries[i - 1]); /* none twice */
-                held *one = &h[triangles[entries[i]].id];
+                held *one = &h[entries[i]];
+                CHECK(triangles[entries[i]].id == triangle_of(parts, entries[i]));
                 for (int axis = 0; axis < 3; axis++) {
                     if (!one->count || cell[axis] < one->first[axis]) one->first[axis] = cell[axis];
                     if (!one->count || cell[axis] > one->last[axis]) one->last[axis] = cell[axis];
@@ -65,27 +83,29 @@ static void check_grid(const mesh *m)
 {
     ec_accel accel = build("grid", m, 0);
     const ec_grid *grid = accel.buffers[0].data;
-    held *h = grid_held(&accel, m);
+    parts parts = parts_of(m);
+    held *h = grid_held(&accel, &parts);
     const float *planes = (const float *)(grid + 1);
     uint32_t wrong = 0;
     for (int axis = 0; axis < 3; axis++) {
         uint32_t cells = 4 * grid->blocks[axis];
         for (uint32_t i = 0; i <= cells; i++) wrong += !isfinite(planes[i]) || (i && planes[i] < planes[i - 1]);
-        for (uint32_t i = 0; i < m->triangle_count; i++) {
+        for (uint32_t i = 0; i < parts.count; i++) {
             float lo[3], hi[3];
-            box_of(m, i, lo, hi);
+            box_of(m, &parts, i, lo, hi);
             wrong += !h[i].count || planes[h[i].first[axis]] > lo[axis] || planes[h[i].last[axis] + 1] < hi[axis];
         }
         planes += cells + 1;
     }
-    for (uint32_t i = 0; i < m->triangle_count; i++) {
+    for (uint32_t i = 0; i < parts.count; i++) {
         uint64_t product = 1;
         for (int axis = 0; axis < 3; axis++) product *= h[i].last[axis] - h[i].first[axis] + 1;
         wrong += product != h[i].count;
     }
     CHECK_MSG(!wrong, "%s: %u things wrong in the grid", m->name, wrong);
-    CHECK_MSG(accel.stats.references <= 64ull * (m->triangle_count + 64), "%s: %llu entries", m->name, (unsigned long long)accel.stats.references);
+    CHECK_MSG(accel.stats.references <= 64ull * (parts.count + 64), "%s: %llu entries", m->name, (unsigned long long)accel.stats.references);
     free(h);
+    ec_bvh_free(&parts.bvh);
     ec_accel_free(&accel);
 }
 
@@ -93,6 +113,7 @@ static void check_grid(const mesh *m)
 
 typedef struct walk {
     const mesh *m;
+    const parts *parts;
     const ec_kd_node *nodes;
     const ec_tri8 *blocks;
     uint32_t *marks;  /* by triangle: the last leaf that held it */
@@ -106,7 +127,7 @@ static void check_leaf(walk *w, uint32_t child, const uint32_t *ids, uint32_t co
     for (uint32_t b = first; child != EC_NO_CHILD && b < first + blocks; b++)
         for (int slot = 0; slot < 8; slot++)
             if (w->blocks[b].id[slot] != EC_NO_ID) w->marks[w->blocks[b].id[slot]] = w->leaves;
-    for (uint32_t i = 0; i < count; i++) w->wrong += w->marks[ids[i]] != w->leaves;
+    for (uint32_t i = 0; i < count; i++) w->wrong += w->marks[triangle_of(w->parts, ids[i])] != w->leaves;
 }
 
 static uint32_t check_node(walk *w, uint32_t index, const uint32_t *ids, uint32_t count);
@@ -132,7 +153,7 @@ static uint32_t check_below(walk *w, const ec_kd_node *n, uint32_t plane, uint32
         uint32_t taken = 0;
         for (uint32_t i = 0; i < count; i++) {
             float lo[3], hi[3];
-            box_of(w->m, ids[i], lo, hi);
+            box_of(w->m, w->parts, ids[i], lo, hi);
             if (side ? hi[axis] > n->plane[plane] : lo[axis] < n->plane[plane]) part[taken++] = ids[i];
         }
         uint32_t below = check_below(w, n, 2 * plane + 1 + side, slot + side * half, levels - 1, part, taken);
@@ -151,10 +172,11 @@ static uint32_t check_node(walk *w, uint32_t index, const uint32_t *ids, uint32_
 static void check_kdtree(const mesh *m)
 {
     ec_accel accel = build("kdtree", m, 0);
-    walk w = {.m = m, .nodes = accel.buffers[1].data, .blocks = accel.buffers[2].data, .marks = calloc(m->triangle_count + 1, 4)};
-    uint32_t *ids = malloc((m->triangle_count + 1) * sizeof *ids), missing = 0;
-    for (uint32_t i = 0; i < m->triangle_count; i++) ids[i] = i;
-    uint32_t stack = check_node(&w, 0, ids, m->triangle_count);
+    parts parts = parts_of(m);
+    walk w = {.m = m, .parts = &parts, .nodes = accel.buffers[1].data, .blocks = accel.buffers[2].data, .marks = calloc(m->triangle_count + 1, 4)};
+    uint32_t *ids = malloc((parts.count + 1) * sizeof *ids), missing = 0;
+    for (uint32_t i = 0; i < parts.count; i++) ids[i] = i;
+    uint32_t stack = check_node(&w, 0, ids, parts.count);
     CHECK_MSG(!w.wrong, "%s: %u triangles missing in leaves of the kd-tree", m->name, w.wrong);
     CHECK_MSG(stack < EC_KD_STACK, "%s: stack %u", m->name, stack);
     memset(w.marks, 0, m->triangle_count * sizeof *w.marks);
@@ -166,6 +188,7 @@ static void check_kdtree(const mesh *m)
     CHECK_MSG(accel.stats.references <= 16ull * (m->triangle_count + 64), "%s: %llu references", m->name, (unsigned long long)accel.stats.references);
     free(w.marks);
     free(ids);
+    ec_bvh_free(&parts.bvh);
     ec_accel_free(&accel);
 }
 
@@ -214,6 +237,7 @@ static void test_density(void)
         double cells = (double)accel.stats.nodes / m.triangle_count;
         CHECK_MSG(cells > 0.5 * density && cells < 2.0 * density, "%d cells a triangle wanted, %g made", density, cells);
         ec_accel_free(&accel);
+        ec_accel_input_free(&input);
     }
     mesh_free(&m);
 }
