@@ -6,15 +6,10 @@
 
 #include "base/clock.h"
 
-/* Packets come first: trials begin with them (host/pipeline/trace.c). */
-const ec_accel_kind ec_accels[EC_ACCEL_COUNT] = {
-    {"bvh2", "binary BVH, packets of rays", 0, ec_bvh2_accel},
-    {"bvh8", "8-wide BVH, one ray against eight boxes", 8, ec_bvh8_accel},
-    {"grid", "uniform grid, one ray from cell to cell", 8, ec_grid_accel},
-    {"kdtree", "kd-tree, one ray against eight triangles", 8, ec_kdtree_accel},
-    {"none", "every triangle with every ray", 8, ec_none_accel},
-};
-const char *const ec_accel_names[] = {"auto", "bvh2", "bvh8", "grid", "kdtree", "none", NULL};
+#define ROW(name, lanes, summary) {#name, summary, lanes, ec_##name##_accel},
+const ec_accel_kind ec_accels[EC_ACCEL_COUNT] = {EC_ACCELS(ROW)};
+#define NAME(name, lanes, summary) #name,
+const char *const ec_accel_names[] = {"auto", EC_ACCELS(NAME) NULL};
 
 uint32_t ec_accel_find(const char *name)
 {

@@ -49,7 +49,16 @@ typedef struct ec_accel_kind {
 
 #define EC_GRID_DENSITY 27.0f   /* three cells along each axis for every object that a row holds */
 
-#define EC_ACCEL_COUNT 5
+/* Every kind: name, lanes, summary; ec_NAME_accel builds it. Packets come first: trials begin with them (pipeline/trace.c). */
+#define EC_ACCELS(X)                                                                               \
+    X(bvh2, 0, "binary BVH, packets of rays")                                                      \
+    X(bvh8, 8, "8-wide BVH, one ray against eight boxes")                                          \
+    X(grid, 8, "uniform grid, one ray against 64 cells")                                           \
+    X(kdtree, 8, "kd-tree, one ray against seven planes")                                          \
+    X(none, 8, "every triangle with every ray")
+
+#define EC_ACCEL_ONE(name, lanes, summary) +1
+enum { EC_ACCEL_COUNT = EC_ACCELS(EC_ACCEL_ONE) };
 extern const ec_accel_kind ec_accels[EC_ACCEL_COUNT];
 extern const char *const ec_accel_names[]; /* "auto" and theirs, NULL-terminated */
 

@@ -4,12 +4,9 @@
 
 #include "accel/accel.h"
 
-/* The kinds, each in the file of its name. */
-ec_result ec_bvh2_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
-ec_result ec_bvh8_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
-ec_result ec_grid_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
-ec_result ec_kdtree_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
-ec_result ec_none_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
+#define EC_ACCEL_DECLARE(name, lanes, summary)                                                     \
+    ec_result ec_##name##_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
+EC_ACCELS(EC_ACCEL_DECLARE)
 
 /* What grids and kd-trees hold: a triangle, or a part of one, in a box of its own. A hit's t is clamped to the near side of
  * this very box (kernels/lib/ray.h), so whoever puts a reference into every cell that the box overlaps, and leaves no cell
