@@ -9,6 +9,7 @@
 
 #define SUBTREE 1024u /* references; not tied to the number of cores, since the numbering follows from it */
 #define PARTS_SHARE 0.3     /* at most so many parts more than triangles */
+#define PARTS_LEAST 20u     /* fewer than one triangle in so many cut: not worth the boxes that every reference then needs */
 #define REFS_MAX (1u << 27) /* what the binary layout can number; scenes that come near it are not cut */
 #define LOAD_CHUNK 16384u
 #define TEAM_MIN 4096u /* fewer triangles are built sooner than a second thread wakes */
@@ -114,15 +115,25 @@ static ec_range load(const ec_builder *builder, uint32_t count)
     return root;
 }
 
-static void build_all(ec_builder *builder, uint32_t count, uint32_t capacity, ec_branch **tree, uint32_t *ref_count)
+static void build_upper(ec_builder *builder, uint32_t count, uint32_t capacity, ec_branch **tree, uint32_t *ref_count)
 {
     ec_range root = load(builder, count);
     root.capacity = capacity;
     builder->scene = root.box;
 #pragma omp taskgroup
     build_branch(builder, &root, tree);
+    if (!builder->failed) *ref_count = place_branches(*tree, 0);
+}
+
+static void build_all(ec_builder *builder, uint32_t count, uint32_t capacity, ec_branch **tree, uint32_t *ref_count)
+{
+    build_upper(builder, count, capacity, tree, ref_count);
     if (builder->failed) return;
-    *ref_count = place_branches(*tree, 0);
+    if (*ref_count > count && *ref_count - count < count / PARTS_LEAST) {
+        ec_branch_free(*tree);
+        build_upper(builder, count, count, tree, ref_count);
+        if (builder->failed) return;
+    }
     builder->order = malloc(((size_t)*ref_count + 1) * sizeof *builder->order);
     if (*ref_count > count) builder->boxes = malloc(*ref_count * sizeof *builder->boxes);
     if (!builder->order || (*ref_count > count && !builder->boxes)) {
