@@ -1,4 +1,4 @@
-/* The same hits from every accelerator, on ten million rays in each scene. ctest label: slow */
+/* The same hits from every accelerator, on ten million rays in each scene. ctest label: long */
 #include "kernel/traversal_scenes.h"
 
 int main(void) { return check_scenes(10000000); }
