@@ -46,8 +46,8 @@ EC_FN uint8 pack8(uint8 v, uint mask)
 #endif
 }
 
-/* A child to visit: the bits of its distance, which order as it does, above its index. */
-EC_FN ulong8 entries8(float8 near, uint8 child) { return convert_ulong8(as_uint8(near)) << 32 | convert_ulong8(child); }
+/* A child to visit: the bits of its distance (no -0), which order as it does, above its index. */
+EC_FN ulong8 entries8(float8 near, uint8 child) { return convert_ulong8(as_uint8(near + 0.0f)) << 32 | convert_ulong8(child); }
 
 /* A leaf's block, with its references' boxes where the builder has cut triangles. */
 EC_FN void leaf8(const accel *a, const ray8 *q, const hit_filter *filter, uint child, uint skip0, uint skip1, bool any_hit, hit8 *h)
