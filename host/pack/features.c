@@ -3,27 +3,52 @@
 #include <stdlib.h>
 
 #include "pack/pack.h"
+#include "pack/texture_mean.h"
 
 static float max3(const float v[3])
 {
     return fmaxf(v[0], fmaxf(v[1], v[2]));
 }
 
+static bool transmits(const ec_scene *scene, const ec_material *m)
+{
+    float least, most;
+    bool is_metal = m->metallic == 1.0f && m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture < 0;
+    if (m->transmission == 0.0f || is_metal) return false;
+    ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
+    return most > 0.0f;
+}
+
+/* May kernels find reflection or refraction too narrow for a density: surface_material, surface_transmission? */
+static bool may_be_smooth(const ec_scene *scene, const ec_material *m)
+{
+    float least, most;
+    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
+    float alpha = m->roughness * m->roughness * least * least * 0.99f; /* the kernels' product rounds otherwise */
+    return alpha < EC_SMOOTH_ALPHA || (ec_refracts(m) && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
+}
+
 static uint32_t material_features(const ec_scene *scene, const ec_material *m)
 {
     uint32_t f = 0;
-    if (m->unlit) return EC_FEATURE_UNLIT | (m->base_color_texture.texture >= 0 ? EC_FEATURE_BASE_COLOR_TEXTURE : 0);
+    if (m->unlit) return EC_FEATURE_UNLIT | (m->textures[EC_SLOT_BASE_COLOR].texture >= 0 ? EC_FEATURE_BASE_COLOR_TEXTURE : 0);
     if (max3(m->emission) > 0.0f) f |= EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS;
-    if (max3(m->emission) > 0.0f && m->emission_texture.texture >= 0) f |= EC_FEATURE_EMISSION_TEXTURE;
-    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f)) {
-        f |= EC_FEATURE_SPECULAR;
-        if (m->metallic_roughness_texture.texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
-        if (m->specular_texture.texture >= 0 || m->specular_color_texture.texture >= 0) f |= EC_FEATURE_SPECULAR_TEXTURE;
+    if (max3(m->emission) > 0.0f && m->textures[EC_SLOT_EMISSION].texture >= 0) f |= EC_FEATURE_EMISSION_TEXTURE;
+    if (transmits(scene, m)) {
+        f |= EC_FEATURE_TRANSMISSION;
+        if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
+        if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
     }
-    if (m->base_color_texture.texture >= 0) f |= EC_FEATURE_BASE_COLOR_TEXTURE;
-    if (m->normal_texture.texture >= 0) f |= EC_FEATURE_NORMAL_TEXTURE;
+    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & EC_FEATURE_TRANSMISSION)) {
+        f |= EC_FEATURE_SPECULAR;
+        if (may_be_smooth(scene, m)) f |= EC_FEATURE_SMOOTH;
+        if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
+        if (m->textures[EC_SLOT_SPECULAR].texture >= 0 || m->textures[EC_SLOT_SPECULAR_COLOR].texture >= 0) f |= EC_FEATURE_SPECULAR_TEXTURE;
+    }
+    if (m->textures[EC_SLOT_BASE_COLOR].texture >= 0) f |= EC_FEATURE_BASE_COLOR_TEXTURE;
+    if (m->textures[EC_SLOT_NORMAL].texture >= 0) f |= EC_FEATURE_NORMAL_TEXTURE;
     if (!m->double_sided) f |= EC_FEATURE_CULLING;
-    bool may_be_open = m->base_color[3] < 1.0f || m->base_color_texture.texture >= 0 || scene->colors;
+    bool may_be_open = m->base_color[3] < 1.0f || m->textures[EC_SLOT_BASE_COLOR].texture >= 0 || scene->colors;
     if (m->alpha_mode != EC_ALPHA_OPAQUE && may_be_open) f |= EC_FEATURE_ALPHA;
     return f;
 }
@@ -86,7 +111,8 @@ uint32_t ec_pack_features(const ec_scene *scene)
     if (has_smooth_normals(scene)) f |= EC_FEATURE_SMOOTH_NORMALS;
     if (has_vertex_colors(scene)) f |= EC_FEATURE_VERTEX_COLORS;
     const uint32_t textures = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE |
-                              EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE;
+                              EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE |
+                              EC_FEATURE_TRANSMISSION_TEXTURE;
     if ((f & textures) && has_deep_images(scene)) f |= EC_FEATURE_FLOAT_TEXTURE;
     return f;
 }

@@ -20,9 +20,9 @@ static double luminance(const double rgb[3])
 static void textured_mean(const ec_scene *scene, const ec_texture_mean *whole, const ec_material *m, uint32_t prim, double mean[3])
 {
     for (int k = 0; k < 3; k++) mean[k] = whole->rgb[k];
-    if (m->emission_texture.texture < 0) return;
+    if (m->textures[EC_SLOT_EMISSION].texture < 0) return;
     double own[3];
-    ec_texture_triangle_mean(scene, &m->emission_texture, prim, own);
+    ec_texture_triangle_mean(scene, &m->textures[EC_SLOT_EMISSION], prim, own);
     for (int k = 0; k < 3; k++) mean[k] = 0.98 * own[k] + 0.02 * whole->rgb[k];
 }
 
@@ -55,7 +55,7 @@ static void add_triangle(const ec_scene *scene, const ec_pack *pack, uint32_t pr
     memcpy(l->c, p->v2, sizeof l->c);
     memcpy(l->emission, m->emission, sizeof l->emission);
     l->kind = EC_KIND_TRIANGLE | (m->double_sided ? EC_LIGHT_TWO_SIDED : 0) |
-              (m->emission_texture.texture >= 0 ? EC_LIGHT_TEXTURED : 0);
+              (m->textures[EC_SLOT_EMISSION].texture >= 0 ? EC_LIGHT_TEXTURED : 0);
     l->prim = prim;
     l->pdf_a = (float)(1.0 / area); /* times pmf once that is known */
     list->power[list->count++] = power;
@@ -133,7 +133,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
         const ec_material *material = &scene->materials[m];
         double e[3] = {material->emission[0], material->emission[1], material->emission[2]};
         emits[m] = luminance(e) > 0.0 && !material->unlit;
-        if (emits[m]) mean[m] = ec_texture_whole_mean(scene, &material->emission_texture);
+        if (emits[m]) mean[m] = ec_texture_whole_mean(scene, &material->textures[EC_SLOT_EMISSION]);
     }
     uint32_t most = scene->light_count + 1;
     for (uint32_t p = 0; p < pack->prim_count; p++) most += emits[pack->prims[p].material];

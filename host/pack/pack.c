@@ -18,7 +18,7 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
         memcpy(p->v2, scene->positions + 3 * (size_t)i[2], sizeof p->v2);
         p->material = scene->triangle_material[t];
         p->light_pdf_a = 0.0f;
-        p->flags = (m->double_sided ? 0 : EC_PRIM_SINGLE_SIDED) | (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_PRIM_ALPHA : 0);
+        p->flags = (m->double_sided || ec_refracts(m) ? 0 : EC_PRIM_SINGLE_SIDED) | (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_PRIM_ALPHA : 0);
     }
     for (int k = 0; k < 3; k++) {
         float extent = fmaxf(fabsf(scene->bounds_min[k]), fabsf(scene->bounds_max[k]));
@@ -36,6 +36,16 @@ static void pack_slot(const ec_scene *scene, const ec_texture_use *use, int is_s
     memcpy(slot->transform, use->transform, sizeof slot->transform);
 }
 
+#define SLOT_IS_SRGB(name, is_srgb) is_srgb,
+static const int slot_is_srgb[EC_SLOT_COUNT] = {EC_SLOTS(SLOT_IS_SRGB)};
+
+/* Reflectance of a dielectric in air, seen head-on; KHR_materials_ior: an index of 0 stands for an infinite one. */
+static float head_on_reflectance(float ior)
+{
+    float r = ior == 0.0f ? 1.0f : (ior - 1.0f) / (ior + 1.0f);
+    return r * r;
+}
+
 static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     pack->material_count = scene->material_count;
@@ -47,21 +57,19 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         bool emits = m->emission[0] > 0.0f || m->emission[1] > 0.0f || m->emission[2] > 0.0f;
         memcpy(d->base_color, m->base_color, sizeof d->base_color);
         memcpy(d->emission, m->emission, sizeof d->emission);
-        memcpy(d->specular_color, m->specular_color, sizeof d->specular_color);
+        memcpy(d->absorption, m->absorption, sizeof d->absorption);
+        for (int k = 0; k < 3; k++) d->f0[k] = m->specular_color[k] * head_on_reflectance(m->ior);
         d->flags = (m->double_sided ? EC_MATERIAL_DOUBLE_SIDED : 0) | (emits && !m->unlit ? EC_MATERIAL_EMISSIVE : 0) |
                    (m->unlit ? EC_MATERIAL_UNLIT : 0) | (m->alpha_mode == EC_ALPHA_MASK ? EC_MATERIAL_MASK : 0) |
-                   (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0);
+                   (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0) | (ec_refracts(m) ? EC_MATERIAL_REFRACTS : 0);
         d->metallic = m->metallic;
         d->roughness = m->roughness;
         d->normal_scale = m->normal_scale;
         d->alpha_cutoff = m->alpha_cutoff;
         d->specular = m->specular;
-        pack_slot(scene, &m->base_color_texture, 1, &d->slots[EC_SLOT_BASE_COLOR]);
-        pack_slot(scene, &m->metallic_roughness_texture, 0, &d->slots[EC_SLOT_METALLIC_ROUGHNESS]);
-        pack_slot(scene, &m->normal_texture, 0, &d->slots[EC_SLOT_NORMAL]);
-        pack_slot(scene, &m->emission_texture, 1, &d->slots[EC_SLOT_EMISSION]);
-        pack_slot(scene, &m->specular_texture, 0, &d->slots[EC_SLOT_SPECULAR]);
-        pack_slot(scene, &m->specular_color_texture, 1, &d->slots[EC_SLOT_SPECULAR_COLOR]);
+        d->transmission = m->transmission;
+        d->ior = m->ior;
+        for (int k = 0; k < EC_SLOT_COUNT; k++) pack_slot(scene, &m->textures[k], slot_is_srgb[k], &d->slots[k]);
     }
     return EC_OK;
 }

@@ -36,7 +36,7 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_AR
 #define ARGS(list) sizeof(list) / sizeof *(list), list
 
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
-    [EC_GENERATE] = {"generate", "generate camera rays", EC_LANES_OF_PIPELINE, EC_FEATURE_SOBOL, ARGS(generate)},
+    [EC_GENERATE] = {"generate", "generate camera rays", EC_LANES_OF_PIPELINE, EC_FEATURE_SOBOL | EC_FEATURE_ABSORPTION, ARGS(generate)},
     [EC_INTERSECT] = {"intersect", "intersect", EC_LANES_OF_ACCEL, EC_FEATURE_CULLING | ALPHA_FEATURES, ARGS(intersect)},
     [EC_SHADE] = {"shade", "shade", EC_LANES_OF_PIPELINE, (uint32_t)EC_FEATURE_ALL & ~(uint32_t)(EC_FEATURE_ALPHA | EC_FEATURE_CULLING),
                   ARGS(shade)},

@@ -39,7 +39,8 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
 {
     const uint32_t f = pack->features; /* also for universal kernels: what is not called for stays NULL */
     const bool textured = f & (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE |
-                               EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE);
+                               EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE |
+                               EC_FEATURE_TRANSMISSION_TEXTURE);
     const uint64_t vertices = scene->vertex_count;
     EC_TRY(upload(p, EC_ARG_PRIMS, "triangles", (uint64_t)pack->prim_count * sizeof *pack->prims, pack->prims, err));
     EC_TRY(upload(p, EC_ARG_MATERIALS, "materials", (uint64_t)pack->material_count * sizeof *pack->materials, pack->materials, err));
@@ -93,8 +94,9 @@ ec_result ec_pipeline_create_queues(ec_pipeline *p, ec_error *err)
     /* Lane-wide loads may read a packet past the last entry. */
     const uint64_t field = (uint64_t)p->wave * 4, slack = 64;
     const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
+    const uint64_t path_fields = p->features & EC_FEATURE_ABSORPTION ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
     for (int i = 0; i < 2; i++)
-        EC_TRY(ec_buffer_create(cl, "path queue", field * EC_PATH_FIELDS + slack, NULL, &p->path_queues[i], err));
+        EC_TRY(ec_buffer_create(cl, "path queue", field * path_fields + slack, NULL, &p->path_queues[i], err));
     EC_TRY(ec_buffer_create(cl, "hits", field * EC_HIT_FIELDS + slack, NULL, &p->buffers[EC_ARG_HITS], err));
     EC_TRY(ec_buffer_create(cl, "shadow queue", field * EC_SHADOW_FIELDS + slack, NULL, &p->buffers[EC_ARG_SHADOWS], err));
     EC_TRY(ec_buffer_create(cl, "radiance", field * 3 + slack, NULL, &p->buffers[EC_ARG_RADIANCE], err));

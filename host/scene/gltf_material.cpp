@@ -75,13 +75,40 @@ static void set_specular(ec_material &out, const tinygltf::Material &in, const s
                          const ec_log *log)
 {
     out.specular = out.specular_color[0] = out.specular_color[1] = out.specular_color[2] = 1;
-    out.specular_texture = out.specular_color_texture = no_texture;
+    out.textures[EC_SLOT_SPECULAR] = out.textures[EC_SLOT_SPECULAR_COLOR] = no_texture;
     const Value *s = find_extension(in.extensions, "KHR_materials_specular");
     if (!s) return;
     out.specular = float(get_number(*s, "specularFactor", 1));
     for (int i = 0; i < 3; i++) out.specular_color[i] = float(get_element(*s, "specularColorFactor", i, 1));
-    out.specular_texture = make_use(*s, "specularTexture", where, gltf, log);
-    out.specular_color_texture = make_use(*s, "specularColorTexture", where, gltf, log);
+    out.textures[EC_SLOT_SPECULAR] = make_use(*s, "specularTexture", where, gltf, log);
+    out.textures[EC_SLOT_SPECULAR_COLOR] = make_use(*s, "specularColorTexture", where, gltf, log);
+}
+
+/* attenuationColor is what is left of white light after attenuationDistance (Beer-Lambert). What a file says of a body's
+ * thickness only tells bodies from thin walls: rays find the way through by themselves. */
+static void set_volume(ec_material &out, const Value &v)
+{
+    out.volume = get_number(v, "thicknessFactor", 0) > 0;
+    double distance = get_number(v, "attenuationDistance", INFINITY);
+    for (int i = 0; i < 3 && out.volume; i++) {
+        double color = get_element(v, "attenuationColor", i, 1);
+        double absorption = color < 1 ? -std::log(std::fmax(color, 0)) / std::fmax(distance, 0) : 0;
+        out.absorption[i] = float(std::fmin(absorption, 1e30));
+    }
+}
+
+static void set_transmission(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf,
+                             const ec_log *log)
+{
+    const Value *ior = find_extension(in.extensions, "KHR_materials_ior");
+    const Value *transmission = find_extension(in.extensions, "KHR_materials_transmission");
+    const Value *volume = find_extension(in.extensions, "KHR_materials_volume");
+    out.ior = ior ? float(get_number(*ior, "ior", 1.5)) : 1.5f;
+    out.textures[EC_SLOT_TRANSMISSION] = no_texture;
+    if (!transmission) return; /* without it nothing gets into a volume */
+    out.transmission = float(get_number(*transmission, "transmissionFactor", 0));
+    out.textures[EC_SLOT_TRANSMISSION] = make_use(*transmission, "transmissionTexture", where, gltf, log);
+    if (volume) set_volume(out, *volume);
 }
 
 static void set_emission(ec_material &out, const tinygltf::Material &in)
@@ -109,12 +136,13 @@ static void set_material(ec_material &out, const tinygltf::Material &in, const s
     out.alpha_mode = in.alphaMode == "MASK" ? EC_ALPHA_MASK : in.alphaMode == "BLEND" ? EC_ALPHA_BLEND : EC_ALPHA_OPAQUE;
     out.double_sided = in.doubleSided;
     out.unlit = find_extension(in.extensions, "KHR_materials_unlit") != nullptr;
-    out.base_color_texture = use(pbr.baseColorTexture, "baseColorTexture");
-    out.metallic_roughness_texture = use(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
-    out.normal_texture = use(in.normalTexture, "normalTexture");
-    out.emission_texture = use(in.emissiveTexture, "emissiveTexture");
+    out.textures[EC_SLOT_BASE_COLOR] = use(pbr.baseColorTexture, "baseColorTexture");
+    out.textures[EC_SLOT_METALLIC_ROUGHNESS] = use(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
+    out.textures[EC_SLOT_NORMAL] = use(in.normalTexture, "normalTexture");
+    out.textures[EC_SLOT_EMISSION] = use(in.emissiveTexture, "emissiveTexture");
     set_emission(out, in);
     set_specular(out, in, where, gltf, log);
+    set_transmission(out, in, where, gltf, log);
     out.name = copy_string(in.name);
 }
 

@@ -121,10 +121,19 @@ static const field specular[] = {number("specularFactor"), numbers("specularColo
 static const schema specular_s(specular);
 static const field emissive_strength[] = {number("emissiveStrength")};
 static const schema emissive_strength_s(emissive_strength);
+static const field ior[] = {number("ior")};
+static const schema ior_s(ior);
+static const field transmission[] = {number("transmissionFactor"), object("transmissionTexture", texture_info_s)};
+static const schema transmission_s(transmission);
+static const field volume[] = {number("thicknessFactor"), object("thicknessTexture", texture_info_s),
+                               number("attenuationDistance"), numbers("attenuationColor", 3)};
+static const schema volume_s(volume);
 static const field nothing[] = {plain("", kind::flag)};
 static const schema nothing_s(nothing);
 static const field material_extensions[] = {object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
-                                            object("KHR_materials_emissive_strength", emissive_strength_s)};
+                                            object("KHR_materials_emissive_strength", emissive_strength_s),
+                                            object("KHR_materials_ior", ior_s), object("KHR_materials_transmission", transmission_s),
+                                            object("KHR_materials_volume", volume_s)};
 static const schema material_extensions_s(material_extensions);
 static const field material[] = {
     object("pbrMetallicRoughness", metallic_roughness_s), object("normalTexture", texture_info_s),

@@ -6,25 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define USE_COUNT 6
-
-static void texture_uses(ec_material *m, ec_texture_use *uses[USE_COUNT])
-{
-    uses[0] = &m->base_color_texture;
-    uses[1] = &m->metallic_roughness_texture;
-    uses[2] = &m->normal_texture;
-    uses[3] = &m->emission_texture;
-    uses[4] = &m->specular_texture;
-    uses[5] = &m->specular_color_texture;
-}
-
 static ec_material default_material(void)
 {
-    const ec_texture_use none = {.texture = -1, .transform = {1, 0, 0, 0, 1, 0}};
-    return (ec_material){.base_color = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .normal_scale = 1, .specular = 1,
-                         .specular_color = {1, 1, 1}, .alpha_cutoff = 0.5f, .base_color_texture = none,
-                         .metallic_roughness_texture = none, .normal_texture = none, .emission_texture = none,
-                         .specular_texture = none, .specular_color_texture = none};
+    ec_material m = {.base_color = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .normal_scale = 1, .specular = 1,
+                     .specular_color = {1, 1, 1}, .ior = 1.5f, .alpha_cutoff = 0.5f};
+    for (int i = 0; i < EC_SLOT_COUNT; i++) m.textures[i] = (ec_texture_use){.texture = -1, .transform = {1, 0, 0, 0, 1, 0}};
+    return m;
 }
 
 static ec_result append(ec_scene *s, ec_material material, ec_error *err)
@@ -37,13 +24,11 @@ static ec_result append(ec_scene *s, ec_material material, ec_error *err)
 }
 
 /* Bit i: the primitive lacks TEXCOORD_i although the material reads it. */
-static unsigned missing_sets(ec_material *m, const ec_gltf_primitive *p)
+static unsigned missing_sets(const ec_material *m, const ec_gltf_primitive *p)
 {
     unsigned missing = 0;
-    ec_texture_use *uses[USE_COUNT];
-    texture_uses(m, uses);
-    for (int i = 0; i < USE_COUNT; i++)
-        if (uses[i]->texture >= 0 && p->uv[uses[i]->uv_set] < 0) missing |= 1u << uses[i]->uv_set;
+    for (int i = 0; i < EC_SLOT_COUNT; i++)
+        if (m->textures[i].texture >= 0 && p->uv[m->textures[i].uv_set] < 0) missing |= 1u << m->textures[i].uv_set;
     return missing;
 }
 
@@ -51,10 +36,8 @@ static ec_result append_variant(ec_scene *s, uint32_t original, unsigned missing
 {
     ec_material variant = s->materials[original];
     if (variant.name && !(variant.name = strdup(variant.name))) return ec_fail(err, "out of memory for materials");
-    ec_texture_use *uses[USE_COUNT];
-    texture_uses(&variant, uses);
-    for (int i = 0; i < USE_COUNT; i++)
-        if (uses[i]->texture >= 0 && missing >> uses[i]->uv_set & 1) uses[i]->texture = -1;
+    for (int i = 0; i < EC_SLOT_COUNT; i++)
+        if (variant.textures[i].texture >= 0 && missing >> variant.textures[i].uv_set & 1) variant.textures[i].texture = -1;
     ec_result result = append(s, variant, err);
     if (result != EC_OK) free(variant.name);
     return result;

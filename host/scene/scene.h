@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "shared/texture_slots.h"
 
 /* Decoded pixels, row 0 at the top (glTF's v = 0), always four channels. Exactly one of the two is set. */
 typedef struct ec_image {
@@ -41,18 +42,19 @@ typedef struct ec_material {
     float normal_scale;
     float specular;            /* KHR_materials_specular; 1 where absent */
     float specular_color[3];   /* likewise; 1 where absent; may exceed 1 */
+    float ior;                 /* KHR_materials_ior; 1.5 where absent; 0: reflects all, as that extension says */
+    float transmission;        /* KHR_materials_transmission; 0 where absent */
+    bool volume;               /* KHR_materials_volume with a thickness: bounds a body that refracts; else thin-walled */
+    float absorption[3];       /* 1/m: -ln attenuationColor / attenuationDistance; 0 where nothing is absorbed */
     float alpha_cutoff;
     ec_alpha_mode alpha_mode;
     bool double_sided;
     bool unlit;                /* KHR_materials_unlit */
-    ec_texture_use base_color_texture;         /* sRGB colour, linear alpha */
-    ec_texture_use metallic_roughness_texture; /* linear: G roughness, B metallic */
-    ec_texture_use normal_texture;             /* linear */
-    ec_texture_use emission_texture;           /* sRGB */
-    ec_texture_use specular_texture;           /* linear: A */
-    ec_texture_use specular_color_texture;     /* sRGB */
-    char *name;                                /* owned, may be NULL */
+    ec_texture_use textures[EC_SLOT_COUNT]; /* by ec_slot */
+    char *name;                /* owned, may be NULL */
 } ec_material;
+/* Does light bend at it? Else it is thin-walled or opaque. */
+static inline bool ec_refracts(const ec_material *m) { return m->transmission > 0 && m->volume && m->ior > 0; }
 
 /* KHR_lights_punctual, in the scene's recentred frame. 1 cd is taken as 1 W/sr, 1 lx as 1 W/m^2. */
 typedef enum ec_light_type { EC_LIGHT_POINT, EC_LIGHT_SPOT, EC_LIGHT_DIRECTIONAL } ec_light_type;

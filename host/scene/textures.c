@@ -93,12 +93,10 @@ static void map_materials(table *t, const bool *drawn)
 {
     for (uint32_t i = 0; i < t->s->material_count; i++) {
         ec_material *m = &t->s->materials[i];
-        map_use(t, drawn[i], &m->base_color_texture);
-        map_use(t, drawn[i] && !m->unlit, &m->metallic_roughness_texture);
-        map_use(t, drawn[i] && !m->unlit, &m->normal_texture);
-        map_use(t, drawn[i], &m->emission_texture);
-        map_use(t, drawn[i] && !m->unlit, &m->specular_texture);
-        map_use(t, drawn[i] && !m->unlit, &m->specular_color_texture);
+        for (int k = 0; k < EC_SLOT_COUNT; k++) {
+            bool shows = !m->unlit || k == EC_SLOT_BASE_COLOR || k == EC_SLOT_EMISSION;
+            map_use(t, drawn[i] && shows, &m->textures[k]);
+        }
     }
 }
 

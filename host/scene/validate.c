@@ -17,6 +17,8 @@ void ec_scene_clamp_materials(ec_scene *s, const char *path, const ec_log *log)
         bool changed = clamp(&m->metallic, 0, 1) | clamp(&m->roughness, 0, 1) | clamp(&m->specular, 0, 1);
         for (int k = 0; k < 4; k++) changed |= clamp(&m->base_color[k], 0, 1);
         for (int k = 0; k < 3; k++) changed |= clamp(&m->emission[k], 0, 1e30f) | clamp(&m->specular_color[k], 0, 1e30f);
+        changed |= clamp(&m->transmission, 0, 1);
+        if (m->ior != 0) changed |= clamp(&m->ior, 1, 1e3f);
         changed |= clamp(&m->alpha_cutoff, 0, 1e30f) | clamp(&m->normal_scale, -1e30f, 1e30f);
         if (changed)
             ec_warn(log, "%s: materials[%u] \"%.80s\" has factors out of glTF's range; they are clamped", path, i,
@@ -64,16 +66,14 @@ static ec_result check_triangles(const ec_scene *s, ec_error *err)
 
 static ec_result check_material(const ec_scene *s, const ec_material *m, ec_error *err)
 {
-    const ec_texture_use *uses[] = {&m->base_color_texture, &m->metallic_roughness_texture, &m->normal_texture,
-                                    &m->emission_texture, &m->specular_texture, &m->specular_color_texture};
-    for (int i = 0; i < 6; i++) {
-        if (uses[i]->texture >= (int64_t)s->texture_count || uses[i]->uv_set > 1)
+    for (int i = 0; i < EC_SLOT_COUNT; i++) {
+        const ec_texture_use *use = &m->textures[i];
+        if (use->texture >= (int64_t)s->texture_count || use->uv_set > 1)
             return ec_fail(err, "internal error: texture use out of range");
-        if (!all_finite(uses[i]->transform, 6)) return ec_fail(err, "internal error: texture transform is not finite");
-        if (uses[i]->texture >= 0 && !s->uv[uses[i]->uv_set])
-            return ec_fail(err, "internal error: texture without coordinates");
+        if (!all_finite(use->transform, 6)) return ec_fail(err, "internal error: texture transform is not finite");
+        if (use->texture >= 0 && !s->uv[use->uv_set]) return ec_fail(err, "internal error: texture without coordinates");
     }
-    bool finite = all_finite(m->base_color, 4) && all_finite(m->emission, 3) && all_finite(m->specular_color, 3) &&
+    bool finite = all_finite(m->base_color, 4) && all_finite(m->emission, 3) && all_finite(m->specular_color, 3) && all_finite(m->absorption, 3) &&
                   isfinite(m->normal_scale) && isfinite(m->alpha_cutoff);
     return finite ? EC_OK : ec_fail(err, "internal error: a material is not finite");
 }

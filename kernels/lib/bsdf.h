@@ -1,37 +1,48 @@
-/* The metallic-roughness BRDF of glTF 2.0, appendix B, with KHR_materials_specular:
+/* The metallic-roughness BSDF of glTF 2.0, appendix B, with KHR_materials_specular, _ior, _transmission and _volume:
  *
- *   f = metallic F_m D V + (1 - metallic) (F_d D V + (1 - max F_d) base / pi)
+ *   f = metallic F_m D V + (1 - metallic) (F_d D V + (1 - max F_d) base ((1 - transmission) / pi + transmission T))
  *
- * D, V: GGX with height-correlated Smith masking (Heitz 2014, eq. 99); F: Schlick. Directions are local (z = ns) and point
- * away from the surface. Values include the cosine of wi; pdfs are per solid angle. */
+ * D, V: GGX with height-correlated Smith masking (Heitz 2014, eq. 99). T passes light on: through a thin wall by the same
+ * lobe mirrored, into a body by the microfacet BTDF of Walter et al. 2007, eq. 21, between basic radiances L / n^2 (Nicodemus
+ * 1963), so that no factor n^2 comes and goes with each body. A smooth surface has one direction of reflection and one of
+ * transmission: bsdf_eval leaves those out, since nothing but bsdf_sample finds them.
+ * Directions are local (z = ns) and point away from the surface. Values include |cos wi|; pdfs are per solid angle. */
 #ifndef EC_LIB_BSDF_H
 #define EC_LIB_BSDF_H
 
+#include "fresnel.h"
 #include "surface.h"
 
 typedef struct bsdf {
     v3 wo;
     v3 base, f0;
     lane_f f90, metallic, alpha2, alpha;
-    lane_f p_specular; /* probability of sampling the GGX lobe */
+    lane_f p_specular;   /* probability of sampling what mirrors or passes, not the diffuse lobe */
+    lane_f transmission, eta;
+    lane_i smooth, refracts;
 } bsdf;
 
-EC_FN lane_f pow5(lane_f x)
+/* What a microfacet does with light, for the cosine between its normal and wo: reflectance, and the share of the rest that
+ * goes to the base (diffusely, or passes). */
+EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *rest)
 {
-    lane_f x2 = x * x;
-    return x2 * x2 * x;
+    lane_f metal_rise = pow5(1.0f - cosine);
+    lane_f rise = HAS(TRANSMISSION) ? fresnel_rise(cosine, b->eta, b->refracts) : metal_rise;
+    v3 dielectric = v3_make(fma(b->f90 - b->f0.x, rise, b->f0.x), fma(b->f90 - b->f0.y, rise, b->f0.y),
+                            fma(b->f90 - b->f0.z, rise, b->f0.z));
+    /* Whatever a file says of the reflectance, no light gets out beyond the critical angle. */
+    if (HAS(TRANSMISSION)) dielectric = v3_select(b->refracts & (rise == 1.0f), v3_splat(F(1.0f)), dielectric);
+    v3 metal = v3_make(fma(1.0f - b->base.x, metal_rise, b->base.x), fma(1.0f - b->base.y, metal_rise, b->base.y),
+                       fma(1.0f - b->base.z, metal_rise, b->base.z));
+    *rest = (1.0f - b->metallic) * (1.0f - min(v3_max_component(dielectric), F(1.0f)));
+    return v3_fma(v3_sub(metal, dielectric), b->metallic, dielectric);
 }
 
-/* Specular reflectance F and the share left to the diffuse lobe, for the cosine between half vector and either direction. */
-EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *diffuse)
+/* Probability that a microfacet seen at this cosine is sampled for reflection and not for transmission. */
+EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest)
 {
-    lane_f w = pow5(1.0f - cosine);
-    v3 dielectric = v3_make(fma(b->f90 - b->f0.x, w, b->f0.x), fma(b->f90 - b->f0.y, w, b->f0.y),
-                            fma(b->f90 - b->f0.z, w, b->f0.z));
-    v3 metal = v3_make(fma(1.0f - b->base.x, w, b->base.x), fma(1.0f - b->base.y, w, b->base.y),
-                       fma(1.0f - b->base.z, w, b->base.z));
-    *diffuse = (1.0f - b->metallic) * (1.0f - min(v3_max_component(dielectric), F(1.0f)));
-    return v3_fma(v3_sub(metal, dielectric), b->metallic, dielectric);
+    lane_f reflected = luminance(reflectance), sum = fma(rest * b->transmission, luminance(b->base), reflected);
+    return sum > 0.0f ? reflected / sum : F(1.0f);
 }
 
 EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
@@ -45,10 +56,18 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     b.alpha = s->alpha_ggx;
     b.alpha2 = s->alpha_ggx * s->alpha_ggx;
     b.p_specular = F(0.0f);
+    b.transmission = HAS(TRANSMISSION) ? s->transmission : F(0.0f);
+    b.eta = s->eta;
+    b.smooth = HAS(SMOOTH) ? s->smooth : !TRUE_MASK;
+    b.refracts = HAS(TRANSMISSION) ? s->refracts : !TRUE_MASK;
     if (HAS(SPECULAR)) {
-        lane_f diffuse;
-        lane_f specular = luminance(bsdf_fresnel(&b, min(max(wo_local.z, F(0.0f)), F(1.0f)), &diffuse));
-        diffuse *= luminance(b.base);
+        lane_f rest;
+        lane_f specular = luminance(bsdf_fresnel(&b, min(max(wo_local.z, F(0.0f)), F(1.0f)), &rest));
+        lane_f diffuse = rest * luminance(b.base);
+        if (HAS(TRANSMISSION)) {
+            specular = fma(diffuse, b.transmission, specular);
+            diffuse = diffuse * (1.0f - b.transmission);
+        }
         lane_f sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
         /* A lobe that matters at other angles must not starve. */
@@ -57,7 +76,40 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     return b;
 }
 
-/* f cos(wi) and its sampling density; both 0 where wi is below the surface. */
+/* GGX's density of microfacet normals, from components: 1 - cos^2 would lose every digit of a narrow lobe. */
+EC_FN lane_f ggx_d(const bsdf *b, v3 h)
+{
+    lane_f k = fma(fma(h.x, h.x, h.y * h.y), 1.0f / b->alpha2, h.z * h.z);
+    return EC_INV_PI / (b->alpha2 * k * k);
+}
+/* cos sqrt(1 + alpha^2 tan^2): Smith's masking in a form that stays finite at grazing angles. */
+EC_FN lane_f ggx_lambda(const bsdf *b, lane_f cosine)
+{
+    return sqrt(fma(cosine * cosine, 1.0f - b->alpha2, b->alpha2));
+}
+
+/* What passes, for wi below the surface of a rough one. */
+EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
+{
+    lane_f no = b->wo.z, ni = -wi.z;
+    v3 through = v3_make(wi.x, wi.y, ni); /* thin: as if reflected */
+    v3 sum = v3_select(b->refracts, v3_fma(wi, b->eta, b->wo), v3_add(b->wo, through));
+    lane_f length = sqrt(v3_dot(sum, sum));
+    v3 h = v3_scale(sum, copysign(1.0f / length, sum.z));
+    lane_f oh = v3_dot(b->wo, h), ih = -v3_dot(wi, h), rest;
+    lane_i valid = (length > 0.0f) & (oh > 0.0f) & ((ih > 0.0f) | !b->refracts);
+    v3 reflectance = bsdf_fresnel(b, min(oh, F(1.0f)), &rest);
+    lane_f lambda_o = ggx_lambda(b, no), lambda_i = ggx_lambda(b, ni), d = ggx_d(b, h);
+    /* Density of wi for that of h: Walter et al. 2007, eq. 17; a mirrored lobe has 1 / (4 oh). */
+    lane_f denominator = ih - oh / b->eta;
+    lane_f jacobian_oh = b->refracts ? ih * oh / (denominator * denominator) : F(0.25f);
+    lane_f f = d * jacobian_oh * 2.0f * ni / fma(ni, lambda_o, no * lambda_i) * rest * b->transmission;
+    lane_f density = d * jacobian_oh * 2.0f / (no + lambda_o) * (1.0f - bsdf_p_reflect(b, reflectance, rest));
+    *pdf = valid ? b->p_specular * density : F(0.0f);
+    return v3_select(valid, v3_scale(b->base, f), v3_zero());
+}
+
+/* f |cos(wi)| and its sampling density. Both leave out the single directions of a smooth surface. */
 EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 {
     lane_f no = b->wo.z, ni = wi.z;
@@ -69,47 +121,124 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     v3 sum = v3_add(b->wo, wi);
     lane_f length = sqrt(v3_dot(sum, sum)), oh = min(length * 0.5f, F(1.0f)); /* wo . h, the same for either direction */
     v3 h = v3_scale(sum, 1.0f / length);
-    lane_f diffuse_share;
-    v3 fresnel = bsdf_fresnel(b, oh, &diffuse_share);
-    /* D from components: 1 - cos^2 would lose every digit of a narrow lobe. */
-    lane_f k = fma(fma(h.x, h.x, h.y * h.y), 1.0f / b->alpha2, h.z * h.z);
-    lane_f d = EC_INV_PI / (b->alpha2 * k * k);
-    lane_f lambda_o = sqrt(fma(no * no, 1.0f - b->alpha2, b->alpha2));
-    lane_f lambda_i = sqrt(fma(ni * ni, 1.0f - b->alpha2, b->alpha2));
+    lane_f rest;
+    v3 fresnel = bsdf_fresnel(b, oh, &rest);
+    lane_f d = ggx_d(b, h);
+    lane_f lambda_o = ggx_lambda(b, no), lambda_i = ggx_lambda(b, ni);
     lane_f v_ni = 0.5f * ni / fma(ni, lambda_o, no * lambda_i); /* V cos, which stays finite at grazing angles */
-    lane_f diffuse = diffuse_share * ni * EC_INV_PI;
+    lane_f diffuse = rest * ni * EC_INV_PI;
     lane_f specular = d * v_ni;
-    v3 f = v3_fma(fresnel, specular, v3_scale(b->base, diffuse));
     /* Visible normals: D G1 / (4 no) without the quotient G1 / no (Heitz 2018). */
     lane_f pdf_specular = d * 0.5f / (no + lambda_o);
+    if (HAS(TRANSMISSION)) {
+        diffuse *= 1.0f - b->transmission;
+        pdf_specular *= bsdf_p_reflect(b, fresnel, rest);
+    }
+    if (HAS(SMOOTH)) {
+        specular = b->smooth ? F(0.0f) : specular;
+        pdf_specular = b->smooth ? F(0.0f) : pdf_specular;
+    }
+    v3 f = v3_fma(fresnel, specular, v3_scale(b->base, diffuse));
     *pdf = above ? fma(b->p_specular, pdf_specular, (1.0f - b->p_specular) * ni * EC_INV_PI) : F(0.0f);
-    return v3_select(above, f, v3_zero());
+    f = v3_select(above, f, v3_zero());
+    if (HAS(TRANSMISSION)) {
+        lane_i below = (ni < 0.0f) & (no > 0.0f) & (b->transmission > 0.0f) & !b->smooth;
+        if (any_lane(below)) {
+            lane_f pdf_below;
+            v3 f_below = bsdf_eval_below(b, wi, &pdf_below);
+            f = v3_select(below, f_below, f);
+            *pdf = below ? pdf_below : *pdf;
+        }
+    }
+    return f;
 }
 
-/* What knows nothing of the material: uniform over the hemisphere, of density EC_HEMISPHERE_PDF. */
-#define EC_HEMISPHERE_PDF (0.5f * EC_INV_PI)
-EC_FN v3 hemisphere_sample(lane_f u1, lane_f u2)
-{
-    lane_f cosine, sine = sincos_2pi(u1, &cosine), r = sqrt(max(fma(-u2, u2, F(1.0f)), F(0.0f)));
-    return v3_make(r * cosine, r * sine, u2);
-}
+typedef struct bsdf_direction {
+    v3 wi;
+    v3 weight;  /* f |cos wi| / pdf */
+    lane_f pdf; /* 0: no direction; < 0: the only one of its kind, which no other strategy finds */
+} bsdf_direction;
 
-/* A direction from (u1, u2); choice picks the lobe. GGX: visible normals by spherical caps (Dupuy, Benyoub 2023). */
-EC_FN v3 bsdf_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f choice)
+/* A visible normal by spherical caps (Dupuy, Benyoub 2023); of smooth surfaces the only one. */
+EC_FN v3 ggx_sample(const bsdf *b, lane_f cosine, lane_f sine, lane_f u2)
 {
-    lane_f cosine, sine = sincos_2pi(u1, &cosine);
-    lane_f r = sqrt(u2);
-    v3 wi = v3_make(r * cosine, r * sine, sqrt(max(1.0f - u2, F(0.0f))));
-    if (!HAS(SPECULAR)) return wi;
-    lane_i specular = choice < b->p_specular;
-    if (!any_lane(specular)) return wi;
     v3 warped = v3_normalize(v3_make(b->wo.x * b->alpha, b->wo.y * b->alpha, b->wo.z));
     lane_f z = fma(1.0f - u2, 1.0f + warped.z, -warped.z);
     lane_f sin_theta = sqrt(min(max(1.0f - z * z, F(0.0f)), F(1.0f)));
     v3 c = v3_add(v3_make(sin_theta * cosine, sin_theta * sine, z), warped);
     v3 m = v3_normalize(v3_make(c.x * b->alpha, c.y * b->alpha, c.z));
-    v3 reflected = v3_fma(m, 2.0f * v3_dot(b->wo, m), v3_negate(b->wo));
-    return v3_select(specular, reflected, wi);
+    return HAS(SMOOTH) ? v3_select(b->smooth, v3_make(F(0.0f), F(0.0f), F(1.0f)), m) : m;
+}
+
+/* The mirrored or the passing direction at a sampled microfacet; u in [0, 1] chooses. The weight is a smooth surface's. */
+EC_FN bsdf_direction bsdf_sample_specular(const bsdf *b, lane_f cosine, lane_f sine, lane_f u2, lane_f u)
+{
+    bsdf_direction r;
+    v3 m = ggx_sample(b, cosine, sine, u2);
+    lane_f om = v3_dot(b->wo, m);
+    r.wi = v3_fma(m, 2.0f * om, v3_negate(b->wo));
+    r.pdf = F(1.0f);
+    r.weight = v3_zero();
+    if (!(HAS(TRANSMISSION) | HAS(SMOOTH))) return r;
+    lane_f rest;
+    v3 reflectance = bsdf_fresnel(b, min(max(om, F(0.0f)), F(1.0f)), &rest);
+    lane_f p_reflect = HAS(TRANSMISSION) ? bsdf_p_reflect(b, reflectance, rest) : F(1.0f);
+    lane_i passes = (u >= p_reflect) & (p_reflect < 1.0f);
+    r.weight = v3_scale(reflectance, 1.0f / (p_reflect * b->p_specular));
+    if (HAS(TRANSMISSION)) {
+        v3 below = v3_select(b->refracts, refract(b->wo, m, b->eta), v3_make(r.wi.x, r.wi.y, -r.wi.z));
+        r.wi = v3_select(passes, below, r.wi);
+        v3 passed = v3_scale(b->base, rest * b->transmission / ((1.0f - p_reflect) * b->p_specular));
+        r.weight = v3_select(passes, passed, r.weight);
+        /* Off a tilted microfacet onto the wrong side: no direction, nor in the densities. */
+        r.wi.z = (passes ? r.wi.z < 0.0f : r.wi.z > 0.0f) ? r.wi.z : F(0.0f);
+    }
+    return r;
+}
+
+/* What knows nothing of the material: uniform over the hemisphere about ns, or the sphere where light passes. */
+EC_FN v3 blind_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f *pdf)
+{
+    lane_f cosine, sine = sincos_2pi(u1, &cosine), z = u2;
+    *pdf = F(0.5f * EC_INV_PI);
+    if (HAS(TRANSMISSION)) {
+        z = b->transmission > 0.0f ? fma(F(2.0f), u2, F(-1.0f)) : z;
+        *pdf = b->transmission > 0.0f ? F(0.25f * EC_INV_PI) : *pdf;
+    }
+    lane_f r = sqrt(max(fma(-z, z, F(1.0f)), F(0.0f)));
+    return v3_make(r * cosine, r * sine, z);
+}
+
+/* A direction from (u1, u2); u picks the lobe. blind: uniform, but for what a smooth surface mirrors or lets pass. */
+EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2, lane_f u)
+{
+    bsdf_direction r;
+    lane_f cosine, sine = sincos_2pi(u1, &cosine), root = sqrt(u2), blind_pdf = F(0.0f);
+    r.wi = v3_make(root * cosine, root * sine, sqrt(max(1.0f - u2, F(0.0f))));
+    if (blind) r.wi = blind_sample(b, u1, u2, &blind_pdf);
+    lane_i single = !TRUE_MASK;
+    v3 single_weight = v3_zero();
+    if (HAS(SPECULAR)) {
+        lane_i specular = u < b->p_specular;
+        if (HAS(SMOOTH)) single = specular & b->smooth;
+        if (blind) specular = single;
+        if (any_lane(specular)) {
+            bsdf_direction s = bsdf_sample_specular(b, cosine, sine, u2, u / b->p_specular);
+            r.wi = v3_select(specular, s.wi, r.wi);
+            single_weight = s.weight;
+        }
+    }
+    v3 f = bsdf_eval(b, r.wi, &r.pdf);
+    if (blind) {
+        r.pdf = blind_pdf;
+        if (HAS(SMOOTH)) r.pdf *= b->smooth ? 1.0f - b->p_specular : F(1.0f);
+    }
+    r.weight = v3_scale(f, 1.0f / r.pdf);
+    if (HAS(SMOOTH)) {
+        r.weight = v3_select(single, single_weight, r.weight);
+        r.pdf = single ? F(-1.0f) : r.pdf;
+    }
+    return r;
 }
 
 #endif

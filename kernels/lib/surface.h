@@ -12,9 +12,13 @@ typedef struct surface {
     lane_i front;  /* is wo on the front? */
     v3 base;       /* base colour, linear */
     lane_f metallic;
-    lane_f alpha_ggx; /* roughness squared */
+    lane_f alpha_ggx; /* roughness squared, at least EC_SMOOTH_ALPHA */
+    lane_i smooth;    /* under that: reflection and refraction have one direction each */
     v3 f0;         /* dielectric reflectance at normal incidence */
     lane_f f90;    /* and at grazing */
+    lane_f transmission; /* share of what a dielectric does not reflect that passes, not scattered back by the base */
+    lane_f eta;    /* index of refraction beyond the surface over that on wo's side; 1: passes through a thin wall */
+    lane_i refracts;
 } surface;
 
 /* Position, its error bound and the geometric normal; wo points away from the surface. */
@@ -105,6 +109,19 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
     v3_frame(s->ns, &s->s, &s->t);
 }
 
+/* KHR_materials_transmission, _ior and _volume. A body is entered through its front, whatever surrounds it: air. */
+EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
+    lane_f ior = material_quad(g, h, EC_MATERIAL_IOR).a;
+    s->transmission = material_quad(g, h, EC_MATERIAL_ABSORPTION).d;
+    if (HAS(TRANSMISSION_TEXTURE)) s->transmission *= material_texture(g, h, m, EC_SLOT_TRANSMISSION, false).rgb.x;
+    s->refracts = ((flags & EC_MATERIAL_REFRACTS) != 0u) & (s->transmission > 0.0f);
+    s->eta = s->refracts ? (s->front ? ior : 1.0f / ior) : F(1.0f);
+    /* The lobe's width is about alpha |eta - 1|, and float half vectors have no more digits than that. */
+    if (HAS(SMOOTH)) s->smooth = s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);
+}
+
 /* Parameters of the metallic-roughness model with KHR_materials_specular. */
 EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
@@ -113,8 +130,11 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->alpha_ggx = F(1.0f);
     s->f0 = v3_zero();
     s->f90 = F(0.0f);
+    s->smooth = s->refracts = !TRUE_MASK;
+    s->transmission = F(0.0f);
+    s->eta = F(1.0f);
     if (!HAS(SPECULAR)) return;
-    quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_SPECULAR_COLOR);
+    quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_F0);
     lane_f roughness = factors.b;
     s->metallic = factors.a;
     if (HAS(METALLIC_ROUGHNESS_TEXTURE)) {
@@ -122,17 +142,18 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
         roughness *= t.rgb.y;
         s->metallic *= t.rgb.z;
     }
-    /* Below 10^-4 a lobe is narrower than float directions resolve. */
-    s->alpha_ggx = max(roughness * roughness, F(1e-4f));
+    s->alpha_ggx = roughness * roughness;
+    if (HAS(TRANSMISSION)) surface_transmission(g, h, m, s);
+    if (HAS(SMOOTH)) s->smooth = s->smooth | (s->alpha_ggx < EC_SMOOTH_ALPHA);
+    s->alpha_ggx = max(s->alpha_ggx, F(EC_SMOOTH_ALPHA));
     lane_f weight = specular.d;
     v3 color = v3_make(specular.a, specular.b, specular.c);
     if (HAS(SPECULAR_TEXTURE)) {
         weight *= material_texture(g, h, m, EC_SLOT_SPECULAR, false).a;
         color = v3_mul(color, material_texture(g, h, m, EC_SLOT_SPECULAR_COLOR, true).rgb);
     }
-    /* KHR_materials_specular: f0 = min(0.04 color, 1) weight for an index of refraction of 1.5. */
-    s->f0 = v3_scale(v3_make(min(color.x * 0.04f, F(1.0f)), min(color.y * 0.04f, F(1.0f)), min(color.z * 0.04f, F(1.0f))),
-                     weight);
+    /* KHR_materials_specular: f0 = min(color ((ior - 1) / (ior + 1))^2, 1) weight. */
+    s->f0 = v3_scale(v3_make(min(color.x, F(1.0f)), min(color.y, F(1.0f)), min(color.z, F(1.0f))), weight);
     s->f90 = weight;
 }
 

@@ -24,10 +24,14 @@
     X(14, CULLING, "back-face-culling")                                                            \
     X(15, UNLIT, "unlit")                                                                          \
     X(16, FLOAT_TEXTURE, "float-textures")                                                          \
-    X(17, SOBOL, "sobol-sampler")
+    X(17, SMOOTH, "smooth-surfaces")                                                               \
+    X(18, TRANSMISSION, "transmission")                                                            \
+    X(19, TRANSMISSION_TEXTURE, "transmission-texture")                                            \
+    X(20, ABSORPTION, "absorption")                                                                \
+    X(21, SOBOL, "sobol-sampler")
 
 #define EC_FEATURE_ENUM(bit, name, text) EC_FEATURE_##name = 1 << bit,
-enum ec_feature { EC_FEATURES(EC_FEATURE_ENUM) EC_FEATURE_ALL = (1 << 18) - 1 };
+enum ec_feature { EC_FEATURES(EC_FEATURE_ENUM) EC_FEATURE_ALL = (1 << 22) - 1 };
 
 #ifdef EC_DEVICE_CODE
 #ifndef FEATURES

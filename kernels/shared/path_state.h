@@ -9,7 +9,9 @@ enum ec_path_field {
     EC_PATH_PDF,                           /* solid-angle density of this direction; < 0: light sampling could not */
     EC_PATH_SLOT,                          /* uint: where in the wave the sample's radiance is kept */
     EC_PATH_PRIM,                          /* uint: triangle the ray leaves; EC_NO_ID for camera rays */
-    EC_PATH_FIELDS
+    EC_PATH_FIELDS,
+    EC_PATH_MEDIUM = EC_PATH_FIELDS,       /* with ABSORPTION only: uint, first word of the material the ray is inside of */
+    EC_PATH_MEDIUM_FIELDS
 };
 
 enum ec_hit_field {

@@ -4,6 +4,7 @@
 #ifndef EC_SHARED_SCENE_BUFFERS_H
 #define EC_SHARED_SCENE_BUFFERS_H
 
+#include "texture_slots.h"
 #include "types.h"
 
 /* One triangle, in scene order: the hit's id is the index. */
@@ -27,27 +28,20 @@ typedef struct ec_texture_slot {
 } ec_texture_slot;
 EC_ASSERT_SIZE(ec_texture_slot, 32);
 
-enum ec_slot {
-    EC_SLOT_BASE_COLOR,
-    EC_SLOT_METALLIC_ROUGHNESS,
-    EC_SLOT_NORMAL,
-    EC_SLOT_EMISSION,
-    EC_SLOT_SPECULAR,
-    EC_SLOT_SPECULAR_COLOR,
-    EC_SLOT_COUNT
-};
-
 typedef struct ec_material_data {
     ec_float base_color[4];     /* linear, alpha = coverage */
     ec_float emission[3];       /* radiance */
     ec_uint flags;              /* EC_MATERIAL_* */
     ec_float metallic, roughness, normal_scale, alpha_cutoff;
-    ec_float specular_color[3];
+    ec_float f0[3];             /* specular colour times the dielectric's reflectance at normal incidence */
     ec_float specular;
-    ec_texture_slot slots[6];
+    ec_float absorption[3];     /* 1/m, inside the body */
+    ec_float transmission;
+    ec_float ior, pad[3];
+    ec_texture_slot slots[EC_SLOT_COUNT];
 } ec_material_data;
-EC_ASSERT_SIZE(ec_material_data, 256);
-#define EC_MATERIAL_WORDS 64
+EC_ASSERT_SIZE(ec_material_data, 320);
+#define EC_MATERIAL_WORDS 80
 #define EC_MATERIAL_BASE_COLOR 0
 #define EC_MATERIAL_EMISSION 4
 #define EC_MATERIAL_FLAGS 7
@@ -55,14 +49,17 @@ EC_ASSERT_SIZE(ec_material_data, 256);
 #define EC_MATERIAL_ROUGHNESS 9
 #define EC_MATERIAL_NORMAL_SCALE 10
 #define EC_MATERIAL_ALPHA_CUTOFF 11
-#define EC_MATERIAL_SPECULAR_COLOR 12
-#define EC_MATERIAL_SPECULAR 15
-#define EC_MATERIAL_SLOTS 16
+#define EC_MATERIAL_F0 12
+#define EC_MATERIAL_ABSORPTION 16
+#define EC_MATERIAL_IOR 20
+#define EC_MATERIAL_SLOTS 24
 #define EC_MATERIAL_DOUBLE_SIDED 1u
 #define EC_MATERIAL_EMISSIVE 2u
 #define EC_MATERIAL_UNLIT 4u
 #define EC_MATERIAL_MASK 8u
 #define EC_MATERIAL_BLEND 16u
+#define EC_SMOOTH_ALPHA 1e-4f /* GGX of less width is narrower than float directions resolve: a mirror */
+#define EC_MATERIAL_REFRACTS 32u /* a body, not a thin wall */
 
 /* A texture is a view of an image's texels. */
 typedef struct ec_texture_data {

@@ -5,6 +5,7 @@
 #include "../lib/features.h"
 #include "../lib/film.h"
 #include "../lib/light.h"
+#include "../lib/medium.h"
 #include "../lib/queue.h"
 
 /* Density of light sampling for a point that this ray found on an emissive triangle. */
@@ -30,6 +31,12 @@ EC_FN lane_f joined_weight(uint sample, const light_sample *l, lane_f path_pdf)
     lane_f weight = F(sample == EC_SAMPLE_LIGHT ? 1.0f : 0.0f);
     if (sample == EC_SAMPLE_MIS) weight = mis_weight(l->pdf, path_pdf);
     return l->is_delta ? F(1.0f) : weight;
+}
+
+/* Shading normals can put a direction on one side of the surface and the path on the other. */
+EC_FN lane_i same_side(const surface *s, v3 w, v3 w_local)
+{
+    return v3_dot(s->ng, w) * w_local.z > 0.0f;
 }
 
 kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
@@ -78,7 +85,12 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     surface_frame(&g, &h, found, wo, &s);
     surface_material(&g, &h, found, &s);
     quad emission = material_quad(&g, &h, EC_MATERIAL_EMISSION);
-    lane_u flags = as_lane_u(emission.d);
+    lane_u flags = as_lane_u(emission.d), medium = U(EC_NO_ID);
+    if (HAS(ABSORPTION)) {
+        medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
+        v3 way = v3_sub(s.p, o);
+        beta = v3_mul(beta, medium_transmittance(&g, medium, sqrt(v3_dot(way, way))));
+    }
 
     if (HAS(EMISSION)) {
         lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
@@ -116,14 +128,17 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     sample_pair_u(random, pair + EC_PAIR_CHOICE, &choice, &lobe);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
 
-    if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count) {
+    lane_i joins = scatters & !(b.smooth & (b.p_specular == 1.0f)); /* no light sample lies in a mirror's one direction */
+    if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
         lane_f u1, u2, pdf_bsdf;
         sample_pair(random, pair + EC_PAIR_LIGHT, &u1, &u2);
-        light_sample l = light_sample_one(&light, &g, scatters, s.p, choice, u1, u2);
-        v3 f = bsdf_eval(&b, surface_to_local(&s, l.wi), &pdf_bsdf);
+        light_sample l = light_sample_one(&light, &g, joins, s.p, choice, u1, u2);
+        v3 wi_local = surface_to_local(&s, l.wi);
+        v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
-        lane_i m = l.valid & (pdf_bsdf > 0.0f) & (v3_dot(s.ng, l.wi) > 0.0f) & (v3_max_component(arriving) != 0.0f);
+        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, medium_transmittance(&g, medium, sqrt(v3_dot(l.towards, l.towards))));
+        lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local) & (v3_max_component(arriving) != 0.0f);
         lane_i finite = v3_is_finite(arriving);
         uint bad = mask_bits(m & !finite);
         if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
@@ -141,15 +156,12 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
         }
     }
 
-    lane_f u1, u2, pdf;
+    lane_f u1, u2;
     sample_pair(random, pair + EC_PAIR_BSDF, &u1, &u2);
-    bool blind = params->sample == EC_SAMPLE_HEMISPHERE;
-    v3 wi_local = blind ? hemisphere_sample(u1, u2) : bsdf_sample(&b, u1, u2, to_unit(lobe));
-    v3 wi = surface_to_world(&s, wi_local); /* unit to 8 u: frame and wi_local are */
-    v3 f = bsdf_eval(&b, wi_local, &pdf);
-    if (blind) pdf = F(EC_HEMISPHERE_PDF);
-    lane_i alive = scatters & (pdf > 0.0f) & (v3_dot(s.ng, wi) > 0.0f);
-    beta = v3_mul(beta, v3_scale(f, 1.0f / pdf));
+    bsdf_direction next_way = bsdf_sample(&b, params->sample == EC_SAMPLE_HEMISPHERE, u1, u2, to_unit(lobe));
+    v3 wi = surface_to_world(&s, next_way.wi); /* unit to 8 u: frame and local direction are */
+    lane_i alive = scatters & (next_way.pdf != 0.0f) & same_side(&s, wi, next_way.wi);
+    beta = v3_mul(beta, next_way.weight);
     lane_i finite = v3_is_finite(beta);
     uint bad = mask_bits(alive & !finite);
     if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
@@ -167,7 +179,12 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     queue_push_v3(next, wave, EC_PATH_OX, at, surface_offset(s.p, s.p_error, s.ng, wi), bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);
     queue_push_v3(next, wave, EC_PATH_BR, at, beta, bits);
-    queue_push_f(next, wave, EC_PATH_PDF, at, pdf, bits);
+    queue_push_f(next, wave, EC_PATH_PDF, at, next_way.pdf, bits);
     queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
     queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(prim), bits);
+    if (HAS(ABSORPTION)) {
+        lane_u beyond = s.front ? h.material : U(EC_NO_ID);
+        medium = (s.refracts & (next_way.wi.z < 0.0f)) ? beyond : medium;
+        queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium), bits);
+    }
 }

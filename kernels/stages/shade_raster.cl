@@ -70,6 +70,7 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
         lit = lit & !m;
     }
     s.alpha_ggx = max(s.alpha_ggx, F(LEAST_ALPHA));
+    s.smooth = !TRUE_MASK;
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
     v3 direct = v3_zero();
     if (HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS)) {

@@ -46,7 +46,7 @@ static void test_defaults(void)
     const ec_material *m = s->materials;
     CHECK(s->material_count == 1 && m->base_color[3] == 1 && m->metallic == 1 && m->roughness == 1);
     CHECK(m->specular == 1 && m->specular_color[2] == 1 && m->normal_scale == 1 && m->alpha_cutoff == 0.5f);
-    CHECK(m->alpha_mode == EC_ALPHA_OPAQUE && !m->double_sided && !m->unlit && m->base_color_texture.texture == -1);
+    CHECK(m->alpha_mode == EC_ALPHA_OPAQUE && !m->double_sided && !m->unlit && m->textures[EC_SLOT_BASE_COLOR].texture == -1);
     CHECK(!ec_scene_has_light(s));
     ec_scene_free(s);
     s = load(TEXTURED("", ""));
@@ -75,7 +75,7 @@ static void test_factors(void)
     CHECK_NEAR(m->emission[0], 8e9, 1e3);
     CHECK_NEAR(m->emission[1], 4e9, 1e3);
     CHECK(m->specular == 0 && m->specular_color[0] == 2 && m->specular_color[2] == 0.5f);
-    CHECK(m->specular_texture.texture >= 0 && m->normal_texture.texture >= 0);
+    CHECK(m->textures[EC_SLOT_SPECULAR].texture >= 0 && m->textures[EC_SLOT_NORMAL].texture >= 0);
     CHECK(ec_scene_has_light(s));
     CHECK(s->extension_count == 2 && s->extension_ignored_count == 1);
     CHECK(!strcmp(s->extensions_ignored[0], "KHR_materials_unknown"));
@@ -97,9 +97,9 @@ static void test_images(void)
     const ec_material *m = s->materials;
     CHECK(s->image_count == 2 && s->texture_count == 3);
     if (s->texture_count != 3) exit(1);
-    const ec_texture *base = &s->textures[m->base_color_texture.texture];
-    const ec_texture *rough = &s->textures[m->metallic_roughness_texture.texture];
-    const ec_texture *glow = &s->textures[m->emission_texture.texture];
+    const ec_texture *base = &s->textures[m->textures[EC_SLOT_BASE_COLOR].texture];
+    const ec_texture *rough = &s->textures[m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture];
+    const ec_texture *glow = &s->textures[m->textures[EC_SLOT_EMISSION].texture];
     CHECK(base->nearest && base->wrap_s == EC_WRAP_CLAMP && base->wrap_t == EC_WRAP_MIRROR);
     CHECK(!rough->nearest && rough->wrap_s == EC_WRAP_REPEAT && rough->wrap_t == EC_WRAP_REPEAT);
     CHECK(glow->image == base->image && !glow->nearest);
@@ -113,8 +113,8 @@ static void test_images(void)
     s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':2},'metallicRoughnessTexture':{'index':3}},"
                       "'normalTexture':{'index':4},'emissiveTexture':{'index':0}", ""));
     m = s->materials;
-    CHECK(m->base_color_texture.texture < 0 && m->metallic_roughness_texture.texture < 0 && m->normal_texture.texture < 0);
-    CHECK(m->emission_texture.texture == 0 && s->texture_count == 1);
+    CHECK(m->textures[EC_SLOT_BASE_COLOR].texture < 0 && m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture < 0 && m->textures[EC_SLOT_NORMAL].texture < 0);
+    CHECK(m->textures[EC_SLOT_EMISSION].texture == 0 && s->texture_count == 1);
     CHECK_MSG(strstr(messages, "images[2] \"broken\" cannot be decoded") && strstr(messages, "textures[3] has no image") &&
               strstr(messages, "missing.png: cannot open"), "%s", messages);
     ec_scene_free(s);
@@ -127,7 +127,7 @@ static void test_transform(void)
 {
     ec_scene *s = load(TEXTURED(",'emissiveTexture':{'index':0,'texCoord':1,'extensions':{'KHR_texture_transform':"
                                 "{'offset':[0.25,1],'rotation':1.5707963267948966,'scale':[2,3],'texCoord':0}}}", ""));
-    const ec_texture_use *use = &s->materials[0].emission_texture;
+    const ec_texture_use *use = &s->materials[0].textures[EC_SLOT_EMISSION];
     CHECK(use->texture == 0 && use->uv_set == 0);
     /* (1, 0): scaled to (2, 0), then turned a quarter counter-clockwise where v points down: (0, -2) */
     CHECK_NEAR(use->transform[0] + use->transform[2], 0.25, 1e-6);
@@ -140,7 +140,7 @@ static void test_transform(void)
      * show the tip of the arrow, which lies at (0.778, 0.778) in the picture. */
     s = load(TEXTURED(",'emissiveTexture':{'index':0,'extensions':{'KHR_texture_transform':{'rotation':"
                       "0.39269908169872414}}}", ""));
-    const float *m = s->materials[0].emission_texture.transform;
+    const float *m = s->materials[0].textures[EC_SLOT_EMISSION].transform;
     CHECK_NEAR(m[0] * 0.420952 + m[1] * 1.016267 + m[2], 0.7778, 1e-3);
     CHECK_NEAR(m[3] * 0.420952 + m[4] * 1.016267 + m[5], 0.7778, 1e-3);
     ec_scene_free(s);
@@ -164,9 +164,9 @@ static void test_missing_coordinates(void)
     if (!s) return;
     const ec_material *first = &s->materials[s->triangle_material[0]], *second = &s->materials[s->triangle_material[1]];
     CHECK(s->triangle_count == 2 && first != second);
-    CHECK(first->base_color_texture.texture == 0 && first->emission_texture.texture == -1);
-    CHECK(second->base_color_texture.texture == -1 && second->emission_texture.texture == -1);
-    CHECK(first->normal_texture.texture == -1 && !strcmp(second->name, "m"));
+    CHECK(first->textures[EC_SLOT_BASE_COLOR].texture == 0 && first->textures[EC_SLOT_EMISSION].texture == -1);
+    CHECK(second->textures[EC_SLOT_BASE_COLOR].texture == -1 && second->textures[EC_SLOT_EMISSION].texture == -1);
+    CHECK(first->textures[EC_SLOT_NORMAL].texture == -1 && !strcmp(second->name, "m"));
     CHECK_MSG(strstr(messages, "TEXCOORD_1, which meshes[0] lacks") && strstr(messages, "TEXCOORD_2"), "%s", messages);
     CHECK(s->uv[0][0] == 0 && s->uv[0][2 * 3] == 0 && !s->uv[1]);
     ec_scene_free(s);

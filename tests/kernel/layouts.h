@@ -19,7 +19,8 @@
     S(ec_texture_slot) F(ec_texture_slot, texture) F(ec_texture_slot, uv_set) F(ec_texture_slot, transform) \
     S(ec_material_data) F(ec_material_data, base_color) F(ec_material_data, emission) F(ec_material_data, flags) \
     F(ec_material_data, metallic) F(ec_material_data, roughness) F(ec_material_data, normal_scale) \
-    F(ec_material_data, alpha_cutoff) F(ec_material_data, specular_color) F(ec_material_data, specular) \
+    F(ec_material_data, alpha_cutoff) F(ec_material_data, f0) F(ec_material_data, specular) \
+    F(ec_material_data, absorption) F(ec_material_data, transmission) F(ec_material_data, ior) \
     F(ec_material_data, slots) F(ec_material_data, slots[EC_SLOT_COUNT - 1].transform[5])          \
     S(ec_texture_data) F(ec_texture_data, offset) F(ec_texture_data, width) F(ec_texture_data, height) F(ec_texture_data, flags) \
     S(ec_light_data) F(ec_light_data, a) F(ec_light_data, b) F(ec_light_data, c) F(ec_light_data, emission) \
@@ -32,7 +33,7 @@
     W(EC_MATERIAL_BASE_COLOR, ec_material_data, base_color) W(EC_MATERIAL_EMISSION, ec_material_data, emission) \
     W(EC_MATERIAL_FLAGS, ec_material_data, flags) W(EC_MATERIAL_METALLIC, ec_material_data, metallic) \
     W(EC_MATERIAL_ROUGHNESS, ec_material_data, roughness) W(EC_MATERIAL_NORMAL_SCALE, ec_material_data, normal_scale) \
-    W(EC_MATERIAL_ALPHA_CUTOFF, ec_material_data, alpha_cutoff) W(EC_MATERIAL_SPECULAR_COLOR, ec_material_data, specular_color) \
-    W(EC_MATERIAL_SPECULAR, ec_material_data, specular) W(EC_MATERIAL_SLOTS, ec_material_data, slots)
+    W(EC_MATERIAL_ALPHA_CUTOFF, ec_material_data, alpha_cutoff) W(EC_MATERIAL_F0, ec_material_data, f0) \
+    W(EC_MATERIAL_ABSORPTION, ec_material_data, absorption) W(EC_MATERIAL_IOR, ec_material_data, ior) W(EC_MATERIAL_SLOTS, ec_material_data, slots)
 
 #endif

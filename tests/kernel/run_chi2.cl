@@ -28,17 +28,21 @@ static bsdf make_bsdf(constant float *m)
     s.f90 = F(m[4]);
     s.metallic = F(m[5]);
     s.alpha_ggx = F(m[6]);
+    s.smooth = !TRUE_MASK;
+    s.transmission = F(m[8]);
+    s.eta = F(m[9]);
+    s.refracts = LANE_NUMBERS < (m[9] != 1.0f ? (uint)LANES : 0u);
     return bsdf_make(&s, v3_make(F(sqrt(max(1.0f - m[7] * m[7], 0.0f))), F(0.0f), F(m[7])));
 }
 
-/* m: base (3), f0, f90, metallic, alpha, cosine of wo */
+/* m: base (3), f0, f90, metallic, alpha, cosine of wo, transmission, eta (1: thin) */
 kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out)
 {
     lane_f u1, u2, pdf;
     lane_u choice;
     numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &u1, &u2, &choice);
     bsdf b = make_bsdf(m);
-    v3 wi = bsdf_sample(&b, u1, u2, to_unit(choice));
+    v3 wi = bsdf_sample(&b, false, u1, u2, to_unit(choice)).wi;
     bsdf_eval(&b, wi, &pdf);
     store(out, n, wi, pdf);
 }

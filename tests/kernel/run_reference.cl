@@ -26,6 +26,13 @@ kernel void atan2_of(global const float *y, global const float *x, global float 
 
 kernel void acos_of(global const float *x, global float *out) { LANE_STORE(acos_over_pi(LANE_LOAD(x + AT)), out + AT); }
 
+static void opaque(surface *s)
+{
+    s->smooth = s->refracts = !TRUE_MASK;
+    s->transmission = F(0.0f);
+    s->eta = F(1.0f);
+}
+
 /* Arrays of n, structure of arrays. material: base (3), f0 (3), f90, metallic, alpha. */
 kernel void bsdf_of(uint n, global const float *wo, global const float *wi, global const float *material, global float *f,
                     global float *pdf)
@@ -36,6 +43,7 @@ kernel void bsdf_of(uint n, global const float *wo, global const float *wi, glob
     s.f90 = LANE_LOAD(material + 6 * n + AT);
     s.metallic = LANE_LOAD(material + 7 * n + AT);
     s.alpha_ggx = LANE_LOAD(material + 8 * n + AT);
+    opaque(&s);
     bsdf b = bsdf_make(&s, load_v3(wo + AT, n));
     lane_f p;
     store_v3(bsdf_eval(&b, load_v3(wi + AT, n), &p), f + AT, n);
@@ -52,13 +60,14 @@ kernel void albedo_of(uint count, global const float *cosine, global const float
     s.f90 = s.metallic = F(1.0f);
     uint at = get_global_id(0);
     s.alpha_ggx = F(alpha[at]);
+    opaque(&s);
     lane_f z = F(cosine[at]);
     bsdf b = bsdf_make(&s, v3_make(sqrt(max(1.0f - z * z, F(0.0f))), F(0.0f), z));
     lane_f total = F(0.0f), lost = F(0.0f);
     for (uint i = 0; i < count; i += LANES) {
         lane_u k = LANE_NUMBERS + i;
         lane_f u1 = (to_lane_f(k) + 0.5f) / (float)count, u2 = to_lane_f(reverse_bits(k) >> 8) * 0x1p-24f + 0x1p-25f, pdf;
-        v3 wi = bsdf_sample(&b, u1, u2, F(0.5f));
+        v3 wi = bsdf_sample(&b, false, u1, u2, F(0.5f)).wi;
         v3 f = bsdf_eval(&b, wi, &pdf);
         /* Kahan's sum: plain floats lose 10^-4 here. */
         lane_f add = (pdf > 0.0f ? f.y / pdf : F(0.0f)) - lost, next = total + add;

@@ -95,8 +95,9 @@ class Gltf:
 
     def material(self, name, base=(0.8, 0.8, 0.8), alpha=1.0, metallic=0.0, roughness=1.0, emission=None, lambert=False,
                  specular=None, double_sided=False, alpha_mode=None, cutoff=None, unlit=False, base_texture=None,
-                 metallic_roughness_texture=None, normal_texture=None, normal_scale=None, emission_texture=None):
-        """emission is radiance. lambert: no dielectric reflection at all (specularFactor 0). *_texture: texture_use()."""
+                 metallic_roughness_texture=None, normal_texture=None, normal_scale=None, emission_texture=None, transmission=None, ior=None, body=False, attenuation=None):
+        """emission is radiance. lambert: no dielectric reflection at all (specularFactor 0). *_texture: texture_use().
+        body: light is refracted; attenuation: (colour, metres) of what is left of white light there."""
         pbr = {"baseColorFactor": [clean(c) for c in base] + [alpha], "metallicFactor": clean(metallic),
                "roughnessFactor": clean(roughness)}
         if base_texture:
@@ -109,6 +110,15 @@ class Gltf:
             specular = 0.0
         if specular is not None:
             extensions["KHR_materials_specular"] = {"specularFactor": specular}
+        if transmission is not None:
+            extensions["KHR_materials_transmission"] = {"transmissionFactor": clean(transmission)}
+        if ior is not None:
+            extensions["KHR_materials_ior"] = {"ior": clean(ior)}
+        if body:
+            extensions["KHR_materials_volume"] = {"thicknessFactor": 1.0}
+            if attenuation:
+                extensions["KHR_materials_volume"]["attenuationColor"] = [clean(c) for c in attenuation[0]]
+                extensions["KHR_materials_volume"]["attenuationDistance"] = clean(attenuation[1])
         if emission:
             strength = max(emission)
             if strength > 1.0:
