@@ -14,10 +14,11 @@ static const struct {
     const char *option;
     uint32_t integrators;
 } owners[] = {
-    {"max-depth", ONLY(PATH)},
+    {"max-depth", ONLY(PATH) | ONLY(WHITTED)},
+    {"cutoff", ONLY(WHITTED)},
     {"rr", ONLY(PATH)},
     {"sample", ONLY(PATH)},
-    {"accel", ONLY(PATH)},
+    {"accel", ONLY(PATH) | ONLY(WHITTED)},
 };
 
 static ec_result check_owner(const char *option, ec_integrator integrator, ec_error *err)
@@ -40,6 +41,11 @@ ec_result ec_combinations_check(const ec_option *options, int count, const bool 
 {
     for (int i = 0; i < count; i++)
         if (given[i]) EC_TRY(check_owner(options[i].name, asked->integrator, err));
+    if (asked->integrator == EC_INTEGRATOR_WHITTED && asked->max_depth > EC_WHITTED_DEPTH_MOST)
+        return ec_usage(err, "--integrator whitted: a --max-depth of %u is too deep for trees that keep every branch; give at most %u",
+                        asked->max_depth, EC_WHITTED_DEPTH_MOST);
+    if (asked->integrator == EC_INTEGRATOR_WHITTED && asked->max_depth == 0)
+        return ec_usage(err, "--max-depth inf belongs to --integrator path; a ray tree needs a number up to %u", EC_WHITTED_DEPTH_MOST);
     if (asked->survival == 1 && asked->max_depth == 0)
         return ec_usage(err, "--rr off belongs with a finite --max-depth: nothing else would end a path; give --max-depth N too");
     return EC_OK;

@@ -7,6 +7,7 @@
 #define EC_MAX_SPP 16777216     /* 2^24: counts up to here are exact in the EXR's float channel */
 #define EC_SAFETY_SPP 1048576   /* 2^20: where --time and --error alone give up */
 #define EC_MAX_DEPTH 65535
+#define EC_DEFAULT_CUTOFF 0.001 /* a quarter of the least step of an 8-bit picture */
 
 #define EC_TEXT_(x) #x
 #define EC_TEXT(x) EC_TEXT_(x)

@@ -50,6 +50,11 @@ SETTER(batch)
     return ec_parse_u32(option, value, 1, EC_MAX_SPP, &REQUEST->options.batch, err);
 }
 
+SETTER(cutoff)
+{
+    return ec_parse_real(option, value, 0, 1, &REQUEST->options.cutoff, err);
+}
+
 SETTER(error)
 {
     return ec_parse_percent(option, value, &REQUEST->options.error_target, err);
@@ -82,6 +87,7 @@ SETTER(max_depth)
 {
     if (!strcmp(value, "inf")) {
         REQUEST->options.max_depth = 0;
+        REQUEST->endless = true;
         return EC_OK;
     }
     ec_result result = ec_parse_u32(option, value, 1, EC_MAX_DEPTH, &REQUEST->options.max_depth, err);
@@ -161,6 +167,7 @@ static const ec_option options[] = {
     {"all-effects", 0, false, set_all_effects},
     {"batch", 0, true, set_batch},
     {"camera", 0, true, set_camera},
+    {"cutoff", 0, true, set_cutoff},
     {"device", 0, true, set_device},
     {"env", 0, true, set_env},
     {"error", 0, true, set_error},
@@ -186,11 +193,14 @@ ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *requ
 {
     int first = 0, count = sizeof options / sizeof options[0];
     bool given[EC_OPTIONS_MAX] = {false};
+    request->options.cutoff = EC_DEFAULT_CUTOFF;
     ec_request asked;
     EC_TRY(ec_options_parse(options, count, request, argc, argv, &first, given, &asked, err));
     *done = ec_request_serve(asked, argv[0]);
     if (*done) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &request->scene, err));
+    if (request->options.integrator == EC_INTEGRATOR_WHITTED && !request->options.max_depth && !request->endless)
+        request->options.max_depth = EC_WHITTED_DEPTH;
     EC_TRY(ec_combinations_check(options, count, given, &request->options, err));
 
     ec_render_options *limits = &request->options;

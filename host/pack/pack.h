@@ -41,6 +41,10 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
 
+/* Makes pack->lights those of integrators that sum over lights at their centres: triangles in one plane, edge to edge, as one;
+ * small bodies as one point, with their radius in pdf_a; without the environment. Nothing samples them. */
+ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *err);
+
 /* Index into pack->textures of a texture in one encoding; -1 for none. Valid after ec_pack_textures. */
 int32_t ec_pack_texture_index(const ec_scene *scene, const ec_texture_use *use, int is_srgb);
 

@@ -26,10 +26,8 @@ static uint32_t canonical(const ec_stage_entry *stage, uint32_t features)
 
 static bool is_needed(const ec_pipeline *p, ec_stage_id id)
 {
-    bool is_raster_stage = id >= EC_RASTER_SETUP && id <= EC_SHADE_RASTER;
     if (ec_stages[id].lanes == EC_LANES_OF_ACCEL) return false; /* there is one for each accelerator: see below */
-    if (p->integrator == EC_INTEGRATOR_RASTER) return is_raster_stage || id == EC_GENERATE || id >= EC_ACCUMULATE;
-    return !is_raster_stage;
+    return ec_stages[id].integrators >> p->integrator & 1;
 }
 
 static uint32_t lanes_of(const ec_pipeline *p, uint32_t lanes) { return lanes == EC_LANES_OF_PIPELINE ? p->lanes : lanes; }

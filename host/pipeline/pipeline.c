@@ -29,9 +29,10 @@ static uint32_t fit_wave(const ec_cl *cl, const ec_render_options *o, uint32_t b
     uint64_t wave = o->wave;
     if (!wave) {
         wave = cl->info.type & CL_DEVICE_TYPE_CPU ? (uint64_t)1 << 18 : (uint64_t)1 << 20;
-        uint64_t bytes_per_path = 4 * (2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + 3 + EC_AOV_FIELDS);
-        while (wave > 4096 && (wave * bytes_per_path > cl->info.memory_bytes / 4 ||
-                               wave * 4 * EC_PATH_FIELDS > cl->info.max_allocation_bytes))
+        uint64_t stack = o->integrator == EC_INTEGRATOR_WHITTED ? ec_whitted_stack_words(o->max_depth) : 0;
+        uint64_t words = 2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + 3 + EC_AOV_FIELDS + stack;
+        uint64_t widest = stack > EC_PATH_FIELDS ? stack : EC_PATH_FIELDS;
+        while (wave > 4096 && (wave * 4 * words > cl->info.memory_bytes / 4 || wave * 4 * widest > cl->info.max_allocation_bytes))
             wave /= 2;
     }
     uint64_t samples = (uint64_t)o->width * o->height * batch;
@@ -73,7 +74,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     p->triangle_count = scene->triangle_count;
     p->integrator = options->integrator;
     p->lanes = ec_pipeline_lanes(cl, options->lanes);
-    if (p->integrator == EC_INTEGRATOR_PATH) EC_TRY(choose_accels(p, scene, options->accel, err));
+    if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
 
     double start = ec_now();
     ec_result result = ec_pipeline_upload_accels(p, scene, err);
@@ -83,6 +84,10 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     start = ec_now();
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));
+    if (p->integrator != EC_INTEGRATOR_PATH && (result = ec_pack_light_centres(scene, &pack, err)) != EC_OK) {
+        ec_pack_free(&pack);
+        return result;
+    }
     p->features = options->all_effects ? (uint32_t)EC_FEATURE_ALL & ~(uint32_t)EC_FEATURE_SOBOL : pack.features;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
     p->wave = fit_wave(cl, options, batch, p->lanes);
@@ -93,7 +98,9 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->batch = batch;
     params->wave = p->wave;
     params->part = p->wave / EC_PARTS;
-    params->max_depth = options->max_depth ? options->max_depth : UINT32_MAX - EC_SEGMENT;
+    const uint32_t unlimited = p->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
+    params->max_depth = options->max_depth ? options->max_depth : unlimited;
+    params->cutoff = (float)options->cutoff;
     set_roulette(options->survival, params);
     params->sample = options->sample;
     bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;

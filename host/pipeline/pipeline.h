@@ -47,11 +47,17 @@ ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t fi
                                bool with_features, ec_error *err);
 /* What an integrator does with a wave's camera rays: adds to their slots' radiance. scalars: by ec_arg. */
 typedef ec_result ec_integrate(ec_pipeline *pipeline, uint32_t *scalars, ec_error *err);
-ec_integrate ec_integrate_paths;  /* wave.c */
-ec_integrate ec_integrate_raster; /* raster.c */
+ec_integrate ec_integrate_paths;   /* wave.c */
+ec_integrate ec_integrate_whitted; /* whitted.c */
+ec_integrate ec_integrate_raster;  /* raster.c */
 
-/* wave.c: the sum of a queue's parts */
+/* wave.c: the sum of a queue's parts; the first paths, one part after the other; which queue is read and which written */
 uint64_t ec_pipeline_total(const uint32_t *parts);
+void ec_pipeline_fill_parts(ec_pipeline *pipeline, uint32_t paths);
+void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
+
+/* whitted.c: of the stack of a slot; max_depth as in the options */
+uint64_t ec_whitted_stack_words(uint32_t max_depth);
 
 /* upload.c */
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);

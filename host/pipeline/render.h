@@ -17,9 +17,13 @@ typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sam
  * cli/combinations.c. */
 typedef enum ec_integrator {
     EC_INTEGRATOR_PATH,   /* global illumination */
+    EC_INTEGRATOR_WHITTED, /* a tree of mirrored and refracted rays, direct light from the lights' centres */
     EC_INTEGRATOR_RASTER, /* direct light from the lights' centres, without shadows */
     EC_INTEGRATOR_COUNT
 } ec_integrator;
+
+#define EC_WHITTED_DEPTH 10     /* segments of Whitted's trees where max_depth is 0 */
+#define EC_WHITTED_DEPTH_MOST 64 /* each takes 48 bytes a path in flight */
 
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
@@ -29,7 +33,8 @@ typedef struct ec_render_options {
     double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */
     uint32_t batch;             /* samples a pixel in one independent batch; 0 = chosen from the limits */
     ec_integrator integrator;
-    uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited */
+    uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited, Whitted: 10 */
+    double cutoff;              /* Whitted: branches of less weight than this are not followed */
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: needs a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */

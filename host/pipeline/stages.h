@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "cl/cl.h"
+#include "pipeline/render.h"
 #include "shared/accel.h"
 #include "shared/features.h"
 
@@ -17,6 +18,7 @@ typedef enum ec_arg {
     EC_ARG_PATH_COUNT,
     EC_ARG_PIXEL_COUNT,
     EC_ARG_TRIANGLE_COUNT,
+    EC_ARG_LIGHT,
     EC_ARG_SCALAR_COUNT,
     EC_ARG_PARAMS = EC_ARG_SCALAR_COUNT,
     EC_ARG_COUNTERS,
@@ -25,6 +27,7 @@ typedef enum ec_arg {
     EC_ARG_NEXT,       /* … and the one that is written: they change places every bounce */
     EC_ARG_HITS,
     EC_ARG_SHADOWS,
+    EC_ARG_BRANCHES,
     EC_ARG_RADIANCE,
     EC_ARG_AOV,
     EC_ARG_BATCH_FILM,
@@ -61,10 +64,15 @@ typedef enum ec_stage_id {
     EC_RASTER_FILL,
     EC_RASTER,
     EC_SHADE_RASTER,
+    EC_WHITTED,
+    EC_WHITTED_LIGHT,
     EC_ACCUMULATE,
     EC_STORE_FEATURES,
     EC_STAGE_ID_COUNT
 } ec_stage_id;
+
+#define EC_OF(integrator) (1u << EC_INTEGRATOR_##integrator)
+#define EC_OF_ALL UINT32_MAX
 
 /* How many lanes a stage's program is built with: the pipeline's, the accelerator's, or a fixed number. */
 #define EC_LANES_OF_PIPELINE 0
@@ -74,6 +82,7 @@ typedef struct ec_stage_entry {
     const char *source;        /* kernels/stages/SOURCE.cl; its kernel is ec_SOURCE. With EC_LANES_OF_ACCEL there is one
                                   for each accelerator: ec_SOURCE_NAME in kernels/lib/traverse_NAME.h */
     const char *label;         /* for messages and profiles */
+    uint32_t integrators;      /* EC_OF(x): those that launch it */
     uint32_t lanes;
     uint32_t features;         /* bits that can change its code; others do not multiply binaries */
     uint32_t argument_count;

@@ -11,7 +11,7 @@ uint64_t ec_pipeline_total(const uint32_t *parts)
     return sum;
 }
 
-static void swap_queues(ec_pipeline *p, uint32_t bounce)
+void ec_pipeline_swap_queues(ec_pipeline *p, uint32_t bounce)
 {
     p->buffers[EC_ARG_PATHS] = p->path_queues[bounce & 1];
     p->buffers[EC_ARG_NEXT] = p->path_queues[~bounce & 1];
@@ -27,7 +27,7 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_b
     for (uint32_t step = 0; step < EC_SEGMENT && first_bounce + step < p->params.max_depth; step++) {
         scalars[EC_ARG_BOUNCE] = first_bounce + step;
         scalars[EC_ARG_STEP] = step;
-        swap_queues(p, first_bounce + step);
+        ec_pipeline_swap_queues(p, first_bounce + step);
         EC_TRY(ec_pipeline_trace(p, 0, first_bounce + step, scalars, err));
         EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
         if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, first_bounce + step, scalars, err));
@@ -38,8 +38,7 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_b
     return EC_OK;
 }
 
-/* Paths fill the parts one after the other. */
-static void fill_parts(ec_pipeline *p, uint32_t paths)
+void ec_pipeline_fill_parts(ec_pipeline *p, uint32_t paths)
 {
     for (uint32_t k = 0; k < EC_PARTS; k++) {
         uint32_t before = k * p->params.part, left = paths > before ? paths - before : 0;
@@ -49,7 +48,7 @@ static void fill_parts(ec_pipeline *p, uint32_t paths)
 
 ec_result ec_integrate_paths(ec_pipeline *p, uint32_t *scalars, ec_error *err)
 {
-    fill_parts(p, scalars[EC_ARG_PATH_COUNT]);
+    ec_pipeline_fill_parts(p, scalars[EC_ARG_PATH_COUNT]);
     for (uint32_t bounce = 0; ec_pipeline_total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
         EC_TRY(run_segment(p, scalars, bounce, err));
     return EC_OK;
@@ -59,14 +58,16 @@ ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pix
                                bool with_features, ec_error *err)
 {
     static ec_integrate *const integrate[EC_INTEGRATOR_COUNT] = {
-        [EC_INTEGRATOR_PATH] = ec_integrate_paths, [EC_INTEGRATOR_RASTER] = ec_integrate_raster};
+        [EC_INTEGRATOR_PATH] = ec_integrate_paths,
+        [EC_INTEGRATOR_WHITTED] = ec_integrate_whitted,
+        [EC_INTEGRATOR_RASTER] = ec_integrate_raster};
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
     scalars[EC_ARG_SEED] = seed;
     scalars[EC_ARG_FIRST_PIXEL] = first_pixel;
     scalars[EC_ARG_PATH_COUNT] = pixel_count * p->params.batch;
     scalars[EC_ARG_PIXEL_COUNT] = pixel_count;
     scalars[EC_ARG_TRIANGLE_COUNT] = p->triangle_count;
-    swap_queues(p, 0);
+    ec_pipeline_swap_queues(p, 0);
     cl_mem aov = p->buffers[EC_ARG_AOV];
     if (!with_features) p->buffers[EC_ARG_AOV] = NULL;
 

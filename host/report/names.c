@@ -5,7 +5,9 @@
 #include "image/image.h"
 #include "pipeline/render.h"
 
-const char *const ec_integrator_names[] = {[EC_INTEGRATOR_PATH] = "path", [EC_INTEGRATOR_RASTER] = "raster", NULL};
+const char *const ec_integrator_names[] = {[EC_INTEGRATOR_PATH] = "path",
+                                           [EC_INTEGRATOR_WHITTED] = "whitted",
+                                           [EC_INTEGRATOR_RASTER] = "raster", NULL};
 const char *const ec_sample_names[] = {
     [EC_SAMPLE_MIS] = "mis", [EC_SAMPLE_LIGHT] = "light", [EC_SAMPLE_BSDF] = "bsdf", [EC_SAMPLE_HEMISPHERE] = "hemisphere", NULL};
 const char *const ec_sampler_names[] = {

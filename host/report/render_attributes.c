@@ -65,6 +65,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
         add_made(attributes, "eclat.maxDepth", "%u", options->max_depth);
     else
         add_text(attributes, "eclat.maxDepth", "inf");
+    add_real(attributes, "eclat.cutoff", options->cutoff);
     add_real(attributes, "eclat.png.exposure", report->exposure);
     add_text(attributes, "eclat.png.tonemap", ec_tonemap_names[report->tonemap]);
 }

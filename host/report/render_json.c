@@ -26,6 +26,7 @@ static void add_setting(cJSON *root, const ec_render_report *report)
         ec_json_whole(root, "max_depth", options->max_depth);
     else
         cJSON_AddNullToObject(root, "max_depth");
+    ec_json_real(root, "cutoff", options->cutoff);
     ec_json_real(root, "exposure", report->exposure);
     ec_json_text(root, "tonemap", ec_tonemap_names[report->tonemap]);
 }

@@ -36,8 +36,10 @@ typedef struct ec_params {
     ec_float scene_max;           /* largest |coordinate| of the scene */
     ec_uint first_roulette;       /* path segments that are never cut short */
     ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
+    ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
+    ec_float pad[3];
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 160);
+EC_ASSERT_SIZE(ec_params, 176);
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

@@ -7,6 +7,7 @@ enum ec_path_field {
     EC_PATH_DX, EC_PATH_DY, EC_PATH_DZ,    /* ray direction, unit */
     EC_PATH_BR, EC_PATH_BG, EC_PATH_BB,    /* beta: product of f cos / pdf and 1 / survival so far */
     EC_PATH_PDF,                           /* solid-angle density of this direction; < 0: light sampling could not */
+    EC_PATH_DEPTH = EC_PATH_PDF,           /* of Whitted's: segments before this one, less 1 */
     EC_PATH_SLOT,                          /* uint: where in the wave the sample's radiance is kept */
     EC_PATH_PRIM,                          /* uint: triangle the ray leaves; EC_NO_ID for camera rays */
     EC_PATH_FIELDS,
@@ -31,6 +32,17 @@ enum ec_shadow_field {
     EC_SHADOW_PRIM,                        /* uint: triangle the ray leaves */
     EC_SHADOW_TARGET,                      /* uint: triangle it ends on, or EC_NO_ID */
     EC_SHADOW_FIELDS
+};
+
+/* Of Whitted's ray trees, the branches that wait: a stack for each slot. Field f of branch k of slot s stands at word
+ * (1 + k * EC_BRANCH_FIELDS + f) * wave + s; word s says how many there are. One branch of a tree is under way and leaves at most
+ * one other behind in each of its segments, so max_depth - 1 are enough. */
+enum ec_branch_field {
+    EC_BRANCH_OX, EC_BRANCH_OY, EC_BRANCH_OZ,
+    EC_BRANCH_DX, EC_BRANCH_DY, EC_BRANCH_DZ,
+    EC_BRANCH_BR, EC_BRANCH_BG, EC_BRANCH_BB,
+    EC_BRANCH_DEPTH, EC_BRANCH_PRIM, EC_BRANCH_MEDIUM,
+    EC_BRANCH_FIELDS
 };
 
 /* First-hit features per slot: albedo RGB, normal XYZ, depth, coverage. */

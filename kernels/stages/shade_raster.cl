@@ -1,32 +1,13 @@
 /* Direct light without visibility, the rasteriser's picture: emission or background, and for every light what its centre would
  * send if nothing were in the way. Reads: path queue and hits. Writes: radiance of the slots, first-hit features where asked for.
- * Next: accumulate. An emissive triangle counts as a point at its centroid, the environment as its mean from everywhere. */
+ * Next: accumulate. */
 #include "../lib/bsdf.h"
 #include "../lib/features.h"
-#include "../lib/light.h"
+#include "../lib/light_centre.h"
 #include "../lib/queue.h"
+#include "../lib/seen.h"
 
 #define LEAST_ALPHA 0.02f /* narrower highlights of points would be met by one sample in thousands */
-
-/* One light from its centre: radiance times cosine and density, that is, irradiance of a plane that faces it. */
-EC_FN v3 light_from_centre(const light_record *l, const geometry *g, v3 p, float scene_radius, v3 *wi)
-{
-    lane_u type = l->kind & EC_LIGHT_KIND_MASK;
-    v3 e = v3_zero();
-    *wi = v3_make(F(0.0f), F(0.0f), F(1.0f));
-    if (HAS(AREA_LIGHTS)) {
-        /* sqrt(u1) = 2/3 and u2 = 1/2 are the centroid; the density per solid angle is pmf d^2 / (area cos). */
-        light_sample s = light_sample_triangle(l, g, type == EC_KIND_TRIANGLE, p, F(4.0f / 9.0f), F(0.5f));
-        e = v3_select(s.valid, v3_scale(s.radiance, l->pmf / s.pdf), e);
-        *wi = v3_select(s.valid, s.wi, *wi);
-    }
-    if (HAS(PUNCTUAL_LIGHTS)) {
-        light_sample s = light_sample_punctual(l, (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL), p, scene_radius);
-        e = v3_select(s.valid, s.radiance, e);
-        *wi = v3_select(s.valid, s.wi, *wi);
-    }
-    return e;
-}
 
 kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatile global uint *invalid,
                             global const float *paths, global const float *hits, global float *radiance, global float *aov,
@@ -45,57 +26,29 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
     lane_u prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
     lane_i found = active & (prim != EC_NO_ID);
 
-    v3 out = v3_zero();
-    if (HAS(ENVIRONMENT)) {
-        lane_i missed = active & !found;
-        lane_f unused;
-        if (any_lane(missed)) out = v3_select(missed, environment_look_up(&env, d, &unused), out);
-    }
-    hit_point h = hit_point_make(&g, found ? prim : U(0), queue_load_f(hits, wave, EC_HIT_B1, i),
-                                 queue_load_f(hits, wave, EC_HIT_B2, i));
-    surface s;
-    surface_place(&h, wo, &s);
-    surface_frame(&g, &h, found, wo, &s);
-    surface_material(&g, &h, found, &s);
-    quad emission = material_quad(&g, &h, EC_MATERIAL_EMISSION);
-    lane_u flags = as_lane_u(emission.d);
-    if (HAS(EMISSION)) {
-        lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) & (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
-        if (any_lane(m)) out = v3_select(m, surface_emission(&g, &h, m, emission), out);
-    }
-    lane_i lit = found;
-    if (HAS(UNLIT)) {
-        lane_i m = found & ((flags & EC_MATERIAL_UNLIT) != 0u);
-        out = v3_select(m, s.base, out);
-        lit = lit & !m;
-    }
+    seen e = seen_surface(&g, found, prim, queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i), wo);
+    surface s = e.s;
     s.alpha_ggx = max(s.alpha_ggx, F(LEAST_ALPHA));
     s.smooth = !TRUE_MASK;
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
     v3 direct = v3_zero();
-    if (HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS)) {
-        for (uint k = 0; k < params->light_count; k++) {
-            light_record one = light_load_one(light_table, k);
-            v3 wi;
-            lane_f pdf;
-            v3 e = light_from_centre(&one, &g, s.p, params->scene_radius, &wi);
-            v3 f = bsdf_eval(&b, surface_to_local(&s, wi), &pdf);
-            direct = v3_add(direct, v3_select(v3_dot(s.ng, wi) > 0.0f, v3_mul(f, e), v3_zero()));
-        }
+    for (uint k = 0; (HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS)) && k < params->light_count; k++) {
+        light_sample l = light_from_centre(light_table, k, &g, e.lit, s.p, params->scene_radius);
+        lane_f pdf;
+        v3 f = bsdf_eval(&b, surface_to_local(&s, l.wi), &pdf);
+        direct = v3_add(direct, v3_select(l.valid & (v3_dot(s.ng, l.wi) > 0.0f), v3_mul(f, l.radiance), v3_zero()));
     }
     if (HAS(ENVIRONMENT)) {
-        /* The mean from everywhere reflects as albedo, here that of normal incidence. */
-        lane_f share;
-        v3 fresnel = HAS(SPECULAR) ? bsdf_fresnel(&b, F(1.0f), &share) : v3_zero();
-        v3 albedo = HAS(SPECULAR) ? v3_fma(b.base, share, fresnel) : b.base;
-        constant float *mean = params->environment_mean;
-        direct = v3_add(direct, v3_mul(albedo, v3_make(F(mean[0]), F(mean[1]), F(mean[2]))));
+        lane_f rest; /* The mean from everywhere reflects as albedo, here that of normal incidence. */
+        v3 fresnel = HAS(SPECULAR) ? bsdf_fresnel(&b, F(1.0f), &rest) : v3_zero();
+        direct = v3_add(direct, light_ambient(params, HAS(SPECULAR) ? v3_fma(b.base, rest, fresnel) : b.base));
     }
-    out = v3_select(lit, v3_add(out, direct), out);
+    v3 out = v3_add(seen_background(&env, active & !found, d), e.glow);
+    out = v3_add(out, v3_select(e.lit, direct, v3_zero()));
     radiance_add(radiance, wave, slot, out, active, invalid + EC_STAGE_SHADE);
     if (aov) {
-        v3 seen = v3_sub(s.p, o);
+        v3 way = v3_sub(s.p, o);
         store_features(aov, wave, slot, v3_select(found, s.base, v3_zero()), v3_select(found, s.ns, v3_zero()),
-                       found ? sqrt(v3_dot(seen, seen)) : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
+                       found ? sqrt(v3_dot(way, way)) : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
     }
 }

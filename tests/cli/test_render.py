@@ -43,7 +43,7 @@ class Files(Render):
         attributes, planes = read_exr(self.path("a.exr"))
         self.assertEqual(sorted(planes), CHANNELS)
         self.assertEqual([kind for _, kind in attributes["channels"]], [2] * len(CHANNELS))
-        for name in ["command", "version", "scene", "camera", "environment", "seed", "integrator", "rr", "sample", "sampler", "batch",
+        for name in ["command", "version", "scene", "camera", "environment", "seed", "integrator", "rr", "sample", "cutoff", "sampler", "batch",
                      "samplesPerPixel", "maxDepth", "lanes", "wave", "device", "device.version", "device.driver",
                      "device.platform", "seconds", "error", "errorBound", "effects", "invalid", "stoppedBy", "host",
                      "png.exposure", "png.tonemap"]:
@@ -157,6 +157,12 @@ class Pieces(Render):
         report = self.render(*SMALL, "--integrator", "raster", scene=CORNELL)
         self.assertEqual([report["integrator"], report["invalid_samples"]], ["raster", 0])
         self.assertEqual(report["rays"], report["samples"])
+
+    def test_whitteds_defaults_are_those_of_the_help(self):
+        report = self.render(*SMALL, "--integrator", "whitted", "-o", "a.exr", scene=CORNELL)
+        self.assertEqual([report[key] for key in ["integrator", "max_depth", "cutoff", "invalid_samples"]], ["whitted", 10, 0.001, 0])
+        attributes, _ = read_exr(self.path("a.exr"))
+        self.assertEqual([attributes["eclat." + key] for key in ["integrator", "maxDepth"]], ["whitted", "10"])
 
     def test_defaults_are_those_of_the_help(self):
         report = self.render(*SMALL)

@@ -100,6 +100,7 @@ class WrongOptions(Case):
             "--sample": ["all", "nee", ""],
             "--accel": ["octree"],
             "--integrator": ["raytrace", ""],
+            "--cutoff": ["-0.1", "1.5", "nan", "1%", ""],
             "--rr": ["0", "-0.5", "1.5", "on", "nan", "inf", "50%", ""],
         }.items():
             for value in values:
@@ -112,9 +113,17 @@ class WrongOptions(Case):
                 self.usage("render", "s.gltf", *end, says="--rr off belongs with a finite --max-depth")
 
     def test_options_of_another_integrator(self):
-        for option in [["--rr", "0.5"], ["--sample", "light"], ["--max-depth", "3"], ["--accel", "bvh8"]]:
-            with self.subTest(option=option):
-                self.usage("render", "s.gltf", "--integrator", "raster", *option, says="belongs to --integrator path")
+        for integrator, option, says in [("raster", ["--rr", "0.5"], "path"), ("raster", ["--sample", "light"], "path"),
+                                         ("raster", ["--max-depth", "3"], "path or whitted"), ("raster", ["--accel", "bvh8"], "path or whitted"),
+                                         ("whitted", ["--rr", "0.5"], "path"), ("whitted", ["--sample", "mis"], "path"),
+                                         ("path", ["--cutoff", "0"], "whitted"), ("raster", ["--cutoff", "0"], "whitted")]:
+            with self.subTest(integrator=integrator, option=option):
+                self.usage("render", "s.gltf", "--integrator", integrator, *option, says=f"{option[0]} belongs to --integrator {says};")
+
+    def test_a_ray_tree_is_finite(self):
+        for depth in ["inf", "65"]:
+            with self.subTest(depth=depth):
+                self.usage("render", "s.gltf", "--integrator", "whitted", "--max-depth", depth, says="64")
 
     def test_outputs(self):
         for name in ["a.jpg", "a", ".png", "a.exr.txt", "folder.png/"]:

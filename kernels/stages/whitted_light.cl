@@ -1,0 +1,54 @@
+/* One light of Whitted's: its centre, by Blinn-Phong, for the hits that whitted left in their queue.
+ * Reads: path queue and hits. Writes: the shadow queue. Next: connect, then the next light. */
+#include "../lib/blinn_phong.h"
+#include "../lib/light_centre.h"
+#include "../lib/medium.h"
+#include "../lib/queue.h"
+
+kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, volatile global ec_counters *counters,
+                             volatile global uint *invalid, global const float *paths, global const float *hits,
+                             global float *shadows, global const float *prims, global const float *indices,
+                             global const float *normals, global const float *tangents, global const float *uvs,
+                             global const float *colors, global const float *materials, global const float *texture_table,
+                             global const uint *texels, constant float *srgb, global const float *light_table)
+{
+    uint i = get_global_id(0) * LANES, wave = params->wave;
+    if (i >= wave) return;
+    uint left = queue_left((global const uint *)counters->rays[0], params->part, i);
+    if (!left) return;
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
+    lane_u prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
+    lane_i lit = (LANE_NUMBERS < left) & (prim != EC_NO_ID);
+    if (!any_lane(lit)) return;
+    v3 wo = v3_negate(queue_load_v3(paths, wave, EC_PATH_DX, i)), beta = queue_load_v3(paths, wave, EC_PATH_BR, i);
+    lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i);
+    hit_point h = hit_point_make(&g, lit ? prim : U(0), queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i));
+    surface s;
+    surface_place(&h, wo, &s);
+    light_sample l = light_from_centre(light_table, light, &g, lit, s.p, params->scene_radius);
+    lit = lit & l.valid & (v3_dot(s.ng, l.wi) > 0.0f);
+    if (!any_lane(lit)) return;
+    surface_frame(&g, &h, lit, wo, &s);
+    surface_material(&g, &h, lit, &s);
+    bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
+    v3 f = blinn_phong_eval(&b, whitted_mirrors(&s), surface_to_local(&s, l.wi));
+    v3 arriving = v3_mul(v3_mul(beta, f), l.radiance);
+    if (HAS(ABSORPTION)) {
+        lane_u medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
+        arriving = v3_mul(arriving, medium_transmittance(&g, medium, sqrt(v3_dot(l.towards, l.towards))));
+    }
+    lit = lit & (v3_max_component(arriving) != 0.0f);
+    lane_i finite = v3_is_finite(arriving);
+    uint bad = mask_bits(lit & !finite), bits = mask_bits(lit & finite);
+    if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
+    if (!bits) return;
+    uint at = queue_reserve(counters->shadows[step], params->part, i, popcount(bits));
+    v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
+    v3 end = surface_offset(v3_add(s.p, l.towards), l.end_error, l.end_normal, v3_negate(l.wi));
+    queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
+    queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
+    queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);
+    queue_push_f(shadows, wave, EC_SHADOW_SLOT, at, as_lane_f(slot), bits);
+    queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(prim), bits);
+    queue_push_f(shadows, wave, EC_SHADOW_TARGET, at, as_lane_f(l.target), bits);
+}
