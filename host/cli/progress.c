@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "cli/stop.h"
+#include "report/forecast_text.h"
 #include "report/format.h"
 
 #define SECONDS_BETWEEN_LINES 0.1
@@ -55,6 +56,12 @@ void ec_progress_format(const ec_progress *progress, int columns, char *line, si
 bool ec_progress_show(void *user, const ec_progress *progress)
 {
     ec_progress_view *view = user;
+    if (progress->pilot && !view->foretold) {
+        char forecast[256];
+        ec_forecast_text(progress->pilot, view->options, forecast, sizeof forecast);
+        ec_console_say(view->console, "after %" PRIu64 " samples a pixel: %s", progress->pilot->pilot_samples, forecast);
+        view->foretold = true;
+    }
     double now = ec_now();
     if (ec_console_wants_progress(view->console) && now - view->drawn_at >= SECONDS_BETWEEN_LINES) {
         char line[256];

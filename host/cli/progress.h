@@ -11,6 +11,8 @@
 
 typedef struct ec_progress_view {
     ec_console *console;
+    const ec_render_options *options;
+    bool foretold;         /* the forecast has been told */
     uint64_t sample_cap;   /* stop at so many samples a pixel; 0 = none */
     bool cap_reached;
     double drawn_at;       /* ec_now() of the last line */

@@ -118,7 +118,8 @@ static void announce(const ec_render_job *job, ec_console *console)
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
-    ec_progress_view view = {.console = console, .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
+    ec_progress_view view = {.console = console, .options = &job->request->options,
+                             .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(&job->device, &cl, err));
     ec_stop_catch_signals(); /* until here there is nothing to save */

@@ -90,7 +90,10 @@ ec_film_error ec_film_estimate_error(const ec_film *film)
     result.error_bound = 0;
     if (square == 0) return result;
 
-    double nu = effective_pixels(&sums, n, pixels);
+    double nu = result.noisy_pixels = effective_pixels(&sums, n, pixels);
+    /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */
+    double variance = n >= 4 ? fmax(sums.s4 - sums.v4, 0) : sums.s4 * 2 / (n + 1);
+    result.spread = sqrt(variance) / sums.s2;
     double from_pixels = ec_f_quantile(confidence, nu, nu * (n - 1)) - 1;
     double from_mean = 2 * ec_normal_upper_quantile(1 - confidence) * sqrt(square / pixels);
     result.error_bound = sqrt(square * (1 + hypot(from_pixels, from_mean)));

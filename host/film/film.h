@@ -46,6 +46,8 @@ typedef struct ec_film_error {
      * all agree. Never NaN. */
     double error;
     double error_bound;      /* 95 % upper bound; infinity when error is. Wants 4 batches or more, see film/error.c */
+    double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/error.c */
+    double spread;           /* standard error of ln(error^2); over 0.3 a few rare events decide */
 } ec_film_error;
 ec_film_error ec_film_estimate_error(const ec_film *film);
 

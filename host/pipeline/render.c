@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "pipeline/forecast.h"
 #include "pipeline/pipeline.h"
 
 typedef struct render_state {
@@ -17,6 +18,9 @@ typedef struct render_state {
     ec_film *film;
     ec_render_stats *stats;
     double start, render_start, last_report;
+    double batch_end;          /* of the last one; and the sums of their times, the first left out */
+    double first_seconds, sum, squares;
+    ec_forecast forecast;      /* of now; the pilot's is in stats */
     uint32_t batches_wanted;   /* by --spp; 0 = no limit */
     ec_film_error error;
     const char *stopped_by;
@@ -49,6 +53,7 @@ static uint32_t batch_seed(uint64_t seed, uint32_t batch)
 static double fraction_done(const render_state *r, double batches, double seconds)
 {
     const ec_render_options *o = r->options;
+    if (isfinite(r->forecast.seconds) && r->forecast.seconds > 0.0) return fmin(seconds / r->forecast.seconds, 1.0);
     double f = 0.0;
     if (r->batches_wanted) f = fmax(f, batches / r->batches_wanted);
     if (o->time_limit > 0.0) f = fmax(f, seconds / o->time_limit);
@@ -77,6 +82,8 @@ static bool report(render_state *r, double batches)
         .samples_per_second = seconds > 0.0 ? samples / seconds : 0.0,
         .error = r->error.error,
         .error_bound = r->error.error_bound,
+        .pilot = r->stats->forecast.pilot_samples ? &r->stats->forecast : NULL,
+        .forecast = r->forecast,
     };
     return r->progress(r->user, &progress);
 }
@@ -140,11 +147,26 @@ static ec_result add_batch(render_state *r, float *host, bool complete, ec_error
     return EC_OK;
 }
 
+static void look_ahead(render_state *r)
+{
+    uint32_t done = r->film->batch_count;
+    double now = ec_now(), took = now - r->batch_end, timed = done - 1.0;
+    r->batch_end = now;
+    if (done == 1) r->first_seconds = now - r->render_start;
+    else r->sum += took, r->squares += took * took;
+    if (!ec_pilot_is_over(done)) return;
+    double mean = r->sum / timed, variance = fmax(r->squares / timed - mean * mean, 0.0);
+    ec_pace pace = {now - r->render_start, r->first_seconds, timed > 1.0 ? sqrt(variance / (timed - 1.0)) / mean : 0.0};
+    r->forecast = ec_forecast_make(r->film, r->options, &pace);
+    if (!r->stats->forecast.pilot_samples) r->stats->forecast = r->forecast;
+}
+
 static bool is_done(render_state *r)
 {
     const ec_render_options *o = r->options;
     uint32_t done = r->film->batch_count;
     double seconds = ec_now() - r->render_start;
+    look_ahead(r);
     if (r->batches_wanted && done >= r->batches_wanted)
         r->stopped_by = "spp";
     else if (o->error_target > 0.0 && done >= 4 && r->error.error_bound <= o->error_target)
@@ -173,7 +195,7 @@ static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
     if (!host) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
     for (uint64_t i = 0; i < 3 * pixels; i++) host[i] = NOT_REACHED;
     ec_result result = ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, host, err);
-    r->render_start = r->last_report = ec_now();
+    r->render_start = r->last_report = r->batch_end = ec_now();
     for (uint32_t batch = 0; result == EC_OK && !r->stopped_by; batch++) {
         bool complete;
         result = run_batch(r, batch, &complete, err);

@@ -45,12 +45,24 @@ typedef struct ec_render_options {
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
 } ec_render_options;
 
+/* What the pilot, the first batches, says of the rest. Low and high: 95 % interval. Infinite where no limit would end it. */
+typedef struct ec_forecast {
+    uint64_t pilot_samples;             /* a pixel; 0: the render was over before there was a forecast */
+    double pilot_seconds;
+    double samples, samples_low, samples_high; /* a pixel, in all */
+    double seconds, seconds_low, seconds_high; /* of rendering, in all */
+    double error_bound;                 /* of the image then; infinite where it is not known */
+    double spread;                      /* relative uncertainty of the variance: over 0.3 a few pixels hold most of it */
+} ec_forecast;
+
 typedef struct ec_progress {
     double seconds, seconds_left;       /* seconds_left < 0: unknown */
     double fraction;                    /* 0..1 of the first limit that will end the render */
     uint64_t samples_per_pixel, samples; /* done */
     double samples_per_second;
     double error, error_bound;
+    const ec_forecast *pilot;           /* the first one, once there is one; then the one of now */
+    ec_forecast forecast;
 } ec_progress;
 /* Called after every batch and at least twice a second where waves allow; returning false stops cleanly (the film keeps
  * the batches that are complete; if none is, the partial first batch is finished for fewer samples). */
@@ -63,6 +75,7 @@ typedef struct ec_render_stats {
     uint64_t samples_per_pixel, samples, rays;
     double samples_per_second, rays_per_second;
     double error, error_bound;
+    ec_forecast forecast;         /* the pilot's */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
     uint32_t lanes, wave, batch;

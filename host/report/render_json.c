@@ -53,6 +53,25 @@ static void add_result(cJSON *root, const ec_render_report *report)
     ec_json_whole(stages, "accumulate", stats->invalid_accumulate);
 }
 
+static void add_forecast(cJSON *root, const ec_forecast *f)
+{
+    if (!f->pilot_samples) {
+        cJSON_AddNullToObject(root, "forecast");
+        return;
+    }
+    cJSON *forecast = cJSON_AddObjectToObject(root, "forecast");
+    ec_json_whole(forecast, "pilot_samples_per_pixel", f->pilot_samples);
+    ec_json_real(forecast, "pilot_seconds", f->pilot_seconds);
+    ec_json_real(forecast, "samples_per_pixel", f->samples);
+    ec_json_real(forecast, "samples_per_pixel_low", f->samples_low);
+    ec_json_real(forecast, "samples_per_pixel_high", f->samples_high);
+    ec_json_real(forecast, "seconds", f->seconds);
+    ec_json_real(forecast, "seconds_low", f->seconds_low);
+    ec_json_real(forecast, "seconds_high", f->seconds_high);
+    ec_json_real(forecast, "error_bound", f->error_bound);
+    ec_json_real(forecast, "spread", f->spread);
+}
+
 static void add_cost(cJSON *root, const ec_render_report *report)
 {
     const ec_render_stats *stats = report->stats;
@@ -75,6 +94,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     cJSON *root = cJSON_CreateObject();
     add_setting(root, report);
     add_result(root, report);
+    add_forecast(root, &report->stats->forecast);
     add_cost(root, report);
     ec_json_whole(root, "lanes", report->stats->lanes);
     ec_json_whole(root, "wave", report->stats->wave);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "report/forecast_text.h"
 #include "report/format.h"
 #include "report/render_report.h"
 
@@ -37,6 +38,11 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     ec_format_count(stats->rays_per_second, rays, sizeof rays);
     ec_format_bytes(report->peak_memory_bytes, memory, sizeof memory);
     fprintf(to, "result   %s, %s rays/s\n", summary, rays);
+    if (stats->forecast.pilot_samples) {
+        char forecast[256];
+        ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);
+        fprintf(to, "forecast %s; said after %" PRIu64 " samples\n", forecast, stats->forecast.pilot_samples);
+    }
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
     fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
     fprintf(to, "effects  %s\n", *stats->effects ? stats->effects : "none");

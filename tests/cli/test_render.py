@@ -108,6 +108,15 @@ class Reports(Render):
         without = self.render("--size", "16x16", "--error", "20", scene=CORNELL)
         self.assertEqual(with_sign["image_sha256"], without["image_sha256"])
 
+    def test_a_forecast_is_told_before_and_compared_after(self):
+        run = self.assert_ok(eclat("render", self.scene, *SMALL[:2], "--spp", "64", "--batch", "8", "-o", self.path("a.png"), cwd=self.folder))
+        self.assertRegex(run.stderr, r"after 32 samples a pixel: about 64 samples a pixel, .+ \(95 %: .+ to .+\), error then about")
+        self.assertRegex(run.stdout, r"(?m)^forecast about 64 samples a pixel.*; said after 32 samples$")
+        forecast = self.render(*SMALL[:2], "--error", "1", "--batch", "1", "--spp", "4096")["forecast"]
+        self.assertTrue(forecast["seconds_low"] <= forecast["seconds"] <= forecast["seconds_high"])
+        self.assertTrue(forecast["samples_per_pixel_low"] <= forecast["samples_per_pixel"] <= forecast["samples_per_pixel_high"] <= 4096)
+        self.assertIsNone(self.render(*SMALL[:2], "--spp", "1")["forecast"])
+
     def test_time_limit(self):
         report = self.render("--size", "64x64", "--time", "1.5s", scene=CORNELL)
         self.assertEqual(report["stopped_by"], "time")
