@@ -13,6 +13,7 @@ ECLAT = os.environ.get("ECLAT", "eclat")
 SOURCE = os.environ.get("ECLAT_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", ".."))
 SHARED = os.environ.get("ECLAT_SHARED", os.path.join(SOURCE, "..", "shared"))
 CORNELL = os.path.join(SOURCE, "scenes", "cornell-box", "cornell-box.gltf")
+RING = os.path.join(SOURCE, "scenes", "ring", "ring.gltf")
 
 # Kernels compiled once serve every test of this build, and the user's own cache is left alone.
 ENVIRONMENT = dict(os.environ)
