@@ -10,13 +10,15 @@ typedef struct ec_cli {
     ec_console console;
     int argc;
     char **argv;
+    int exit_code; /* of a command that succeeded: 1 where the answer is no, as of compare */
     char *line;  /* the same as one text, before getopt reorders it; owned */
 } ec_cli;
 
-/* Runs the command that argv names; returns the exit code: 0, 1 (failed) or 2 (usage). */
+/* Runs the command that argv names; returns the exit code: 0, 1 (failed, or the answer is no) or 2 (usage). */
 int ec_cli_main(int argc, char **argv);
 
 /* One command each; argv[0] is its name. The error is the caller's to print. */
+ec_result ec_cmd_compare(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err);

@@ -23,6 +23,7 @@ static ec_render_report make_report(const ec_render_job *job, const char **outpu
         .exposure = request->exposure,
         .tonemap = request->tonemap,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
+        .batches = job->film.batch_count,
         .load_seconds = job->load_seconds,
         .image_sha256 = job->image_sha256,
         .outputs = outputs,
@@ -30,12 +31,13 @@ static ec_render_report make_report(const ec_render_job *job, const char **outpu
     };
 }
 
-static ec_result write_pictures(ec_render_job *job, const ec_render_report *report, ec_error *err)
+static ec_result write_pictures(ec_render_job *job, ec_render_report *report, ec_error *err)
 {
     ec_picture picture = {0};
     ec_report_attributes attributes;
     ec_result result = EC_OK;
     EC_TRY_CLEANUP(ec_picture_resolve(&job->film, &picture, err));
+    report->heavy_pixels = picture.heavy_count;
     ec_hash_rgb(picture.rgb, (uint64_t)picture.width * picture.height, job->image_sha256);
     ec_render_report_attributes(report, &attributes);
     const ec_picture_style style = {.exposure = (float)job->request->exposure,

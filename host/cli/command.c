@@ -21,6 +21,7 @@ typedef struct command {
 static const command commands[] = {
     {"render", ec_cmd_render},
     {"info", ec_cmd_info},
+    {"compare", ec_cmd_compare},
     {"devices", ec_cmd_devices},
     {"help", cmd_help},
 };
@@ -100,5 +101,5 @@ int ec_cli_main(int argc, char **argv)
     if (result == EC_OK) result = flush_results(&err);
     if (result != EC_OK) ec_console_error(&cli.console, err.text);
     free(cli.line);
-    return (int)result;
+    return result != EC_OK ? (int)result : cli.exit_code;
 }

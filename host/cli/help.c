@@ -9,6 +9,7 @@
 const char EC_HELP_SHORT[] =
     "Usage: eclat render SCENE [options]   render a glTF scene to EXR and PNG\n"
     "       eclat info SCENE               say what is in it\n"
+    "       eclat compare A.exr B.exr      say whether two images differ by more than noise\n"
     "       eclat devices                  list the OpenCL devices\n"
     "       eclat --help                   say more\n";
 
@@ -18,6 +19,7 @@ static const char help_main[] =
     "eclat turns a glTF 2.0 scene into a physically based image with a stated error, on any OpenCL device.\n"
     "\n"
     "Commands\n"
+    "  compare A B        measure how far image A is from image B, and whether that is more than noise\n"
     "  devices            list every OpenCL device and say which is the default\n"
     "  help [COMMAND]     show this, or the help of a command\n"
     "  info SCENE         say what a scene holds and what rendering it takes\n"
@@ -28,7 +30,7 @@ static const char help_main[] =
     "      --version      show the version\n"
     "\n"
     "Results go to standard output; progress, warnings and errors to standard error.\n"
-    "Exit code: 0 done, 1 failed, 2 the command line is wrong.\n"
+    "Exit code: 0 done, 1 failed (of compare: or they differ), 2 the command line is wrong.\n"
     "\n"
     "Environment\n"
     "  ECLAT_DEVICE       OpenCL device, as for --device, where that is not given\n"
@@ -103,6 +105,28 @@ static const char help_info[] =
     "  -q, --quiet        no notes; warnings and errors only, beside the result\n"
     "      --version      show the version\n";
 
+static const char help_compare[] =
+    "Usage: eclat compare A.exr B.exr [options]\n"
+    "\n"
+    "Measures how far image A is from the reference B: root-mean-square error relative to B's mean luminance (what a\n"
+    "render's stated error estimates), RMSE, relMSE, MAPE, PSNR. Where an image has standard errors (channels stderr.R, .G,\n"
+    ".B), tests whether the two differ by more than noise: in the mean, in blocks of 8x8 pixels, in single values, and in\n"
+    "the share of outlying ones. Reads the EXR files of other renderers too: R, G and B, float or half.\n"
+    "\n"
+    "Options\n"
+    "      --diff FILE    write a map of the error relative to B, a .png: black 0.1 % or less, pale yellow 100 % or more\n"
+    "  -h, --help         show this\n"
+    "      --json         print one JSON object instead of text\n"
+    "  -q, --quiet        print nothing, for the exit code alone\n"
+    "      --version      show the version\n"
+    "\n"
+    "Exit code\n"
+    "  0                  equal, or no more different than noise makes two renders of one scene\n"
+    "  1                  they differ by more than noise, as at most 1 pair in 100 does by chance; where neither has standard\n"
+    "                     errors, they differ in a pixel by more than rounding (1e-5, or 1e-3 of half floats). Or they\n"
+    "                     could not be compared: then there is an error message, and nothing on standard output\n"
+    "  2                  the command line is wrong\n";
+
 static const char help_devices[] =
     "Usage: eclat devices [options]\n"
     "\n"
@@ -128,6 +152,7 @@ void ec_print_help(const char *command)
     const char *text = help_main;
     if (!strcmp(command, "render")) text = help_render;
     if (!strcmp(command, "info")) text = help_info;
+    if (!strcmp(command, "compare")) text = help_compare;
     if (!strcmp(command, "devices")) text = help_devices;
     fputs(text, stdout);
 }

@@ -1,6 +1,5 @@
 #include "cli/outputs.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -53,7 +52,7 @@ ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_erro
     return EC_OK;
 }
 
-static bool same_file(const char *a, const char *b)
+bool ec_same_file(const char *a, const char *b)
 {
     struct stat sa, sb;
     return stat(a, &sa) == 0 && stat(b, &sb) == 0 && sa.st_dev == sb.st_dev && sa.st_ino == sb.st_ino;
@@ -64,7 +63,7 @@ ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs,
     for (int i = 0; i < outputs->count; i++) {
         const char *path = outputs->file[i].path;
         for (int k = 0; k < input_count; k++)
-            if (inputs[k] && same_file(path, inputs[k]))
+            if (inputs[k] && ec_same_file(path, inputs[k]))
                 return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
         EC_TRY(ec_image_check_writable(path, err));
     }

@@ -3,6 +3,7 @@
 #define EC_CLI_OUTPUTS_H
 
 #include <limits.h>
+#include <stdbool.h>
 
 #include "base/error.h"
 
@@ -28,5 +29,8 @@ ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_erro
 
 /* Before any work: can all be written, and would none overwrite an input? inputs may hold NULLs. */
 ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err);
+
+/* Do two paths lead to one file that exists? */
+bool ec_same_file(const char *a, const char *b);
 
 #endif

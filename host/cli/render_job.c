@@ -73,7 +73,7 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 /* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. */
 static ec_result check_memory(const ec_render_options *options, ec_error *err)
 {
-    const uint64_t bytes_per_pixel = 128; /* film 64, first-hit features 32, planes for the files 32 */
+    const uint64_t bytes_per_pixel = 164; /* film 68, first-hit features 32, planes for the files 64 */
     uint64_t needed = (uint64_t)options->width * options->height * bytes_per_pixel;
     uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
     char needed_text[32], present_text[32];

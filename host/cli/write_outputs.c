@@ -4,7 +4,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film/interval.h"
+
 enum { AOV_STRIDE = 8, AOV_ALBEDO = 0, AOV_NORMAL = 3, AOV_DEPTH = 6, AOV_ALPHA = 7 };
+
+static ec_result resolve_error(const ec_film *film, ec_picture *picture)
+{
+    size_t pixel_count = (size_t)film->width * film->height;
+    picture->stderr_rgb = malloc(pixel_count * 3 * sizeof(float));
+    picture->stderr_y = malloc(pixel_count * sizeof(float));
+    picture->low = malloc(pixel_count * 3 * sizeof(float));
+    picture->high = malloc(pixel_count * 3 * sizeof(float));
+    picture->heavy = malloc(pixel_count * sizeof(float));
+    if (!picture->stderr_rgb || !picture->stderr_y || !picture->low || !picture->high || !picture->heavy) return EC_FAILED;
+    ec_film_resolve(film, NULL, picture->stderr_rgb);
+    ec_film_resolve_luminance_error(film, picture->stderr_y);
+    picture->heavy_count = ec_film_intervals(film, picture->low, picture->high, picture->heavy);
+    return EC_OK;
+}
 
 ec_result ec_picture_resolve(const ec_film *film, ec_picture *picture, ec_error *err)
 {
@@ -13,11 +30,10 @@ ec_result ec_picture_resolve(const ec_film *film, ec_picture *picture, ec_error 
     picture->height = film->height;
     picture->aov = film->aov;
     picture->rgb = malloc(pixel_count * 3 * sizeof(float));
-    picture->stderr_rgb = malloc(pixel_count * 3 * sizeof(float));
     picture->constants = malloc(pixel_count * 2 * sizeof(float));
-    if (!picture->rgb || !picture->stderr_rgb || !picture->constants)
+    if (!picture->rgb || !picture->constants || (film->batch_count >= 2 && resolve_error(film, picture) != EC_OK))
         return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", film->width, film->height);
-    ec_film_resolve(film, picture->rgb, picture->stderr_rgb);
+    ec_film_resolve(film, picture->rgb, NULL);
     float samples = (float)((double)film->batch_count * film->samples_per_batch);
     for (size_t i = 0; i < pixel_count; i++) {
         picture->constants[2 * i] = film->unsampled && film->unsampled[i] ? 0.0f : samples;
@@ -30,45 +46,59 @@ void ec_picture_free(ec_picture *picture)
 {
     free(picture->rgb);
     free(picture->stderr_rgb);
+    free(picture->stderr_y);
+    free(picture->low);
+    free(picture->high);
+    free(picture->heavy);
     free(picture->constants);
     *picture = (ec_picture){0};
 }
 
-/* Up to 15 channels; without first-hit features only the first eight. */
-static uint32_t list_channels(const ec_picture *picture, ec_channel channels[15])
+enum { CHANNELS_MAX = 26 };
+
+typedef struct channel_list {
+    ec_channel list[CHANNELS_MAX];
+    uint32_t count;
+} channel_list;
+
+static void add_channels(channel_list *channels, const float *data, uint32_t stride, uint32_t count, const char *const *names)
 {
-    const float *rgb = picture->rgb, *error = picture->stderr_rgb, *aov = picture->aov;
-    const ec_channel always[] = {
-        {"R", rgb, 3},
-        {"G", rgb + 1, 3},
-        {"B", rgb + 2, 3},
-        {"stderr.R", error, 3},
-        {"stderr.G", error + 1, 3},
-        {"stderr.B", error + 2, 3},
-        {"samples", picture->constants, 2},
-        {"A", picture->constants + 1, 2},
-    };
-    memcpy(channels, always, sizeof always);
-    if (!aov) return 8;
-    const ec_channel first_hit[] = {
-        {"A", aov + AOV_ALPHA, AOV_STRIDE},
-        {"albedo.R", aov + AOV_ALBEDO, AOV_STRIDE},
-        {"albedo.G", aov + AOV_ALBEDO + 1, AOV_STRIDE},
-        {"albedo.B", aov + AOV_ALBEDO + 2, AOV_STRIDE},
-        {"normal.X", aov + AOV_NORMAL, AOV_STRIDE},
-        {"normal.Y", aov + AOV_NORMAL + 1, AOV_STRIDE},
-        {"normal.Z", aov + AOV_NORMAL + 2, AOV_STRIDE},
-        {"depth.Z", aov + AOV_DEPTH, AOV_STRIDE},
-    };
-    memcpy(channels + 7, first_hit, sizeof first_hit);
-    return 15;
+    for (uint32_t i = 0; i < count; i++) channels->list[channels->count++] = (ec_channel){names[i], data + i, stride};
+}
+
+/* Layers by name, so that every viewer groups them. No error and no first hit: no such channels. */
+static void list_channels(const ec_picture *picture, channel_list *channels)
+{
+    static const char *const colour[] = {"R", "G", "B"}, *const error[] = {"stderr.R", "stderr.G", "stderr.B"},
+                             *const low[] = {"low95.R", "low95.G", "low95.B"}, *const high[] = {"high95.R", "high95.G", "high95.B"},
+                             *const error_y[] = {"stderr.Y"}, *const heavy[] = {"heavy"}, *const samples[] = {"samples"},
+                             *const alpha[] = {"A"}, *const albedo[] = {"albedo.R", "albedo.G", "albedo.B"},
+                             *const normal[] = {"normal.X", "normal.Y", "normal.Z"}, *const depth[] = {"depth.Z"};
+    add_channels(channels, picture->rgb, 3, 3, colour);
+    add_channels(channels, picture->constants, 2, 1, samples);
+    if (picture->stderr_rgb) {
+        add_channels(channels, picture->stderr_rgb, 3, 3, error);
+        add_channels(channels, picture->stderr_y, 1, 1, error_y);
+        add_channels(channels, picture->low, 3, 3, low);
+        add_channels(channels, picture->high, 3, 3, high);
+        add_channels(channels, picture->heavy, 1, 1, heavy);
+    }
+    const float *aov = picture->aov;
+    if (!aov) {
+        add_channels(channels, picture->constants + 1, 2, 1, alpha);
+        return;
+    }
+    add_channels(channels, aov + AOV_ALPHA, AOV_STRIDE, 1, alpha);
+    add_channels(channels, aov + AOV_ALBEDO, AOV_STRIDE, 3, albedo);
+    add_channels(channels, aov + AOV_NORMAL, AOV_STRIDE, 3, normal);
+    add_channels(channels, aov + AOV_DEPTH, AOV_STRIDE, 1, depth);
 }
 
 static ec_result write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
 {
-    ec_channel channels[15];
-    uint32_t count = list_channels(picture, channels);
-    return ec_exr_write(path, picture->width, picture->height, channels, count, style->attributes,
+    channel_list channels = {.count = 0};
+    list_channels(picture, &channels);
+    return ec_exr_write(path, picture->width, picture->height, channels.list, channels.count, style->attributes,
                         style->attribute_count, err);
 }
 

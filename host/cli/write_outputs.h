@@ -10,7 +10,12 @@
 typedef struct ec_picture {
     uint32_t width, height;
     float *rgb;        /* 3 per pixel, owned */
-    float *stderr_rgb; /* 3 per pixel, owned */
+    /* What is known of the error; all NULL with fewer than two batches. Owned. */
+    float *stderr_rgb; /* 3 per pixel */
+    float *stderr_y;   /* 1 per pixel: of luminance */
+    float *low, *high; /* 3 per pixel: 95 % interval */
+    float *heavy;      /* 1 per pixel: see film/interval.h */
+    uint64_t heavy_count;
     float *constants;  /* 2 per pixel: samples, and the alpha of a film without first-hit features; owned */
     const float *aov;  /* the film's: 8 per pixel, or NULL */
 } ec_picture;

@@ -31,6 +31,7 @@ static const double confidence = 0.95;
 /* Sums over pixels of luminance and of sample variances s^2. */
 typedef struct variance_sums {
     double luminance, s2, s4;
+    double relative; /* of SE^2 / (x + 0.01)^2, all channels */
     double v4, v8;  /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
 } variance_sums;
 
@@ -57,6 +58,10 @@ static variance_sums sum_up(const ec_film *film)
         sums.s4 += s4;
         sums.v4 += v2;
         sums.v8 += v2 * v2;
+        for (int c = 0; c < 3; c++) {
+            double x = fabs(film->mean[3 * p + c]) + EC_RELMSE_FLOOR;
+            sums.relative += film->m2[4 * p + c] / (n * (n - 1) * x * x);
+        }
     }
     return sums;
 }
@@ -79,11 +84,12 @@ static double effective_pixels(const variance_sums *sums, double n, double pixel
 
 ec_film_error ec_film_estimate_error(const ec_film *film)
 {
-    ec_film_error result = {.error = INFINITY, .error_bound = INFINITY};
+    ec_film_error result = {.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
     double n = film->batch_count, pixels = (double)film->width * film->height;
     if (n < 1) return result;
     variance_sums sums = sum_up(film);
     double mean = result.mean_luminance = sums.luminance / pixels;
+    if (n >= 2) result.relmse = sums.relative / (3 * pixels);
     if (n < 2 || !(mean > 0)) return result;
     double square = sums.s2 / n / pixels / (mean * mean);
     result.error = sqrt(square);

@@ -12,10 +12,11 @@ ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_
     film->mean = calloc(pixels, 3 * sizeof(double));
     film->m2 = calloc(pixels, 4 * sizeof(double));
     film->m34 = calloc(pixels, 2 * sizeof(float));
-    if (film->mean && film->m2 && film->m34) return EC_OK;
+    film->largest = calloc(pixels, sizeof(float));
+    if (film->mean && film->m2 && film->m34 && film->largest) return EC_OK;
     ec_film_destroy(film);
     return ec_fail(err, "out of memory for an image of %u x %u pixels (%.1f MB); ask for a smaller one", width, height,
-                   (double)pixels * 64 / 1e6);
+                   (double)pixels * 68 / 1e6);
 }
 
 void ec_film_destroy(ec_film *film)
@@ -23,6 +24,7 @@ void ec_film_destroy(ec_film *film)
     free(film->mean);
     free(film->m2);
     free(film->m34);
+    free(film->largest);
     free(film->aov);
     free(film->unsampled);
     *film = (ec_film){0};
@@ -57,7 +59,9 @@ void ec_film_add_batch(ec_film *film, const float *batch_mean)
             x[c] = batch_mean[3 * p + c];
             if (!isfinite(x[c])) x[c] = 0, film->invalid_count++;
         }
-        update_luminance(m2 + 3, film->m34 + 2 * p, ec_luminance(x) - ec_luminance(mean), n);
+        double luminance = ec_luminance(x);
+        film->largest[p] = (float)fmax(film->largest[p], luminance);
+        update_luminance(m2 + 3, film->m34 + 2 * p, luminance - ec_luminance(mean), n);
         for (int c = 0; c < 3; c++) update_channel(mean + c, m2 + c, x[c], n);
     }
 }
@@ -71,4 +75,11 @@ void ec_film_resolve(const ec_film *film, float *rgb, float *stderr_rgb)
             if (rgb) rgb[3 * p + c] = (float)film->mean[3 * p + c];
             if (stderr_rgb) stderr_rgb[3 * p + c] = (float)sqrt(film->m2[4 * p + c] * scale);
         }
+}
+
+void ec_film_resolve_luminance_error(const ec_film *film, float *stderr_y)
+{
+    uint64_t pixels = (uint64_t)film->width * film->height;
+    double n = film->batch_count, scale = n >= 2 ? 1 / (n * (n - 1)) : 0;
+    for (uint64_t p = 0; p < pixels; p++) stderr_y[p] = (float)sqrt(film->m2[4 * p + 3] * scale);
 }

@@ -1,10 +1,10 @@
 /* The image as it grows: per-pixel mean and standard error from independent batches, in double precision.
- * 64 bytes a pixel.
+ * 68 bytes a pixel.
  *
  * Image error (the manual's definition). With B batches, pixel p's luminance has standard error SE_p = s_p / sqrt(B), and
  *     error = sqrt(mean_p SE_p^2) / mean luminance
  * error_bound is a 95 % upper confidence bound of the relative RMS difference between this image and the converged one.
- * See film/error.c for its derivation. */
+ * See film/error.c for its derivation, film/interval.h for the error of single pixels. */
 #ifndef EC_FILM_FILM_H
 #define EC_FILM_FILM_H
 
@@ -25,6 +25,7 @@ typedef struct ec_film {
     double *mean;                 /* 3 per pixel: mean of the batch means */
     double *m2;                   /* 4 per pixel: sum of squared deviations of R, G, B and luminance (Welford) */
     float *m34;                   /* 2 per pixel: sums of cubed and fourth-power deviations of luminance (Pebay 2008) */
+    float *largest;               /* 1 per pixel: luminance of its brightest batch */
     uint64_t invalid_count;       /* values that were NaN or infinite and counted as 0; the pipeline should leave none */
     /* First-hit features, from the first batch; may be NULL. albedo 3, normal 3, depth 1, alpha 1 per pixel.
      * ec_film_create leaves it NULL; whoever sets it mallocs it, ec_film_destroy frees it. */
@@ -48,11 +49,21 @@ typedef struct ec_film_error {
     double error_bound;      /* 95 % upper bound; infinity when error is. Wants 4 batches or more, see film/error.c */
     double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/error.c */
     double spread;           /* standard error of ln(error^2); over 0.3 a few rare events decide */
+    /* What noise alone makes of mean((x - r)^2 / (r + 0.01)^2) over pixels and channels, r the converged image: SE^2 in
+     * place of (x - r)^2, x in place of r. Infinity with fewer than 2 batches. Heavy tails make it too small: a pixel that
+     * is bright by chance divides by too much. */
+    double relmse;
 } ec_film_error;
 ec_film_error ec_film_estimate_error(const ec_film *film);
 
+/* Keeps relMSE finite on black: as in pbrt's imgtool (metric MRSE), so that figures compare. */
+#define EC_RELMSE_FLOOR 0.01
+
 /* Float planes for output: rgb 3 per pixel, stderr 3 per pixel (0 with fewer than two batches). Either may be NULL. */
 void ec_film_resolve(const ec_film *film, float *rgb, float *stderr_rgb);
+
+/* The same of luminance: 1 per pixel. */
+void ec_film_resolve_luminance_error(const ec_film *film, float *stderr_y);
 
 /* Student's t quantile: P(T <= t) = p with nu degrees of freedom. */
 double ec_student_t_quantile(double p, double nu);

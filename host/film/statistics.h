@@ -14,4 +14,14 @@ double ec_student_t_upper_tail(double t, double nu);
 /* Fisher's F with d1 and d2 degrees of freedom (any positive reals): x with P(F <= x) = p. */
 double ec_f_quantile(double p, double d1, double d2);
 
+/* Binomial: P(K >= k) of n trials that succeed with probability p. */
+double ec_binomial_upper_tail(double k, double n, double p);
+
+/* The p-value of the least of n independent p-values (Sidak 1967). */
+double ec_p_of_least(double least, double n);
+
+/* One p-value of several tests on the same data, each with a weight: right for small values however the tests depend on each
+ * other, where Bonferroni's is too large for tests that depend. See p_values.c. */
+double ec_p_combined(const double *p, const double *weight, int count);
+
 #endif

@@ -230,6 +230,7 @@ static ec_result finish_stats(render_state *r, ec_error *err)
     s->rays_per_second = s->seconds > 0.0 ? (double)s->rays / s->seconds : 0.0;
     s->error = r->error.error;
     s->error_bound = r->error.error_bound;
+    s->relmse = r->error.relmse;
     s->device_bytes = p->cl->peak_allocated_bytes;
     s->cache_hits = p->cl->cache_hits;
     s->cache_misses = p->cl->cache_misses;
@@ -242,7 +243,7 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
 {
     memset(stats, 0, sizeof *stats);
     render_state r = {.options = options, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
-    r.error.error = r.error.error_bound = INFINITY;
+    r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     uint32_t batch = choose_batch(options);
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
     ec_result result = ec_film_create(film, options->width, options->height, batch, err);

@@ -74,7 +74,7 @@ typedef struct ec_render_stats {
     double first_pixel_seconds;   /* from ec_render's start to the first finished wave */
     uint64_t samples_per_pixel, samples, rays;
     double samples_per_second, rays_per_second;
-    double error, error_bound;
+    double error, error_bound, relmse; /* see film/film.h */
     ec_forecast forecast;         /* the pilot's */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */

@@ -70,16 +70,20 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_text(attributes, "eclat.png.tonemap", ec_tonemap_names[report->tonemap]);
 }
 
-static void add_result(ec_report_attributes *attributes, const ec_render_stats *stats)
+static void add_result(ec_report_attributes *attributes, const ec_render_report *report)
 {
+    const ec_render_stats *stats = report->stats;
     add_whole(attributes, "eclat.samplesPerPixel", stats->samples_per_pixel);
     add_whole(attributes, "eclat.batch", stats->batch);
+    add_whole(attributes, "eclat.batches", report->batches);
     add_whole(attributes, "eclat.lanes", stats->lanes);
     add_whole(attributes, "eclat.wave", stats->wave);
     add_text(attributes, "eclat.effects", stats->effects);
     add_real(attributes, "eclat.seconds", stats->seconds);
     add_real(attributes, "eclat.error", stats->error);
     add_real(attributes, "eclat.errorBound", stats->error_bound);
+    add_real(attributes, "eclat.relMSE", stats->relmse);
+    if (report->batches >= 2) add_whole(attributes, "eclat.heavyPixels", report->heavy_pixels);
     add_text(attributes, "eclat.stoppedBy", stats->stopped_by);
     add_whole(attributes, "eclat.invalid", stats->invalid_samples);
     add_whole(attributes, "eclat.invalid.generate", stats->invalid_generate);
@@ -107,7 +111,7 @@ void ec_render_report_attributes(const ec_render_report *report, ec_report_attri
     attributes->count = 0;
     attributes->text_used = 0;
     add_setting(attributes, report);
-    add_result(attributes, report->stats);
+    add_result(attributes, report);
     add_text(attributes, "eclat.imageSha256", report->image_sha256);
     add_machine(attributes, report->device);
 }

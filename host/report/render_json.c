@@ -41,6 +41,11 @@ static void add_result(cJSON *root, const ec_render_report *report)
     ec_json_real(root, "rays_per_second", stats->rays_per_second);
     ec_json_real(root, "error", stats->error);
     ec_json_real(root, "error_bound", stats->error_bound);
+    ec_json_real(root, "relmse", stats->relmse);
+    if (report->batches >= 2)
+        ec_json_whole(root, "heavy_pixels", report->heavy_pixels);
+    else
+        cJSON_AddNullToObject(root, "heavy_pixels");
     ec_json_real(root, "mean_luminance", report->mean_luminance);
     ec_json_text(root, "stopped_by", stats->stopped_by);
     ec_json_text(root, "image_sha256", report->image_sha256);
@@ -99,6 +104,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     ec_json_whole(root, "lanes", report->stats->lanes);
     ec_json_whole(root, "wave", report->stats->wave);
     ec_json_whole(root, "batch", report->stats->batch);
+    ec_json_whole(root, "batches", report->batches);
     ec_json_words(root, "effects", report->stats->effects);
     cJSON *device = ec_device_json(report->device, report->device_index);
     ec_json_text(device, "why", report->device_why);

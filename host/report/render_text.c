@@ -21,6 +21,17 @@ void ec_render_report_summary(const ec_render_report *report, char *text, size_t
              seconds, rate);
 }
 
+/* How far the stated error can be trusted. Nothing to say without an error, or where every pixel can be. */
+static void print_heavy(const ec_render_report *report, FILE *to)
+{
+    if (report->batches < 2 || report->heavy_pixels == 0) return;
+    char share[32];
+    double pixels = (double)report->options->width * report->options->height;
+    ec_format_percent((double)report->heavy_pixels / pixels, share, sizeof share);
+    fprintf(to, "heavy    heavy-tailed: %" PRIu64 " pixel%s (%s), %s error is a lower bound\n", report->heavy_pixels,
+            report->heavy_pixels == 1 ? "" : "s", share, report->heavy_pixels == 1 ? "its" : "their");
+}
+
 static const char *stop_in_words(const char *stopped_by)
 {
     if (!strcmp(stopped_by, "error")) return "the error bound is under --error";
@@ -43,6 +54,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
         ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);
         fprintf(to, "forecast %s; said after %" PRIu64 " samples\n", forecast, stats->forecast.pilot_samples);
     }
+    print_heavy(report, to);
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
     fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
     fprintf(to, "effects  %s\n", *stats->effects ? stats->effects : "none");

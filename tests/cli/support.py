@@ -13,6 +13,7 @@ ECLAT = os.environ.get("ECLAT", "eclat")
 SOURCE = os.environ.get("ECLAT_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", ".."))
 SHARED = os.environ.get("ECLAT_SHARED", os.path.join(SOURCE, "..", "shared"))
 CORNELL = os.path.join(SOURCE, "scenes", "cornell-box", "cornell-box.gltf")
+RING = os.path.join(SOURCE, "scenes", "ring", "ring.gltf")
 
 # Kernels compiled once serve every test of this build, and the user's own cache is left alone.
 ENVIRONMENT = dict(os.environ)
@@ -172,6 +173,33 @@ def unzip(block):
     woven[0::2] = packed[:half]
     woven[1::2] = packed[half:]
     return bytes(woven)
+
+
+def write_exr(path, width, height, planes, attributes=(), half=False):
+    """Uncompressed scan lines of 32-bit floats, or halves; attributes: (name, int or float)."""
+    code, kind, size = ("e", 1, 2) if half else ("f", 2, 4)
+    names = sorted(planes)
+    channels = b"".join(name.encode() + b"\0" + struct.pack("<iiii", kind, 0, 1, 1) for name in names) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    header = [("channels", "chlist", channels), ("compression", "compression", b"\0"), ("dataWindow", "box2i", window),
+              ("displayWindow", "box2i", window), ("lineOrder", "lineOrder", b"\0"),
+              ("pixelAspectRatio", "float", struct.pack("<f", 1)), ("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
+              ("screenWindowWidth", "float", struct.pack("<f", 1))]
+    header += [(name, "int" if isinstance(value, int) else "double", struct.pack("<i" if isinstance(value, int) else "<d", value))
+               for name, value in attributes]
+    data = struct.pack("<ii", 20000630, 2)
+    for name, type_, value in header:
+        data += name.encode() + b"\0" + type_.encode() + b"\0" + struct.pack("<i", len(value)) + value
+    data += b"\0"
+    row = len(names) * width * size
+    data += struct.pack(f"<{height}Q", *(len(data) + 8 * height + y * (8 + row) for y in range(height)))
+    for y in range(height):
+        data += struct.pack("<ii", y, row)
+        for name in names:
+            data += struct.pack(f"<{width}{code}", *planes[name][y * width:(y + 1) * width])
+    with open(path, "wb") as file:
+        file.write(data)
+    return path
 
 
 def png_size(path):

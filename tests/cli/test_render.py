@@ -3,16 +3,17 @@ import hashlib
 import json
 import math
 import os
+import re
 import struct
 import unittest
 
-from support import CORNELL, Case, eclat, png_size, quad_scene, read_exr, write_gltf
+from support import CORNELL, RING, Case, eclat, png_size, quad_scene, read_exr, write_gltf
 
 SMALL = ["--size", "24x16", "--spp", "16"]
-KEYS = """seconds samples_per_pixel samples_per_second rays_per_second error error_bound invalid_samples
+KEYS = """seconds samples_per_pixel samples_per_second rays_per_second error error_bound relmse heavy_pixels batches invalid_samples
           invalid_samples_by_stage device lanes effects accel_seconds kernel_seconds pack_seconds first_pixel_seconds
           load_seconds peak_memory_bytes outputs stopped_by image_sha256 samples rays wave batch version command""".split()
-CHANNELS = sorted("R G B A stderr.R stderr.G stderr.B samples albedo.R albedo.G albedo.B normal.X normal.Y normal.Z "
+CHANNELS = sorted("R G B A stderr.R stderr.G stderr.B stderr.Y low95.R low95.G low95.B high95.R high95.G high95.B heavy samples albedo.R albedo.G albedo.B normal.X normal.Y normal.Z "
                   "depth.Z".split())
 
 
@@ -45,13 +46,40 @@ class Files(Render):
         self.assertEqual([kind for _, kind in attributes["channels"]], [2] * len(CHANNELS))
         for name in ["command", "version", "scene", "camera", "environment", "seed", "integrator", "rr", "sample", "cutoff", "sampler", "batch",
                      "samplesPerPixel", "maxDepth", "lanes", "wave", "device", "device.version", "device.driver",
-                     "device.platform", "seconds", "error", "errorBound", "effects", "invalid", "stoppedBy", "host",
+                     "device.platform", "seconds", "error", "errorBound", "relMSE", "heavyPixels", "batches", "effects", "invalid", "stoppedBy", "host",
                      "png.exposure", "png.tonemap"]:
             self.assertIn("eclat." + name, attributes)
         self.assertEqual(attributes["eclat.seed"], "18446744073709551615")
         self.assertIn("--seed 18446744073709551615", attributes["eclat.command"])
         self.assertEqual(set(planes["samples"]), {float(report["samples_per_pixel"])})
         self.assertAlmostEqual(attributes["eclat.error"], report["error"])
+
+    def test_without_two_batches_no_channel_claims_an_error(self):
+        self.render("--size", "8x8", "--spp", "1", "-o", "a.exr")
+        attributes, planes = read_exr(self.path("a.exr"))
+        self.assertEqual([name for name in planes if re.match("stderr|low95|high95|heavy", name)], [])
+        self.assertNotIn("eclat.heavyPixels", attributes)
+
+    def test_intervals_hold_the_mean_and_flags_are_counted(self):
+        report = self.render("--size", "24x16", "--spp", "32", "-o", "a.exr", scene=RING)
+        attributes, planes = read_exr(self.path("a.exr"))
+        for c in "RGB":
+            for low, mean, high in zip(planes[f"low95.{c}"], planes[c], planes[f"high95.{c}"]):
+                self.assertTrue(0 <= low <= mean <= high)
+        heavy = planes["heavy"].count(1)
+        self.assertEqual(heavy + planes["heavy"].count(0), 24 * 16)
+        self.assertEqual([heavy, attributes["eclat.heavyPixels"]], [report["heavy_pixels"]] * 2)
+        self.assertGreater(heavy, 50)  # most of the caustic
+        run = self.assert_ok(eclat("render", RING, "--size", "24x16", "--spp", "32", cwd=self.folder))
+        self.assertRegex(run.stdout, rf"(?m)heavy-tailed: {heavy} pixels \(.* %\), their error is a lower bound$")
+
+    def test_the_errors_channels_are_those_of_the_stated_error(self):
+        report = self.render(*SMALL, "-o", "a.exr", scene=CORNELL)
+        _, planes = read_exr(self.path("a.exr"))
+        square = sum(error * error for error in planes["stderr.Y"]) / len(planes["R"])
+        self.assertTrue(math.isclose(report["error"], math.sqrt(square) / report["mean_luminance"], rel_tol=1e-5))
+        relmse = sum((error / (mean + 0.01)) ** 2 for c in "RGB" for mean, error in zip(planes[c], planes["stderr." + c]))
+        self.assertTrue(math.isclose(report["relmse"], relmse / (3 * len(planes["R"])), rel_tol=1e-5))
 
     def test_hash_is_that_of_the_pixels_in_the_file(self):
         report = self.render(*SMALL, "-o", "a.exr")
@@ -95,8 +123,8 @@ class Reports(Render):
 
     def test_one_batch_has_no_error_and_says_null(self):
         report = self.render("--size", "8x8", "--spp", "1")
-        self.assertIsNone(report["error"])
-        self.assertIsNone(report["error_bound"])
+        for key in ["error", "error_bound", "relmse", "heavy_pixels"]:
+            self.assertIsNone(report[key], key)
 
     def test_error_target(self):
         report = self.render("--size", "16x16", "--error", "20%", "--time", "60", scene=CORNELL)

@@ -5,7 +5,7 @@ import unittest
 
 from support import Case, eclat
 
-COMMANDS = ["render", "info", "devices"]
+COMMANDS = ["render", "info", "compare", "devices"]
 
 
 class Help(Case):
@@ -69,10 +69,16 @@ class WrongOptions(Case):
         self.usage("info", says="needs a SCENE")
         self.usage("render", "a.gltf", "b.gltf", says="one scene at a time: 'b.gltf'")
         self.usage("devices", "extra", says="no operand")
+        self.usage("compare", says="needs two pictures")
+        self.usage("compare", "a.exr", says="needs two pictures")
+        self.usage("compare", "a.exr", "b.exr", "c.exr", says="'c.exr' is one operand too many")
+        for name in ["map.exr", "map", ".png", "folder/.png"]:
+            self.usage("compare", "a.exr", "b.exr", "--diff", name, says="must be named NAME.png")
 
     def test_unknown_options_suggest_the_nearest(self):
         self.usage("render", "s.gltf", "--erorr", "2", says="did you mean '--error'")
         self.usage("render", "s.gltf", "--maxdepth=3", says="did you mean '--max-depth'")
+        self.usage("compare", "a.exr", "b.exr", "--dif=x", "--jso", says="must be named NAME.png")
         self.usage("info", "s.gltf", "--jsn", says="did you mean '--json'")
         self.usage("render", "s.gltf", "--frobnicate", says="see 'eclat render --help'")
         self.usage("render", "s.gltf", "-z", says="unknown option '-z'")

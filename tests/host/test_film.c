@@ -29,16 +29,18 @@ static void sums_equal_two_passes(void)
     CHECK(film.batch_count == B && film.samples_per_batch == 16 && film.invalid_count == 0);
     for (int p = 0; p < P; p++)
         for (int c = 0; c < 4; c++) {
-            double x[B], mean = 0, power[5] = {0};
+            double x[B], mean = 0, power[5] = {0}, largest = 0;
             for (int b = 0; b < B; b++) {
                 double rgb[3] = {value(b, p, 0), value(b, p, 1), value(b, p, 2)};
                 x[b] = c < 3 ? rgb[c] : ec_luminance(rgb);
                 mean += x[b] / B;
+                largest = fmax(largest, x[b]);
             }
             for (int b = 0; b < B; b++)
                 for (int k = 2; k <= 4; k++) power[k] += pow(x[b] - mean, k);
             if (c < 3) CHECK_NEAR(film.mean[3 * p + c], mean, 1e-13);
             CHECK_NEAR(film.m2[4 * p + c], power[2], 1e-12);
+            if (c == 3) CHECK(film.largest[p] == (float)largest);
             if (c == 3) CHECK_NEAR(film.m34[2 * p], power[3], 1e-5 * (1 + power[4]));
             if (c == 3) CHECK_NEAR(film.m34[2 * p + 1], power[4], 1e-5 * (1 + power[4]));
         }
@@ -71,6 +73,9 @@ static void resolves_mean_and_standard_error(void)
         CHECK(rgb[i] == (float)film.mean[i]);
         CHECK_NEAR(se[i], sqrt(film.m2[i / 3 * 4 + i % 3] / (B * (B - 1))), 1e-6);
     }
+    float se_y[P];
+    ec_film_resolve_luminance_error(&film, se_y);
+    for (int p = 0; p < P; p++) CHECK_NEAR(se_y[p], sqrt(film.m2[p * 4 + 3] / (B * (B - 1))), 1e-6);
     ec_film_resolve(&film, rgb, NULL);
     ec_film_resolve(&film, NULL, se);
     ec_film_destroy(&film);
@@ -112,6 +117,22 @@ static void error_never_lies_about_corner_cases(void)
     }
 }
 
+/* Two pixels known by hand: SE^2 / (x + 0.01)^2 is 0.25 / 4.01^2 in one and 0 in the others, in one channel of three. */
+static float one_in_red(int batch, int pixel, int channel) { return pixel == 7 && channel == 0 ? 3.5f + (float)(batch % 2) : 0; }
+
+static void relmse_is_that_of_the_definition(void)
+{
+    ec_film film = filled(2, one_in_red);
+    CHECK_NEAR(ec_film_estimate_error(&film).relmse, 0.25 / (4.01 * 4.01) / (3 * P), 1e-12);
+    ec_film_destroy(&film);
+    film = filled(1, one_in_red);
+    CHECK(isinf(ec_film_estimate_error(&film).relmse));
+    ec_film_destroy(&film);
+    film = filled(4, black);
+    CHECK(ec_film_estimate_error(&film).relmse == 0);
+    ec_film_destroy(&film);
+}
+
 static void invalid_values_are_counted(void)
 {
     ec_film film = filled(4, broken);
@@ -135,6 +156,7 @@ int main(void)
     variance_survives_a_large_mean();
     resolves_mean_and_standard_error();
     error_never_lies_about_corner_cases();
+    relmse_is_that_of_the_definition();
     invalid_values_are_counted();
     creation_fails_clearly();
     TEST_END();

@@ -2,6 +2,7 @@
 #include <OpenEXR/openexr.h>
 #include <stdint.h>
 
+#include "image/exr_header.h"
 #include "image/image.h"
 #include "support/test.h"
 
@@ -107,7 +108,12 @@ static void foreign_files_are_read(void)
             CHECK_MSG(worst[0] <= kinds[k].half_error && worst[1] == 0 && worst[2] == 0, "%s: off by %g %g %g", path,
                       worst[0], worst[1], worst[2]);
             ec_exr_free(&exr);
+            double number = 0;
+            CHECK(ec_exr_is_half(path, "A") && !ec_exr_is_half(path, "B") && !ec_exr_is_half(path, "none"));
+            CHECK(ec_exr_number(path, "pixelAspectRatio", &number) && number == 1);
+            CHECK(!ec_exr_number(path, "compression", &number) && !ec_exr_number(path, "none", &number));
             remove(path);
+            CHECK(!ec_exr_number(path, "pixelAspectRatio", &number) && !ec_exr_is_half(path, "A"));
         }
 }
 

@@ -3,6 +3,7 @@
 #include <png.h>
 #include <stdint.h>
 
+#include "image/error_map.h"
 #include "image/image.h"
 #include "support/test.h"
 
@@ -96,8 +97,46 @@ static void a_png_holds_the_bytes(void)
     remove(path);
 }
 
+/* Lightness (CIE L*) of magma rises evenly (in CAM02-UCS, which L* follows roughly): that makes errors readable. */
+static void magma_is_even(void)
+{
+    uint8_t rgb[3];
+    double before = -1, least = 100, most = 0;
+    for (int i = 0; i <= 16; i++) {
+        ec_magma(i / 16.0, rgb);
+        double linear[3], y, lightness;
+        for (int c = 0; c < 3; c++) linear[c] = rgb[c] <= 10 ? rgb[c] / 255.0 / 12.92 : pow((rgb[c] / 255.0 + 0.055) / 1.055, 2.4);
+        y = 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
+        lightness = y > 0.008856 ? 116 * cbrt(y) - 16 : 903.3 * y;
+        if (i > 0) least = fmin(least, lightness - before), most = fmax(most, lightness - before);
+        before = lightness;
+    }
+    CHECK_MSG(least > 3 && most < 8 && before > 96, "steps of %.1f to %.1f, up to %.1f", least, most, before);
+    ec_magma(NAN, rgb);
+    CHECK(rgb[0] == 0 && rgb[2] == 4);
+    ec_magma(7, rgb);
+    CHECK(rgb[0] == 252 && rgb[1] == 253 && rgb[2] == 191);
+}
+
+static void the_error_map_is_logarithmic(void)
+{
+    const float b[15] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
+    float a[15];
+    uint8_t out[15], expected[3];
+    for (int i = 0; i < 15; i++) a[i] = b[i];
+    for (int c = 0; c < 3; c++) a[3 + c] += 1.01e-3f, a[6 + c] += 0.0319390042f, a[9 + c] = 3, a[12 + c] = 1e-6f;
+    ec_error_map(a, b, 5, out);
+    static const double place[5] = {0, 0, 0.5, 1, 0}; /* equal, 0.1 %, 3.2 %, 200 %, 0.01 % */
+    for (int p = 0; p < 5; p++) {
+        ec_magma(place[p], expected);
+        for (int c = 0; c < 3; c++) CHECK_MSG(abs(out[3 * p + c] - expected[c]) <= 3, "pixel %d: %d, expected %d", p, out[3 * p + c], expected[c]);
+    }
+}
+
 int main(void)
 {
+    magma_is_even();
+    the_error_map_is_logarithmic();
     every_byte_comes_back();
     nothing_strange_gets_out();
     neutral_follows_its_specification();

@@ -1,0 +1,13 @@
+/* The 95 % confidence interval of every pixel, and which pixels' intervals cannot be trusted. See interval.c for the method
+ * and tests/stat/test_coverage.c for how often the intervals hold the truth. */
+#ifndef EC_FILM_INTERVAL_H
+#define EC_FILM_INTERVAL_H
+
+#include "film/film.h"
+
+/* low and high: 3 floats a pixel, the interval's ends, 0 <= low <= mean <= high. heavy: 1 a pixel, 1 where the noise has too
+ * heavy a tail for its own estimate, so that the pixel's error is a lower bound; else 0. Any may be NULL. Returns the number
+ * of heavy pixels. With fewer than two batches nothing is known: 0, infinity, and every pixel heavy. */
+uint64_t ec_film_intervals(const ec_film *film, float *low, float *high, float *heavy);
+
+#endif

@@ -1,0 +1,26 @@
+/* A picture with what is known of its noise. The memory is its owner's. */
+#ifndef EC_FILM_MEASURED_H
+#define EC_FILM_MEASURED_H
+
+#include <math.h>
+#include <stdint.h>
+
+typedef struct ec_measured {
+    uint32_t width, height;
+    const float *rgb;     /* 3 a pixel, finite */
+    const float *se;      /* 3 a pixel: standard errors, finite; NULL if they are not known, which counts as none */
+    const float *se_y;    /* 1 a pixel: of luminance; NULL if not known */
+    double batches;       /* independent batches behind the standard errors; INFINITY if not known */
+    double samples;       /* a pixel; 0 if not known */
+    int is_half;          /* the values were rounded to 16 bits */
+} ec_measured;
+
+/* Two values closer than this are the same number after rounding: other orders of addition (a few ulps of a float), other
+ * devices, storage as half. */
+static inline double ec_rounding(const ec_measured *a, const ec_measured *b, double x, double y)
+{
+    double largest = fmax(fabs(x), fabs(y));
+    return a->is_half || b->is_half ? 0x1p-10 * largest + 0x1p-24 : 1e-5 * largest;
+}
+
+#endif

@@ -1,0 +1,48 @@
+#include "image/exr_header.h"
+
+#include <string.h>
+
+#include "image/exr_context.h"
+
+/* NULL where the file cannot be read; whoever reads its pixels says why. */
+static exr_context_t open_header(const char *path, ec_exr_stream *stream)
+{
+    exr_context_t context = NULL;
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.error_handler_fn = ec_exr_keep_message;
+    setup.user_data = stream;
+    return exr_start_read(&context, path, &setup) == EXR_ERR_SUCCESS ? context : NULL;
+}
+
+int ec_exr_number(const char *path, const char *attribute, double *value)
+{
+    ec_exr_stream stream = {0};
+    exr_context_t context = open_header(path, &stream);
+    const exr_attribute_t *found = NULL;
+    if (!context) return 0;
+    int is_number = exr_get_attribute_by_name(context, 0, attribute, &found) == EXR_ERR_SUCCESS;
+    if (is_number && found->type == EXR_ATTR_INT)
+        *value = found->i;
+    else if (is_number && found->type == EXR_ATTR_FLOAT)
+        *value = found->f;
+    else if (is_number && found->type == EXR_ATTR_DOUBLE)
+        *value = found->d;
+    else
+        is_number = 0;
+    exr_finish(&context);
+    return is_number;
+}
+
+int ec_exr_is_half(const char *path, const char *channel)
+{
+    ec_exr_stream stream = {0};
+    exr_context_t context = open_header(path, &stream);
+    const exr_attr_chlist_t *list = NULL;
+    int is_half = 0;
+    if (!context) return 0;
+    if (exr_get_channels(context, 0, &list) != EXR_ERR_SUCCESS) list = NULL;
+    for (int i = 0; list && i < list->num_channels; i++)
+        is_half |= !strcmp(list->entries[i].name.str, channel) && list->entries[i].pixel_type == EXR_PIXEL_HALF;
+    exr_finish(&context);
+    return is_half;
+}

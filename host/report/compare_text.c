@@ -1,0 +1,102 @@
+#include <inttypes.h>
+#include <string.h>
+
+#include "report/compare_report.h"
+#include "report/format.h"
+
+static void format_share(double share, char *text, size_t size)
+{
+    if (share > 0)
+        ec_format_percent(share, text, size);
+    else
+        snprintf(text, size, "0 %%");
+}
+
+static void print_figures(const ec_compare_report *report, FILE *to)
+{
+    const ec_difference *d = &report->difference;
+    char error[32], mape[32], noise[64] = "", noise_relmse[64] = "";
+    format_share(d->relative_rms, error, sizeof error);
+    format_share(d->mape, mape, sizeof mape);
+    if (isfinite(d->noise_relative_rms)) {
+        char percent[32];
+        format_share(d->noise_relative_rms, percent, sizeof percent);
+        snprintf(noise, sizeof noise, "; noise alone makes %s", percent);
+        snprintf(noise_relmse, sizeof noise_relmse, " (noise alone %.3g)", d->noise_relmse);
+    }
+    if (d->mean_b > 0)
+        fprintf(to, "error     %s of B's mean luminance, root mean square%s\n", error, noise);
+    else
+        fprintf(to, "error     relative to B: undefined, B is black\n");
+    fprintf(to, "          RMSE %.3g, relMSE %.3g%s, MAPE %s, PSNR ", d->rmse, d->relmse, noise_relmse, mape);
+    if (isfinite(d->psnr))
+        fprintf(to, "%.1f dB\n", d->psnr);
+    else
+        fprintf(to, "%s\n", isinf(d->psnr) ? "infinite" : "undefined");
+    fprintf(to, "mean      luminance %.6g in A, %.6g in B", d->mean_a, d->mean_b);
+    if (d->mean_b > 0) fprintf(to, " (%+.3g %%)", 100 * (d->mean_a / d->mean_b - 1));
+    fputc('\n', to);
+}
+
+static void print_noise_of(char name, const ec_measured *image, FILE *to)
+{
+    if (!image->se)
+        fprintf(to, "%c has no standard errors and counts as exact", name);
+    else if (isfinite(image->batches))
+        fprintf(to, "standard errors of %c from %.0f batches", name, image->batches);
+    else
+        fprintf(to, "standard errors of %c from batches unknown, taken for many", name);
+}
+
+static void print_noise(const ec_compare_report *report, FILE *to)
+{
+    fputs("noise     ", to);
+    if (report->tested) {
+        print_noise_of('A', report->a, to);
+        fputs("; ", to);
+        print_noise_of('B', report->b, to);
+    } else {
+        fputs("unknown: neither has standard errors (channels stderr.R, .G and .B, from two batches or more)", to);
+    }
+    fputc('\n', to);
+}
+
+static void print_test(const ec_noise_test *test, FILE *to)
+{
+    const double *t = test->mean_t;
+    fprintf(to, "means     R G B differ by %+.1f %+.1f %+.1f standard errors\n", t[0], t[1], t[2]);
+    if (test->judged > 0)
+        fprintf(to, "outliers  %.2g %% of values are beyond what noise reaches 1 time in 100 (noise alone: up to 1 %%)\n",
+                100.0 * (double)test->outlying / (double)test->judged);
+    fprintf(to, "worst     %+.1f standard errors in block (%u, %u) of %dx%d pixels, %+.1f in pixel (%u, %u)\n", test->block.t, test->block.x,
+            test->block.y, EC_NOISE_BLOCK, EC_NOISE_BLOCK, test->pixel.t, test->pixel.x, test->pixel.y);
+    if (test->exact_unequal > 0)
+        fprintf(to, "exact     %" PRIu64 " value%s without noise differ%s, the first in pixel (%u, %u)\n", test->exact_unequal,
+                test->exact_unequal == 1 ? "" : "s", test->exact_unequal == 1 ? "s" : "", test->exact_x, test->exact_y);
+}
+
+static void print_verdict(const ec_compare_report *report, FILE *to)
+{
+    uint64_t unequal = report->difference.unequal;
+    fputs("verdict   ", to);
+    if (unequal == 0)
+        fputs("equal in every pixel\n", to);
+    else if (report->tested && report->test.exact_unequal > 0)
+        fputs("they differ where there is no noise\n", to);
+    else if (report->tested)
+        fprintf(to, "%s (p %s %.2g, alarm below %g)\n", report->differ ? "they differ by more than noise" : "no more different than noise makes them",
+                report->test.p < 1e-99 ? "<" : "=", fmax(report->test.p, 1e-99), EC_NOISE_SIGNIFICANCE);
+    else
+        fprintf(to, "they differ in %" PRIu64 " pixel%s; whether that is noise cannot be told\n", unequal, unequal == 1 ? "" : "s");
+}
+
+void ec_compare_report_text(const ec_compare_report *report, FILE *to)
+{
+    fprintf(to, "A         %s\nB         %s, the reference; %ux%u pixels\n", report->path_a, report->path_b, report->a->width, report->a->height);
+    if (report->diff_path)
+        fprintf(to, "map       %s: error relative to B, from 0.1 %% (black) to 100 %% (pale yellow), logarithmic\n", report->diff_path);
+    print_figures(report, to);
+    print_noise(report, to);
+    if (report->tested && report->difference.unequal > 0) print_test(&report->test, to);
+    print_verdict(report, to);
+}
