@@ -52,6 +52,7 @@ static const char help_render[] =
     "      --tonemap CURVE        neutral (Khronos PBR Neutral) or none, for the PNG (default: neutral)\n"
     "\n"
     "When to stop: at whichever limit comes first (default: --spp " EC_TEXT(EC_DEFAULT_SPP) ")\n"
+    "      --adaptive             more samples where the first ones find more noise; N is then their mean\n"
     "      --error PCT            when the 95 % bound of the image's error is under PCT per cent, as in 2 or 2%\n"
     "      --spp N                after N samples a pixel (without it, --time and --error give up after " EC_TEXT(EC_SAFETY_SPP) ")\n"
     "      --time S               before S seconds of rendering; also 30s, 2m, 1h\n"

@@ -38,6 +38,7 @@ SETTER(accel)
     return EC_OK;
 }
 
+FLAG_SETTER(adaptive, options.adaptive)
 FLAG_SETTER(all_effects, options.all_effects)
 FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
@@ -164,6 +165,7 @@ SETTER(wave)
 
 static const ec_option options[] = {
     {"accel", 0, true, set_accel},
+    {"adaptive", 0, false, set_adaptive},
     {"all-effects", 0, false, set_all_effects},
     {"batch", 0, true, set_batch},
     {"camera", 0, true, set_camera},

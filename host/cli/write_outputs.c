@@ -34,8 +34,8 @@ ec_result ec_picture_resolve(const ec_film *film, ec_picture *picture, ec_error 
     if (!picture->rgb || !picture->constants || (film->batch_count >= 2 && resolve_error(film, picture) != EC_OK))
         return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", film->width, film->height);
     ec_film_resolve(film, picture->rgb, NULL);
-    float samples = (float)((double)film->batch_count * film->samples_per_batch);
     for (size_t i = 0; i < pixel_count; i++) {
+        float samples = (float)((double)ec_film_batches(film, i) * film->samples_per_batch);
         picture->constants[2 * i] = film->unsampled && film->unsampled[i] ? 0.0f : samples;
         picture->constants[2 * i + 1] = 1;
     }

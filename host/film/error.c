@@ -14,6 +14,9 @@
  * freedom (Satterthwaite, Biometrics 2, 1946): exact for normal pixels of equal variance, right in mean and variance for
  * all. Hence E^2 <= est^2 F with F the 95 % quantile of Fisher's F(nu, nu (n-1)), near 1 for nu in the thousands.
  *
+ * Where pixels have counts of their own, v_p / n_p takes the place of v_p / n, and n is what makes n / (n-1) the mean of the
+ * pixels' own, weighed by the squares of these.
+ *
  * The divisor M, the image's mean, is an estimate too, with relative variance r = est^2 / (P M^2). Its error is
  * uncorrelated with E^2 - est^2 (each term keeps a factor y of mean 0), so the two half-widths, F - 1 and 2 z sqrt(r),
  * add in squares.
@@ -28,9 +31,10 @@
 
 static const double confidence = 0.95;
 
-/* Sums over pixels of luminance and of sample variances s^2. */
+/* Sums over pixels of luminance and of s^2 / n, the variances of their means. */
 typedef struct variance_sums {
     double luminance, s2, s4;
+    double ratio;    /* of s^4 n / (n - 1) */
     double relative; /* of SE^2 / (x + 0.01)^2, all channels */
     double v4, v8;  /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
 } variance_sums;
@@ -48,11 +52,12 @@ static double squared_variance(double n, double m2, double m4)
 static variance_sums sum_up(const ec_film *film)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
-    double n = film->batch_count;
     variance_sums sums = {0};
     for (uint64_t p = 0; p < pixels; p++) {
-        double m2 = film->m2[4 * p + 3], s2 = m2 / (n - 1), s4 = s2 * s2;
-        double v2 = n >= 4 ? squared_variance(n, m2, film->m34[2 * p + 1]) : s4;
+        double n = ec_film_batches(film, p);
+        double m2 = film->m2[4 * p + 3], s2 = m2 / (n * (n - 1)), s4 = s2 * s2;
+        double v2 = n >= 4 ? squared_variance(n, m2, film->m34[2 * p + 1]) / (n * n) : s4;
+        sums.ratio += s4 * n / (n - 1);
         sums.luminance += ec_luminance(film->mean + 3 * p);
         sums.s2 += s2;
         sums.s4 += s4;
@@ -91,10 +96,11 @@ ec_film_error ec_film_estimate_error(const ec_film *film)
     double mean = result.mean_luminance = sums.luminance / pixels;
     if (n >= 2) result.relmse = sums.relative / (3 * pixels);
     if (n < 2 || !(mean > 0)) return result;
-    double square = sums.s2 / n / pixels / (mean * mean);
+    double square = sums.s2 / pixels / (mean * mean);
     result.error = sqrt(square);
     result.error_bound = 0;
     if (square == 0) return result;
+    if (film->counts) n = sums.ratio / (sums.ratio - sums.s4);
 
     double nu = result.noisy_pixels = effective_pixels(&sums, n, pixels);
     /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */

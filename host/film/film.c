@@ -27,6 +27,7 @@ void ec_film_destroy(ec_film *film)
     free(film->largest);
     free(film->aov);
     free(film->unsampled);
+    free(film->counts);
     *film = (ec_film){0};
 }
 
@@ -49,37 +50,59 @@ static inline void update_luminance(double *m2, float *m34, double delta, double
     *m2 += added;
 }
 
+static inline void update_pixel(ec_film *film, uint64_t p, const float *batch_mean, double n)
+{
+    double *mean = film->mean + 3 * p, *m2 = film->m2 + 4 * p, x[3];
+    for (int c = 0; c < 3; c++) {
+        x[c] = batch_mean[3 * p + c];
+        if (!isfinite(x[c])) x[c] = 0, film->invalid_count++;
+    }
+    double luminance = ec_luminance(x);
+    film->largest[p] = (float)fmax(film->largest[p], luminance);
+    update_luminance(m2 + 3, film->m34 + 2 * p, luminance - ec_luminance(mean), n);
+    for (int c = 0; c < 3; c++) update_channel(mean + c, m2 + c, x[c], n);
+}
+
 void ec_film_add_batch(ec_film *film, const float *batch_mean)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
-    double n = ++film->batch_count;
+    film->batch_count++;
     for (uint64_t p = 0; p < pixels; p++) {
-        double *mean = film->mean + 3 * p, *m2 = film->m2 + 4 * p, x[3];
-        for (int c = 0; c < 3; c++) {
-            x[c] = batch_mean[3 * p + c];
-            if (!isfinite(x[c])) x[c] = 0, film->invalid_count++;
-        }
-        double luminance = ec_luminance(x);
-        film->largest[p] = (float)fmax(film->largest[p], luminance);
-        update_luminance(m2 + 3, film->m34 + 2 * p, luminance - ec_luminance(mean), n);
-        for (int c = 0; c < 3; c++) update_channel(mean + c, m2 + c, x[c], n);
+        if (film->counts) film->counts[p]++;
+        update_pixel(film, p, batch_mean, ec_film_batches(film, p));
     }
+}
+
+ec_result ec_film_add_some(ec_film *film, const float *batch_mean, const uint32_t *places, uint32_t count, ec_error *err)
+{
+    uint64_t pixels = (uint64_t)film->width * film->height;
+    if (!film->counts) {
+        film->counts = malloc(pixels * sizeof *film->counts);
+        if (!film->counts) return ec_fail(err, "out of memory for the sample counts of %llu pixels", (unsigned long long)pixels);
+        for (uint64_t p = 0; p < pixels; p++) film->counts[p] = film->batch_count;
+    }
+    for (uint32_t i = 0; i < count; i++) update_pixel(film, places[i], batch_mean, ++film->counts[places[i]]);
+    return EC_OK;
+}
+
+static double to_variance_of_mean(const ec_film *film, uint64_t p)
+{
+    double n = ec_film_batches(film, p);
+    return n >= 2 ? 1 / (n * (n - 1)) : 0;
 }
 
 void ec_film_resolve(const ec_film *film, float *rgb, float *stderr_rgb)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
-    double n = film->batch_count, scale = n >= 2 ? 1 / (n * (n - 1)) : 0; /* m2 to the variance of the mean */
     for (uint64_t p = 0; p < pixels; p++)
         for (int c = 0; c < 3; c++) {
             if (rgb) rgb[3 * p + c] = (float)film->mean[3 * p + c];
-            if (stderr_rgb) stderr_rgb[3 * p + c] = (float)sqrt(film->m2[4 * p + c] * scale);
+            if (stderr_rgb) stderr_rgb[3 * p + c] = (float)sqrt(film->m2[4 * p + c] * to_variance_of_mean(film, p));
         }
 }
 
 void ec_film_resolve_luminance_error(const ec_film *film, float *stderr_y)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
-    double n = film->batch_count, scale = n >= 2 ? 1 / (n * (n - 1)) : 0;
-    for (uint64_t p = 0; p < pixels; p++) stderr_y[p] = (float)sqrt(film->m2[4 * p + 3] * scale);
+    for (uint64_t p = 0; p < pixels; p++) stderr_y[p] = (float)sqrt(film->m2[4 * p + 3] * to_variance_of_mean(film, p));
 }

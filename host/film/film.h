@@ -20,7 +20,8 @@ static inline double ec_luminance(const double rgb[3])
 
 typedef struct ec_film {
     uint32_t width, height;
-    uint32_t batch_count;         /* B: batches added so far */
+    uint32_t batch_count;         /* B: batches that every pixel has */
+    uint32_t *counts;             /* of adaptive renders: batches of each pixel, >= B; else NULL. Owned */
     uint32_t samples_per_batch;   /* the same for every batch */
     double *mean;                 /* 3 per pixel: mean of the batch means */
     double *m2;                   /* 4 per pixel: sum of squared deviations of R, G, B and luminance (Welford) */
@@ -39,6 +40,14 @@ void ec_film_destroy(ec_film *film); /* zero-initialised or destroyed films are 
 
 /* Adds one batch: 3 floats a pixel, each the mean over samples_per_batch samples. */
 void ec_film_add_batch(ec_film *film, const float *batch_mean);
+
+/* The same of some pixels only, given by their places in row order: from now on pixels have counts of their own. */
+ec_result ec_film_add_some(ec_film *film, const float *batch_mean, const uint32_t *places, uint32_t count, ec_error *err);
+
+static inline uint32_t ec_film_batches(const ec_film *film, uint64_t p)
+{
+    return film->counts ? film->counts[p] : film->batch_count;
+}
 
 typedef struct ec_film_error {
     double mean_luminance;   /* of the image */

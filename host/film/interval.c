@@ -30,18 +30,17 @@ typedef struct moments {
 
 static double skewness_around(const ec_film *film, uint32_t x, uint32_t y)
 {
-    double n = film->batch_count;
-    if (n < 3) return 0;
+    if (film->batch_count < 3) return 0;
     moments sum = {0};
     ec_neighbourhood around = ec_neighbourhood_of(x, y, 2, film->width, film->height);
     for (uint32_t j = around.y0; j < around.y1; j++)
         for (uint32_t i = around.x0; i < around.x1; i++) {
             uint64_t q = (uint64_t)j * film->width + i;
-            double s2 = film->m2[4 * q + 3] / (n - 1);
+            double n = ec_film_batches(film, q), s2 = film->m2[4 * q + 3] / (n - 1);
             sum.cube += s2 * sqrt(s2);
             sum.third += film->m34[2 * q] * n / ((n - 1) * (n - 2));
         }
-    return sum.cube > 0 ? sum.third / (sum.cube * sqrt(n)) : 0;
+    return sum.cube > 0 ? sum.third / (sum.cube * sqrt(ec_film_batches(film, (uint64_t)y * film->width + x))) : 0;
 }
 
 /* By how much the pixel's brightest batch exceeds its mean. `largest` is a float: steady pixels have no excess. */
@@ -53,7 +52,7 @@ static double excess_of(const ec_film *film, uint64_t p)
 static int is_dominated(const ec_film *film, uint32_t x, uint32_t y)
 {
     uint64_t p = (uint64_t)y * film->width + x;
-    double n = film->batch_count, scatter = sqrt(n / (n - 1) * film->m2[4 * p + 3]), excess = 0;
+    double n = ec_film_batches(film, p), scatter = sqrt(n / (n - 1) * film->m2[4 * p + 3]), excess = 0;
     if (excess_of(film, p) > share_most * n * ec_luminance(film->mean + 3 * p)) return 1;
     ec_neighbourhood around = ec_neighbourhood_of(x, y, 1, film->width, film->height);
     for (uint32_t j = around.y0; j < around.y1; j++)
@@ -70,7 +69,7 @@ static double inverse_hall(double y, double gamma)
 
 static void write_interval(const ec_film *film, uint64_t p, double most, double least, float *low, float *high)
 {
-    double n = film->batch_count;
+    double n = ec_film_batches(film, p);
     for (int c = 0; c < 3; c++) {
         double mean = film->mean[3 * p + c], se = sqrt(film->m2[4 * p + c] / (n * (n - 1)));
         if (low) low[3 * p + c] = (float)fmax(mean - most * se, 0); /* radiance is never negative */
@@ -92,11 +91,13 @@ static uint64_t know_nothing(const ec_film *film, float *low, float *high, float
 uint64_t ec_film_intervals(const ec_film *film, float *low, float *high, float *heavy)
 {
     if (film->batch_count < 2) return know_nothing(film, low, high, heavy);
-    double t = ec_student_t_quantile(0.975, film->batch_count - 1.0);
+    uint32_t n = 0;
+    double t = 0;
     uint64_t count = 0;
     for (uint32_t y = 0; y < film->height; y++)
         for (uint32_t x = 0; x < film->width; x++) {
             uint64_t p = (uint64_t)y * film->width + x;
+            if (n != ec_film_batches(film, p)) t = ec_student_t_quantile(0.975, (n = ec_film_batches(film, p)) - 1.0);
             double gamma = skewness_around(film, x, y);
             int is_heavy = !(fabs(gamma) <= gamma_most) || is_dominated(film, x, y); /* NaN: moments left the range of float */
             gamma = gamma <= gamma_most ? fmax(gamma, -gamma_most) : gamma_most;

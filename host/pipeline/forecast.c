@@ -39,12 +39,13 @@ static range batches_to(ec_film_outlook o, double spread, double target)
 /* Machines do not keep their pace: a few per cent from minute to minute, whatever the pilot's batches say. */
 #define LEAST_SPREAD 0.04
 
-ec_forecast ec_forecast_make(const ec_film *film, const ec_render_options *limits, const ec_pace *pace)
+ec_forecast ec_forecast_make(const ec_film *film, const ec_render_options *limits, const ec_pace *pace, double done,
+                             double gain)
 {
-    uint32_t done = film->batch_count, per_batch = film->samples_per_batch;
+    uint32_t per_batch = film->samples_per_batch;
     ec_film_error now = ec_film_estimate_error(film);
     bool known = isfinite(now.error) && now.error > 0;
-    ec_film_outlook o = {now.error * now.error * done, now.noisy_pixels, (double)film->width * film->height};
+    ec_film_outlook o = {now.error * now.error * done * gain, now.noisy_pixels, (double)film->width * film->height};
     double a_batch = (pace->seconds - pace->first_seconds) / (done - 1.0);
     double pace_spread = fmax(LEAST_SPREAD, pace->spread);
     range batches = {INFINITY, INFINITY, INFINITY};
@@ -56,7 +57,7 @@ ec_forecast ec_forecast_make(const ec_film *film, const ec_render_options *limit
     double down = log(fmax(left, 1)) - log(fmax(batches.low - done, 1)), up = log(fmax(batches.high - done, 1)) - log(fmax(left, 1));
     range seconds = {pace->seconds + left * a_batch * exp(-hypot(log(slow), down)), pace->seconds + left * a_batch,
                      pace->seconds + left * a_batch * exp(hypot(log(slow), up))};
-    ec_forecast f = {.pilot_seconds = pace->seconds, .pilot_samples = (uint64_t)done * per_batch};
+    ec_forecast f = {.pilot_seconds = pace->seconds, .pilot_samples = (uint64_t)(done * per_batch)};
     if (limits->time_limit > 0) {
         seconds = at_most(seconds, limits->time_limit);
         batches = at_most(batches, fmax(done, done + (limits->time_limit - pace->seconds) / a_batch));

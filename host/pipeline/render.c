@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "pipeline/adaptive.h"
 #include "pipeline/forecast.h"
 #include "pipeline/pipeline.h"
 
@@ -23,6 +24,7 @@ typedef struct render_state {
     ec_forecast forecast;      /* of now; the pilot's is in stats */
     uint32_t batches_wanted;   /* by --spp; 0 = no limit */
     ec_film_error error;
+    ec_allotment allotment;    /* with weights from the end of an adaptive render's pilot on */
     const char *stopped_by;
     uint64_t samples;          /* really taken */
 } render_state;
@@ -88,11 +90,33 @@ static bool report(render_state *r, double batches)
     return r->progress(r->user, &progress);
 }
 
-/* All waves of one batch. *complete is false where a limit or the user ended it early. */
-static ec_result run_batch(render_state *r, uint32_t batch, bool *complete, ec_error *err)
+/* Batches a pixel, in the mean. */
+static double batches_done(const render_state *r)
+{
+    const ec_params *params = &r->pipeline.params;
+    return (double)r->samples / params->batch / ((double)params->width * params->height);
+}
+
+/* The pixels that the next batch is for: all, or the allotment's. */
+static ec_result choose_pixels(render_state *r, uint32_t *count, ec_error *err)
 {
     ec_pipeline *p = &r->pipeline;
-    uint32_t pixels = p->params.width * p->params.height, per_wave = p->wave / p->params.batch;
+    ec_allotment *a = &r->allotment;
+    *count = p->params.width * p->params.height;
+    if (!a->weight) return EC_OK;
+    cl_mem *list = &p->buffers[EC_ARG_PIXEL_LIST];
+    const uint64_t slack = 64; /* lanes past the last sample look too */
+    if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", ((uint64_t)*count + slack) * 4, NULL, list, err));
+    *count = ec_allotment_pass(a, r->film);
+    return ec_buffer_write(p->cl, *list, 0, (uint64_t)*count * 4, a->list, err);
+}
+
+/* All waves of one batch. *complete is false where a limit or the user ended it early. */
+static ec_result run_batch(render_state *r, uint32_t batch, uint32_t pixels, bool *complete, ec_error *err)
+{
+    ec_pipeline *p = &r->pipeline;
+    uint32_t per_wave = p->wave / p->params.batch;
+    double before = batches_done(r), share = pixels / ((double)p->params.width * p->params.height);
     uint32_t seed = batch_seed(r->options->seed, batch);
     *complete = true;
     for (uint32_t first = 0; first < pixels; first += per_wave) {
@@ -106,7 +130,7 @@ static ec_result run_batch(render_state *r, uint32_t batch, bool *complete, ec_e
         if (first + count >= pixels) break;
         double now = ec_now();
         bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
-        bool go_on = now - r->last_report < 0.1 || report(r, batch + (double)(first + count) / pixels);
+        bool go_on = now - r->last_report < 0.1 || report(r, before + share * (first + count) / pixels);
         if (out_of_time || !go_on) {
             r->stopped_by = go_on ? "time" : "user";
             *complete = false;
@@ -131,7 +155,7 @@ static ec_result mark_unsampled(render_state *r, float *host, uint64_t pixels, e
     return EC_OK;
 }
 
-static ec_result add_batch(render_state *r, float *host, bool complete, ec_error *err)
+static ec_result add_batch(render_state *r, float *host, uint32_t count, bool complete, ec_error *err)
 {
     ec_pipeline *p = &r->pipeline;
     uint64_t pixels = (uint64_t)p->params.width * p->params.height;
@@ -142,30 +166,30 @@ static ec_result add_batch(render_state *r, float *host, bool complete, ec_error
             host[i] = 0.0f;
             r->stats->invalid_accumulate++;
         }
-    ec_film_add_batch(r->film, host);
+    if (r->allotment.weight) EC_TRY(ec_film_add_some(r->film, host, r->allotment.places, count, err));
+    else ec_film_add_batch(r->film, host);
     r->error = ec_film_estimate_error(r->film);
     return EC_OK;
 }
 
 static void look_ahead(render_state *r)
 {
-    uint32_t done = r->film->batch_count;
-    double now = ec_now(), took = now - r->batch_end, timed = done - 1.0;
+    double done = batches_done(r), now = ec_now(), took = now - r->batch_end, timed = r->film->batch_count - 1.0;
     r->batch_end = now;
-    if (done == 1) r->first_seconds = now - r->render_start;
-    else r->sum += took, r->squares += took * took;
-    if (!ec_pilot_is_over(done)) return;
+    if (r->film->batch_count == 1) r->first_seconds = now - r->render_start;
+    else if (!r->allotment.weight) r->sum += took, r->squares += took * took;
+    if (!ec_pilot_is_over(r->film->batch_count)) return;
     double mean = r->sum / timed, variance = fmax(r->squares / timed - mean * mean, 0.0);
     ec_pace pace = {now - r->render_start, r->first_seconds, timed > 1.0 ? sqrt(variance / (timed - 1.0)) / mean : 0.0};
-    r->forecast = ec_forecast_make(r->film, r->options, &pace);
-    if (!r->stats->forecast.pilot_samples) r->stats->forecast = r->forecast;
+    bool is_pilot = !r->stats->forecast.pilot_samples;
+    r->forecast = ec_forecast_make(r->film, r->options, &pace, done, is_pilot ? r->allotment.gain : 1.0);
+    if (is_pilot) r->stats->forecast = r->forecast;
 }
 
 static bool is_done(render_state *r)
 {
     const ec_render_options *o = r->options;
-    uint32_t done = r->film->batch_count;
-    double seconds = ec_now() - r->render_start;
+    double done = batches_done(r), seconds = ec_now() - r->render_start;
     look_ahead(r);
     if (r->batches_wanted && done >= r->batches_wanted)
         r->stopped_by = "spp";
@@ -187,6 +211,12 @@ static ec_result read_features(render_state *r, ec_error *err)
     return ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, pixels * EC_AOV_FIELDS * 4, r->film->aov, err);
 }
 
+/* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
+static ec_result allot(render_state *r, ec_error *err)
+{
+    return r->stats->forecast.pilot_samples ? EC_OK : ec_allot(r->film, &r->pipeline.params, &r->allotment, err);
+}
+
 static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
 {
     ec_pipeline *p = &r->pipeline;
@@ -198,12 +228,15 @@ static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
     r->render_start = r->last_report = r->batch_end = ec_now();
     for (uint32_t batch = 0; result == EC_OK && !r->stopped_by; batch++) {
         bool complete;
-        result = run_batch(r, batch, &complete, err);
+        uint32_t count;
+        result = choose_pixels(r, &count, err);
+        if (result == EC_OK) result = run_batch(r, batch, count, &complete, err);
         if (result != EC_OK) break;
         if (!complete && batch > 0) break; /* the batches before it stand */
         if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
-        result = add_batch(r, host, complete, err);
+        result = add_batch(r, host, count, complete, err);
         if (result == EC_OK && batch == 0) result = read_features(r, err);
+        if (result == EC_OK && r->options->adaptive && ec_pilot_is_over(batch + 1)) result = allot(r, err);
         if (result == EC_OK && complete) is_done(r);
     }
     free(host);
@@ -223,7 +256,8 @@ static ec_result finish_stats(render_state *r, ec_error *err)
     s->invalid_connect = invalid[EC_STAGE_CONNECT];
     s->invalid_accumulate += invalid[EC_STAGE_ACCUMULATE];
     s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
-    s->samples_per_pixel = (uint64_t)r->film->batch_count * p->params.batch;
+    s->samples_per_pixel = (uint64_t)(batches_done(r) * p->params.batch + 1e-6);
+    s->allotment_gain = r->allotment.gain;
     s->samples = r->samples;
     s->rays = p->rays;
     s->samples_per_second = s->seconds > 0.0 ? (double)s->samples / s->seconds : 0.0;
@@ -244,12 +278,14 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     memset(stats, 0, sizeof *stats);
     render_state r = {.options = options, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
+    r.allotment.gain = 1.0;
     uint32_t batch = choose_batch(options);
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
     ec_result result = ec_film_create(film, options->width, options->height, batch, err);
     if (result == EC_OK) result = ec_pipeline_create(cl, scene, options, batch, &r.pipeline, stats, err);
     if (result == EC_OK) result = render_loop(&r, log, err);
     if (result == EC_OK) result = finish_stats(&r, err);
+    ec_allotment_free(&r.allotment);
     ec_pipeline_destroy(&r.pipeline);
     return result;
 }

@@ -41,6 +41,7 @@ typedef struct ec_render_options {
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
+    bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
 } ec_render_options;
@@ -76,6 +77,7 @@ typedef struct ec_render_stats {
     double samples_per_second, rays_per_second;
     double error, error_bound, relmse; /* see film/film.h */
     ec_forecast forecast;         /* the pilot's */
+    double allotment_gain;        /* adaptive: error^2 over uniform sampling's, foretold; 1 where there was nothing to gain */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
     uint32_t lanes, wave, batch;

@@ -10,9 +10,9 @@
 #define SURFACE_ARGS                                                                               \
     EC_ARG_PRIMS, EC_ARG_INDICES, EC_ARG_NORMALS, EC_ARG_TANGENTS, EC_ARG_UVS, EC_ARG_COLORS, EC_ARG_MATERIALS,        \
         EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS, EC_ARG_SRGB
-#define WAVE_ARGS EC_ARG_PARAMS, EC_ARG_SEED, EC_ARG_FIRST_PIXEL, EC_ARG_BOUNCE, EC_ARG_STEP, EC_ARG_COUNTERS
+#define WAVE_ARGS EC_ARG_PARAMS, EC_ARG_SEED, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_BOUNCE, EC_ARG_STEP, EC_ARG_COUNTERS
 
-static const ec_arg generate[] = {EC_ARG_PARAMS,     EC_ARG_SEED,  EC_ARG_FIRST_PIXEL,
+static const ec_arg generate[] = {EC_ARG_PARAMS,     EC_ARG_SEED,  EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
                                   EC_ARG_PATH_COUNT, EC_ARG_PATHS, EC_ARG_RADIANCE};
 static const ec_arg intersect[] = {WAVE_ARGS, EC_ARG_PATHS, EC_ARG_HITS, ACCEL_ARGS, FILTER_ARGS};
 static const ec_arg shade[] = {WAVE_ARGS,          EC_ARG_INVALID, EC_ARG_PATHS, EC_ARG_HITS,        EC_ARG_NEXT,
@@ -21,7 +21,7 @@ static const ec_arg shade[] = {WAVE_ARGS,          EC_ARG_INVALID, EC_ARG_PATHS,
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS};
 static const ec_arg raster_setup[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_PRIMS, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS};
 static const ec_arg raster_fill[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS, EC_ARG_TILE_LIST};
-static const ec_arg raster[] = {EC_ARG_PARAMS,      EC_ARG_SEED,      EC_ARG_FIRST_PIXEL, EC_ARG_PATH_COUNT, EC_ARG_HITS, EC_ARG_RASTER_TRIS,
+static const ec_arg raster[] = {EC_ARG_PARAMS,      EC_ARG_SEED,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_PATH_COUNT, EC_ARG_HITS, EC_ARG_RASTER_TRIS,
                                 EC_ARG_TILE_STARTS, EC_ARG_TILE_ENDS, EC_ARG_TILE_LIST,   FILTER_ARGS};
 static const ec_arg shade_raster[] = {EC_ARG_PARAMS,   EC_ARG_PATH_COUNT, EC_ARG_INVALID, EC_ARG_PATHS,       EC_ARG_HITS,
                                       EC_ARG_RADIANCE, EC_ARG_AOV,        SURFACE_ARGS,   EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS};
@@ -29,8 +29,8 @@ static const ec_arg whitted[] = {WAVE_ARGS,       EC_ARG_INVALID,  EC_ARG_PATHS,
                                  EC_ARG_BRANCHES, EC_ARG_RADIANCE, EC_ARG_AOV,   SURFACE_ARGS, EC_ARG_ENVIRONMENT_TEXELS};
 static const ec_arg whitted_light[] = {EC_ARG_PARAMS, EC_ARG_LIGHT, EC_ARG_STEP,    EC_ARG_COUNTERS, EC_ARG_INVALID,
                                        EC_ARG_PATHS,  EC_ARG_HITS,  EC_ARG_SHADOWS, SURFACE_ARGS,    EC_ARG_LIGHT_TABLE};
-static const ec_arg accumulate[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE, EC_ARG_BATCH_FILM};
-static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_COUNT, EC_ARG_AOV, EC_ARG_FEATURE_FILM};
+static const ec_arg accumulate[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE, EC_ARG_BATCH_FILM};
+static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_PIXEL_COUNT, EC_ARG_AOV, EC_ARG_FEATURE_FILM};
 
 #define ARGS(list) sizeof(list) / sizeof *(list), list
 

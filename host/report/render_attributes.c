@@ -66,6 +66,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     else
         add_text(attributes, "eclat.maxDepth", "inf");
     add_real(attributes, "eclat.cutoff", options->cutoff);
+    add_text(attributes, "eclat.adaptive", options->adaptive ? "yes" : "no");
     add_real(attributes, "eclat.png.exposure", report->exposure);
     add_text(attributes, "eclat.png.tonemap", ec_tonemap_names[report->tonemap]);
 }

@@ -26,6 +26,7 @@ static void add_setting(cJSON *root, const ec_render_report *report)
         ec_json_whole(root, "max_depth", options->max_depth);
     else
         cJSON_AddNullToObject(root, "max_depth");
+    cJSON_AddBoolToObject(root, "adaptive", options->adaptive);
     ec_json_real(root, "cutoff", options->cutoff);
     ec_json_real(root, "exposure", report->exposure);
     ec_json_text(root, "tonemap", ec_tonemap_names[report->tonemap]);
@@ -100,6 +101,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     add_setting(root, report);
     add_result(root, report);
     add_forecast(root, &report->stats->forecast);
+    ec_json_real(root, "allotment_gain", report->stats->allotment_gain);
     add_cost(root, report);
     ec_json_whole(root, "lanes", report->stats->lanes);
     ec_json_whole(root, "wave", report->stats->wave);

@@ -6,11 +6,11 @@
 #include "sampler.h"
 
 /* Pixel (x, y), counted from the top left, and the sample's place in the picture: sx, sy in [-1, 1], sy up. */
-EC_FN void camera_sample(constant ec_params *params, uint seed, uint first_pixel, lane_u slot, lane_u *x, lane_u *y, lane_f *sx,
+EC_FN void camera_sample(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, lane_u slot, lane_u *x, lane_u *y, lane_f *sx,
                          lane_f *sy)
 {
     lane_u pixel, sample;
-    slot_to_pixel(params, first_pixel, slot, &pixel, &sample);
+    slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
     pixel_to_xy(params, pixel, x, y);
     sampler random = sampler_make(seed, pixel, sample);
     lane_f jx, jy;

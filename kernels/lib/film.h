@@ -8,11 +8,14 @@
 
 #define EC_TILE 8u
 
-EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, lane_u slot, lane_u *pixel, lane_u *sample)
+/* pixel_list: the numbers of the pass's pixels, or NULL where these are all there are. */
+EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, global const uint *pixel_list, lane_u slot, lane_u *pixel,
+                         lane_u *sample)
 {
     lane_u local_pixel = slot / params->batch;
     *sample = slot - local_pixel * params->batch;
     *pixel = local_pixel + first_pixel;
+    if (pixel_list) *pixel = gather_u(pixel_list, *pixel);
 }
 
 /* Rows of tiles first: a row of tiles holds width * 8 pixels (fewer rows at the bottom), a tile 8 * rows (narrower at the

@@ -8,7 +8,7 @@
 #include "queue.h"
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
                                          global const ec_counters *counters, global const float *paths, global float *hits,
                                          ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
@@ -20,7 +20,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
     hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0};
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
-        slot_to_pixel(params, first_pixel, U(as_uint(p[EC_PATH_SLOT * wave])), &pixel, &sample);
+        slot_to_pixel(params, first_pixel, pixel_list, U(as_uint(p[EC_PATH_SLOT * wave])), &pixel, &sample);
         filter.key = filter_key(seed, pixel, sample, bounce, false);
     }
     const accel a = ACCEL_ARGUMENTS;
@@ -37,7 +37,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
                                        global const ec_counters *counters, volatile global uint *invalid,
                                        global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
@@ -50,7 +50,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     hit_filter filter = {FILTER_GEOMETRY, U(0), false};
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
-        slot_to_pixel(params, first_pixel, U(slot), &pixel, &sample);
+        slot_to_pixel(params, first_pixel, pixel_list, U(slot), &pixel, &sample);
         filter.key = filter_key(seed, pixel, sample, bounce, true);
     }
     const accel a = ACCEL_ARGUMENTS;

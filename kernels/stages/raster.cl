@@ -15,7 +15,7 @@ EC_FN lane_i raster_inside(global const float *f, lane_f value)
 }
 EC_FN lane_f raster_value(global const float *f, lane_f x, lane_f y) { return fma(F(f[0]), x, fma(F(f[1]), y, F(f[2]))); }
 
-kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, uint path_count, global float *hits,
+kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint path_count, global float *hits,
                       global const ec_raster_tri *tris, global const uint *starts, global const uint *ends,
                       global const uint *list, global const float *prims, global const float *indices,
                       global const float *uvs, global const float *colors, global const float *materials,
@@ -27,11 +27,11 @@ kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, u
     lane_f sx, sy;
     lane_i waiting = slot < path_count;
     slot = waiting ? slot : U(i);
-    camera_sample(params, seed, first_pixel, slot, &x, &y, &sx, &sy);
+    camera_sample(params, seed, first_pixel, pixel_list, slot, &x, &y, &sx, &sy);
     lane_u tile = raster_tile(params, x, y);
     hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}, U(0), true};
     if (HAS(ALPHA)) {
-        slot_to_pixel(params, first_pixel, slot, &pixel, &sample);
+        slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
         filter.key = filter_key(seed, pixel, sample, 0, false);
     }
     lane_u best = U(EC_NO_ID);

@@ -39,7 +39,7 @@ EC_FN lane_i same_side(const surface *s, v3 w, v3 w_local)
     return v3_dot(s->ng, w) * w_local.z > 0.0f;
 }
 
-kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
                      volatile global ec_counters *counters, volatile global uint *invalid, global const float *paths,
                      global const float *hits, global float *next, global float *shadows, global float *radiance,
                      global float *aov, global const float *prims, global const float *indices,
@@ -121,7 +121,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, ui
     if (bounce + 2 > params->max_depth || !any_lane(scatters)) return;
 
     lane_u pixel, sample;
-    slot_to_pixel(params, first_pixel, slot, &pixel, &sample);
+    slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
     sampler random = sampler_make(seed, pixel, sample);
     uint pair = EC_PAIR_BOUNCE(bounce);
     lane_u choice, lobe;

@@ -67,7 +67,7 @@ EC_FN branch branch_make(const surface *s, v3 wi, v3 beta, lane_f depth, lane_u 
     return b;
 }
 
-kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint step,
+kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
                        volatile global ec_counters *counters, volatile global uint *invalid, global float *paths,
                        global float *hits, global float *next, global float *branches, global float *radiance,
                        global float *aov, global const float *prims, global const float *indices,

@@ -1,0 +1,150 @@
+/* Adaptive sampling: no bias where stopping pixels by their own samples has one, the stated error is the real one, a target is
+ * reached with fewer samples where noise is uneven and with hardly more where it is not, and pictures keep their bits.
+ *
+ * ctest label: slow */
+#include "film/difference.h"
+#include "pipeline/adaptive.h"
+#include "support/render_case.h"
+
+/* ---- synthetic: grey pixels with fireflies 100 times as bright, one sample in 200 on the left, in 10 000 on the right; mean 1 ---- */
+
+enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT, REPEATS = 400 };
+
+static uint64_t state = 3;
+static double uniform(void) /* SplitMix64, Steele et al. 2014 */
+{
+    uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static float *draw_batch(void)
+{
+    static float batch[3 * PIXELS];
+    for (uint32_t p = 0; p < PIXELS; p++) {
+        double sum = 0, ground = p % WIDTH < WIDTH / 2 ? 0.5 : 0.99;
+        for (int i = 0; i < 8; i++) sum += uniform() < (1 - ground) / 100 ? 100 + ground : ground;
+        batch[3 * p] = batch[3 * p + 1] = batch[3 * p + 2] = (float)(sum / 8);
+    }
+    return batch;
+}
+
+static void check_bias(void)
+{
+    double sum = 0, squares = 0;
+    int allotted = 0;
+    ec_error err;
+    const ec_params params = {.width = WIDTH, .height = HEIGHT};
+    for (int repeat = 0; repeat < REPEATS; repeat++) {
+        ec_film film = {0};
+        ec_allotment a;
+        CHECK_OK(ec_film_create(&film, WIDTH, HEIGHT, 8, &err), err);
+        for (int i = 0; i < 4; i++) ec_film_add_batch(&film, draw_batch());
+        CHECK_OK(ec_allot(&film, &params, &a, &err), err);
+        allotted += a.weight && a.gain < 0.95;
+        for (double batches = 4; a.weight && batches < 12;) {
+            uint32_t count = ec_allotment_pass(&a, &film);
+            CHECK_OK(ec_film_add_some(&film, draw_batch(), a.places, count, &err), err);
+            batches += (double)count / PIXELS;
+        }
+        double mean = ec_film_estimate_error(&film).mean_luminance;
+        sum += mean;
+        squares += mean * mean;
+        ec_allotment_free(&a);
+        ec_film_destroy(&film);
+    }
+    double mean = sum / REPEATS, se = sqrt((squares / REPEATS - mean * mean) / (REPEATS - 1));
+    CHECK_MSG(allotted >= REPEATS * 0.95, "only %d of %d pilots found something to gain", allotted, REPEATS);
+    printf("fireflies: mean %.5f +- %.5f of 1\n", mean, se);
+    CHECK_MSG(fabs(mean - 1) <= 4 * se && se < 0.003, "mean %g +- %g", mean, se);
+}
+
+/* ---- renders ---- */
+
+static case_image render(const ec_scene *scene, bool adaptive, uint32_t spp, double error, uint64_t seed)
+{
+    ec_render_options o = case_options(96, 96, spp);
+    o.batch = 8;
+    o.adaptive = adaptive;
+    o.error_target = error;
+    o.seed = seed;
+    return case_render(scene, &o);
+}
+
+/* Means of renders with independent seeds, and their errors against a long one: stated and real. */
+static void check_renders(const char *path)
+{
+    enum { RENDERS = 16 };
+    ec_scene *scene = case_load(path, NULL);
+    case_image reference = render(scene, false, 4096, 0, 999);
+    ec_measured converged = {.width = 96, .height = 96, .rgb = reference.rgb};
+    double mean = 0, variance = 0, stated = 0, real = 0;
+    for (uint64_t seed = 0; seed < RENDERS; seed++) {
+        case_image image = render(scene, true, 128, 0, seed);
+        ec_measured measured = {.width = 96, .height = 96, .rgb = image.rgb};
+        ec_difference d = ec_measure_difference(&measured, &converged);
+        mean += image.mean[1] / RENDERS;
+        variance += image.mean_se[1] * image.mean_se[1] / RENDERS / RENDERS;
+        stated += image.stats.error * image.stats.error / RENDERS;
+        real += d.relative_rms * d.relative_rms / RENDERS;
+        CHECK(image.film.counts && image.stats.samples_per_pixel >= 127 && image.stats.samples_per_pixel <= 137);
+        case_free(&image);
+    }
+    double own = reference.stats.error * reference.stats.error;
+    double z = (mean - reference.mean[1]) / sqrt(variance + reference.mean_se[1] * reference.mean_se[1]);
+    printf("%-24s mean off by %+.1f standard errors (one is %.2f %%), stated over real error %.3f\n", strrchr(path, '/') + 1, z,
+           100 * sqrt(variance) / mean, sqrt(stated / (real - own)));
+    CHECK_MSG(fabs(z) <= 4, "%s: the mean is off by %.1f standard errors", path, z);
+    CHECK_MSG(fabs(stated / (real - own) - 1) < 0.12, "%s: stated square over real %.3f", path, stated / (real - own));
+    case_free(&reference);
+    ec_scene_free(scene);
+}
+
+/* Samples until the bound is there, over those of uniform sampling. */
+static void check_target(const char *path, double target, double most)
+{
+    ec_scene *scene = case_load(path, NULL);
+    case_image even = render(scene, false, 16384, target, 1), adaptive = render(scene, true, 16384, target, 1);
+    double ratio = (double)adaptive.stats.samples / (double)even.stats.samples;
+    printf("%-24s %g %%: %.0f samples a pixel, %.2f of uniform sampling's\n", strrchr(path, '/') + 1, 100 * target,
+           (double)adaptive.stats.samples / 96 / 96, ratio);
+    CHECK(!strcmp(even.stats.stopped_by, "error") && !strcmp(adaptive.stats.stopped_by, "error"));
+    CHECK_MSG(ratio <= most, "%s: %.2f of uniform sampling's samples", path, ratio);
+    case_free(&even);
+    case_free(&adaptive);
+    ec_scene_free(scene);
+}
+
+static void check_bits(const char *path)
+{
+    static const uint32_t lanes[] = {0, 1, 4, 16}, waves[] = {0, 5000, 0, 20000};
+    ec_scene *scene = case_load(path, NULL);
+    case_image first = {0};
+    for (int i = 0; i < 4; i++) {
+        ec_render_options o = case_options(61, 37, 64);
+        o.batch = 4;
+        o.adaptive = true;
+        o.lanes = lanes[i];
+        o.wave = waves[i];
+        case_image image = case_render(scene, &o);
+        if (i) CHECK_MSG(!memcmp(image.rgb, first.rgb, 3 * 61 * 37 * sizeof(float)), "%s: lanes %u, wave %u", path, lanes[i], waves[i]);
+        if (i) case_free(&image);
+        else first = image;
+    }
+    CHECK(first.film.counts);
+    case_free(&first);
+    ec_scene_free(scene);
+}
+
+int main(void)
+{
+    check_bias();
+    check_renders(OWN_SCENE("ring/ring.gltf"));
+    check_renders(OWN_SCENE("cornell-box/cornell-box.gltf"));
+    check_target(OWN_SCENE("ring/ring.gltf"), 0.3, 0.5);
+    check_target(OWN_SCENE("cornell-box/cornell-box.gltf"), 0.05, 0.8);
+    check_target(OWN_SCENE("furnace/box-materials.gltf"), 0.01, 1.02);
+    check_bits(OWN_SCENE("ring/ring.gltf"));
+    TEST_END();
+}
