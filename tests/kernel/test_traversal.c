@@ -96,6 +96,28 @@ static void check_order(const set *s, const tracer *bvh2, const float *queue, co
     ec_accel_free(&reversed);
 }
 
+/* A grid of a single block of cells, and one so fine that its bounds on memory come into play. */
+static void check_densities(const set *s, const float *queue, const float *expected)
+{
+    const tracer *t = tracers;
+    while (t->accel != ec_accel_find("grid")) t++;
+    float *hits = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *hits);
+    for (int i = 0; i < 2; i++) {
+        ec_error err = {""};
+        ec_accel grid;
+        uint32_t *indices;
+        ec_accel_input input = set_input(s, &indices);
+        input.grid_density = i ? 10000.0f : 0.01f;
+        CHECK_OK(ec_accel_build(t->accel, &input, &grid, &err), err);
+        if (grid.buffers[0].data && intersect(s, t, &grid, RAYS, COUNT, queue, hits))
+            same_hits(s, queue, RAYS, COUNT, hits, expected, i ? "fine grid" : "coarse grid", "brute force");
+        ec_accel_free(&grid);
+        ec_accel_input_free(&input);
+        free(indices);
+    }
+    free(hits);
+}
+
 static void check_set(set s)
 {
     ec_accel accels[EC_ACCEL_COUNT], brute = make_brute(&s);
@@ -107,6 +129,7 @@ static void check_set(set s)
         check_shadows(&s, accels, &brute, bvh2, queue, expected);
         check_closest(&s, accels, &brute, bvh2, queue, expected);
         check_order(&s, bvh2, queue, expected);
+        check_densities(&s, queue, expected);
         const uint32_t *prim = (const uint32_t *)expected, *skip = (const uint32_t *)queue + EC_PATH_PRIM * RAYS;
         bool all_copies = strcmp(s.name, "duplicated") == 0;
         for (uint32_t i = 0; all_copies && i < COUNT; i++) /* of four copies the lowest id, or if that is skipped another */
