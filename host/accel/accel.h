@@ -14,7 +14,7 @@ typedef struct ec_accel_input {
     const uint32_t *indices;
     uint32_t triangle_count;
     uint32_t threads;           /* 0 = all; the result is the same for any number */
-    float grid_density;         /* cells a reference; 0 = EC_GRID_DENSITY */
+    float grid_density;         /* cells a reference, within what grid.c allows; 0 = EC_GRID_DENSITY */
     ec_bvh bvh;                 /* built when first asked for, and shared: see ec_accel_bvh */
     ec_bvh_stats bvh_stats;
 } ec_accel_input;

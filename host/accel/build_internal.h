@@ -135,6 +135,10 @@ void ec_range_place(const ec_range *range, uint32_t left_count, uint32_t right_c
  * `objects`, the best split of whole ones. */
 int ec_range_cut(ec_builder *builder, const ec_range *range, const ec_split *objects, ec_range children[2]);
 
+/* The parts of a triangle on both sides of a plane, as far as they lie in `box`: bounds of each, never too small, and larger than the
+ * exact ones by at most 8 FLT_EPSILON (|a| + |b|), where the plane cuts an edge from a to b. Empty: lo > hi. */
+void ec_triangle_cut(const ec_v4 vertices[3], const ec_box4 *box, int axis, float at, ec_box4 part[2]);
+
 /* branch.c: a node of the upper tree is two children, or a subtree whose nodes[0] is its root and whose nodes number
  * their children within it. */
 typedef struct ec_branch {

@@ -33,8 +33,7 @@ static int is_empty(const ec_box4 *box)
     return !(box->lo[0] <= box->hi[0] && box->lo[1] <= box->hi[1] && box->lo[2] <= box->hi[2]);
 }
 
-/* The parts of a triangle on both sides of a plane, as far as they lie in `box`: bounds of each, never too small. */
-static void cut(const ec_v4 vertices[3], const ec_box4 *box, int axis, float at, ec_box4 part[2])
+void ec_triangle_cut(const ec_v4 vertices[3], const ec_box4 *box, int axis, float at, ec_box4 part[2])
 {
     part[0] = part[1] = ec_box4_empty();
     for (int k = 0; k < 3; k++) {
@@ -61,7 +60,7 @@ static void fill_parts(chunk *c, const ec_binning *binning, const ec_v4 vertices
 {
     for (int i = first; i < last; i++) {
         ec_box4 part[2];
-        cut(vertices, &rest, axis, binning->origin[axis] + (float)(i + 1) / binning->scale[axis], part);
+        ec_triangle_cut(vertices, &rest, axis, binning->origin[axis] + (float)(i + 1) / binning->scale[axis], part);
         ec_box4_grow(&c->bins.box[i][axis], part[0].lo, part[0].hi);
         rest = part[1];
     }
@@ -131,7 +130,7 @@ static int sides_of(const ec_builder *builder, const plane *p, const ec_prim *pr
     if (!(box.lo[p->axis] < p->at)) return 2;
     ec_v4 vertices[3];
     ec_prim_vertices(builder->positions, builder->indices, ec_prim_id(prim), vertices);
-    cut(vertices, &box, p->axis, p->at, part);
+    ec_triangle_cut(vertices, &box, p->axis, p->at, part);
     if (is_empty(&part[0])) return 2;
     if (is_empty(&part[1])) return 1;
     ec_box4 whole[3] = {p->box[0], p->box[1], p->box[1]};

@@ -8,9 +8,10 @@
 #include "accel/build_internal.h"
 
 #define CELLS_AXIS_MOST 2048u /* a multiple of 4 */
-#define CELLS_MOST (1u << 28)
+#define CELLS_MOST (1u << 28) /* counting what each holds takes 4 bytes on the host */
 /* Entries a reference on average before the grid is made coarser: large triangles lie in thousands of small cells. */
 #define ENTRIES_MOST 64u
+#define ENTRIES_ALL_MOST (UINT32_MAX - 1u) /* what the kernels can number */
 
 typedef struct grid {
     const ec_ref *refs;
@@ -191,6 +192,8 @@ static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *tria
 static ec_grid *make_header(grid *g, double density, uint64_t *entries, uint64_t *bytes)
 {
     ec_grid *header = NULL;
+    uint64_t most = (uint64_t)ENTRIES_MOST * g->ref_count;
+    if (most > ENTRIES_ALL_MOST) most = ENTRIES_ALL_MOST;
     for (double wanted = fmin(density * g->ref_count, CELLS_MOST);; wanted *= 0.5) {
         choose_cells(g, wanted);
         uint32_t planes = g->cells[0] + g->cells[1] + g->cells[2] + 3;
@@ -200,7 +203,7 @@ static ec_grid *make_header(grid *g, double density, uint64_t *entries, uint64_t
         if (!header) return NULL;
         place_planes(g, (float *)(header + 1));
         *entries = entry_count(g);
-        if (*entries <= (uint64_t)ENTRIES_MOST * g->ref_count || cell_count(g) <= 64) break;
+        if (*entries <= most || cell_count(g) <= 64) break;
     }
     for (int axis = 0; axis < 3; axis++) {
         header->blocks[axis] = g->cells[axis] / 4;
@@ -222,7 +225,7 @@ ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     ec_tri *triangles = NULL;
     ec_box *boxes = NULL;
     ec_grid *header = make_header(&g, in->grid_density > 0.0f ? in->grid_density : EC_GRID_DENSITY, &entry_count, &header_bytes);
-    if (header && entry_count < UINT32_MAX) {
+    if (header && entry_count <= ENTRIES_ALL_MOST) {
         counts = malloc(cell_count(&g) * sizeof *counts);
         blocks = ec_allocate_lines(cell_count(&g) / 64, sizeof *blocks);
         triangles = ec_allocate_lines(g.ref_count, sizeof *triangles);
@@ -232,7 +235,9 @@ ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
         header->start_count = 1 + (used = count_cells(&g, counts, blocks));
         starts = ec_allocate_lines(header->start_count + entry_count, sizeof *starts);
     }
-    ec_result result = starts && triangles && (boxes || !in->bvh.boxes) ? EC_OK : ec_fail(err, "out of memory for a grid of %u triangles", g.ref_count);
+    ec_result result = starts && triangles && (boxes || !in->bvh.boxes) ? EC_OK
+        : ec_fail(err, "out of memory for a grid of %u references and %llu cells: take a smaller density, or another structure", g.ref_count,
+                  (unsigned long long)(header ? cell_count(&g) : 0));
     if (result == EC_OK) {
         fill_cells(&g, counts, blocks, starts, used, (uint32_t)entry_count);
         fill_triangles(&g, in, triangles, boxes);

@@ -1,5 +1,15 @@
 /* The kd-tree: cells split where the surface area heuristic says, references in every leaf that their boxes overlap. Large cells
- * are tasks; a small one and all below it are built by one thread; the pieces are joined in their order. */
+ * are tasks; a small one and all below it are built by one thread; the pieces are joined in their order.
+ *
+ * No perfect splits (Wald and Havran 2006: at every split the rest of a triangle is clipped to the cell, and cells where nothing of it
+ * is left go without). References are clipped once, where the BVH cuts triangles, and go by their boxes from then on. A hit's t is
+ * clamped to the box of a reference (kernels/lib/ray.h), so all structures must hold the same ones. Nor may a cell that the box
+ * overlaps go without the reference because the triangle has no part there: seen edge-on, its t is a mean of its vertices'
+ * depths with weights of rounding alone, anywhere within the box, also before or behind the part that the ray passes. The ray must
+ * have met the reference by that t, or another hit behind it ends the search. Tried on sponza-dabrovic, processor time of bounced rays:
+ *   clipped, with a margin of 1e-6 or 1e-4 of the scene  -3 or -4 %; but 218 and 224 of 50 000 rays in a plane of triangles hit others
+ *   left out where the triangle's plane is not           +2 %; and the margin would have to grow with the distance of a ray's origin
+ *   planes chosen for clipped ones, none left out        +22 %: costs are of a tree that is not built */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

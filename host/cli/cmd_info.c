@@ -5,6 +5,8 @@
 
 #include "base/clock.h"
 #include "cli/cli.h"
+#include "cli/combinations.h"
+#include "cli/defaults.h"
 #include "cli/numbers.h"
 #include "cli/options.h"
 #include "pipeline/render.h"
@@ -12,6 +14,7 @@
 
 typedef struct info_request {
     const char *scene, *accel, *device; /* accel: a name, "all", or NULL for none */
+    double grid_density; /* 0: the default */
     bool json, quiet;
 } info_request;
 
@@ -47,7 +50,18 @@ static ec_result set_device(void *target, const char *option, const char *value,
     return EC_OK;
 }
 
-static const ec_option options[] = {{"accel", 0, true, set_accel}, {"device", 0, true, set_device}, {"json", 0, false, set_json}, {"quiet", 'q', false, set_quiet}};
+static ec_result set_grid_density(void *target, const char *option, const char *value, ec_error *err)
+{
+    return ec_parse_real(option, value, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, &((info_request *)target)->grid_density, err);
+}
+
+static const ec_option options[] = {
+    {"accel", 0, true, set_accel},
+    {"device", 0, true, set_device},
+    {"grid-density", 0, true, set_grid_density},
+    {"json", 0, false, set_json},
+    {"quiet", 'q', false, set_quiet},
+};
 
 static ec_result measure(ec_scene_report *report, char *effects, size_t effects_size, ec_error *err)
 {
@@ -68,7 +82,7 @@ static ec_result probe_all(ec_cl *cl, const info_request *request, ec_scene_repo
         ec_accel_report *one = &report->accels[report->accel_count];
         if (!all && strcmp(request->accel, ec_accels[a].name)) continue;
         one->name = ec_accels[a].name;
-        if (ec_probe_accel(cl, report->scene, a, &one->probe, err) != EC_OK) {
+        if (ec_probe_accel(cl, report->scene, a, (float)request->grid_density, &one->probe, err) != EC_OK) {
             if (!all) return EC_FAILED;
             snprintf(one->refused, sizeof one->refused, "%.255s", err->text);
         }
@@ -124,6 +138,7 @@ ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err)
     EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &request, argc, argv, &first, NULL, &asked, err));
     if (ec_request_serve(asked, argv[0])) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &request.scene, err));
+    EC_TRY(ec_combinations_check_grid(request.grid_density, request.accel, true, err));
     cli->console.quiet = request.quiet;
     ec_log log = ec_console_log(&cli->console);
     return tell(&request, &log, err);

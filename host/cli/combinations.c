@@ -19,6 +19,7 @@ static const struct {
     {"rr", ONLY(PATH)},
     {"sample", ONLY(PATH)},
     {"accel", ONLY(PATH) | ONLY(WHITTED)},
+    {"grid-density", ONLY(PATH) | ONLY(WHITTED)},
 };
 
 static ec_result check_owner(const char *option, ec_integrator integrator, ec_error *err)
@@ -36,6 +37,13 @@ static ec_result check_owner(const char *option, ec_integrator integrator, ec_er
     return EC_OK;
 }
 
+ec_result ec_combinations_check_grid(double density, const char *accel, bool takes_all, ec_error *err)
+{
+    bool fits = accel && (!strcmp(accel, "grid") || (takes_all && !strcmp(accel, "all")));
+    if (density == 0 || fits) return EC_OK;
+    return ec_usage(err, "--grid-density belongs to --accel grid%s; leave it out or choose that too", takes_all ? " or all" : "");
+}
+
 ec_result ec_combinations_check(const ec_option *options, int count, const bool *given, const ec_render_options *asked,
                                 ec_error *err)
 {
@@ -46,6 +54,7 @@ ec_result ec_combinations_check(const ec_option *options, int count, const bool 
                         asked->max_depth, EC_WHITTED_DEPTH_MOST);
     if (asked->integrator == EC_INTEGRATOR_WHITTED && asked->max_depth == 0)
         return ec_usage(err, "--max-depth inf belongs to --integrator path; a ray tree needs a number up to %u", EC_WHITTED_DEPTH_MOST);
+    EC_TRY(ec_combinations_check_grid((double)asked->grid_density, asked->accel, false, err));
     if (asked->survival == 1 && asked->max_depth == 0)
         return ec_usage(err, "--rr off belongs with a finite --max-depth: nothing else would end a path; give --max-depth N too");
     return EC_OK;

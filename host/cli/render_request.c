@@ -66,6 +66,14 @@ SETTER(exposure)
     return ec_parse_real(option, value, -100, 100, &REQUEST->exposure, err);
 }
 
+SETTER(grid_density)
+{
+    double density = 0;
+    EC_TRY(ec_parse_real(option, value, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, &density, err));
+    REQUEST->options.grid_density = (float)density;
+    return EC_OK;
+}
+
 SETTER(integrator)
 {
     uint32_t index = 0;
@@ -174,6 +182,7 @@ static const ec_option options[] = {
     {"env", 0, true, set_env},
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
+    {"grid-density", 0, true, set_grid_density},
     {"integrator", 0, true, set_integrator},
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},

@@ -77,7 +77,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
 
     double start = ec_now();
-    ec_result result = ec_pipeline_upload_accels(p, scene, err);
+    ec_result result = ec_pipeline_upload_accels(p, scene, options->grid_density, err);
     stats->accel_seconds = ec_now() - start;
     if (result != EC_OK) return result;
 

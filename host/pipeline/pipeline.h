@@ -64,7 +64,7 @@ ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const
 /* Builds an accelerator and uploads it; stats may be NULL. */
 ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
 /* Those that are in use. */
-ec_result ec_pipeline_upload_accels(ec_pipeline *pipeline, const ec_scene *scene, ec_error *err);
+ec_result ec_pipeline_upload_accels(ec_pipeline *pipeline, const ec_scene *scene, float grid_density, ec_error *err);
 ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, ec_error *err);
 /* build.c */
 ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);

@@ -132,10 +132,11 @@ static ec_result measure(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, 
     return EC_OK;
 }
 
-ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, ec_accel_probe *probe, ec_error *err)
+ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float grid_density, ec_accel_probe *probe, ec_error *err)
 {
     ec_pipeline p = {.cl = cl, .lanes = ec_pipeline_lanes(cl, 0)};
-    ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count};
+    ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count,
+                            .grid_density = grid_density};
     memset(probe, 0, sizeof *probe);
     ec_result result = ec_pipeline_upload_accel(&p, which, &input, &probe->build, err);
     ec_accel_input_free(&input);

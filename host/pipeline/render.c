@@ -272,10 +272,19 @@ static ec_result finish_stats(render_state *r, ec_error *err)
     return EC_OK;
 }
 
+/* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
+static ec_result check_ends(const ec_render_options *o, ec_error *err)
+{
+    bool ends = (o->survival >= 0.0 && o->survival < 1.0) || o->max_depth;
+    if (o->integrator != EC_INTEGRATOR_PATH || ends) return EC_OK;
+    return ec_fail(err, "a survival probability of %g with unlimited depth: nothing would end a path; set max_depth, or a survival under 1", o->survival);
+}
+
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     memset(stats, 0, sizeof *stats);
+    EC_TRY(check_ends(options, err));
     render_state r = {.options = options, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.allotment.gain = 1.0;

@@ -35,7 +35,7 @@ typedef struct ec_render_options {
     ec_integrator integrator;
     uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited, Whitted: 10 */
     double cutoff;              /* Whitted: branches of less weight than this are not followed */
-    double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: needs a max_depth */
+    double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
     uint64_t seed;
@@ -44,6 +44,7 @@ typedef struct ec_render_options {
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
+    float grid_density;         /* cells a reference, where that is a grid; 0 = EC_GRID_DENSITY */
 } ec_render_options;
 
 /* What the pilot, the first batches, says of the rest. Low and high: 95 % interval. Infinite where no limit would end it. */

@@ -78,9 +78,10 @@ ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_inpu
     return result;
 }
 
-ec_result ec_pipeline_upload_accels(ec_pipeline *p, const ec_scene *scene, ec_error *err)
+ec_result ec_pipeline_upload_accels(ec_pipeline *p, const ec_scene *scene, float grid_density, ec_error *err)
 {
-    ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count};
+    ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count,
+                            .grid_density = grid_density};
     ec_result result = EC_OK;
     for (uint32_t a = 0; result == EC_OK && a < EC_ACCEL_COUNT; a++)
         if (p->accels[a].in_use) result = ec_pipeline_upload_accel(p, a, &input, NULL, err);

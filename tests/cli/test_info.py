@@ -3,7 +3,7 @@ import json
 import os
 import unittest
 
-from support import CORNELL, SHARED, Case, eclat, quad_scene, write_glb, write_gltf
+from support import CORNELL, SHARED, SOURCE, Case, eclat, quad_scene, write_glb, write_gltf
 
 
 class Info(Case):
@@ -57,6 +57,23 @@ class Info(Case):
         self.assertRegex(run.stdout, r"(?m)^grid ")
         self.assertNotIn("kdtree", run.stdout)
         self.assert_one_error(eclat("info", "--accel", "octree", CORNELL), 2)
+
+    def test_grid_density_changes_the_cells(self):
+        def grid(*options, scene=CORNELL):
+            report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", *options, scene)).stdout)
+            return {row["name"]: row for row in report["accels"]}["grid"]
+        default = grid("grid")["nodes"]
+        for options in [("grid", "--grid-density", "27"), ("all", "--grid-density=27.0")]:
+            self.assertEqual(grid(*options)["nodes"], default)
+        self.assertEqual(grid("grid", "--grid-density", "0.01")["nodes"], 64)  # one block
+        # 40 960 small triangles; axes are rounded to blocks of four cells, here of 50 and 100.
+        spheres = os.path.join(SOURCE, "scenes", "furnace", "spheres.gltf")
+        for density in [3, 24]:
+            cells = grid("grid", f"--grid-density={density}", scene=spheres)["nodes"]
+            self.assertTrue(0.85 < cells / (40960 * density) < 1.15, (density, cells))
+        # No more than 64 entries a reference: made coarser until then.
+        bounded = grid("grid", "--grid-density=10000", scene=spheres)
+        self.assertTrue(32 * 40960 < bounded["references"] <= 64 * 40960, bounded)
 
     def test_unsupported_extensions_are_told_and_required_ones_refused(self):
         scene, _ = quad_scene()

@@ -225,6 +225,10 @@ class SameBits(Render):
                        ["--accel", "grid"], ["--accel", "kdtree"], ["--accel", "none"]]:
             with self.subTest(change=change):
                 self.assertEqual(self.render(*options, *change, scene=CORNELL)["image_sha256"], first)
+        with self.subTest("density"):
+            grids = [self.render(*options, "--accel", "grid", "--grid-density", density, scene=CORNELL) for density in ("0.01", "10000")]
+            self.assertEqual([grid["image_sha256"] for grid in grids], [first, first])
+            self.assertLess(grids[0]["device_bytes"], grids[1]["device_bytes"])  # and they are different grids
         with self.subTest("threads"):
             one = self.render(*options, scene=CORNELL, env={"POCL_MAX_PTHREAD_COUNT": "1"})
             self.assertEqual(one["image_sha256"], first)

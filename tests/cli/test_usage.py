@@ -105,6 +105,7 @@ class WrongOptions(Case):
             "--tonemap": ["aces"],
             "--sample": ["all", "nee", ""],
             "--accel": ["octree"],
+            "--grid-density": ["0", "-1", "0.009", "10001", "inf", "nan", "27x", ""],
             "--integrator": ["raytrace", ""],
             "--cutoff": ["-0.1", "1.5", "nan", "1%", ""],
             "--rr": ["0", "-0.5", "1.5", "on", "nan", "inf", "50%", ""],
@@ -130,6 +131,17 @@ class WrongOptions(Case):
         for depth in ["inf", "65"]:
             with self.subTest(depth=depth):
                 self.usage("render", "s.gltf", "--integrator", "whitted", "--max-depth", depth, says="64")
+
+    def test_a_density_needs_a_grid(self):
+        for rest in [[], ["--accel", "bvh8"], ["--accel", "auto"]]:
+            with self.subTest(rest=rest):
+                self.usage("render", "s.gltf", "--grid-density", "8", *rest, says="--grid-density belongs to --accel grid;")
+        for rest in [[], ["--accel", "kdtree"]]:
+            with self.subTest(rest=rest):
+                self.usage("info", "s.gltf", "--grid-density", "8", *rest, says="--grid-density belongs to --accel grid or all;")
+        for value in ["0", "1e5", "many"]:
+            self.usage("info", "s.gltf", "--accel", "grid", f"--grid-density={value}", says="--grid-density")
+        self.usage("render", "s.gltf", "--integrator", "raster", "--grid-density", "8", says="belongs to --integrator path")
 
     def test_outputs(self):
         for name in ["a.jpg", "a", ".png", "a.exr.txt", "folder.png/"]:

@@ -3,11 +3,12 @@
 #include "accel/accel.h"
 #include "test_accel_meshes.h"
 
-static ec_accel build(const char *name, const mesh *m, uint32_t threads)
+static ec_accel build(const char *name, const mesh *m, uint32_t threads, float density)
 {
     ec_error err;
     ec_accel accel;
-    ec_accel_input input = {.positions = m->positions, .indices = m->indices, .triangle_count = m->triangle_count, .threads = threads};
+    ec_accel_input input = {.positions = m->positions, .indices = m->indices, .triangle_count = m->triangle_count, .threads = threads,
+                            .grid_density = density};
     CHECK_OK(ec_accel_build(ec_accel_find(name), &input, &accel, &err), err);
     ec_accel_input_free(&input);
     return accel;
@@ -79,9 +80,9 @@ static held *grid_held(const ec_accel *accel, const parts *parts)
 }
 
 /* What the proof in traverse_grid.h asks for: along each axis cells that cover the box, and their whole product. */
-static void check_grid(const mesh *m)
+static void check_grid(const mesh *m, float density)
 {
-    ec_accel accel = build("grid", m, 0);
+    ec_accel accel = build("grid", m, 0, density);
     const ec_grid *grid = accel.buffers[0].data;
     parts parts = parts_of(m);
     held *h = grid_held(&accel, &parts);
@@ -102,7 +103,7 @@ static void check_grid(const mesh *m)
         for (int axis = 0; axis < 3; axis++) product *= h[i].last[axis] - h[i].first[axis] + 1;
         wrong += product != h[i].count;
     }
-    CHECK_MSG(!wrong, "%s: %u things wrong in the grid", m->name, wrong);
+    CHECK_MSG(!wrong, "%s: %u things wrong in the grid with %g cells a reference", m->name, wrong, (double)density);
     CHECK_MSG(accel.stats.references <= 64ull * (parts.count + 64), "%s: %llu entries", m->name, (unsigned long long)accel.stats.references);
     free(h);
     ec_bvh_free(&parts.bvh);
@@ -171,7 +172,7 @@ static uint32_t check_node(walk *w, uint32_t index, const uint32_t *ids, uint32_
 
 static void check_kdtree(const mesh *m)
 {
-    ec_accel accel = build("kdtree", m, 0);
+    ec_accel accel = build("kdtree", m, 0, 0.0f);
     parts parts = parts_of(m);
     walk w = {.m = m, .parts = &parts, .nodes = accel.buffers[1].data, .blocks = accel.buffers[2].data, .marks = calloc(m->triangle_count + 1, 4)};
     uint32_t *ids = malloc((parts.count + 1) * sizeof *ids), missing = 0;
@@ -198,9 +199,9 @@ static void check_threads(const mesh *m)
 {
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
         if (m->triangle_count > 20000 && !strcmp(ec_accels[a].name, "none")) continue;
-        ec_accel one = build(ec_accels[a].name, m, 1);
+        ec_accel one = build(ec_accels[a].name, m, 1, 0.0f);
         for (uint32_t threads = 2; threads <= 5; threads += 3) {
-            ec_accel other = build(ec_accels[a].name, m, threads);
+            ec_accel other = build(ec_accels[a].name, m, threads, 0.0f);
             for (int k = 0; k < EC_ACCEL_BUFFERS; k++) {
                 const ec_accel_buffer *x = &one.buffers[k], *y = &other.buffers[k];
                 CHECK_MSG(x->bytes == y->bytes && (!x->data || !memcmp(x->data, y->data, x->bytes)),
@@ -218,7 +219,7 @@ static void test_not_numbers(void)
     mesh m = mesh_make(&(mesh_kind){"not numbers", triangle_small, 3000});
     for (uint32_t i = 0; i < 9 * m.triangle_count; i += 7) m.positions[i] = i % 3 == 0 ? NAN : i % 3 == 1 ? INFINITY : -INFINITY;
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
-        ec_accel accel = build(ec_accels[a].name, &m, 0);
+        ec_accel accel = build(ec_accels[a].name, &m, 0, 0.0f);
         CHECK(accel.stats.references >= m.triangle_count);
         ec_accel_free(&accel);
     }
@@ -277,9 +278,10 @@ static void test_brute_force_is_refused(void)
 
 int main(void)
 {
+    static const float densities[] = {0.0f, 0.01f, 10000.0f}; /* the default, and the ends of what --grid-density takes */
     for (size_t k = 0; k < MESH_KIND_COUNT; k++) {
         mesh m = mesh_make(&mesh_kinds[k]);
-        check_grid(&m);
+        for (int i = 0; i < 3; i++) check_grid(&m, densities[i]);
         check_kdtree(&m);
         check_threads(&m);
         mesh_free(&m);

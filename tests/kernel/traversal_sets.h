@@ -128,6 +128,94 @@ static inline set set_fan(uint32_t n)
     return s;
 }
 
+/* Twelve triangles from `first` on: a box about `at`, turned, with half its edges along axis[0], axis[1], axis[2]. */
+static inline void add_box(set *s, uint32_t first, const double at[3], const double axis[3][3])
+{
+    static const int corners[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 7, 5}, {4, 6, 7}, {0, 5, 1}, {0, 4, 5},
+                                       {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+    for (int i = 0; i < 36; i++) {
+        int corner = corners[i / 3][i % 3];
+        for (int k = 0; k < 3; k++) {
+            double x = at[k];
+            for (int a = 0; a < 3; a++) x += (corner >> a & 1 ? axis[a][k] : -axis[a][k]);
+            s->vertices[9 * (size_t)first + 3 * (size_t)i + (size_t)k] = (float)x;
+        }
+    }
+}
+
+/* Three edges at right angles, the first along `along`, of these half lengths. */
+static inline void box_axes(const double along[3], const double half[3], double axis[3][3])
+{
+    double length = sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]), up[3] = {0, 0, 0};
+    int least = 0;
+    for (int k = 1; k < 3; k++)
+        if (fabs(along[k]) < fabs(along[least])) least = k;
+    up[least] = 1.0;
+    for (int k = 0; k < 3; k++) axis[0][k] = along[k] / length;
+    for (int a = 1; a < 3; a++) {
+        const double *u = axis[a - 1], *v = a == 1 ? up : axis[0];
+        double w[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+        double norm = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+        for (int k = 0; k < 3; k++) axis[a][k] = w[k] / norm;
+    }
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < 3; k++) axis[a][k] *= half[a];
+}
+
+static inline void add_beam(set *s, uint32_t first, const double from[3], const double to[3], double thick)
+{
+    double at[3], along[3], axis[3][3], length = 0.0;
+    for (int k = 0; k < 3; k++) {
+        at[k] = 0.5 * (from[k] + to[k]);
+        along[k] = to[k] - from[k];
+        length += along[k] * along[k];
+    }
+    box_axes(along, (double[3]){0.5 * sqrt(length), thick, thick}, axis);
+    add_box(s, first, at, axis);
+}
+
+/* Long thin boxes in all directions that cross each other: whatever plane divides them goes through many. n: twelve a beam. */
+static inline set set_beams(uint32_t n)
+{
+    set s = set_make("beams", n / 12 * 12, 1.0f);
+    for (uint32_t i = 0; i < n / 12; i++) {
+        double ends[2][3];
+        for (int k = 0; k < 6; k++) ends[k / 3][k % 3] = test_random_in(-1, 1);
+        add_beam(&s, 12 * i, ends[0], ends[1], pow(10.0, test_random_in(-3, -1.5)));
+    }
+    return s;
+}
+
+/* Rooms on three floors between slabs as large as the building, walls as large as a room, a stair rail across each room; and small
+ * things on the floor, in some rooms many, in others none. Cutting slabs and rails pays where there are many small ones. */
+static inline set set_building(uint32_t n)
+{
+    enum { SIDE = 4, FLOORS = 3, ROOMS = SIDE * SIDE * FLOORS };
+    const double slab = 0.02, width = 2.0 / SIDE, height = 2.0 / FLOORS;
+    const double walls[2][3][3] = {{{0.01, 0, 0}, {0, height / 2, 0}, {0, 0, width / 2}}, {{width / 2, 0, 0}, {0, height / 2, 0}, {0, 0, 0.01}}};
+    const double floor[3][3] = {{1, 0, 0}, {0, slab, 0}, {0, 0, 1}};
+    set s = set_make("building", n / 12 * 12, 1.0f);
+    uint32_t boxes = n / 12, box = 0, room = 0, fixed = FLOORS + 1 + 3 * ROOMS;
+    for (int i = 0; i <= FLOORS; i++) add_box(&s, 12 * box++, (double[3]){0, -1 + i * height, 0}, floor);
+    for (; box < fixed; room++) {
+        double x = -1 + width * (room % SIDE), y = -1 + height * (room / SIDE % FLOORS), z = -1 + width * (room / SIDE / FLOORS);
+        add_box(&s, 12 * box++, (double[3]){x, y + height / 2, z + width / 2}, walls[0]);
+        add_box(&s, 12 * box++, (double[3]){x + width / 2, y + height / 2, z}, walls[1]);
+        add_beam(&s, 12 * box++, (double[3]){x, y, z}, (double[3]){x + width, y + height, z + 0.7 * width}, 0.01);
+    }
+    for (; box < boxes; box++) {
+        double size = 0.2 * width * pow(10.0, test_random_in(-1.5, 0)), axis[3][3], at[3];
+        uint32_t where = random_below(ROOMS) * random_below(ROOMS) / ROOMS; /* the first rooms are full, the last ones empty */
+        const double half[3] = {size * test_random_in(0.2, 1), size * test_random_in(0.2, 1), size * test_random_in(0.2, 1)};
+        box_axes((double[3]){test_random_in(-1, 1), 0, test_random_in(0.1, 1)}, half, axis);
+        at[0] = -1 + width * (where % SIDE + test_random_in(0.1, 0.9));
+        at[1] = -1 + height * (where / SIDE % FLOORS) + slab + size;
+        at[2] = -1 + width * (where / SIDE / FLOORS + test_random_in(0.1, 0.9));
+        add_box(&s, 12 * box, at, axis);
+    }
+    return s;
+}
+
 static inline void set_finish(set *s)
 {
     for (size_t i = 0; i < 9 * (size_t)s->triangles; i++) s->scene_max = fmaxf(s->scene_max, fabsf(s->vertices[i]));

@@ -1,5 +1,5 @@
-/* The picture is a function of scene, seed and options, not of how it was computed: LANES, acceleration structure, wave size, effects
- * built in, and the time of day change no bit of any number in the film. (Threads: tests/cli/test_render.py.) */
+/* The picture is a function of scene, seed and options, not of how it was computed: LANES, acceleration structure, density of its
+ * grid, wave size, effects built in, and the time of day change no bit of any number in the film. (Threads: tests/cli/test_render.py.) */
 #include "accel/accel.h"
 #include "support/render_case.h"
 
@@ -24,14 +24,15 @@ static ec_render_options base_options(void)
 static void check_one(const ec_scene *scene, const case_image *expected, const ec_render_options *o, const char *what)
 {
     case_image image = case_render(scene, o);
-    CHECK_MSG(films_equal(&image.film, &expected->film), "%s: lanes %u, %s, wave %u, all effects %d: other bits", what,
-              o->lanes, o->accel ? o->accel : "auto", o->wave, o->all_effects);
+    CHECK_MSG(films_equal(&image.film, &expected->film), "%s: lanes %u, %s, %g cells a reference, wave %u, all effects %d: other bits",
+              what, o->lanes, o->accel ? o->accel : "auto", (double)o->grid_density, o->wave, o->all_effects);
     case_free(&image);
 }
 
 static void check_scene(const char *what, const ec_scene *scene)
 {
     static const uint32_t lanes[] = {1, 4, 8, 16}, waves[] = {512, 4096, 5000};
+    static const float densities[] = {0.01f, 1.0f, 300.0f, 10000.0f};
     ec_render_options o = base_options();
     case_image expected = case_render(scene, &o);
     CHECK(expected.mean[0] > 0);
@@ -44,6 +45,12 @@ static void check_scene(const char *what, const ec_scene *scene)
             o.accel = ec_accels[a].name;
             check_one(scene, &expected, &o, what);
         }
+    for (int i = 0; i < 4; i++) {
+        o = base_options();
+        o.accel = "grid";
+        o.grid_density = densities[i];
+        check_one(scene, &expected, &o, what);
+    }
     for (int i = 0; i < 3; i++) {
         o = base_options();
         o.wave = waves[i];
