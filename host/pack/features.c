@@ -12,20 +12,21 @@ static float max3(const float v[3])
 
 static bool transmits(const ec_scene *scene, const ec_material *m)
 {
-    float least, most;
-    bool is_metal = m->metallic == 1.0f && m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture < 0;
-    if (m->transmission == 0.0f || is_metal) return false;
+    float least_metal, least, most;
+    if (m->transmission == 0.0f) return false;
+    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 2, &least_metal, &most);
+    if (m->metallic * least_metal == 1.0f) return false;
     ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
     return most > 0.0f;
 }
 
 /* May kernels find reflection or refraction too narrow for a density: surface_material, surface_transmission? */
-static bool may_be_smooth(const ec_scene *scene, const ec_material *m)
+static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refracts)
 {
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
     float alpha = m->roughness * m->roughness * least * least * 0.99f; /* the kernels' product rounds otherwise */
-    return alpha < EC_SMOOTH_ALPHA || (ec_refracts(m) && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
+    return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
 }
 
 static uint32_t material_features(const ec_scene *scene, const ec_material *m)
@@ -41,7 +42,7 @@ static uint32_t material_features(const ec_scene *scene, const ec_material *m)
     }
     if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & EC_FEATURE_TRANSMISSION)) {
         f |= EC_FEATURE_SPECULAR;
-        if (may_be_smooth(scene, m)) f |= EC_FEATURE_SMOOTH;
+        if (may_be_smooth(scene, m, (f & EC_FEATURE_TRANSMISSION) && ec_refracts(m))) f |= EC_FEATURE_SMOOTH;
         if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
         if (m->textures[EC_SLOT_SPECULAR].texture >= 0 || m->textures[EC_SLOT_SPECULAR_COLOR].texture >= 0) f |= EC_FEATURE_SPECULAR_TEXTURE;
     }

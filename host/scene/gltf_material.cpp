@@ -86,15 +86,18 @@ static void set_specular(ec_material &out, const tinygltf::Material &in, const s
 
 /* attenuationColor is what is left of white light after attenuationDistance (Beer-Lambert). What a file says of a body's
  * thickness only tells bodies from thin walls: rays find the way through by themselves. */
-static void set_volume(ec_material &out, const Value &v)
+static void set_volume(ec_material &out, const Value &v, const std::string &where, const ec_gltf *gltf, const ec_log *log)
 {
-    out.volume = get_number(v, "thicknessFactor", 0) > 0;
-    double distance = get_number(v, "attenuationDistance", INFINITY);
-    for (int i = 0; i < 3 && out.volume; i++) {
+    double thickness = get_number(v, "thicknessFactor", 0), distance = get_number(v, "attenuationDistance", INFINITY);
+    bool odd = thickness < 0 || distance <= 0;
+    out.volume = thickness > 0;
+    for (int i = 0; i < 3; i++) {
         double color = get_element(v, "attenuationColor", i, 1);
-        double absorption = color < 1 ? -std::log(std::fmax(color, 0)) / std::fmax(distance, 0) : 0;
-        out.absorption[i] = float(std::fmin(absorption, 1e30));
+        odd = odd || color < 0 || color > 1;
+        double absorption = color < 1 && distance < INFINITY ? -std::log(std::fmax(color, 0)) / std::fmax(distance, 0) : 0;
+        if (out.volume) out.absorption[i] = float(std::fmin(absorption, 1e30));
     }
+    if (odd) ec_warn(log, "%s: %s.KHR_materials_volume has values out of range; they are clamped", gltf->path, where.c_str());
 }
 
 static void set_transmission(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf,
@@ -108,7 +111,7 @@ static void set_transmission(ec_material &out, const tinygltf::Material &in, con
     if (!transmission) return; /* without it nothing gets into a volume */
     out.transmission = float(get_number(*transmission, "transmissionFactor", 0));
     out.textures[EC_SLOT_TRANSMISSION] = make_use(*transmission, "transmissionTexture", where, gltf, log);
-    if (volume) set_volume(out, *volume);
+    if (volume) set_volume(out, *volume, where, gltf, log);
 }
 
 static void set_emission(ec_material &out, const tinygltf::Material &in)

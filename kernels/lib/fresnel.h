@@ -10,20 +10,28 @@ EC_FN lane_f pow5(lane_f x)
     return x2 * x2 * x;
 }
 
+/* eta times the cosine beyond, (eta cos_t)^2 = cos^2 + eta^2 - 1 (Snell); not above 0 beyond the critical angle. What the square
+ * and the difference round off is kept (Dekker 1971): at the critical angle nothing else is left. */
+EC_FN lane_f refracted_cosine2(lane_f cosine, lane_f eta)
+{
+    lane_f square = eta * eta, less = square - 1.0f;
+    lane_f lost = fma(eta, eta, -square) + (square - (less + 1.0f));
+    return fma(cosine, cosine, less) + lost;
+}
+
 /* Unpolarised reflectance between two dielectrics (Fresnel 1823), for the cosine of incidence and the index beyond over the
- * index here; exactly 1 beyond the critical angle. */
+ * index here; exactly 1 beyond the critical angle, exactly 0 where the index stays the same. */
 EC_FN lane_f fresnel_dielectric(lane_f cosine, lane_f eta)
 {
-    lane_f cos2_t = 1.0f - fma(-cosine, cosine, F(1.0f)) / (eta * eta);
-    lane_f cos_t = sqrt(max(cos2_t, F(0.0f)));
-    lane_f parallel = fma(eta, cosine, -cos_t) / fma(eta, cosine, cos_t);
-    lane_f perpendicular = fma(-eta, cos_t, cosine) / fma(eta, cos_t, cosine);
+    lane_f g2 = refracted_cosine2(cosine, eta), g = sqrt(max(g2, F(0.0f))), eta2 = eta * eta;
+    lane_f parallel = fma(eta2, cosine, -g) / fma(eta2, cosine, g), perpendicular = (cosine - g) / (cosine + g);
     lane_f f = 0.5f * fma(parallel, parallel, perpendicular * perpendicular);
-    return ((cos2_t > 0.0f) & (cosine > 0.0f)) ? f : F(1.0f);
+    return ((g2 > 0.0f) & (cosine > 0.0f)) ? f : F(1.0f);
 }
 
 /* Where between its values head-on and at grazing angles is the reflectance? Schlick's (1-c)^5 between unlike media in
- * general, as glTF asks; exact where light is refracted, so that total reflection sets in where refraction ends. */
+ * general, as glTF asks; exact where light is refracted, so that total reflection sets in where refraction ends. (Above an
+ * index of 2 + sqrt(3) the exact one dips under its value head-on before it rises; here it stays there.) */
 EC_FN lane_f fresnel_rise(lane_f cosine, lane_f eta, lane_i refracts)
 {
     lane_f rise = pow5(1.0f - cosine);
@@ -37,9 +45,8 @@ EC_FN lane_f fresnel_rise(lane_f cosine, lane_f eta, lane_i refracts)
  * only under the critical angle. */
 EC_FN v3 refract(v3 w, v3 m, lane_f eta)
 {
-    lane_f cosine = v3_dot(w, m), inverse = 1.0f / eta;
-    lane_f cos_t = sqrt(max(1.0f - fma(-cosine, cosine, F(1.0f)) * inverse * inverse, F(0.0f)));
-    return v3_fma(w, -inverse, v3_scale(m, fma(cosine, inverse, -cos_t)));
+    lane_f cosine = v3_dot(w, m), g = sqrt(max(refracted_cosine2(cosine, eta), F(0.0f)));
+    return v3_scale(v3_sub(v3_scale(m, cosine - g), w), 1.0f / eta);
 }
 
 #endif

@@ -18,6 +18,7 @@ typedef struct light_sample {
     v3 radiance;     /* arriving along wi if nothing is in the way; for punctual lights irradiance of a normal plane */
     lane_f pdf;      /* per solid angle, choice of the light included; punctual: the choice alone */
     lane_i is_delta; /* no other strategy can find it */
+    lane_i is_far;   /* infinitely far: an environment, a directional light */
     lane_u target;   /* triangle the shadow ray ends on, or EC_NO_ID */
     v3 end_error;    /* error bound of the end point */
     v3 end_normal;   /* unit; zero where there is no surface */
@@ -76,7 +77,7 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
             s.radiance = v3_mul(s.radiance, material_texture(g, &h, textured, EC_SLOT_EMISSION, true).rgb);
         }
     }
-    s.is_delta = !TRUE_MASK;
+    s.is_delta = s.is_far = !TRUE_MASK;
     s.valid = m & (cosine > 0.0f) & (d2 > 0.0f);
     return s;
 }
@@ -102,6 +103,7 @@ EC_FN light_sample light_sample_punctual(const light_record *l, lane_i m, v3 p, 
     s.radiance = v3_scale(l->emission, is_directional ? F(1.0f) : falloff);
     s.pdf = l->pmf;
     s.is_delta = m;
+    s.is_far = is_directional;
     s.target = U(EC_NO_ID);
     s.end_error = s.end_normal = v3_zero();
     s.valid = m & (is_directional | (d2 > 0.0f));
@@ -114,6 +116,7 @@ EC_FN light_sample light_sample_environment(const lights *l, lane_i m, lane_u r,
     s.wi = environment_sample(&l->env, r, u1, u2, &s.pdf, &s.radiance);
     s.towards = v3_scale(s.wi, F(2.0f * scene_radius));
     s.is_delta = !TRUE_MASK;
+    s.is_far = TRUE_MASK;
     s.target = U(EC_NO_ID);
     s.end_error = s.end_normal = v3_zero();
     s.valid = m;
@@ -128,6 +131,7 @@ EC_FN light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
     s.radiance = v3_select(m, a.radiance, b.radiance);
     s.pdf = m ? a.pdf : b.pdf;
     s.is_delta = m ? a.is_delta : b.is_delta;
+    s.is_far = m ? a.is_far : b.is_far;
     s.target = m ? a.target : b.target;
     s.end_error = v3_select(m, a.end_error, b.end_error);
     s.end_normal = v3_select(m, a.end_normal, b.end_normal);

@@ -71,7 +71,7 @@ EC_FN lane_f sincos_2pi(lane_f u, lane_f *cosine)
 EC_FN lane_f exp_negative(lane_f x)
 {
     lane_f n = floor(fma(x, F(1.44269504f), F(0.5f)));
-    lane_f r = fma(n, F(1.42860677e-6f), fma(n, F(-0.693145752f), x)); /* ln 2 in two parts (Cody & Waite) */
+    lane_f r = fma(n, F(-1.42860677e-6f), fma(n, F(-0.693145752f), x)); /* ln 2 in two parts (Cody & Waite) */
     lane_f p = fma(r, F(1.98412698e-4f), F(1.38888889e-3f));
     p = fma(p, r, F(8.33333333e-3f));
     p = fma(p, r, F(4.16666667e-2f));

@@ -12,6 +12,12 @@ EC_FN lane_u medium_of(const hit_point *h, const surface *s, lane_i found, lane_
     return found ? medium : U(EC_NO_ID);
 }
 
+/* Likewise for a ray that leaves the surface: beyond it if light is refracted, else where it came from. wi_z: against ns. */
+EC_FN lane_u medium_towards(const hit_point *h, const surface *s, lane_u medium, lane_f wi_z)
+{
+    return (s->refracts & (wi_z < 0.0f)) ? (s->front ? h->material : U(EC_NO_ID)) : medium;
+}
+
 /* Beer-Lambert over `distance` metres. */
 EC_FN v3 medium_transmittance(const geometry *g, lane_u medium, lane_f distance)
 {

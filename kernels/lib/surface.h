@@ -116,7 +116,7 @@ EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m,
     lane_f ior = material_quad(g, h, EC_MATERIAL_IOR).a;
     s->transmission = material_quad(g, h, EC_MATERIAL_ABSORPTION).d;
     if (HAS(TRANSMISSION_TEXTURE)) s->transmission *= material_texture(g, h, m, EC_SLOT_TRANSMISSION, false).rgb.x;
-    s->refracts = ((flags & EC_MATERIAL_REFRACTS) != 0u) & (s->transmission > 0.0f);
+    s->refracts = ((flags & EC_MATERIAL_REFRACTS) != 0u) & (s->transmission > 0.0f) & (s->metallic < 1.0f);
     s->eta = s->refracts ? (s->front ? ior : 1.0f / ior) : F(1.0f);
     /* The lobe's width is about alpha |eta - 1|, and float half vectors have no more digits than that. */
     if (HAS(SMOOTH)) s->smooth = s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);

@@ -137,7 +137,10 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
-        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, medium_transmittance(&g, medium, sqrt(v3_dot(l.towards, l.towards))));
+        if (HAS(ABSORPTION)) { /* infinitely far no body reaches: what path tracing misses is not dimmed either */
+            lane_u between = l.is_far ? U(EC_NO_ID) : medium_towards(&h, &s, medium, wi_local.z);
+            arriving = v3_mul(arriving, medium_transmittance(&g, between, sqrt(v3_dot(l.towards, l.towards))));
+        }
         lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local) & (v3_max_component(arriving) != 0.0f);
         lane_i finite = v3_is_finite(arriving);
         uint bad = mask_bits(m & !finite);
@@ -182,9 +185,6 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     queue_push_f(next, wave, EC_PATH_PDF, at, next_way.pdf, bits);
     queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
     queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(prim), bits);
-    if (HAS(ABSORPTION)) {
-        lane_u beyond = s.front ? h.material : U(EC_NO_ID);
-        medium = (s.refracts & (next_way.wi.z < 0.0f)) ? beyond : medium;
-        queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium), bits);
-    }
+    if (HAS(ABSORPTION))
+        queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium_towards(&h, &s, medium, next_way.wi.z)), bits);
 }

@@ -1,9 +1,20 @@
 """eclat info: the figures of scenes whose contents are known."""
 import json
 import os
+import struct
 import unittest
+import zlib
 
-from support import CORNELL, SHARED, SOURCE, Case, eclat, quad_scene, write_glb, write_gltf
+from support import CORNELL, SHARED, SOURCE, Case, data_uri, eclat, quad_scene, write_glb, write_gltf
+
+
+def png(*texels):
+    """A picture of one row, as a data URI."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+    row = b"\0" + b"".join(bytes(t) for t in texels)
+    return data_uri(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 2, 0, 0, 0)) +
+                    chunk(b"IDAT", zlib.compress(row)) + chunk(b"IEND", b""))
 
 
 class Info(Case):
@@ -31,6 +42,72 @@ class Info(Case):
         glb = self.info(write_glb(self.path("quad.glb"), scene, buffer))
         for key in ["triangles", "vertices", "lights", "cameras", "device_bytes", "effects"]:
             self.assertEqual(gltf[key], glb[key])
+
+    def effects(self, roughness=1.0, metallic=0.0, rough_texture=None, texture=None, transmission=None, ior=None, volume=None):
+        """Of a quad; textures are lists of texels."""
+        pbr = {"roughnessFactor": roughness, "metallicFactor": metallic}
+        extensions = {"KHR_materials_ior": {"ior": ior}} if ior is not None else {}
+        images = [t for t in (rough_texture, texture) if t]
+        if rough_texture:
+            pbr["metallicRoughnessTexture"] = {"index": 0}
+        if transmission is not None:
+            extensions["KHR_materials_transmission"] = {"transmissionFactor": transmission}
+            if texture:
+                extensions["KHR_materials_transmission"]["transmissionTexture"] = {"index": len(images) - 1}
+        if volume is not None:
+            extensions["KHR_materials_volume"] = volume
+        scene, _ = quad_scene(material={"pbrMetallicRoughness": pbr, "extensions": extensions})
+        if images:
+            scene["images"] = [{"uri": png(*t)} for t in images]
+            scene["textures"] = [{"source": i} for i in range(len(images))]
+            scene["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC2"})
+            scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+        found = set(self.info(write_gltf(self.path("glass.gltf"), scene))["effects"])
+        return found & {"smooth-surfaces", "transmission", "transmission-texture", "absorption"}
+
+    def test_glass_calls_for_what_it_has(self):
+        body, brown = {"thicknessFactor": 1}, {"attenuationDistance": 1, "attenuationColor": [1, 1, 0.9]}
+        smooth, passes, textured, absorbs = "smooth-surfaces", "transmission", "transmission-texture", "absorption"
+        black, grey, white = (0, 0, 0), (128, 128, 128), (255, 255, 255)
+        cases = [
+            (set(), {}),
+            ({smooth}, {"roughness": 0}),
+            # alpha = roughness^2 under 1e-4
+            ({smooth}, {"roughness": 0.0099}),
+            (set(), {"roughness": 0.0102}),
+            ({smooth}, {"roughness": 0.5, "rough_texture": [white, black]}),
+            ({smooth}, {"roughness": 0.015, "rough_texture": [white, grey]}),
+            (set(), {"roughness": 0.5, "rough_texture": [white, grey]}),
+            (set(), {"transmission": 0}),
+            ({passes}, {"transmission": 0.1}),
+            ({passes, smooth}, {"transmission": 1, "roughness": 0}),
+            ({passes, textured}, {"transmission": 1, "texture": [black, grey]}),
+            # transmission is in red
+            (set(), {"transmission": 1, "texture": [black, (0, 255, 255)]}),
+            (set(), {"transmission": 0, "texture": [white]}),
+            # metal lets nothing in, and metal is in blue
+            (set(), {"transmission": 1, "metallic": 1}),
+            ({passes}, {"transmission": 1, "metallic": 1, "rough_texture": [white, (255, 255, 254)]}),
+            (set(), {"transmission": 1, "metallic": 1, "rough_texture": [white, (0, 255, 255)]}),
+            # a body absorbs, where its colour is not white and it can be entered
+            ({passes}, {"transmission": 1, "volume": body}),
+            ({passes, absorbs}, {"transmission": 1, "volume": {**body, **brown}}),
+            ({passes}, {"transmission": 1, "volume": brown}),
+            ({passes}, {"transmission": 1, "volume": {**body, "attenuationColor": [0, 0, 0]}}),
+            ({passes}, {"transmission": 1, "volume": {**body, **brown}, "ior": 0}),
+            (set(), {"transmission": 0, "volume": {**body, **brown}}),
+            (set(), {"transmission": 1, "volume": {**body, **brown}, "texture": [black]}),
+            (set(), {"volume": {**body, **brown}}),
+            # where nothing bends, roughness blurs nothing
+            ({passes, smooth}, {"transmission": 1, "volume": body, "ior": 1}),
+            ({passes, smooth}, {"transmission": 1, "volume": body, "ior": 1.00009}),
+            ({passes}, {"transmission": 1, "volume": body, "ior": 1.00011}),
+            ({passes}, {"transmission": 1, "ior": 1}),
+            (set(), {"transmission": 1, "volume": body, "ior": 1, "metallic": 1}),
+        ]
+        for expected, material in cases:
+            with self.subTest(material=material):
+                self.assertEqual(self.effects(**material), expected)
 
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))

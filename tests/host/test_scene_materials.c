@@ -53,6 +53,7 @@ static void test_defaults(void)
     m = s->materials;
     CHECK(s->material_count == 1 && m->base_color[3] == 1 && m->metallic == 1 && m->roughness == 1);
     CHECK(m->specular == 1 && m->specular_color[2] == 1 && m->normal_scale == 1 && m->alpha_cutoff == 0.5f);
+    CHECK(m->ior == 1.5f && m->transmission == 0 && !m->volume && m->absorption[0] == 0 && m->textures[EC_SLOT_TRANSMISSION].texture == -1);
     CHECK(s->image_count == 0 && s->texture_count == 0); /* nobody uses them: not even opened, so no warning */
     CHECK_MSG(!strstr(messages, "W "), "%s", messages);
     ec_scene_free(s);
@@ -88,6 +89,98 @@ static void test_factors(void)
     CHECK(s->materials->metallic == 1 && s->materials->roughness == 0 && s->materials->alpha_mode == EC_ALPHA_OPAQUE);
     CHECK_MSG(strstr(messages, "clamped") && strstr(messages, "alphaMode is ODD"), "%s", messages);
     ec_scene_free(s);
+}
+
+/* KHR_materials_ior, _transmission and _volume: MATERIAL's extensions in, what the renderer needs out. */
+#define GLASS(IOR, TRANSMISSION, VOLUME)                                                                               \
+    TEXTURED(",'extensions':{'KHR_materials_ior':{" IOR "},'KHR_materials_transmission':{" TRANSMISSION "},"           \
+             "'KHR_materials_volume':{" VOLUME "}}", ",'extensionsRequired':['KHR_materials_ior','KHR_materials_transmission','KHR_materials_volume']")
+
+static void test_glass(void)
+{
+    ec_scene *s = load(GLASS("", "", ""));
+    const ec_material *m = s->materials;
+    CHECK(m->ior == 1.5f && m->transmission == 0 && !m->volume && !ec_refracts(m) && m->textures[EC_SLOT_TRANSMISSION].texture == -1);
+    CHECK_MSG(!strstr(messages, "W "), "%s", messages);
+    ec_scene_free(s);
+
+    /* Half of red is left after 0.25 m, a quarter of green, and all of blue: absorption is ln 2 / 0.25 m, ln 4 / 0.25 m and none. */
+    s = load(GLASS("'ior':1.33", "'transmissionFactor':0.75,'transmissionTexture':{'index':1}",
+                   "'thicknessFactor':2,'attenuationDistance':0.25,'attenuationColor':[0.5,0.25,1],'thicknessTexture':{'index':0}"));
+    m = s->materials;
+    CHECK(m->ior == 1.33f && m->transmission == 0.75f && m->volume && ec_refracts(m));
+    CHECK_NEAR(m->absorption[0], log(2) / 0.25, 1e-6);
+    CHECK_NEAR(m->absorption[1], log(4) / 0.25, 1e-6);
+    CHECK(m->absorption[2] == 0 && m->textures[EC_SLOT_TRANSMISSION].texture == 0 && s->image_count == 1);
+    CHECK_MSG(!strstr(messages, "W "), "%s", messages);
+    ec_scene_free(s);
+
+    /* Thickness 0 is a thin wall, whatever its colour; a volume that nothing gets into is none. */
+    s = load(GLASS("", "'transmissionFactor':1", "'attenuationDistance':1,'attenuationColor':[0.5,0.5,0.5]"));
+    CHECK(!s->materials->volume && !ec_refracts(s->materials) && s->materials->absorption[0] == 0 && s->materials->transmission == 1);
+    ec_scene_free(s);
+    s = load(TEXTURED(",'extensions':{'KHR_materials_volume':{'thicknessFactor':1,'attenuationDistance':1,'attenuationColor':[0.5,0.5,0.5]}}", ""));
+    CHECK(!s->materials->volume && s->materials->absorption[0] == 0 && s->materials->transmission == 0);
+    CHECK_MSG(!strstr(messages, "W "), "%s", messages);
+    ec_scene_free(s);
+
+    /* A colour alone says nothing: the distance is infinite. Black absorbs all that it can, in finite numbers. */
+    s = load(GLASS("", "'transmissionFactor':1", "'thicknessFactor':1,'attenuationColor':[0,0.5,1]"));
+    CHECK(s->materials->absorption[0] == 0 && s->materials->absorption[1] == 0 && s->materials->absorption[2] == 0);
+    ec_scene_free(s);
+    s = load(GLASS("", "'transmissionFactor':1", "'thicknessFactor':1,'attenuationDistance':1,'attenuationColor':[0,0.5,1]"));
+    CHECK(s->materials->absorption[0] == 1e30f && s->materials->absorption[2] == 0);
+    CHECK_MSG(!strstr(messages, "W "), "%s", messages);
+    ec_scene_free(s);
+
+    /* An index of 0 stands for an infinite one: nothing gets in, and no angle is bent. */
+    s = load(GLASS("'ior':0", "'transmissionFactor':1", "'thicknessFactor':1"));
+    CHECK(s->materials->ior == 0 && !ec_refracts(s->materials));
+    CHECK_MSG(!strstr(messages, "W "), "%s", messages);
+    ec_scene_free(s);
+
+    static const struct {
+        const char *what, *text;
+        float ior, transmission, absorption;
+    } odd[] = {
+        {"an index below 1", GLASS("'ior':0.5", "'transmissionFactor':1", "'thicknessFactor':1"), 1, 1, 0},
+        {"an index below 0", GLASS("'ior':-2", "'transmissionFactor':1", "'thicknessFactor':1"), 1, 1, 0},
+        {"a huge index", GLASS("'ior':1e30", "'transmissionFactor':1", "'thicknessFactor':1"), 1000, 1, 0},
+        {"more than all", GLASS("", "'transmissionFactor':1.5", "'thicknessFactor':1"), 1.5f, 1, 0},
+        {"less than nothing", GLASS("", "'transmissionFactor':-1", "'thicknessFactor':1"), 1.5f, 0, 0},
+        {"a negative thickness", GLASS("", "'transmissionFactor':1", "'thicknessFactor':-1"), 1.5f, 1, 0},
+        {"no distance at all", GLASS("", "'transmissionFactor':1", "'thicknessFactor':1,'attenuationDistance':0,'attenuationColor':[0.5,1,1]"), 1.5f, 1, 1e30f},
+        {"a negative distance", GLASS("", "'transmissionFactor':1", "'thicknessFactor':1,'attenuationDistance':-3,'attenuationColor':[0.5,1,1]"), 1.5f, 1, 1e30f},
+        {"a colour below 0", GLASS("", "'transmissionFactor':1", "'thicknessFactor':1,'attenuationDistance':1,'attenuationColor':[-1,1,1]"), 1.5f, 1, 1e30f},
+        {"a colour above 1", GLASS("", "'transmissionFactor':1", "'thicknessFactor':1,'attenuationDistance':1,'attenuationColor':[2,1,1]"), 1.5f, 1, 0},
+    };
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        s = load(odd[i].text);
+        m = s->materials;
+        CHECK_MSG(m->ior == odd[i].ior && m->transmission == odd[i].transmission && m->absorption[0] == odd[i].absorption,
+                  "%s: ior %g, transmission %g, absorption %g", odd[i].what, (double)m->ior, (double)m->transmission, (double)m->absorption[0]);
+        CHECK_MSG(strstr(messages, "clamped") && strstr(messages, "materials[0] \"m\""), "%s: %s", odd[i].what, messages);
+        ec_scene_free(s);
+    }
+
+    static const struct {
+        const char *text, *message;
+    } bad[] = {
+        {GLASS("'ior':'1.5'", "", ""), "materials[0].extensions.KHR_materials_ior.ior must be a number"},
+        {GLASS("'ior':1e39", "", ""), "ior"},
+        {GLASS("", "'transmissionFactor':[1]", ""), "KHR_materials_transmission.transmissionFactor must be a number"},
+        {GLASS("", "'transmissionTexture':{}", ""), "transmissionTexture.index is missing"},
+        {GLASS("", "'transmissionTexture':{'index':6}", ""), "transmissionTexture.index is 6 but the file has 6 textures"},
+        {GLASS("", "'transmissionTexture':1", ""), "transmissionTexture must be an object"},
+        {GLASS("", "", "'thicknessFactor':true"), "KHR_materials_volume.thicknessFactor must be a number"},
+        {GLASS("", "", "'thicknessTexture':{'index':-1}"), "thicknessTexture.index must be a non-negative integer"},
+        {GLASS("", "", "'attenuationDistance':null"), "attenuationDistance must be a number"},
+        {GLASS("", "", "'attenuationColor':[1,1]"), "attenuationColor must have 3 numbers"},
+        {GLASS("", "", "'attenuationColor':[1,1,'x']"), "attenuationColor[2] must be a number"},
+        {TEXTURED(",'extensions':{'KHR_materials_volume':[]}", ""), "KHR_materials_volume must be an object"},
+        {TEXTURED(",'extensions':{'KHR_materials_ior':1.5}", ""), "KHR_materials_ior must be an object"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) expect_failure(bad[i].text, textured_blobs, bad[i].message);
 }
 
 static void test_images(void)
@@ -204,6 +297,7 @@ int main(void)
 {
     test_defaults();
     test_factors();
+    test_glass();
     test_images();
     test_transform();
     test_missing_coordinates();

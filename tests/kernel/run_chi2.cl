@@ -35,16 +35,17 @@ static bsdf make_bsdf(constant float *m)
     return bsdf_make(&s, v3_make(F(sqrt(max(1.0f - m[7] * m[7], 0.0f))), F(0.0f), F(m[7])));
 }
 
-/* m: base (3), f0, f90, metallic, alpha, cosine of wo, transmission, eta (1: thin) */
+/* m: base (3), f0, f90, metallic, alpha, cosine of wo, transmission, eta (1: thin). The fifth array is the weight, green. */
 kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out)
 {
     lane_f u1, u2, pdf;
     lane_u choice;
     numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &u1, &u2, &choice);
     bsdf b = make_bsdf(m);
-    v3 wi = bsdf_sample(&b, false, u1, u2, to_unit(choice)).wi;
-    bsdf_eval(&b, wi, &pdf);
-    store(out, n, wi, pdf);
+    bsdf_direction d = bsdf_sample(&b, false, u1, u2, to_unit(choice));
+    bsdf_eval(&b, d.wi, &pdf);
+    store(out, n, d.wi, pdf);
+    LANE_STORE(d.pdf > 0.0f ? d.weight.y : F(0.0f), out + 4 * n + get_global_id(0) * LANES);
 }
 
 /* The density of given directions. */

@@ -26,6 +26,52 @@ kernel void atan2_of(global const float *y, global const float *x, global float 
 
 kernel void acos_of(global const float *x, global float *out) { LANE_STORE(acos_over_pi(LANE_LOAD(x + AT)), out + AT); }
 
+kernel void exp_of(global const float *x, global float *out) { LANE_STORE(exp_negative(LANE_LOAD(x + AT)), out + AT); }
+
+kernel void fresnel_of(global const float *cosine, global const float *eta, global float *out)
+{
+    LANE_STORE(fresnel_dielectric(LANE_LOAD(cosine + AT), LANE_LOAD(eta + AT)), out + AT);
+}
+
+kernel void refract_of(uint n, global const float *w, global const float *m, global const float *eta, global float *out)
+{
+    store_v3(refract(load_v3(w + AT, n), load_v3(m + AT, n), LANE_LOAD(eta + AT)), out + AT, n);
+}
+
+/* White glass, of grey base. material: base, f0, alpha, transmission, eta (1: thin). */
+static bsdf glass(uint n, global const float *wo, global const float *material, lane_i smooth)
+{
+    surface s;
+    s.base = v3_splat(LANE_LOAD(material + AT));
+    s.f0 = v3_splat(LANE_LOAD(material + n + AT));
+    s.f90 = F(1.0f);
+    s.metallic = F(0.0f);
+    s.alpha_ggx = LANE_LOAD(material + 2 * n + AT);
+    s.transmission = LANE_LOAD(material + 3 * n + AT);
+    s.eta = LANE_LOAD(material + 4 * n + AT);
+    s.refracts = s.eta != 1.0f;
+    s.smooth = smooth;
+    return bsdf_make(&s, load_v3(wo + AT, n));
+}
+
+kernel void glass_of(uint n, global const float *wo, global const float *wi, global const float *material, global float *f, global float *pdf)
+{
+    bsdf b = glass(n, wo, material, !TRUE_MASK);
+    lane_f p;
+    LANE_STORE(bsdf_eval(&b, load_v3(wi + AT, n), &p).y, f + AT);
+    LANE_STORE(p, pdf + AT);
+}
+
+kernel void smooth_of(uint n, global const float *wo, global const float *material, global const float *u, global float *wi,
+                      global float *weight, global float *pdf)
+{
+    bsdf b = glass(n, wo, material, TRUE_MASK);
+    bsdf_direction d = bsdf_sample(&b, false, F(0.3f), F(0.6f), LANE_LOAD(u + AT));
+    store_v3(d.wi, wi + AT, n);
+    LANE_STORE(d.weight.y, weight + AT);
+    LANE_STORE(d.pdf, pdf + AT);
+}
+
 static void opaque(surface *s)
 {
     s->smooth = s->refracts = !TRUE_MASK;

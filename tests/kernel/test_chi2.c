@@ -7,13 +7,12 @@
 #include "shared/params.h"
 
 #define SAMPLES (1u << 17)
-#define CELLS 512
-#define TESTS 40 /* at least as many as there are */
+#define TESTS 110 /* at least as many as there are */
 
 static ec_cl cl;
-static cl_program programs[LANE_WIDTHS];
+static cl_program programs[LANE_WIDTHS], glass_programs[LANE_WIDTHS]; /* without and with transmission */
 static const double pi = 3.14159265358979323846;
-static float out[4 * SAMPLES];
+static float out[5 * SAMPLES];
 static uint32_t samples = SAMPLES, seed = 1;
 static int tests;
 
@@ -44,15 +43,21 @@ static void check_chi2(const char *name, const double *expected, const uint32_t 
     tests++;
 }
 
-/* ---- the BRDF: polar cells about the mirror direction, finer where the lobe is ---- */
+/* ---- the BSDF: polar cells about the mirrored direction above the surface and about the refracted one below, finer where
+ * the lobe is ---- */
 
 #define RINGS 20
 #define SECTORS 24
+#define CELLS (RINGS * SECTORS) /* each side */
 #define FINE 12 /* points of a cell's integral: along the radius … */
 #define FINEST 96 /* … and around, where the horizon cuts cells in two */
 
+typedef struct material {
+    float metallic, alpha, cosine, base, transmission, eta; /* eta 1: thin */
+} material;
+
 typedef struct frame {
-    double r[3], s[3], t[3]; /* r: the mirror direction */
+    double r[3], s[3], t[3]; /* r: where the lobe points */
     double width;
 } frame;
 
@@ -73,9 +78,28 @@ static uint32_t cell_of(const frame *f, const double *w)
     return i * SECTORS + j;
 }
 
-static void integrate_cells(const frame *f, const float *material, double *mass)
+/* In the plane of incidence, at (x, z). */
+static frame frame_about(double x, double z, double width)
 {
-    uint32_t n = RINGS * SECTORS * FINE * FINEST;
+    return (frame){{x, 0, z}, {z, 0, -x}, {0, 1, 0}, width};
+}
+
+static frame frame_above(const material *m)
+{
+    double sine = sqrt(1 - (double)m->cosine * m->cosine);
+    return frame_about(-sine, m->cosine, m->metallic == 1 || m->transmission == 1 ? 2 * (double)m->alpha : 0.5);
+}
+
+/* By Snell's law; along the surface where a flat one would reflect everything. */
+static frame frame_below(const material *m)
+{
+    double sine = fmin(sqrt(1 - (double)m->cosine * m->cosine) / m->eta, 1), alpha = m->alpha;
+    return frame_about(-sine, -sqrt(1 - sine * sine), m->eta == 1 ? 2 * alpha : sine == 1 ? 0.5 : alpha * fabs(1 - 1 / (double)m->eta));
+}
+
+static void integrate_cells(cl_program program, const frame *f, int side, const float *packed, double *mass)
+{
+    uint32_t n = CELLS * FINE * FINEST;
     float *wi = malloc(4 * n * sizeof *wi), *pdf = wi + 3 * n;
     double *weight = malloc(n * sizeof *weight);
     for (uint32_t p = 0; p < n; p++) {
@@ -87,37 +111,82 @@ static void integrate_cells(const frame *f, const float *material, double *mass)
         weight[p] = density / RINGS / FINE * 2 * pi / SECTORS / FINEST;
     }
     memset(mass, 0, CELLS * sizeof *mass);
-    if (KERNEL_CALL(&cl, programs[2], "bsdf_densities", n / 8, SCALAR(n), IN(material, 8), IN(wi, 3 * n), OUT(pdf, n)))
-        for (uint32_t p = 0; p < n; p++) mass[p / (FINE * FINEST)] += weight[p] * pdf[p];
+    if (KERNEL_CALL(&cl, program, "bsdf_densities", n / 8, SCALAR(n), IN(packed, 10), IN(wi, 3 * n), OUT(pdf, n)))
+        for (uint32_t p = 0; p < n; p++)
+            if (wi[2 * n + p] * (float)side > 0) mass[p / (FINE * FINEST)] += weight[p] * pdf[p];
     free(wi);
     free(weight);
 }
 
-static void check_bsdf(int lanes, float metallic, float alpha, float cosine, float base)
+/* What all microfacets return of white light is F + (1 - F) = 1 times masking where nothing is scattered diffusely: the mean
+ * weight may not exceed 1. (glTF's sum of a diffuse base may.) 4 standard errors, of weights that are at most 1. */
+static void check_energy(const char *name, const material *m)
 {
-    char name[128];
-    snprintf(name, sizeof name, "BRDF, metallic %g alpha %g cosine %g", (double)metallic, (double)alpha, (double)cosine);
-    const float material[8] = {base, base * 0.5f, 0.1f, 0.04f, 1.0f, metallic, alpha, cosine};
-    double sine = sqrt(1 - (double)cosine * cosine), mass[CELLS], expected[CELLS + 1], total = 0;
-    frame f = {{-sine, 0, cosine}, {cosine, 0, sine}, {0, 1, 0}, metallic == 1 ? 2 * (double)alpha : 0.5};
-    uint32_t count[CELLS + 1] = {0}, cells = RINGS * SECTORS, dark = 0, astray = 0;
-    integrate_cells(&f, material, mass);
-    if (!KERNEL_CALL(&cl, programs[lanes], "bsdf_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
-                     IN(material, 8), OUT(out, 4 * SAMPLES)))
-        return;
-    for (uint32_t i = 0; i < cells; i++) total += mass[i], expected[i] = mass[i] * SAMPLES;
-    expected[cells] = fmax(0, 1 - total) * SAMPLES; /* below the surface */
+    double sum = 0, squares = 0;
     for (uint32_t i = 0; i < SAMPLES; i++) {
-        double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]};
-        bool below = w[2] <= 0;
-        dark += !below && !(out[3 * SAMPLES + i] > 0);
-        astray += fabs(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1) > 1e-5 || (below && out[3 * SAMPLES + i] != 0);
-        count[below ? cells : cell_of(&f, w)]++;
+        double weight = out[4 * SAMPLES + i];
+        sum += weight / SAMPLES;
+        squares += weight * weight / SAMPLES;
     }
-    CHECK_MSG(dark == 0, "%s: %u samples above the surface where the density is 0", name, dark);
-    CHECK_MSG(astray == 0, "%s: %u samples are no unit vectors or have a density below the surface", name, astray);
+    double se = sqrt(fmax(squares - sum * sum, 0) / SAMPLES);
+    bool closed = m->base == 1 && (m->transmission == 1 || m->metallic == 1);
+    CHECK_MSG(!closed || (sum <= 1 + 4 * se + 1e-5 && sum > 0.2), "%s: a white surface returns %g +- %g of what comes in", name, sum, se);
+}
+
+static void check_bsdf(cl_program *built, int lanes, material m)
+{
+    char name[160];
+    snprintf(name, sizeof name, "BSDF, LANES %d, metallic %g alpha %g cosine %g transmission %g eta %g", lane_widths[lanes],
+             (double)m.metallic, (double)m.alpha, (double)m.cosine, (double)m.transmission, (double)m.eta);
+    float r = (m.eta - 1) / (m.eta + 1), f0 = m.eta == 1 ? 0.04f : r * r;
+    const float packed[10] = {m.base, m.base == 1 ? 1 : m.base * 0.5f, m.base == 1 ? 1 : 0.1f, f0, 1.0f, m.metallic, m.alpha, m.cosine,
+                              m.transmission, m.eta};
+    const frame frames[2] = {frame_above(&m), frame_below(&m)};
+    double mass[CELLS], expected[2 * CELLS + 1], total = 0;
+    uint32_t count[2 * CELLS + 1] = {0}, dark = 0, astray = 0;
+    for (int side = 0; side < 2; side++) {
+        integrate_cells(built[2], &frames[side], side ? -1 : 1, packed, mass);
+        for (uint32_t i = 0; i < CELLS; i++) total += mass[i], expected[CELLS * side + i] = mass[i] * SAMPLES;
+    }
+    if (!KERNEL_CALL(&cl, built[lanes], "bsdf_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
+                     IN(packed, 10), OUT(out, 5 * SAMPLES)))
+        return;
+    seed++;
+    expected[2 * CELLS] = fmax(0, 1 - total) * SAMPLES; /* off a microfacet onto the wrong side */
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]}, pdf = out[3 * SAMPLES + i];
+        bool lost = w[2] == 0 || (w[2] < 0 && m.transmission == 0);
+        dark += !lost && !(pdf > 0);
+        astray += lost ? pdf != 0 : fabs(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1) > 1e-5;
+        count[lost ? 2 * CELLS : w[2] > 0 ? cell_of(&frames[0], w) : CELLS + cell_of(&frames[1], w)]++;
+    }
+    CHECK_MSG(dark == 0, "%s: %u samples where the density is 0", name, dark);
+    CHECK_MSG(astray == 0, "%s: %u samples are no unit vectors or have a density although they are lost", name, astray);
     CHECK_MSG(total < 1 + 2e-3, "%s: the density integrates to %g", name, total);
-    check_chi2(name, expected, count, cells + 1);
+    check_chi2(name, expected, count, 2 * CELLS + 1);
+    check_energy(name, &m);
+}
+
+/* Thin walls, bodies from outside and from inside, where part or all of the light is reflected totally; half of the base
+ * diffuse; half metal. */
+static void check_glass(void)
+{
+    static const float alphas[3] = {0.1f, 0.5f, 1.0f}, cosines[3] = {1.0f, 0.5f, 1e-2f}, etas[3] = {1.0f, 1.5f, 1 / 1.5f};
+    static const material kinds[3] = {{0, 0, 0, 1, 1, 0}, {0, 0, 0, 0.8f, 0.5f, 0}, {0.5f, 0, 0, 1, 1, 0}};
+    int turn = 0;
+    for (int k = 0; k < 3; k++)
+        for (int e = 0; e < 3; e++)
+            for (int a = 0; a < 3; a++)
+                for (int c = k == 0 ? 0 : (a + e) % 3; c < (k == 0 ? 3 : (a + e) % 3 + 1); c++) {
+                    material m = kinds[k];
+                    m.eta = etas[e], m.alpha = alphas[a], m.cosine = cosines[c];
+                    check_bsdf(glass_programs, turn++ % LANE_WIDTHS, m);
+                }
+    check_bsdf(glass_programs, 0, (material){0, 1e-3f, 0.5f, 1, 1, 1.5f});
+    check_bsdf(glass_programs, 1, (material){0, 1e-3f, 0.8f, 1, 1, 1 / 1.5f});
+    check_bsdf(glass_programs, 2, (material){0, 0.3f, 0.7f, 1, 1, 1.01f}); /* nearly air: a lobe of width 0.003 */
+    check_bsdf(glass_programs, 3, (material){0, 0.3f, 0.7f, 1, 1, 2.4f});
+    check_bsdf(glass_programs, 1, (material){0, 0.5f, 0.5f, 0.8f, 0, 1}); /* what is opaque beside glass */
 }
 
 /* ---- a triangle: cells of equal area ---- */
@@ -327,17 +396,22 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < LANE_WIDTHS; i++) {
         programs[i] = kernel_build(&cl, "chi2", lane_widths[i],
                                    "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_AREA_LIGHTS+EC_FEATURE_PUNCTUAL_LIGHTS+EC_FEATURE_ENVIRONMENT"
                                    "+EC_FEATURE_ENVIRONMENT_MAP)");
+        glass_programs[i] = kernel_build(&cl, "chi2", lane_widths[i],
+                                         "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
+    }
     if (!test_failures) {
         static const float alphas[3] = {0.1f, 0.5f, 1.0f}, cosines[3] = {1.0f, 0.5f, 1e-2f}, metals[3] = {0.0f, 1.0f, 0.5f};
         for (int m = 0; m < 3; m++)
             for (int a = 0; a < 3; a++)
-                for (int c = 0; c < 3; c++, seed++) check_bsdf((m + a + c) % LANE_WIDTHS, metals[m], alphas[a], cosines[c], 0.8f);
-        check_bsdf(2, 1.0f, 1e-3f, 0.5f, 0.8f);
-        check_bsdf(1, 0.0f, 0.5f, 0.5f, 0.0f); /* black: one lobe */
+                for (int c = 0; c < 3; c++)
+                    check_bsdf(programs, (m + a + c) % LANE_WIDTHS, (material){metals[m], alphas[a], cosines[c], 0.8f, 0, 1});
+        check_bsdf(programs, 2, (material){1.0f, 1e-3f, 0.5f, 0.8f, 0, 1});
+        check_bsdf(programs, 1, (material){0.0f, 0.5f, 0.5f, 0.0f, 0, 1}); /* black: one lobe */
+        check_glass();
         check_triangle(0, false, -1);
         check_triangle(3, false, 1);
         check_triangle(2, true, 1);
@@ -347,8 +421,10 @@ int main(void)
         printf("%d chi-square tests\n", tests);
         CHECK(tests <= TESTS);
     }
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < LANE_WIDTHS; i++) {
         if (programs[i]) clReleaseProgram(programs[i]);
+        if (glass_programs[i]) clReleaseProgram(glass_programs[i]);
+    }
     ec_cl_close(&cl);
     TEST_END();
 }

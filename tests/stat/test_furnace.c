@@ -124,23 +124,22 @@ static void check_plates(void)
     ec_scene_free(scene);
 }
 
-/* White spheres in a white environment: the Lambert one cannot be seen, none gains energy. A faceted sphere is convex, so
- * shading normals alone bend paths: below the horizon light is lost, never won. The Lambert ball sees the smooth metal one
- * at its side, black to whom does not sample its lobe: 0.4 % less in all. */
+/* White spheres in a white environment: the Lambert one cannot be seen, none gains energy about its middle (what plastic does at its
+ * rim: scenes/furnace/README.md). A faceted sphere is convex, so shading normals alone bend paths: below the horizon light is lost,
+ * never won. */
 static void check_spheres(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("furnace/spheres.gltf"), "1,1,1");
     for (int s = 0; s < SAMPLE_COUNT; s++) {
         ec_render_options o = case_options(128, 16, 1024);
-        bool finds_lobes = s == EC_SAMPLE_MIS || s == EC_SAMPLE_BSDF;
         o.sample = (ec_sample)s;
         case_image image = case_render(scene, &o);
         for (uint32_t ball = 0; ball < 8; ball++) {
             /* The central half of a ball: x spans 16 pixels each, of which its radius takes 6.4. */
             double se, mean = case_region(&image, (uint32_t[4]){16 * ball + 5, 16 * ball + 11, 5, 11}, 1, &se);
             CHECK_MSG(mean <= 1 + 4 * se + 1e-5, "ball %u, %s: %.6f +- %.6f is more than comes in", ball, ec_sample_names[s], mean, se);
-            if (ball == 0 && finds_lobes)
-                CHECK_MSG(fabs(mean - 1) <= 4 * se + 1e-3 && se < 2e-3, "Lambert ball, %s: %.6f +- %.6f", ec_sample_names[s], mean, se);
+            if (ball == 0) /* it sees the smooth metal one at its side, whose one direction every strategy follows */
+                CHECK_MSG(fabs(mean - 1) <= 4 * se + 1e-3 && se < 5e-3, "Lambert ball, %s: %.6f +- %.6f", ec_sample_names[s], mean, se);
             if (s == 0) printf("ball %u %.5f +- %.5f\n", ball, mean, se);
         }
         case_free(&image);

@@ -76,7 +76,12 @@ static int glossy_metal(gltf_writer *w)
 static int mirror(gltf_writer *w)
 {
     return gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.9,0.8,0.7,1],\"metallicFactor\":1,"
-                                   "\"roughnessFactor\":0.25}}");
+                                   "\"roughnessFactor\":0}}");
+}
+static int varnish(gltf_writer *w)
+{
+    return gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.2,0.5,0.7,1],\"metallicFactor\":0.2,"
+                                   "\"roughnessFactor\":0}}");
 }
 static int plastic(gltf_writer *w)
 {
@@ -158,6 +163,37 @@ static void panels(const char *mode)
     run(w, !strcmp(mode, "MASK") ? "mask-panel" : "blend-panel", NULL, 8192);
 }
 
+/* Between lamp and floor. What passes through glass is found by paths alone, as if nobody aimed at the lamp: a wide one. */
+static void glass_before_a_lamp(const char *name, const gltf_glass *glass)
+{
+    gltf_writer *w = stage(matt);
+    add_lamp(w, gltf_lambert(w, 0.3, 3), 1.6);
+    int material = gltf_add_glass(w, glass);
+    if (glass->ior > 0) gltf_box(w, material, (double[3]){-1.2, 0.45, -0.7}, (double[3]){0.15, 0.7, 0.7});
+    else gltf_quad(w, material, (double[3]){-1.2, 0.6, 0.7}, (double[3]){1.4, 0, 0}, (double[3]){0, 0, -1.4});
+    run(w, name, NULL, 8192);
+}
+
+/* A lamp in a body of coloured glass: aimed at from within, met through its faces from without. And the block beside it. */
+static void lamp_in_glass(void)
+{
+    gltf_writer *w = stage(matt);
+    gltf_quad(w, gltf_lambert(w, 0.5, 5), (double[3]){-1.2, 0.7, -0.7}, (double[3]){1.4, 0, 0}, (double[3]){0, 0, 1.4});
+    gltf_quad(w, gltf_lambert(w, 0.5, 0), (double[3]){-0.9, 0.3, 0.4}, (double[3]){0.6, 0, 0}, (double[3]){0, 0.1, -0.8});
+    gltf_glass amber = {1, 0, 1, 1.2, {0.9, 0.5, 0.2}, 0.4};
+    gltf_box(w, gltf_add_glass(w, &amber), (double[3]){-1.3, 0.2, -0.8}, (double[3]){0.3, 0.8, 0.8});
+    run(w, "lamp-in-glass", NULL, 8192);
+}
+
+/* Water that no glass holds: a single face with a volume beneath it, from which rays get out sideways. */
+static void water_without_sides(const char *sky)
+{
+    gltf_writer *w = stage(matt);
+    gltf_glass water = {1, 0, 1, 1.33, {0.5, 0.8, 0.9}, 0.5};
+    gltf_quad(w, gltf_add_glass(w, &water), (double[3]){-0.8, 0.3, 0.8}, (double[3]){1.6, 0, 0}, (double[3]){0, 0, -1.6});
+    run(w, "water-without-sides", sky, 8192);
+}
+
 /* In closed form: a black BLEND sheet of coverage 0.4 (and behind it one of 0.5) before all the light leaves 0.6 x 0.5 of it,
  * however it is found. The sheets are far wider than the lamp. */
 static void blend_in_closed_form(void)
@@ -237,15 +273,25 @@ int main(void)
     w = stage(glossy_metal);
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
     run(w, "glossy-metal", NULL, 8192);
-    w = stage(mirror); /* the lamp's image is in view, and one uniform direction in a hundred is near the lobe */
+    w = stage(mirror); /* the lamp's image is in view, and lit by way of the mirror is the block's underside */
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.6);
-    run(w, "lamp-in-a-mirror", NULL, 16384);
+    run(w, "lamp-in-a-mirror", NULL, 8192);
+    w = stage(varnish);
+    add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
+    run(w, "varnish", NULL, 8192);
     w = stage(plastic);
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
     run(w, "plastic", NULL, 8192);
     run(stage(matt), "environment-map", sky, 8192);
     run(stage(plastic), "environment-map-on-plastic", sky, 8192);
     textured_emission();
+    glass_before_a_lamp("glass-before-a-lamp", &(gltf_glass){0.9, 0, 1, 1.5, {0.5, 0.8, 0.9}, 0.3});
+    glass_before_a_lamp("rough-glass-before-a-lamp", &(gltf_glass){0.9, 0.9, 1, 1.5, {0.5, 0.8, 0.9}, 0.3});
+    glass_before_a_lamp("milky-glass-before-a-lamp", &(gltf_glass){0.9, 0, 0.5, 1.5, {0}, 0});
+    glass_before_a_lamp("pane-before-a-lamp", &(gltf_glass){0.8, 0, 0.9, 0, {0}, 0});
+    glass_before_a_lamp("rough-pane-before-a-lamp", &(gltf_glass){0.8, 0.5, 0.9, 0, {0}, 0});
+    lamp_in_glass();
+    water_without_sides(sky);
     panels("BLEND");
     panels("MASK");
     blend_in_closed_form();

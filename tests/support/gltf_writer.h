@@ -127,6 +127,39 @@ static inline int gltf_lambert(gltf_writer *w, double albedo, double radiance)
                     albedo, albedo, albedo, radiance > 0, radiance > 0, radiance > 0, radiance);
 }
 
+/* Six quads that look outwards. */
+static inline void gltf_box(gltf_writer *w, int material, const double lo[3], const double hi[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        double u[3] = {0}, v[3] = {0}, at[3] = {lo[0], lo[1], lo[2]};
+        u[a] = hi[a] - lo[a], v[b] = hi[b] - lo[b];
+        gltf_quad(w, material, at, v, u);
+        at[k] = hi[k];
+        gltf_quad(w, material, at, u, v);
+    }
+}
+
+/* KHR_materials_transmission, _ior and _volume. ior 0: thin-walled, of index 1.5. */
+typedef struct gltf_glass {
+    double base, roughness, transmission, ior;
+    double attenuation[3], distance; /* distance 0: clear */
+} gltf_glass;
+
+static inline int gltf_add_glass(gltf_writer *w, const gltf_glass *g)
+{
+    char volume[256] = "";
+    int used = g->ior > 0 ? snprintf(volume, sizeof volume, ",\"KHR_materials_volume\":{\"thicknessFactor\":1") : 0;
+    if (g->ior > 0 && g->distance > 0)
+        used += snprintf(volume + used, sizeof volume - (size_t)used, ",\"attenuationDistance\":%.9g,\"attenuationColor\":[%.9g,%.9g,%.9g]",
+                         g->distance, g->attenuation[0], g->attenuation[1], g->attenuation[2]);
+    if (g->ior > 0) snprintf(volume + used, sizeof volume - (size_t)used, "}");
+    return gltf_add(&w->materials,
+                    "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.9g,%.9g,%.9g,1],\"metallicFactor\":0,\"roughnessFactor\":%.9g},"
+                    "\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":%.9g},\"KHR_materials_ior\":{\"ior\":%.9g}%s}}",
+                    g->base, g->base, g->base, g->roughness, g->transmission, g->ior > 0 ? g->ior : 1.5, volume);
+}
+
 /* A node that looks along `direction` (its -z), at `at`; members is JSON such as "\"camera\":0". */
 static inline void gltf_node_looking(gltf_writer *w, const double at[3], const double direction[3], const char *members)
 {
@@ -184,7 +217,8 @@ static inline const char *gltf_write(gltf_writer *w, const char *name)
         exit(1);
     }
     fprintf(file, "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_specular\","
-                  "\"KHR_materials_emissive_strength\",\"KHR_lights_punctual\"],\"scene\":0,\"scenes\":[{\"nodes\":[");
+                  "\"KHR_materials_emissive_strength\",\"KHR_lights_punctual\",\"KHR_materials_ior\","
+                  "\"KHR_materials_transmission\",\"KHR_materials_volume\"],\"scene\":0,\"scenes\":[{\"nodes\":[");
     for (int i = 0; i < w->nodes.count; i++) fprintf(file, "%s%d", i ? "," : "", i);
     fprintf(file, "]}]");
     gltf_put_list(file, "nodes", &w->nodes);
