@@ -12,7 +12,7 @@
  *   Var(E^2 - est^2) = 2 G / (P n)^2 * n / (n-1),   G = sum_p v_p^2.
  * That is the variance of the ratio of two independent chi-squares with nu = (sum_p v_p)^2 / G and nu (n-1) degrees of
  * freedom (Satterthwaite, Biometrics 2, 1946): exact for normal pixels of equal variance, right in mean and variance for
- * all. Hence E^2 <= est^2 F with F the 95 % quantile of Fisher's F(nu, nu (n-1)), near 1 for nu in the thousands.
+ * all. Hence E^2 <= est^2 F with F a quantile of Fisher's F(nu, nu (n-1)), near 1 for nu in the thousands.
  *
  * Where pixels have counts of their own, v_p / n_p takes the place of v_p / n, and n is what makes n / (n-1) the mean of the
  * pixels' own, weighed by the squares of these.
@@ -29,7 +29,7 @@
 #include "film/film.h"
 #include "film/statistics.h"
 
-static const double confidence = 0.95;
+static const double confidence = EC_BOUND_CONFIDENCE;
 
 /* Sums over pixels of luminance and of s^2 / n, the variances of their means. */
 typedef struct variance_sums {

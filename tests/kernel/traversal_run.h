@@ -85,7 +85,8 @@ static float nothing[256];
 
 #define NO_ATTRIBUTES IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 64), IN(nothing, 16), \
     IN(nothing, 16), IN(nothing, 256)
-#define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), SCALAR(zero), SCALAR(zero), IN(&counters, 1)
+#define ALL_PIXELS {NULL, 0, KERNEL_IN}
+#define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), ALL_PIXELS, SCALAR(zero), SCALAR(zero), IN(&counters, 1)
 #define BUFFER(k) {a->buffers[k].data, a->buffers[k].data ? a->buffers[k].bytes : 0, KERNEL_IN}
 #define BUFFERS BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3), BUFFER(4)
 

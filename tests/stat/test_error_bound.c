@@ -1,5 +1,5 @@
 /* The stated error against the real one: of 200 renders with different seeds the real relative RMS error, against a converged
- * picture, must lie under error_bound in 95 % (190 +- 3), and `error` must equal it on average. So must relMSE of the noise equal
+ * picture, must lie under error_bound in at least 95 % (190; it aims at 196 +- 2), and `error` must equal it on average. So must relMSE of the noise equal
  * relMSE as measured where tails are not heavy (see film.h); the other ratios are printed.
  *
  * Real error: sqrt(mean_p (Y_p - R_p)^2) / mean R in luminance, by ec_measure_difference, as `eclat compare` does. R has an error of
@@ -12,7 +12,7 @@
 #include "film/difference.h"
 #include "support/batches.h"
 
-enum { RENDERS = 200, LEAST = 183, MOST = 198 }; /* 95 % of 200: outside by chance in 1.6 % of cases */
+enum { RENDERS = 200, LEAST = 190 };
 
 typedef struct bound_case {
     const char *name, *path, *environment;
@@ -106,7 +106,7 @@ static void check_case(const bound_case *c, int by_seeds)
     double ratio = sqrt(sum.stated_square / sum.real_square), relmse = sum.relmse_stated / sum.relmse_real;
     printf("%-25s %4u samples, %2u batches: error %5.2f %%, stated / real %.3f, relMSE %.3f, bound / stated %.3f, under it %d of %d\n", c->name,
            c->spp, c->batches, 100 * sqrt(sum.real_square), ratio, relmse, sum.bound / sqrt(sum.stated_square), sum.covered, RENDERS);
-    CHECK_MSG(sum.covered >= LEAST && sum.covered <= MOST, "%s: %d of %d under the bound", c->name, sum.covered, RENDERS);
+    CHECK_MSG(sum.covered >= LEAST, "%s: %d of %d under the bound", c->name, sum.covered, RENDERS);
     /* The mean of 200 squares of relative spread about sqrt(2 / nu), nu of the order of 100, is good to 1 %. */
     CHECK_MSG(fabs(ratio - 1) < 0.04, "%s: stated / real error %.4f", c->name, ratio);
     CHECK_MSG(c->relmse_tolerance == 0 || fabs(relmse - 1) < c->relmse_tolerance, "%s: stated / real relMSE %.4f", c->name, relmse);
