@@ -43,6 +43,7 @@ typedef struct ec_render_options {
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
+    bool fast_math;             /* kernels by -cl-fast-relaxed-math: for `eclat cost` alone, to see what exact arithmetic costs */
 } ec_render_options;
 
 /* What the pilot, the first batches, says of the rest. Low and high: 95 % interval. Infinite where no limit would end it. */
