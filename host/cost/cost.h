@@ -72,7 +72,7 @@ typedef struct ec_cost_row {
     double efficiency, relative_efficiency; /* 1/s: by mse, by relmse */
     double seconds_to[EC_COST_TARGETS]; /* NaN: unknown; INFINITY: never */
     bool extrapolated[EC_COST_TARGETS]; /* beyond the largest picture taken */
-    float *picture;              /* 3 a pixel: the last one of the most samples; owned */
+    float *picture;              /* thumbnail of the last one of the most samples: 3 a pixel, owned */
 } ec_cost_row;
 
 typedef struct ec_cost_reference {
@@ -113,6 +113,14 @@ typedef struct ec_cost_study {
 /* Fills the lower half; on failure too there may be rows. */
 ec_result ec_cost_run(ec_cost_study *study, ec_error *err);
 void ec_cost_free(ec_cost_study *study);
+
+/* thumbnail.c: every step-th pixel as it is: means of several would hide the noise that is to be seen. */
+typedef struct ec_cost_thumbnail {
+    uint32_t width, height, step;
+} ec_cost_thumbnail;
+ec_cost_thumbnail ec_cost_thumbnail_of(const ec_render_options *options);
+/* 3 a pixel, malloc'ed; NULL when out of memory */
+float *ec_cost_shrink(const ec_render_options *options, const float *rgb);
 
 /* rungs.c: the rungs that this scene has, most telling first; malloc'ed. */
 ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_cost_row **rows, uint32_t *count, ec_error *err);

@@ -8,6 +8,10 @@
 /* Streams of random numbers: the reference's is none of the rungs'. */
 enum { EC_COST_STREAM_REFERENCE = 1, EC_COST_STREAM_RUNGS = 2 };
 
+typedef struct ec_cost_sum {
+    double sum, square;
+} ec_cost_sum;
+
 /* tally.c: pictures of a rung against the reference. Levels go up: pictures of n samples, then of 2 n. */
 typedef struct ec_cost_tally {
     uint64_t pixels;
@@ -16,9 +20,7 @@ typedef struct ec_cost_tally {
     double *sum, *sum_variance;  /* 1 a pixel: of all samples of finished levels, and its variance */
     double samples;              /* in sum */
     uint32_t level_samples, level_batches;
-    struct {
-        double mean, se2;        /* se2: times the number of pictures squared */
-    } level_mse, level_relmse;
+    ec_cost_sum mse, relmse;     /* over the level's pictures and pixels */
 } ec_cost_tally;
 ec_result ec_cost_tally_create(const ec_cost_reference *reference, uint64_t pixels, ec_cost_tally *tally, ec_error *err);
 void ec_cost_tally_free(ec_cost_tally *tally);

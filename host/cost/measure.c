@@ -81,15 +81,6 @@ static ec_result take_level(measurement *m, uint32_t samples, double end, bool *
     return EC_OK;
 }
 
-static ec_result keep_picture(measurement *m, ec_error *err)
-{
-    size_t bytes = m->runner->pixels * 12;
-    m->row->picture = malloc(bytes);
-    if (!m->row->picture) return ec_fail(err, "out of memory for a picture");
-    memcpy(m->row->picture, m->runner->mean, bytes);
-    return EC_OK;
-}
-
 static ec_result take_levels(measurement *m, double end, ec_error *err)
 {
     double picture = m->runner->seconds_per_sample * (double)m->runner->pixels;
@@ -106,7 +97,9 @@ static ec_result take_levels(measurement *m, double end, ec_error *err)
     if (m->row->point_count == 0 || m->tally.samples == 0) return EC_OK; /* interrupted */
     ec_cost_tally_bias(&m->tally, m->row);
     m->row->state = EC_COST_MEASURED;
-    return m->runner->stopped ? EC_OK : keep_picture(m, err);
+    if (m->runner->stopped) return EC_OK;
+    m->row->picture = ec_cost_shrink(&m->study->options, m->runner->mean);
+    return m->row->picture ? EC_OK : ec_fail(err, "out of memory for a picture");
 }
 
 /* The same picture by both, one after the other. */

@@ -1,14 +1,11 @@
-/* Thumbnails. Every step-th pixel is taken as it is: means of several would hide the noise that the pictures are here to show. */
+/* Thumbnails as data URIs. */
 #include "cost/pictures.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "image/error_map.h"
 #include "image/image.h"
-
-enum { THUMBNAIL_WIDTH = 192 };
 
 static char *data_uri(const uint8_t *bytes, size_t size)
 {
@@ -24,18 +21,7 @@ static char *data_uri(const uint8_t *bytes, size_t size)
     return text;
 }
 
-typedef struct thumbnail {
-    uint32_t width, height, step, full_width;
-} thumbnail;
-
-static void shrink(const thumbnail *t, const float *rgb, float *small)
-{
-    for (uint32_t y = 0; y < t->height; y++)
-        for (uint32_t x = 0; x < t->width; x++)
-            memcpy(small + 3 * ((size_t)y * t->width + x), rgb + 3 * ((size_t)y * t->step * t->full_width + (size_t)x * t->step), 12);
-}
-
-static ec_result encode(const thumbnail *t, const uint8_t *rgb, cJSON **text, ec_error *err)
+static ec_result encode(const ec_cost_thumbnail *t, const uint8_t *rgb, cJSON **text, ec_error *err)
 {
     uint8_t *png = NULL;
     size_t size = 0;
@@ -48,7 +34,7 @@ static ec_result encode(const thumbnail *t, const uint8_t *rgb, cJSON **text, ec
 }
 
 /* to: an object or an array; key: NULL for an array */
-static ec_result add(cJSON *to, const char *key, const thumbnail *t, const uint8_t *rgb, ec_error *err)
+static ec_result add(cJSON *to, const char *key, const ec_cost_thumbnail *t, const uint8_t *rgb, ec_error *err)
 {
     cJSON *text = NULL;
     EC_TRY(encode(t, rgb, &text, err));
@@ -59,20 +45,18 @@ static ec_result add(cJSON *to, const char *key, const thumbnail *t, const uint8
     return EC_OK;
 }
 
-static ec_result add_all(const ec_cost_study *study, const thumbnail *t, float *small, float *reference, uint8_t *bytes, cJSON *to, ec_error *err)
+static ec_result add_all(const ec_cost_study *study, const ec_cost_thumbnail *t, const float *reference, uint8_t *bytes, cJSON *to, ec_error *err)
 {
     uint64_t pixels = (uint64_t)t->width * t->height;
-    shrink(t, study->reference.rgb, reference);
     ec_tonemap_rgb(reference, bytes, pixels, 0, EC_TONEMAP_NEUTRAL);
     EC_TRY(add(to, "reference", t, bytes, err));
     for (uint32_t i = 0; i < study->row_count; i++) {
         const ec_cost_row *row = &study->rows[i];
         if (!row->picture) continue;
         cJSON *pair = cJSON_AddArrayToObject(to, row->rung.id);
-        shrink(t, row->picture, small);
-        ec_tonemap_rgb(small, bytes, pixels, 0, EC_TONEMAP_NEUTRAL);
+        ec_tonemap_rgb(row->picture, bytes, pixels, 0, EC_TONEMAP_NEUTRAL);
         EC_TRY(add(pair, NULL, t, bytes, err));
-        ec_error_map(small, reference, pixels, bytes);
+        ec_error_map(row->picture, reference, pixels, bytes);
         EC_TRY(add(pair, NULL, t, bytes, err));
     }
     return EC_OK;
@@ -80,18 +64,12 @@ static ec_result add_all(const ec_cost_study *study, const thumbnail *t, float *
 
 ec_result ec_cost_pictures(const ec_cost_study *study, cJSON **images, ec_error *err)
 {
-    const ec_render_options *o = &study->options;
-    thumbnail t = {.step = (o->width + THUMBNAIL_WIDTH - 1) / THUMBNAIL_WIDTH, .full_width = o->width};
-    t.width = (o->width + t.step - 1) / t.step;
-    t.height = (o->height + t.step - 1) / t.step;
     *images = cJSON_CreateObject();
     if (!study->reference.rgb) return EC_OK;
-    size_t values = 3 * (size_t)t.width * t.height;
-    float *small = malloc(values * sizeof *small), *reference = malloc(values * sizeof *reference);
-    uint8_t *bytes = malloc(values);
-    ec_result result = small && reference && bytes ? add_all(study, &t, small, reference, bytes, *images, err)
-                                                   : ec_fail(err, "out of memory for the pictures of a report");
-    free(small);
+    ec_cost_thumbnail t = ec_cost_thumbnail_of(&study->options);
+    float *reference = ec_cost_shrink(&study->options, study->reference.rgb);
+    uint8_t *bytes = malloc(3 * (size_t)t.width * t.height);
+    ec_result result = reference && bytes ? add_all(study, &t, reference, bytes, *images, err) : ec_fail(err, "out of memory for the pictures of a report");
     free(reference);
     free(bytes);
     return result;

@@ -85,7 +85,7 @@ ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_err
     return result;
 }
 
-/* Of a luminance no standard error is kept: its channels' noise is taken to be of one mind, which makes it rather large. */
+/* Where no standard error of luminance is kept, the channels' noise is taken to be of one mind, which makes it rather large. */
 static ec_result take_exr(const ec_exr *exr, ec_cost_study *study, ec_error *err)
 {
     static const char *const color[] = {"R", "G", "B"}, *const error[] = {"stderr.R", "stderr.G", "stderr.B"};
@@ -93,18 +93,18 @@ static ec_result take_exr(const ec_exr *exr, ec_cost_study *study, ec_error *err
     uint64_t pixels = (uint64_t)exr->width * exr->height;
     if (exr->width != study->options.width || exr->height != study->options.height)
         return ec_fail(err, "--reference '%s' is %ux%u pixels and the study %ux%u; leave out --size or give the reference's", r->source, exr->width, exr->height, study->options.width, study->options.height);
-    const float *rgb[3], *se[3], *samples = ec_exr_plane(exr, "samples");
+    const float *rgb[3], *se[3], *se_y = ec_exr_plane(exr, "stderr.Y"), *samples = ec_exr_plane(exr, "samples");
     for (int c = 0; c < 3; c++) {
         rgb[c] = ec_exr_plane(exr, color[c]);
         se[c] = ec_exr_plane(exr, error[c]);
         if (!rgb[c]) return ec_fail(err, "--reference '%s' has no channel %s", r->source, color[c]);
     }
     EC_TRY(allocate(r, pixels, err));
-    r->has_variance = se[0] && se[1] && se[2];
+    r->has_variance = se_y || (se[0] && se[1] && se[2]);
     r->samples_per_pixel = samples ? (uint64_t)samples[0] : 0;
     for (uint64_t p = 0; p < pixels; p++) {
         for (int c = 0; c < 3; c++) r->rgb[3 * p + c] = isfinite(rgb[c][p]) ? rgb[c][p] : 0.0f;
-        double s = r->has_variance ? ec_luminance((double[3]){se[0][p], se[1][p], se[2][p]}) : 0;
+        double s = se_y ? se_y[p] : r->has_variance ? ec_luminance((double[3]){se[0][p], se[1][p], se[2][p]}) : 0;
         r->variance[p] = isfinite(s) ? s * s : 0;
     }
     return finish(r, pixels, err);

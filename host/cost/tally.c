@@ -2,8 +2,8 @@
  *
  * With x a pixel of one picture of n samples and Y the reference's, independent, E[(x - Y)^2] = bias^2 + var x + var Y, and var Y is
  * known from the reference's own batches: so mean (x - Y)^2 - var Y estimates a picture's squared error without bias, whatever the
- * distribution. Pixels are independent; their spread gives the figure's standard error (a little too large, since pixels also differ
- * in what is expected of them).
+ * distribution. Pixels and pictures are independent but for Y; their spread and what Y adds make the figure's standard error (a little
+ * too large, since pixels also differ in what is expected of them).
  *
  * Of all samples together, X with estimated variance v, d = (X - Y)^2 - v - var Y estimates bias^2. Given the bias b,
  * Var d = 2 w^2 + 4 w b^2 with w = v + var Y (normal pixels); d stands in for b^2, and w^2, which comes out too large on average,
@@ -38,42 +38,68 @@ void ec_cost_tally_begin(ec_cost_tally *t, uint32_t samples)
 {
     t->level_samples = samples;
     t->level_batches = 0;
-    t->level_mse.mean = t->level_mse.se2 = t->level_relmse.mean = t->level_relmse.se2 = 0;
+    t->mse = t->relmse = (ec_cost_sum){0};
     memset(t->mean, 0, t->pixels * sizeof *t->mean);
     memset(t->m2, 0, t->pixels * sizeof *t->m2);
+}
+
+static void add(ec_cost_sum *s, double d)
+{
+    s->sum += d;
+    s->square += d * d;
+}
+
+/* What a pixel's difference counts in relmse, where it counts 1 in mse. */
+static double own_weight(double reference)
+{
+    double floored = reference + EC_RELMSE_FLOOR;
+    return 1 / (floored * floored);
 }
 
 void ec_cost_tally_add(ec_cost_tally *t, const float *rgb)
 {
     const ec_cost_reference *r = t->reference;
-    double n = ++t->level_batches, pixels = (double)t->pixels, scale = 1 / (r->mean_luminance * r->mean_luminance);
-    double sum = 0, sum2 = 0, relative_sum = 0, relative_sum2 = 0;
+    double n = ++t->level_batches, scale = 1 / (r->mean_luminance * r->mean_luminance);
     for (uint64_t p = 0; p < t->pixels; p++) {
         double x = ec_luminance((double[3]){rgb[3 * p], rgb[3 * p + 1], rgb[3 * p + 2]});
         double delta = x - t->mean[p], error = x - r->luminance[p], d = error * error - r->variance[p];
         t->mean[p] += delta / n;
         t->m2[p] += delta * (x - t->mean[p]);
-        double own = r->luminance[p] + EC_RELMSE_FLOOR, relative = d / (own * own);
-        sum += d * scale;
-        sum2 += d * d * scale * scale;
-        relative_sum += relative;
-        relative_sum2 += relative * relative;
+        add(&t->mse, d * scale);
+        add(&t->relmse, d * own_weight(r->luminance[p]));
     }
-    t->level_mse.mean += (sum / pixels - t->level_mse.mean) / n;
-    t->level_mse.se2 += fmax(sum2 - sum * sum / pixels, 0) / pixels / pixels;
-    t->level_relmse.mean += (relative_sum / pixels - t->level_relmse.mean) / n;
-    t->level_relmse.se2 += fmax(relative_sum2 - relative_sum * relative_sum / pixels, 0) / pixels / pixels;
+}
+
+/* Squared standard error of the mean over all pixels of all pictures, as if pictures had nothing in common. */
+static double own_se2(const ec_cost_sum *s, double count) { return fmax(s->square - s->sum * s->sum / count, 0) / (count * count); }
+
+/* They have the reference's error in common, which more pictures do not lessen: Var (b - e)^2 = 2 var Y^2 + 4 b^2 var Y. */
+static void add_common(const ec_cost_tally *t, double *mse, double *relmse)
+{
+    const ec_cost_reference *r = t->reference;
+    double n = t->level_batches, scale = 1 / (r->mean_luminance * r->mean_luminance), pixels2 = (double)t->pixels * (double)t->pixels;
+    for (uint64_t p = 0; n >= 2 && p < t->pixels; p++) {
+        double error = t->mean[p] - r->luminance[p], v = r->variance[p], weight = own_weight(r->luminance[p]);
+        double bias2 = fmax(error * error - t->m2[p] / (n * (n - 1)) - v, 0), common = (2 * v + 4 * bias2) * v;
+        *mse += common * scale * scale / pixels2;
+        *relmse += common * weight * weight / pixels2;
+    }
+}
+
+static ec_cost_point point_of(const ec_cost_tally *t)
+{
+    double count = (double)t->pixels * t->level_batches, mse_se2 = own_se2(&t->mse, count), relmse_se2 = own_se2(&t->relmse, count);
+    add_common(t, &mse_se2, &relmse_se2);
+    return (ec_cost_point){.samples = t->level_samples, .batches = t->level_batches, .mse = t->mse.sum / count, .mse_se = sqrt(mse_se2),
+                           .relmse = t->relmse.sum / count, .relmse_se = sqrt(relmse_se2)};
 }
 
 void ec_cost_tally_end(ec_cost_tally *t, ec_cost_row *row)
 {
-    double n = t->level_samples, batches = t->level_batches, scale = 1 / (t->reference->mean_luminance * t->reference->mean_luminance);
+    double n = t->level_samples, batches = t->level_batches, variance = 0;
     if (t->level_batches == 0 || row->point_count == EC_COST_LEVELS_MOST) return;
-    row->points[row->point_count++] = (ec_cost_point){.samples = t->level_samples, .batches = t->level_batches,
-                                                      .mse = t->level_mse.mean, .mse_se = sqrt(t->level_mse.se2) / batches,
-                                                      .relmse = t->level_relmse.mean, .relmse_se = sqrt(t->level_relmse.se2) / batches};
+    row->points[row->point_count++] = point_of(t);
     if (t->level_batches < 2) return;
-    double variance = 0;
     for (uint64_t p = 0; p < t->pixels; p++) {
         double s2 = t->m2[p] / (batches - 1);
         variance += s2;
@@ -82,7 +108,7 @@ void ec_cost_tally_end(ec_cost_tally *t, ec_cost_row *row)
     }
     t->samples += n * batches;
     if (t->level_samples > EC_COST_UNIT) return;
-    row->variance = n * variance / (double)t->pixels * scale;
+    row->variance = n * variance / (double)t->pixels / (t->reference->mean_luminance * t->reference->mean_luminance);
     row->unit = t->level_samples;
 }
 

@@ -89,7 +89,7 @@ static void slopes(void)
     ec_cost_row sobol = curve(scene, &o, &reference, 64);
     printf("slopes: independent %.3f +- %.3f, sobol %.3f +- %.3f; bias^2 %.2g +- %.2g, %.2g +- %.2g\n", independent.fit.slope,
            independent.fit.se, sobol.fit.slope, sobol.fit.se, independent.bias2, independent.bias2_se, sobol.bias2, sobol.bias2_se);
-    CHECK_NEAR(independent.fit.slope, -0.5, 0.05);
+    CHECK_NEAR(independent.fit.slope, -0.5, 0.05); /* 2.8 of its standard errors */
     CHECK_MSG(independent.fit.se < 0.02, "%g", independent.fit.se);
     CHECK_MSG(sobol.fit.slope < -0.55, "%g", sobol.fit.slope);
     CHECK(fabs(independent.bias2) < 4 * independent.bias2_se && fabs(sobol.bias2) < 4 * sobol.bias2_se);
@@ -97,7 +97,7 @@ static void slopes(void)
     const ec_cost_point *p = &independent.points[4];
     CHECK_NEAR(independent.variance / p->samples, p->mse, 5 * p->mse_se + 0.02 * p->mse);
 
-    /* Cut at two segments there is no indirect light: a bias that is seen, and a curve that ends at its floor. */
+    /* Cut at two segments there is no indirect light: a bias that is seen, and a curve that ends near its floor. */
     o.max_depth = 2;
     ec_cost_row direct = curve(scene, &o, &reference, 64);
     ec_render_options full = case_options(32, 32, 1024), cut = full;
@@ -113,8 +113,7 @@ static void slopes(void)
     printf("without indirect light: bias %.4f +- %.4f, from long renders %.4f\n", sqrt(direct.bias2), 0.5 * direct.bias2_se / sqrt(direct.bias2), sqrt(square) / luminance);
     CHECK_NEAR(sqrt(direct.bias2), sqrt(square) / luminance, 0.01);
     const ec_cost_point *last = &direct.points[direct.point_count - 1];
-    CHECK_MSG(direct.fit.slope > independent.fit.slope + 0.03 && last->mse > direct.bias2 && last->mse < 4 * direct.bias2,
-              "slope %g, at the end %g", direct.fit.slope, last->mse);
+    CHECK_MSG(fabs(last->mse - direct.bias2) < 0.2 * direct.bias2, "at the end %g", last->mse);
     case_free(&a);
     case_free(&b);
     ec_cost_reference_free(&reference);
