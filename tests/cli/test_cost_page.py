@@ -66,7 +66,7 @@ class Page(unittest.TestCase):
         base = self.report["rungs"][0]
         self.assertAlmostEqual(float(text["ns/sample"]), 1e9 * base["seconds_per_sample"], delta=5e-3 * 1e9 * base["seconds_per_sample"])
         self.assertAlmostEqual(float(text["variance"]), base["variance"], delta=5e-3 * base["variance"])
-        self.assertEqual(text["slope"], f"{base['slope']:.2f} ± {base['slope_se']:.2f}" if base["slope"] is not None else "?")
+        self.assertEqual(text["slope"], f"{base['slope']:.2f} ± {base['slope_se']:.3f}" if base["slope"] is not None else "?")
 
     def test_curves_are_drawn(self):
         self.show()

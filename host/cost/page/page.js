@@ -64,7 +64,7 @@ function guide() {
     return [Math.min(...xs), Math.max(...xs)].map(x => ({x, y: through.y * Math.sqrt(through.x / x)}));
 }
 function slopeText(r) {
-    return r.slope === null ? "slope ?" : `slope ${r.slope.toFixed(2)} ± ${r.slope_se.toFixed(2)}`;
+    return r.slope === null ? "slope ?" : `slope ${r.slope.toFixed(2)} ± ${r.slope_se.toFixed(3)}`;
 }
 function datasets() {
     const sets = curves.map((r, i) => ({
@@ -178,6 +178,7 @@ function drawEffects() {
     effectsChart?.destroy();
     if (!effectRows.length) { $("effects-section").hidden = true; return; }
     $("effects-box").style.height = `${6 + 3.6 * effectRows.length}rem`;
+    const cut = 120;
     const bars = [["time", "time of a sample", 1], ["noise", "variance of a sample", 2], ["difference", "error of leaving it out", 3]];
     effectsChart = new Chart($("effects-chart"), {
         type: "bar",
@@ -185,7 +186,7 @@ function drawEffects() {
             {label: title, data: effectRows.map(e => e[key] === null ? null : 100 * e[key]), backgroundColor: hue(i)}))},
         options: {
             indexAxis: "y", animation: false, maintainAspectRatio: false,
-            scales: {x: {title: {display: true, text: "%", color: style("--text")}, grid: {color: style("--line")}, ticks: {color: style("--quiet")}, suggestedMin: 0, min: Math.max(-150, Math.min(0, ...effectRows.flatMap(e => [100 * e.time, 100 * e.noise])))},
+            scales: {x: {title: {display: true, text: "%", color: style("--text")}, grid: {color: style("--line")}, ticks: {color: style("--quiet")}, suggestedMin: 0, min: Math.max(-cut, Math.min(0, ...effectRows.flatMap(e => [100 * e.time, 100 * e.noise]))), max: Math.min(cut, Math.max(10, ...effectRows.flatMap(e => [100 * e.time, 100 * e.noise, 100 * e.difference])))},
                      y: {grid: {display: false}, ticks: {color: style("--text"), callback(v) { const t = this.getLabelForValue(v); return t.length > 24 ? `${t.slice(0, 23)}…` : t; }}}},
             plugins: {legend: {position: "top", labels: {color: style("--text")}}, tooltip: {callbacks: {label: item => `${item.dataset.label}: ${number(item.raw)} %`}}},
         },
@@ -220,7 +221,7 @@ function bias(r) {
 const columns = [
     ["ns/sample", r => ({text: number(1e9 * r.seconds_per_sample), value: r.seconds_per_sample, merit: r.seconds_per_sample})],
     ["time", r => ({text: `×${r.relative_time.toFixed(2)}${r.relative_time_se ? ` ± ${r.relative_time_se.toFixed(2)}` : ""}`, value: r.relative_time, merit: r.relative_time})],
-    ["slope", r => r.curve ? {text: r.slope === null ? "?" : `${r.slope.toFixed(2)} ± ${r.slope_se.toFixed(2)}`, value: r.slope} : {text: ""}],
+    ["slope", r => r.curve ? {text: r.slope === null ? "?" : `${r.slope.toFixed(2)} ± ${r.slope_se.toFixed(3)}`, value: r.slope} : {text: ""}],
     ["variance", r => r.curve ? {text: number(r.variance), value: r.variance, merit: r.variance} : {text: ""}],
     ["bias", bias],
     ["efficiency 1/s", r => r.curve ? {text: number(r.efficiency), value: r.efficiency, merit: r.efficiency && -r.efficiency} : {text: ""}],
