@@ -59,6 +59,10 @@ const char *const *ec_kernel_source_names(void); /* NULL-terminated, for tests a
  * program for all kernels that share their options halves PoCL's front end: six stages 0.7 s instead of 1.25 s. */
 ec_result ec_kernel_sources_join(const char *const *names, char **joined, ec_error *err);
 
+/* Among the options it makes divisions inexact too. Only to measure what exact arithmetic costs: it lets the compiler delete the
+ * tests for NaN. */
+#define EC_FAST_MATH "-cl-fast-relaxed-math"
+
 /* Builds a source with options (the arithmetic flags that every eclat kernel needs are added here: -cl-std=CL1.2 and,
  * where offered, -cl-fp32-correctly-rounded-divide-sqrt). Binaries are cached in
  * ${XDG_CACHE_HOME:-~/.cache}/eclat/kernels under SHA-256(source, options, device, driver, platform); written to a

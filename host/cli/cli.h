@@ -19,6 +19,7 @@ int ec_cli_main(int argc, char **argv);
 
 /* One command each; argv[0] is its name. The error is the caller's to print. */
 ec_result ec_cmd_compare(ec_cli *cli, int argc, char **argv, ec_error *err);
+ec_result ec_cmd_cost(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err);

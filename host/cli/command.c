@@ -20,6 +20,7 @@ typedef struct command {
 
 static const command commands[] = {
     {"render", ec_cmd_render},
+    {"cost", ec_cmd_cost},
     {"info", ec_cmd_info},
     {"compare", ec_cmd_compare},
     {"devices", ec_cmd_devices},

@@ -6,8 +6,11 @@
 #include "cli/cli.h"
 #include "cli/defaults.h"
 
+#define EC_TEXT_COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */
+
 const char EC_HELP_SHORT[] =
     "Usage: eclat render SCENE [options]   render a glTF scene to EXR and PNG\n"
+    "       eclat cost SCENE [options]     measure what buys accuracy cheapest on it\n"
     "       eclat info SCENE               say what is in it\n"
     "       eclat compare A.exr B.exr      say whether two images differ by more than noise\n"
     "       eclat devices                  list the OpenCL devices\n"
@@ -20,6 +23,7 @@ static const char help_main[] =
     "\n"
     "Commands\n"
     "  compare A B        measure how far image A is from image B, and whether that is more than noise\n"
+    "  cost SCENE         measure which technique buys accuracy cheapest on a scene\n"
     "  devices            list every OpenCL device and say which is the default\n"
     "  help [COMMAND]     show this, or the help of a command\n"
     "  info SCENE         say what a scene holds and what rendering it takes\n"
@@ -94,6 +98,48 @@ static const char help_render[] =
     "  -q, --quiet                only warnings and errors (and what --json prints)\n"
     "      --version              show the version\n";
 
+static const char help_cost[] =
+    "Usage: eclat cost SCENE [options]\n"
+    "\n"
+    "Renders a glTF 2.0 scene as eclat render does by default, and again with one thing changed or left out: integrator,\n"
+    "sampling, random numbers, roulette, arithmetic, each effect of the scene, accelerator, lanes. For each of these rungs\n"
+    "it prints time per sample, noise, bias against a reference, and the time to a given error.\n"
+    "\n"
+    "Study\n"
+    "      --budget S             time for all of it, the reference included; also 40s, 2m, 1h (default: 2m)\n"
+    "      --reference FILE       compare with this .exr instead of a picture that is rendered first, for a third of the\n"
+    "                             budget; its standard errors, if it has them, are taken for its uncertainty\n"
+    "      --seed N               another N, another independent study (default: 0)\n"
+    "      Ctrl-C                 stops cleanly and reports what is known so far (exit code 0); a second one aborts\n"
+    "\n"
+    "Picture\n"
+    "      --camera NAME|INDEX    look through this camera (default: the scene's first; without any, one that frames it)\n"
+    "      --env FILE|R,G,B       light from all around, as for eclat render\n"
+    "      --size WxH             pixels (default: the reference's, else " EC_TEXT(EC_COST_HEIGHT) " high, as wide as the camera's aspect ratio asks)\n"
+    "\n"
+    "Device\n"
+    "      --device ID            OpenCL device (default: as for eclat render)\n"
+    "\n"
+    "Results: a table on standard output, and on request\n"
+    "  -o, --output FILE          write FILE.html, one page with charts, tables and pictures that opens without a network\n"
+    "      --json FILE            write every figure to FILE; - prints them instead of the table\n"
+    "  -h, --help                 show this\n"
+    "  -q, --quiet                only warnings and errors\n"
+    "      --version              show the version\n"
+    "\n"
+    "Columns\n"
+    "  ns/sample                  nanoseconds of rendering for one sample of one pixel, set-up left out\n"
+    "  time                       the same as a multiple of the first row's, both rendered in turns\n"
+    "  slope                      of error over samples, in logarithms; -0.50 where samples are independent\n"
+    "  variance                   of one sample, relative to the mean luminance squared, in pictures of " EC_TEXT_COST_UNIT " samples\n"
+    "  bias                       the error that remains with endless samples: floor, if it is certain; < its bound, if not;\n"
+    "                             same bits: the picture is that of the first row; lacks: an unbiased rung that has not\n"
+    "                             met rare light yet, so that its other figures are too good\n"
+    "  efficiency                 1 / (squared error x seconds) of a picture of " EC_TEXT_COST_UNIT " samples a pixel\n"
+    "  to 5 % ...                 time until the error is under this; ~ extrapolated, ? not known, never under the floor\n"
+    "  memory                     of the device, at the peak\n"
+    "Best in bold, or with an asterisk where the output is no terminal; rungs that leave something out do not compete.\n";
+
 static const char help_info[] =
     "Usage: eclat info SCENE [options]\n"
     "\n"
@@ -156,6 +202,7 @@ static const char help_devices[] =
 void ec_print_help(const char *command)
 {
     const char *text = help_main;
+    if (!strcmp(command, "cost")) text = help_cost;
     if (!strcmp(command, "render")) text = help_render;
     if (!strcmp(command, "info")) text = help_info;
     if (!strcmp(command, "compare")) text = help_compare;

@@ -50,14 +50,14 @@ static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *
 }
 
 /* Without --size: a fixed height, and a width that shows what the camera is meant to. */
-static void choose_size(ec_render_options *options, const ec_camera *camera)
+static void choose_size(ec_render_options *options, uint32_t height, const ec_camera *camera)
 {
     double aspect = camera->aspect;
     if (!(aspect > 0) && camera->type == EC_CAMERA_ORTHOGRAPHIC && camera->ymag > 0)
         aspect = fabs((double)camera->xmag / camera->ymag);
     if (!(aspect > 0)) aspect = 1;
-    options->height = EC_DEFAULT_HEIGHT;
-    options->width = (uint32_t)fmin(fmax(round(EC_DEFAULT_HEIGHT * aspect), 1), EC_SIZE_MAX_SIDE);
+    options->height = height ? height : EC_DEFAULT_HEIGHT;
+    options->width = (uint32_t)fmin(fmax(round(options->height * aspect), 1), EC_SIZE_MAX_SIDE);
 }
 
 static ec_result prepare_camera(ec_render_job *job, ec_error *err)
@@ -65,7 +65,7 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
     ec_render_options *options = &job->request->options;
     options->camera = job->scene->default_camera;
     if (job->request->camera) EC_TRY(ec_scene_find_camera(job->scene, job->request->camera, &options->camera, err));
-    if (!job->request->has_size) choose_size(options, &job->scene->cameras[options->camera]);
+    if (!job->request->has_size) choose_size(options, job->request->default_height, &job->scene->cameras[options->camera]);
     ec_camera_describe(job->scene, options->camera, job->camera_text, sizeof job->camera_text);
     return EC_OK;
 }
@@ -86,8 +86,13 @@ static ec_result check_memory(const ec_render_options *options, ec_error *err)
 
 ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_error *err)
 {
-    const ec_log log = ec_console_log(console);
     EC_TRY(prepare_outputs(job->request, err));
+    return ec_render_job_load(job, console, err);
+}
+
+ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err)
+{
+    const ec_log log = ec_console_log(console);
     EC_TRY(prepare_device(job, err));
     double start = ec_now();
     EC_TRY(ec_scene_load(job->request->scene, &job->scene, &log, err));

@@ -28,6 +28,9 @@ typedef struct ec_render_job {
 /* All that can fail early does so here: outputs, device, scene, environment, camera. */
 ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_error *err);
 
+/* The same without the outputs: device, scene, environment, camera, size. */
+ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err);
+
 /* Renders into job->film, with progress; Ctrl-C ends it early and well. */
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err);
 

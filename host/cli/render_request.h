@@ -15,6 +15,7 @@ typedef struct ec_render_request {
     bool default_outputs;      /* no -o was given */
     ec_render_options options; /* complete but for the camera and, without --size, the size */
     bool has_size;
+    uint32_t default_height;   /* without --size; 0: that of `eclat render` */
     bool endless;              /* --max-depth inf was given */
     bool capped;               /* neither --spp nor the default: the safety cap applies */
     const char *camera;        /* NULL: the scene's default */

@@ -2,6 +2,7 @@
 #ifndef EC_IMAGE_IMAGE_H
 #define EC_IMAGE_IMAGE_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/error.h"
@@ -47,6 +48,9 @@ typedef enum ec_tonemap { EC_TONEMAP_NEUTRAL, EC_TONEMAP_NONE } ec_tonemap;
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap);
 
 ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, ec_error *err);
+
+/* The same in memory; *bytes is malloc'ed. */
+ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t **bytes, size_t *size, ec_error *err);
 
 /* Before a long render: can this file be written here? Leaves nothing behind. */
 ec_result ec_image_check_writable(const char *path, ec_error *err);

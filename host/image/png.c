@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <png.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -41,4 +42,18 @@ ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const 
     ec_atomic_abort(&file);
     if (reason) return ec_write_failed(err, path, reason);
     return ec_fail(err, "cannot write '%s': %s", path, image.message);
+}
+
+ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t **bytes, size_t *size, ec_error *err)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION, .width = width, .height = height, .format = PNG_FORMAT_RGB};
+    png_alloc_size_t room = PNG_IMAGE_PNG_SIZE_MAX(image);
+    *bytes = malloc(room);
+    int encoded = *bytes && png_image_write_to_memory(&image, *bytes, &room, 0, rgb, 0, NULL);
+    *size = room;
+    png_image_free(&image);
+    if (encoded) return EC_OK;
+    free(*bytes);
+    *bytes = NULL;
+    return ec_fail(err, "cannot make a PNG of %u x %u pixels: %s", width, height, *image.message ? image.message : "out of memory");
 }

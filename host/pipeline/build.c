@@ -49,9 +49,9 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
         names[count++] = traversals[a];
         features |= canonical(&ec_stages[EC_INTERSECT], p->features) | canonical(&ec_stages[EC_CONNECT], p->features);
     }
-    char options[64], label[32], *source;
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%xu", lanes, features);
-    snprintf(label, sizeof label, "lanes%u", lanes);
+    char options[96], label[32], *source;
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%xu%s", lanes, features, p->fast_math ? " " EC_FAST_MATH : "");
+    snprintf(label, sizeof label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     EC_TRY(ec_kernel_sources_join(names, &source, err));
     ec_result result = ec_program_build(p->cl, label, source, options, program, err);
     free(source);

@@ -73,6 +73,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     p->cl = cl;
     p->triangle_count = scene->triangle_count;
     p->integrator = options->integrator;
+    p->fast_math = options->fast_math;
     p->lanes = ec_pipeline_lanes(cl, options->lanes);
     if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
 

@@ -18,6 +18,7 @@ typedef struct ec_pipeline {
     ec_params params;
     ec_counters counters;         /* the host's copy */
     uint32_t features, lanes, wave, triangle_count;
+    bool fast_math;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
     cl_program programs[EC_LANES_MOST + 1]; /* by lane width */

@@ -45,6 +45,7 @@ typedef struct ec_render_options {
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
     float grid_density;         /* cells a reference, where that is a grid; 0 = EC_GRID_DENSITY */
+    bool fast_math;             /* kernels by -cl-fast-relaxed-math: for `eclat cost` alone, to see what exact arithmetic costs */
 } ec_render_options;
 
 /* What the pilot, the first batches, says of the rest. Low and high: 95 % interval. Infinite where no limit would end it. */

@@ -5,7 +5,7 @@ import unittest
 
 from support import Case, eclat
 
-COMMANDS = ["render", "info", "compare", "devices"]
+COMMANDS = ["render", "cost", "info", "compare", "devices"]
 
 
 class Help(Case):

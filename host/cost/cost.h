@@ -1,0 +1,134 @@
+/* What buys accuracy cheapest on a scene: `eclat cost`. Every rung (a way to render the scene) is rendered in independent batches of
+ * 1, 2, 4, … samples a pixel and compared with a reference of the whole scene, within a budget of time.
+ *
+ * Definitions, the same as README.md's. y is luminance, M the reference's mean of it, all errors are relative to M.
+ *   error(n)   root of the mean over pixels of (y - reference)^2 for one picture of n samples a pixel, the reference's own variance
+ *              subtracted; averaged over the independent pictures of that n
+ *   relmse(n)  mean over pixels of (y - reference)^2 / (reference + 0.01)^2, likewise: dark pixels count as much as bright ones
+ *   variance   n times the mean over pixels of the variance between pictures of n samples: one sample's share
+ *   bias^2     mean over pixels of (mean of all pictures - reference)^2, the variance of both subtracted
+ *   efficiency 1 / (error(n)^2 s), s the seconds that one picture of n samples takes
+ * Variance and efficiency hardly depend on n where samples are independent. With stratified ones they do, so n is EC_COST_UNIT for all rungs
+ * (or the largest taken, where that is less): `eclat render` makes 256 samples of 16 such batches. */
+#ifndef EC_COST_COST_H
+#define EC_COST_COST_H
+
+#include "cost/effects.h"
+#include "film/film.h"
+#include "pipeline/render.h"
+
+enum { EC_COST_LEVELS_MOST = 15, EC_COST_TARGETS = 4, EC_COST_UNIT = 16 };
+extern const double ec_cost_targets[EC_COST_TARGETS]; /* 5, 2, 1, 0.5 % */
+
+/* A way to render the scene. */
+typedef struct ec_cost_rung {
+    char id[48];                 /* "sample-light": the same in every study */
+    char name[96];               /* for people, escaped nowhere */
+    const char *group;           /* what it changes: "sampling" */
+    const char *title;           /* of the group: "Sampling, instead of mis" */
+    bool is_base;                /* what `eclat render` does by default */
+    bool speed_only;             /* gives the same bits: only time is measured, and that the bits are the same */
+    bool unbiased;               /* by design */
+    ec_cost_effect effect;       /* of the scene that is left out */
+    ec_render_options options;
+} ec_cost_rung;
+
+typedef enum ec_cost_state {
+    EC_COST_PENDING,   /* not begun: interrupted before, or the budget ended */
+    EC_COST_MEASURED,
+    EC_COST_TOO_SMALL, /* the budget: note says what it takes */
+    EC_COST_REFUSED    /* could not be rendered: note says why */
+} ec_cost_state;
+
+typedef struct ec_cost_point {
+    uint32_t samples, batches;   /* samples a pixel of one picture; independent pictures */
+    double seconds;              /* that one picture takes, without set-up */
+    double mse, mse_se;          /* squared error of one picture, and the standard error of this figure */
+    double relmse, relmse_se;    /* the same with each pixel relative to itself */
+} ec_cost_point;
+
+typedef struct ec_cost_fit {
+    double slope, se;            /* of log error against log samples; NaN where points are too few */
+} ec_cost_fit;
+
+typedef struct ec_cost_row {
+    ec_cost_rung rung;
+    ec_cost_state state;
+    char note[256];
+    double setup_seconds;        /* buffers, acceleration structure, kernels and their first launch; in no other figure */
+    double seconds_per_sample, relative_time, relative_time_se; /* relative to the base, measured in turns with it */
+    uint64_t samples_per_pixel;  /* taken, all pictures together */
+    uint64_t invalid;            /* values that were not finite */
+    uint64_t device_bytes;       /* peak of its buffers */
+    bool same_bits;              /* speed_only: the picture is the base's bit for bit */
+    /* All that follows: not of speed_only rungs. */
+    ec_cost_point points[EC_COST_LEVELS_MOST];
+    uint32_t point_count;
+    uint32_t unit;               /* n of variance and efficiency */
+    double variance, bias2, bias2_se;
+    bool biased;                 /* bias2 > 3 bias2_se, and not unbiased by design */
+    bool unmet;                  /* unbiased by design, yet bias2 > 4 bias2_se: there is light it has not met yet */
+    ec_cost_fit fit;
+    double efficiency, relative_efficiency; /* 1/s: by mse, by relmse */
+    double seconds_to[EC_COST_TARGETS]; /* NaN: unknown; INFINITY: never */
+    bool extrapolated[EC_COST_TARGETS]; /* beyond the largest picture taken */
+    float *picture;              /* thumbnail of the last one of the most samples: 3 a pixel, owned */
+} ec_cost_row;
+
+typedef struct ec_cost_reference {
+    const char *source;          /* a file, or NULL: rendered here */
+    float *rgb;                  /* 3 a pixel, owned */
+    double *luminance, *variance; /* 1 a pixel, owned: of the mean */
+    double mean_luminance, noise; /* mean over pixels of variance, relative to mean_luminance^2 */
+    bool has_variance;           /* false: a file that states none; it is taken as exact */
+    uint64_t samples_per_pixel;  /* 0: not known */
+    double seconds, setup_seconds;
+} ec_cost_reference;
+
+typedef struct ec_cost_progress {
+    const char *doing;
+    uint32_t done, count;        /* rungs */
+    double seconds, budget;
+} ec_cost_progress;
+
+typedef struct ec_cost_study {
+    /* Given. */
+    ec_cl *cl;
+    ec_scene *scene;
+    ec_render_options options;   /* of the base: size, camera, seed */
+    double start, budget;        /* ec_now() when the command began; seconds in all, from then on */
+    const char *reference_file;  /* or NULL */
+    bool (*go_on)(void *user, const ec_cost_progress *progress); /* asked often; false ends the study well */
+    void *user;
+    const ec_log *log;
+    /* Found. */
+    ec_cost_reference reference;
+    ec_cost_row *rows;
+    uint32_t row_count;
+    bool interrupted;
+    const char *doing;           /* for the progress line */
+    double seconds;              /* from start */
+} ec_cost_study;
+
+/* Fills the lower half; on failure too there may be rows. */
+ec_result ec_cost_run(ec_cost_study *study, ec_error *err);
+void ec_cost_free(ec_cost_study *study);
+
+/* thumbnail.c: every step-th pixel as it is: means of several would hide the noise that is to be seen. */
+typedef struct ec_cost_thumbnail {
+    uint32_t width, height, step;
+} ec_cost_thumbnail;
+ec_cost_thumbnail ec_cost_thumbnail_of(const ec_render_options *options);
+/* 3 a pixel, malloc'ed; NULL when out of memory */
+float *ec_cost_shrink(const ec_render_options *options, const float *rgb);
+
+/* rungs.c: the rungs that this scene has, most telling first; malloc'ed. */
+ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_cost_row **rows, uint32_t *count, ec_error *err);
+
+/* Indices of (row, point) pairs that no other beats in both time and error, from fast to exact; returns how many. */
+typedef struct ec_cost_place {
+    uint32_t row, point;
+} ec_cost_place;
+uint32_t ec_cost_pareto(const ec_cost_study *study, ec_cost_place *places, uint32_t most);
+
+#endif

@@ -1,0 +1,86 @@
+/* From points to conclusions: the slope, the efficiency, the time to an accuracy. */
+#include <math.h>
+
+#include "cost/cost_internal.h"
+
+/* Is the figure more than its own noise? */
+static bool is_known(const ec_cost_point *p) { return p->mse > 0 && p->mse > 2 * p->mse_se; }
+
+/* Weighted least squares of log error over log samples; points are of different pictures, so independent but for the reference. No
+ * point counts as known to better than 1 %: the reference's error is common to all. */
+ec_cost_fit ec_cost_fit_slope(const ec_cost_point *points, uint32_t count)
+{
+    double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0;
+    uint32_t used = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const ec_cost_point *p = &points[i];
+        if (!is_known(p)) continue;
+        double x = log(p->samples), y = 0.5 * log(p->mse), se = 0.5 * p->mse_se / p->mse;
+        double weight = 1 / (se * se + 1e-4);
+        w += weight, wx += weight * x, wy += weight * y, wxx += weight * x * x, wxy += weight * x * y;
+        used++;
+    }
+    double determinant = w * wxx - wx * wx;
+    if (used < 3 || !(determinant > 0)) return (ec_cost_fit){NAN, NAN};
+    return (ec_cost_fit){(w * wxy - wx * wy) / determinant, sqrt(w / determinant)};
+}
+
+/* Samples a pixel until the error is under `target`; INFINITY: never. Where pictures as large were taken, along the line between two
+ * points in the log-log chart. Beyond them the noise falls with the square root of the work, as independent pictures added up do. */
+static double samples_to(const ec_cost_row *row, double target, bool *extrapolated)
+{
+    const ec_cost_point *p = row->points, *last = &p[row->point_count - 1];
+    double wanted = target * target, floor = row->biased ? row->bias2 : 0;
+    *extrapolated = false;
+    bool may_be_lower = row->rung.unbiased || wanted > row->bias2 + 2 * row->bias2_se;
+    if (!may_be_lower) return row->biased ? INFINITY : NAN;
+    if (is_known(&p[0]) && p[0].mse <= wanted) return p[0].samples;
+    for (uint32_t i = 1; i < row->point_count; i++) {
+        if (!is_known(&p[i]) || !is_known(&p[i - 1])) return NAN;
+        if (p[i].mse > wanted) continue;
+        double part = log(p[i - 1].mse / wanted) / log(p[i - 1].mse / p[i].mse);
+        return p[i - 1].samples * pow((double)p[i].samples / p[i - 1].samples, part);
+    }
+    *extrapolated = true;
+    if (row->biased) return row->variance / (wanted - floor);
+    return is_known(last) ? last->samples * last->mse / wanted : NAN;
+}
+
+void ec_cost_conclude(ec_cost_row *row)
+{
+    const ec_cost_point *last = row->point_count ? &row->points[row->point_count - 1] : NULL;
+    row->fit = ec_cost_fit_slope(row->points, row->point_count);
+    row->efficiency = row->relative_efficiency = NAN;
+    for (uint32_t i = 0; i < row->point_count; i++) {
+        const ec_cost_point *p = &row->points[i];
+        if (p->samples != row->unit) continue;
+        if (is_known(p)) row->efficiency = 1 / (p->mse * p->seconds);
+        if (p->relmse > 2 * p->relmse_se) row->relative_efficiency = 1 / (p->relmse * p->seconds);
+    }
+    for (int i = 0; i < EC_COST_TARGETS; i++) {
+        row->seconds_to[i] = NAN;
+        if (last) row->seconds_to[i] = samples_to(row, ec_cost_targets[i], &row->extrapolated[i]) * last->seconds / last->samples;
+    }
+}
+
+uint32_t ec_cost_pareto(const ec_cost_study *study, ec_cost_place *places, uint32_t most)
+{
+    uint32_t count = 0;
+    double fastest = 0, best = INFINITY;
+    while (count < most) { /* the next in time that beats all before it */
+        const ec_cost_point *next = NULL;
+        for (uint32_t r = 0; r < study->row_count; r++)
+            for (uint32_t i = 0; study->rows[r].state == EC_COST_MEASURED && i < study->rows[r].point_count; i++) {
+                const ec_cost_point *p = &study->rows[r].points[i];
+                if (study->rows[r].rung.effect.kind != EC_EFFECT_NONE || !is_known(p) || p->mse >= best || p->seconds < fastest) continue;
+                if (next && (p->seconds > next->seconds || (p->seconds == next->seconds && p->mse >= next->mse))) continue;
+                next = p;
+                places[count] = (ec_cost_place){r, i};
+            }
+        if (!next) break;
+        count++;
+        fastest = next->seconds;
+        best = next->mse;
+    }
+    return count;
+}

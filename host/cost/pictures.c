@@ -1,0 +1,76 @@
+/* Thumbnails as data URIs. */
+#include "cost/pictures.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "image/error_map.h"
+#include "image/image.h"
+
+static char *data_uri(const uint8_t *bytes, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/", head[] = "data:image/png;base64,";
+    char *text = malloc(sizeof head + (size + 2) / 3 * 4), *to = text;
+    if (!text) return NULL;
+    to += sprintf(to, "%s", head);
+    for (size_t i = 0; i < size; i += 3) {
+        uint32_t word = (uint32_t)bytes[i] << 16 | (i + 1 < size ? (uint32_t)bytes[i + 1] << 8 : 0) | (i + 2 < size ? bytes[i + 2] : 0);
+        for (size_t k = 0; k < 4; k++) *to++ = i + k <= size ? digits[word >> (18 - 6 * k) & 63] : '=';
+    }
+    *to = 0;
+    return text;
+}
+
+static ec_result encode(const ec_cost_thumbnail *t, const uint8_t *rgb, cJSON **text, ec_error *err)
+{
+    uint8_t *png = NULL;
+    size_t size = 0;
+    EC_TRY(ec_png_encode(t->width, t->height, rgb, &png, &size, err));
+    char *uri = data_uri(png, size);
+    *text = uri ? cJSON_CreateString(uri) : NULL;
+    free(png);
+    free(uri);
+    return *text ? EC_OK : ec_fail(err, "out of memory for the pictures of a report");
+}
+
+/* to: an object or an array; key: NULL for an array */
+static ec_result add(cJSON *to, const char *key, const ec_cost_thumbnail *t, const uint8_t *rgb, ec_error *err)
+{
+    cJSON *text = NULL;
+    EC_TRY(encode(t, rgb, &text, err));
+    if (key)
+        cJSON_AddItemToObject(to, key, text);
+    else
+        cJSON_AddItemToArray(to, text);
+    return EC_OK;
+}
+
+static ec_result add_all(const ec_cost_study *study, const ec_cost_thumbnail *t, const float *reference, uint8_t *bytes, cJSON *to, ec_error *err)
+{
+    uint64_t pixels = (uint64_t)t->width * t->height;
+    ec_tonemap_rgb(reference, bytes, pixels, 0, EC_TONEMAP_NEUTRAL);
+    EC_TRY(add(to, "reference", t, bytes, err));
+    for (uint32_t i = 0; i < study->row_count; i++) {
+        const ec_cost_row *row = &study->rows[i];
+        if (!row->picture) continue;
+        cJSON *pair = cJSON_AddArrayToObject(to, row->rung.id);
+        ec_tonemap_rgb(row->picture, bytes, pixels, 0, EC_TONEMAP_NEUTRAL);
+        EC_TRY(add(pair, NULL, t, bytes, err));
+        ec_error_map(row->picture, reference, pixels, bytes);
+        EC_TRY(add(pair, NULL, t, bytes, err));
+    }
+    return EC_OK;
+}
+
+ec_result ec_cost_pictures(const ec_cost_study *study, cJSON **images, ec_error *err)
+{
+    *images = cJSON_CreateObject();
+    if (!study->reference.rgb) return EC_OK;
+    ec_cost_thumbnail t = ec_cost_thumbnail_of(&study->options);
+    float *reference = ec_cost_shrink(&study->options, study->reference.rgb);
+    uint8_t *bytes = malloc(3 * (size_t)t.width * t.height);
+    ec_result result = reference && bytes ? add_all(study, &t, reference, bytes, *images, err) : ec_fail(err, "out of memory for the pictures of a report");
+    free(reference);
+    free(bytes);
+    return result;
+}

@@ -1,0 +1,131 @@
+/* What every rung is compared with: the whole scene, by the best that eclat has, or a file. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "cost/cost_internal.h"
+#include "image/image.h"
+
+static ec_result allocate(ec_cost_reference *r, uint64_t pixels, ec_error *err)
+{
+    r->rgb = malloc(pixels * 3 * sizeof *r->rgb);
+    r->luminance = malloc(pixels * sizeof *r->luminance);
+    r->variance = calloc(pixels, sizeof *r->variance);
+    return r->rgb && r->luminance && r->variance ? EC_OK : ec_fail(err, "out of memory for a reference of %llu pixels; ask for a smaller --size", (unsigned long long)pixels);
+}
+
+static ec_result finish(ec_cost_reference *r, uint64_t pixels, ec_error *err)
+{
+    double sum = 0, noise = 0;
+    for (uint64_t p = 0; p < pixels; p++) {
+        r->luminance[p] = ec_luminance((double[3]){r->rgb[3 * p], r->rgb[3 * p + 1], r->rgb[3 * p + 2]});
+        sum += r->luminance[p] / (double)pixels;
+        noise += r->variance[p] / (double)pixels;
+    }
+    r->mean_luminance = sum;
+    r->noise = noise / (sum * sum);
+    if (!(sum > 0)) return ec_fail(err, "the reference is black: errors relative to it mean nothing; check --camera and --env");
+    return EC_OK;
+}
+
+/* Batches as large as leaves 16 of them: more would say more of the noise, fewer leave less of it. */
+static uint32_t choose_batch(double seconds, double seconds_per_sample, uint32_t largest)
+{
+    uint32_t batch = 1;
+    while (batch < 64 && 2 * batch <= largest && 32 * batch * seconds_per_sample <= seconds) batch *= 2;
+    return batch;
+}
+
+static ec_result take_batches(ec_cost_runner *runner, ec_film *film, double deadline, ec_error *err)
+{
+    double seconds;
+    uint32_t batch = film->samples_per_batch;
+    for (uint32_t i = 0; ec_cost_go_on(runner->study); i++) {
+        EC_TRY(ec_cost_runner_take(runner, ec_session_seed(runner->study->options.seed, EC_COST_STREAM_REFERENCE, i), batch, &seconds, err));
+        if (runner->stopped) break;
+        ec_film_add_batch(film, runner->mean);
+        if (film->batch_count >= 4 && ec_now() + 0.5 * seconds > deadline) break;
+    }
+    return EC_OK;
+}
+
+ec_result ec_cost_reference_of(const ec_film *film, ec_cost_reference *r, ec_error *err)
+{
+    uint64_t pixels = (uint64_t)film->width * film->height;
+    double n = film->batch_count;
+    EC_TRY(allocate(r, pixels, err));
+    ec_film_resolve(film, r->rgb, NULL);
+    for (uint64_t p = 0; p < pixels; p++) r->variance[p] = film->m2[4 * p + 3] / (n * (n - 1));
+    r->has_variance = true;
+    r->samples_per_pixel = (uint64_t)film->batch_count * film->samples_per_batch;
+    return finish(r, pixels, err);
+}
+
+ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_error *err)
+{
+    const ec_render_options *o = &study->options;
+    ec_cost_reference *r = &study->reference;
+    ec_cost_rung rung = {.options = *o};
+    ec_cost_runner runner = {0};
+    ec_render_stats stats;
+    ec_film film = {0};
+    ec_result result = ec_cost_runner_open(study, &rung, &runner, &stats, &r->setup_seconds, err);
+    double start = ec_now();
+    if (result == EC_OK && !runner.stopped) {
+        uint32_t batch = choose_batch(deadline - start, runner.seconds_per_sample * (double)runner.pixels, ec_session_largest(runner.session));
+        result = ec_film_create(&film, o->width, o->height, batch, err);
+    }
+    if (result == EC_OK && film.mean) result = take_batches(&runner, &film, deadline, err);
+    if (result == EC_OK && film.batch_count < 2) study->interrupted = true; /* nothing can be said of anything */
+    if (result == EC_OK && film.batch_count >= 2) result = ec_cost_reference_of(&film, r, err);
+    r->seconds = ec_now() - start;
+    ec_film_destroy(&film);
+    ec_cost_runner_close(&runner);
+    return result;
+}
+
+/* Where no standard error of luminance is kept, the channels' noise is taken to be of one mind, which makes it rather large. */
+static ec_result take_exr(const ec_exr *exr, ec_cost_study *study, ec_error *err)
+{
+    static const char *const color[] = {"R", "G", "B"}, *const error[] = {"stderr.R", "stderr.G", "stderr.B"};
+    ec_cost_reference *r = &study->reference;
+    uint64_t pixels = (uint64_t)exr->width * exr->height;
+    if (exr->width != study->options.width || exr->height != study->options.height)
+        return ec_fail(err, "--reference '%s' is %ux%u pixels and the study %ux%u; leave out --size or give the reference's", r->source, exr->width, exr->height, study->options.width, study->options.height);
+    const float *rgb[3], *se[3], *se_y = ec_exr_plane(exr, "stderr.Y"), *samples = ec_exr_plane(exr, "samples");
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = ec_exr_plane(exr, color[c]);
+        se[c] = ec_exr_plane(exr, error[c]);
+        if (!rgb[c]) return ec_fail(err, "--reference '%s' has no channel %s", r->source, color[c]);
+    }
+    EC_TRY(allocate(r, pixels, err));
+    r->has_variance = se_y || (se[0] && se[1] && se[2]);
+    r->samples_per_pixel = samples ? (uint64_t)samples[0] : 0;
+    for (uint64_t p = 0; p < pixels; p++) {
+        for (int c = 0; c < 3; c++) r->rgb[3 * p + c] = isfinite(rgb[c][p]) ? rgb[c][p] : 0.0f;
+        double s = se_y ? se_y[p] : r->has_variance ? ec_luminance((double[3]){se[0][p], se[1][p], se[2][p]}) : 0;
+        r->variance[p] = isfinite(s) ? s * s : 0;
+    }
+    return finish(r, pixels, err);
+}
+
+ec_result ec_cost_reference_read(ec_cost_study *study, ec_error *err)
+{
+    ec_exr exr = {0};
+    double start = ec_now();
+    study->reference.source = study->reference_file;
+    EC_TRY(ec_exr_read(study->reference_file, &exr, err));
+    ec_result result = take_exr(&exr, study, err);
+    ec_exr_free(&exr);
+    study->reference.seconds = ec_now() - start;
+    return result;
+}
+
+void ec_cost_reference_free(ec_cost_reference *r)
+{
+    free(r->rgb);
+    free(r->luminance);
+    free(r->variance);
+    *r = (ec_cost_reference){0};
+}

@@ -1,0 +1,123 @@
+/* The budget: what is done when, and for how long. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "cost/cost_internal.h"
+
+/* The reference's share. Its noise is taken out of every figure, but not the uncertainty that it brings; with a third of the time it
+ * has some ten times the samples of a rung, and what it adds is small. */
+static const double reference_share = 0.3;
+
+typedef struct study_state {
+    ec_cost_study *study;
+    ec_cost_base base;
+    double deadline;      /* of all rungs */
+    uint32_t planned;     /* rows from here on are given up */
+    double setup;         /* of the last rungs, smoothed */
+} study_state;
+
+/* All comparisons stand on the base; times need fewer samples than errors. */
+static double weight(const ec_cost_rung *rung)
+{
+    return rung->is_base ? 1.5 : rung->speed_only ? 0.35 : rung->effect.kind ? 0.7 : 1;
+}
+
+bool ec_cost_go_on(void *user)
+{
+    ec_cost_study *study = user;
+    ec_cost_progress progress = {.doing = study->doing, .count = study->row_count, .seconds = ec_now() - study->start, .budget = study->budget};
+    while (progress.done < study->row_count && study->rows[progress.done].state != EC_COST_PENDING) progress.done++;
+    if (study->go_on && !study->go_on(study->user, &progress)) study->interrupted = true;
+    return !study->interrupted;
+}
+
+static double share_of(const study_state *s, uint32_t row)
+{
+    double all = 0;
+    for (uint32_t i = row; i < s->planned; i++) all += weight(&s->study->rows[i].rung);
+    return (s->deadline - ec_now()) * weight(&s->study->rows[row].rung) / all;
+}
+
+/* Set-up and a few samples; rungs give way from the end of the list until those before them get that much. */
+static void give_up_some(study_state *s, uint32_t row)
+{
+    double picture = s->base.seconds_per_sample * (double)s->study->options.width * s->study->options.height;
+    double needed = 1.2 * s->setup + 16 * picture;
+    while (s->planned > row && share_of(s, row) < needed * weight(&s->study->rows[row].rung)) s->planned--;
+}
+
+static void explain_the_rest(study_state *s)
+{
+    double done = 0, all = 0;
+    ec_cost_study *study = s->study;
+    for (uint32_t i = 0; i < study->row_count; i++) {
+        all += weight(&study->rows[i].rung);
+        if (study->rows[i].state == EC_COST_MEASURED) done += weight(&study->rows[i].rung);
+    }
+    double enough = study->budget * all / fmax(done, 0.5); /* shares as long as those were */
+    for (uint32_t i = 0; i < study->row_count; i++) {
+        ec_cost_row *row = &study->rows[i];
+        if (row->state != EC_COST_PENDING) continue;
+        if (study->interrupted) {
+            snprintf(row->note, sizeof row->note, "interrupted before");
+        } else {
+            row->state = EC_COST_TOO_SMALL;
+            snprintf(row->note, sizeof row->note, "budget too small; --budget %dm would do", (int)ceil(enough / 60));
+        }
+    }
+}
+
+/* A picture for timing: a few per cent of a rung's share. */
+static void settle_base(study_state *s)
+{
+    double picture = s->study->rows[0].seconds_per_sample * (double)s->study->options.width * s->study->options.height;
+    double share = share_of(s, 1) / weight(&s->study->rows[1].rung);
+    s->base.seconds_per_sample = s->study->rows[0].seconds_per_sample;
+    s->base.pair_samples = 1;
+    while (s->base.pair_samples < 16 && 4 * s->base.pair_samples * picture < 0.04 * share) s->base.pair_samples *= 2;
+}
+
+static ec_result measure_rows(study_state *s, ec_error *err)
+{
+    ec_cost_study *study = s->study;
+    for (uint32_t i = 0; i < study->row_count && ec_cost_go_on(study); i++) {
+        ec_cost_row *row = &study->rows[i];
+        if (i > 0) give_up_some(s, i);
+        if (i >= s->planned) break;
+        study->doing = row->rung.name;
+        EC_TRY(ec_cost_measure(study, &s->base, row, share_of(s, i), s->deadline, err));
+        s->setup = i ? 0.5 * (s->setup + row->setup_seconds) : row->setup_seconds;
+        if (i == 0 && row->state != EC_COST_MEASURED) break; /* nothing to compare with */
+        if (i == 0) settle_base(s);
+    }
+    return EC_OK;
+}
+
+ec_result ec_cost_run(ec_cost_study *study, ec_error *err)
+{
+    study_state s = {.study = study};
+    EC_TRY(ec_cost_list(study->scene, &study->options, &study->rows, &study->row_count, err));
+    s.planned = study->row_count;
+    s.deadline = study->start + study->budget - (0.2 + 0.01 * study->budget); /* writing takes its time too */
+    study->doing = "reference";
+    if (study->reference_file)
+        EC_TRY(ec_cost_reference_read(study, err));
+    else
+        EC_TRY(ec_cost_reference_render(study, ec_now() + reference_share * (s.deadline - ec_now()), err));
+    ec_result result = study->interrupted ? EC_OK : measure_rows(&s, err);
+    explain_the_rest(&s);
+    ec_cost_runner_close(&s.base.runner);
+    study->seconds = ec_now() - study->start;
+    return result;
+}
+
+void ec_cost_free(ec_cost_study *study)
+{
+    for (uint32_t i = 0; i < study->row_count; i++) free(study->rows[i].picture);
+    free(study->rows);
+    ec_cost_reference_free(&study->reference);
+    study->rows = NULL;
+    study->row_count = 0;
+}

@@ -1,0 +1,159 @@
+"""eclat cost: the budget, the table, the JSON, what Ctrl-C leaves.
+
+ctest label: slow"""
+import json
+import math
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat
+
+SMALL = ("--size", "32x32")
+PATH = "path"
+
+
+def rung_of(report, name):
+    return next(r for r in report["rungs"] if r["id"] == name)
+
+
+class WholeStudy(Case):
+    """One study, long enough to reach the end of the list."""
+
+    @classmethod
+    def setUpClass(cls):
+        started = time.monotonic()
+        run = eclat("cost", CORNELL, *SMALL, "--budget", "45s", "--json", "-")
+        cls.seconds = time.monotonic() - started
+        if run.returncode:
+            raise AssertionError(run.stderr)
+        cls.report = json.loads(run.stdout)
+
+    def test_every_rung_is_measured_or_says_why_not(self):
+        expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "rr-0.8",
+                    "rr-0.5", "rr-off", "fast-math", "no-indirect", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
+                    "lanes-1", "lanes-4", "lanes-8", "lanes-16"]
+        for name in expected:
+            self.assertTrue(rung_of(self.report, name))
+        for rung in self.report["rungs"]:
+            with self.subTest(rung=rung["id"]):
+                if rung["state"] != "measured":
+                    self.assertEqual(rung["state"], "budget too small")
+                    self.assertIn("budget too small", rung["note"])
+                    self.assertNotIn("efficiency", rung)
+                elif rung["group"] in ("accelerator", "lanes"):
+                    self.assertTrue(rung["same_bits"])
+                else:
+                    self.check_curve(rung)
+        base = rung_of(self.report, PATH)
+        self.assertEqual((base["state"], base["relative_time"]), ("measured", 1))
+        self.assertEqual(sum(r["invalid_values"] for r in self.report["rungs"] if r["state"] == "measured" and r["id"] != "fast-math"), 0)
+
+    def test_biased_by_design(self):
+        """Direct light from a point, without shadows, is another picture; and no time helps."""
+        raster = rung_of(self.report, "raster")
+        self.assertEqual(raster["state"], "measured")
+        self.assertTrue(raster["biased"])
+        self.assertGreater(raster["error_floor"], 0.1)
+        self.assertTrue(all(t["never"] and t["seconds"] is None for t in raster["time_to"]))
+
+    def test_unbiased_by_design(self):
+        """Each by chance once in 30 000."""
+        for rung in self.report["rungs"]:
+            if rung.get("unbiased_by_design") and rung["id"] in ("path", "sample-light", "rr-0.8", "sampler-independent"):
+                self.assertLess(abs(rung["bias_squared"]), 4 * rung["bias_squared_se"], rung["id"])
+
+    def test_budget_is_kept(self):
+        """Within 10 %, and what is under way: on a busy machine a kernel may take seconds to compile."""
+        self.assertGreater(self.report["total_seconds"], 0.9 * 45)
+        self.assertLess(self.report["total_seconds"], 1.1 * 45 + 4)
+        self.assertLess(self.report["total_seconds"], self.seconds + 0.1)
+
+    def check_curve(self, rung):
+        self.assertGreaterEqual(len(rung["curve"]), 1)
+        for index, point in enumerate(rung["curve"]):
+            self.assertEqual(point["samples_per_pixel"], 1 << index)
+            self.assertGreaterEqual(point["pictures"], 2)
+            self.assertAlmostEqual(point["seconds"], rung["seconds_per_sample"] * 32 * 32 * (1 << index), delta=1e-6 * point["seconds"])
+            if point["error"] is not None:
+                self.assertAlmostEqual(point["error"], math.sqrt(point["mse"]), delta=1e-9)
+        if rung["biased"]:
+            self.assertAlmostEqual(rung["error_floor"], math.sqrt(rung["bias_squared"]), delta=1e-9)
+            self.assertGreater(rung["bias_squared"], 3 * rung["bias_squared_se"])
+        else:
+            self.assertIsNone(rung["error_floor"])
+
+
+class Study(Case):
+    def study(self, *options):
+        run = self.assert_ok(eclat("cost", CORNELL, *SMALL, "--json", self.path("out.json"), *options, cwd=self.folder))
+        with open(self.path("out.json"), encoding="utf-8") as file:
+            return run, json.load(file)
+
+    def test_table(self):
+        run, report = self.study("--budget", "6s")
+        self.assertIn("best: *", run.stdout)
+        self.assertNotIn("\033", run.stdout)
+        for rung in report["rungs"]:
+            self.assertIn(rung["name"][:32], run.stdout)
+            self.assertIn(rung["group_title"], run.stdout)
+
+    def test_budget_far_too_small(self):
+        run, report = self.study("--budget", "0.5s")
+        late = [r for r in report["rungs"] if r["state"] != "measured"]
+        self.assertTrue(late)
+        for rung in late:
+            self.assertRegex(rung["note"], r"budget too small.*(--budget \d+m|about)")
+        self.assertIn("budget too small", run.stdout)
+
+    def test_reference_from_a_file(self):
+        self.assert_ok(eclat("render", CORNELL, *SMALL, "--spp", "256", "-o", self.path("ref.exr"), cwd=self.folder))
+        run = self.assert_ok(eclat("cost", CORNELL, "--reference", self.path("ref.exr"), "--budget", "6s", "--json", "-", cwd=self.folder))
+        report = json.loads(run.stdout)
+        self.assertEqual((report["width"], report["height"]), (32, 32))
+        self.assertEqual(report["reference"]["samples_per_pixel"], 256)
+        self.assertGreater(report["reference"]["error"], 0)
+        base = rung_of(report, PATH)
+        self.assertFalse(base["light_not_met"])
+
+    def test_reference_of_another_size(self):
+        self.assert_ok(eclat("render", CORNELL, "--size", "16x16", "--spp", "4", "-o", self.path("ref.exr"), cwd=self.folder))
+        run = eclat("cost", CORNELL, *SMALL, "--reference", self.path("ref.exr"), "--budget", "2s", cwd=self.folder)
+        self.assertIn("is 16x16 pixels and the study 32x32", run.stderr)
+        self.assertEqual(run.returncode, 1)
+
+    def test_seed_changes_the_figures(self):
+        first, second = (rung_of(self.study("--budget", "6s", "--seed", seed)[1], PATH) for seed in ("1", "2"))
+        self.assertEqual({first["state"], second["state"]}, {"measured"})
+        self.assertNotEqual(first["curve"][0]["mse"], second["curve"][0]["mse"])
+
+    def test_interrupt_writes_what_is_known(self):
+        process = subprocess.Popen([ECLAT, "cost", CORNELL, *SMALL, "--budget", "1m", "--json", "cut.json", "-o", "cut.html"],
+                                   cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+        self.addCleanup(process.kill)
+        process.stderr.readline()
+        time.sleep(20)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0)
+        with open(self.path("cut.json"), encoding="utf-8") as file:
+            report = json.load(file)
+        self.assertTrue(report["interrupted"])
+        self.assertIn("interrupted after", out)
+        states = {r["state"] for r in report["rungs"]}
+        self.assertIn("interrupted", states)
+        self.assertLess(states, {"interrupted", "measured", "budget too small"})
+        self.assertTrue(os.path.exists(self.path("cut.html")))
+
+    def test_usage(self):
+        for arguments, message in [(["-o", "a.png"], "NAME.html"), (["--budget", "0"], "more than 0"), ([], "needs a SCENE"),
+                                   (["--bugdet", "3"], "did you mean '--budget'")]:
+            with self.subTest(arguments=arguments):
+                scene = [CORNELL] if arguments else []
+                self.assertIn(message, self.assert_one_error(eclat("cost", *scene, *arguments, cwd=self.folder), 2))
+
+
+if __name__ == "__main__":
+    unittest.main()
