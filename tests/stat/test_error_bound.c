@@ -1,5 +1,5 @@
 /* The stated error against the real one: of 200 renders with different seeds the real relative RMS error, against a converged
- * picture, must lie under error_bound in at least 95 % (190; it aims at 196 +- 2), and `error` must equal it on average. So must relMSE of the noise equal
+ * picture, must lie under error_bound in at least 95 % (190; it aims at 198), and `error` must equal it on average. So must relMSE of the noise equal
  * relMSE as measured where tails are not heavy (see film.h); the other ratios are printed.
  *
  * Real error: sqrt(mean_p (Y_p - R_p)^2) / mean R in luminance, by ec_measure_difference, as `eclat compare` does. R has an error of
