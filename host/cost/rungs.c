@@ -111,16 +111,19 @@ static void add_effect(rung_list *list, ec_cost_effect effect, const char *id, c
     if (effect.kind == EC_EFFECT_INDIRECT) rung->options.max_depth = 2;
 }
 
-/* A light group is what shines with one material. */
-static void add_lamps(rung_list *list)
+/* A light group is the environment, all lights without extent, or what shines with one material. */
+static void add_lights(rung_list *list)
 {
     uint32_t lamps = 0;
+    begin(list, "lights", "The scene without the light of");
+    add_effect(list, (ec_cost_effect){EC_EFFECT_ENVIRONMENT, 0}, "no-environment", "environment");
+    add_effect(list, (ec_cost_effect){EC_EFFECT_PUNCTUAL, 0}, "no-punctual", "points, spots and suns");
     for (uint32_t m = 0; m < list->scene->material_count && lamps < LAMPS_MOST; m++) {
         char id[48], name[96];
         const char *called = list->scene->materials[m].name;
         snprintf(id, sizeof id, "no-lamps-%u", m);
         if (called && *called)
-            snprintf(name, sizeof name, "lamps of \"%.60s\"", called);
+            snprintf(name, sizeof name, "lamps \"%.60s\"", called);
         else
             snprintf(name, sizeof name, "lamps of material %u", m);
         uint32_t before = list->count;
@@ -138,18 +141,15 @@ static void add_effects(rung_list *list)
         {EC_EFFECT_INDIRECT, "no-indirect", "indirect light"},
         {EC_EFFECT_GLOSS, "no-gloss", "gloss and metal"},
         {EC_EFFECT_TRANSMISSION, "no-transmission", "glass"},
-        {EC_EFFECT_ENVIRONMENT, "no-environment", "environment"},
         {EC_EFFECT_BASE_TEXTURES, "no-base-textures", "colour textures"},
         {EC_EFFECT_NORMAL_MAPS, "no-normal-maps", "normal maps"},
         {EC_EFFECT_OTHER_TEXTURES, "no-other-textures", "other textures"},
         {EC_EFFECT_ALPHA, "no-alpha", "alpha"},
         {EC_EFFECT_SMOOTH_NORMALS, "no-smooth-normals", "smooth normals"},
-        {EC_EFFECT_PUNCTUAL, "no-punctual", "point, spot and directional lights"},
     };
     begin(list, "effect", "The scene without");
     for (size_t i = 0; i < sizeof effects / sizeof *effects; i++)
         add_effect(list, (ec_cost_effect){effects[i].kind, 0}, effects[i].id, effects[i].name);
-    add_lamps(list);
 }
 
 ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_cost_row **rows, uint32_t *count, ec_error *err)
@@ -166,6 +166,7 @@ ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_
     add_arithmetic(&list);
     add_effects(&list);
     add_speeds(&list);
+    add_lights(&list);
     *count = list.count;
     return EC_OK;
 }

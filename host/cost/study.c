@@ -15,7 +15,7 @@ typedef struct study_state {
     ec_cost_base base;
     double deadline;      /* of all rungs */
     uint32_t planned;     /* rows from here on are given up */
-    double setup;         /* of the last rungs, smoothed */
+    double setup, slowest; /* of the last rungs, smoothed; and the longest */
 } study_state;
 
 /* All comparisons stand on the base; times need fewer samples than errors. */
@@ -46,6 +46,8 @@ static void give_up_some(study_state *s, uint32_t row)
     double picture = s->base.seconds_per_sample * (double)s->study->options.width * s->study->options.height;
     double needed = 1.2 * s->setup + 16 * picture;
     while (s->planned > row && share_of(s, row) < needed * weight(&s->study->rows[row].rung)) s->planned--;
+    /* Kernels may have to be compiled, and that cannot be broken off. */
+    if (ec_now() + s->slowest + 0.05 * s->study->budget > s->deadline) s->planned = row;
 }
 
 static void explain_the_rest(study_state *s)
@@ -89,6 +91,7 @@ static ec_result measure_rows(study_state *s, ec_error *err)
         study->doing = row->rung.name;
         EC_TRY(ec_cost_measure(study, &s->base, row, share_of(s, i), s->deadline, err));
         s->setup = i ? 0.5 * (s->setup + row->setup_seconds) : row->setup_seconds;
+        s->slowest = fmax(s->slowest, row->setup_seconds);
         if (i == 0 && row->state != EC_COST_MEASURED) break; /* nothing to compare with */
         if (i == 0) settle_base(s);
     }

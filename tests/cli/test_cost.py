@@ -33,7 +33,7 @@ class WholeStudy(Case):
 
     def test_every_rung_is_measured_or_says_why_not(self):
         expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "rr-0.8",
-                    "rr-0.5", "rr-off", "fast-math", "no-indirect", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
+                    "rr-0.5", "rr-off", "fast-math", "no-indirect", "no-smooth-normals", "no-lamps-0", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
                     "lanes-1", "lanes-4", "lanes-8", "lanes-16"]
         for name in expected:
             self.assertTrue(rung_of(self.report, name))

@@ -29,7 +29,7 @@ class Page(unittest.TestCase):
             raise AssertionError(run.stderr)
         with open(figures, encoding="utf-8") as file:
             cls.report = json.load(file)
-        cls.curves = [r for r in cls.report["rungs"] if r.get("curve") and r["group"] != "effect" and any(p["error"] for p in r["curve"])]
+        cls.curves = [r for r in cls.report["rungs"] if r.get("curve") and r["group"] not in ("effect", "lights") and any(p["error"] for p in r["curve"])]
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.close)
 

@@ -5,8 +5,9 @@ const images = JSON.parse(document.getElementById("images").textContent);
 const $ = id => document.getElementById(id);
 const measured = data.rungs.filter(r => r.state === "measured");
 const base = measured.find(r => r.id === "path");
-const curves = measured.filter(r => r.curve && r.group !== "effect" && r.curve.some(p => p.error !== null));
-const effects = measured.filter(r => r.group === "effect");
+const leavesOut = r => r.group === "effect" || r.group === "lights";
+const curves = measured.filter(r => r.curve && !leavesOut(r) && r.curve.some(p => p.error !== null));
+const effects = measured.filter(leavesOut);
 
 /* Words and figures */
 const percent = (x, digits = 3) => x === null || !isFinite(x) ? "?" : `${Number((100 * x).toPrecision(digits))} %`;
@@ -29,7 +30,7 @@ function element(tag, content, attributes = {}) {
     return e;
 }
 /* A rung's name as it stands alone: in the table its group's heading says the rest. */
-const labels = {sampling: "sample ", sampler: "", roulette: "rr ", effect: "without ", accelerator: "", lanes: "lanes "};
+const labels = {sampling: "sample ", sampler: "", roulette: "rr ", effect: "without ", lights: "without ", accelerator: "", lanes: "lanes "};
 const label = r => (labels[r.group] ?? "") + (r.group === "base" ? "path (default)" : r.name);
 
 /* Colours that differ in hue and lightness, on both grounds. */
@@ -204,7 +205,7 @@ function tableEffects() {
 }
 
 /* The table */
-const ranked = r => r.group !== "effect" && r.unbiased_by_design !== false && !r.light_not_met;
+const ranked = r => !leavesOut(r) && r.unbiased_by_design !== false && !r.light_not_met;
 function timeTo(r, i) {
     const t = r.time_to?.[i];
     if (!t) return {text: ""};
