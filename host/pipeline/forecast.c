@@ -27,7 +27,7 @@ static double whole(double batches)
 /* Where the variance is known by a wide factor, the part that no batch has met yet only adds. */
 static range batches_to(ec_film_outlook o, double spread, double target)
 {
-    double z = 1.96 * (1 + 2 * spread), variance = o.variance; /* a wide spread is itself not well known */
+    double z = 1.96 * (1 + 3 * spread), variance = o.variance; /* a wide spread is itself not well known */
     range r = {.expected = whole(ec_outlook_batches(&o, target))};
     o.variance = variance * exp(-z * spread);
     r.low = whole(ec_outlook_batches(&o, target));
@@ -39,17 +39,16 @@ static range batches_to(ec_film_outlook o, double spread, double target)
 /* Machines do not keep their pace: a few per cent from minute to minute, whatever the pilot's batches say. */
 #define LEAST_SPREAD 0.04
 
-ec_forecast ec_forecast_make(const ec_film *film, const ec_render_options *limits, const ec_pace *pace, double done,
+ec_forecast ec_forecast_make(const ec_film *film, const ec_film_error *now, const ec_render_options *limits, const ec_pace *pace, double done,
                              double gain)
 {
     uint32_t per_batch = film->samples_per_batch;
-    ec_film_error now = ec_film_estimate_error(film);
-    bool known = isfinite(now.error) && now.error > 0;
-    ec_film_outlook o = {now.error * now.error * done * gain, now.noisy_pixels, (double)film->width * film->height};
+    bool known = isfinite(now->error) && now->error > 0;
+    ec_film_outlook o = {now->error * now->error * done * gain, now->noisy_pixels, (double)film->width * film->height};
     double a_batch = (pace->seconds - pace->first_seconds) / (done - 1.0);
     double pace_spread = fmax(LEAST_SPREAD, pace->spread);
     range batches = {INFINITY, INFINITY, INFINITY};
-    if (limits->error_target > 0 && known) batches = batches_to(o, now.spread, limits->error_target);
+    if (limits->error_target > 0 && known) batches = batches_to(o, now->spread, limits->error_target);
     if (limits->spp) batches = at_most(batches, ceil((double)limits->spp / per_batch));
     batches = (range){fmax(batches.low, done), fmax(batches.expected, done), fmax(batches.high, done)};
     /* Both spreads are of logarithms and independent. */
@@ -69,6 +68,6 @@ ec_forecast ec_forecast_make(const ec_film *film, const ec_render_options *limit
     f.seconds_low = seconds.low;
     f.seconds_high = seconds.high;
     f.error_bound = known && isfinite(batches.expected) ? ec_outlook_bound(&o, batches.expected) : INFINITY;
-    f.spread = now.spread;
+    f.spread = now->spread;
     return f;
 }

@@ -182,7 +182,7 @@ static void look_ahead(render_state *r)
     double mean = r->sum / timed, variance = fmax(r->squares / timed - mean * mean, 0.0);
     ec_pace pace = {now - r->render_start, r->first_seconds, timed > 1.0 ? sqrt(variance / (timed - 1.0)) / mean : 0.0};
     bool is_pilot = !r->stats->forecast.pilot_samples;
-    r->forecast = ec_forecast_make(r->film, r->options, &pace, done, is_pilot ? r->allotment.gain : 1.0);
+    r->forecast = ec_forecast_make(r->film, &r->error, r->options, &pace, done, is_pilot ? r->allotment.gain : 1.0);
     if (is_pilot) r->stats->forecast = r->forecast;
 }
 

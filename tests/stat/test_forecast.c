@@ -31,6 +31,12 @@ static void add_batch(ec_film *film, double (*draw)(uint32_t))
     ec_film_add_batch(film, batch);
 }
 
+static ec_forecast forecast_of(const ec_film *film, const ec_render_options *limits, const ec_pace *pace, double done, double gain)
+{
+    ec_film_error now = ec_film_estimate_error(film);
+    return ec_forecast_make(film, &now, limits, pace, done, gain);
+}
+
 static void check(const char *name, double (*draw)(uint32_t), double target, double least_inside, double most_off)
 {
     int inside = 0;
@@ -42,7 +48,7 @@ static void check(const char *name, double (*draw)(uint32_t), double target, dou
         for (int i = 0; i < PILOT; i++) add_batch(&film, draw);
         ec_render_options limits = {.error_target = target};
         ec_pace pace = {.seconds = 4.5, .first_seconds = 1.5}; /* a second a batch */
-        ec_forecast f = ec_forecast_make(&film, &limits, &pace, PILOT, 1);
+        ec_forecast f = forecast_of(&film, &limits, &pace, PILOT, 1);
         while (ec_film_estimate_error(&film).error_bound > target) add_batch(&film, draw);
         double samples = 8.0 * film.batch_count;
         inside += f.samples_low <= samples && samples <= f.samples_high;
@@ -69,18 +75,18 @@ static void other_limits(void)
     for (int i = 0; i < PILOT; i++) add_batch(&film, exponential);
     ec_pace pace = {.seconds = 4.5, .first_seconds = 1.5};
     ec_render_options spp = {.spp = 160}, time = {.time_limit = 24.5}, both = {.error_target = 1e-3, .time_limit = 24.5}, none = {0};
-    ec_forecast f = ec_forecast_make(&film, &spp, &pace, PILOT, 1);
+    ec_forecast f = forecast_of(&film, &spp, &pace, PILOT, 1);
     CHECK_NEAR(f.samples, 160, 0);
     CHECK_NEAR(f.samples_low, f.samples_high, 0);
     CHECK_NEAR(f.seconds, 4.5 + 16, 1e-9);
     CHECK_NEAR(f.error_bound, sqrt(1.0 / 20), 0.02); /* 20 batches of variance 1, and the bound a little over */
-    f = ec_forecast_make(&film, &time, &pace, PILOT, 1);
+    f = forecast_of(&film, &time, &pace, PILOT, 1);
     CHECK_NEAR(f.samples, 8 * 24, 1e-9);
     CHECK_NEAR(f.seconds, 24.5, 1e-9);
-    f = ec_forecast_make(&film, &both, &pace, PILOT, 1);
+    f = forecast_of(&film, &both, &pace, PILOT, 1);
     CHECK_NEAR(f.samples, 8 * 24, 1e-9);
     CHECK(f.error_bound > 0.1 && f.error_bound < 0.3);
-    f = ec_forecast_make(&film, &none, &pace, PILOT, 1);
+    f = forecast_of(&film, &none, &pace, PILOT, 1);
     CHECK(isinf(f.seconds) && isinf(f.samples));
     ec_film_destroy(&film);
 
@@ -88,7 +94,7 @@ static void other_limits(void)
     CHECK_OK(ec_film_create(&film, WIDTH, HEIGHT, 8, &err), err);
     for (int i = 0; i < PILOT; i++) ec_film_add_batch(&film, black);
     ec_render_options error = {.error_target = 0.01};
-    f = ec_forecast_make(&film, &error, &pace, PILOT, 1); /* nothing is known of the dark */
+    f = forecast_of(&film, &error, &pace, PILOT, 1); /* nothing is known of the dark */
     CHECK(isinf(f.samples) && isinf(f.seconds) && isinf(f.error_bound));
     ec_film_destroy(&film);
 }
