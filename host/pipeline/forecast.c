@@ -27,7 +27,7 @@ static double whole(double batches)
 /* Where the variance is known by a wide factor, the part that no batch has met yet only adds. */
 static range batches_to(ec_film_outlook o, double spread, double target)
 {
-    double z = 1.96 * (1 + 3 * spread), variance = o.variance; /* a wide spread is itself not well known */
+    double z = 1.96 * (1 + 2 * spread), variance = o.variance; /* a wide spread is itself not well known */
     range r = {.expected = whole(ec_outlook_batches(&o, target))};
     o.variance = variance * exp(-z * spread);
     r.low = whole(ec_outlook_batches(&o, target));
