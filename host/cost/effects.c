@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pack/pack.h"
 #include "pack/texture_mean.h"
 
 static bool is_positive(const float v[3]) { return v[0] > 0 || v[1] > 0 || v[2] > 0; }
@@ -45,7 +46,7 @@ bool ec_cost_has_effect(const ec_scene *scene, ec_cost_effect effect)
     case EC_EFFECT_INDIRECT: return true;
     case EC_EFFECT_ENVIRONMENT: return scene->has_environment;
     case EC_EFFECT_PUNCTUAL: return scene->light_count > 0;
-    case EC_EFFECT_SMOOTH_NORMALS: return scene->normals != NULL;
+    case EC_EFFECT_SMOOTH_NORMALS: return ec_pack_features(scene) & EC_FEATURE_SMOOTH_NORMALS;
     case EC_EFFECT_LAMPS:
         return material_has(&scene->materials[effect.material], effect.kind) && is_shown(scene, effect.material);
     default: break;

