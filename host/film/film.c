@@ -50,11 +50,11 @@ static inline void update_luminance(double *m2, float *m34, double delta, double
     *m2 += added;
 }
 
-static inline void update_pixel(ec_film *film, uint64_t p, const float *batch_mean, double n)
+static inline void update_pixel(ec_film *film, uint64_t p, const float *rgb, double n)
 {
     double *mean = film->mean + 3 * p, *m2 = film->m2 + 4 * p, x[3];
     for (int c = 0; c < 3; c++) {
-        x[c] = batch_mean[3 * p + c];
+        x[c] = rgb[c];
         if (!isfinite(x[c])) x[c] = 0, film->invalid_count++;
     }
     double luminance = ec_luminance(x);
@@ -69,11 +69,11 @@ void ec_film_add_batch(ec_film *film, const float *batch_mean)
     film->batch_count++;
     for (uint64_t p = 0; p < pixels; p++) {
         if (film->counts) film->counts[p]++;
-        update_pixel(film, p, batch_mean, ec_film_batches(film, p));
+        update_pixel(film, p, batch_mean + 3 * p, ec_film_batches(film, p));
     }
 }
 
-ec_result ec_film_add_some(ec_film *film, const float *batch_mean, const uint32_t *places, uint32_t count, ec_error *err)
+ec_result ec_film_add_some(ec_film *film, const float *means, const uint32_t *places, uint32_t count, ec_error *err)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
     if (!film->counts) {
@@ -81,7 +81,7 @@ ec_result ec_film_add_some(ec_film *film, const float *batch_mean, const uint32_
         if (!film->counts) return ec_fail(err, "out of memory for the sample counts of %llu pixels", (unsigned long long)pixels);
         for (uint64_t p = 0; p < pixels; p++) film->counts[p] = film->batch_count;
     }
-    for (uint32_t i = 0; i < count; i++) update_pixel(film, places[i], batch_mean, ++film->counts[places[i]]);
+    for (uint32_t i = 0; i < count; i++) update_pixel(film, places[i], means + 3 * (uint64_t)i, ++film->counts[places[i]]);
     return EC_OK;
 }
 

@@ -41,8 +41,9 @@ void ec_film_destroy(ec_film *film); /* zero-initialised or destroyed films are 
 /* Adds one batch: 3 floats a pixel, each the mean over samples_per_batch samples. */
 void ec_film_add_batch(ec_film *film, const float *batch_mean);
 
-/* The same of some pixels only, given by their places in row order: from now on pixels have counts of their own. */
-ec_result ec_film_add_some(ec_film *film, const float *batch_mean, const uint32_t *places, uint32_t count, ec_error *err);
+/* The same of some pixels only: of places[i], in row order, 3 floats at 3 i; a pixel may take part more than once. From now on pixels
+ * have counts of their own. */
+ec_result ec_film_add_some(ec_film *film, const float *means, const uint32_t *places, uint32_t count, ec_error *err);
 
 static inline uint32_t ec_film_batches(const ec_film *film, uint64_t p)
 {

@@ -1,13 +1,14 @@
 #include "pipeline/adaptive.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include "film/neighbourhood.h"
 
 #define RADIUS 3        /* 48 pixels around: with a pilot of four batches they know a variance to a tenth or so */
 #define LEAST 0.15      /* weight that every pixel has: what the pilot did not see is still looked for */
-#define MOST 24.0       /* more would make passes of a few pixels, which no device likes */
+#define MOST 24.0       /* of the mean */
 #define WORTH_IT 0.95
 
 /* As kernels/lib/film.h numbers pixels: tile by tile. */
@@ -45,10 +46,7 @@ static void normalise(ec_allotment *a, double mean)
         a->weight[i] = (float)fmin(w, MOST);
         sum += a->weight[i];
     }
-    for (uint32_t i = 0; i < a->pixels; i++) {
-        a->weight[i] = (float)(a->weight[i] * a->pixels / sum);
-        a->most = fmax(a->most, a->weight[i]);
-    }
+    for (uint32_t i = 0; i < a->pixels; i++) a->weight[i] = (float)(a->weight[i] * a->pixels / sum);
 }
 
 /* A pixel's own variance is independent of its weight, so that this is no flattery. */
@@ -94,16 +92,23 @@ static double phase(uint32_t number)
     return (double)(uint32_t)(number * 2654435769u) * 0x1p-32;
 }
 
+/* Batches that pixel number i is due, as far as numbers go. */
+static uint32_t due(const ec_allotment *a, const ec_film *film, uint32_t i)
+{
+    double wanted = floor(a->level * a->weight[i] + phase(i)), has = ec_film_batches(film, a->place[i]);
+    return (uint32_t)fmin(fmax(wanted - has, 0), UINT32_MAX / a->pixels);
+}
+
 uint32_t ec_allotment_pass(ec_allotment *a, const ec_film *film)
 {
     uint32_t count = 0;
-    while (count == 0) {
-        a->level += 1 / a->most; /* then no pixel is due more than one */
-        for (uint32_t i = 0; i < a->pixels; i++) {
-            if (floor(a->level * a->weight[i] + phase(i)) <= ec_film_batches(film, a->place[i])) continue;
-            a->list[count] = i;
-            a->places[count++] = a->place[i];
-        }
+    for (bool raised = false; count == 0; raised = true) {
+        if (raised) a->level += 0.5;
+        for (uint32_t i = 0; i < a->pixels; i++)
+            for (uint32_t k = 0, n = due(a, film, i); k < n && count < a->pixels; k++) {
+                a->list[count] = i + k * a->pixels;
+                a->places[count++] = a->place[i];
+            }
     }
     return count;
 }

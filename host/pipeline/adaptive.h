@@ -12,10 +12,9 @@
 typedef struct ec_allotment {
     float *weight;       /* by pixel number (kernels/lib/film.h): batches over the image's mean, mean 1; NULL: not made */
     uint32_t *place;     /* by pixel number: place in row order */
-    uint32_t *list;      /* of the pass: pixel numbers, and their places */
+    uint32_t *list;      /* of the pass: pixel numbers (kernels/lib/film.h has those of pixels that are there twice), and places */
     uint32_t *places;
     uint32_t pixels;
-    double most;         /* the largest weight */
     double gain;         /* error^2 by these weights over that of uniform sampling, foretold; 1 where there is nothing to gain */
     double level;        /* batches a pixel of weight 1 is due */
 } ec_allotment;
@@ -23,7 +22,8 @@ typedef struct ec_allotment {
 /* From a film whose pixels all have the pilot's batches. Where less than 5 % is to be gained, gain is 1 and there are no weights. */
 ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *allotment, ec_error *err);
 
-/* The next pass: list and places of the pixels that are due another batch, at least one. Returns how many. */
+/* The next pass: list and places of the pixels that are due another batch, as often as they are; 1 to as many as the image has
+ * pixels. Returns how many. */
 uint32_t ec_allotment_pass(ec_allotment *allotment, const ec_film *film);
 
 void ec_allotment_free(ec_allotment *allotment);

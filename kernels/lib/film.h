@@ -8,7 +8,8 @@
 
 #define EC_TILE 8u
 
-/* pixel_list: the numbers of the pass's pixels, or NULL where these are all there are. */
+/* pixel_list: the numbers of the pass's pixels, or NULL where these are all there are. A pixel that takes part k times has
+ * number + 0, 1, … (k - 1) times all there are: random numbers of its own each time. */
 EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, global const uint *pixel_list, lane_u slot, lane_u *pixel,
                          lane_u *sample)
 {
@@ -23,6 +24,7 @@ EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, global co
 EC_FN void pixel_to_xy(constant ec_params *params, lane_u pixel, lane_u *x, lane_u *y)
 {
     uint width = params->width, height = params->height;
+    pixel = pixel - pixel / (width * height) * (width * height);
     lane_u tile_row = pixel / (width * EC_TILE);
     lane_u in_row = pixel - tile_row * (width * EC_TILE);
     lane_u rows = min(U(EC_TILE), height - tile_row * EC_TILE);

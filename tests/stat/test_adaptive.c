@@ -19,11 +19,12 @@ static double uniform(void) /* SplitMix64, Steele et al. 2014 */
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-static float *draw_batch(void)
+/* Of places, or of all pixels. */
+static float *draw_batch(const uint32_t *places, uint32_t count)
 {
     static float batch[3 * PIXELS];
-    for (uint32_t p = 0; p < PIXELS; p++) {
-        double sum = 0, ground = p % WIDTH < WIDTH / 2 ? 0.5 : 0.99;
+    for (uint32_t p = 0; p < count; p++) {
+        double sum = 0, ground = (places ? places[p] : p) % WIDTH < WIDTH / 2 ? 0.5 : 0.99;
         for (int i = 0; i < 8; i++) sum += uniform() < (1 - ground) / 100 ? 100 + ground : ground;
         batch[3 * p] = batch[3 * p + 1] = batch[3 * p + 2] = (float)(sum / 8);
     }
@@ -40,12 +41,12 @@ static void check_bias(void)
         ec_film film = {0};
         ec_allotment a;
         CHECK_OK(ec_film_create(&film, WIDTH, HEIGHT, 8, &err), err);
-        for (int i = 0; i < 4; i++) ec_film_add_batch(&film, draw_batch());
+        for (int i = 0; i < 4; i++) ec_film_add_batch(&film, draw_batch(NULL, PIXELS));
         CHECK_OK(ec_allot(&film, &params, &a, &err), err);
         allotted += a.weight && a.gain < 0.95;
         for (double batches = 4; a.weight && batches < 12;) {
             uint32_t count = ec_allotment_pass(&a, &film);
-            CHECK_OK(ec_film_add_some(&film, draw_batch(), a.places, count, &err), err);
+            CHECK_OK(ec_film_add_some(&film, draw_batch(a.places, count), a.places, count, &err), err);
             batches += (double)count / PIXELS;
         }
         double mean = ec_film_estimate_error(&film).mean_luminance;
