@@ -96,8 +96,7 @@ class Page(unittest.TestCase):
         self.show()
         front = self.browser.evaluate("eclat.charts().errors.data.datasets.find(s => s.label == 'Pareto front').data.map(p => [p.x, p.y])")
         expected = [[p["seconds"], p["error"]] for p in self.report["pareto_front"]]
-        for place in expected:
-            self.assertIn(place, front)
+        self.assertEqual(front, expected)
 
     def test_pictures(self):
         self.show()

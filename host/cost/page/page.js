@@ -52,7 +52,8 @@ const points = r => r.curve.map(p => ({x: p.seconds, y: errorOf(p), point: p})).
 
 /* As the C side makes it for the first metric; here for both, of the curves that are shown. */
 function front() {
-    const all = curves.filter(r => shown.has(r.id)).flatMap(r => points(r)).sort((a, b) => a.x - b.x || a.y - b.y);
+    const known = p => metric() === "mse" ? p.mse > 2 * p.mse_se : p.relmse > 2 * p.relmse_se;
+    const all = curves.filter(r => shown.has(r.id)).flatMap(points).filter(p => known(p.point)).sort((a, b) => a.x - b.x || a.y - b.y);
     const best = [];
     for (const p of all) if (!best.length || p.y < best[best.length - 1].y) best.push(p);
     return best.map(({x, y}) => ({x, y}));
