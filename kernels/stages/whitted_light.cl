@@ -33,8 +33,8 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
     v3 f = blinn_phong_eval(&b, whitted_mirrors(&s), surface_to_local(&s, l.wi));
     v3 arriving = v3_mul(v3_mul(beta, f), l.radiance);
-    if (HAS(ABSORPTION)) {
-        lane_u medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
+    if (HAS(ABSORPTION)) { /* infinitely far no body reaches */
+        lane_u medium = medium_of(&h, &s, lit & !l.is_far, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
         arriving = v3_mul(arriving, medium_transmittance(&g, medium, sqrt(v3_dot(l.towards, l.towards))));
     }
     lit = lit & (v3_max_component(arriving) != 0.0f);
