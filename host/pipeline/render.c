@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/random.h"
 #include "pipeline/adaptive.h"
 #include "pipeline/forecast.h"
 #include "pipeline/pipeline.h"
@@ -43,13 +44,10 @@ static uint32_t choose_batch(const ec_render_options *o)
     return o->spp ? batch_of_spp(o->spp) : 8;
 }
 
-/* Seeds of batches must differ in every bit: the same mixer as the kernels'. */
+/* Seeds of batches must differ in every bit. */
 static uint32_t batch_seed(uint64_t seed, uint32_t batch)
 {
-    uint64_t x = seed * UINT64_C(0x9e3779b97f4a7c15) + batch + 1;
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9); /* splitmix64 (Steele et al. 2014) */
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (uint32_t)((x ^ (x >> 31)) >> 16);
+    return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + batch + 1) >> 16);
 }
 
 static double fraction_done(const render_state *r, double batches, double seconds)

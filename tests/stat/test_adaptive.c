@@ -4,20 +4,15 @@
  * ctest label: slow */
 #include "film/difference.h"
 #include "pipeline/adaptive.h"
+#include "support/random.h"
 #include "support/render_case.h"
 
 /* ---- synthetic: grey pixels with fireflies 100 times as bright, one sample in 200 on the left, in 10 000 on the right; mean 1 ---- */
 
 enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT, REPEATS = 400 };
 
-static uint64_t state = 3;
-static double uniform(void) /* SplitMix64, Steele et al. 2014 */
-{
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
+static test_random state = {3};
+static double uniform(void) { return test_uniform(&state); }
 
 /* Of places, or of all pixels. */
 static float *draw_batch(const uint32_t *places, uint32_t count)

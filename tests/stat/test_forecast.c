@@ -6,18 +6,13 @@
 
 #include "film/forecast.h"
 #include "pipeline/forecast.h"
+#include "support/random.h"
 #include "support/test.h"
 
 enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT, PILOT = 4, REPEATS = 200 };
 
-static uint64_t state = 1;
-static double uniform(void) /* in (0, 1): SplitMix64, Steele et al. 2014 */
-{
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return ((double)((z ^ (z >> 31)) >> 12) + 0.5) * 0x1p-52;
-}
+static test_random state = {1};
+static double uniform(void) { return test_uniform(&state); }
 
 /* Mean 1 all of them. */
 static double exponential(uint32_t p) { return (void)p, -log(uniform()); }
