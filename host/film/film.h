@@ -66,6 +66,9 @@ typedef struct ec_film_error {
 } ec_film_error;
 ec_film_error ec_film_estimate_error(const ec_film *film);
 
+/* The bound of an error whose square is `square`, after so many batches. */
+double ec_film_error_bound(double square, double noisy_pixels, double pixels, double batches);
+
 /* Keeps relMSE finite on black: as in pbrt's imgtool (metric MRSE), so that figures compare. */
 #define EC_RELMSE_FLOOR 0.01
 
