@@ -156,14 +156,8 @@ static ec_result mark_unsampled(render_state *r, float *host, uint64_t pixels, e
 static ec_result add_batch(render_state *r, float *host, uint32_t count, bool complete, ec_error *err)
 {
     ec_pipeline *p = &r->pipeline;
-    uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, host, err));
-    if (!complete) EC_TRY(mark_unsampled(r, host, pixels, err));
-    for (uint64_t i = 0; i < 3 * pixels; i++)
-        if (!isfinite(host[i])) { /* finite samples whose sum is not */
-            host[i] = 0.0f;
-            r->stats->invalid_accumulate++;
-        }
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)count * 12, host, err));
+    if (!complete) EC_TRY(mark_unsampled(r, host, count, err));
     if (r->allotment.weight) EC_TRY(ec_film_add_some(r->film, host, r->allotment.places, count, err));
     else ec_film_add_batch(r->film, host);
     r->error = ec_film_estimate_error(r->film);
@@ -252,7 +246,7 @@ static ec_result finish_stats(render_state *r, ec_error *err)
     s->invalid_intersect = invalid[EC_STAGE_INTERSECT];
     s->invalid_shade = invalid[EC_STAGE_SHADE];
     s->invalid_connect = invalid[EC_STAGE_CONNECT];
-    s->invalid_accumulate += invalid[EC_STAGE_ACCUMULATE];
+    s->invalid_accumulate = invalid[EC_STAGE_ACCUMULATE] + r->film->invalid_count; /* finite samples whose sum is not */
     s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
     s->samples_per_pixel = (uint64_t)(batches_done(r) * p->params.batch + 1e-6);
     s->allotment_gain = r->allotment.gain;

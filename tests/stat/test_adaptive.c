@@ -4,6 +4,7 @@
  * ctest label: slow */
 #include "film/difference.h"
 #include "pipeline/adaptive.h"
+#include "support/gltf_writer.h"
 #include "support/random.h"
 #include "support/render_case.h"
 
@@ -133,9 +134,35 @@ static void check_bits(const char *path)
     ec_scene_free(scene);
 }
 
+/* On the left an environment so bright that the sum of a batch is infinite, on the right a wall as dark. What overflows
+ * is black and counted: three values in each batch that a pixel on the left has had, no more. */
+static void check_overflow(void)
+{
+    gltf_writer *w = gltf_new();
+    gltf_quad(w, gltf_lambert(w, 1e-37, 0), (double[3]){0, -50, 0}, (double[3]){50, 0, 0}, (double[3]){0, 100, 0});
+    gltf_camera(w, (double[3]){0, 0, 5}, (double[3]){0, 0, 0}, 1);
+    ec_scene *scene = case_load(gltf_write(w, "adaptive-overflow"), "1e37,1e37,1e37");
+    ec_render_options o = case_options(32, 32, 512);
+    o.batch = 64;
+    o.adaptive = true;
+    ec_error err;
+    case_image image;
+    CHECK_OK(case_try(scene, &o, &image, &err), err);
+    uint64_t expected = 0;
+    for (uint32_t p = 0; p < 32 * 32; p++)
+        if (p % 32 < 16) expected += 3 * ec_film_batches(&image.film, p);
+    CHECK(image.film.counts && image.mean[1] > 0);
+    CHECK_MSG(image.stats.invalid_accumulate == expected && image.stats.invalid_samples == expected, "%llu values are said not to be finite, %llu are",
+              (unsigned long long)image.stats.invalid_accumulate, (unsigned long long)expected);
+    case_free(&image);
+    ec_scene_free(scene);
+    free(w);
+}
+
 int main(void)
 {
     check_bias();
+    check_overflow();
     check_renders(OWN_SCENE("ring/ring.gltf"));
     check_renders(OWN_SCENE("cornell-box/cornell-box.gltf"));
     check_target(OWN_SCENE("ring/ring.gltf"), 0.3, 0.5);
