@@ -108,6 +108,9 @@ static void check_target(const char *path, double target, double most)
            (double)adaptive.stats.samples / 96 / 96, ratio);
     CHECK(!strcmp(even.stats.stopped_by, "error") && !strcmp(adaptive.stats.stopped_by, "error"));
     CHECK_MSG(ratio <= most, "%s: %.2f of uniform sampling's samples", path, ratio);
+    /* The pilots are the same. Forecasts are whole batches, and the bound's factor over the error changes with their number. */
+    double foretold = adaptive.stats.forecast.samples / even.stats.forecast.samples, gain = adaptive.stats.allotment_gain;
+    CHECK_MSG(fabs(foretold - gain) <= 0.02 + 8 / even.stats.forecast.samples, "%s: %.3f of its samples foretold, not %.3f", path, foretold, gain);
     case_free(&even);
     case_free(&adaptive);
     ec_scene_free(scene);

@@ -75,6 +75,9 @@ static void other_limits(void)
     CHECK_NEAR(f.samples_low, f.samples_high, 0);
     CHECK_NEAR(f.seconds, 4.5 + 16, 1e-9);
     CHECK_NEAR(f.error_bound, sqrt(1.0 / 20), 0.02); /* 20 batches of variance 1, and the bound a little over */
+    f = forecast_of(&film, &spp, &pace, PILOT, 0.25);
+    CHECK_NEAR(f.error_bound, sqrt(0.25 / 20), 0.01); /* where an allotment of samples makes a quarter of the variance */
+    CHECK_NEAR(f.samples, 160, 0);
     f = forecast_of(&film, &time, &pace, PILOT, 1);
     CHECK_NEAR(f.samples, 8 * 24, 1e-9);
     CHECK_NEAR(f.seconds, 24.5, 1e-9);
