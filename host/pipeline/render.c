@@ -240,7 +240,7 @@ static ec_result finish_stats(render_state *r, ec_error *err)
     ec_render_stats *s = r->stats;
     ec_pipeline *p = &r->pipeline;
     uint32_t invalid[EC_STAGE_COUNT];
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_INVALID], 0, sizeof invalid, invalid, err));
+    EC_TRY(ec_pipeline_read_invalid(p, invalid, err));
     s->seconds = ec_now() - r->render_start;
     s->invalid_generate = invalid[EC_STAGE_GENERATE];
     s->invalid_intersect = invalid[EC_STAGE_INTERSECT];

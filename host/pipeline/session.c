@@ -74,8 +74,7 @@ ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error
 ec_result ec_session_invalid(ec_session *session, uint64_t *samples, ec_error *err)
 {
     uint32_t invalid[EC_STAGE_COUNT];
-    ec_pipeline *p = &session->pipeline;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_INVALID], 0, sizeof invalid, invalid, err));
+    EC_TRY(ec_pipeline_read_invalid(&session->pipeline, invalid, err));
     *samples = 0;
     for (int i = 0; i < EC_STAGE_COUNT; i++) *samples += invalid[i];
     return EC_OK;
