@@ -83,6 +83,28 @@ def one_pixel_png(rgb):
             chunk(b"IDAT", zlib.compress(b"\0" + bytes(rgb))) + chunk(b"IEND", b""))
 
 
+def write_exr(path, width, height, rgb):
+    """32-bit float scan lines as they are; rgb has 3 values a pixel, NaN and infinity too."""
+    def attribute(name, kind, value):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    channels = b"".join(name + struct.pack("<xiB3xii", 2, 0, 1, 1) for name in [b"B", b"G", b"R"]) + b"\0"
+    head = (b"\x76\x2f\x31\x01" + struct.pack("<i", 2) + attribute("channels", "chlist", channels) +
+            attribute("compression", "compression", b"\0") + attribute("dataWindow", "box2i", box) +
+            attribute("displayWindow", "box2i", box) + attribute("lineOrder", "lineOrder", b"\0") +
+            attribute("pixelAspectRatio", "float", struct.pack("<f", 1)) +
+            attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)) +
+            attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0")
+    size = 12 * width
+    table = struct.pack(f"<{height}Q", *(len(head) + 8 * height + y * (8 + size) for y in range(height)))
+    with open(path, "wb") as file:
+        file.write(head + table)
+        for y in range(height):
+            row = rgb[3 * width * y:3 * width * (y + 1)]
+            file.write(struct.pack("<ii", y, size) + b"".join(struct.pack(f"<{width}f", *row[c::3]) for c in [2, 1, 0]))
+    return path
+
+
 class Picture:
     def __init__(self, stats, channels, messages):
         self.stats, self.channels, self.messages = stats, channels, messages

@@ -3,7 +3,7 @@ rest is the picture that it would be without."""
 import math
 import unittest
 
-from hard_scene import LAMP, NORMAL, QUAD, UV, WHITE, HardCase, Scene, one_pixel_png
+from hard_scene import LAMP, NORMAL, QUAD, UV, WHITE, HardCase, Scene, one_pixel_png, write_exr
 from support import eclat
 
 FLOAT_1E30 = 1.0000000150474662e30  # 1e30 as a float
@@ -74,6 +74,50 @@ class Lights(HardCase):
             with self.subTest(sample=sample):
                 options = ["--sample", sample, "--max-depth", "2"]
                 self.assert_same(self.render(scene(3), *options), self.render(scene(1), *options))
+
+
+class Environments(HardCase):
+    """A Lambert floor of albedo 1/2 below maps of 8 x 4 texels."""
+
+    def floor(self, rgb, *options):
+        down = [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]  # what looked along -z looks along -y
+        grey = {"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0},
+                "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
+        scene = Scene(grey).extend("KHR_materials_specular").add(QUAD, rotation=down)
+        scene.camera.update(rotation=down, translation=[0, 3, 0])
+        scene.json["cameras"][0]["perspective"]["yfov"] = 0.1
+        return self.render(scene, "--env", write_exr(self.path("map.exr"), 8, 4, rgb), *options, spp="64")
+
+    def test_rows_of_zeros(self):
+        """1 above and 0 below. Between the middle rows the map falls from 1 to 0, to 1/2 at the horizon:
+        albedo times the integral of 2 L cos sin over the zenith angle."""
+        steps, start, expected = 10000, math.radians(67.5), 0
+        for i in range(steps):
+            angle = (i + 0.5) / steps * math.pi / 2
+            radiance = 1 - max(angle - start, 0) / math.radians(45)
+            expected += 0.5 * radiance * math.sin(2 * angle) * math.pi / 2 / steps
+        for sample in ["mis", "light", "bsdf"]:
+            with self.subTest(sample=sample):
+                picture = self.floor([1] * 48 + [0] * 48, "--sample", sample)
+                self.assertLess(picture.se, 0.01 * expected)
+                self.assertAlmostEqual(picture.mean, expected, delta=4 * picture.se)
+
+    def test_texels_that_are_no_radiance(self):
+        """As if they were black."""
+        def rgb(values):
+            return [1] * 24 + values + [1] * 69
+        picture = self.floor(rgb([math.nan, math.inf, -1]))
+        self.assertIn("3 values are NaN, infinite or negative; taken as 0", picture.messages)
+        self.assert_same(picture, self.floor(rgb([0, 0, 0])))
+
+    def test_a_black_map(self):
+        self.assertEqual(max(self.floor([0] * 96).channels["R"]), 0)
+
+    def test_one_texel_of_1e38(self):
+        """Taken as 1e30; the others are 1e-38, and no chance becomes 0 or infinite."""
+        picture = self.floor([1e38] * 3 + [1e-38] * 93)
+        self.assertIn("3 values are above 1e+30; taken as that", picture.messages)
+        self.assertGreater(picture.mean, 0)
 
 
 class Geometry(HardCase):
