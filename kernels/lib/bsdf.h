@@ -163,9 +163,9 @@ typedef struct bsdf_direction {
 EC_FN v3 ggx_sample(const bsdf *b, lane_f cosine, lane_f sine, lane_f u2)
 {
     v3 warped = v3_normalize(v3_make(b->wo.x * b->alpha, b->wo.y * b->alpha, b->wo.z));
-    lane_f z = fma(1.0f - u2, 1.0f + warped.z, -warped.z);
-    lane_f sin_theta = sqrt(min(max(1.0f - z * z, F(0.0f)), F(1.0f)));
-    v3 c = v3_add(v3_make(sin_theta * cosine, sin_theta * sine, z), warped);
+    /* z of the point on the cap is 1 - down, but 1 - z^2 and z + warped.z would cancel at its ends. */
+    lane_f height = 1.0f + warped.z, down = u2 * height, sin_theta = sqrt(max(down * (2.0f - down), F(0.0f)));
+    v3 c = v3_make(fma(sin_theta, cosine, warped.x), fma(sin_theta, sine, warped.y), (1.0f - u2) * height);
     v3 m = v3_normalize(v3_make(c.x * b->alpha, c.y * b->alpha, c.z));
     return HAS(SMOOTH) ? v3_select(b->smooth, v3_make(F(0.0f), F(0.0f), F(1.0f)), m) : m;
 }
