@@ -65,15 +65,17 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     if (HAS(SPECULAR)) {
         lane_f rest;
         lane_f specular = luminance(bsdf_fresnel(&b, min(max(wo_local.z, F(0.0f)), F(1.0f)), &rest));
-        lane_f diffuse = rest * luminance(b.base);
+        lane_f base = luminance(b.base), diffuse = rest * base;
+        lane_f most = (1.0f - b.metallic) * (1.0f - min(v3_max_component(b.f0), F(1.0f))) * base; /* diffuse, head-on */
         if (HAS(TRANSMISSION)) {
             specular = fma(diffuse, b.transmission, specular);
             diffuse = diffuse * (1.0f - b.transmission);
+            most = most * (1.0f - b.transmission);
         }
         lane_f sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
-        /* A lobe that matters at other angles must not starve. */
-        b.p_specular = ((b.p_specular > 0.0f) & (diffuse > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
+        /* A lobe that matters at other angles must not starve, though at this one 1 - F may have been rounded to 0. */
+        b.p_specular = ((b.p_specular > 0.0f) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
     }
     return b;
 }
