@@ -47,21 +47,22 @@ EC_FN lane_f exp_negative(lane_f x)
     return n < -126.0f ? F(0.0f) : p * scale;
 }
 
-/* ln x for x in (0, 1]: exponent and mantissa in [sqrt 1/2, sqrt 2), of which ln m = 2 atanh((m - 1) / (m + 1)) by its series;
- * error below 2 ulp of the result or 1e-7 of the exponent's part. Denormals count as 2^-126. */
-EC_FN lane_f log_unit(lane_f x)
+/* ln x for x in (0, 1], whose complement y = 1 - x is known too, and has the digits where x is near 1: exponent and mantissa m in
+ * [sqrt 1/2, sqrt 2), of which ln m = 2 atanh((m - 1) / (m + 1)) by its series; error below 4 ulps. Denormals count as 2^-126. */
+EC_FN lane_f log_unit(lane_f x, lane_f y)
 {
     lane_u bits = as_lane_u(max(x, F(1.17549435e-38f))) - 0x3f3504f3u; /* sqrt 1/2: what is under it goes to the exponent */
-    lane_f exponent = int_to_lane_f(uint_to_lane_i(bits) >> 23);
+    lane_i power = uint_to_lane_i(bits) >> 23;
     lane_f m = as_lane_f((bits & 0x007fffffu) + 0x3f3504f3u);
-    lane_f s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
+    lane_f s = (power == 0 ? -y : m - 1.0f) / (m + 1.0f), s2 = s * s;
     lane_f p = fma(s2, F(0.222222222f), F(0.285714286f));
     p = fma(p, s2, F(0.4f));
     p = fma(p, s2, F(0.666666667f));
-    return fma(exponent, F(0.693147181f), fma(p * s2, s, 2.0f * s));
+    return fma(int_to_lane_f(power), F(0.693147181f), fma(p * s2, s, 2.0f * s));
 }
 
-/* atan2 / (2 pi) in [-0.5, 0.5]; (0, 0) gives 0. Minimax polynomial of atan on [0, 1], error below 1e-6 / (2 pi). */
+/* atan2 / (2 pi) in [-0.5, 0.5]; (0, 0) gives 0. atan t on [0, 1] as t + t^3 q(t^2), error below 2.5e-8 of it before rounding; turns,
+ * since quarters and halves of them are exact. */
 EC_FN lane_f atan2_over_2pi(lane_f y, lane_f x)
 {
     lane_f ax = fabs(x), ay = fabs(y);
