@@ -69,23 +69,18 @@ EC_FN lane_f atan2_over_2pi(lane_f y, lane_f x)
     lane_f hi = max(ax, ay), lo = min(ax, ay);
     lane_f t = hi > 0.0f ? lo / hi : F(0.0f);
     lane_f t2 = t * t;
-    lane_f p = fma(t2, F(-0.0040545f), F(0.0218612f));
-    p = fma(p, t2, F(-0.0559098f));
-    p = fma(p, t2, F(0.0964200f));
-    p = fma(p, t2, F(-0.1390853f));
-    p = fma(p, t2, F(0.1994653f));
-    p = fma(p, t2, F(-0.3332985f));
-    p = fma(p, t2, F(0.9999993f));
-    p = p * t;
-    p = ay > ax ? 1.57079632679490f - p : p;
-    p = x < 0.0f ? EC_PI - p : p;
-    return copysign(p * (0.5f * EC_INV_PI), y);
-}
-
-/* acos(x) / pi for x in [-1, 1] through the half-angle form, which keeps its digits at both ends. */
-EC_FN lane_f acos_over_pi(lane_f x)
-{
-    return fabs(atan2_over_2pi(sqrt(max((1.0f - x) * (1.0f + x), F(0.0f))), x)) * 2.0f;
+    lane_f q = fma(t2, F(-0.00238699722f), F(0.0135077713f));
+    q = fma(q, t2, F(-0.0358715393f));
+    q = fma(q, t2, F(0.0625016913f));
+    q = fma(q, t2, F(-0.0865688026f));
+    q = fma(q, t2, F(0.110337645f));
+    q = fma(q, t2, F(-0.142785683f));
+    q = fma(q, t2, F(0.199997395f));
+    q = fma(q, t2, F(-0.333333313f));
+    lane_f turns = fma(q * t2, t, t) * (0.5f * EC_INV_PI);
+    turns = ay > ax ? 0.25f - turns : turns;
+    turns = x < 0.0f ? 0.5f - turns : turns;
+    return copysign(turns, y);
 }
 
 #endif

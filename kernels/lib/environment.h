@@ -12,10 +12,11 @@ typedef struct environment {
     global const uint *alias;   /* ec_alias by word */
 } environment;
 
+/* v by both sides of the angle: acos(y) would have lost half the digits at the poles. */
 EC_FN void environment_uv(v3 d, lane_f *u, lane_f *v)
 {
     *u = 0.5f + atan2_over_2pi(d.z, d.x);
-    *v = acos_over_pi(min(max(d.y, F(-1.0f)), F(1.0f)));
+    *v = 2.0f * fabs(atan2_over_2pi(sqrt(fma(d.x, d.x, d.z * d.z)), d.y));
 }
 
 EC_FN v3 environment_texel(const environment *e, lane_u at)
