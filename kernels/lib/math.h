@@ -29,9 +29,16 @@ EC_FN v3 v3_abs(v3 a) { return v3_make(fabs(a.x), fabs(a.y), fabs(a.z)); }
 /* a + s b */
 EC_FN v3 v3_fma(v3 b, lane_f s, v3 a) { return v3_make(fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)); }
 EC_FN lane_f v3_dot(v3 a, v3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+/* a b - c d within 1.5 ulps of itself: what one product rounds off is put back (Kahan; Jeannerod, Louvet, Muller 2013). */
+EC_FN lane_f product_difference(lane_f a, lane_f b, lane_f c, lane_f d)
+{
+    lane_f cd = c * d;
+    return fma(a, b, -cd) + fma(-c, d, cd);
+}
 EC_FN v3 v3_cross(v3 a, v3 b)
 {
-    return v3_make(fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x)));
+    return v3_make(product_difference(a.y, b.z, a.z, b.y), product_difference(a.z, b.x, a.x, b.z),
+                   product_difference(a.x, b.y, a.y, b.x));
 }
 EC_FN v3 v3_select(lane_i m, v3 a, v3 b) { return v3_make(m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z); }
 EC_FN lane_f v3_max_component(v3 a) { return max(a.x, max(a.y, a.z)); }
