@@ -84,12 +84,7 @@ SETTER(integrator)
 
 SETTER(lanes)
 {
-    static const char *const names[] = {"auto", "1", "4", "8", "16", NULL};
-    static const uint32_t lanes[] = {0, 1, 4, 8, 16};
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, names, &index, err));
-    REQUEST->options.lanes = lanes[index];
-    return EC_OK;
+    return ec_parse_lanes(option, value, &REQUEST->options.lanes, err);
 }
 
 SETTER(max_depth)

@@ -40,8 +40,6 @@ typedef struct ec_pipeline {
 ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
                              ec_pipeline *pipeline, ec_render_stats *stats, ec_error *err);
 void ec_pipeline_destroy(ec_pipeline *pipeline);
-/* How many lanes a device gets; wanted 0: what suits it. */
-uint32_t ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted);
 
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,

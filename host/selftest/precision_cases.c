@@ -24,7 +24,7 @@ const ec_precision_case ec_precision_cases[] = {
     {"atan2_over_2pi", "atan2_over_2pi", "elementary.h", ec_inputs_plane, 2, 0, 0, 6, {EACH("angle", 0, 1)}},
     {"v3_dot", "v3_dot", "math.h", ec_inputs_two_vectors, 6, 0, 0, 3, {EACH("a . b", 0, 1)}},
     {"v3_cross", "v3_cross", "math.h", ec_inputs_two_vectors, 6, 0, 0, 2, {EACH("a x b", 0, 3)}},
-    {"v3_normalize", "v3_normalize", "math.h", ec_inputs_vector, 3, 0, 0, 6, {EACH("a / |a|", 0, 3)}},
+    {"v3_normalize", "v3_normalize", "math.h", ec_inputs_vector, 3, 0, 0, 6, {EACH("a / length", 0, 3)}},
     {"luminance", "luminance", "math.h", ec_inputs_colour, 3, 0, 0, 4, {EACH("Y", 0, 1)}},
     {"v3_frame", "v3_frame", "math.h", ec_inputs_direction, 3, 0, 0, 6, {VECTOR("s", 0), VECTOR("t", 3)}},
     {"mis_weight", "mis_weight", "math.h", ec_inputs_densities, 2, 0, 0, 4, {EACH("w", 0, 1)}},
