@@ -63,10 +63,10 @@ const ec_precision_case ec_precision_cases[] = {
     {"slab_near", "slab", "ray.h", ec_inputs_box, 12, 0, 0, 8, {EACH("near, far", 0, 2)}},
     {"edges_distance", "triangle", "ray.h", ec_inputs_triangle, 15, 0, 0, 16, {STATED("t", 0), SCALED("b1, b2", 2, 2)}},
 
-    {"light_sample_triangle", "light_sample_triangle", "light.h", ec_inputs_light, 19, 0, 0, 32,
+    {"light_sample_triangle", "light_sample_triangle", "light.h", ec_inputs_light, 21, BIT(15) | BIT(16), 0, 32,
      {VECTOR("wi", 0), VECTOR("towards", 3), EACH("pdf", 6, 1), VECTOR("normal", 7), VECTOR("error bound", 10)}},
-    {"light_from_centre", "light_from_centre", "light_centre.h", ec_inputs_light, 19, 0, 0, 32, {EACH("irradiance", 0, 3)}},
-    {"light_sample_punctual", "light_sample_punctual", "light.h", ec_inputs_spot, 19, 0, 0, 16, {VECTOR("wi", 0), EACH("irradiance", 3, 3)}},
+    {"light_from_centre", "light_from_centre", "light_centre.h", ec_inputs_light, 21, BIT(15) | BIT(16), 0, 32, {EACH("irradiance", 0, 3)}},
+    {"light_sample_punctual", "light_sample_punctual", "light.h", ec_inputs_spot, 19, BIT(15) | BIT(16), 0, 16, {VECTOR("wi", 0), EACH("irradiance", 3, 3)}},
     {"environment_uv", "environment_uv", "environment.h", ec_inputs_direction, 3, 0, 0, 12, {SCALED("u", 0, 1), EACH("v", 2, 1)}},
     {"environment_look_up", "environment_look_up", "environment.h", ec_inputs_direction, 3, 0, 0, 32, {VECTOR("radiance", 0), EACH("pdf", 3, 1)}},
     {"environment_sample", "environment_sample", "environment.h", ec_inputs_sample, 3, BIT(0), BIT(1), 32, {VECTOR("wi", 0), VECTOR("radiance", 3), EACH("pdf", 6, 1)}},
