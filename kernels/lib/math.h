@@ -29,11 +29,12 @@ EC_FN v3 v3_abs(v3 a) { return v3_make(fabs(a.x), fabs(a.y), fabs(a.z)); }
 /* a + s b */
 EC_FN v3 v3_fma(v3 b, lane_f s, v3 a) { return v3_make(fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)); }
 EC_FN lane_f v3_dot(v3 a, v3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
-/* a b - c d within 1.5 ulps of itself: what one product rounds off is put back (Kahan; Jeannerod, Louvet, Muller 2013). */
+/* a b - c d within 1.5 ulps of itself: what one product rounds off is put back (Kahan; Jeannerod, Louvet, Muller 2013). Taken
+ * away, not added: a zero keeps its sign, on which v3_frame turns. */
 EC_FN lane_f product_difference(lane_f a, lane_f b, lane_f c, lane_f d)
 {
     lane_f cd = c * d;
-    return fma(a, b, -cd) + fma(-c, d, cd);
+    return fma(a, b, -cd) - fma(c, d, -cd);
 }
 EC_FN v3 v3_cross(v3 a, v3 b)
 {
