@@ -70,8 +70,10 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
         }
         lane_f sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
-        /* A lobe that matters at other angles must not starve. */
-        b.p_specular = ((b.p_specular > 0.0f) & (diffuse > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
+        /* A lobe that matters at other angles must not starve. What is left for the base goes by the half vector's angle: there may
+         * be some where by wo's own there is none, as beyond the critical angle. Nothing reflects less than head-on. */
+        lane_i has_diffuse = (1.0f - b.metallic) * (1.0f - v3_max_component(b.f0)) * luminance(b.base) * (1.0f - b.transmission) > 0.0f;
+        b.p_specular = ((b.p_specular > 0.0f) & has_diffuse) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
     }
     return b;
 }
