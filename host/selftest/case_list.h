@@ -19,6 +19,15 @@
     CASE("lights/many", false, ec_selftest_many_lamps, "tables of lights whose probabilities are not those sampled")               \
     CASE("lights/occlusion", false, ec_selftest_occlusion, "shadow rays that miss a wall (ambient occlusion, closed form)")        \
     CASE("lights/punctual", false, ec_selftest_punctual, "units of glTF's lights")                                                 \
-    CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")
+    CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")             \
+    CASE("scatter/fresnel", false, ec_selftest_fresnel, "black or bright rims where total reflection sets in")                     \
+    CASE("scatter/ggx", false, ec_selftest_ggx, "narrow lobes from 1 - cos^2: no digit is left at roughness 0.01 (NUMERICS)")      \
+    CASE("scatter/chi-square", false, ec_selftest_chi_square, "sampled otherwise than divided by")                                 \
+    CASE("scatter/energy", false, ec_selftest_energy, "materials that glow")                                                       \
+    CASE("scatter/reciprocity", false, ec_selftest_reciprocity, "a picture that depends on the side paths start from")             \
+    CASE("scatter/fuzz", false, ec_selftest_fuzz, "NaN and fireflies")                                                             \
+    CASE("scatter/slab", false, ec_selftest_slabs, "glass that darkens or brightens what is behind it")                            \
+    CASE("scatter/nested glass", false, ec_selftest_nested_glass, "black glass: paths lost at faces or by depth")                  \
+    CASE("scatter/continuity", false, ec_selftest_continuity, "a jump in brightness where roughness gets to 0")
 
 #endif
