@@ -8,14 +8,6 @@
 #include "../lib/medium.h"
 #include "../lib/queue.h"
 
-/* Density of light sampling for a point that this ray found on an emissive triangle. */
-EC_FN lane_f emitter_pdf(const hit_point *h, const surface *s, v3 o, v3 wo)
-{
-    v3 d = v3_sub(s->p, o);
-    lane_f cosine = fabs(v3_dot(s->ng, wo));
-    return h->light_pdf_a * v3_dot(d, d) / cosine;
-}
-
 /* Weight of light that a path meets, against light_pdf; 1 where light sampling cannot find it or is not asked to. */
 EC_FN lane_f found_weight(uint sample, lane_f path_pdf, lane_f light_pdf)
 {
@@ -96,8 +88,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
-            v3 Le = v3_scale(surface_emission(&g, &h, m, emission),
-                             found_weight(params->sample, path_pdf, emitter_pdf(&h, &s, o, wo)));
+            v3 way = v3_sub(s.p, o);
+            lane_f pdf = light_found_pdf(&h, m, o, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
+            v3 Le = v3_scale(surface_emission(&g, &h, m, emission), found_weight(params->sample, path_pdf, pdf));
             emitted = v3_select(m, Le, emitted);
             emits = emits | m;
         }
@@ -132,7 +125,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
         lane_f u1, u2, pdf_bsdf;
         sample_pair(random, pair + EC_PAIR_LIGHT, &u1, &u2);
-        light_sample l = light_sample_one(&light, &g, joins, s.p, choice, u1, u2);
+        /* Seen from where a reflected ray starts: the density that it finds for this light is then the same to the bit. */
+        v3 from = surface_offset(s.p, s.p_error, s.ng, wo);
+        light_sample l = light_sample_one(&light, &g, joins, from, choice, u1, u2);
         v3 wi_local = surface_to_local(&s, l.wi);
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
@@ -148,8 +143,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         uint bits = mask_bits(m & finite);
         if (bits) {
             uint at = queue_reserve(counters->shadows[step], params->part, i, popcount(bits));
-            v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
-            v3 end = surface_offset(v3_add(s.p, l.towards), l.end_error, l.end_normal, v3_negate(l.wi));
+            v3 end = surface_offset(v3_add(from, l.towards), l.end_error, l.end_normal, v3_negate(l.wi));
+            if (HAS(TRANSMISSION)) from = surface_offset(s.p, s.p_error, s.ng, l.wi);
             queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
             queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
             queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);
