@@ -153,6 +153,14 @@ SETTER(spp)
     return ec_parse_u32(option, value, 1, EC_MAX_SPP, &REQUEST->options.spp, err);
 }
 
+SETTER(terminator)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_terminator_names, &index, err));
+    REQUEST->options.terminator = (ec_terminator)index;
+    return EC_OK;
+}
+
 SETTER(time)
 {
     return ec_parse_seconds(option, value, &REQUEST->options.time_limit, err);
@@ -195,6 +203,7 @@ static const ec_option options[] = {
     {"seed", 0, true, set_seed},
     {"size", 0, true, set_size},
     {"spp", 0, true, set_spp},
+    {"terminator", 0, true, set_terminator},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
     {"wave", 0, true, set_wave},
