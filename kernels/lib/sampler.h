@@ -45,6 +45,14 @@ EC_FN uint hash_scalar(uint x)
 /* Uniform in [0, 1 - 2^-24]: 24 bits, never 1. */
 EC_FN lane_f to_unit(lane_u x) { return to_lane_f(x >> 8) * 5.9604644775390625e-8f; }
 
+/* Roulette: the share of paths of this throughput that live on; fixed > 0 says it. A multiple of 2^-24, so that it is to the last
+ * bit how often a number of to_unit lies below, and what is divided by is never less than that. */
+EC_FN lane_f roulette_survival(float fixed, lane_f brightest)
+{
+    lane_f survival = fixed > 0.0f ? F(fixed) : min(brightest, F(0.95f));
+    return ceil(survival * 16777216.0f) * 5.9604644775390625e-8f;
+}
+
 EC_FN lane_u reverse_bits(lane_u x)
 {
     x = (x >> 16) | (x << 16);

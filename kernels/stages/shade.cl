@@ -184,7 +184,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     lane_f brightest = v3_max_component(beta);
     alive = alive & finite & (brightest > 0.0f);
     if (bounce + 1 >= params->first_roulette) {
-        lane_f survival = params->survival > 0.0f ? F(params->survival) : min(brightest, F(0.95f)), u, unused;
+        lane_f survival = roulette_survival(params->survival, brightest), u, unused;
         sample_pair(random, pair + EC_PAIR_ROULETTE, &u, &unused);
         alive = alive & (u < survival);
         beta = v3_scale(beta, 1.0f / survival);
