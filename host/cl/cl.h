@@ -95,6 +95,23 @@ ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, ui
 ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local, ec_error *err);
 ec_result ec_cl_finish(ec_cl *cl, ec_error *err);
 
+/* An argument of ec_kernel_call: an array that is copied to the device and, OUT, back; NULL makes it a NULL buffer. Or a scalar. */
+typedef struct ec_array {
+    void *data;
+    size_t bytes;
+    enum { EC_ARRAY_IN, EC_ARRAY_OUT, EC_ARRAY_SCALAR } use;
+} ec_array;
+#define EC_IN(pointer, count) {(void *)(pointer), (size_t)(count) * sizeof *(pointer), EC_ARRAY_IN}
+#define EC_OUT(pointer, count) {(void *)(pointer), (size_t)(count) * sizeof *(pointer), EC_ARRAY_OUT}
+#define EC_SCALAR(variable) {(void *)&(variable), sizeof(variable), EC_ARRAY_SCALAR}
+enum {
+    EC_CALL_ARRAYS = 24, /* at most */
+    EC_CALL_SLACK = 64   /* bytes past an array's end that lane-wide loads may read */
+};
+/* Runs kernel `name` once over `items` work-items and waits for it. */
+ec_result ec_kernel_call(ec_cl *cl, cl_program program, const char *name, uint64_t items, uint32_t local, const ec_array *arrays,
+                         uint32_t count, ec_error *err);
+
 const char *ec_cl_error_name(cl_int code);
 /* "clEnqueueNDRangeKernel (intersect) failed: CL_OUT_OF_RESOURCES" */
 ec_result ec_cl_check(cl_int code, const char *call, const char *label, ec_error *err);

@@ -10,7 +10,7 @@ typedef struct ec_cli {
     ec_console console;
     int argc;
     char **argv;
-    int exit_code; /* of a command that succeeded: 1 where the answer is no, as of compare */
+    int exit_code; /* of a command that succeeded: 1 where the answer is no, as of compare and selftest */
     char *line;  /* the same as one text, before getopt reorders it; owned */
 } ec_cli;
 
@@ -23,6 +23,7 @@ ec_result ec_cmd_cost(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err);
+ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err);
 
 /* Prints `eclat VERSION` or a command's help ("" for the program's own) to stdout. */
 void ec_print_version(void);

@@ -24,6 +24,7 @@ static const command commands[] = {
     {"info", ec_cmd_info},
     {"compare", ec_cmd_compare},
     {"devices", ec_cmd_devices},
+    {"selftest", ec_cmd_selftest},
     {"help", cmd_help},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

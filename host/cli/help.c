@@ -14,6 +14,7 @@ const char EC_HELP_SHORT[] =
     "       eclat info SCENE               say what is in it\n"
     "       eclat compare A.exr B.exr      say whether two images differ by more than noise\n"
     "       eclat devices                  list the OpenCL devices\n"
+    "       eclat selftest                 try a device with hard cases of known answers\n"
     "       eclat --help                   say more\n";
 
 static const char help_main[] =
@@ -28,13 +29,14 @@ static const char help_main[] =
     "  help [COMMAND]     show this, or the help of a command\n"
     "  info SCENE         say what a scene holds and what rendering it takes\n"
     "  render SCENE       render a scene to EXR and PNG\n"
+    "  selftest           try a device and its driver with hard cases whose answers are known\n"
     "\n"
     "Options\n"
     "  -h, --help         show this\n"
     "      --version      show the version\n"
     "\n"
     "Results go to standard output; progress, warnings and errors to standard error.\n"
-    "Exit code: 0 done, 1 failed (of compare: or they differ), 2 the command line is wrong.\n"
+    "Exit code: 0 done, 1 failed (compare: or they differ; selftest: or a case failed), 2 the command line is wrong.\n"
     "\n"
     "Environment\n"
     "  ECLAT_DEVICE       OpenCL device, as for --device, where that is not given\n"
@@ -202,6 +204,28 @@ static const char help_devices[] =
     "  exact div          division and square root are correctly rounded\n"
     "  denormals, fma     single-precision denormals; fused multiply-add in hardware\n";
 
+static const char help_selftest[] =
+    "Usage: eclat selftest [options]\n"
+    "\n"
+    "Runs hard cases of known answers on a device: is a picture from it, with this driver, to be trusted? Prints a row for each,\n"
+    "worst first, and ends with 1 if one fails.\n"
+    "\n"
+    "Options\n"
+    "      --device ID    as for eclat render\n"
+    "      --full         the long cases too: some minutes on a processor\n"
+    "  -h, --help         show this\n"
+    "      --json         print one JSON object instead of a table\n"
+    "      --lanes N      paths in one work-item: 1, 4, 8, 16 or auto\n"
+    "      --only NAME    only the cases that have NAME in theirs\n"
+    "  -q, --quiet        print failed rows only, and nothing if there are none\n"
+    "      --version      show the version\n"
+    "\n"
+    "Columns\n"
+    "  expected           from a closed form or from double precision; measured must come within the tolerance of it\n"
+    "  tolerance          from the number of rounded operations, or four standard errors of what is sampled\n"
+    "  digits             decimal digits that survived, of the 7.2 that a float has: of what is sampled those that its noise\n"
+    "                     lets one see, of counts (expected: none) those of their number\n";
+
 void ec_print_help(const char *command)
 {
     const char *text = help_main;
@@ -210,6 +234,7 @@ void ec_print_help(const char *command)
     if (!strcmp(command, "info")) text = help_info;
     if (!strcmp(command, "compare")) text = help_compare;
     if (!strcmp(command, "devices")) text = help_devices;
+    if (!strcmp(command, "selftest")) text = help_selftest;
     fputs(text, stdout);
 }
 

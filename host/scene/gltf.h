@@ -106,6 +106,9 @@ typedef struct ec_gltf {
 ec_result ec_gltf_read(const char *path, ec_gltf **gltf, const ec_log *log, ec_error *err);
 void ec_gltf_free(ec_gltf *gltf); /* NULL is fine */
 
+/* load.c: everything after reading. Takes strings and materials from the document, which stays the caller's. */
+ec_result ec_scene_from_gltf(ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err);
+
 /* gltf_uri.c */
 ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err); /* leaves the folder? */
 ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *uri, uint8_t **bytes, uint64_t *length,

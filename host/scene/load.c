@@ -1,4 +1,4 @@
-/* From a file to a scene, step by step. */
+/* From a glTF document to a scene, step by step. */
 #include "scene/flatten.h"
 #include "scene/validate.h"
 
@@ -31,22 +31,29 @@ static ec_result build(ec_gltf *g, const ec_placement_list *placements, ec_scene
     return EC_OK;
 }
 
-ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err)
+ec_result ec_scene_from_gltf(ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err)
 {
     ec_result result = EC_FAILED;
-    ec_gltf *gltf = NULL;
     ec_placement_list placements = {0};
     ec_scene *s = calloc(1, sizeof *s);
     *scene = NULL;
-    if (!s) return ec_fail(err, "%s: out of memory", path);
-    EC_TRY_CLEANUP(ec_gltf_read(path, &gltf, log, err));
+    if (!s) return ec_fail(err, "%s: out of memory", gltf->path);
     EC_TRY_CLEANUP(ec_gltf_place_nodes(gltf, &placements, err));
     EC_TRY_CLEANUP(build(gltf, &placements, s, log, err));
     *scene = s;
     s = NULL;
 cleanup:
     free(placements.items);
-    ec_gltf_free(gltf);
     ec_scene_free(s);
+    return result;
+}
+
+ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err)
+{
+    ec_gltf *gltf = NULL;
+    *scene = NULL;
+    ec_result result = ec_gltf_read(path, &gltf, log, err);
+    if (result == EC_OK) result = ec_scene_from_gltf(gltf, scene, log, err);
+    ec_gltf_free(gltf);
     return result;
 }

@@ -1,12 +1,13 @@
 /* The scene's materials: the file's, glTF's default where something needs it, and variants for meshes that lack a
  * texture coordinate set. */
 #include "scene/flatten.h"
+#include "scene/model.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static ec_material default_material(void)
+ec_material ec_material_default(void)
 {
     ec_material m = {.base_color = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .normal_scale = 1, .specular = 1,
                      .specular_color = {1, 1, 1}, .ior = 1.5f, .alpha_cutoff = 0.5f};
@@ -51,7 +52,7 @@ static ec_result assign(const ec_gltf *g, ec_scene *s, ec_gltf_primitive *p, uin
     uint32_t file_index = p->material >= 0 ? (uint32_t)p->material : g->material_count;
     uint32_t *slot = &variants[4 * file_index];
     if (!slot[0]) { /* only the default is not there from the start */
-        EC_TRY(append(s, default_material(), err));
+        EC_TRY(append(s, ec_material_default(), err));
         slot[0] = s->material_count;
     }
     uint32_t original = slot[0] - 1;

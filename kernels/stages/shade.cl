@@ -4,9 +4,7 @@
 #include "../lib/bsdf.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
-#include "../lib/light.h"
-#include "../lib/medium.h"
-#include "../lib/queue.h"
+#include "../lib/shadow.h"
 #include "../lib/terminator.h"
 
 /* Weight of light that a path meets, against light_pdf; 1 where light sampling cannot find it or is not asked to. */
@@ -150,26 +148,10 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
-        if (HAS(ABSORPTION)) { /* infinitely far no body reaches: what path tracing misses is not dimmed either */
-            lane_u between = l.is_far ? U(EC_NO_ID) : medium_towards(&h, &s, medium, wi_local.z);
-            arriving = v3_mul(arriving, medium_transmittance(&g, between, sqrt(v3_dot(l.towards, l.towards))));
-        }
-        lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local, lifted) & (v3_max_component(arriving) != 0.0f);
-        lane_i finite = v3_is_finite(arriving);
-        uint bad = mask_bits(m & !finite);
-        if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
-        uint bits = mask_bits(m & finite);
-        if (bits) {
-            uint at = queue_reserve(counters->shadows[step], params->part, i, popcount(bits));
-            v3 end = surface_offset(v3_add(above, l.towards), l.end_error, l.end_normal, v3_negate(l.wi));
-            v3 from = leave(&s, above, l.wi, wi_local);
-            queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
-            queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
-            queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);
-            queue_push_f(shadows, wave, EC_SHADOW_SLOT, at, as_lane_f(slot), bits);
-            queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(left_behind(&s, l.wi, lifted, prim)), bits);
-            queue_push_f(shadows, wave, EC_SHADOW_TARGET, at, as_lane_f(l.target), bits);
-        }
+        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z));
+        lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local, lifted);
+        shadow_push(params, shadows, counters->shadows[step], i, above, leave(&s, above, l.wi, wi_local), &l, arriving, slot,
+                    left_behind(&s, l.wi, lifted, prim), m, invalid + EC_STAGE_SHADE);
     }
 
     lane_f u1, u2;

@@ -3,6 +3,7 @@
 #ifndef EC_TESTS_KERNEL_RUN_H
 #define EC_TESTS_KERNEL_RUN_H
 
+#include "base/random.h"
 #include "cl/cl.h"
 #include "support/test.h"
 
@@ -63,65 +64,29 @@ static inline cl_program kernel_build(ec_cl *cl, const char *name, int lanes, co
     return program;
 }
 
-/* One argument: an array that is copied to the device and, if wanted, back; or a scalar (no array). */
-typedef struct kernel_array {
-    void *data;
-    size_t bytes;
-    int kind; /* kernel_argument_kind */
-} kernel_array;
-enum kernel_argument_kind { KERNEL_IN, KERNEL_OUT, KERNEL_SCALAR };
-#define IN(pointer, count) {(void *)(pointer), (size_t)(count) * sizeof *(pointer), KERNEL_IN}
-#define OUT(pointer, count) {(void *)(pointer), (size_t)(count) * sizeof *(pointer), KERNEL_OUT}
-#define SCALAR(variable) {(void *)&(variable), sizeof(variable), KERNEL_SCALAR}
-#define KERNEL_ARRAYS 24
+typedef ec_array kernel_array;
+#define KERNEL_IN EC_ARRAY_IN
+#define IN EC_IN
+#define OUT EC_OUT
+#define SCALAR EC_SCALAR
+#define KERNEL_ARRAYS EC_CALL_ARRAYS
 
-/* Runs kernel `name` over items work-items and brings OUT arrays back. Lane-wide loads may go past the end: buffers have
- * 64 bytes more than their arrays. An array that is NULL is a NULL buffer. False after a failed check. */
+/* False after a failed check. */
 static inline bool kernel_call(ec_cl *cl, cl_program program, const char *name, uint64_t items, uint32_t local,
                                const kernel_array *arrays, uint32_t count)
 {
     ec_error err = {""};
-    cl_kernel kernel = NULL;
-    cl_mem buffers[KERNEL_ARRAYS] = {NULL};
-    ec_argument arguments[KERNEL_ARRAYS];
-    int before = test_failures;
-    CHECK_OK(ec_kernel_create(program, name, &kernel, &err), err);
-    for (uint32_t i = 0; kernel && i < count; i++) {
-        arguments[i] = (ec_argument){arrays[i].bytes, arrays[i].data};
-        if (arrays[i].kind == KERNEL_SCALAR) continue;
-        if (!arrays[i].data) {
-            arguments[i] = (ec_argument)EC_ARGUMENT(buffers[i]);
-            continue;
-        }
-        CHECK_OK(ec_buffer_create(cl, name, arrays[i].bytes + 64, NULL, &buffers[i], &err), err);
-        if (buffers[i] && arrays[i].bytes) CHECK_OK(ec_buffer_write(cl, buffers[i], 0, arrays[i].bytes, arrays[i].data, &err), err);
-        arguments[i] = (ec_argument)EC_ARGUMENT(buffers[i]);
-    }
-    if (kernel && test_failures == before) {
-        CHECK_OK(ec_kernel_arguments(kernel, arguments, count, &err), err);
-        if (test_failures == before) CHECK_OK(ec_kernel_run(cl, name, kernel, items, local, &err), err);
-        for (uint32_t i = 0; test_failures == before && i < count; i++)
-            if (arrays[i].kind == KERNEL_OUT)
-                CHECK_OK(ec_buffer_read(cl, buffers[i], 0, arrays[i].bytes, arrays[i].data, &err), err);
-    }
-    for (uint32_t i = 0; i < count; i++) ec_buffer_release(cl, &buffers[i]);
-    if (kernel) clReleaseKernel(kernel);
-    return test_failures == before;
+    ec_result result = ec_kernel_call(cl, program, name, items, local, arrays, count, &err);
+    CHECK_OK(result, err);
+    return result == EC_OK;
 }
 #define KERNEL_CALL(cl, program, name, items, ...)                                                 \
     kernel_call(cl, program, name, items, 64, (kernel_array[]){__VA_ARGS__},                       \
                 sizeof((kernel_array[]){__VA_ARGS__}) / sizeof(kernel_array))
 
-/* Random numbers for tests (SplitMix64, Steele et al. 2014). */
 static uint64_t test_random_state = 1;
-static inline uint64_t test_random_u64(void)
-{
-    uint64_t z = (test_random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-static inline double test_random(void) { return (double)(test_random_u64() >> 11) * 0x1p-53; } /* [0, 1) */
+static inline uint64_t test_random_u64(void) { return ec_random_bits(&test_random_state); }
+static inline double test_random(void) { return ec_random_unit(&test_random_state); } /* [0, 1) */
 static inline double test_random_in(double a, double b) { return a + (b - a) * test_random(); }
 
 #endif

@@ -1,5 +1,5 @@
 /* Triangles as lamps, against double precision: solid angle, the map from random numbers to points, densities that are the same
- * from both sides, and nothing that is not a number where a point touches its lamp. (Distributions: test_chi2.c.) */
+ * from both sides, and nothing that is not a number where a point touches its lamp. (Distributions: test_chi2_lights.c.) */
 #include "kernel/kernel_reference.h"
 
 static float points[3 * N], corners[9 * N], u[2 * N], out[10 * N];

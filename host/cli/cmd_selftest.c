@@ -1,0 +1,85 @@
+/* eclat selftest */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/cli.h"
+#include "cli/options.h"
+#include "cli/setters.h"
+#include "cli/stop.h"
+#include "selftest/report.h"
+
+typedef struct request {
+    const char *device;
+    bool json, quiet;
+    ec_selftest_options options;
+} request;
+
+#define REQUEST ((request *)target)
+
+FLAG_SETTER(full, options.full)
+FLAG_SETTER(json, json)
+FLAG_SETTER(quiet, quiet)
+TEXT_SETTER(device, device)
+PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
+
+SETTER(only)
+{
+    (void)option, (void)err;
+    REQUEST->options.only = value;
+    return EC_OK;
+}
+
+static const ec_option options[] = {
+    {"device", 0, true, set_device}, {"full", 0, false, set_full}, {"json", 0, false, set_json},
+    {"lanes", 0, true, set_lanes},   {"only", 0, true, set_only},  {"quiet", 'q', false, set_quiet},
+};
+
+static bool show(void *user, const char *name, uint32_t done, uint32_t count)
+{
+    char line[160];
+    snprintf(line, sizeof line, "%u of %u  %s", done + 1, count, name);
+    ec_console_draw(user, line);
+    return !ec_stop_requested();
+}
+
+static ec_result test_device(ec_cli *cli, const ec_device_info *device, uint32_t index, request *r, ec_error *err)
+{
+    ec_cl cl = {0};
+    ec_selftest_report report = {0};
+    ec_result result = EC_FAILED;
+    r->options.go_on = show;
+    r->options.user = &cli->console;
+    ec_stop_catch_signals();
+    EC_TRY_CLEANUP(ec_cl_open(device, &cl, err));
+    ec_console_say(&cli->console, "testing %s, %s", device->name, device->driver);
+    result = ec_selftest_run(&cl, &r->options, &report, err);
+    ec_console_erase(&cli->console);
+    if (result != EC_OK) goto cleanup;
+    if (r->json) result = ec_selftest_report_json(&report, device, index, stdout, err);
+    else ec_selftest_report_text(&report, r->quiet, stdout);
+    cli->exit_code = report.failed > 0;
+cleanup:
+    ec_selftest_free(&report);
+    ec_cl_close(&cl);
+    return result;
+}
+
+ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err)
+{
+    request r = {0};
+    int first = 0;
+    ec_request asked;
+    EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &r, argc, argv, &first, NULL, &asked, err));
+    if (ec_request_serve(asked, argv[0])) return EC_OK;
+    if (first < argc) return ec_usage(err, "selftest takes no operand, not '%s'; --only NAME chooses cases", argv[first]);
+    cli->console.quiet = r.quiet;
+
+    ec_device_info *devices = NULL;
+    uint32_t count = 0, chosen = 0;
+    const char *why;
+    EC_TRY(ec_devices_list(&devices, &count, err));
+    ec_result result = ec_device_choose(devices, count, r.device, &chosen, &why, err);
+    if (result == EC_OK) result = test_device(cli, &devices[chosen], chosen, &r, err);
+    free(devices);
+    return result;
+}

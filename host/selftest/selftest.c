@@ -1,0 +1,71 @@
+/* Runs the cases one after the other. */
+#include "selftest/selftest.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "pipeline/render.h"
+#include "selftest/cases.h"
+
+#define ROW(name, is_long, function, breaks) {name, is_long, function, breaks},
+static const ec_selftest_case cases[] = {EC_SELFTEST_CASES(ROW)};
+enum { CASE_COUNT = sizeof cases / sizeof cases[0] };
+
+static bool is_wanted(const ec_selftest_options *o, const ec_selftest_case *c)
+{
+    return (o->full || !c->is_long) && (!o->only || strstr(c->name, o->only));
+}
+
+static ec_result run_case(ec_selftest *t, const ec_selftest_case *c, ec_error *err)
+{
+    ec_error why = {""};
+    uint32_t first = t->report->count;
+    double start = ec_now();
+    t->current = c;
+    if (c->run(t, &why) != EC_OK) EC_TRY(ec_selftest_broken(t, why.text, err));
+    for (uint32_t i = first; i < t->report->count; i++)
+        t->report->rows[i].seconds = (ec_now() - start) / (t->report->count - first);
+    return EC_OK;
+}
+
+static int by_trouble(const void *a, const void *b)
+{
+    const ec_selftest_row *x = a, *y = b;
+    if (x->pass != y->pass) return x->pass ? 1 : -1;
+    if (x->digits != y->digits) return x->digits < y->digits ? -1 : 1;
+    return strcmp(x->name, y->name);
+}
+
+static void finish(ec_selftest_report *r)
+{
+    if (r->count) qsort(r->rows, r->count, sizeof *r->rows, by_trouble);
+    for (uint32_t i = 0; i < r->count; i++) r->failed += !r->rows[i].pass;
+}
+
+ec_result ec_selftest_run(ec_cl *cl, const ec_selftest_options *options, ec_selftest_report *report, ec_error *err)
+{
+    ec_selftest t = {.cl = cl, .full = options->full, .lanes = ec_pipeline_lanes(cl, options->lanes), .report = report};
+    uint32_t count = 0, done = 0;
+    double start = ec_now();
+    report->lanes = t.lanes;
+    for (int i = 0; i < CASE_COUNT; i++) count += is_wanted(options, &cases[i]);
+    if (!count) return ec_fail(err, "no case of the self-test has '%s' in its name", options->only);
+    for (int i = 0; i < CASE_COUNT; i++) {
+        const ec_selftest_case *c = &cases[i];
+        if (!is_wanted(options, c)) continue;
+        if (options->go_on && !options->go_on(options->user, c->name, done, count)) return ec_fail(err, "stopped before %s", c->name);
+        EC_TRY(run_case(&t, c, err));
+        done++;
+    }
+    report->seconds = ec_now() - start;
+    finish(report);
+    return EC_OK;
+}
+
+void ec_selftest_free(ec_selftest_report *r)
+{
+    free(r->rows);
+    *r = (ec_selftest_report){0};
+}

@@ -1,0 +1,57 @@
+#include "selftest/shot.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void ec_shot_free(ec_shot *shot)
+{
+    ec_film_destroy(&shot->film);
+    free(shot->rgb);
+    *shot = (ec_shot){0};
+}
+
+ec_render_options ec_shot_options(const ec_selftest *t, uint32_t size, uint32_t spp)
+{
+    return (ec_render_options){.width = size, .height = size, .spp = spp, .lanes = t->lanes, .all_effects = true};
+}
+
+static ec_result measure(ec_shot *s, ec_error *err)
+{
+    uint64_t pixels = (uint64_t)s->film.width * s->film.height;
+    float *se = malloc(3 * pixels * sizeof *se);
+    s->rgb = malloc(3 * pixels * sizeof *s->rgb);
+    if (!se || !s->rgb) {
+        free(se);
+        return ec_fail(err, "out of memory for a picture");
+    }
+    ec_film_resolve(&s->film, s->rgb, se);
+    double sum = 0, variance = 0;
+    for (uint64_t i = 0; i < pixels; i++) {
+        sum += s->rgb[3 * i + 1];
+        variance += (double)se[3 * i + 1] * se[3 * i + 1];
+    }
+    free(se);
+    s->mean = s->stats.invalid_samples || s->film.invalid_count ? NAN : sum / (double)pixels;
+    s->noise = sqrt(variance) / (double)pixels;
+    return EC_OK;
+}
+
+ec_result ec_shot_take(ec_selftest *t, const ec_scene *scene, const ec_render_options *options, ec_shot *shot, ec_error *err)
+{
+    *shot = (ec_shot){0};
+    ec_result result = ec_render(t->cl, scene, options, NULL, NULL, &shot->film, &shot->stats, NULL, err);
+    if (result == EC_OK) result = measure(shot, err);
+    if (result != EC_OK) ec_shot_free(shot);
+    return result;
+}
+
+ec_result ec_shot_row(ec_selftest *t, const char *what, const ec_scene *scene, const ec_render_options *options, double expected,
+                      ec_error *err)
+{
+    ec_shot shot;
+    EC_TRY(ec_shot_take(t, scene, options, &shot, err));
+    double tolerance = fmin(4 * shot.noise, 0.02 * fabs(expected)) + 1e-5 * fabs(expected);
+    ec_result result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, tolerance, err);
+    ec_shot_free(&shot);
+    return result;
+}
