@@ -1,12 +1,10 @@
 /* eclat selftest */
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "cli/cli.h"
-#include "cli/numbers.h"
 #include "cli/options.h"
+#include "cli/setters.h"
 #include "cli/stop.h"
-#include "cli/usage.h"
 #include "selftest/report.h"
 
 typedef struct request {
@@ -15,34 +13,18 @@ typedef struct request {
     ec_selftest_options options;
 } request;
 
-#define SETTER(name) static ec_result set_##name(void *target, const char *option, const char *value, ec_error *err)
-#define FLAG(name, field)                                                                           \
-    SETTER(name)                                                                                    \
-    {                                                                                               \
-        (void)option, (void)value, (void)err;                                                       \
-        ((request *)target)->field = true;                                                          \
-        return EC_OK;                                                                               \
-    }
-FLAG(full, options.full)
-FLAG(json, json)
-FLAG(quiet, quiet)
+#define REQUEST ((request *)target)
 
-SETTER(device)
-{
-    if (!*value) return ec_usage(err, "option '--%s' needs a value that is not empty", option);
-    ((request *)target)->device = value;
-    return EC_OK;
-}
-
-SETTER(lanes)
-{
-    return ec_parse_lanes(option, value, &((request *)target)->options.lanes, err);
-}
+FLAG_SETTER(full, options.full)
+FLAG_SETTER(json, json)
+FLAG_SETTER(quiet, quiet)
+TEXT_SETTER(device, device)
+PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 
 SETTER(only)
 {
     (void)option, (void)err;
-    ((request *)target)->options.only = value;
+    REQUEST->options.only = value;
     return EC_OK;
 }
 
@@ -66,7 +48,7 @@ static ec_result test_device(ec_cli *cli, const ec_device_info *device, uint32_t
     ec_result result = EC_FAILED;
     r->options.go_on = show;
     r->options.user = &cli->console;
-    ec_stop_catch_signals();
+    ec_stop_catch_signals(ec_console_wants_progress(&cli->console));
     EC_TRY_CLEANUP(ec_cl_open(device, &cl, err));
     ec_console_say(&cli->console, "testing %s, %s", device->name, device->driver);
     result = ec_selftest_run(&cl, &r->options, &report, err);
@@ -91,12 +73,8 @@ ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (first < argc) return ec_usage(err, "selftest takes no operand, not '%s'; --only NAME chooses cases", argv[first]);
     cli->console.quiet = r.quiet;
 
-    ec_device_info *devices = NULL;
-    uint32_t count = 0, chosen = 0;
-    const char *why;
-    EC_TRY(ec_devices_list(&devices, &count, err));
-    ec_result result = ec_device_choose(devices, count, r.device, &chosen, &why, err);
-    if (result == EC_OK) result = test_device(cli, &devices[chosen], chosen, &r, err);
-    free(devices);
-    return result;
+    ec_device_info device;
+    uint32_t index;
+    EC_TRY(ec_device_find(r.device, &device, &index, NULL, err));
+    return test_device(cli, &device, index, &r, err);
 }

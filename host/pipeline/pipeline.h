@@ -18,6 +18,7 @@ typedef struct ec_pipeline {
     ec_params params;
     ec_counters counters;         /* the host's copy */
     uint32_t features, lanes, wave, triangle_count;
+    uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
     bool fast_math;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
@@ -44,6 +45,8 @@ void ec_pipeline_destroy(ec_pipeline *pipeline);
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err);
+/* Samples dropped so far, by ec_stage. */
+ec_result ec_pipeline_read_invalid(ec_pipeline *pipeline, uint32_t counts[EC_STAGE_COUNT], ec_error *err);
 /* What an integrator does with a wave's camera rays: adds to their slots' radiance. scalars: by ec_arg. */
 typedef ec_result ec_integrate(ec_pipeline *pipeline, uint32_t *scalars, ec_error *err);
 ec_integrate ec_integrate_paths;   /* wave.c */
@@ -64,7 +67,8 @@ ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const
 ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
 /* Those that are in use. */
 ec_result ec_pipeline_upload_accels(ec_pipeline *pipeline, const ec_scene *scene, float grid_density, ec_error *err);
-ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, ec_error *err);
+/* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. */
+ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, const ec_render_options *options, ec_error *err);
 /* build.c */
 ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
 /* launch.c */
