@@ -32,8 +32,8 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
 ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index,
                            const char **why, ec_error *err);
 
-/* Whether programs go through the binary cache. AUTO leaves it out where the driver's own cache is finer (PoCL) and where
- * the source is wanted (Oclgrind). */
+/* Whether programs go through the binary cache. AUTO leaves it out for drivers that need the source:
+ * cl/workarounds.c. */
 typedef enum ec_cache_use { EC_CACHE_AUTO = 0, EC_CACHE_ON, EC_CACHE_OFF } ec_cache_use;
 
 /* A context and an in-order queue on one device. One thread at a time, but for ec_program_build: one thread may build
