@@ -123,10 +123,11 @@ EC_FN lane_f acos_over_pi(lane_f x)
     return fabs(atan2_over_2pi(sqrt(max((1.0f - x) * (1.0f + x), F(0.0f))), x)) * 2.0f;
 }
 
-/* Orthonormal frame around the unit vector n (Duff et al. 2017, listing 3). */
+/* Orthonormal frame around the unit vector n (Duff et al. 2017, listing 3, but for -0, which counts as 0: compilers differ about the
+ * signs of zeros, and an axis-parallel n would turn its frame by them). */
 EC_FN void v3_frame(v3 n, v3 *s, v3 *t)
 {
-    lane_f sign = copysign(F(1.0f), n.z);
+    lane_f sign = n.z < 0.0f ? F(-1.0f) : F(1.0f);
     lane_f a = -1.0f / (sign + n.z);
     lane_f b = n.x * n.y * a;
     *s = v3_make(fma(sign * n.x * n.x, a, F(1.0f)), sign * b, -sign * n.x);

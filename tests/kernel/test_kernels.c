@@ -106,7 +106,7 @@ static void run_test(ec_cl *cl, const char *name) {
     static const char directive[] = "\n// options:";
     char *source = flatten(name);
     CHECK_MSG(source, "test_%s.cl cannot be flattened", name);
-    for (int i = 0; source && i < LANE_WIDTHS; i++) {
+    for (int i = 0; source && i < kernel_widths(cl); i++) {
         const char *at = strstr(source, directive);
         if (!at) run_variant(cl, name, source, lane_widths[i], "");
         for (; at; at = strstr(at + 1, directive)) {
