@@ -6,7 +6,8 @@
  * cache is as good: 0.03-0.05 s instead of 0.01 s. It compiles under one lock for the process, so threads do not help, nor do
  * contexts, and each program more costs 0.1-0.2 s: see ec_kernel_sources_join.
  *
- * rusticl unrolls vectors into scalars before it simplifies them. */
+ * rusticl was still busy with kernels of eight lanes after five minutes of processor time. It ends the process over a binary that it
+ * does not know, and has a cache of its own. */
 #include "cl/workarounds.h"
 
 #include <string.h>
@@ -14,7 +15,8 @@
 static const ec_workaround workarounds[] = {
     {"PoCL", "3.1, 2026-11", "binaries lack what launches use", .source_only = true},
     {"Oclgrind", "21.10, 2026-11", "the simulator names lines of the source", .source_only = true},
-    {"rusticl", "Mesa 22.3.6, 2026-11", "its compiler takes gigabytes and many minutes for kernels of more than one lane", .most_lanes = 1},
+    {"rusticl", "Mesa 22.3.6, 2026-11", "its compiler takes gigabytes and many minutes for kernels of more than one lane", .most_lanes = 1,
+     .source_only = true},
 };
 
 const ec_workaround *ec_workaround_for(const ec_device_info *device) {
