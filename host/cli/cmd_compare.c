@@ -8,7 +8,7 @@
 #include "cli/compare_input.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "cli/usage.h"
+#include "cli/setters.h"
 #include "image/error_map.h"
 #include "report/compare_report.h"
 
@@ -17,26 +17,17 @@ typedef struct compare_request {
     bool json, quiet;
 } compare_request;
 
-static ec_result set_json(void *target, const char *option, const char *value, ec_error *err)
-{
-    (void)option, (void)value, (void)err;
-    ((compare_request *)target)->json = true;
-    return EC_OK;
-}
+#define REQUEST ((compare_request *)target)
 
-static ec_result set_quiet(void *target, const char *option, const char *value, ec_error *err)
-{
-    (void)option, (void)value, (void)err;
-    ((compare_request *)target)->quiet = true;
-    return EC_OK;
-}
+FLAG_SETTER(json, json)
+FLAG_SETTER(quiet, quiet)
 
-static ec_result set_diff(void *target, const char *option, const char *value, ec_error *err)
+SETTER(diff)
 {
     size_t size = strlen(value);
     if (size <= 4 || value[size - 5] == '/' || strcasecmp(value + size - 4, ".png"))
         return ec_usage(err, "--%s: '%s' must be named NAME.png", option, value);
-    ((compare_request *)target)->diff = value;
+    REQUEST->diff = value;
     return EC_OK;
 }
 

@@ -7,8 +7,8 @@
 #include "cli/cli.h"
 #include "cli/combinations.h"
 #include "cli/defaults.h"
-#include "cli/numbers.h"
 #include "cli/options.h"
+#include "cli/setters.h"
 #include "pipeline/render.h"
 #include "report/scene_report.h"
 
@@ -18,41 +18,22 @@ typedef struct info_request {
     bool json, quiet;
 } info_request;
 
-static ec_result set_json(void *target, const char *option, const char *value, ec_error *err)
-{
-    (void)option, (void)value, (void)err;
-    ((info_request *)target)->json = true;
-    return EC_OK;
-}
+#define REQUEST ((info_request *)target)
 
-static ec_result set_quiet(void *target, const char *option, const char *value, ec_error *err)
-{
-    (void)option, (void)value, (void)err;
-    ((info_request *)target)->quiet = true;
-    return EC_OK;
-}
+FLAG_SETTER(json, json)
+FLAG_SETTER(quiet, quiet)
+TEXT_SETTER(device, device)
+RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
-static ec_result set_accel(void *target, const char *option, const char *value, ec_error *err)
+SETTER(accel)
 {
     static const char all[] = "all";
     const char *names[EC_ACCEL_COUNT + 2] = {all};
     uint32_t index = 0;
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) names[a + 1] = ec_accels[a].name;
     EC_TRY(ec_parse_choice(option, value, names, &index, err));
-    ((info_request *)target)->accel = names[index];
+    REQUEST->accel = names[index];
     return EC_OK;
-}
-
-static ec_result set_device(void *target, const char *option, const char *value, ec_error *err)
-{
-    (void)option, (void)err;
-    ((info_request *)target)->device = value;
-    return EC_OK;
-}
-
-static ec_result set_grid_density(void *target, const char *option, const char *value, ec_error *err)
-{
-    return ec_parse_real(option, value, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, &((info_request *)target)->grid_density, err);
 }
 
 static const ec_option options[] = {

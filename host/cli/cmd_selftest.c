@@ -3,10 +3,9 @@
 #include <stdlib.h>
 
 #include "cli/cli.h"
-#include "cli/numbers.h"
 #include "cli/options.h"
+#include "cli/setters.h"
 #include "cli/stop.h"
-#include "cli/usage.h"
 #include "selftest/report.h"
 
 typedef struct request {
@@ -15,34 +14,18 @@ typedef struct request {
     ec_selftest_options options;
 } request;
 
-#define SETTER(name) static ec_result set_##name(void *target, const char *option, const char *value, ec_error *err)
-#define FLAG(name, field)                                                                           \
-    SETTER(name)                                                                                    \
-    {                                                                                               \
-        (void)option, (void)value, (void)err;                                                       \
-        ((request *)target)->field = true;                                                          \
-        return EC_OK;                                                                               \
-    }
-FLAG(full, options.full)
-FLAG(json, json)
-FLAG(quiet, quiet)
+#define REQUEST ((request *)target)
 
-SETTER(device)
-{
-    if (!*value) return ec_usage(err, "option '--%s' needs a value that is not empty", option);
-    ((request *)target)->device = value;
-    return EC_OK;
-}
-
-SETTER(lanes)
-{
-    return ec_parse_lanes(option, value, &((request *)target)->options.lanes, err);
-}
+FLAG_SETTER(full, options.full)
+FLAG_SETTER(json, json)
+FLAG_SETTER(quiet, quiet)
+TEXT_SETTER(device, device)
+PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 
 SETTER(only)
 {
     (void)option, (void)err;
-    ((request *)target)->options.only = value;
+    REQUEST->options.only = value;
     return EC_OK;
 }
 

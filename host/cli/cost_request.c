@@ -4,31 +4,19 @@
 #include <strings.h>
 
 #include "cli/defaults.h"
-#include "cli/numbers.h"
 #include "cli/options.h"
-#include "cli/usage.h"
+#include "cli/setters.h"
 
-#define SETTER(name)                                                                                \
-    static ec_result set_##name(void *target, const char *option, const char *value, ec_error *err)
 #define REQUEST ((ec_cost_request *)target)
-#define TEXT_SETTER(name, field)                                                                    \
-    SETTER(name)                                                                                    \
-    {                                                                                               \
-        if (!*value) return ec_usage(err, "option '--%s' needs a value that is not empty", option); \
-        REQUEST->field = value;                                                                     \
-        return EC_OK;                                                                               \
-    }
 
+FLAG_SETTER(quiet, render.quiet)
 TEXT_SETTER(camera, render.camera)
 TEXT_SETTER(device, render.device)
 TEXT_SETTER(env, render.environment)
 TEXT_SETTER(json, json)
 TEXT_SETTER(reference, reference)
-
-SETTER(budget)
-{
-    return ec_parse_seconds(option, value, &REQUEST->budget, err);
-}
+PARSED_SETTER(budget, ec_parse_seconds, budget)
+RANGE_SETTER(seed, ec_parse_whole, 0, UINT64_MAX, render.options.seed)
 
 SETTER(output)
 {
@@ -38,18 +26,6 @@ SETTER(output)
     (void)option;
     REQUEST->html = value;
     return EC_OK;
-}
-
-SETTER(quiet)
-{
-    (void)option, (void)value, (void)err;
-    REQUEST->render.quiet = true;
-    return EC_OK;
-}
-
-SETTER(seed)
-{
-    return ec_parse_whole(option, value, 0, UINT64_MAX, &REQUEST->render.options.seed, err);
 }
 
 SETTER(size)

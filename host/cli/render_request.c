@@ -2,33 +2,13 @@
 
 #include <string.h>
 
+#include "accel/accel.h"
 #include "cli/combinations.h"
 #include "cli/defaults.h"
-#include "cli/numbers.h"
-#include "cli/usage.h"
-#include "accel/accel.h"
+#include "cli/setters.h"
 #include "report/names.h"
 
-/* One setter an option; all have the signature of ec_option_set. */
-#define SETTER(name)                                                                                \
-    static ec_result set_##name(void *target, const char *option, const char *value, ec_error *err)
 #define REQUEST ((ec_render_request *)target)
-
-/* Flags and texts need neither a value nor a check. */
-#define FLAG_SETTER(name, field)                                                                    \
-    SETTER(name)                                                                                    \
-    {                                                                                               \
-        (void)option, (void)value, (void)err;                                                       \
-        REQUEST->field = true;                                                                      \
-        return EC_OK;                                                                               \
-    }
-#define TEXT_SETTER(name, field)                                                                    \
-    SETTER(name)                                                                                    \
-    {                                                                                               \
-        if (!*value) return ec_usage(err, "option '--%s' needs a value that is not empty", option); \
-        REQUEST->field = value;                                                                     \
-        return EC_OK;                                                                               \
-    }
 
 SETTER(accel)
 {
@@ -45,26 +25,19 @@ FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(camera, camera)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
-
-SETTER(batch)
-{
-    return ec_parse_u32(option, value, 1, EC_MAX_SPP, &REQUEST->options.batch, err);
-}
-
-SETTER(cutoff)
-{
-    return ec_parse_real(option, value, 0, 1, &REQUEST->options.cutoff, err);
-}
-
-SETTER(error)
-{
-    return ec_parse_percent(option, value, &REQUEST->options.error_target, err);
-}
-
-SETTER(exposure)
-{
-    return ec_parse_real(option, value, -100, 100, &REQUEST->exposure, err);
-}
+CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
+CHOICE_SETTER(sample, options.sample, ec_sample, ec_sample_names)
+CHOICE_SETTER(sampler, options.sampler, ec_sampler_type, ec_sampler_names)
+CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
+PARSED_SETTER(error, ec_parse_percent, options.error_target)
+PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
+PARSED_SETTER(time, ec_parse_seconds, options.time_limit)
+RANGE_SETTER(batch, ec_parse_u32, 1, EC_MAX_SPP, options.batch)
+RANGE_SETTER(cutoff, ec_parse_real, 0, 1, options.cutoff)
+RANGE_SETTER(exposure, ec_parse_real, -100, 100, exposure)
+RANGE_SETTER(seed, ec_parse_whole, 0, UINT64_MAX, options.seed)
+RANGE_SETTER(spp, ec_parse_u32, 1, EC_MAX_SPP, options.spp)
+RANGE_SETTER(wave, ec_parse_u32, 1, 1u << 28, options.wave)
 
 SETTER(grid_density)
 {
@@ -72,19 +45,6 @@ SETTER(grid_density)
     EC_TRY(ec_parse_real(option, value, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, &density, err));
     REQUEST->options.grid_density = (float)density;
     return EC_OK;
-}
-
-SETTER(integrator)
-{
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, ec_integrator_names, &index, err));
-    REQUEST->options.integrator = (ec_integrator)index;
-    return EC_OK;
-}
-
-SETTER(lanes)
-{
-    return ec_parse_lanes(option, value, &REQUEST->options.lanes, err);
 }
 
 SETTER(max_depth)
@@ -116,54 +76,10 @@ SETTER(rr)
     return EC_OK;
 }
 
-SETTER(sample)
-{
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, ec_sample_names, &index, err));
-    REQUEST->options.sample = (ec_sample)index;
-    return EC_OK;
-}
-
-SETTER(sampler)
-{
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, ec_sampler_names, &index, err));
-    REQUEST->options.sampler = (ec_sampler_type)index;
-    return EC_OK;
-}
-
-SETTER(seed)
-{
-    return ec_parse_whole(option, value, 0, UINT64_MAX, &REQUEST->options.seed, err);
-}
-
 SETTER(size)
 {
     REQUEST->has_size = true;
     return ec_parse_size(option, value, &REQUEST->options.width, &REQUEST->options.height, err);
-}
-
-SETTER(spp)
-{
-    return ec_parse_u32(option, value, 1, EC_MAX_SPP, &REQUEST->options.spp, err);
-}
-
-SETTER(time)
-{
-    return ec_parse_seconds(option, value, &REQUEST->options.time_limit, err);
-}
-
-SETTER(tonemap)
-{
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, ec_tonemap_names, &index, err));
-    REQUEST->tonemap = (ec_tonemap)index;
-    return EC_OK;
-}
-
-SETTER(wave)
-{
-    return ec_parse_u32(option, value, 1, 1u << 28, &REQUEST->options.wave, err);
 }
 
 static const ec_option options[] = {

@@ -80,26 +80,25 @@ static void add_arithmetic(rung_list *list)
     fast->unbiased = false;
 }
 
+static ec_cost_rung *add_speed(rung_list *list, const char *option, const char *name)
+{
+    char id[48];
+    snprintf(id, sizeof id, "%s-%s", option, name);
+    ec_cost_rung *rung = add(list, id, "%s", name);
+    rung->speed_only = true;
+    return rung;
+}
+
 static void add_speeds(rung_list *list)
 {
-    static const uint32_t lanes[] = {1, 4, 8, 16};
     static const char *const order[] = {"bvh8", "bvh2", "kdtree", "grid"};
     begin(list, "accelerator", "Accelerator, instead of auto");
-    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
-        char id[48];
-        snprintf(id, sizeof id, "accel-%s", order[i]);
-        ec_cost_rung *rung = add(list, id, "%s", order[i]);
-        rung->options.accel = order[i];
-        rung->speed_only = true;
-    }
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) add_speed(list, "accel", order[i])->options.accel = order[i];
     begin(list, "lanes", "Paths in a work-item, instead of auto");
-    for (size_t i = 0; i < sizeof lanes / sizeof *lanes; i++) {
-        char id[48];
-        snprintf(id, sizeof id, "lanes-%u", lanes[i]);
-        ec_cost_rung *rung = add(list, id, "%u", lanes[i]);
-        rung->options.lanes = lanes[i];
-        rung->speed_only = true;
-    }
+    add_speed(list, "lanes", "1")->options.lanes = 1;
+    add_speed(list, "lanes", "4")->options.lanes = 4;
+    add_speed(list, "lanes", "8")->options.lanes = 8;
+    add_speed(list, "lanes", "16")->options.lanes = 16;
 }
 
 static void add_effect(rung_list *list, ec_cost_effect effect, const char *id, const char *name)

@@ -29,8 +29,6 @@
 #include "film/film.h"
 #include "film/statistics.h"
 
-static const double confidence = EC_BOUND_CONFIDENCE;
-
 /* Sums over pixels of luminance and of s^2 / n, the variances of their means. */
 typedef struct variance_sums {
     double luminance, s2, s4;
@@ -87,6 +85,13 @@ static double effective_pixels(const variance_sums *sums, double n, double pixel
     return 1 + (s2_squared - sums->s4) / G;           /* for one noisy pixel exactly 1 */
 }
 
+double ec_film_error_bound(double square, double noisy_pixels, double pixels, double batches)
+{
+    double from_pixels = ec_f_quantile(EC_BOUND_CONFIDENCE, noisy_pixels, noisy_pixels * fmax(batches - 1, 1)) - 1;
+    double from_mean = 2 * ec_normal_upper_quantile(1 - EC_BOUND_CONFIDENCE) * sqrt(square / pixels);
+    return sqrt(square * (1 + hypot(from_pixels, from_mean)));
+}
+
 ec_film_error ec_film_estimate_error(const ec_film *film)
 {
     ec_film_error result = {.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
@@ -106,8 +111,6 @@ ec_film_error ec_film_estimate_error(const ec_film *film)
     /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */
     double variance = n >= 4 ? fmax(sums.s4 - sums.v4, 0) : sums.s4 * 2 / (n + 1);
     result.spread = sqrt(variance) / sums.s2;
-    double from_pixels = ec_f_quantile(confidence, nu, nu * (n - 1)) - 1;
-    double from_mean = 2 * ec_normal_upper_quantile(1 - confidence) * sqrt(square / pixels);
-    result.error_bound = sqrt(square * (1 + hypot(from_pixels, from_mean)));
+    result.error_bound = ec_film_error_bound(square, nu, pixels, n);
     return result;
 }

@@ -27,7 +27,7 @@ typedef struct ec_film {
     double *m2;                   /* 4 per pixel: sum of squared deviations of R, G, B and luminance (Welford) */
     float *m34;                   /* 2 per pixel: sums of cubed and fourth-power deviations of luminance (Pebay 2008) */
     float *largest;               /* 1 per pixel: luminance of its brightest batch */
-    uint64_t invalid_count;       /* values that were NaN or infinite and counted as 0; the pipeline should leave none */
+    uint64_t invalid_count;       /* values that were NaN or infinite and counted as 0 */
     /* First-hit features, from the first batch; may be NULL. albedo 3, normal 3, depth 1, alpha 1 per pixel.
      * ec_film_create leaves it NULL; whoever sets it mallocs it, ec_film_destroy frees it. */
     float *aov;                   /* 8 per pixel */
@@ -65,6 +65,9 @@ typedef struct ec_film_error {
     double relmse;
 } ec_film_error;
 ec_film_error ec_film_estimate_error(const ec_film *film);
+
+/* The bound of an error whose square is `square`, after so many batches. */
+double ec_film_error_bound(double square, double noisy_pixels, double pixels, double batches);
 
 /* Keeps relMSE finite on black: as in pbrt's imgtool (metric MRSE), so that figures compare. */
 #define EC_RELMSE_FLOOR 0.01

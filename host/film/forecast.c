@@ -2,14 +2,9 @@
 
 #include <math.h>
 
-#include "film/statistics.h"
-
 double ec_outlook_bound(const ec_film_outlook *o, double batches)
 {
-    double square = o->variance / batches, nu = o->noisy_pixels;
-    double from_pixels = ec_f_quantile(EC_BOUND_CONFIDENCE, nu, nu * fmax(batches - 1, 1)) - 1;
-    double from_mean = 2 * ec_normal_upper_quantile(1 - EC_BOUND_CONFIDENCE) * sqrt(square / o->pixels);
-    return sqrt(square * (1 + hypot(from_pixels, from_mean)));
+    return ec_film_error_bound(o->variance / batches, o->noisy_pixels, o->pixels, batches);
 }
 
 double ec_outlook_batches(const ec_film_outlook *o, double target)

@@ -111,9 +111,6 @@ uint32_t ec_pack_features(const ec_scene *scene)
     }
     if (has_smooth_normals(scene)) f |= EC_FEATURE_SMOOTH_NORMALS;
     if (has_vertex_colors(scene)) f |= EC_FEATURE_VERTEX_COLORS;
-    const uint32_t textures = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE |
-                              EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE |
-                              EC_FEATURE_TRANSMISSION_TEXTURE;
-    if ((f & textures) && has_deep_images(scene)) f |= EC_FEATURE_FLOAT_TEXTURE;
+    if ((f & EC_FEATURES_TEXTURED) && has_deep_images(scene)) f |= EC_FEATURE_FLOAT_TEXTURE;
     return f;
 }

@@ -136,6 +136,11 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     return result;
 }
 
+ec_result ec_pipeline_read_invalid(ec_pipeline *p, uint32_t counts[EC_STAGE_COUNT], ec_error *err)
+{
+    return ec_buffer_read(p->cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * sizeof *counts, counts, err);
+}
+
 void ec_pipeline_destroy(ec_pipeline *p)
 {
     if (!p->cl) return;

@@ -6,17 +6,10 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/random.h"
 #include "pipeline/pipeline.h"
 
 #define RUNS 4 /* the first may compile; the best of the others counts */
-
-static double random_unit(uint64_t *state) /* splitmix64 (Steele et al. 2014) */
-{
-    uint64_t x = *state += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
 
 static const float *vertex(const ec_scene *scene, uint32_t triangle, int corner)
 {
@@ -39,13 +32,13 @@ static double *sum_areas(const ec_scene *scene)
 static void make_ray(const ec_scene *scene, const double *areas, uint64_t *state, float *queue, uint32_t i)
 {
     uint32_t low = 0, high = scene->triangle_count - 1;
-    for (double at = random_unit(state) * areas[high]; low < high;) {
+    for (double at = ec_random_unit(state) * areas[high]; low < high;) {
         uint32_t middle = low + (high - low) / 2;
         if (areas[middle] < at) low = middle + 1;
         else high = middle;
     }
-    double root = sqrt(random_unit(state)), v = random_unit(state) * root, z = 2.0 * random_unit(state) - 1.0;
-    double angle = 6.283185307179586 * random_unit(state), r = sqrt(fmax(0.0, 1.0 - z * z));
+    double root = sqrt(ec_random_unit(state)), v = ec_random_unit(state) * root, z = 2.0 * ec_random_unit(state) - 1.0;
+    double angle = 6.283185307179586 * ec_random_unit(state), r = sqrt(fmax(0.0, 1.0 - z * z));
     const double direction[3] = {r * cos(angle), r * sin(angle), z};
     const float *a = vertex(scene, low, 0), *b = vertex(scene, low, 1), *c = vertex(scene, low, 2);
     for (uint32_t k = 0; k < 3; k++) {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/random.h"
 #include "pipeline/adaptive.h"
 #include "pipeline/forecast.h"
 #include "pipeline/pipeline.h"
@@ -43,13 +44,10 @@ static uint32_t choose_batch(const ec_render_options *o)
     return o->spp ? batch_of_spp(o->spp) : 8;
 }
 
-/* Seeds of batches must differ in every bit: the same mixer as the kernels'. */
+/* Seeds of batches must differ in every bit. */
 static uint32_t batch_seed(uint64_t seed, uint32_t batch)
 {
-    uint64_t x = seed * UINT64_C(0x9e3779b97f4a7c15) + batch + 1;
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9); /* splitmix64 (Steele et al. 2014) */
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (uint32_t)((x ^ (x >> 31)) >> 16);
+    return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + batch + 1) >> 16);
 }
 
 static double fraction_done(const render_state *r, double batches, double seconds)
@@ -158,14 +156,8 @@ static ec_result mark_unsampled(render_state *r, float *host, uint64_t pixels, e
 static ec_result add_batch(render_state *r, float *host, uint32_t count, bool complete, ec_error *err)
 {
     ec_pipeline *p = &r->pipeline;
-    uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, host, err));
-    if (!complete) EC_TRY(mark_unsampled(r, host, pixels, err));
-    for (uint64_t i = 0; i < 3 * pixels; i++)
-        if (!isfinite(host[i])) { /* finite samples whose sum is not */
-            host[i] = 0.0f;
-            r->stats->invalid_accumulate++;
-        }
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)count * 12, host, err));
+    if (!complete) EC_TRY(mark_unsampled(r, host, count, err));
     if (r->allotment.weight) EC_TRY(ec_film_add_some(r->film, host, r->allotment.places, count, err));
     else ec_film_add_batch(r->film, host);
     r->error = ec_film_estimate_error(r->film);
@@ -248,13 +240,13 @@ static ec_result finish_stats(render_state *r, ec_error *err)
     ec_render_stats *s = r->stats;
     ec_pipeline *p = &r->pipeline;
     uint32_t invalid[EC_STAGE_COUNT];
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_INVALID], 0, sizeof invalid, invalid, err));
+    EC_TRY(ec_pipeline_read_invalid(p, invalid, err));
     s->seconds = ec_now() - r->render_start;
     s->invalid_generate = invalid[EC_STAGE_GENERATE];
     s->invalid_intersect = invalid[EC_STAGE_INTERSECT];
     s->invalid_shade = invalid[EC_STAGE_SHADE];
     s->invalid_connect = invalid[EC_STAGE_CONNECT];
-    s->invalid_accumulate += invalid[EC_STAGE_ACCUMULATE];
+    s->invalid_accumulate = invalid[EC_STAGE_ACCUMULATE] + r->film->invalid_count; /* finite samples whose sum is not */
     s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
     s->samples_per_pixel = (uint64_t)(batches_done(r) * p->params.batch + 1e-6);
     s->allotment_gain = r->allotment.gain;

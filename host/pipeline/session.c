@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "base/random.h"
 #include "pipeline/pipeline.h"
 
 struct ec_session {
@@ -73,22 +74,15 @@ ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error
 ec_result ec_session_invalid(ec_session *session, uint64_t *samples, ec_error *err)
 {
     uint32_t invalid[EC_STAGE_COUNT];
-    ec_pipeline *p = &session->pipeline;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_INVALID], 0, sizeof invalid, invalid, err));
+    EC_TRY(ec_pipeline_read_invalid(&session->pipeline, invalid, err));
     *samples = 0;
     for (int i = 0; i < EC_STAGE_COUNT; i++) *samples += invalid[i];
     return EC_OK;
 }
 
-static uint64_t mix(uint64_t x) /* splitmix64 (Steele et al. 2014) */
-{
-    x += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return x ^ (x >> 31);
-}
-
 uint32_t ec_session_seed(uint64_t seed, uint32_t stream, uint32_t index)
 {
-    return (uint32_t)(mix(mix(seed ^ UINT64_C(0x65636c6174)) ^ ((uint64_t)stream << 32 | index)) >> 16);
+    uint64_t state = seed ^ UINT64_C(0x65636c6174);
+    state = ec_random_bits(&state) ^ ((uint64_t)stream << 32 | index);
+    return (uint32_t)(ec_random_bits(&state) >> 16);
 }

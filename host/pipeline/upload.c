@@ -38,14 +38,12 @@ static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, ec_error *err
 ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pack *pack, ec_error *err)
 {
     const uint32_t f = pack->features; /* also for universal kernels: what is not called for stays NULL */
-    const bool textured = f & (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE |
-                               EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE |
-                               EC_FEATURE_TRANSMISSION_TEXTURE);
+    const bool textured = f & EC_FEATURES_TEXTURED;
     const uint64_t vertices = scene->vertex_count;
     EC_TRY(upload(p, EC_ARG_PRIMS, "triangles", (uint64_t)pack->prim_count * sizeof *pack->prims, pack->prims, err));
     EC_TRY(upload(p, EC_ARG_MATERIALS, "materials", (uint64_t)pack->material_count * sizeof *pack->materials, pack->materials, err));
     EC_TRY(upload(p, EC_ARG_SRGB, "sRGB table", sizeof pack->srgb, pack->srgb, err));
-    if (textured || (f & (EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)))
+    if (f & EC_FEATURES_ATTRIBUTES)
         EC_TRY(upload_padded(p, EC_ARG_INDICES, "indices", 12 * (uint64_t)scene->triangle_count, scene->indices, err));
     if (f & EC_FEATURE_SMOOTH_NORMALS) EC_TRY(upload_padded(p, EC_ARG_NORMALS, "normals", 12 * vertices, scene->normals, err));
     if (f & EC_FEATURE_NORMAL_TEXTURE) EC_TRY(upload(p, EC_ARG_TANGENTS, "tangents", 16 * vertices, scene->tangents, err));

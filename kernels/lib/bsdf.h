@@ -179,7 +179,8 @@ EC_FN bsdf_direction bsdf_sample_specular(const bsdf *b, lane_f cosine, lane_f s
     r.wi = v3_fma(m, 2.0f * om, v3_negate(b->wo));
     r.pdf = F(1.0f);
     r.weight = v3_zero();
-    if (!HAS(TRANSMISSION) && !(HAS(SMOOTH) && any_lane(b->smooth))) return r;
+    bool any_smooth = HAS(SMOOTH) && any_lane(b->smooth);
+    if (!HAS(TRANSMISSION) && !any_smooth) return r;
     lane_f rest;
     v3 reflectance = bsdf_fresnel(b, min(max(om, F(0.0f)), F(1.0f)), &rest);
     lane_f p_reflect = HAS(TRANSMISSION) ? bsdf_p_reflect(b, reflectance, rest) : F(1.0f);

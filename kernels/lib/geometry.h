@@ -26,11 +26,6 @@ typedef struct hit_point {
     lane_f light_pdf_a;
 } hit_point;
 
-#define HAS_TEXTURES                                                                               \
-    (HAS(BASE_COLOR_TEXTURE) || HAS(METALLIC_ROUGHNESS_TEXTURE) || HAS(NORMAL_TEXTURE) ||          \
-     HAS(EMISSION_TEXTURE) || HAS(SPECULAR_TEXTURE) || HAS(TRANSMISSION_TEXTURE))
-#define HAS_ATTRIBUTES (HAS_TEXTURES || HAS(SMOOTH_NORMALS) || HAS(VERTEX_COLORS))
-
 EC_FN lane_f interpolate(const hit_point *h, lane_f v0, lane_f v1, lane_f v2)
 {
     return fma(v2, h->b2, fma(v1, h->b1, v0 * h->b0));

@@ -84,7 +84,7 @@ EC_FN lane_f exp_negative(lane_f x)
 }
 
 /* ln x for x in (0, 1]: exponent and mantissa in [sqrt 1/2, sqrt 2), of which ln m = 2 atanh((m - 1) / (m + 1)) by its series;
- * error below 2 ulp of the result or 1e-7 of the exponent's part. Denormals count as 2^-126. */
+ * error below 2 ulp. Denormals count as 2^-126. */
 EC_FN lane_f log_unit(lane_f x)
 {
     lane_u bits = as_lane_u(max(x, F(1.17549435e-38f))) - 0x3f3504f3u; /* sqrt 1/2: what is under it goes to the exponent */

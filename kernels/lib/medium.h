@@ -24,7 +24,7 @@ EC_FN v3 medium_transmittance(const geometry *g, lane_u medium, lane_f distance)
     lane_i inside = medium != EC_NO_ID;
     if (!any_lane(inside)) return v3_splat(F(1.0f));
     quad a = gather_quad(g->materials, (inside ? medium : U(0)) + EC_MATERIAL_ABSORPTION);
-    v3 t = v3_make(exp_negative(-(a.a * distance)), exp_negative(-a.b * distance), exp_negative(-a.c * distance));
+    v3 t = v3_make(exp_negative(-a.a * distance), exp_negative(-a.b * distance), exp_negative(-a.c * distance));
     return v3_select(inside, t, v3_splat(F(1.0f)));
 }
 

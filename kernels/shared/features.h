@@ -33,11 +33,19 @@
 #define EC_FEATURE_ENUM(bit, name, text) EC_FEATURE_##name = 1 << bit,
 enum ec_feature { EC_FEATURES(EC_FEATURE_ENUM) EC_FEATURE_ALL = (1 << 22) - 1 };
 
+/* All of what reads a texture, and so wants texels and places on them. */
+#define EC_FEATURES_TEXTURED                                                                                          \
+    (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |              \
+     EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE)
+#define EC_FEATURES_ATTRIBUTES (EC_FEATURES_TEXTURED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
+
 #ifdef EC_DEVICE_CODE
 #ifndef FEATURES
 #define FEATURES EC_FEATURE_ALL
 #endif
 #define HAS(name) ((FEATURES & EC_FEATURE_##name) != 0)
+#define HAS_TEXTURES ((FEATURES & EC_FEATURES_TEXTURED) != 0)
+#define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)
 #endif
 
 #endif

@@ -4,9 +4,7 @@
 #include "../lib/bsdf.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
-#include "../lib/light.h"
-#include "../lib/medium.h"
-#include "../lib/queue.h"
+#include "../lib/shadow.h"
 
 /* Density of light sampling for a point that this ray found on an emissive triangle. */
 EC_FN lane_f emitter_pdf(const hit_point *h, const surface *s, v3 o, v3 wo)
@@ -137,26 +135,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
-        if (HAS(ABSORPTION)) { /* infinitely far no body reaches: what path tracing misses is not dimmed either */
-            lane_u between = l.is_far ? U(EC_NO_ID) : medium_towards(&h, &s, medium, wi_local.z);
-            arriving = v3_mul(arriving, medium_transmittance(&g, between, sqrt(v3_dot(l.towards, l.towards))));
-        }
-        lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local) & (v3_max_component(arriving) != 0.0f);
-        lane_i finite = v3_is_finite(arriving);
-        uint bad = mask_bits(m & !finite);
-        if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
-        uint bits = mask_bits(m & finite);
-        if (bits) {
-            uint at = queue_reserve(counters->shadows[step], params->part, i, popcount(bits));
-            v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
-            v3 end = surface_offset(v3_add(s.p, l.towards), l.end_error, l.end_normal, v3_negate(l.wi));
-            queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
-            queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
-            queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);
-            queue_push_f(shadows, wave, EC_SHADOW_SLOT, at, as_lane_f(slot), bits);
-            queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(prim), bits);
-            queue_push_f(shadows, wave, EC_SHADOW_TARGET, at, as_lane_f(l.target), bits);
-        }
+        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z));
+        lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local);
+        shadow_push(params, shadows, counters->shadows[step], i, &s, &l, arriving, slot, prim, m, invalid + EC_STAGE_SHADE);
     }
 
     lane_f u1, u2;

@@ -2,8 +2,7 @@
  * Reads: path queue and hits. Writes: the shadow queue. Next: connect, then the next light. */
 #include "../lib/blinn_phong.h"
 #include "../lib/light_centre.h"
-#include "../lib/medium.h"
-#include "../lib/queue.h"
+#include "../lib/shadow.h"
 
 kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, volatile global ec_counters *counters,
                              volatile global uint *invalid, global const float *paths, global const float *hits,
@@ -31,24 +30,12 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
     surface_frame(&g, &h, lit, wo, &s);
     surface_material(&g, &h, lit, &s);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
-    v3 f = blinn_phong_eval(&b, whitted_mirrors(&s), surface_to_local(&s, l.wi));
+    v3 wi_local = surface_to_local(&s, l.wi);
+    v3 f = blinn_phong_eval(&b, whitted_mirrors(&s), wi_local);
     v3 arriving = v3_mul(v3_mul(beta, f), l.radiance);
     if (HAS(ABSORPTION)) {
         lane_u medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
-        arriving = v3_mul(arriving, medium_transmittance(&g, medium, sqrt(v3_dot(l.towards, l.towards))));
+        arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z));
     }
-    lit = lit & (v3_max_component(arriving) != 0.0f);
-    lane_i finite = v3_is_finite(arriving);
-    uint bad = mask_bits(lit & !finite), bits = mask_bits(lit & finite);
-    if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
-    if (!bits) return;
-    uint at = queue_reserve(counters->shadows[step], params->part, i, popcount(bits));
-    v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
-    v3 end = surface_offset(v3_add(s.p, l.towards), l.end_error, l.end_normal, v3_negate(l.wi));
-    queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
-    queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
-    queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);
-    queue_push_f(shadows, wave, EC_SHADOW_SLOT, at, as_lane_f(slot), bits);
-    queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(prim), bits);
-    queue_push_f(shadows, wave, EC_SHADOW_TARGET, at, as_lane_f(l.target), bits);
+    shadow_push(params, shadows, counters->shadows[step], i, &s, &l, arriving, slot, prim, lit, invalid + EC_STAGE_SHADE);
 }

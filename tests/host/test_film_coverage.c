@@ -5,6 +5,7 @@
  * and fireflies: at least 95 %, and 100 % is no fault
  * with 2 batches, where kurtosis cannot be told from variance. Fireflies alone on black (the mean luminance itself is a
  * handful of events) and images whose noise sits in one or a few pixels: the floors written below, worst with 2 batches. */
+#include "base/random.h"
 #include "film/film.h"
 #include "film/statistics.h"
 #include "support/test.h"
@@ -22,13 +23,7 @@ static float normal[TABLE], exponential[TABLE], lognormal[TABLE]; /* quantiles a
 static double hits_cdf[HITS_MAX];                                   /* binomial(16, 1e-3) */
 
 static uint64_t state;
-static uint64_t next_random(void) /* SplitMix64, Steele et al. 2014 */
-{
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
+static uint64_t next_random(void) { return ec_random_bits(&state); }
 
 static void fill_tables(void)
 {

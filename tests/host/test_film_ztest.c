@@ -1,19 +1,14 @@
 /* The picture comparison itself: it must pass equal pictures nearly always and catch the errors it exists for. */
 #include "film/film.h"
+#include "support/random.h"
 #include "support/test.h"
 #include "support/ztest.h"
 
 enum { W = 64, H = 48, VALUES = 3 * W * H };
 
-static uint64_t state = 1;
-static double uniform(void)
-{
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53 + 0x1p-54;
-}
-static double normal(void) { return sqrt(-2 * log(uniform())) * cos(2 * M_PI * uniform()); }
+static test_random state = {1};
+static double uniform(void) { return test_uniform(&state); }
+static double normal(void) { return test_normal(&state); }
 
 static double truth(int i) { return 0.1 + (double)(i % 97) / 50; }
 

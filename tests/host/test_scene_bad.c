@@ -51,22 +51,21 @@ static void test_uris(void)
 
 static void test_buffers(void)
 {
-    char *json = replace(TRIANGLE("", "", "", ""), "@pos@", "no-such-file.bin");
-    expect_failure(json, NULL, "buffers[0]");
-    expect_failure(json, NULL, "No such file");
-    free(json);
-    json = replace(TRIANGLE("", "", "", ""), "@pos@", ".");
-    expect_failure(json, NULL, "not a regular file");
-    free(json);
-    json = replace(TRIANGLE("", "", "", ""), "@pos@", "data:;base64,AAAA");
-    expect_failure(json, NULL, "promises 36 bytes but holds 3");
-    free(json);
-    json = replace(TRIANGLE("", "", "", ""), "@pos@", "data:;base64,AA*A");
-    expect_failure(json, NULL, "base64 is broken");
-    free(json);
-    json = replace(TRIANGLE("", "", "", ""), ",'uri':'@pos@'", "");
-    expect_failure(json, NULL, "neither uri nor binary chunk");
-    free(json);
+    static const struct {
+        const char *from, *to, *message;
+    } cases[] = {
+        {"@pos@", "no-such-file.bin", "buffers[0]"},
+        {"@pos@", "no-such-file.bin", "No such file"},
+        {"@pos@", ".", "not a regular file"},
+        {"@pos@", "data:;base64,AAAA", "promises 36 bytes but holds 3"},
+        {"@pos@", "data:;base64,AA*A", "base64 is broken"},
+        {",'uri':'@pos@'", "", "neither uri nor binary chunk"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *json = replace(TRIANGLE("", "", "", ""), cases[i].from, cases[i].to);
+        expect_failure(json, NULL, cases[i].message);
+        free(json);
+    }
 }
 
 /* Each pair: what to replace in a good file by what, and what the message must say. */

@@ -3,6 +3,7 @@
 #ifndef EC_TESTS_KERNEL_RUN_H
 #define EC_TESTS_KERNEL_RUN_H
 
+#include "base/random.h"
 #include "cl/cl.h"
 #include "cl/workarounds.h"
 #include "support/test.h"
@@ -93,16 +94,9 @@ static inline bool kernel_call(ec_cl *cl, cl_program program, const char *name, 
     kernel_call(cl, program, name, items, 64, (kernel_array[]){__VA_ARGS__},                       \
                 sizeof((kernel_array[]){__VA_ARGS__}) / sizeof(kernel_array))
 
-/* Random numbers for tests (SplitMix64, Steele et al. 2014). */
 static uint64_t test_random_state = 1;
-static inline uint64_t test_random_u64(void)
-{
-    uint64_t z = (test_random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-static inline double test_random(void) { return (double)(test_random_u64() >> 11) * 0x1p-53; } /* [0, 1) */
+static inline uint64_t test_random_u64(void) { return ec_random_bits(&test_random_state); }
+static inline double test_random(void) { return ec_random_unit(&test_random_state); } /* [0, 1) */
 static inline double test_random_in(double a, double b) { return a + (b - a) * test_random(); }
 
 #endif

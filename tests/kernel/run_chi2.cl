@@ -1,4 +1,4 @@
-/* Directions from the sampling routines, with the densities that they claim, for test_chi2.c. */
+/* Directions from the sampling routines, with the densities that they claim, for test_chi2_*.c. */
 #include "lib/bsdf.h"
 #include "lib/light.h"
 

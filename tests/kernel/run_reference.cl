@@ -28,6 +28,8 @@ kernel void acos_of(global const float *x, global float *out) { LANE_STORE(acos_
 
 kernel void exp_of(global const float *x, global float *out) { LANE_STORE(exp_negative(LANE_LOAD(x + AT)), out + AT); }
 
+kernel void log_of(global const float *x, global float *out) { LANE_STORE(log_unit(LANE_LOAD(x + AT)), out + AT); }
+
 kernel void fresnel_of(global const float *cosine, global const float *eta, global float *out)
 {
     LANE_STORE(fresnel_dielectric(LANE_LOAD(cosine + AT), LANE_LOAD(eta + AT)), out + AT);

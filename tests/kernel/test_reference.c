@@ -65,6 +65,26 @@ static void arcs(void)
     }
 }
 
+static void logarithms(void)
+{
+    static float x[N], out[N];
+    for (uint32_t i = 0; i < N; i++) {
+        x[i] = i % 2 ? random_float(0.25, 1) : (float)exp2(test_random_in(-126, 0));
+        if (i % 8 == 0) x[i] = (float)(1 - exp2(test_random_in(-24, 0))); /* where it is nearly 0 */
+    }
+    x[0] = 1.0f, x[1] = 0.0f, x[2] = 1e-45f, x[3] = 0x1p-126f;
+    if (!RUN_ALL("log_of", 1, IN(x, N), OUT(out, N))) return;
+    double worst = 0;
+    for (uint32_t i = 0; i < N; i++) {
+        double want = log(fmax(x[i], 0x1p-126));
+        CHECK_MSG(out[i] <= 0.0f, "log(%g) = %g", (double)x[i], (double)out[i]);
+        if (x[i] < 1) worst = fmax(worst, fabs(out[i] - want) / exp2(floor(log2(-want)) - 23));
+    }
+    printf("log_unit: error %.2f ulp\n", worst);
+    CHECK_MSG(worst < 2, "log_unit: error %g ulp", worst); /* as its comment says */
+    CHECK(out[0] == 0.0f && out[1] == out[3] && out[2] == out[3]);
+}
+
 /* ---- the BRDF ---- */
 
 typedef struct material {
@@ -235,6 +255,7 @@ int main(void)
     if (!test_failures) {
         sines();
         arcs();
+        logarithms();
         brdf_is_gltf();
         brdf_is_reciprocal();
         albedo_is_that_of_ggx();

@@ -4,20 +4,16 @@
  * ctest label: slow */
 #include "film/difference.h"
 #include "pipeline/adaptive.h"
+#include "support/gltf_writer.h"
+#include "support/random.h"
 #include "support/render_case.h"
 
 /* ---- synthetic: grey pixels with fireflies 100 times as bright, one sample in 200 on the left, in 10 000 on the right; mean 1 ---- */
 
 enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT, REPEATS = 400 };
 
-static uint64_t state = 3;
-static double uniform(void) /* SplitMix64, Steele et al. 2014 */
-{
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
+static test_random state = {3};
+static double uniform(void) { return test_uniform(&state); }
 
 /* Of places, or of all pixels. */
 static float *draw_batch(const uint32_t *places, uint32_t count)
@@ -112,6 +108,9 @@ static void check_target(const char *path, double target, double most)
            (double)adaptive.stats.samples / 96 / 96, ratio);
     CHECK(!strcmp(even.stats.stopped_by, "error") && !strcmp(adaptive.stats.stopped_by, "error"));
     CHECK_MSG(ratio <= most, "%s: %.2f of uniform sampling's samples", path, ratio);
+    /* The pilots are the same. Forecasts are whole batches, and the bound's factor over the error changes with their number. */
+    double foretold = adaptive.stats.forecast.samples / even.stats.forecast.samples, gain = adaptive.stats.allotment_gain;
+    CHECK_MSG(fabs(foretold - gain) <= 0.02 + 8 / even.stats.forecast.samples, "%s: %.3f of its samples foretold, not %.3f", path, foretold, gain);
     case_free(&even);
     case_free(&adaptive);
     ec_scene_free(scene);
@@ -138,9 +137,35 @@ static void check_bits(const char *path)
     ec_scene_free(scene);
 }
 
+/* On the left an environment so bright that the sum of a batch is infinite, on the right a wall as dark. What overflows
+ * is black and counted: three values in each batch that a pixel on the left has had, no more. */
+static void check_overflow(void)
+{
+    gltf_writer *w = gltf_new();
+    gltf_quad(w, gltf_lambert(w, 1e-37, 0), (double[3]){0, -50, 0}, (double[3]){50, 0, 0}, (double[3]){0, 100, 0});
+    gltf_camera(w, (double[3]){0, 0, 5}, (double[3]){0, 0, 0}, 1);
+    ec_scene *scene = case_load(gltf_write(w, "adaptive-overflow"), "1e37,1e37,1e37");
+    ec_render_options o = case_options(32, 32, 512);
+    o.batch = 64;
+    o.adaptive = true;
+    ec_error err;
+    case_image image;
+    CHECK_OK(case_try(scene, &o, &image, &err), err);
+    uint64_t expected = 0;
+    for (uint32_t p = 0; p < 32 * 32; p++)
+        if (p % 32 < 16) expected += 3 * ec_film_batches(&image.film, p);
+    CHECK(image.film.counts && image.mean[1] > 0);
+    CHECK_MSG(image.stats.invalid_accumulate == expected && image.stats.invalid_samples == expected, "%llu values are said not to be finite, %llu are",
+              (unsigned long long)image.stats.invalid_accumulate, (unsigned long long)expected);
+    case_free(&image);
+    ec_scene_free(scene);
+    free(w);
+}
+
 int main(void)
 {
     check_bias();
+    check_overflow();
     check_renders(OWN_SCENE("ring/ring.gltf"));
     check_renders(OWN_SCENE("cornell-box/cornell-box.gltf"));
     check_target(OWN_SCENE("ring/ring.gltf"), 0.3, 0.5);

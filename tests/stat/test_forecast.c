@@ -6,18 +6,13 @@
 
 #include "film/forecast.h"
 #include "pipeline/forecast.h"
+#include "support/random.h"
 #include "support/test.h"
 
 enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT, PILOT = 4, REPEATS = 200 };
 
-static uint64_t state = 1;
-static double uniform(void) /* in (0, 1): SplitMix64, Steele et al. 2014 */
-{
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return ((double)((z ^ (z >> 31)) >> 12) + 0.5) * 0x1p-52;
-}
+static test_random state = {1};
+static double uniform(void) { return test_uniform(&state); }
 
 /* Mean 1 all of them. */
 static double exponential(uint32_t p) { return (void)p, -log(uniform()); }
@@ -80,6 +75,9 @@ static void other_limits(void)
     CHECK_NEAR(f.samples_low, f.samples_high, 0);
     CHECK_NEAR(f.seconds, 4.5 + 16, 1e-9);
     CHECK_NEAR(f.error_bound, sqrt(1.0 / 20), 0.02); /* 20 batches of variance 1, and the bound a little over */
+    f = forecast_of(&film, &spp, &pace, PILOT, 0.25);
+    CHECK_NEAR(f.error_bound, sqrt(0.25 / 20), 0.01); /* where an allotment of samples makes a quarter of the variance */
+    CHECK_NEAR(f.samples, 160, 0);
     f = forecast_of(&film, &time, &pace, PILOT, 1);
     CHECK_NEAR(f.samples, 8 * 24, 1e-9);
     CHECK_NEAR(f.seconds, 24.5, 1e-9);

@@ -189,6 +189,21 @@ static void highlights_are_blinns(void)
     free(w);
 }
 
+/* Seen head-on through water without sides, which takes half of what it lets in (0.96). The light comes in beside it, so none of it is lost. */
+static void far_lights_are_not_absorbed(void)
+{
+    const double h = 0.2, angle = PI / 4;
+    gltf_writer *w = gltf_new();
+    gltf_quad(w, material(w, 0.6, 0, 1, MATT), (double[3]){-5, 0, 5}, (double[3]){10, 0, 0}, (double[3]){0, 0, -10});
+    gltf_quad(w, material(w, 1, 0, 0, PASSES ",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":0.2,"
+                                             "\"attenuationColor\":[0.5,0.5,0.5]}"),
+              (double[3]){-0.1, h, 0.1}, (double[3]){0.2, 0, 0}, (double[3]){0, 0, -0.2});
+    gltf_light(w, (double[3]){0, 0, 0}, (double[3]){-sin(angle), -cos(angle), 0}, "{\"type\":\"directional\",\"intensity\":3}");
+    gltf_camera(w, (double[3]){0, 1, 0}, (double[3]){0, 0, 0}, 1e-5);
+    check("floor under water, far light", gltf_write(w, "whitted-water"), NULL, 10, 0, 0.96 * 0.5 * 0.6 / PI * 3 * cos(angle));
+    free(w);
+}
+
 static void the_environment_is_ambient_light(void)
 {
     gltf_writer *w = floor_of(1, MATT);
@@ -240,6 +255,7 @@ int main(void)
     lamps_shine_from_their_centres();
     bodies_shine_as_points();
     highlights_are_blinns();
+    far_lights_are_not_absorbed();
     the_environment_is_ambient_light();
     pictures_have_the_same_bits();
     TEST_END();

@@ -1,0 +1,37 @@
+/* A light sample becomes a shadow ray. */
+#ifndef EC_LIB_SHADOW_H
+#define EC_LIB_SHADOW_H
+
+#include "light.h"
+#include "medium.h"
+#include "queue.h"
+
+/* What the body that the shadow ray starts in leaves of the light; wi_z: against ns. Infinitely far no body reaches: what path
+ * tracing misses is not dimmed either. */
+EC_FN v3 shadow_transmittance(const geometry *g, const hit_point *h, const surface *s, const light_sample *l, lane_u medium, lane_f wi_z)
+{
+    lane_u between = l->is_far ? U(EC_NO_ID) : medium_towards(h, s, medium, wi_z);
+    return medium_transmittance(g, between, sqrt(v3_dot(l->towards, l->towards)));
+}
+
+/* Appends to i's part of the queue, which counts counts; what is not finite is dropped and counted. */
+EC_FN void shadow_push(constant ec_params *params, global float *shadows, volatile global uint *counts, uint i, const surface *s,
+                       const light_sample *l, v3 arriving, lane_u slot, lane_u prim, lane_i m, volatile global uint *invalid)
+{
+    m = m & (v3_max_component(arriving) != 0.0f);
+    lane_i finite = v3_is_finite(arriving);
+    uint bad = mask_bits(m & !finite), bits = mask_bits(m & finite), wave = params->wave;
+    if (bad) atomic_add(invalid, popcount(bad));
+    if (!bits) return;
+    uint at = queue_reserve(counts, params->part, i, popcount(bits));
+    v3 from = surface_offset(s->p, s->p_error, s->ng, l->wi);
+    v3 end = surface_offset(v3_add(s->p, l->towards), l->end_error, l->end_normal, v3_negate(l->wi));
+    queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
+    queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
+    queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);
+    queue_push_f(shadows, wave, EC_SHADOW_SLOT, at, as_lane_f(slot), bits);
+    queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(prim), bits);
+    queue_push_f(shadows, wave, EC_SHADOW_TARGET, at, as_lane_f(l->target), bits);
+}
+
+#endif

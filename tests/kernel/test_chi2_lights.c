@@ -1,0 +1,178 @@
+/* What light_sample_one samples, triangles and environments, against its densities by chi-square; the environment's density against 1. */
+#include "kernel/chi2.h"
+#include "pack/alias.h"
+#include "pack/pack.h"
+#include "shared/params.h"
+
+static cl_program programs[LANE_WIDTHS];
+
+/* ---- a triangle: cells of equal area ---- */
+
+static void check_triangle(int lanes, bool two_sided, float side)
+{
+    const float v[3][3] = {{-1.0f, 2.0f, 0.5f}, {1.5f, 2.5f, -0.5f}, {0.25f, 3.0f, 2.0f}}, p[4] = {0.1f, side > 0 ? 6.0f : -0.3f, 0.2f};
+    ec_params params = {.light_count = 2, .scene_radius = 10};
+    ec_light_data table[2] = {{.kind = EC_KIND_TRIANGLE | (two_sided ? EC_LIGHT_TWO_SIDED : 0), .prim = 7},
+                              {.kind = EC_KIND_POINT, .prim = EC_NO_ID, .a = {5, 5, 5}, .b = {0, 0, 1}}};
+    double e1[3], e2[3], n[3], pmf[2], area = 0;
+    for (int k = 0; k < 3; k++) e1[k] = (double)v[1][k] - v[0][k], e2[k] = (double)v[2][k] - v[0][k];
+    for (int k = 0; k < 3; k++) n[k] = e1[(k + 1) % 3] * e2[(k + 2) % 3] - e1[(k + 2) % 3] * e2[(k + 1) % 3];
+    area = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+    ec_alias alias[2];
+    ec_error err = {""};
+    CHECK_OK(ec_alias_build((const double[]){3, 1}, 2, alias, pmf, &err), err);
+    memcpy(table[0].a, v[0], sizeof v[0]);
+    memcpy(table[0].b, v[1], sizeof v[1]);
+    memcpy(table[0].c, v[2], sizeof v[2]);
+    for (int i = 0; i < 2; i++) table[i].pmf = (float)pmf[i];
+    table[0].pdf_a = (float)(pmf[0] / area);
+    const float nothing[16] = {0};
+    if (!KERNEL_CALL(&cl, programs[lanes], "light_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
+                     IN(&params, 1), IN(p, 4), IN(table, 2), IN(alias, 2), IN(nothing, 16), IN(nothing, 16), OUT(out, 4 * SAMPLES)))
+        return;
+    uint32_t count[101] = {0}, wrong = 0, points = 0, hidden = 0;
+    double expected[101];
+    for (int i = 0; i < 100; i++) expected[i] = pmf[0] * SAMPLES / 100;
+    expected[100] = pmf[1] * SAMPLES;
+    bool seen = two_sided;
+    double from_front = 0;
+    for (int k = 0; k < 3; k++) from_front += n[k] * ((double)p[k] - v[0][k]);
+    seen |= from_front > 0;
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]}, q[3], s[3], det = 0, b1 = 0, b2 = 0, t = 0, pdf = out[3 * SAMPLES + i];
+        if (fabs(w[0] - (5 - p[0]) / sqrt(pow(5 - p[0], 2) + pow(5 - p[1], 2) + pow(5 - p[2], 2))) < 1e-5 && pdf == (double)table[1].pmf) {
+            points++;
+            count[100]++;
+            continue;
+        }
+        if (pdf == 0) {
+            hidden++;
+            continue;
+        }
+        for (int k = 0; k < 3; k++) q[k] = w[(k + 1) % 3] * e2[(k + 2) % 3] - w[(k + 2) % 3] * e2[(k + 1) % 3], s[k] = (double)p[k] - v[0][k];
+        for (int k = 0; k < 3; k++) det += e1[k] * q[k], b1 += s[k] * q[k];
+        for (int k = 0; k < 3; k++) q[k] = s[(k + 1) % 3] * e1[(k + 2) % 3] - s[(k + 2) % 3] * e1[(k + 1) % 3];
+        for (int k = 0; k < 3; k++) b2 += w[k] * q[k], t += e2[k] * q[k];
+        b1 /= det, b2 /= det, t /= det;
+        double cosine = fabs(n[0] * w[0] + n[1] * w[1] + n[2] * w[2]) / (2 * area), want = pmf[0] / area * t * t / cosine;
+        wrong += fabs(pdf / want - 1) > 1e-4 || fmin(fmin(b1, b2), 1 - b1 - b2) < -1e-5;
+        double root = fmin(fmax(b1 + b2, 0), 1), across = fmin(fmax(b2 / fmax(root, 1e-12), 0), 1);
+        count[(uint32_t)fmin(root * root * 10, 9) * 10 + (uint32_t)fmin(across * 10, 9)]++;
+    }
+    CHECK_MSG(wrong == 0, "triangle light: %u samples off the triangle or with another density than pmf d^2 / (A cos)", wrong);
+    if (seen) check_chi2(two_sided ? "triangle light, two-sided" : "triangle light", expected, count, 101);
+    else CHECK_MSG(hidden + points == SAMPLES, "a light seen from behind gives %u samples", SAMPLES - hidden - points);
+    CHECK(!seen || hidden == 0);
+}
+
+/* ---- the environment ---- */
+
+#define WIDTH 24u
+#define HEIGHT 12u
+
+static void directions_of(double u, double v, double *w)
+{
+    double phi = 2 * pi * (u - 0.5), theta = pi * v;
+    w[0] = sin(theta) * cos(phi), w[1] = cos(theta), w[2] = sin(theta) * sin(phi);
+}
+
+static double bilinear(const float *rgb, double u, double v)
+{
+    double x = u * WIDTH - 0.5, y = v * HEIGHT - 0.5, fx = x - floor(x), fy = y - floor(y), sum = 0;
+    for (int k = 0; k < 4; k++) {
+        int64_t i = ((int64_t)floor(x) + (k & 1) + WIDTH) % WIDTH, j = (int64_t)floor(y) + (k >> 1);
+        j = j < 0 ? 0 : (j >= (int64_t)HEIGHT ? HEIGHT - 1 : j);
+        sum += (k & 1 ? fx : 1 - fx) * (k & 2 ? fy : 1 - fy) * rgb[3 * (j * WIDTH + i)];
+    }
+    return sum;
+}
+
+static void check_environment(void)
+{
+    static float rgb[3 * WIDTH * HEIGHT], wi[3 * SAMPLES], look[2 * SAMPLES], factor[4] = {2, 2, 2, 0};
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        bool black = i % WIDTH > 14 && i / WIDTH > 2 && i / WIDTH < 10;
+        float value = black ? 0.0f : (float)pow(10, test_random_in(-2, 0.5));
+        if (i == 5 * WIDTH + 4) value = 200;
+        for (int k = 0; k < 3; k++) rgb[3 * i + (uint32_t)k] = value;
+    }
+    ec_scene scene = {.has_environment = true};
+    scene.environment.width = WIDTH;
+    scene.environment.height = HEIGHT;
+    scene.environment.rgb = rgb;
+    ec_pack pack = {0};
+    double mean;
+    ec_error err = {""};
+    CHECK_OK(ec_pack_environment(&scene, &pack, &mean, &err), err);
+    if (!pack.environment_alias) return;
+    ec_params params = {.light_count = 1, .environment_width = WIDTH, .environment_height = HEIGHT, .environment_pmf = 1, .scene_radius = 3};
+    memcpy(params.environment, factor, sizeof factor);
+    const ec_light_data light = {.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID, .pmf = 1};
+    const ec_alias only = {UINT32_MAX, 0};
+    const float p[4] = {0};
+    for (int lanes = 0; lanes < LANE_WIDTHS; lanes += 3) {
+        if (!KERNEL_CALL(&cl, programs[lanes], "light_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
+                         IN(&params, 1), IN(p, 4), IN(&light, 1), IN(&only, 1), IN(pack.environment_texels, 4 * WIDTH * HEIGHT),
+                         IN(pack.environment_alias, WIDTH * HEIGHT), OUT(out, 4 * SAMPLES)))
+            break;
+        uint32_t count[WIDTH * HEIGHT] = {0}, dark = 0, wrong = 0;
+        double expected[WIDTH * HEIGHT];
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) expected[i] = (double)pack.environment_texels[4 * i + 3] * SAMPLES;
+        for (uint32_t i = 0; i < SAMPLES; i++) {
+            double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]};
+            double x = (atan2(w[2], w[0]) / (2 * pi) + 0.5) * WIDTH, y = acos(fmin(fmax(w[1], -1), 1)) / pi * HEIGHT;
+            uint32_t cell = (uint32_t)fmin(y, HEIGHT - 1) * WIDTH + (uint32_t)fmin(x, WIDTH - 1);
+            bool inside = fabs(x - round(x)) > 1e-4 && fabs(y - round(y)) > 1e-4;
+            double want = expected[cell] / SAMPLES * WIDTH * HEIGHT / (2 * pi * pi * sqrt(w[0] * w[0] + w[2] * w[2]));
+            count[cell]++;
+            dark += inside && expected[cell] == 0;
+            wrong += inside && expected[cell] > 0 && fabs(out[3 * SAMPLES + i] / want - 1) > 1e-3 * (y < 0.1 || y > HEIGHT - 0.1 ? 10 : 1);
+        }
+        CHECK_MSG(dark == 0, "environment: %u samples where it is black", dark);
+        CHECK_MSG(wrong == 0, "environment: %u samples with another density than their texel's", wrong);
+        check_chi2("environment", expected, count, WIDTH * HEIGHT);
+    }
+    /* The density of look-ups integrates to 1, and what is looked up is the bilinear map. 288 texels of 21 x 21 points. */
+    uint32_t n = WIDTH * HEIGHT * 21 * 21 / 16 * 16;
+    for (uint32_t i = 0; i < n; i++) {
+        double w[3];
+        uint32_t x = i % (WIDTH * 21), y = i / (WIDTH * 21);
+        directions_of((x + 0.5) / (WIDTH * 21), (y + 0.5) / (HEIGHT * 21), w);
+        for (uint32_t k = 0; k < 3; k++) wi[k * n + i] = (float)w[k];
+    }
+    if (KERNEL_CALL(&cl, programs[3], "environment_densities", n / 16, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * WIDTH * HEIGHT),
+                    IN(pack.environment_alias, WIDTH * HEIGHT), IN(wi, 3 * n), OUT(look, 2 * n))) {
+        double total = 0, worst = 0;
+        uint32_t at = 0;
+        for (uint32_t i = 0; i < n; i++) {
+            uint32_t x = i % (WIDTH * 21), y = i / (WIDTH * 21);
+            double u = (x + 0.5) / (WIDTH * 21), v = (y + 0.5) / (HEIGHT * 21), sine = sin(pi * v), want = 2 * bilinear(rgb, u, v);
+            total += (double)look[i] * sine * 2 * pi / (WIDTH * 21) * pi / (HEIGHT * 21);
+            double error = fabs(look[n + i] - want) / (want + 4);
+            if (error > worst) worst = error, at = i;
+        }
+        printf("environment: density integrates to 1 %+.1e, bilinear error %.1e\n", total - 1, worst);
+        CHECK_MSG(fabs(total - 1) < 1e-4, "the environment's density integrates to %.6f", total);
+        CHECK_MSG(worst < 1e-4, "the environment's bilinear look-up is off by %g at column %u, row %u of %u: %g", worst, at % (WIDTH * 21), at / (WIDTH * 21), HEIGHT * 21, (double)look[n + at]);
+    }
+    free(pack.environment_texels);
+    free(pack.environment_alias);
+}
+
+int main(void)
+{
+    int open = kernel_open(&cl);
+    if (open) return open;
+    chi2_build(programs, "-DFEATURES=(EC_FEATURE_AREA_LIGHTS+EC_FEATURE_PUNCTUAL_LIGHTS+EC_FEATURE_ENVIRONMENT+EC_FEATURE_ENVIRONMENT_MAP)");
+    if (!test_failures) {
+        check_triangle(0, false, -1);
+        check_triangle(3, false, 1);
+        check_triangle(2, true, 1);
+        check_environment();
+        printf("%d chi-square tests\n", tests);
+        CHECK(tests <= 5);
+    }
+    chi2_release(programs);
+    ec_cl_close(&cl);
+    TEST_END();
+}
