@@ -1,6 +1,5 @@
 /* eclat selftest */
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "cli/cli.h"
 #include "cli/options.h"
@@ -74,12 +73,8 @@ ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (first < argc) return ec_usage(err, "selftest takes no operand, not '%s'; --only NAME chooses cases", argv[first]);
     cli->console.quiet = r.quiet;
 
-    ec_device_info *devices = NULL;
-    uint32_t count = 0, chosen = 0;
-    const char *why;
-    EC_TRY(ec_devices_list(&devices, &count, err));
-    ec_result result = ec_device_choose(devices, count, r.device, &chosen, &why, err);
-    if (result == EC_OK) result = test_device(cli, &devices[chosen], chosen, &r, err);
-    free(devices);
-    return result;
+    ec_device_info device;
+    uint32_t index;
+    EC_TRY(ec_device_find(r.device, &device, &index, NULL, err));
+    return test_device(cli, &device, index, &r, err);
 }

@@ -22,18 +22,6 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
     return ec_outputs_check(outputs, inputs, 2, err);
 }
 
-static ec_result prepare_device(ec_render_job *job, ec_error *err)
-{
-    ec_device_info *devices = NULL;
-    uint32_t count = 0;
-    EC_TRY(ec_devices_list(&devices, &count, err));
-    ec_result result =
-        ec_device_choose(devices, count, job->request->device, &job->device_index, &job->device_why, err);
-    if (result == EC_OK) job->device = devices[job->device_index];
-    free(devices);
-    return result;
-}
-
 static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *err)
 {
     const char *environment = job->request->environment;
@@ -93,7 +81,7 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_erro
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
-    EC_TRY(prepare_device(job, err));
+    EC_TRY(ec_device_find(job->request->device, &job->device, &job->device_index, &job->device_why, err));
     double start = ec_now();
     EC_TRY(ec_scene_load(job->request->scene, &job->scene, &log, err));
     EC_TRY(prepare_light(job, &log, err));
