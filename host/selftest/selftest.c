@@ -46,9 +46,10 @@ static void finish(ec_selftest_report *r)
 
 ec_result ec_selftest_run(ec_cl *cl, const ec_selftest_options *options, ec_selftest_report *report, ec_error *err)
 {
-    ec_selftest t = {.cl = cl, .full = options->full, .lanes = ec_pipeline_lanes(cl, options->lanes), .report = report};
+    ec_selftest t = {.cl = cl, .full = options->full, .report = report};
     uint32_t count = 0, done = 0;
     double start = ec_now();
+    EC_TRY(ec_pipeline_lanes(cl, options->lanes, &t.lanes, err));
     report->lanes = t.lanes;
     for (int i = 0; i < CASE_COUNT; i++) count += is_wanted(options, &cases[i]);
     if (!count) return ec_fail(err, "no case of the self-test has '%s' in its name", options->only);
