@@ -48,7 +48,7 @@ static ec_result test_device(ec_cli *cli, const ec_device_info *device, uint32_t
     ec_result result = EC_FAILED;
     r->options.go_on = show;
     r->options.user = &cli->console;
-    ec_stop_catch_signals();
+    ec_stop_catch_signals(ec_console_wants_progress(&cli->console));
     EC_TRY_CLEANUP(ec_cl_open(device, &cl, err));
     ec_console_say(&cli->console, "testing %s, %s", device->name, device->driver);
     result = ec_selftest_run(&cl, &r->options, &report, err);

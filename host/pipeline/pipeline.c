@@ -22,26 +22,6 @@ static void set_camera(const ec_scene *scene, const ec_render_options *o, ec_par
     params->orthographic = is_flat;
 }
 
-/* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads. (Queues that
- * stay in the cache gain 5 % of processor time there; launches of a tenth the size lose 40 % of wall time.) */
-static uint32_t fit_wave(const ec_cl *cl, const ec_render_options *o, uint32_t batch, uint32_t lanes)
-{
-    uint64_t wave = o->wave;
-    if (!wave) {
-        wave = cl->info.type & CL_DEVICE_TYPE_CPU ? (uint64_t)1 << 18 : (uint64_t)1 << 20;
-        uint64_t stack = o->integrator == EC_INTEGRATOR_WHITTED ? ec_whitted_stack_words(o->max_depth) : 0;
-        uint64_t words = 2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + 3 + EC_AOV_FIELDS + stack;
-        uint64_t widest = stack > EC_PATH_FIELDS ? stack : EC_PATH_FIELDS;
-        while (wave > 4096 && (wave * 4 * words > cl->info.memory_bytes / 4 || wave * 4 * widest > cl->info.max_allocation_bytes))
-            wave /= 2;
-    }
-    uint64_t samples = (uint64_t)o->width * o->height * batch;
-    if (wave > samples) wave = samples;
-    if (wave < batch) wave = batch;
-    uint64_t unit = (uint64_t)EC_PARTS * lanes; /* every part of a queue holds whole packets */
-    return (uint32_t)((wave + unit - 1) / unit * unit);
-}
-
 /* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
  * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
  * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
@@ -89,16 +69,15 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
         ec_pack_free(&pack);
         return result;
     }
-    p->features = options->all_effects ? (uint32_t)EC_FEATURE_ALL & ~(uint32_t)EC_FEATURE_SOBOL : pack.features;
+    const uint32_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
+    p->features = options->all_effects ? (uint32_t)EC_FEATURE_ALL & ~asked_for : pack.features;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
-    p->wave = fit_wave(cl, options, batch, p->lanes);
+    if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
     ec_params *params = &p->params;
     set_camera(scene, options, params);
     params->width = options->width;
     params->height = options->height;
     params->batch = batch;
-    params->wave = p->wave;
-    params->part = p->wave / EC_PARTS;
     const uint32_t unlimited = p->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
     params->max_depth = options->max_depth ? options->max_depth : unlimited;
     params->cutoff = (float)options->cutoff;
@@ -116,7 +95,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->scene_max = pack.scene_max;
     result = ec_pipeline_upload(p, scene, &pack, err);
     ec_pack_free(&pack);
-    if (result == EC_OK) result = ec_pipeline_create_queues(p, err);
+    if (result == EC_OK) result = ec_pipeline_create_queues(p, options, err);
     stats->pack_seconds = ec_now() - start;
     if (result != EC_OK) return result;
 

@@ -39,6 +39,26 @@
     CASE("lights/many", false, ec_selftest_many_lamps, "tables of lights whose probabilities are not those sampled")               \
     CASE("lights/occlusion", false, ec_selftest_occlusion, "shadow rays that miss a wall (ambient occlusion, closed form)")        \
     CASE("lights/punctual", false, ec_selftest_punctual, "units of glTF's lights")                                                 \
-    CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")
+    CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")             \
+    CASE("scatter/fresnel", false, ec_selftest_fresnel, "black or bright rims where total reflection sets in")                     \
+    CASE("scatter/ggx", false, ec_selftest_ggx, "narrow lobes from 1 - cos^2: no digit is left at roughness 0.01 (NUMERICS)")      \
+    CASE("scatter/chi-square", false, ec_selftest_chi_square, "sampled otherwise than divided by")                                 \
+    CASE("scatter/energy", false, ec_selftest_energy, "materials that glow")                                                       \
+    CASE("scatter/reciprocity", false, ec_selftest_reciprocity, "a picture that depends on the side paths start from")             \
+    CASE("scatter/fuzz", false, ec_selftest_fuzz, "NaN and fireflies")                                                             \
+    CASE("scatter/slab", false, ec_selftest_slabs, "glass that darkens or brightens what is behind it")                            \
+    CASE("scatter/nested glass", false, ec_selftest_nested_glass, "black glass: paths lost at faces or by depth")                  \
+    CASE("scatter/continuity", false, ec_selftest_continuity, "a jump in brightness where roughness gets to 0")                    \
+    CASE("numbers/arithmetic", false, ec_selftest_arithmetic, "cracks between triangles: products contracted (NUMERICS: half of all)") \
+    CASE("numbers/functions", false, ec_selftest_functions, "directions off the sphere")                                           \
+    CASE("numbers/not finite", false, ec_selftest_not_finite, "tests for NaN folded away: black pixels that nobody counts")        \
+    CASE("numbers/mis weights", false, ec_selftest_mis_weights, "a^2 overflows at 1.8e19: light lost or NaN (Mitsuba 3 zeroes it)")\
+    CASE("numbers/roulette", false, ec_selftest_survival, "fireflies from dim paths that survive too often")                       \
+    CASE("numbers/random", false, ec_selftest_random, "numbers of 1 (30 a second, NUMERICS), patterns between pixels")             \
+    CASE("numbers/sums", false, ec_selftest_sums, "pictures that darken with more samples: float sums (-58 % at 1e8)")             \
+    CASE("numbers/many samples", true, ec_selftest_many_samples, "pictures that darken with more samples: float sums (-58 % at 1e8)")\
+    CASE("numbers/range", false, ec_selftest_range, "suns that turn black: sums over 3.4e38")                                      \
+    CASE("numbers/variance", false, ec_selftest_variance, "errors stated as 0: E[x^2] - E[x]^2 cancels")                           \
+    CASE("numbers/srgb", false, ec_selftest_srgb, "washed-out textures: gamma 2.2 for sRGB")
 
 #endif

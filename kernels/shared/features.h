@@ -28,10 +28,11 @@
     X(18, TRANSMISSION, "transmission")                                                            \
     X(19, TRANSMISSION_TEXTURE, "transmission-texture")                                            \
     X(20, ABSORPTION, "absorption")                                                                \
-    X(21, SOBOL, "sobol-sampler")
+    X(21, SOBOL, "sobol-sampler")                                                                  \
+    X(22, TERMINATOR, "smooth-terminator")
 
 #define EC_FEATURE_ENUM(bit, name, text) EC_FEATURE_##name = 1 << bit,
-enum ec_feature { EC_FEATURES(EC_FEATURE_ENUM) EC_FEATURE_ALL = (1 << 22) - 1 };
+enum ec_feature { EC_FEATURES(EC_FEATURE_ENUM) EC_FEATURE_ALL = (1 << 23) - 1 };
 
 /* All of what reads a texture, and so wants texels and places on them. */
 #define EC_FEATURES_TEXTURED                                                                                          \
