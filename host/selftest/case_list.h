@@ -14,7 +14,7 @@
     CASE("rays/gap", false, ec_selftest_gap, "light leaks through thin walls by offsets that are too long")                        \
     CASE("rays/watertight", false, ec_selftest_watertight, "pinholes at edges and vertices (Woop et al. 2013; embree#387)")        \
     CASE("rays/nested balls", false, ec_selftest_nested, "what lies just under a surface shows through it")                        \
-    CASE("rays/box planes", false, ec_selftest_slabs, "0 times infinity in slabs loses touched boxes (Williams et al. 2005)")      \
+    CASE("rays/box planes", false, ec_selftest_box_planes, "0 times infinity in slabs loses touched boxes (Williams et al. 2005)")\
     CASE("rays/ties", false, ec_selftest_ties, "coplanar faces flicker with the order of triangles")                               \
     CASE("rays/coincident triangles", false, ec_selftest_coincident, "builders that never end where triangles cannot be parted")   \
     CASE("rays/grazing", false, ec_selftest_grazing, "epsilons on the cosine or the determinant lose grazing hits")                \

@@ -68,7 +68,7 @@ static int put_whole_ray(ec_tracer *r, uint64_t *random, const quad *quads, uint
 
 /* Every ray lies in planes of boxes, most with components of 0 or -0. In whole numbers all but 1 / det is exact, so a wrong answer
  * is 0 * infinity in a slab, or a rim that counts as outside. */
-ec_result ec_selftest_slabs(ec_selftest *t, ec_error *err)
+ec_result ec_selftest_box_planes(ec_selftest *t, ec_error *err)
 {
     uint64_t random = 4;
     uint64_t rays = 0, missed = 0, wrong = 0, met = 0, tried = 0;
