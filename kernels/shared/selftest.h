@@ -52,7 +52,7 @@ enum ec_numbers_function {
     EC_NUMBERS_SIN,          /* of 2 pi a */
     EC_NUMBERS_COS,
     EC_NUMBERS_EXP,          /* of a <= 0 */
-    EC_NUMBERS_LOG,          /* of a in (0, 1], b = 1 - a */
+    EC_NUMBERS_LOG,          /* of a in (0, 1] */
     EC_NUMBERS_ATAN2,        /* of (a, b), over 2 pi */
     EC_NUMBERS_MIS,          /* weight of a against b */
     EC_NUMBERS_SURVIVAL,     /* of roulette, for a throughput of a */
