@@ -35,8 +35,8 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
 /* Both at once: the device that id means, and its place in the list. index and why may be NULL. */
 ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err);
 
-/* Whether programs go through the binary cache. AUTO leaves it out where the driver's own cache is finer (PoCL) and where
- * the source is wanted (Oclgrind). */
+/* Whether programs go through the binary cache. AUTO leaves it out for drivers that need the source:
+ * cl/workarounds.c. */
 typedef enum ec_cache_use { EC_CACHE_AUTO = 0, EC_CACHE_ON, EC_CACHE_OFF } ec_cache_use;
 
 /* A command that may still fail once it runs. */

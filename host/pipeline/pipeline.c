@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "cl/workarounds.h"
 
 static void set_camera(const ec_scene *scene, const ec_render_options *o, ec_params *params)
 {
@@ -39,11 +40,16 @@ static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char
     return EC_OK;
 }
 
-uint32_t ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted)
+ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err)
 {
-    uint32_t lanes = wanted ? wanted : cl->info.native_float_width;
-    if (!wanted && cl->info.type & CL_DEVICE_TYPE_GPU) return 1;
-    return lanes >= 16 ? 16 : lanes >= 8 ? 8 : lanes >= 4 ? 4 : 1;
+    const ec_workaround *driver = ec_workaround_for(&cl->info);
+    uint32_t most = driver && driver->most_lanes ? driver->most_lanes : 16, n = wanted;
+    if (wanted > most)
+        return ec_fail(err, "--lanes %u on %s: %s (%s %s); leave --lanes out or choose %u", wanted, cl->info.name, driver->what,
+                       driver->driver, driver->seen, most);
+    if (!wanted) n = cl->info.type & CL_DEVICE_TYPE_GPU ? 1 : cl->info.native_float_width < most ? cl->info.native_float_width : most;
+    *lanes = n >= 16 ? 16 : n >= 8 ? 8 : n >= 4 ? 4 : 1;
+    return EC_OK;
 }
 
 ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
@@ -54,7 +60,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     p->triangle_count = scene->triangle_count;
     p->integrator = options->integrator;
     p->fast_math = options->fast_math;
-    p->lanes = ec_pipeline_lanes(cl, options->lanes);
+    EC_TRY(ec_pipeline_lanes(cl, options->lanes, &p->lanes, err));
     if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
 
     double start = ec_now();

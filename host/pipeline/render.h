@@ -98,8 +98,8 @@ typedef struct ec_render_stats {
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err);
 
-/* How many lanes a device gets; wanted 0: what suits it. */
-uint32_t ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted);
+/* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
+ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);
 
 /* Bytes of device memory the scene itself will take (geometry, BVH of ref_count references, textures, lights), and the effects
  * it calls for. For `eclat info`. */

@@ -10,6 +10,26 @@
     CASE("transport/mirrored plates", false, ec_selftest_mirrored_plates, "a lamp's images in mirrors counted twice or never met") \
     CASE("transport/corridor", false, ec_selftest_corridor, "smooth reflection that leaks or loses its direction")                 \
     CASE("transport/metal", false, ec_selftest_metal, "GGX with a wrong sign or denominator (Heitz 2014)")                         \
+    CASE("rays/self-intersection", false, ec_selftest_self_intersection, "black dots and rings where surfaces shade themselves")   \
+    CASE("rays/gap", false, ec_selftest_gap, "light leaks through thin walls by offsets that are too long")                        \
+    CASE("rays/watertight", false, ec_selftest_watertight, "pinholes at edges and vertices (Woop et al. 2013; embree#387)")        \
+    CASE("rays/nested balls", false, ec_selftest_nested, "what lies just under a surface shows through it")                        \
+    CASE("rays/box planes", false, ec_selftest_box_planes, "0 times infinity in slabs loses touched boxes (Williams et al. 2005)")\
+    CASE("rays/ties", false, ec_selftest_ties, "coplanar faces flicker with the order of triangles")                               \
+    CASE("rays/coincident triangles", false, ec_selftest_coincident, "builders that never end where triangles cannot be parted")   \
+    CASE("rays/grazing", false, ec_selftest_grazing, "epsilons on the cosine or the determinant lose grazing hits")                \
+    CASE("rays/slivers", false, ec_selftest_slivers, "needles shade with wild barycentrics (pbrt-v4's TEST(Triangle, BadCases))")  \
+    CASE("rays/scale", false, ec_selftest_scale, "absolute epsilons: scenes in millimetres or kilometres break")                   \
+    CASE("rays/translation", false, ec_selftest_translation, "scenes far from the origin lose their digits")                       \
+    CASE("rays/turned", false, ec_selftest_turned, "mirrored nodes turn inside out")                                               \
+    CASE("rays/baked coordinates", true, ec_selftest_baked, "what the file itself has lost of a scene far from the origin")        \
+    CASE("rays/degenerate", false, ec_selftest_degenerate, "triangles without area or numbers that crash builders or shine")       \
+    CASE("rays/singular nodes", false, ec_selftest_singular_nodes, "NaN normals below nodes that flatten")                         \
+    CASE("rays/zero normals", false, ec_selftest_zero_normals, "NaN from normals, tangents and normal maps of zeros")              \
+    CASE("rays/smooth leak", false, ec_selftest_smooth_leak, "light through a surface whose bent normal decides the side")         \
+    CASE("rays/frame", false, ec_selftest_frame, "a frame that is singular at -z (Frisvad 2012; Duff et al. 2017)")                \
+    CASE("rays/lane widths", true, ec_selftest_lane_widths, "pictures that depend on the width of a vector")                       \
+    CASE("rays/accelerators", true, ec_selftest_accelerators, "pictures that depend on the acceleration structure")                \
     CASE("lights/near lamp", false, ec_selftest_near_lamp, "1/d^2 explodes next to a lamp (Arvo 1995; pbrt's 3e-4 sr)")            \
     CASE("lights/tiny lamp", false, ec_selftest_tiny_lamp, "1 - cos of a small angle is 0: small lamps go out")                    \
     CASE("lights/facing squares", false, ec_selftest_facing_squares, "form factors (Siegel and Howell, C-11)")                     \

@@ -35,19 +35,12 @@ static void draw_plane(uint64_t *random, uint32_t i, float *a, float *b)
     *a = ec_any_float(random);
     *b = i % 2 ? ec_any_float(random) : (float)((double)*a * ec_random_between(random, -3, 3));
 }
-static void draw_cosine(uint64_t *random, uint32_t i, float *a, float *b)
-{
-    *b = 0;
-    *a = (float)(i % 2 ? ec_random_between(random, -1, 1) : 1 - pow(10, ec_random_between(random, -7.3, 0)));
-    if (i % 4 == 2) *a = -*a;
-}
 
 static double exact_sin(double a, double b) { return (void)b, sin(2 * pi * a); }
 static double exact_cos(double a, double b) { return (void)b, cos(2 * pi * a); }
 static double exact_exp(double a, double b) { return (void)b, exp(a); }
 static double exact_log(double a, double b) { return (void)b, log(a); }
 static double exact_atan2(double a, double b) { return atan2(a, b) / (2 * pi); }
-static double exact_acos(double a, double b) { return (void)b, acos(a) / pi; }
 
 /* The errors that kernels/lib states for its polynomials. */
 ec_result ec_selftest_functions(ec_selftest *t, ec_error *err)
@@ -56,14 +49,13 @@ ec_result ec_selftest_functions(ec_selftest *t, ec_error *err)
         {"sin", EC_NUMBERS_SIN, 4 * u, false, draw_turn, exact_sin},
         {"cos", EC_NUMBERS_COS, 4 * u, false, draw_turn, exact_cos},
         {"exp", EC_NUMBERS_EXP, 4 * u, true, draw_negative, exact_exp},
-        {"log", EC_NUMBERS_LOG, 4 * u, true, draw_unit, exact_log},
-        {"atan2", EC_NUMBERS_ATAN2, 1e-6 / (2 * pi) + 2 * u, false, draw_plane, exact_atan2},
-        {"acos", EC_NUMBERS_ACOS, 2 * (1e-6 / (2 * pi) + 2 * u), false, draw_cosine, exact_acos},
+        {"log", EC_NUMBERS_LOG, 8 * u, true, draw_unit, exact_log},
+        {"atan2", EC_NUMBERS_ATAN2, 2 * u, false, draw_plane, exact_atan2},
     };
     ec_numbers_run run;
     EC_TRY(ec_numbers_open(t, &run, err));
     ec_result result = EC_OK;
-    for (int k = 0; k < 6 && result == EC_OK; k++) {
+    for (int k = 0; k < 5 && result == EC_OK; k++) {
         const function *f = &functions[k];
         uint64_t random = 13;
         double worst = 0;

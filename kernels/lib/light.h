@@ -134,7 +134,7 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
     }
     light_sample s = light_point_of_triangle(l, g, m, p, b1, b2);
     s.pdf = near ? pdf : s.pdf;
-    s.valid = near ? seen : s.valid;
+    s.valid = near ? seen & (v3_dot(s.towards, s.towards) > 0.0f) : s.valid;
     return s;
 }
 

@@ -19,9 +19,8 @@ EC_FN lane_f value_of(uint function, lane_f a, lane_f b, lane_f c)
     case EC_NUMBERS_SIN: return sincos_2pi(a, &cosine);
     case EC_NUMBERS_COS: sine = sincos_2pi(a, &cosine); return cosine;
     case EC_NUMBERS_EXP: return exp_negative(a);
-    case EC_NUMBERS_LOG: return log_unit(a);
+    case EC_NUMBERS_LOG: return log_unit(a, 1.0f - a);
     case EC_NUMBERS_ATAN2: return atan2_over_2pi(a, b);
-    case EC_NUMBERS_ACOS: return acos_over_pi(a);
     case EC_NUMBERS_MIS: return mis_weight(a, b);
     case EC_NUMBERS_SURVIVAL: return roulette_survival(a, 0.0f);
     case EC_NUMBERS_UNIT: return to_unit(as_lane_u(a));

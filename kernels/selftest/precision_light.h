@@ -24,8 +24,8 @@ PRECISION(light_sample_triangle)
     PUT_V(0, v3_select(s.valid, s.wi, v3_zero()));
     PUT_V(3, v3_select(s.valid, s.towards, v3_zero()));
     PUT(6, s.valid ? s.pdf : F(0.0f));
-    PUT_V(7, v3_select(s.valid, s.end_normal, v3_zero()));
-    PUT_V(10, v3_select(s.valid, s.end_error, v3_zero()));
+    PUT_V(7, s.end_normal);
+    PUT_V(10, s.end_error);
 }
 /* One light for all lanes where it is used, so one lane after the other. */
 PRECISION(light_from_centre)

@@ -54,7 +54,6 @@ enum ec_numbers_function {
     EC_NUMBERS_EXP,          /* of a <= 0 */
     EC_NUMBERS_LOG,          /* of a in (0, 1] */
     EC_NUMBERS_ATAN2,        /* of (a, b), over 2 pi */
-    EC_NUMBERS_ACOS,         /* of a, over pi */
     EC_NUMBERS_MIS,          /* weight of a against b */
     EC_NUMBERS_SURVIVAL,     /* of roulette, for a throughput of a */
     EC_NUMBERS_UNIT,         /* the bits of a as a uniform number */

@@ -70,7 +70,7 @@ class FaultCase(Case):
     def run_with(self, name, *options, **more):
         """(result, folder) of such a render."""
         arguments, environment, folder = self.prepare(name, *options, **more)
-        return eclat(*arguments, env=environment, timeout=120), folder
+        return eclat(*arguments, env=environment, timeout=600), folder
 
     def start(self, name, *options, **more):
         """(process, folder): the same under way, as the first of a process group."""

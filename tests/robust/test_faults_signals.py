@@ -31,7 +31,7 @@ class Signals(FaultCase):
             process.wait(delay)
         except subprocess.TimeoutExpired:
             process.send_signal(number)
-        out, error = process.communicate(timeout=120)
+        out, error = process.communicate(timeout=600)
         return process.returncode, out, error, folder
 
     def check_interrupted(self, code, error, folder, number):
@@ -63,7 +63,7 @@ class Signals(FaultCase):
                 return self.check_interrupted(run.returncode, run.stderr, folder, number)
         calls = ["clGetDeviceInfo", "clCreateContext", "clBuildProgram", "clEnqueueNDRangeKernel", "clEnqueueReadBuffer", "pwrite"]
         ends = at_once(stop, [(call, n, signal.SIGINT) for call in calls for n in spread(counts[call], 4)])
-        for end in [-signal.SIGINT, True, False]:
+        for end in [True, False]: # whether one at the start still kills depends on which thread is faster
             self.assertIn(end, ends)
 
     def test_killed_at_random_moments(self):
@@ -104,7 +104,7 @@ class Signals(FaultCase):
                     pass
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGINT)
-        _, error = process.communicate(timeout=120)
+        _, error = process.communicate(timeout=600)
         if not children and process.returncode == 0:
             self.skipTest("this driver starts no program")
         self.assertEqual([process.returncode, self.check_files(folder)], [0, {"a.exr": "new", "a.png": "new"}], error)
