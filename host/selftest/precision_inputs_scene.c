@@ -127,8 +127,17 @@ void ec_inputs_light(ec_precision_random *random, float *x)
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) n[k] /= length;
     ec_draw_direction_about(random, n, ec_draw(random) < 0.25 ? ec_draw_log(random, 1e-5, 1) : ec_draw_in(random, 0.1, 1), away);
-    for (int k = 0; k < 3; k++) x[k] = (float)(b[0] * v[0][k] + b[1] * v[1][k] + b[2] * v[2][k] + distance * away[k]);
     for (int i = 0; i < 3; i++) ec_put(x + 3 + 3 * i, v[i]);
+    double height = 0, coordinate = 1;
+    for (; height < 16 * 0x1p-24 * coordinate; distance *= 4) { /* nearer, its place in the plane is a matter of rounding */
+        height = coordinate = 0;
+        for (int k = 0; k < 3; k++) {
+            x[k] = (float)(b[0] * v[0][k] + b[1] * v[1][k] + b[2] * v[2][k] + distance * away[k]);
+            height += n[k] * ((double)x[k] - (double)x[3 + k]);
+            coordinate = fmax(coordinate, fabs((double)x[k]));
+        }
+        height = fabs(height);
+    }
     x[17] = (float)ec_draw_log(random, 1e-6, 1);
     x[18] = (float)(x[17] * 2 / length);
     put_emission(random, EC_KIND_TRIANGLE | EC_LIGHT_TWO_SIDED, x);

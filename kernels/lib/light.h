@@ -120,19 +120,22 @@ EC_FN lane_f light_found_pdf(const hit_point *h, lane_i m, v3 p, lane_f d2, lane
 EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f u1, lane_f u2)
 {
     lane_f root = sqrt(u1), b1 = u2 * root, b2 = root - b1, pdf = F(0.0f);
+    v3 wi = v3_zero();
     lane_i near = m & light_is_near(l->a, l->b, l->c, p), seen = near;
     if (any_lane(near)) {
         v3 a = v3_sub(l->a, p), b = v3_sub(l->b, p), c = v3_sub(l->c, p);
         v3 n = v3_cross(v3_sub(l->b, l->a), v3_sub(l->c, l->a));
         spherical_triangle t = spherical_triangle_make(a, b, c, n);
         lane_f near_b1, near_b2;
-        spherical_triangle_sample(&t, u1, u2, &near_b1, &near_b2);
+        wi = spherical_triangle_sample(&t, u1, u2, &near_b1, &near_b2);
         b1 = near ? near_b1 : b1;
         b2 = near ? near_b2 : b2;
         pdf = light_near_pdf(&t, l->pdf_a, n);
         seen = (pdf > 0.0f) & ((v3_dot(a, n) < 0.0f) | ((l->kind & EC_LIGHT_TWO_SIDED) != 0u));
     }
     light_sample s = light_point_of_triangle(l, g, m, p, b1, b2);
+    /* The direction itself: right above the lamp the way to its point, whose place is rounded, leads anywhere. */
+    s.wi = v3_select(near, wi, s.wi);
     s.pdf = near ? pdf : s.pdf;
     s.valid = near ? seen & (v3_dot(s.towards, s.towards) > 0.0f) : s.valid;
     return s;

@@ -15,17 +15,20 @@ EC_FN light_record light_of(global const float *in)
     return light_load(&l, ITEM * (EC_PRECISION_WORDS / EC_LIGHT_WORDS));
 }
 
-/* What is not valid is not looked at. */
+/* What is not valid is not looked at. A direction may be off by u edge / height: spherical_triangle.h. */
 PRECISION(light_sample_triangle)
 {
     geometry g = geometry_of(in, memory);
     light_record l = light_of(in);
     light_sample s = light_sample_triangle(&l, &g, TRUE_MASK, V(0), X(19), X(20));
     PUT_V(0, v3_select(s.valid, s.wi, v3_zero()));
-    PUT_V(3, v3_select(s.valid, s.towards, v3_zero()));
-    PUT(6, s.valid ? s.pdf : F(0.0f));
-    PUT_V(7, s.end_normal);
-    PUT_V(10, s.end_error);
+    v3 e1 = v3_sub(l.b, l.a), e2 = v3_sub(l.c, l.a);
+    lane_f height = fabs(v3_dot(v3_sub(l.a, V(0)), s.end_normal));
+    PUT(3, sqrt(max(v3_dot(e1, e1), v3_dot(e2, e2))) / height);
+    PUT_V(4, v3_select(s.valid, s.towards, v3_zero()));
+    PUT(7, s.valid ? s.pdf : F(0.0f));
+    PUT_V(8, s.end_normal);
+    PUT_V(11, s.end_error);
 }
 /* One light for all lanes where it is used, so one lane after the other. */
 PRECISION(light_from_centre)
