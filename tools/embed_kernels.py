@@ -39,8 +39,9 @@ class Flattener:
         self.repository = os.path.dirname(self.root)
         self.dependencies = []
 
-    def unit(self, path):
-        self.once = set()
+    def unit(self, path, without=()):
+        """The text of one source; headers in `without` count as included already."""
+        self.once = set(without)
         self.out = [PRELUDE]
         self.file(os.path.abspath(path), [], conditional=False)
         return "".join(self.out)

@@ -29,8 +29,8 @@ EC_FN v3 blinn_phong_eval(const bsdf *b, lane_i mirrors, v3 wi)
     v3 h = v3_scale(sum, 1.0f / length);
     v3 fresnel = bsdf_fresnel(b, min(length * 0.5f, F(1.0f)), &rest);
     lane_f n = 2.0f / b->alpha2 - 2.0f;
-    /* cos^n through the sine, which keeps its digits in narrow lobes. */
-    lane_f log_cosine = 0.5f * log_unit(1.0f - min(fma(h.x, h.x, h.y * h.y), F(1.0f)));
+    /* cos^n by the sine too, which has the digits in narrow lobes. */
+    lane_f log_cosine = 0.5f * log_unit(h.z * h.z, fma(h.x, h.x, h.y * h.y));
     lane_f lobe = (n + 8.0f) * (0.125f * EC_INV_PI) * exp_negative(n * log_cosine);
     lane_f diffuse = rest * (1.0f - b->transmission) * EC_INV_PI;
     v3 f = v3_fma(fresnel, mirrors ? F(0.0f) : lobe, v3_scale(b->base, diffuse));

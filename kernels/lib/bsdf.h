@@ -38,10 +38,12 @@ EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *rest)
     return v3_fma(v3_sub(metal, dielectric), b->metallic, dielectric);
 }
 
-/* Probability that a microfacet seen at this cosine is sampled for reflection and not for transmission. */
-EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest)
+/* Probabilities that a microfacet seen at this cosine is sampled for reflection and for transmission. The second is not 1 less
+ * the first: little passes at grazing angles, and nothing would be left of its digits. */
+EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest, lane_f *p_pass)
 {
-    lane_f reflected = luminance(reflectance), sum = fma(rest * b->transmission, luminance(b->base), reflected);
+    lane_f reflected = luminance(reflectance), passed = rest * b->transmission * luminance(b->base), sum = reflected + passed;
+    *p_pass = sum > 0.0f ? passed / sum : F(0.0f);
     return sum > 0.0f ? reflected / sum : F(1.0f);
 }
 
@@ -63,15 +65,17 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     if (HAS(SPECULAR)) {
         lane_f rest;
         lane_f specular = luminance(bsdf_fresnel(&b, min(max(wo_local.z, F(0.0f)), F(1.0f)), &rest));
-        lane_f diffuse = rest * luminance(b.base);
+        lane_f base = luminance(b.base), diffuse = rest * base;
+        lane_f most = (1.0f - b.metallic) * (1.0f - min(v3_max_component(b.f0), F(1.0f))) * base; /* diffuse, head-on */
         if (HAS(TRANSMISSION)) {
             specular = fma(diffuse, b.transmission, specular);
             diffuse = diffuse * (1.0f - b.transmission);
+            most = most * (1.0f - b.transmission);
         }
         lane_f sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
-        /* A lobe that matters at other angles must not starve. */
-        b.p_specular = ((b.p_specular > 0.0f) & (diffuse > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
+        /* A lobe that matters at other angles must not starve, though at this one 1 - F may have been rounded to 0. */
+        b.p_specular = ((b.p_specular > 0.0f) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
     }
     return b;
 }
@@ -96,15 +100,16 @@ EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
     v3 sum = v3_select(b->refracts, v3_fma(wi, b->eta, b->wo), v3_add(b->wo, through));
     lane_f length = sqrt(v3_dot(sum, sum));
     v3 h = v3_scale(sum, copysign(1.0f / length, sum.z));
-    lane_f oh = v3_dot(b->wo, h), ih = -v3_dot(wi, h), rest;
+    lane_f oh = v3_dot(b->wo, h), ih = -v3_dot(wi, h), rest, p_pass;
     lane_i valid = (length > 0.0f) & (oh > 0.0f) & ((ih > 0.0f) | !b->refracts);
     v3 reflectance = bsdf_fresnel(b, min(oh, F(1.0f)), &rest);
+    bsdf_p_reflect(b, reflectance, rest, &p_pass);
     lane_f lambda_o = ggx_lambda(b, no), lambda_i = ggx_lambda(b, ni), d = ggx_d(b, h);
     /* Density of wi for that of h: Walter et al. 2007, eq. 17; a mirrored lobe has 1 / (4 oh). */
     lane_f denominator = ih - oh / b->eta;
     lane_f jacobian_oh = b->refracts ? ih * oh / (denominator * denominator) : F(0.25f);
     lane_f f = d * jacobian_oh * 2.0f * ni / fma(ni, lambda_o, no * lambda_i) * rest * b->transmission;
-    lane_f density = d * jacobian_oh * 2.0f / (no + lambda_o) * (1.0f - bsdf_p_reflect(b, reflectance, rest));
+    lane_f density = d * jacobian_oh * 2.0f / (no + lambda_o) * p_pass;
     *pdf = valid ? b->p_specular * density : F(0.0f);
     return v3_select(valid, v3_scale(b->base, f), v3_zero());
 }
@@ -132,7 +137,8 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     lane_f pdf_specular = d * 0.5f / (no + lambda_o);
     if (HAS(TRANSMISSION)) {
         diffuse *= 1.0f - b->transmission;
-        pdf_specular *= bsdf_p_reflect(b, fresnel, rest);
+        lane_f p_pass;
+        pdf_specular *= bsdf_p_reflect(b, fresnel, rest, &p_pass);
     }
     if (HAS(SMOOTH)) {
         specular = b->smooth ? F(0.0f) : specular;
@@ -163,9 +169,9 @@ typedef struct bsdf_direction {
 EC_FN v3 ggx_sample(const bsdf *b, lane_f cosine, lane_f sine, lane_f u2)
 {
     v3 warped = v3_normalize(v3_make(b->wo.x * b->alpha, b->wo.y * b->alpha, b->wo.z));
-    lane_f z = fma(1.0f - u2, 1.0f + warped.z, -warped.z);
-    lane_f sin_theta = sqrt(min(max(1.0f - z * z, F(0.0f)), F(1.0f)));
-    v3 c = v3_add(v3_make(sin_theta * cosine, sin_theta * sine, z), warped);
+    /* z of the point on the cap is 1 - down, but 1 - z^2 and z + warped.z would cancel at its ends. */
+    lane_f height = 1.0f + warped.z, down = u2 * height, sin_theta = sqrt(max(down * (2.0f - down), F(0.0f)));
+    v3 c = v3_make(fma(sin_theta, cosine, warped.x), fma(sin_theta, sine, warped.y), (1.0f - u2) * height);
     v3 m = v3_normalize(v3_make(c.x * b->alpha, c.y * b->alpha, c.z));
     return HAS(SMOOTH) ? v3_select(b->smooth, v3_make(F(0.0f), F(0.0f), F(1.0f)), m) : m;
 }
@@ -183,13 +189,13 @@ EC_FN bsdf_direction bsdf_sample_specular(const bsdf *b, lane_f cosine, lane_f s
     if (!HAS(TRANSMISSION) && !any_smooth) return r;
     lane_f rest;
     v3 reflectance = bsdf_fresnel(b, min(max(om, F(0.0f)), F(1.0f)), &rest);
-    lane_f p_reflect = HAS(TRANSMISSION) ? bsdf_p_reflect(b, reflectance, rest) : F(1.0f);
-    lane_i passes = (u >= p_reflect) & (p_reflect < 1.0f);
+    lane_f p_pass = F(0.0f), p_reflect = HAS(TRANSMISSION) ? bsdf_p_reflect(b, reflectance, rest, &p_pass) : F(1.0f);
+    lane_i passes = (u >= p_reflect) & (p_pass > 0.0f);
     r.weight = v3_scale(reflectance, 1.0f / (p_reflect * b->p_specular));
     if (HAS(TRANSMISSION)) {
         v3 below = v3_select(b->refracts, refract(b->wo, m, b->eta), v3_make(r.wi.x, r.wi.y, -r.wi.z));
         r.wi = v3_select(passes, below, r.wi);
-        v3 passed = v3_scale(b->base, rest * b->transmission / ((1.0f - p_reflect) * b->p_specular));
+        v3 passed = v3_scale(b->base, rest * b->transmission / (p_pass * b->p_specular));
         r.weight = v3_select(passes, passed, r.weight);
         /* Off a tilted microfacet onto the wrong side: no direction, nor in the densities. */
         r.wi.z = (passes ? r.wi.z < 0.0f : r.wi.z > 0.0f) ? r.wi.z : F(0.0f);

@@ -12,10 +12,11 @@ typedef struct environment {
     global const uint *alias;   /* ec_alias by word */
 } environment;
 
+/* v by both sides of the angle: acos(y) would have lost half the digits at the poles. */
 EC_FN void environment_uv(v3 d, lane_f *u, lane_f *v)
 {
     *u = 0.5f + atan2_over_2pi(d.z, d.x);
-    *v = acos_over_pi(min(max(d.y, F(-1.0f)), F(1.0f)));
+    *v = 2.0f * fabs(atan2_over_2pi(sqrt(fma(d.x, d.x, d.z * d.z)), d.y));
 }
 
 EC_FN v3 environment_texel(const environment *e, lane_u at)
@@ -72,7 +73,7 @@ EC_FN v3 environment_sample(const environment *e, lane_u r, lane_f u1, lane_f u2
     v3 factor = v3_make(F(constant_radiance[0]), F(constant_radiance[1]), F(constant_radiance[2]));
     lane_f cosine;
     if (!HAS(ENVIRONMENT_MAP) || !e->texels) {
-        lane_f z = fma(u2, F(-2.0f), F(1.0f)), s = sqrt(max(1.0f - z * z, F(0.0f)));
+        lane_f z = fma(u2, F(-2.0f), F(1.0f)), s = 2.0f * sqrt(u2 * (1.0f - u2)); /* not of 1 - z^2, which cancels at the poles */
         lane_f sine = sincos_2pi(u1, &cosine);
         *pdf = F(e->params->environment_pmf * 0.25f * EC_INV_PI);
         *radiance = factor;

@@ -19,13 +19,16 @@ EC_FN lane_f refracted_cosine2(lane_f cosine, lane_f eta)
     return fma(cosine, cosine, less) + lost;
 }
 
-/* Unpolarised reflectance between two dielectrics (Fresnel 1823), for the cosine of incidence and the index beyond over the
- * index here; exactly 1 beyond the critical angle, exactly 0 where the index stays the same. */
+/* Unpolarised reflectance between two dielectrics (Fresnel 1823), for the cosine c of incidence and the index beyond over the
+ * index here; exactly 1 beyond the critical angle, exactly 0 where the index stays the same. With g of Snell's law above, c - g
+ * and eta^2 c - g cancel between media that are nearly alike, so eta^2 - 1 is taken out of both:
+ * c - g = -(eta^2 - 1) / (c + g), and eta^2 c - g = (eta^2 - 1) c + (c - g). */
 EC_FN lane_f fresnel_dielectric(lane_f cosine, lane_f eta)
 {
-    lane_f g2 = refracted_cosine2(cosine, eta), g = sqrt(max(g2, F(0.0f))), eta2 = eta * eta;
-    lane_f parallel = fma(eta2, cosine, -g) / fma(eta2, cosine, g), perpendicular = (cosine - g) / (cosine + g);
-    lane_f f = 0.5f * fma(parallel, parallel, perpendicular * perpendicular);
+    lane_f g2 = refracted_cosine2(cosine, eta), g = sqrt(max(g2, F(0.0f))), sum = cosine + g;
+    lane_f less = (eta - 1.0f) * (eta + 1.0f), inverse = 1.0f / sum, q = less * inverse;
+    lane_f parallel = q * fma(cosine, sum, F(-1.0f)) / fma(eta * eta, cosine, g), perpendicular = q * inverse;
+    lane_f f = min(0.5f * fma(parallel, parallel, perpendicular * perpendicular), F(1.0f));
     return ((g2 > 0.0f) & (cosine > 0.0f)) ? f : F(1.0f);
 }
 

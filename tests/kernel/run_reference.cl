@@ -24,8 +24,6 @@ kernel void atan2_of(global const float *y, global const float *x, global float 
     LANE_STORE(atan2_over_2pi(LANE_LOAD(y + AT), LANE_LOAD(x + AT)), out + AT);
 }
 
-kernel void acos_of(global const float *x, global float *out) { LANE_STORE(acos_over_pi(LANE_LOAD(x + AT)), out + AT); }
-
 kernel void exp_of(global const float *x, global float *out) { LANE_STORE(exp_negative(LANE_LOAD(x + AT)), out + AT); }
 
 kernel void log_of(global const float *x, global float *out) { LANE_STORE(log_unit(LANE_LOAD(x + AT)), out + AT); }

@@ -99,8 +99,9 @@ static void every_stage_is_embedded(void) {
     for (const char *const *name = ec_kernel_source_names(); *name; name++) {
         const char *source = ec_kernel_source(*name);
         char line[256];
-        bool is_stage = strncmp(*name, "traverse_", 9) != 0;
-        snprintf(line, sizeof line, "#line 1 \"kernels/%s/%s.%s\"", is_stage ? "stages" : "lib", *name, is_stage ? "cl" : "h");
+        bool is_header = strncmp(*name, "traverse_", 9) == 0, is_test = strcmp(*name, "precision") == 0;
+        snprintf(line, sizeof line, "#line 1 \"kernels/%s/%s.%s\"", is_header ? "lib" : is_test ? "selftest" : "stages", *name,
+                 is_header ? "h" : "cl");
         CHECK_MSG(source && strstr(source, line), "%s", *name);
         CHECK_MSG(source && strncmp(source, "#pragma OPENCL FP_CONTRACT OFF\n", 31) == 0, "%s", *name);
     }

@@ -25,7 +25,7 @@ static void sines(void)
 
 static void arcs(void)
 {
-    static float y[N], x[N], a[N], b[N];
+    static float y[N], x[N], a[N];
     static const float special[5] = {0.0f, -0.0f, 1.0f, -1.0f, 1e-30f};
     for (uint32_t i = 0; i < N; i++) {
         double angle = test_random_in(-pi, pi), length = pow(10, test_random_in(-6, 6));
@@ -44,24 +44,7 @@ static void arcs(void)
             CHECK_MSG(fabsf(a[i]) <= 0.5f, "atan2(%g, %g) = %g", (double)y[i], (double)x[i], (double)a[i]);
         }
         printf("atan2_over_2pi: error %.2e\n", worst);
-        CHECK_MSG(worst <= 1e-6 / (2 * pi) + 2 * U, "atan2_over_2pi: error %g", worst); /* as its comment says, + rounding */
-    }
-    for (uint32_t i = 0; i < N; i++) {
-        x[i] = random_float(-1, 1);
-        if (i % 4 == 1) x[i] = (float)(1 - pow(10, test_random_in(-7.3, 0)));
-        if (i % 4 == 2) x[i] = (float)(pow(10, test_random_in(-7.3, 0)) - 1);
-        if (i < 5) x[i] = (float)i / 2 - 1;
-    }
-    if (RUN_ALL("acos_of", 1, IN(x, N), OUT(b, N))) {
-        double worst = 0;
-        for (uint32_t i = 0; i < N; i++) {
-            worst = fmax(worst, fabs(b[i] - acos((double)x[i]) / pi));
-            CHECK_MSG(b[i] >= 0.0f && b[i] <= 1.0f, "acos(%g) = %g pi", (double)x[i], (double)b[i]);
-        }
-        printf("acos_over_pi: error %.2e\n", worst);
-        CHECK_MSG(worst <= 2 * 1e-6 / (2 * pi) + 4 * U, "acos_over_pi: error %g", worst);
-        CHECK(b[0] == 1.0f && b[4] == 0.0f);
-        CHECK_NEAR(b[2], 0.5, 2 * U);
+        CHECK_MSG(worst <= 2.5e-8 / 8 + 2 * U, "atan2_over_2pi: error %g", worst); /* as its comment says, + rounding */
     }
 }
 
@@ -183,6 +166,9 @@ static void brdf_is_gltf(void)
         gltf_brdf(&m, l, o, want);
         /* Rounding of the half vector turns it by about 2 u; a narrow lobe changes by that over alpha, twice. */
         double tolerance = 4e-6 + 16 * U / m.alpha / fmax(0.02, fmin(o[2] + l[2], 1));
+        /* Unit vectors are so to 2 u: between two that are nearly opposite, wo . h differs by that over |wo + wi| from wi . h,
+         * and (1 - wo . h)^5 by five times as much. */
+        tolerance += 10 * U / sqrt(pow(o[0] + l[0], 2) + pow(o[1] + l[1], 2) + pow(o[2] + l[2], 2));
         for (uint32_t k = 0; k < 3; k++) {
             double error = fabs(values[k * N + i] - want[k]) / (want[k] + 1e-7);
             if (m.alpha >= 0.1) worst_wide = fmax(worst_wide, error);

@@ -126,6 +126,15 @@ static inline void case_free(case_image *image)
     memset(image, 0, sizeof *image);
 }
 
+/* Every number that samples left in the film. */
+static inline int case_same_bits(const ec_film *a, const ec_film *b)
+{
+    size_t pixels = (size_t)a->width * a->height;
+    return a->width == b->width && a->height == b->height && a->batch_count == b->batch_count &&
+           !memcmp(a->mean, b->mean, pixels * 3 * sizeof *a->mean) && !memcmp(a->m2, b->m2, pixels * 4 * sizeof *a->m2) &&
+           !memcmp(a->m34, b->m34, pixels * 2 * sizeof *a->m34) && !memcmp(a->aov, b->aov, pixels * 8 * sizeof *a->aov);
+}
+
 /* For ztest.h; borrows the pixels. */
 static inline ztest_picture case_picture(const case_image *image)
 {

@@ -1,0 +1,6 @@
+/* The library's functions over arrays of inputs, for comparison with the same text in double precision
+ * (host/selftest/precision.h, which also has where the inputs come from and what the results are called). */
+#include "precision_bsdf.h"
+#include "precision_light.h"
+#include "precision_math.h"
+#include "precision_surface.h"

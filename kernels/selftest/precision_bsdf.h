@@ -1,0 +1,90 @@
+/* lib/bsdf.h, blinn_phong.h */
+#ifndef EC_SELFTEST_PRECISION_BSDF_H
+#define EC_SELFTEST_PRECISION_BSDF_H
+
+#include "../lib/blinn_phong.h"
+#include "precision.h"
+
+/* Words: wo 0, wi 3, base 6, f0 9, f90 10, metallic 11, alpha 12 (0: smooth), transmission 13, eta 14 (1: thin), u 15 to 17. */
+EC_FN surface material_of(global const float *in)
+{
+    surface s;
+    s.base = V(6);
+    s.f0 = v3_splat(X(9));
+    s.f90 = X(10);
+    s.metallic = X(11);
+    s.smooth = X(12) == 0.0f;
+    s.alpha_ggx = max(X(12), F(EC_SMOOTH_ALPHA));
+    s.transmission = X(13);
+    s.eta = X(14);
+    s.refracts = s.eta != 1.0f;
+    return s;
+}
+EC_FN bsdf bsdf_of(global const float *in)
+{
+    surface s = material_of(in);
+    return bsdf_make(&s, V(0));
+}
+
+PRECISION(bsdf_make) { PUT(0, bsdf_of(in).p_specular); }
+PRECISION(bsdf_fresnel)
+{
+    bsdf b = bsdf_of(in);
+    lane_f rest;
+    PUT_V(0, bsdf_fresnel(&b, X(15), &rest));
+    PUT(3, rest);
+    PUT(4, F(1.0f));
+}
+PRECISION(ggx_d)
+{
+    bsdf b = bsdf_of(in);
+    PUT(0, ggx_d(&b, V(0)));
+}
+PRECISION(ggx_lambda)
+{
+    bsdf b = bsdf_of(in);
+    PUT(0, ggx_lambda(&b, X(2)));
+}
+/* A share of the light is worth its error against the whole: what 1 - F rounds off is a part of the light that comes. The scale of
+ * a value is therefore the value where nothing is reflected. */
+PRECISION(bsdf_eval)
+{
+    bsdf b = bsdf_of(in);
+    lane_f pdf;
+    v3 f = bsdf_eval(&b, V(3), &pdf);
+    PUT_V(0, f);
+    PUT(3, pdf);
+    PUT(4, max(X(5), F(0.0f)) * EC_INV_PI);
+}
+PRECISION(ggx_sample)
+{
+    bsdf b = bsdf_of(in);
+    lane_f cosine, sine = sincos_2pi(X(15), &cosine);
+    v3 m = ggx_sample(&b, cosine, sine, X(16));
+    PUT(0, m.x);
+    PUT(1, m.y);
+    PUT(2, m.z);
+}
+PRECISION(bsdf_sample)
+{
+    bsdf b = bsdf_of(in);
+    bsdf_direction d = bsdf_sample(&b, false, X(15), X(16), X(17));
+    PUT_V(0, d.wi);
+    PUT_V(3, d.weight);
+}
+PRECISION(blind_sample)
+{
+    bsdf b = bsdf_of(in);
+    lane_f pdf;
+    v3 wi = blind_sample(&b, X(15), X(16), &pdf);
+    PUT(0, wi.x);
+    PUT(1, wi.y);
+    PUT(2, wi.z);
+}
+PRECISION(blinn_phong_eval)
+{
+    bsdf b = bsdf_of(in);
+    PUT_V(0, blinn_phong_eval(&b, !TRUE_MASK, V(3)));
+}
+
+#endif
