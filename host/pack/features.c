@@ -29,9 +29,9 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
 }
 
-static uint32_t material_features(const ec_scene *scene, const ec_material *m)
+static uint64_t material_features(const ec_scene *scene, const ec_material *m)
 {
-    uint32_t f = 0;
+    uint64_t f = 0;
     if (m->unlit) return EC_FEATURE_UNLIT | (m->textures[EC_SLOT_BASE_COLOR].texture >= 0 ? EC_FEATURE_BASE_COLOR_TEXTURE : 0);
     if (max3(m->emission) > 0.0f) f |= EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS;
     if (max3(m->emission) > 0.0f && m->textures[EC_SLOT_EMISSION].texture >= 0) f |= EC_FEATURE_EMISSION_TEXTURE;
@@ -93,9 +93,9 @@ static bool has_deep_images(const ec_scene *scene)
     return false;
 }
 
-uint32_t ec_pack_features(const ec_scene *scene)
+uint64_t ec_pack_features(const ec_scene *scene)
 {
-    uint32_t f = 0;
+    uint64_t f = 0;
     bool *used = calloc(scene->material_count, sizeof *used);
     for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
     for (uint32_t m = 0; m < scene->material_count; m++)

@@ -89,7 +89,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
         ec_pack_free(&pack);
         return result;
     }
-    p->features = options->all_effects ? (uint32_t)EC_FEATURE_ALL & ~(uint32_t)EC_FEATURE_SOBOL : pack.features;
+    p->features = options->all_effects ? EC_FEATURE_ALL & ~EC_FEATURE_SOBOL : pack.features;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
     p->wave = fit_wave(cl, options, batch, p->lanes);
     ec_params *params = &p->params;

@@ -37,7 +37,7 @@ static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, ec_error *err
 
 ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pack *pack, ec_error *err)
 {
-    const uint32_t f = pack->features; /* also for universal kernels: what is not called for stays NULL */
+    const uint64_t f = pack->features; /* also for universal kernels: what is not called for stays NULL */
     const bool textured = f & EC_FEATURES_TEXTURED;
     const uint64_t vertices = scene->vertex_count;
     EC_TRY(upload(p, EC_ARG_PRIMS, "triangles", (uint64_t)pack->prim_count * sizeof *pack->prims, pack->prims, err));

@@ -38,12 +38,12 @@ PRECISION(bsdf_fresnel)
 PRECISION(ggx_d)
 {
     bsdf b = bsdf_of(in);
-    PUT(0, ggx_d(&b, V(0)));
+    PUT(0, ggx_d(&b.facets, V(0)));
 }
 PRECISION(ggx_lambda)
 {
     bsdf b = bsdf_of(in);
-    PUT(0, ggx_lambda(&b, X(2)));
+    PUT(0, ggx_lambda(&b.facets, X(2)));
 }
 /* A share of the light is worth its error against the whole: what 1 - F rounds off is a part of the light that comes. The scale of
  * a value is therefore the value where nothing is reflected. */
@@ -60,7 +60,7 @@ PRECISION(ggx_sample)
 {
     bsdf b = bsdf_of(in);
     lane_f cosine, sine = sincos_2pi(X(15), &cosine);
-    v3 m = ggx_sample(&b, cosine, sine, X(16));
+    v3 m = ggx_sample(&b.facets, b.wo, cosine, sine, X(16));
     PUT(0, m.x);
     PUT(1, m.y);
     PUT(2, m.z);
