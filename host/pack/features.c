@@ -20,6 +20,9 @@ static bool transmits(const ec_scene *scene, const ec_material *m)
     return most > 0.0f;
 }
 
+/* May kernels find this roughness, whose product rounds otherwise there, to be none? */
+static bool is_smooth(float roughness) { return roughness * roughness * 0.99f < EC_SMOOTH_ALPHA; }
+
 /* May kernels find reflection or refraction too narrow for a density: surface_material, surface_transmission? */
 static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refracts)
 {
@@ -27,6 +30,19 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
     float alpha = m->roughness * m->roughness * least * least * 0.99f; /* the kernels' product rounds otherwise */
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
+}
+
+static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
+{
+    float least, most;
+    ec_texture_range(scene, &m->textures[EC_SLOT_CLEARCOAT], 0, &least, &most);
+    if (m->coat * most == 0.0f) return 0;
+    uint64_t f = EC_FEATURE_CLEARCOAT;
+    if (m->textures[EC_SLOT_CLEARCOAT].texture >= 0 || m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS].texture >= 0) f |= EC_FEATURE_CLEARCOAT_TEXTURE;
+    if (m->textures[EC_SLOT_CLEARCOAT_NORMAL].texture >= 0) f |= EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE;
+    ec_texture_range(scene, &m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS], 1, &least, &most);
+    if (is_smooth(m->coat_roughness * least)) f |= EC_FEATURE_SMOOTH;
+    return f;
 }
 
 static uint64_t material_features(const ec_scene *scene, const ec_material *m)
@@ -40,7 +56,8 @@ static uint64_t material_features(const ec_scene *scene, const ec_material *m)
         if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
         if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
     }
-    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & EC_FEATURE_TRANSMISSION)) {
+    f |= coat_features(scene, m);
+    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT))) {
         f |= EC_FEATURE_SPECULAR;
         if (may_be_smooth(scene, m, (f & EC_FEATURE_TRANSMISSION) && ec_refracts(m))) f |= EC_FEATURE_SMOOTH;
         if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;

@@ -10,6 +10,7 @@
 #ifndef EC_LIB_BSDF_H
 #define EC_LIB_BSDF_H
 
+#include "coat.h"
 #include "fresnel.h"
 #include "ggx.h"
 #include "surface.h"
@@ -22,6 +23,7 @@ typedef struct bsdf {
     lane_f p_specular;   /* probability of sampling what mirrors or passes, not the diffuse lobe */
     lane_f transmission, eta;
     lane_i refracts;
+    coat coat;
 } bsdf;
 
 /* What a microfacet does with light, for the cosine between its normal and wo: reflectance, and the share of the rest that
@@ -59,6 +61,7 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     b.metallic = s->metallic;
     b.facets = ggx_make(s->alpha_ggx, s->smooth);
     b.p_specular = F(0.0f);
+    lane_f sum = luminance(b.base);
     b.transmission = HAS(TRANSMISSION) ? s->transmission : F(0.0f);
     b.eta = s->eta;
     b.refracts = HAS(TRANSMISSION) ? s->refracts : !TRUE_MASK;
@@ -72,11 +75,12 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
             diffuse = diffuse * (1.0f - b.transmission);
             most = most * (1.0f - b.transmission);
         }
-        lane_f sum = specular + diffuse;
+        sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
         /* A lobe that matters at other angles must not starve, though at this one 1 - F may have been rounded to 0. */
         b.p_specular = ((b.p_specular > 0.0f) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
     }
+    if (HAS(CLEARCOAT)) b.coat = coat_make(s, wo_local, sum);
     return b;
 }
 
@@ -102,8 +106,8 @@ EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
     return v3_select(valid, v3_scale(b->base, f), v3_zero());
 }
 
-/* f |cos(wi)| and its sampling density. Both leave out the single directions of a smooth surface. */
-EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
+/* Of the surface without what lies over it. */
+EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 {
     lane_f no = b->wo.z, ni = wi.z;
     lane_i above = (ni > 0.0f) & (no > 0.0f);
@@ -145,6 +149,22 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
         }
     }
     return f;
+}
+
+/* f |cos(wi)| and its sampling density. Both leave out the single directions of smooth surfaces. */
+EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
+{
+    v3 f = bsdf_eval_base(b, wi, pdf);
+    if (HAS(CLEARCOAT)) coat_over(&b->coat, wi, &f, pdf);
+    return f;
+}
+
+/* Does it send light in single directions only? */
+EC_FN lane_i bsdf_is_single(const bsdf *b)
+{
+    lane_i single = b->facets.smooth & (b->p_specular == 1.0f);
+    if (HAS(CLEARCOAT)) single = single & ((b->coat.p == 0.0f) | b->coat.facets.smooth);
+    return single;
 }
 
 typedef struct bsdf_direction {
@@ -193,6 +213,15 @@ EC_FN v3 blind_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f *pdf)
     return v3_make(r * cosine, r * sine, z);
 }
 
+/* Probability that no single direction is sampled. */
+EC_FN lane_f bsdf_p_spread(const bsdf *b)
+{
+    if (!HAS(SMOOTH)) return F(1.0f);
+    lane_f p = b->facets.smooth ? 1.0f - b->p_specular : F(1.0f);
+    if (HAS(CLEARCOAT)) p = (1.0f - b->coat.p) * p + (b->coat.facets.smooth ? F(0.0f) : b->coat.p);
+    return p;
+}
+
 /* A direction from (u1, u2); u picks the lobe. blind: uniform, but for what a smooth surface mirrors or lets pass. */
 EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2, lane_f u)
 {
@@ -200,8 +229,12 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
     lane_f cosine, sine = sincos_2pi(u1, &cosine), root = sqrt(u2), blind_pdf = F(0.0f);
     r.wi = v3_make(root * cosine, root * sine, sqrt(max(1.0f - u2, F(0.0f))));
     if (blind) r.wi = blind_sample(b, u1, u2, &blind_pdf);
-    lane_i single = !TRUE_MASK;
+    lane_i single = !TRUE_MASK, by_coat = !TRUE_MASK;
     v3 single_weight = v3_zero();
+    if (HAS(CLEARCOAT)) {
+        by_coat = u < b->coat.p;
+        u = min((u - b->coat.p) / (1.0f - b->coat.p), F(0.99999994f)); /* the largest float under 1 */
+    }
     if (HAS(SPECULAR)) {
         lane_i specular = u < b->p_specular;
         if (HAS(SMOOTH)) single = specular & b->facets.smooth;
@@ -212,11 +245,16 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
             single_weight = s.weight;
         }
     }
-    v3 f = bsdf_eval(b, r.wi, &r.pdf);
-    if (blind) {
-        r.pdf = blind_pdf;
-        if (HAS(SMOOTH)) r.pdf *= b->facets.smooth ? 1.0f - b->p_specular : F(1.0f);
+    if (HAS(CLEARCOAT)) single_weight = v3_scale(single_weight, (1.0f - b->coat.share) / (1.0f - b->coat.p));
+    if (HAS(CLEARCOAT) && any_lane(by_coat)) {
+        lane_i mirrored = by_coat & b->coat.facets.smooth;
+        v3 wi = coat_sample(&b->coat, cosine, sine, u2);
+        r.wi = v3_select(blind ? mirrored : by_coat, wi, r.wi);
+        single_weight = v3_select(mirrored, v3_splat(b->coat.share / b->coat.p), single_weight);
+        single = by_coat ? mirrored & (r.wi.z > 0.0f) : single;
     }
+    v3 f = bsdf_eval(b, r.wi, &r.pdf);
+    if (blind) r.pdf = blind_pdf * bsdf_p_spread(b);
     r.weight = v3_scale(f, 1.0f / r.pdf);
     if (HAS(SMOOTH)) {
         r.weight = v3_select(single, single_weight, r.weight);

@@ -18,6 +18,7 @@ EC_FN surface material_of(global const float *in)
     s.transmission = X(13);
     s.eta = X(14);
     s.refracts = s.eta != 1.0f;
+    s.coat = F(0.0f);
     return s;
 }
 EC_FN bsdf bsdf_of(global const float *in)

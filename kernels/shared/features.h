@@ -28,6 +28,9 @@
 #define EC_FEATURE_TRANSMISSION_TEXTURE EC_FEATURE_BIT(19)
 #define EC_FEATURE_ABSORPTION EC_FEATURE_BIT(20)
 #define EC_FEATURE_SOBOL EC_FEATURE_BIT(21)
+#define EC_FEATURE_CLEARCOAT EC_FEATURE_BIT(23)
+#define EC_FEATURE_CLEARCOAT_TEXTURE EC_FEATURE_BIT(24)
+#define EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE EC_FEATURE_BIT(25)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -52,7 +55,10 @@
     X(TRANSMISSION, "transmission")                                                                \
     X(TRANSMISSION_TEXTURE, "transmission-texture")                                                \
     X(ABSORPTION, "absorption")                                                                    \
-    X(SOBOL, "sobol-sampler")
+    X(SOBOL, "sobol-sampler")                                                                      \
+    X(CLEARCOAT, "clearcoat")                                                                      \
+    X(CLEARCOAT_TEXTURE, "clearcoat-texture")                                                      \
+    X(CLEARCOAT_NORMAL_TEXTURE, "clearcoat-normal-texture")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name
@@ -62,7 +68,10 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 /* All of what reads a texture, and so wants texels and places on them. */
 #define EC_FEATURES_TEXTURED                                                                                          \
     (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |              \
-     EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE)
+     EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE |                    \
+     EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
+/* What bends normals, and so wants tangents. */
+#define EC_FEATURES_TANGENTS (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_ATTRIBUTES (EC_FEATURES_TEXTURED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
 
 #ifdef EC_DEVICE_CODE
@@ -71,6 +80,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #endif
 #define HAS(name) ((FEATURES & EC_FEATURE_##name) != 0)
 #define HAS_TEXTURES ((FEATURES & EC_FEATURES_TEXTURED) != 0)
+#define HAS_TANGENTS ((FEATURES & EC_FEATURES_TANGENTS) != 0)
 #define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)
 #endif
 

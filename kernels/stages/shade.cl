@@ -126,7 +126,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     sample_pair_u(random, pair + EC_PAIR_CHOICE, &choice, &lobe);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
 
-    lane_i joins = scatters & !(b.facets.smooth & (b.p_specular == 1.0f)); /* no light sample lies in a mirror's one direction */
+    lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
         lane_f u1, u2, pdf_bsdf;
         sample_pair(random, pair + EC_PAIR_LIGHT, &u1, &u2);
