@@ -45,6 +45,19 @@ static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
     return f;
 }
 
+/* A texture's channels are multiplied by the colour's: where each is 0 on one side or the other there is no sheen. */
+static uint64_t sheen_features(const ec_scene *scene, const ec_material *m)
+{
+    bool any = false;
+    for (int k = 0; k < 3; k++) {
+        float least, most;
+        ec_texture_range(scene, &m->textures[EC_SLOT_SHEEN_COLOR], k, &least, &most);
+        any |= m->sheen[k] * most > 0.0f;
+    }
+    bool textured = m->textures[EC_SLOT_SHEEN_COLOR].texture >= 0 || m->textures[EC_SLOT_SHEEN_ROUGHNESS].texture >= 0;
+    return any ? EC_FEATURE_SHEEN | (textured ? EC_FEATURE_SHEEN_TEXTURE : 0) : 0;
+}
+
 static uint64_t material_features(const ec_scene *scene, const ec_material *m)
 {
     uint64_t f = 0;
@@ -56,8 +69,8 @@ static uint64_t material_features(const ec_scene *scene, const ec_material *m)
         if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
         if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
     }
-    f |= coat_features(scene, m);
-    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT))) {
+    f |= coat_features(scene, m) | sheen_features(scene, m);
+    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN))) {
         f |= EC_FEATURE_SPECULAR;
         if (may_be_smooth(scene, m, (f & EC_FEATURE_TRANSMISSION) && ec_refracts(m))) f |= EC_FEATURE_SMOOTH;
         if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;

@@ -69,6 +69,8 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         d->specular = m->specular;
         d->transmission = m->transmission;
         d->ior = m->ior;
+        memcpy(d->sheen, m->sheen, sizeof d->sheen);
+        d->sheen_roughness = m->sheen_roughness;
         d->coat = m->coat;
         d->coat_roughness = m->coat_roughness;
         d->coat_normal_scale = m->coat_normal_scale;

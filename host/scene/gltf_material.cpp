@@ -125,6 +125,16 @@ static void set_coat(ec_material &out, const tinygltf::Material &in, const std::
     if (c->Has("clearcoatNormalTexture")) out.coat_normal_scale = float(get_number(c->Get("clearcoatNormalTexture"), "scale", 1));
 }
 
+static void set_sheen(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
+{
+    const Value *s = find_extension(in.extensions, "KHR_materials_sheen");
+    if (!s) return;
+    for (int i = 0; i < 3; i++) out.sheen[i] = float(get_element(*s, "sheenColorFactor", i, 0));
+    out.sheen_roughness = float(get_number(*s, "sheenRoughnessFactor", 0));
+    out.textures[EC_SLOT_SHEEN_COLOR] = make_use(*s, "sheenColorTexture", where, gltf, log);
+    out.textures[EC_SLOT_SHEEN_ROUGHNESS] = make_use(*s, "sheenRoughnessTexture", where, gltf, log);
+}
+
 static void set_emission(ec_material &out, const tinygltf::Material &in)
 {
     const Value *strength = find_extension(in.extensions, "KHR_materials_emissive_strength");
@@ -159,6 +169,7 @@ static void set_material(ec_material &out, const tinygltf::Material &in, const s
     set_specular(out, in, where, gltf, log);
     set_transmission(out, in, where, gltf, log);
     set_coat(out, in, where, gltf, log);
+    set_sheen(out, in, where, gltf, log);
     out.name = copy_string(in.name);
 }
 

@@ -13,6 +13,7 @@
 #include "coat.h"
 #include "fresnel.h"
 #include "ggx.h"
+#include "sheen.h"
 #include "surface.h"
 
 typedef struct bsdf {
@@ -23,6 +24,7 @@ typedef struct bsdf {
     lane_f p_specular;   /* probability of sampling what mirrors or passes, not the diffuse lobe */
     lane_f transmission, eta;
     lane_i refracts;
+    sheen sheen;
     coat coat;
 } bsdf;
 
@@ -79,6 +81,10 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
         /* A lobe that matters at other angles must not starve, though at this one 1 - F may have been rounded to 0. */
         b.p_specular = ((b.p_specular > 0.0f) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
+    }
+    if (HAS(SHEEN)) {
+        b.sheen = sheen_make(s->sheen, s->sheen_roughness, wo_local.z, sum);
+        sum = fma(b.sheen.own, 1.0f - sum, sum);
     }
     if (HAS(CLEARCOAT)) b.coat = coat_make(s, wo_local, sum);
     return b;
@@ -155,6 +161,7 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 {
     v3 f = bsdf_eval_base(b, wi, pdf);
+    if (HAS(SHEEN)) sheen_over(&b->sheen, b->wo, wi, &f, pdf);
     if (HAS(CLEARCOAT)) coat_over(&b->coat, wi, &f, pdf);
     return f;
 }
@@ -163,6 +170,7 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 EC_FN lane_i bsdf_is_single(const bsdf *b)
 {
     lane_i single = b->facets.smooth & (b->p_specular == 1.0f);
+    if (HAS(SHEEN)) single = single & (b->sheen.p == 0.0f);
     if (HAS(CLEARCOAT)) single = single & ((b->coat.p == 0.0f) | b->coat.facets.smooth);
     return single;
 }
@@ -218,6 +226,7 @@ EC_FN lane_f bsdf_p_spread(const bsdf *b)
 {
     if (!HAS(SMOOTH)) return F(1.0f);
     lane_f p = b->facets.smooth ? 1.0f - b->p_specular : F(1.0f);
+    if (HAS(SHEEN)) p = (1.0f - b->sheen.p) * p + b->sheen.p;
     if (HAS(CLEARCOAT)) p = (1.0f - b->coat.p) * p + (b->coat.facets.smooth ? F(0.0f) : b->coat.p);
     return p;
 }
@@ -235,6 +244,11 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
         by_coat = u < b->coat.p;
         u = min((u - b->coat.p) / (1.0f - b->coat.p), F(0.99999994f)); /* the largest float under 1 */
     }
+    lane_i by_sheen = !TRUE_MASK;
+    if (HAS(SHEEN)) {
+        by_sheen = u < b->sheen.p;
+        u = min((u - b->sheen.p) / (1.0f - b->sheen.p), F(0.99999994f));
+    }
     if (HAS(SPECULAR)) {
         lane_i specular = u < b->p_specular;
         if (HAS(SMOOTH)) single = specular & b->facets.smooth;
@@ -244,6 +258,12 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
             r.wi = v3_select(specular, s.wi, r.wi);
             single_weight = s.weight;
         }
+    }
+    if (HAS(SHEEN)) {
+        lane_f r_uniform = sqrt(max(fma(-u2, u2, F(1.0f)), F(0.0f)));
+        r.wi = v3_select(blind ? !TRUE_MASK : by_sheen, v3_make(r_uniform * cosine, r_uniform * sine, u2), r.wi);
+        single = single & !by_sheen;
+        single_weight = v3_scale(single_weight, sheen_leaves(&b->sheen, r.wi.z) / (1.0f - b->sheen.p));
     }
     if (HAS(CLEARCOAT)) single_weight = v3_scale(single_weight, (1.0f - b->coat.share) / (1.0f - b->coat.p));
     if (HAS(CLEARCOAT) && any_lane(by_coat)) {

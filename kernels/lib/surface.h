@@ -23,6 +23,8 @@ typedef struct surface {
     lane_f coat_alpha;
     lane_i coat_smooth;
     v3 coat_ns;
+    v3 sheen;          /* colour of fibres over it; 0: none */
+    lane_f sheen_roughness;
 } surface;
 
 /* Position, its error bound and the geometric normal; wo points away from the surface. */
@@ -150,6 +152,19 @@ EC_FN void surface_coat(const geometry *g, const hit_point *h, lane_i m, surface
     s->coat_smooth = roughness * roughness < EC_SMOOTH_ALPHA;
 }
 
+/* KHR_materials_sheen, likewise. */
+EC_FN void surface_sheen(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_SHEEN);
+    s->sheen = v3_make(q.a, q.b, q.c);
+    s->sheen_roughness = q.d;
+    if (HAS(SHEEN_TEXTURE)) {
+        s->sheen = v3_mul(s->sheen, material_texture(g, h, m, EC_SLOT_SHEEN_COLOR, true).rgb);
+        s->sheen_roughness *= material_texture(g, h, m, EC_SLOT_SHEEN_ROUGHNESS, false).a;
+    }
+    s->sheen = v3_select(s->refracts & !s->front, v3_zero(), s->sheen);
+}
+
 /* Parameters of the metallic-roughness model with KHR_materials_specular, and of what lies over it. */
 EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
@@ -162,6 +177,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->transmission = F(0.0f);
     s->eta = F(1.0f);
     s->coat = F(0.0f);
+    s->sheen = v3_zero();
     if (!HAS(SPECULAR)) return;
     quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_F0);
     lane_f roughness = factors.b;
@@ -185,6 +201,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->f0 = v3_scale(v3_make(min(color.x, F(1.0f)), min(color.y, F(1.0f)), min(color.z, F(1.0f))), weight);
     s->f90 = weight;
     if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
+    if (HAS(SHEEN)) surface_sheen(g, h, m, s);
 }
 
 EC_FN v3 surface_to_local(const surface *s, v3 w)

@@ -19,6 +19,7 @@ EC_FN surface material_of(global const float *in)
     s.eta = X(14);
     s.refracts = s.eta != 1.0f;
     s.coat = F(0.0f);
+    s.sheen = v3_zero();
     return s;
 }
 EC_FN bsdf bsdf_of(global const float *in)
@@ -45,6 +46,34 @@ PRECISION(ggx_lambda)
 {
     bsdf b = bsdf_of(in);
     PUT(0, ggx_lambda(&b.facets, X(2)));
+}
+/* Over black, its normal the surface's, alpha in 12. */
+PRECISION(coat_over)
+{
+    surface s = material_of(in);
+    s.s = v3_make(F(1.0f), F(0.0f), F(0.0f));
+    s.t = v3_make(F(0.0f), F(1.0f), F(0.0f));
+    s.ns = s.coat_ns = v3_make(F(0.0f), F(0.0f), F(1.0f));
+    s.coat = F(1.0f);
+    s.coat_alpha = s.alpha_ggx;
+    s.coat_smooth = s.smooth;
+    coat c = coat_make(&s, V(0), F(0.5f));
+    v3 f = v3_zero();
+    lane_f pdf = F(0.0f);
+    coat_over(&c, V(3), &f, &pdf);
+    PUT(0, f.x);
+    PUT(1, pdf);
+}
+/* Over black; colour in base, roughness in alpha's place. */
+PRECISION(sheen_over)
+{
+    sheen s = sheen_make(V(6), X(12), X(2), F(0.5f));
+    v3 f = v3_zero();
+    lane_f pdf = F(0.0f);
+    sheen_over(&s, V(0), V(3), &f, &pdf);
+    PUT_V(0, f);
+    PUT(3, pdf);
+    PUT(4, s.own);
 }
 /* A share of the light is worth its error against the whole: what 1 - F rounds off is a part of the light that comes. The scale of
  * a value is therefore the value where nothing is reflected. */

@@ -31,6 +31,8 @@
 #define EC_FEATURE_CLEARCOAT EC_FEATURE_BIT(23)
 #define EC_FEATURE_CLEARCOAT_TEXTURE EC_FEATURE_BIT(24)
 #define EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE EC_FEATURE_BIT(25)
+#define EC_FEATURE_SHEEN EC_FEATURE_BIT(26)
+#define EC_FEATURE_SHEEN_TEXTURE EC_FEATURE_BIT(27)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -58,7 +60,9 @@
     X(SOBOL, "sobol-sampler")                                                                      \
     X(CLEARCOAT, "clearcoat")                                                                      \
     X(CLEARCOAT_TEXTURE, "clearcoat-texture")                                                      \
-    X(CLEARCOAT_NORMAL_TEXTURE, "clearcoat-normal-texture")
+    X(CLEARCOAT_NORMAL_TEXTURE, "clearcoat-normal-texture")                                        \
+    X(SHEEN, "sheen")                                                                              \
+    X(SHEEN_TEXTURE, "sheen-texture")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name
@@ -69,7 +73,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #define EC_FEATURES_TEXTURED                                                                                          \
     (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |              \
      EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE |                    \
-     EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
+     EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN_TEXTURE)
 /* What bends normals, and so wants tangents. */
 #define EC_FEATURES_TANGENTS (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_ATTRIBUTES (EC_FEATURES_TEXTURED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)

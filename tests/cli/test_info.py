@@ -144,6 +144,19 @@ class Info(Case):
             ({coat, bent}, {**one, "clearcoatNormalTexture": {"index": 0}}, white),
         ])
 
+    def test_sheen_calls_for_what_it_has(self):
+        sheen, textured = "sheen", "sheen-texture"
+        black, green, white = [(0, 0, 0)], [(0, 255, 0)], [(0, 0, 0), (255, 255, 255)]
+        self.check_layers("KHR_materials_sheen", {sheen, textured}, [
+            (set(), {}),
+            (set(), {"sheenRoughnessFactor": 1, "sheenRoughnessTexture": {"index": 0}}, white),
+            ({sheen}, {"sheenColorFactor": [0, 0, 0.1]}),
+            (set(), {"sheenColorFactor": [1, 1, 1], "sheenColorTexture": {"index": 0}}, black),
+            (set(), {"sheenColorFactor": [1, 0, 1], "sheenColorTexture": {"index": 0}}, green),
+            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, green),
+            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, black),
+        ])
+
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))
         for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "effects",

@@ -213,6 +213,23 @@ static void test_coat(void)
     expect_failure(LAYER("KHR_materials_clearcoat", "'clearcoatNormalTexture':{}"), textured_blobs, "clearcoatNormalTexture.index is missing");
 }
 
+static void test_sheen(void)
+{
+    ec_scene *s;
+    const ec_material *m = load_layer(LAYER("KHR_materials_sheen", ""), &s, false);
+    CHECK(m->sheen[0] == 0 && m->sheen[2] == 0 && m->sheen_roughness == 0 && m->textures[EC_SLOT_SHEEN_COLOR].texture < 0);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_sheen", "'sheenColorFactor':[0.5,0.25,1],'sheenRoughnessFactor':0.75,'sheenColorTexture':{'index':0},"
+                         "'sheenRoughnessTexture':{'index':1}"), &s, false);
+    CHECK(m->sheen[0] == 0.5f && m->sheen[1] == 0.25f && m->sheen[2] == 1 && m->sheen_roughness == 0.75f);
+    CHECK(m->textures[EC_SLOT_SHEEN_COLOR].texture == 0 && m->textures[EC_SLOT_SHEEN_ROUGHNESS].texture == 1);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_sheen", "'sheenColorFactor':[-1,0.5,3],'sheenRoughnessFactor':7"), &s, true);
+    CHECK(m->sheen[0] == 0 && m->sheen[1] == 0.5f && m->sheen[2] == 1 && m->sheen_roughness == 1);
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_sheen", "'sheenColorFactor':[1,1]"), textured_blobs, "KHR_materials_sheen.sheenColorFactor must have 3 numbers");
+}
+
 static void test_images(void)
 {
     ec_scene *s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
@@ -329,6 +346,7 @@ int main(void)
     test_factors();
     test_glass();
     test_coat();
+    test_sheen();
     test_images();
     test_transform();
     test_missing_coordinates();

@@ -14,6 +14,8 @@ enum packed_field {
     PACKED_COAT,
     PACKED_COAT_ALPHA,
     PACKED_COAT_TILT, /* sine of its normal's angle, in the plane of wo */
+    PACKED_SHEEN, /* 3 */
+    PACKED_SHEEN_ROUGHNESS = PACKED_SHEEN + 3,
     PACKED_FIELDS
 };
 

@@ -36,6 +36,8 @@ static bsdf make_bsdf(constant float *m)
     s.s = v3_make(F(1.0f), F(0.0f), F(0.0f));
     s.t = v3_make(F(0.0f), F(1.0f), F(0.0f));
     s.ns = v3_make(F(0.0f), F(0.0f), F(1.0f));
+    s.sheen = v3_make(F(m[PACKED_SHEEN]), F(m[PACKED_SHEEN + 1]), F(m[PACKED_SHEEN + 2]));
+    s.sheen_roughness = F(m[PACKED_SHEEN_ROUGHNESS]);
     s.coat = F(m[PACKED_COAT]);
     s.coat_alpha = F(m[PACKED_COAT_ALPHA]);
     float tilt = m[PACKED_COAT_TILT], cosine = m[PACKED_COSINE];

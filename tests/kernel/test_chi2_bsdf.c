@@ -187,17 +187,30 @@ static void check_coat(void)
     check_coat_over(3, (material){0, 0.5f, 0.3f, 0, 0, 1}, 1, 0.5f, 0);
 }
 
+/* Fibres, coated too. */
+static void check_sheen(void)
+{
+    static const float roughness[3] = {0.2f, 0.5f, 1.0f}, cosines[3] = {1.0f, 0.5f, 0.05f};
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            const float over[PACKED_FIELDS] = {[PACKED_SHEEN] = 0.3f, [PACKED_SHEEN + 1] = 0.9f, [PACKED_SHEEN + 2] = 0.1f,
+                                               [PACKED_SHEEN_ROUGHNESS] = roughness[r], [PACKED_COAT] = r == 1, [PACKED_COAT_ALPHA] = 0.3f};
+            check_covered(layered_programs, (r + c) % LANE_WIDTHS, (material){c == 1, 0.5f, cosines[c], c == 1 ? 1 : 0.8f, r == 2, r == 2 ? 1.5f : 1}, "sheen", over);
+        }
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
     chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
     chi2_build(glass_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
-    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)");
+    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN)");
     if (!test_failures) {
         check_opaque();
         check_glass();
         check_coat();
+        check_sheen();
         printf("%d chi-square tests\n", tests);
         CHECK(tests <= TESTS - 5); /* the lights' */
     }

@@ -2,6 +2,8 @@
  * angles from end to end. One surface a call, N directions. Every lane width must give the same bits. */
 #include "kernel/kernel_reference.h"
 #include "kernel/packed_material.h"
+#define constant static const
+#include "lib/sheen_table.h"
 
 static float wi[3 * N], f[N], pdf[N];
 
@@ -101,6 +103,33 @@ static double albedo(const float *m, double *se)
     return sum;
 }
 
+/* f(wo, wi) = f(wi, wo) for six cosines each and N / 6 azimuths, but for rounding as in compare(). */
+static void check_reciprocity(const char *what, const float *m)
+{
+    static const double cosines[6] = {0.01, 0.1, 0.3, 0.5, 0.8, 1};
+    static float values[6][N];
+    double worst = 0;
+    for (uint32_t i = 0; i < N; i++) {
+        double z = cosines[i % 6], angle = 2 * pi * (i / 6) / (N / 6.0), r = sqrt(1 - z * z); /* six of the same azimuth */
+        wi[i] = (float)(r * cos(angle)), wi[N + i] = (float)(r * sin(angle)), wi[2 * N + i] = (float)z;
+    }
+    for (int o = 0; o < 6; o++) {
+        float turned[PACKED_FIELDS];
+        memcpy(turned, m, sizeof turned);
+        turned[PACKED_COSINE] = (float)cosines[o];
+        if (!KERNEL_CALL(&cl, programs[2], "bsdf_values", n / 8, SCALAR(n), IN(turned, PACKED_FIELDS), IN(wi, 3 * N), OUT(values[o], N), OUT(pdf, N))) return;
+    }
+    for (uint32_t i = 0; i + 6 <= N; i += 6)
+        for (uint32_t o = 0; o < 6; o++)
+            for (uint32_t k = 0; k < o; k++) {
+                double there = values[o][i + k] / cosines[k], back = values[k][i + o] / cosines[o];
+                double sum = sqrt(2 + 2 * (cosines[o] * cosines[k] + sqrt((1 - cosines[o] * cosines[o]) * (1 - cosines[k] * cosines[k])) * cos(2 * pi * (i / 6) / (N / 6.0))));
+                worst = fmax(worst, fabs(there - back) / (there + back + 0.1) / (1 + 0.1 / sum));
+            }
+    CHECK_MSG(worst < 1e-5, "%s: f(a, b) and f(b, a) differ by %g", what, worst);
+    printf("%s: reciprocal within %.1e\n", what, worst);
+}
+
 /* Over roughness and angle: never more than comes in, by more than 4 standard errors; says how little comes back at the least. */
 static void furnace(const char *what, const float *white, int roughness_field)
 {
@@ -152,14 +181,104 @@ static void coats(void)
     furnace("bent coat over white metal", white, PACKED_COAT_ALPHA);
 }
 
+/* ---- KHR_materials_sheen, by Estevez and Kulla 2017; eclat's own: divided by E where E is more than 1 ---- */
+
+static double sheen_fit(double x, double alpha)
+{
+    static const double ends[5][2] = {{25.3245, 21.5473}, {3.32435, 3.82987}, {0.16801, 0.19823}, {-1.27393, -1.97760}, {-4.85967, -4.32054}};
+    double t = (1 - alpha) * (1 - alpha), p[5];
+    for (int i = 0; i < 5; i++) p[i] = t * ends[i][0] + (1 - t) * ends[i][1];
+    return p[0] / (1 + p[1] * pow(x, p[2])) + p[3] * x + p[4];
+}
+
+static double sheen_lambda(double cosine, double alpha)
+{
+    return exp(cosine < 0.5 ? sheen_fit(cosine, alpha) : 2 * sheen_fit(0.5, alpha) - sheen_fit(1 - cosine, alpha));
+}
+
+static double charlie(double alpha, vector l, vector v) /* times the cosine */
+{
+    vector h = half_of(l, v);
+    double d = (2 + 1 / alpha) * pow(h.x * h.x + h.y * h.y, 0.5 / alpha) / (2 * pi);
+    return d / ((1 + sheen_lambda(v.z, alpha) + sheen_lambda(l.z, alpha)) * 4 * v.z);
+}
+
+/* E of one direction by midpoints, z = u^3, azimuth dense where l mirrors v. */
+static double charlie_albedo(double alpha, double cosine)
+{
+    enum { STEPS = 160 };
+    double sum = 0;
+    vector v = {sqrt(1 - cosine * cosine), 0, cosine};
+    for (int i = 0; i < STEPS; i++)
+        for (int j = 0; j < STEPS; j++) {
+            double u = (i + 0.5) / STEPS, z = u * u * u, q = 1 - (j + 0.5) / STEPS, angle = pi * (1 - q * q * q), r = sqrt(1 - z * z);
+            vector l = {r * cos(angle), r * sin(angle), z};
+            sum += charlie(alpha, l, v) * 3 * u * u / STEPS * 2 * pi * 3 * q * q / STEPS;
+        }
+    return sum;
+}
+
+static double table_albedo(double roughness, double cosine)
+{
+    double x = sqrt(cosine) * (SHEEN_COSINES - 1), y = (roughness - (double)SHEEN_LEAST_ROUGHNESS) / (1 - (double)SHEEN_LEAST_ROUGHNESS) * (SHEEN_ROUGHNESSES - 1);
+    int i = (int)fmin(x, SHEEN_COSINES - 2), j = (int)fmin(fmax(y, 0), SHEEN_ROUGHNESSES - 2);
+    const float *at = sheen_table + j * SHEEN_COSINES + i;
+    double u = x - i, w = y - j;
+    return (1 - w) * ((1 - u) * (double)at[0] + u * (double)at[1]) + w * ((1 - u) * (double)at[SHEEN_COSINES] + u * (double)at[SHEEN_COSINES + 1]);
+}
+
+/* The table against quadrature between its nodes: hardly under the truth, or what lies below would get too much; over it, what is lost. */
+static void sheen_table_is_right(void)
+{
+    double over = 0, under = 0;
+    for (int i = 0; i < 120; i++) {
+        double roughness = test_random_in((double)SHEEN_LEAST_ROUGHNESS, 1), cosine = pow(test_random_in(0.032, 1), 2); /* below, E turns up again, and the table is far above */
+        double error = fmin(table_albedo(roughness, cosine), 1) - fmin(charlie_albedo(roughness * roughness, cosine), 1);
+        over = fmax(over, error), under = fmax(under, -error);
+    }
+    printf("sheen: table over E by at most %.4f, under by %.4f\n", over, under);
+    CHECK(over < 0.005 && under < 1e-3);
+}
+
+static double with_sheen(const float *m, vector l, vector v)
+{
+    double roughness = fmax(m[PACKED_SHEEN_ROUGHNESS], SHEEN_LEAST_ROUGHNESS), most = fmax(m[PACKED_SHEEN], fmax(m[PACKED_SHEEN + 1], m[PACKED_SHEEN + 2]));
+    double albedo = fmax(table_albedo(roughness, v.z), table_albedo(roughness, l.z));
+    return m[PACKED_SHEEN + 1] * charlie(roughness * roughness, l, v) / fmax(albedo, 1) + (1 - most * fmin(albedo, 1)) * plastic(m, l, v);
+}
+
+static void sheens(void)
+{
+    static const float roughness[5] = {0.07f, 0.2f, 0.5f, 0.8f, 1}, cosines[5] = {0.05f, 0.3f, 0.6f, 0.9f, 1};
+    sheen_table_is_right();
+    for (int i = 0; i < 25; i++) {
+        float m[PACKED_FIELDS];
+        char name[96];
+        memcpy(m, plain, sizeof m);
+        m[PACKED_SHEEN] = 0.5f, m[PACKED_SHEEN + 1] = 0.9f, m[PACKED_SHEEN + 2] = 0.2f;
+        m[PACKED_SHEEN_ROUGHNESS] = roughness[i / 5], m[PACKED_COSINE] = cosines[i % 5];
+        snprintf(name, sizeof name, "sheen roughness %g cosine %g", (double)roughness[i / 5], (double)cosines[i % 5]);
+        if (i % 5 == 0) check_reciprocity(name, m);
+        /* sin^(1 / alpha): the power multiplies the error of the sine, of about 4 u, by 1 / alpha. */
+        compare(name, m, fmin(0.3, (double)roughness[i / 5] * roughness[i / 5]), 0, with_sheen);
+    }
+    float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_ALPHA] = 1, [PACKED_ETA] = 1,
+                                  [PACKED_SHEEN] = 1, [PACKED_SHEEN + 1] = 1, [PACKED_SHEEN + 2] = 1};
+    furnace("white sheen over white Lambert", white, PACKED_SHEEN_ROUGHNESS);
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
     for (int i = 0; i < LANE_WIDTHS; i++)
         programs[i] = kernel_build(&cl, "chi2", lane_widths[i],
-                                   "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)");
-    if (!test_failures) coats();
+                                   "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+"
+                                   "EC_FEATURE_SHEEN)");
+    if (!test_failures) {
+        coats();
+        sheens();
+    }
     for (int i = 0; i < LANE_WIDTHS; i++)
         if (programs[i]) clReleaseProgram(programs[i]);
     ec_cl_close(&cl);
