@@ -8,6 +8,7 @@
 #endif
 
 #include "cli/cli.h"
+#include "cli/stop.h"
 
 /* A picture must never be opened on a descriptor that the caller closed and that a message then goes to. The mode is
  * the wrong one on purpose, so that using the stream still fails. */
@@ -31,6 +32,8 @@ int main(int argc, char **argv)
 {
     occupy_standard_descriptors();
     keep_memory_small();
+    ec_stop_watch_signals();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error to report, after the picture is safe */
+    signal(SIGXFSZ, SIG_IGN); /* so is a file larger than ulimit -f allows */
     return ec_cli_main(argc, argv);
 }

@@ -2,6 +2,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 ec_result ec_fail(ec_error *err, const char *format, ...)
 {
@@ -10,8 +11,19 @@ ec_result ec_fail(ec_error *err, const char *format, ...)
         va_start(args, format);
         vsnprintf(err->text, sizeof err->text, format, args);
         va_end(args);
+        err->kind = EC_ERROR_OTHER;
     }
     return EC_FAILED;
+}
+
+void ec_fail_more(ec_error *err, const char *format, ...)
+{
+    if (!err) return;
+    size_t used = strlen(err->text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(err->text + used, sizeof err->text - used, format, args);
+    va_end(args);
 }
 
 static void log_write(const ec_log *log, ec_severity severity, const char *format, va_list args)

@@ -8,13 +8,20 @@ typedef enum ec_result {
     EC_USAGE = 2   /* the command line is wrong: exit code 2 */
 } ec_result;
 
+/* What a caller may want to act on: less memory may do; what was computed before may be worth keeping. */
+typedef enum ec_error_kind { EC_ERROR_OTHER, EC_ERROR_DEVICE_MEMORY, EC_ERROR_DEVICE } ec_error_kind;
+
 /* One line: what went wrong, where, and how to mend it. No trailing newline. */
 typedef struct ec_error {
     char text[2048];
+    ec_error_kind kind;
 } ec_error;
 
-/* Formats the message into err (which may be NULL) and returns EC_FAILED. */
+/* Formats the message into err (which may be NULL) and returns EC_FAILED. The kind becomes EC_ERROR_OTHER. */
 ec_result ec_fail(ec_error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Adds to the message what only the caller knows; the kind stays. */
+void ec_fail_more(ec_error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Forwards a failure; use where nothing needs to be released. */
 #define EC_TRY(call)                                                                               \

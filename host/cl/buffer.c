@@ -1,4 +1,6 @@
 /* Device memory: allocated within the device's limits and accounted for, read, written, zeroed. */
+#include <stdio.h>
+
 #include "cl/cl.h"
 
 #define EC_SMALLEST_BUFFER 16 /* OpenCL has no empty buffers; an empty table still needs an argument */
@@ -6,14 +8,23 @@
 static double mib(uint64_t bytes) { return (double)bytes / 1048576.0; }
 
 static ec_result check_limits(const ec_cl *cl, const char *label, uint64_t bytes, ec_error *err) {
+    uint64_t used = cl->allocated_bytes, all = cl->info.memory_bytes, left = used < all ? all - used : 0;
+    if (bytes <= cl->info.max_allocation_bytes && bytes <= left) return EC_OK;
     if (bytes > cl->info.max_allocation_bytes)
-        return ec_fail(err, "%s needs %.1f MiB in one piece, but %s allows %.1f MiB", label, mib(bytes), cl->info.name,
-                       mib(cl->info.max_allocation_bytes));
-    uint64_t used = cl->allocated_bytes, all = cl->info.memory_bytes;
-    if (bytes > (used < all ? all - used : 0))
-        return ec_fail(err, "%s needs %.1f MiB, but %s has %.1f MiB, of which %.1f MiB are in use", label, mib(bytes),
-                       cl->info.name, mib(all), mib(used));
-    return EC_OK;
+        ec_fail(err, "%s needs %.1f MiB in one piece, but %s allows %.1f MiB", label, mib(bytes), cl->info.name,
+                mib(cl->info.max_allocation_bytes));
+    else
+        ec_fail(err, "%s needs %.1f MiB, but %s has %.1f MiB, of which %.1f MiB are in use", label, mib(bytes),
+                cl->info.name, mib(all), mib(used));
+    ec_fail_more(err, "; try another --device, or a smaller scene or --size");
+    if (err) err->kind = EC_ERROR_DEVICE_MEMORY;
+    return EC_FAILED;
+}
+
+static ec_result refused(const ec_cl *cl, const char *label, uint64_t bytes, cl_int code, ec_error *err) {
+    char what[128];
+    snprintf(what, sizeof what, "%s, %.1f MiB beside %.1f in use", label, mib(bytes), mib(cl->allocated_bytes));
+    return ec_cl_check(code, "clCreateBuffer", what, err);
 }
 
 ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer,
@@ -27,7 +38,7 @@ ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const v
     bool at_once = copy && size == bytes;
     cl_mem made = clCreateBuffer(cl->context, CL_MEM_READ_WRITE | (at_once ? CL_MEM_COPY_HOST_PTR : 0), size,
                                  at_once ? (void *)host : NULL, &code);
-    EC_TRY(ec_cl_check(code, "clCreateBuffer", label, err));
+    if (code != CL_SUCCESS) return refused(cl, label, size, code, err);
     cl->allocated_bytes += size;
     if (cl->allocated_bytes > cl->peak_allocated_bytes) cl->peak_allocated_bytes = cl->allocated_bytes;
     if (copy && !at_once) {
@@ -53,7 +64,8 @@ void ec_buffer_release(ec_cl *cl, cl_mem *buffer) {
 ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err) {
     if (bytes == 0) return EC_OK;
     cl_int code = clEnqueueReadBuffer(cl->queue, buffer, CL_TRUE, offset, bytes, to, 0, NULL, NULL);
-    return ec_cl_check(code, "clEnqueueReadBuffer", NULL, err);
+    EC_TRY(ec_cl_check(code, "clEnqueueReadBuffer", NULL, err));
+    return ec_cl_landed(cl, err);
 }
 
 ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err) {
@@ -65,6 +77,8 @@ ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t by
 ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err) {
     if (bytes == 0) return EC_OK;
     const cl_uint zero = 0;
-    cl_int code = clEnqueueFillBuffer(cl->queue, buffer, &zero, sizeof zero, offset, bytes, 0, NULL, NULL);
-    return ec_cl_check(code, "clEnqueueFillBuffer", NULL, err);
+    cl_event event;
+    cl_int code = clEnqueueFillBuffer(cl->queue, buffer, &zero, sizeof zero, offset, bytes, 0, NULL, &event);
+    EC_TRY(ec_cl_check(code, "clEnqueueFillBuffer", NULL, err));
+    return ec_cl_launched(cl, event, "zeroing a buffer", err);
 }

@@ -72,3 +72,14 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
     else return ec_fail(err, "none of the %u OpenCL devices is available and has a compiler; see eclat devices", count);
     return EC_OK;
 }
+
+ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err) {
+    ec_device_info *devices = NULL;
+    uint32_t count = 0, chosen = 0;
+    EC_TRY(ec_devices_list(&devices, &count, err));
+    ec_result result = ec_device_choose(devices, count, id, &chosen, why, err);
+    if (result == EC_OK) *device = devices[chosen];
+    if (result == EC_OK && index) *index = chosen;
+    free(devices);
+    return result;
+}

@@ -32,9 +32,19 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
 ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index,
                            const char **why, ec_error *err);
 
-/* Whether programs go through the binary cache. AUTO leaves it out where the driver's own cache is finer (PoCL) and where
- * the source is wanted (Oclgrind). */
+/* Both at once: the device that id means, and its place in the list. index and why may be NULL. */
+ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err);
+
+/* Whether programs go through the binary cache. AUTO leaves it out for drivers that need the source:
+ * cl/workarounds.c. */
 typedef enum ec_cache_use { EC_CACHE_AUTO = 0, EC_CACHE_ON, EC_CACHE_OFF } ec_cache_use;
+
+/* A command that may still fail once it runs. */
+#define EC_LAUNCHES 64
+typedef struct ec_cl_launch {
+    cl_event event;
+    const char *label;
+} ec_cl_launch;
 
 /* A context and an in-order queue on one device. One thread at a time, but for ec_program_build: one thread may build
  * while another uses buffers and kernels (compiling takes long enough to hide it behind loading a scene). */
@@ -47,6 +57,8 @@ typedef struct ec_cl {
     uint32_t cache_hits, cache_misses;
     const char *cache_dir;    /* NULL: the default (see ec_program_build) */
     ec_cache_use cache;       /* EC_CACHE_AUTO unless set after ec_cl_open */
+    ec_cl_launch launches[EC_LAUNCHES]; /* whose end has not been looked at */
+    uint32_t launch_count;
 } ec_cl;
 ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err);
 void ec_cl_close(ec_cl *cl);
@@ -90,7 +102,8 @@ typedef struct ec_argument {
 } ec_argument;
 #define EC_ARGUMENT(variable) {sizeof(variable), &(variable)}
 ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, uint32_t count, ec_error *err);
-/* One-dimensional; global is rounded up to a multiple of local. Enqueued, not waited for. PoCL compiles a kernel once for
+/* One-dimensional; global is rounded up to a multiple of local. Enqueued, not waited for: should it fail as it runs, the next
+ * ec_buffer_read or ec_cl_finish says so, with the label (a text that lives as long). PoCL compiles a kernel once for
  * each local size and once more for launches of 65536 items and over: keep a kernel to one of each. */
 ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local, ec_error *err);
 ec_result ec_cl_finish(ec_cl *cl, ec_error *err);
@@ -112,7 +125,13 @@ enum {
 ec_result ec_kernel_call(ec_cl *cl, cl_program program, const char *name, uint64_t items, uint32_t local, const ec_array *arrays,
                          uint32_t count, ec_error *err);
 
+/* launches.c: takes over a command's event; waits for all of them and looks how they ended; does neither. */
+ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_error *err);
+ec_result ec_cl_landed(ec_cl *cl, ec_error *err);
+void ec_cl_forget_launches(ec_cl *cl);
+
 const char *ec_cl_error_name(cl_int code);
+ec_error_kind ec_cl_error_kind(cl_int code);
 /* "clEnqueueNDRangeKernel (intersect) failed: CL_OUT_OF_RESOURCES" */
 ec_result ec_cl_check(cl_int code, const char *call, const char *label, ec_error *err);
 

@@ -17,6 +17,7 @@ ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err) {
 }
 
 void ec_cl_close(ec_cl *cl) {
+    ec_cl_forget_launches(cl);
     if (cl->queue) clReleaseCommandQueue(cl->queue);
     if (cl->context) clReleaseContext(cl->context);
     cl->queue = NULL;
@@ -24,5 +25,6 @@ void ec_cl_close(ec_cl *cl) {
 }
 
 ec_result ec_cl_finish(ec_cl *cl, ec_error *err) {
-    return ec_cl_check(clFinish(cl->queue), "clFinish", cl->info.name, err);
+    EC_TRY(ec_cl_check(clFinish(cl->queue), "clFinish", cl->info.name, err));
+    return ec_cl_landed(cl, err);
 }

@@ -101,8 +101,8 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
     for (cl_uint i = 0; i < found && i < 64 && result == EC_OK; i++)
         result = add_platform(platforms[i], devices, count, err);
     if (result == EC_OK && *count == 0)
-        result = ec_fail(err, "the installed OpenCL driver (%u platform%s) offers no device; " EC_INSTALL_HINT,
-                         (unsigned)found, found == 1 ? "" : "s");
+        result = ec_fail(err, "the installed OpenCL driver (%u platform%s) offers no device; PoCL needs a folder that it may write to, "
+                              "which POCL_CACHE_DIR=FOLDER names; else " EC_INSTALL_HINT, (unsigned)found, found == 1 ? "" : "s");
     if (result != EC_OK) {
         free(*devices);
         *devices = NULL;

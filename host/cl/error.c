@@ -32,8 +32,35 @@ const char *ec_cl_error_name(cl_int code) {
 #undef EC_NAME
 }
 
+ec_error_kind ec_cl_error_kind(cl_int code) {
+    switch (code) {
+        case CL_OUT_OF_RESOURCES:
+        case CL_OUT_OF_HOST_MEMORY:
+        case CL_MEM_OBJECT_ALLOCATION_FAILURE: return EC_ERROR_DEVICE_MEMORY;
+        default: return EC_ERROR_DEVICE;
+    }
+}
+
+static const char *remedy(cl_int code) {
+    switch (code) {
+        case CL_OUT_OF_RESOURCES: /* NVIDIA's word for a crashed kernel too */
+            return "the device ran out of memory or was reset; try a smaller --size, or another --device";
+        case CL_MEM_OBJECT_ALLOCATION_FAILURE: return "the device has no memory left; try a smaller --size, or another --device";
+        case CL_OUT_OF_HOST_MEMORY: return "the driver found no memory left; end other programs, or try a smaller --size";
+        case CL_DEVICE_NOT_AVAILABLE:
+        case CL_INVALID_COMMAND_QUEUE:
+        case CL_INVALID_CONTEXT:
+        case CL_INVALID_DEVICE:
+        case CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST:
+            return "the device was lost or reset; run it again, or try another --device";
+        default: return "the driver refused it; try another --device or driver";
+    }
+}
+
 ec_result ec_cl_check(cl_int code, const char *call, const char *label, ec_error *err) {
     if (code == CL_SUCCESS) return EC_OK;
-    if (label && *label) return ec_fail(err, "%s (%s) failed: %s (%d)", call, label, ec_cl_error_name(code), code);
-    return ec_fail(err, "%s failed: %s (%d)", call, ec_cl_error_name(code), code);
+    const char *open = label && *label ? " (" : "", *close = *open ? ")" : "";
+    ec_fail(err, "%s%s%s%s failed: %s (%d); %s", call, open, *open ? label : "", close, ec_cl_error_name(code), code, remedy(code));
+    if (err) err->kind = ec_cl_error_kind(code);
+    return EC_FAILED;
 }

@@ -34,6 +34,8 @@ ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t
                         ec_error *err) {
     if (global == 0) return EC_OK;
     size_t group = local, items = (size_t)((global + local - 1) / local * local);
-    cl_int code = clEnqueueNDRangeKernel(cl->queue, kernel, 1, NULL, &items, &group, 0, NULL, NULL);
-    return ec_cl_check(code, "clEnqueueNDRangeKernel", label, err);
+    cl_event event;
+    cl_int code = clEnqueueNDRangeKernel(cl->queue, kernel, 1, NULL, &items, &group, 0, NULL, &event);
+    EC_TRY(ec_cl_check(code, "clEnqueueNDRangeKernel", label, err));
+    return ec_cl_launched(cl, event, label, err);
 }

@@ -1,12 +1,4 @@
-/* Source to program, through the binary cache.
- *
- * PoCL 3.1 is left out of the cache (EC_CACHE_AUTO). It compiles a kernel at its first launch, for the local size of that
- * launch, and keeps the result in its own cache below XDG_CACHE_HOME. Asking it for binaries compiles every kernel once
- * more, for any local size, which takes as long as the first launches did (the sketch's five kernels: 1.2-1.5 s), and
- * the result lacks what launches use unless they ran before. Warm, its cache is as good: 0.03-0.05 s instead of 0.01 s.
- * It compiles under one lock for the process, so threads do not help, nor do contexts, and each program more costs
- * 0.1-0.2 s: see ec_kernel_sources_join. Other drivers have the whole binary when the build is done.
- */
+/* Source to program, through the binary cache but for drivers that need the source (cl/workarounds.c). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +6,7 @@
 #include "base/clock.h"
 #include "cl/build_log.h"
 #include "cl/cache.h"
+#include "cl/workarounds.h"
 
 typedef struct build {
     ec_cl *cl;
@@ -24,8 +17,8 @@ typedef struct build {
 } build;
 
 static bool driver_needs_source(const ec_device_info *info) {
-    return strstr(info->platform_version, "PoCL") || strstr(info->platform_version, "pocl") ||
-           strstr(info->platform_name, "Oclgrind");
+    const ec_workaround *w = ec_workaround_for(info);
+    return w && w->source_only;
 }
 
 static char *all_options(const ec_device_info *info, const char *options) {

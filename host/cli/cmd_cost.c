@@ -66,7 +66,7 @@ static ec_result run_study(ec_cost_study *study, const ec_render_job *job, ec_co
     study->cl = &cl;
     study->go_on = show;
     study->user = &view;
-    ec_stop_catch_signals();
+    ec_stop_catch_signals(ec_console_wants_progress(console));
     ec_console_say(console, "studying %ux%u pixels on %s for %g s", study->options.width, study->options.height, job->device.name, study->budget);
     ec_result result = ec_cost_run(study, err);
     ec_console_erase(console);
@@ -104,11 +104,13 @@ ec_result ec_cmd_cost(ec_cli *cli, int argc, char **argv, ec_error *err)
     EC_TRY_CLEANUP(ec_render_job_load(&job, &cli->console, err));
     study.scene = job.scene;
     study.options = request.render.options;
-    EC_TRY_CLEANUP(run_study(&study, &job, &cli->console, err));
+    result = run_study(&study, &job, &cli->console, err);
+    if (result != EC_OK && !(study.row_count && study.rows[0].state == EC_COST_MEASURED)) goto cleanup;
     const ec_cost_report report = {.study = &study, .command = cli->line, .scene = request.render.scene, .camera = job.camera_text,
                                    .environment = job.environment_text, .device = &job.device, .device_why = job.device_why,
                                    .device_index = job.device_index};
-    result = deliver(&report, &request, err);
+    if (result == EC_OK) result = deliver(&report, &request, err);
+    else if (deliver(&report, &request, NULL) == EC_OK) ec_fail_more(err, "; what was measured before is reported");
 cleanup:
     ec_cost_free(&study);
     ec_render_job_free(&job);

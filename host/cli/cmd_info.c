@@ -74,18 +74,11 @@ static ec_result probe_all(ec_cl *cl, const info_request *request, ec_scene_repo
 
 static ec_result probe(const info_request *request, ec_scene_report *report, ec_device_info *device, ec_error *err)
 {
-    ec_device_info *devices = NULL;
-    uint32_t count = 0, index = 0;
-    const char *why;
     ec_cl cl;
-    EC_TRY(ec_devices_list(&devices, &count, err));
-    ec_result result = ec_device_choose(devices, count, request->device, &index, &why, err);
-    if (result == EC_OK) *device = devices[index];
-    free(devices);
-    EC_TRY(result);
+    EC_TRY(ec_device_find(request->device, device, NULL, NULL, err));
     report->device = device->name;
     EC_TRY(ec_cl_open(device, &cl, err));
-    result = probe_all(&cl, request, report, err);
+    ec_result result = probe_all(&cl, request, report, err);
     ec_cl_close(&cl);
     return result;
 }

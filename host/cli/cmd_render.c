@@ -79,6 +79,19 @@ static ec_result deliver(ec_console *console, ec_render_job *job, double start, 
     return tell(console, job, &report, err);
 }
 
+/* Hours of samples are not to be lost with the device: the picture is written, and the command fails all the same. */
+static ec_result render(ec_console *console, ec_render_job *job, double start, ec_error *err)
+{
+    ec_error why = {""};
+    if (ec_render_job_run(job, console, &why) == EC_OK) return deliver(console, job, start, err);
+    if (job->film.batch_count == 0) return ec_fail(err, "%s", why.text);
+    ec_fail(err, "the render failed after %llu samples a pixel: %s", (unsigned long long)job->stats.samples_per_pixel, why.text);
+    ec_error unwritten = {""};
+    if (deliver(console, job, start, &unwritten) == EC_OK) ec_fail_more(err, "; the picture so far is written");
+    else ec_fail_more(err, "; and then: %s", unwritten.text);
+    return EC_FAILED;
+}
+
 ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
     double start = ec_now();
@@ -91,8 +104,7 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
     ec_render_job job = {.request = &request, .command = cli->line};
     ec_result result = EC_OK;
     EC_TRY_CLEANUP(ec_render_job_prepare(&job, &cli->console, err));
-    EC_TRY_CLEANUP(ec_render_job_run(&job, &cli->console, err));
-    EC_TRY_CLEANUP(deliver(&cli->console, &job, start, err));
+    EC_TRY_CLEANUP(render(&cli->console, &job, start, err));
 cleanup:
     ec_render_job_free(&job);
     return result;

@@ -1,6 +1,5 @@
 /* eclat selftest */
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "cli/cli.h"
 #include "cli/options.h"
@@ -49,7 +48,7 @@ static ec_result test_device(ec_cli *cli, const ec_device_info *device, uint32_t
     ec_result result = EC_FAILED;
     r->options.go_on = show;
     r->options.user = &cli->console;
-    ec_stop_catch_signals();
+    ec_stop_catch_signals(ec_console_wants_progress(&cli->console));
     EC_TRY_CLEANUP(ec_cl_open(device, &cl, err));
     ec_console_say(&cli->console, "testing %s, %s", device->name, device->driver);
     result = ec_selftest_run(&cl, &r->options, &report, err);
@@ -74,12 +73,8 @@ ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (first < argc) return ec_usage(err, "selftest takes no operand, not '%s'; --only NAME chooses cases", argv[first]);
     cli->console.quiet = r.quiet;
 
-    ec_device_info *devices = NULL;
-    uint32_t count = 0, chosen = 0;
-    const char *why;
-    EC_TRY(ec_devices_list(&devices, &count, err));
-    ec_result result = ec_device_choose(devices, count, r.device, &chosen, &why, err);
-    if (result == EC_OK) result = test_device(cli, &devices[chosen], chosen, &r, err);
-    free(devices);
-    return result;
+    ec_device_info device;
+    uint32_t index;
+    EC_TRY(ec_device_find(r.device, &device, &index, NULL, err));
+    return test_device(cli, &device, index, &r, err);
 }

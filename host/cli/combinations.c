@@ -18,6 +18,7 @@ static const struct {
     {"cutoff", ONLY(WHITTED)},
     {"rr", ONLY(PATH)},
     {"sample", ONLY(PATH)},
+    {"terminator", ONLY(PATH)},
     {"accel", ONLY(PATH) | ONLY(WHITTED)},
     {"grid-density", ONLY(PATH) | ONLY(WHITTED)},
 };

@@ -78,6 +78,8 @@ static const char help_render[] =
     "                             these; the image is the same, its noise is not (default: mis)\n"
     "      --sampler NAME         sobol (Owen-scrambled) or independent (default: sobol)\n"
     "      --seed N               another N, another independent image (default: 0)\n"
+    "      --terminator NAME      where light grazes facets with vertex normals: geometric, they shade themselves; smooth, rays\n"
+    "                             start on the smooth surface that is meant (default: geometric)\n"
     "\n"
     "Device\n"
     "      --device ID            OpenCL device: its number in `eclat devices`, or a part of its name\n"

@@ -4,9 +4,11 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 
 #include "cli/usage.h"
 #include "image/image.h"
+#include "report/format.h"
 
 static bool kind_of(const char *path, ec_output_kind *kind)
 {
@@ -68,4 +70,28 @@ ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs,
         EC_TRY(ec_image_check_writable(path, err));
     }
     return EC_OK;
+}
+
+/* Of the file system that path's folder is on; UINT64_MAX: unknown. */
+static uint64_t room_for(const char *path)
+{
+    char folder[PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    struct statvfs disk;
+    snprintf(folder, sizeof folder, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
+    return statvfs(folder, &disk) == 0 ? (uint64_t)disk.f_bavail * disk.f_frsize : UINT64_MAX;
+}
+
+void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log)
+{
+    const uint64_t bytes_per_pixel[] = {[EC_OUTPUT_EXR] = 25 * 4, [EC_OUTPUT_PNG] = 3}; /* uncompressed */
+    char needed_text[32], room_text[32];
+    for (int i = 0; i < outputs->count; i++) {
+        const ec_output *output = &outputs->file[i];
+        uint64_t needed = pixel_count * bytes_per_pixel[output->kind], room = room_for(output->path);
+        if (needed <= room) continue;
+        ec_format_bytes(needed, needed_text, sizeof needed_text);
+        ec_format_bytes(room, room_text, sizeof room_text);
+        ec_warn(log, "'%s' may take up to %s, and its disk has %s left", output->path, needed_text, room_text);
+    }
 }

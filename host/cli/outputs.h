@@ -4,6 +4,7 @@
 
 #include <limits.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "base/error.h"
 
@@ -29,6 +30,9 @@ ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_erro
 
 /* Before any work: can all be written, and would none overwrite an input? inputs may hold NULLs. */
 ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err);
+
+/* Warns where a disk has less room than the files may need; no more, since nobody knows how well they will compress. */
+void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log);
 
 /* Do two paths lead to one file that exists? */
 bool ec_same_file(const char *a, const char *b);

@@ -22,18 +22,6 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
     return ec_outputs_check(outputs, inputs, 2, err);
 }
 
-static ec_result prepare_device(ec_render_job *job, ec_error *err)
-{
-    ec_device_info *devices = NULL;
-    uint32_t count = 0;
-    EC_TRY(ec_devices_list(&devices, &count, err));
-    ec_result result =
-        ec_device_choose(devices, count, job->request->device, &job->device_index, &job->device_why, err);
-    if (result == EC_OK) job->device = devices[job->device_index];
-    free(devices);
-    return result;
-}
-
 static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *err)
 {
     const char *environment = job->request->environment;
@@ -86,14 +74,18 @@ static ec_result check_memory(const ec_render_options *options, ec_error *err)
 
 ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_error *err)
 {
+    const ec_log log = ec_console_log(console);
+    const ec_render_options *options = &job->request->options;
     EC_TRY(prepare_outputs(job->request, err));
-    return ec_render_job_load(job, console, err);
+    EC_TRY(ec_render_job_load(job, console, err));
+    ec_outputs_check_room(&job->request->outputs, (uint64_t)options->width * options->height, &log);
+    return EC_OK;
 }
 
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
-    EC_TRY(prepare_device(job, err));
+    EC_TRY(ec_device_find(job->request->device, &job->device, &job->device_index, &job->device_why, err));
     double start = ec_now();
     EC_TRY(ec_scene_load(job->request->scene, &job->scene, &log, err));
     EC_TRY(prepare_light(job, &log, err));
@@ -127,14 +119,14 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
                              .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(&job->device, &cl, err));
-    ec_stop_catch_signals(); /* until here there is nothing to save */
+    ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     announce(job, console);
     ec_result result = ec_render(&cl, job->scene, &job->request->options, ec_progress_show, &view, &job->film,
                                  &job->stats, &log, err);
     ec_console_erase(console);
     ec_cl_close(&cl);
     if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
-    if (result != EC_OK && ec_stop_requested())
+    if (result != EC_OK && job->film.batch_count == 0 && ec_stop_requested())
         return ec_fail(err, "interrupted before there was a picture; nothing is written");
     if (view.cap_reached && !ec_stop_requested() && !strcmp(job->stats.stopped_by, "user"))
         snprintf(job->stats.stopped_by, sizeof job->stats.stopped_by, "spp");

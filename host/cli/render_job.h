@@ -31,7 +31,7 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_erro
 /* The same without the outputs: device, scene, environment, camera, size. */
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err);
 
-/* Renders into job->film, with progress; Ctrl-C ends it early and well. */
+/* Renders into job->film, with progress; Ctrl-C ends it early and well. On failure too there may be batches in the film. */
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err);
 
 void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */

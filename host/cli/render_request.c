@@ -28,6 +28,7 @@ TEXT_SETTER(env, environment)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
 CHOICE_SETTER(sample, options.sample, ec_sample, ec_sample_names)
 CHOICE_SETTER(sampler, options.sampler, ec_sampler_type, ec_sampler_names)
+CHOICE_SETTER(terminator, options.terminator, ec_terminator, ec_terminator_names)
 CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
 PARSED_SETTER(error, ec_parse_percent, options.error_target)
 PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
@@ -106,6 +107,7 @@ static const ec_option options[] = {
     {"seed", 0, true, set_seed},
     {"size", 0, true, set_size},
     {"spp", 0, true, set_spp},
+    {"terminator", 0, true, set_terminator},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
     {"wave", 0, true, set_wave},

@@ -1,34 +1,56 @@
 #include "cli/stop.h"
 
+#include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stddef.h>
+#include <stdio.h>
 
-/* The one thing a handler may touch; a signal has no other way to carry a context. */
-static volatile sig_atomic_t requested;
+/* The process's, as signals are. */
+enum { ENDS, CATCHES, TELLS };
+static atomic_int manner = ENDS;
+static atomic_bool requested;
 
-static void on_signal(int signal_number)
+static void end(int signal_number)
 {
-    if (requested) {
-        signal(signal_number, SIG_DFL);
-        raise(signal_number); /* delivered as soon as this handler returns */
-        return;
-    }
-    requested = 1;
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, signal_number);
+    signal(signal_number, SIG_DFL);
+    pthread_sigmask(SIG_UNBLOCK, &one, NULL);
+    raise(signal_number);
 }
 
-void ec_stop_catch_signals(void)
+static void *watch(void *signals)
 {
-    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
-    struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
-    sigemptyset(&action.sa_mask);
-    for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
-        struct sigaction old;
-        if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler == SIG_IGN) continue;
-        sigaction(signals[i], &action, NULL);
+    for (int number; sigwait(signals, &number) == 0;) {
+        if (atomic_load(&manner) == ENDS || atomic_exchange(&requested, true)) end(number);
+        if (atomic_load(&manner) == TELLS) fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
     }
+    return NULL;
+}
+
+void ec_stop_watch_signals(void)
+{
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    static sigset_t signals; /* the thread's as long as it lives */
+    sigemptyset(&signals);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        struct sigaction old;
+        if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaddset(&signals, numbers[i]);
+    }
+    pthread_t thread;
+    pthread_sigmask(SIG_BLOCK, &signals, NULL);
+    if (pthread_create(&thread, NULL, watch, &signals) == 0) pthread_detach(thread);
+    else pthread_sigmask(SIG_UNBLOCK, &signals, NULL); /* they end the process as ever */
+}
+
+void ec_stop_catch_signals(bool tell)
+{
+    atomic_store(&manner, tell ? TELLS : CATCHES);
 }
 
 bool ec_stop_requested(void)
 {
-    return requested != 0;
+    return atomic_load(&requested);
 }

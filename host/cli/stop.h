@@ -4,8 +4,13 @@
 
 #include <stdbool.h>
 
-/* From here on SIGINT, SIGTERM and SIGHUP only set a flag, the first time. Ignored signals stay ignored (nohup). */
-void ec_stop_catch_signals(void);
+/* First of all, while there is one thread: SIGINT, SIGTERM and SIGHUP go to a thread of their own, which for now ends the process as
+ * they would have. They are blocked in all others and in the programs these start: PoCL aborts if Ctrl-C kills its linker. Ignored
+ * signals stay ignored (nohup). */
+void ec_stop_watch_signals(void);
+
+/* From here on the first one only makes ec_stop_requested() true, and says so on standard error if `tell`. */
+void ec_stop_catch_signals(bool tell);
 bool ec_stop_requested(void);
 
 #endif

@@ -105,12 +105,12 @@ typedef struct ec_cost_study {
     ec_cost_reference reference;
     ec_cost_row *rows;
     uint32_t row_count;
-    bool interrupted;
+    bool interrupted;            /* by go_on or by a failure */
     const char *doing;           /* for the progress line */
     double seconds;              /* from start */
 } ec_cost_study;
 
-/* Fills the lower half; on failure too there may be rows. */
+/* Fills the lower half; on failure too: the rows before it stand. */
 ec_result ec_cost_run(ec_cost_study *study, ec_error *err);
 void ec_cost_free(ec_cost_study *study);
 

@@ -181,10 +181,11 @@ ec_result ec_cost_measure(ec_cost_study *study, ec_cost_base *base, ec_cost_row 
     if (result != EC_OK) {
         row->state = EC_COST_REFUSED;
         snprintf(row->note, sizeof row->note, "%.255s", why.text);
-        result = is_base ? ec_fail(err, "%s", why.text) : EC_OK;
+        result = is_base ? ec_fail(err, "%s", why.text) : ec_cl_finish(study->cl, err); /* or is there no device any more? */
     } else if (!m.runner->stopped) {
         result = measure(&m, rest_of(share, row->setup_seconds, latest), err);
     }
+    if (result != EC_OK) row->state = EC_COST_PENDING, row->point_count = 0; /* half measured */
     ec_cost_tally_free(&m.tally);
     ec_cost_runner_close(&own);
     return result;

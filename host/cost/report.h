@@ -15,7 +15,7 @@ typedef struct ec_cost_report {
     uint32_t device_index;
 } ec_cost_report;
 
-/* A file by a temporary name, then renamed. */
+/* All of a file or none of it. */
 typedef void ec_cost_put(FILE *to, const void *what);
 ec_result ec_cost_write(const char *path, ec_cost_put *put, const void *what, ec_error *err);
 

@@ -50,7 +50,7 @@ static void give_up_some(study_state *s, uint32_t row)
     if (ec_now() + s->slowest + 0.05 * s->study->budget > s->deadline) s->planned = row;
 }
 
-static void explain_the_rest(study_state *s)
+static void explain_the_rest(study_state *s, const char *by)
 {
     double done = 0, all = 0;
     ec_cost_study *study = s->study;
@@ -63,7 +63,7 @@ static void explain_the_rest(study_state *s)
         ec_cost_row *row = &study->rows[i];
         if (row->state != EC_COST_PENDING) continue;
         if (study->interrupted) {
-            snprintf(row->note, sizeof row->note, "interrupted before");
+            snprintf(row->note, sizeof row->note, "%s before", by);
         } else {
             row->state = EC_COST_TOO_SMALL;
             snprintf(row->note, sizeof row->note, "budget too small; --budget %dm would do", (int)ceil(enough / 60));
@@ -110,7 +110,8 @@ ec_result ec_cost_run(ec_cost_study *study, ec_error *err)
     else
         EC_TRY(ec_cost_reference_render(study, ec_now() + reference_share * (s.deadline - ec_now()), err));
     ec_result result = study->interrupted ? EC_OK : measure_rows(&s, err);
-    explain_the_rest(&s);
+    study->interrupted |= result != EC_OK;
+    explain_the_rest(&s, result == EC_OK ? "interrupted" : "the device failed");
     ec_cost_runner_close(&s.base.runner);
     study->seconds = ec_now() - study->start;
     return result;

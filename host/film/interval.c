@@ -18,6 +18,7 @@
  * pixels hold the truth in half. With two batches there is no skewness: the other rules are left, and the t-interval. */
 #include "film/interval.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "film/neighbourhood.h"
@@ -73,7 +74,7 @@ static void write_interval(const ec_film *film, uint64_t p, double most, double 
     for (int c = 0; c < 3; c++) {
         double mean = film->mean[3 * p + c], se = sqrt(film->m2[4 * p + c] / (n * (n - 1)));
         if (low) low[3 * p + c] = (float)fmax(mean - most * se, 0); /* radiance is never negative */
-        if (high) high[3 * p + c] = (float)(mean - least * se);
+        if (high) high[3 * p + c] = (float)fmin(mean - least * se, FLT_MAX); /* files hold no infinity */
     }
 }
 

@@ -1,7 +1,9 @@
+#define _GNU_SOURCE /* O_TMPFILE */
 #include "image/atomic_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +25,8 @@ ec_result ec_write_failed(ec_error *err, const char *path, int error_number)
     case EROFS: remedy = "choose a file and folder that you may write to"; break;
     case ENOSPC:
     case EDQUOT:
-    case EFBIG: remedy = "free some space or choose another disk"; break;
+    case EIO: remedy = "free some space or choose another disk"; break;
+    case EFBIG: remedy = "raise the limit on the size of files (ulimit -f) or choose another disk"; break;
     }
     return ec_fail(err, "cannot write '%s': %s; %s", path, strerror(error_number), remedy);
 }
@@ -41,21 +44,58 @@ static ec_result check_replaceable(const char *path, ec_error *err)
     return EC_OK;
 }
 
-/* open() rather than mkstemp(): the kernel applies the umask to 0666, which a library cannot read without changing it
- * for the whole process. The name is short and not derived from the target's, which may be as long as names can be. */
-static int create_beside(const char *target, char *name, size_t size)
+static int folder_length(const char *path)
 {
-    const char *slash = strrchr(target, '/');
-    int folder_length = slash ? (int)(slash - target) + 1 : 0;
+    const char *slash = strrchr(path, '/');
+    return slash ? (int)(slash - path) + 1 : 0;
+}
+
+static int link_descriptor(int fd, const char *name)
+{
+    char descriptor[64];
+    snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", fd);
+    return linkat(AT_FDCWD, descriptor, AT_FDCWD, name, AT_SYMLINK_FOLLOW);
+}
+
+/* Makes up a name beside the target: for a new file if fd < 0, else for that one. Short and not derived from the target's, which may
+ * be as long as names can be. open() rather than mkstemp(): the kernel applies the umask to 0666, which a library cannot read without
+ * changing it for the whole process. */
+static int take_name(int fd, const char *target, char *name, size_t size)
+{
     for (int attempt = 0; attempt < 100; attempt++) {
         struct timespec now;
         clock_gettime(CLOCK_REALTIME, &now);
-        snprintf(name, size, "%.*s.eclat-%ld-%08lx.tmp", folder_length, target, (long)getpid(),
+        snprintf(name, size, "%.*s.eclat-%ld-%08lx.tmp", folder_length(target), target, (long)getpid(),
                  ((unsigned long)now.tv_sec * 1000000007ul + (unsigned long)now.tv_nsec) & 0xfffffffful);
-        int fd = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd >= 0 || errno != EEXIST) return fd;
+        int taken = fd < 0 ? open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : link_descriptor(fd, name);
+        if (taken >= 0 || errno != EEXIST) return taken;
     }
     return -1;
+}
+
+/* Without a name, so that nothing is left of a process that is killed; where the file system or the lack of /proc forbids it, with one. */
+static int create_beside(const char *target, char *name, size_t size)
+{
+    name[0] = 0;
+#ifdef O_TMPFILE
+    char folder[PATH_MAX], descriptor[64];
+    snprintf(folder, sizeof folder, "%.*s.", folder_length(target), target);
+    int fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", fd);
+    if (fd >= 0 && access(descriptor, F_OK) == 0) return fd;
+    if (fd >= 0) close(fd);
+#endif
+    return take_name(-1, target, name, size);
+}
+
+/* A nameless file that replaces another needs a name first: only there can a killed process leave one behind. */
+static int give_target_name(ec_atomic_file *file)
+{
+    if (!file->temporary[0]) {
+        if (link_descriptor(file->fd, file->target) == 0) return 0;
+        if (errno != EEXIST || take_name(file->fd, file->target, file->temporary, file->temporary_size) < 0) return -1;
+    }
+    return rename(file->temporary, file->target);
 }
 
 static void release(ec_atomic_file *file)
@@ -77,6 +117,7 @@ ec_result ec_atomic_open(ec_atomic_file *file, const char *path, ec_error *err)
     if (!file->target) file->target = strdup(path);
     size_t size = file->target ? strlen(file->target) + 64 : 0;
     file->temporary = size ? malloc(size) : NULL;
+    file->temporary_size = size;
     if (!file->temporary) {
         release(file);
         return ec_fail(err, "cannot write '%s': out of memory", path);
@@ -92,7 +133,7 @@ void ec_atomic_abort(ec_atomic_file *file)
 {
     if (file->fd < 0) return;
     close(file->fd);
-    unlink(file->temporary);
+    if (file->temporary[0]) unlink(file->temporary);
     release(file);
 }
 
@@ -113,18 +154,37 @@ ec_result ec_atomic_commit(ec_atomic_file *file, ec_error *err)
     struct stat old;
     if (stat(file->target, &old) == 0) (void)fchmod(file->fd, old.st_mode & 0777); /* as writing in place would */
 
-    /* EINVAL: a file system without fsync. close() may report what a network file system refused late. */
+    /* EINVAL: a file system without fsync. Closing a copy may report what a network file system refused late. */
     int failed = fsync(file->fd) != 0 && errno != EINVAL ? errno : 0;
-    if (close(file->fd) != 0 && !failed && errno != EINTR) failed = errno;
-    if (!failed && rename(file->temporary, file->target) != 0) failed = errno;
+    int copy = dup(file->fd);
+    if (copy >= 0 && close(copy) != 0 && !failed && errno != EINTR) failed = errno;
+    if (!failed && give_target_name(file) != 0) failed = errno;
+    close(file->fd);
     if (failed) {
-        unlink(file->temporary);
+        if (file->temporary[0]) unlink(file->temporary);
         ec_write_failed(err, file->target, failed);
     } else {
         sync_folder(file->target);
     }
     release(file);
     return failed ? EC_FAILED : EC_OK;
+}
+
+ec_result ec_atomic_write(const char *path, const void *bytes, size_t size, ec_error *err)
+{
+    ec_atomic_file file;
+    EC_TRY(ec_atomic_open(&file, path, err));
+    for (size_t done = 0; done < size;) {
+        ssize_t put = write(file.fd, (const char *)bytes + done, size - done);
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) {
+            int reason = put < 0 ? errno : ENOSPC;
+            ec_atomic_abort(&file);
+            return ec_write_failed(err, path, reason);
+        }
+        done += (size_t)put;
+    }
+    return ec_atomic_commit(&file, err);
 }
 
 ec_result ec_image_check_writable(const char *path, ec_error *err)

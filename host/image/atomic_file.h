@@ -1,21 +1,27 @@
-/* A file that appears under its name only when it is whole: written beside the target, then renamed over it. */
+/* A file that appears under its name only when it is whole: written without a name or beside the target, then put in its place. */
 #ifndef EC_IMAGE_ATOMIC_FILE_H
 #define EC_IMAGE_ATOMIC_FILE_H
+
+#include <stddef.h>
 
 #include "base/error.h"
 
 typedef struct ec_atomic_file {
     int fd;           /* the temporary file, for reading and writing; -1 once committed or aborted */
     char *target;     /* owned: the final name, symbolic links followed */
-    char *temporary;  /* owned: a name in the same folder, so that rename() does not cross file systems */
+    char *temporary;  /* owned: a name in the same folder, so that rename() does not cross file systems; "" = it has none */
+    size_t temporary_size;
 } ec_atomic_file;
 
 /* Creates the temporary file; fails if the target could not be replaced. After success: commit or abort, once. */
 ec_result ec_atomic_open(ec_atomic_file *file, const char *path, ec_error *err);
 
-/* Flushes to disk and renames. On failure the temporary file is gone and an older target is as it was. */
+/* Flushes to disk and gives it its name. On failure the temporary file is gone and an older target is as it was. */
 ec_result ec_atomic_commit(ec_atomic_file *file, ec_error *err);
 void ec_atomic_abort(ec_atomic_file *file);
+
+/* All of it at once. */
+ec_result ec_atomic_write(const char *path, const void *bytes, size_t size, ec_error *err);
 
 /* EC_FAILED with "cannot write 'path': reason; how to mend it" for an errno value. */
 ec_result ec_write_failed(ec_error *err, const char *path, int error_number);

@@ -1,4 +1,4 @@
-/* What reading and writing share: an OpenEXRCore context that keeps its first message instead of printing it. */
+/* Of those who read: an OpenEXRCore context that keeps its first message instead of printing it. */
 #ifndef EC_IMAGE_EXR_CONTEXT_H
 #define EC_IMAGE_EXR_CONTEXT_H
 
@@ -6,8 +6,6 @@
 #include <stdio.h>
 
 typedef struct ec_exr_stream {
-    int fd;            /* written to; unused when reading */
-    int write_error;   /* errno of the first failed write */
     char message[512]; /* the library's first complaint */
 } ec_exr_stream;
 

@@ -1,10 +1,10 @@
 /* OpenEXR out: one part, scan lines, ZIP (16 lines a block), 32-bit float. */
 #include <errno.h>
+#include <openexr.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "image/atomic_file.h"
-#include "image/exr_context.h"
 #include "image/image.h"
 
 enum { SHORT_NAME_MAX = 31 }; /* longer names need a flag in the file header */
@@ -18,17 +18,29 @@ typedef struct exr_picture {
     uint32_t attribute_count;
 } exr_picture;
 
+typedef struct exr_target {
+    int fd;
+    int write_error; /* errno of the first failed write */
+} exr_target;
+
+/* The library calls both of these with its lock held: nothing of it that takes the lock may be called from here, error reports among
+ * it, or a full disk would hang the program. */
+static void ignore_message(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    (void)context, (void)code, (void)message;
+}
+
 static int64_t write_all(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
                          exr_stream_error_func_ptr_t report)
 {
-    ec_exr_stream *stream = user;
+    exr_target *stream = user;
     uint64_t done = 0;
+    (void)context, (void)report;
     while (done < size) {
         ssize_t written = pwrite(stream->fd, (const char *)buffer + done, size - done, (off_t)(offset + done));
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) {
             if (!stream->write_error) stream->write_error = written < 0 ? errno : ENOSPC;
-            report(context, EXR_ERR_WRITE_IO, "%s", strerror(stream->write_error));
             return -1;
         }
         done += (uint64_t)written;
@@ -136,9 +148,9 @@ ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const 
     ec_atomic_file file;
     EC_TRY(ec_atomic_open(&file, path, err));
 
-    ec_exr_stream stream = {.fd = file.fd};
+    exr_target stream = {.fd = file.fd};
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    setup.error_handler_fn = ec_exr_keep_message;
+    setup.error_handler_fn = ignore_message;
     setup.user_data = &stream;
     setup.write_fn = write_all;
     exr_context_t context = NULL;
@@ -151,5 +163,5 @@ ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const 
     if (code == EXR_ERR_SUCCESS) return ec_atomic_commit(&file, err);
     ec_atomic_abort(&file);
     if (stream.write_error) return ec_write_failed(err, path, stream.write_error);
-    return ec_fail(err, "cannot write '%s': %s", path, ec_exr_reason(&stream, code));
+    return ec_fail(err, "cannot write '%s': %s", path, exr_get_default_error_message(code));
 }

@@ -1,4 +1,4 @@
-/* Pictures in and out. Files are written to a temporary name beside the target and renamed: never half a picture. */
+/* Pictures in and out. A file has its name only once it is whole: never half a picture. */
 #ifndef EC_IMAGE_IMAGE_H
 #define EC_IMAGE_IMAGE_H
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "pack/alias.h"
+#include "pack/coincident.h"
 #include "pack/pack.h"
 #include "pack/texture_mean.h"
 
@@ -135,16 +136,16 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
         emits[m] = luminance(e) > 0.0 && !material->unlit;
         if (emits[m]) mean[m] = ec_texture_whole_mean(scene, &material->textures[EC_SLOT_EMISSION]);
     }
-    uint32_t most = scene->light_count + 1;
+    uint32_t most = scene->light_count + 1, *first = NULL;
     for (uint32_t p = 0; p < pack->prim_count; p++) most += emits[pack->prims[p].material];
 
     light_list list = {malloc(most * sizeof *list.lights), malloc(most * sizeof *list.power), 0};
-    ec_result result = EC_OK;
-    if (!list.lights || !list.power) {
-        result = ec_fail(err, "out of memory for %u lights", most);
-    } else {
+    ec_result result = list.lights && list.power ? EC_OK : ec_fail(err, "out of memory for %u lights", most);
+    if (result == EC_OK) result = ec_coincident_find(scene, pack, emits, &first, err);
+    if (result == EC_OK) {
         for (uint32_t p = 0; p < pack->prim_count; p++)
-            if (emits[pack->prims[p].material]) add_triangle(scene, pack, p, &mean[pack->prims[p].material], &list);
+            if (emits[pack->prims[p].material] && first[p] == p)
+                add_triangle(scene, pack, p, &mean[pack->prims[p].material], &list);
         for (uint32_t i = 0; i < scene->light_count; i++) add_punctual(&scene->lights[i], pack->scene_radius, &list);
         if (environment_luminance > 0.0) {
             double r = pack->scene_radius;
@@ -152,7 +153,10 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
             list.power[list.count++] = 4.0 * PI * PI * r * r * environment_luminance;
         }
         result = finish_table(pack, &list, err);
+        for (uint32_t p = 0; p < pack->prim_count; p++)
+            if (emits[pack->prims[p].material]) pack->prims[p].light_pdf_a = pack->prims[first[p]].light_pdf_a;
     }
+    free(first);
     free(mean);
     free(emits);
     free(list.power);

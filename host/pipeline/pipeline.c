@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "cl/workarounds.h"
 
 static void set_camera(const ec_scene *scene, const ec_render_options *o, ec_params *params)
 {
@@ -20,26 +21,6 @@ static void set_camera(const ec_scene *scene, const ec_render_options *o, ec_par
         params->camera_forward[k] = c->forward[k];
     }
     params->orthographic = is_flat;
-}
-
-/* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads. (Queues that
- * stay in the cache gain 5 % of processor time there; launches of a tenth the size lose 40 % of wall time.) */
-static uint32_t fit_wave(const ec_cl *cl, const ec_render_options *o, uint32_t batch, uint32_t lanes)
-{
-    uint64_t wave = o->wave;
-    if (!wave) {
-        wave = cl->info.type & CL_DEVICE_TYPE_CPU ? (uint64_t)1 << 18 : (uint64_t)1 << 20;
-        uint64_t stack = o->integrator == EC_INTEGRATOR_WHITTED ? ec_whitted_stack_words(o->max_depth) : 0;
-        uint64_t words = 2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + 3 + EC_AOV_FIELDS + stack;
-        uint64_t widest = stack > EC_PATH_FIELDS ? stack : EC_PATH_FIELDS;
-        while (wave > 4096 && (wave * 4 * words > cl->info.memory_bytes / 4 || wave * 4 * widest > cl->info.max_allocation_bytes))
-            wave /= 2;
-    }
-    uint64_t samples = (uint64_t)o->width * o->height * batch;
-    if (wave > samples) wave = samples;
-    if (wave < batch) wave = batch;
-    uint64_t unit = (uint64_t)EC_PARTS * lanes; /* every part of a queue holds whole packets */
-    return (uint32_t)((wave + unit - 1) / unit * unit);
 }
 
 /* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
@@ -59,11 +40,16 @@ static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char
     return EC_OK;
 }
 
-uint32_t ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted)
+ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err)
 {
-    uint32_t lanes = wanted ? wanted : cl->info.native_float_width;
-    if (!wanted && cl->info.type & CL_DEVICE_TYPE_GPU) return 1;
-    return lanes >= 16 ? 16 : lanes >= 8 ? 8 : lanes >= 4 ? 4 : 1;
+    const ec_workaround *driver = ec_workaround_for(&cl->info);
+    uint32_t most = driver && driver->most_lanes ? driver->most_lanes : 16, n = wanted;
+    if (wanted > most)
+        return ec_fail(err, "--lanes %u on %s: %s (%s %s); leave --lanes out or choose %u", wanted, cl->info.name, driver->what,
+                       driver->driver, driver->seen, most);
+    if (!wanted) n = cl->info.type & CL_DEVICE_TYPE_GPU ? 1 : cl->info.native_float_width < most ? cl->info.native_float_width : most;
+    *lanes = n >= 16 ? 16 : n >= 8 ? 8 : n >= 4 ? 4 : 1;
+    return EC_OK;
 }
 
 ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
@@ -74,7 +60,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     p->triangle_count = scene->triangle_count;
     p->integrator = options->integrator;
     p->fast_math = options->fast_math;
-    p->lanes = ec_pipeline_lanes(cl, options->lanes);
+    EC_TRY(ec_pipeline_lanes(cl, options->lanes, &p->lanes, err));
     if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
 
     double start = ec_now();
@@ -89,16 +75,15 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
         ec_pack_free(&pack);
         return result;
     }
-    p->features = options->all_effects ? EC_FEATURE_ALL & ~EC_FEATURE_SOBOL : pack.features;
+    const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
+    p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
-    p->wave = fit_wave(cl, options, batch, p->lanes);
+    if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
     ec_params *params = &p->params;
     set_camera(scene, options, params);
     params->width = options->width;
     params->height = options->height;
     params->batch = batch;
-    params->wave = p->wave;
-    params->part = p->wave / EC_PARTS;
     const uint32_t unlimited = p->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
     params->max_depth = options->max_depth ? options->max_depth : unlimited;
     params->cutoff = (float)options->cutoff;
@@ -116,7 +101,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->scene_max = pack.scene_max;
     result = ec_pipeline_upload(p, scene, &pack, err);
     ec_pack_free(&pack);
-    if (result == EC_OK) result = ec_pipeline_create_queues(p, err);
+    if (result == EC_OK) result = ec_pipeline_create_queues(p, options, err);
     stats->pack_seconds = ec_now() - start;
     if (result != EC_OK) return result;
 

@@ -19,6 +19,7 @@ typedef struct ec_pipeline {
     ec_counters counters;         /* the host's copy */
     uint64_t features;
     uint32_t lanes, wave, triangle_count;
+    uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
     bool fast_math;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
@@ -67,7 +68,8 @@ ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const
 ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
 /* Those that are in use. */
 ec_result ec_pipeline_upload_accels(ec_pipeline *pipeline, const ec_scene *scene, float grid_density, ec_error *err);
-ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, ec_error *err);
+/* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. */
+ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, const ec_render_options *options, ec_error *err);
 /* build.c */
 ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
 /* launch.c */

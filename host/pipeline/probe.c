@@ -127,7 +127,8 @@ static ec_result measure(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, 
 
 ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float grid_density, ec_accel_probe *probe, ec_error *err)
 {
-    ec_pipeline p = {.cl = cl, .lanes = ec_pipeline_lanes(cl, 0)};
+    ec_pipeline p = {.cl = cl};
+    EC_TRY(ec_pipeline_lanes(cl, 0, &p.lanes, err));
     ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count,
                             .grid_density = grid_density};
     memset(probe, 0, sizeof *probe);

@@ -27,7 +27,8 @@ typedef struct render_state {
     ec_film_error error;
     ec_allotment allotment;    /* with weights from the end of an adaptive render's pilot on */
     const char *stopped_by;
-    uint64_t samples;          /* really taken */
+    uint64_t samples, under_way; /* in the film; of the batch that is not there yet */
+    uint32_t invalid[EC_STAGE_COUNT]; /* dropped by the kernels so far */
 } render_state;
 
 /* Largest divisor of the sample count that still leaves 16 batches: whole batches, and enough of them for an error. */
@@ -117,10 +118,11 @@ static ec_result run_batch(render_state *r, uint32_t batch, uint32_t pixels, boo
     double before = batches_done(r), share = pixels / ((double)p->params.width * p->params.height);
     uint32_t seed = batch_seed(r->options->seed, batch);
     *complete = true;
+    r->under_way = 0;
     for (uint32_t first = 0; first < pixels; first += per_wave) {
         uint32_t count = pixels - first < per_wave ? pixels - first : per_wave;
         EC_TRY(ec_pipeline_run_wave(p, seed, first, count, batch == 0, err));
-        r->samples += (uint64_t)count * p->params.batch;
+        r->under_way += (uint64_t)count * p->params.batch;
         if (batch == 0 && first == 0) {
             EC_TRY(ec_cl_finish(p->cl, err));
             r->stats->first_pixel_seconds = ec_now() - r->start;
@@ -157,9 +159,11 @@ static ec_result add_batch(render_state *r, float *host, uint32_t count, bool co
 {
     ec_pipeline *p = &r->pipeline;
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)count * 12, host, err));
+    EC_TRY(ec_pipeline_read_invalid(p, r->invalid, err));
     if (!complete) EC_TRY(mark_unsampled(r, host, count, err));
     if (r->allotment.weight) EC_TRY(ec_film_add_some(r->film, host, r->allotment.places, count, err));
     else ec_film_add_batch(r->film, host);
+    r->samples += r->under_way;
     r->error = ec_film_estimate_error(r->film);
     return EC_OK;
 }
@@ -198,15 +202,34 @@ static ec_result read_features(render_state *r, ec_error *err)
 {
     ec_pipeline *p = &r->pipeline;
     uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    r->film->aov = malloc(pixels * EC_AOV_FIELDS * sizeof(float));
-    if (!r->film->aov) return ec_fail(err, "out of memory for the first-hit features");
-    return ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, pixels * EC_AOV_FIELDS * 4, r->film->aov, err);
+    float *aov = malloc(pixels * EC_AOV_FIELDS * sizeof(float));
+    if (!aov) return ec_fail(err, "out of memory for the first-hit features");
+    ec_result result = ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, pixels * EC_AOV_FIELDS * 4, aov, err);
+    if (result == EC_OK) r->film->aov = aov;
+    else free(aov);
+    return result;
 }
 
 /* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
 static ec_result allot(render_state *r, ec_error *err)
 {
     return r->stats->forecast.pilot_samples ? EC_OK : ec_allot(r->film, &r->pipeline.params, &r->allotment, err);
+}
+
+/* One more for the film, or none; the batches before it stand, whatever happens. */
+static ec_result take_batch(render_state *r, uint32_t batch, float *host, const ec_log *log, ec_error *err)
+{
+    bool complete;
+    uint32_t count;
+    EC_TRY(choose_pixels(r, &count, err));
+    EC_TRY(run_batch(r, batch, count, &complete, err));
+    if (!complete && batch > 0) return EC_OK;
+    if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
+    EC_TRY(add_batch(r, host, count, complete, err));
+    if (batch == 0) EC_TRY(read_features(r, err));
+    if (r->options->adaptive && ec_pilot_is_over(batch + 1)) EC_TRY(allot(r, err));
+    if (complete) is_done(r);
+    return EC_OK;
 }
 
 static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
@@ -218,29 +241,17 @@ static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
     for (uint64_t i = 0; i < 3 * pixels; i++) host[i] = NOT_REACHED;
     ec_result result = ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, host, err);
     r->render_start = r->last_report = r->batch_end = ec_now();
-    for (uint32_t batch = 0; result == EC_OK && !r->stopped_by; batch++) {
-        bool complete;
-        uint32_t count;
-        result = choose_pixels(r, &count, err);
-        if (result == EC_OK) result = run_batch(r, batch, count, &complete, err);
-        if (result != EC_OK) break;
-        if (!complete && batch > 0) break; /* the batches before it stand */
-        if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
-        result = add_batch(r, host, count, complete, err);
-        if (result == EC_OK && batch == 0) result = read_features(r, err);
-        if (result == EC_OK && r->options->adaptive && ec_pilot_is_over(batch + 1)) result = allot(r, err);
-        if (result == EC_OK && complete) is_done(r);
-    }
+    for (uint32_t batch = 0; result == EC_OK && !r->stopped_by; batch++) result = take_batch(r, batch, host, log, err);
     free(host);
     return result;
 }
 
-static ec_result finish_stats(render_state *r, ec_error *err)
+/* Asks nothing of the device, which may be lost. */
+static void finish_stats(render_state *r)
 {
     ec_render_stats *s = r->stats;
-    ec_pipeline *p = &r->pipeline;
-    uint32_t invalid[EC_STAGE_COUNT];
-    EC_TRY(ec_pipeline_read_invalid(p, invalid, err));
+    const ec_pipeline *p = &r->pipeline;
+    const uint32_t *invalid = r->invalid;
     s->seconds = ec_now() - r->render_start;
     s->invalid_generate = invalid[EC_STAGE_GENERATE];
     s->invalid_intersect = invalid[EC_STAGE_INTERSECT];
@@ -261,7 +272,6 @@ static ec_result finish_stats(render_state *r, ec_error *err)
     s->cache_hits = p->cl->cache_hits;
     s->cache_misses = p->cl->cache_misses;
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", r->stopped_by ? r->stopped_by : "user");
-    return EC_OK;
 }
 
 /* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
@@ -284,8 +294,15 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
     ec_result result = ec_film_create(film, options->width, options->height, batch, err);
     if (result == EC_OK) result = ec_pipeline_create(cl, scene, options, batch, &r.pipeline, stats, err);
-    if (result == EC_OK) result = render_loop(&r, log, err);
-    if (result == EC_OK) result = finish_stats(&r, err);
+    if (result == EC_OK && r.pipeline.wave < r.pipeline.first_wave)
+        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", r.pipeline.wave, r.pipeline.first_wave);
+    if (result == EC_OK) {
+        ec_error why = {""};
+        result = render_loop(&r, log, &why);
+        if (result != EC_OK) r.stopped_by = why.kind == EC_ERROR_OTHER ? "failure" : "device";
+        if (result != EC_OK && err) *err = why;
+        finish_stats(&r);
+    }
     ec_allotment_free(&r.allotment);
     ec_pipeline_destroy(&r.pipeline);
     return result;

@@ -13,6 +13,9 @@
 
 typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
 
+/* Where rays leave a facet with vertex normals: kernels/lib/terminator.h. */
+typedef enum ec_terminator { EC_TERMINATOR_GEOMETRIC, EC_TERMINATOR_SMOOTH } ec_terminator;
+
 /* What makes the picture; the words are in report/names.c, the functions in wave.c, the options of each in
  * cli/combinations.c. */
 typedef enum ec_integrator {
@@ -38,6 +41,7 @@ typedef struct ec_render_options {
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
+    ec_terminator terminator;   /* smooth: rays start on the smooth surface, not on its facets */
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
@@ -75,7 +79,7 @@ typedef struct ec_render_stats {
     double seconds;               /* rendering, without set-up */
     double accel_seconds, pack_seconds, kernel_seconds; /* set-up: BVH, buffers, kernel build or cache look-up */
     double first_pixel_seconds;   /* from ec_render's start to the first finished wave */
-    uint64_t samples_per_pixel, samples, rays;
+    uint64_t samples_per_pixel, samples, rays; /* samples: in the film; rays: those of a batch that was given up too */
     double samples_per_second, rays_per_second;
     double error, error_bound, relmse; /* see film/film.h */
     ec_forecast forecast;         /* the pilot's */
@@ -85,16 +89,17 @@ typedef struct ec_render_stats {
     uint32_t lanes, wave, batch;
     uint64_t device_bytes;        /* peak of all buffers */
     char effects[512];            /* names of the effects built in, blank separated */
-    char stopped_by[16];          /* "spp", "time", "error", "user" */
+    char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */
     uint32_t cache_hits, cache_misses;
 } ec_render_stats;
 
-/* film must be zero-initialised; the caller destroys it. cl stays the caller's. */
+/* film must be zero-initialised; the caller destroys it. cl stays the caller's. On failure too the film keeps the batches that were
+ * complete, and stats tells of them: film->batch_count says whether there is a picture. */
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err);
 
-/* How many lanes a device gets; wanted 0: what suits it. */
-uint32_t ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted);
+/* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
+ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);
 
 /* Bytes of device memory the scene itself will take (geometry, BVH of ref_count references, textures, lights), and the effects
  * it calls for. For `eclat info`. */

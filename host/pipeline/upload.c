@@ -1,4 +1,4 @@
-/* The scene and the queues as device buffers. Host copies are freed as soon as the device has them. */
+/* The scene as device buffers. Host copies are freed as soon as the device has them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -85,25 +85,4 @@ ec_result ec_pipeline_upload_accels(ec_pipeline *p, const ec_scene *scene, float
         if (p->accels[a].in_use) result = ec_pipeline_upload_accel(p, a, &input, NULL, err);
     ec_accel_input_free(&input);
     return result;
-}
-
-ec_result ec_pipeline_create_queues(ec_pipeline *p, ec_error *err)
-{
-    ec_cl *cl = p->cl;
-    /* Lane-wide loads may read a packet past the last entry. */
-    const uint64_t field = (uint64_t)p->wave * 4, slack = 64;
-    const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    const uint64_t path_fields = p->features & EC_FEATURE_ABSORPTION ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
-    for (int i = 0; i < 2; i++)
-        EC_TRY(ec_buffer_create(cl, "path queue", field * path_fields + slack, NULL, &p->path_queues[i], err));
-    EC_TRY(ec_buffer_create(cl, "hits", field * EC_HIT_FIELDS + slack, NULL, &p->buffers[EC_ARG_HITS], err));
-    EC_TRY(ec_buffer_create(cl, "shadow queue", field * EC_SHADOW_FIELDS + slack, NULL, &p->buffers[EC_ARG_SHADOWS], err));
-    EC_TRY(ec_buffer_create(cl, "radiance", field * 3 + slack, NULL, &p->buffers[EC_ARG_RADIANCE], err));
-    EC_TRY(ec_buffer_create(cl, "first-hit features", field * EC_AOV_FIELDS + slack, NULL, &p->buffers[EC_ARG_AOV], err));
-    EC_TRY(ec_buffer_create(cl, "batch film", pixels * 12, NULL, &p->buffers[EC_ARG_BATCH_FILM], err));
-    EC_TRY(ec_buffer_create(cl, "feature film", pixels * 4 * EC_AOV_FIELDS, NULL, &p->buffers[EC_ARG_FEATURE_FILM], err));
-    EC_TRY(ec_buffer_create(cl, "counters", sizeof(ec_counters), NULL, &p->buffers[EC_ARG_COUNTERS], err));
-    EC_TRY(ec_buffer_create(cl, "invalid counts", EC_STAGE_COUNT * 4, NULL, &p->buffers[EC_ARG_INVALID], err));
-    EC_TRY(ec_buffer_zero(cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * 4, err));
-    return ec_buffer_create(cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
 }

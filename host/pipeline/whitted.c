@@ -9,14 +9,6 @@ uint64_t ec_whitted_stack_words(uint32_t max_depth)
     return 1 + (uint64_t)((max_depth ? max_depth : EC_WHITTED_DEPTH) - 1) * EC_BRANCH_FIELDS;
 }
 
-/* Only what passes light branches. */
-static ec_result create_stacks(ec_pipeline *p, ec_error *err)
-{
-    if (p->buffers[EC_ARG_BRANCHES] || !(p->features & EC_FEATURE_TRANSMISSION)) return EC_OK;
-    uint64_t bytes = ec_whitted_stack_words(p->params.max_depth) * 4 * p->wave;
-    return ec_buffer_create(p->cl, "ray trees", bytes, NULL, &p->buffers[EC_ARG_BRANCHES], err);
-}
-
 /* Counters to the device, with nothing in the shadow queues. */
 static ec_result clear_shadows(ec_pipeline *p, ec_error *err)
 {
@@ -50,7 +42,6 @@ static ec_result shade_lights(ec_pipeline *p, uint32_t *scalars, ec_error *err)
 ec_result ec_integrate_whitted(ec_pipeline *p, uint32_t *scalars, ec_error *err)
 {
     ec_counters *counters = &p->counters;
-    EC_TRY(create_stacks(p, err));
     ec_pipeline_fill_parts(p, scalars[EC_ARG_PATH_COUNT]);
     for (uint32_t step = 0; ec_pipeline_total(counters->rays[0]); step++) {
         p->rays += ec_pipeline_total(counters->rays[0]);

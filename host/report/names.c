@@ -12,5 +12,7 @@ const char *const ec_sample_names[] = {
     [EC_SAMPLE_MIS] = "mis", [EC_SAMPLE_LIGHT] = "light", [EC_SAMPLE_BSDF] = "bsdf", [EC_SAMPLE_HEMISPHERE] = "hemisphere", NULL};
 const char *const ec_sampler_names[] = {
     [EC_SAMPLER_SOBOL] = "sobol", [EC_SAMPLER_INDEPENDENT] = "independent", NULL};
+const char *const ec_terminator_names[] = {
+    [EC_TERMINATOR_GEOMETRIC] = "geometric", [EC_TERMINATOR_SMOOTH] = "smooth", NULL};
 const char *const ec_tonemap_names[] = {
     [EC_TONEMAP_NEUTRAL] = "neutral", [EC_TONEMAP_NONE] = "none", NULL};

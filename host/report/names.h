@@ -5,6 +5,7 @@
 extern const char *const ec_integrator_names[]; /* ec_integrator */
 extern const char *const ec_sample_names[];     /* ec_sample */
 extern const char *const ec_sampler_names[];    /* ec_sampler_type */
+extern const char *const ec_terminator_names[]; /* ec_terminator */
 extern const char *const ec_tonemap_names[];    /* ec_tonemap */
 
 #endif

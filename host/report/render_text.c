@@ -36,6 +36,8 @@ static const char *stop_in_words(const char *stopped_by)
 {
     if (!strcmp(stopped_by, "error")) return "the error bound is under --error";
     if (!strcmp(stopped_by, "time")) return "--time is used up";
+    if (!strcmp(stopped_by, "device")) return "the device failed; this is the image so far";
+    if (!strcmp(stopped_by, "failure")) return "the render failed; this is the image so far";
     if (!strcmp(stopped_by, "user")) return "interrupted; this is the image so far";
     return "all samples are taken";
 }

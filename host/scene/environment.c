@@ -24,15 +24,21 @@ static int parse_color(const char *spec, float rgb[3])
     return 1;
 }
 
-static uint64_t clean(float *values, uint64_t count)
+static void clean(float *values, uint64_t count, const char *spec, const ec_log *log)
 {
-    uint64_t bad = 0;
+    uint64_t bad = 0, bright = 0;
     for (uint64_t i = 0; i < count; i++) {
-        if (isfinite(values[i]) && values[i] >= 0) continue;
-        values[i] = 0;
-        bad++;
+        if (!isfinite(values[i]) || values[i] < 0) {
+            values[i] = 0;
+            bad++;
+        } else if (values[i] > EC_RADIANCE_MOST) {
+            values[i] = EC_RADIANCE_MOST;
+            bright++;
+        }
     }
-    return bad;
+    if (bad) ec_warn(log, "%s: %llu values are NaN, infinite or negative; taken as 0", spec, (unsigned long long)bad);
+    if (bright)
+        ec_warn(log, "%s: %llu values are above %g; taken as that", spec, (unsigned long long)bright, (double)EC_RADIANCE_MOST);
 }
 
 ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *log, ec_error *err)
@@ -42,12 +48,12 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
     if (color < 0)
         return ec_fail(err, "environment \"%.200s\": three comma-separated numbers, none negative, are needed, e.g. 1,1,1",
                        spec);
-    if (!color) {
+    if (color) {
+        clean(e.constant, 3, spec, log);
+    } else {
         memset(e.constant, 0, sizeof e.constant);
         EC_TRY(ec_image_read_rgb(spec, &e.width, &e.height, &e.rgb, err));
-        uint64_t bad = clean(e.rgb, 3 * (uint64_t)e.width * e.height);
-        if (bad)
-            ec_warn(log, "%s: %llu values are NaN, infinite or negative; taken as 0", spec, (unsigned long long)bad);
+        clean(e.rgb, 3 * (uint64_t)e.width * e.height, spec, log);
     }
     free(s->environment.rgb);
     s->environment = e;

@@ -168,7 +168,7 @@ void convert_lights(const tinygltf::Model &model, ec_gltf *gltf)
         out.type = in.type == "spot" ? EC_LIGHT_SPOT : in.type == "point" ? EC_LIGHT_POINT : EC_LIGHT_DIRECTIONAL;
         for (size_t i = 0; i < 3; i++) {
             double value = (in.color.size() == 3 ? in.color[i] : 1.0) * in.intensity;
-            out.intensity[i] = float(std::min(std::max(value, 0.0), 1e30));
+            out.intensity[i] = float(std::min(std::max(value, 0.0), double(EC_RADIANCE_MOST)));
         }
         out.range = float(std::max(in.range, 0.0));
         const double half_pi = 1.57079632679489662;

@@ -18,6 +18,9 @@ typedef struct ec_image {
     char *name;       /* for messages, owned, may be NULL */
 } ec_image;
 
+/* Radiance and intensity beyond this are taken as this, with a warning: what sampling divides by then stays within float. */
+#define EC_RADIANCE_MOST 1e30f
+
 typedef enum ec_wrap { EC_WRAP_REPEAT, EC_WRAP_CLAMP, EC_WRAP_MIRROR } ec_wrap;
 
 typedef struct ec_texture {
@@ -143,8 +146,8 @@ void ec_scene_free(ec_scene *scene); /* NULL is fine */
 /* Does anything in the scene give light: an emissive or unlit triangle, a punctual light, an environment? */
 bool ec_scene_has_light(const ec_scene *scene);
 
-/* Replaces the environment. spec is a file (.hdr, .exr; equirectangular) or "R,G,B". Non-finite and negative texels are
- * set to 0 and counted in a warning. */
+/* Replaces the environment. spec is a file (.hdr, .exr; equirectangular) or "R,G,B". Non-finite and negative values
+ * are set to 0, those above EC_RADIANCE_MOST to that; a warning counts them. */
 ec_result ec_scene_set_environment(ec_scene *scene, const char *spec, const ec_log *log, ec_error *err);
 
 /* Camera by name, else by index; failure lists what there is. */

@@ -11,6 +11,7 @@ typedef struct ec_selftest {
     uint32_t lanes;        /* a width: never 0 */
     const struct ec_selftest_case *current;
     ec_selftest_report *report;
+    struct ec_tracer *tracer; /* once a case has asked for it: see tracer.h */
 } ec_selftest;
 
 typedef ec_result ec_selftest_function(ec_selftest *t, ec_error *err);

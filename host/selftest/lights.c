@@ -78,8 +78,8 @@ static ec_result direct_row(ec_selftest *t, ec_model *m, const char *what, uint3
 ec_result ec_selftest_near_lamp(ec_selftest *t, ec_error *err)
 {
     static const double heights[] = {1, 0.1, 1e-2, 1e-3, 1e-6};
-    static const ec_sample samples[] = {EC_SAMPLE_MIS};
-    for (int s = 0; s < 1; s++)
+    static const ec_sample samples[] = {EC_SAMPLE_MIS, EC_SAMPLE_LIGHT};
+    for (int s = 0; s < 2; s++)
         for (int i = 0; i < 5; i++) {
             double h = heights[i];
             char what[48];

@@ -14,7 +14,7 @@
 #define EACH(name, first, words) {name, first, words, EC_PRECISION_EACH}
 #define VECTOR(name, first) {name, first, 3, EC_PRECISION_VECTOR}
 #define SCALED(name, first, words) {name, first, words, EC_PRECISION_SCALED}
-#define STATED(name, first) {name, first, 1, EC_PRECISION_STATED}
+#define STATED(name, first, words) {name, first, words, EC_PRECISION_STATED}
 #define BIT(k) (1ull << (k))
 
 const ec_precision_case ec_precision_cases[] = {
@@ -63,12 +63,12 @@ const ec_precision_case ec_precision_cases[] = {
     {"medium_transmittance", "medium_transmittance", "medium.h", ec_inputs_distance, 19, 0, 0, 5, {EACH("T", 0, 3)}},
 
     {"slab_near", "slab", "ray.h", ec_inputs_box, 12, 0, 0, 8, {EACH("near, far", 0, 2)}},
-    {"edges_distance", "triangle", "ray.h", ec_inputs_triangle, 15, 0, 0, 16, {STATED("t", 0), SCALED("b1, b2", 2, 2)}},
+    {"edges_distance", "triangle", "ray.h", ec_inputs_triangle, 15, 0, 0, 16, {STATED("t", 0, 1), SCALED("b1, b2", 2, 2)}},
 
-    {"light_sample_triangle", "light_sample_triangle", "light.h", ec_inputs_light, 19, 0, 0, 32,
-     {VECTOR("wi", 0), VECTOR("towards", 3), EACH("pdf", 6, 1), VECTOR("normal", 7), VECTOR("error bound", 10)}},
-    {"light_from_centre", "light_from_centre", "light_centre.h", ec_inputs_light, 19, 0, 0, 32, {EACH("irradiance", 0, 3)}},
-    {"light_sample_punctual", "light_sample_punctual", "light.h", ec_inputs_spot, 19, 0, 0, 16, {VECTOR("wi", 0), EACH("irradiance", 3, 3)}},
+    {"light_sample_triangle", "light_sample_triangle", "light.h", ec_inputs_light, 21, BIT(15) | BIT(16), 0, 32,
+     {STATED("wi", 0, 3), VECTOR("towards", 4), EACH("pdf", 7, 1), VECTOR("normal", 8), VECTOR("error bound", 11)}},
+    {"light_from_centre", "light_from_centre", "light_centre.h", ec_inputs_light, 21, BIT(15) | BIT(16), 0, 32, {EACH("irradiance", 0, 3)}},
+    {"light_sample_punctual", "light_sample_punctual", "light.h", ec_inputs_spot, 19, BIT(15) | BIT(16), 0, 16, {VECTOR("wi", 0), EACH("irradiance", 3, 3)}},
     {"environment_uv", "environment_uv", "environment.h", ec_inputs_direction, 3, 0, 0, 12, {SCALED("u", 0, 1), EACH("v", 2, 1)}},
     {"environment_look_up", "environment_look_up", "environment.h", ec_inputs_direction, 3, 0, 0, 32, {VECTOR("radiance", 0), EACH("pdf", 3, 1)}},
     {"environment_sample", "environment_sample", "environment.h", ec_inputs_sample, 3, BIT(0), BIT(1), 32, {VECTOR("wi", 0), VECTOR("radiance", 3), EACH("pdf", 6, 1)}},

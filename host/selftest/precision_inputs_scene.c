@@ -108,6 +108,14 @@ void ec_inputs_triangle(ec_precision_random *random, float *x)
     for (int i = 0; i < 3; i++) ec_put(x + 6 + 3 * i, v[i]);
 }
 
+/* The rest of a light's record, which starts at word 3. */
+static void put_emission(ec_precision_random *random, uint32_t kind, float *x)
+{
+    for (int k = 0; k < 3; k++) x[12 + k] = (float)ec_draw_log(random, 1e-3, 1e3);
+    x[15] = ec_draw_bits(kind);
+    x[16] = ec_draw_bits(EC_NO_ID);
+}
+
 /* p at any distance and at any angle; a third of the lamps are far larger than their distance. */
 void ec_inputs_light(ec_precision_random *random, float *x)
 {
@@ -119,13 +127,22 @@ void ec_inputs_light(ec_precision_random *random, float *x)
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) n[k] /= length;
     ec_draw_direction_about(random, n, ec_draw(random) < 0.25 ? ec_draw_log(random, 1e-5, 1) : ec_draw_in(random, 0.1, 1), away);
-    for (int k = 0; k < 3; k++) x[k] = (float)(b[0] * v[0][k] + b[1] * v[1][k] + b[2] * v[2][k] + distance * away[k]);
     for (int i = 0; i < 3; i++) ec_put(x + 3 + 3 * i, v[i]);
-    x[12] = ec_draw_unit(random);
-    x[13] = ec_draw_unit(random);
-    x[14] = (float)ec_draw_log(random, 1e-6, 1);
-    x[15] = (float)(x[14] * 2 / length);
-    for (int k = 0; k < 3; k++) x[16 + k] = (float)ec_draw_log(random, 1e-3, 1e3);
+    double height = 0, coordinate = 1;
+    for (; height < 16 * 0x1p-24 * coordinate; distance *= 4) { /* nearer, its place in the plane is a matter of rounding */
+        height = coordinate = 0;
+        for (int k = 0; k < 3; k++) {
+            x[k] = (float)(b[0] * v[0][k] + b[1] * v[1][k] + b[2] * v[2][k] + distance * away[k]);
+            height += n[k] * ((double)x[k] - (double)x[3 + k]);
+            coordinate = fmax(coordinate, fabs((double)x[k]));
+        }
+        height = fabs(height);
+    }
+    x[17] = (float)ec_draw_log(random, 1e-6, 1);
+    x[18] = (float)(x[17] * 2 / length);
+    put_emission(random, EC_KIND_TRIANGLE | EC_LIGHT_TWO_SIDED, x);
+    x[19] = ec_draw_unit(random);
+    x[20] = ec_draw_unit(random);
 }
 
 void ec_inputs_spot(ec_precision_random *random, float *x)
@@ -143,7 +160,7 @@ void ec_inputs_spot(ec_precision_random *random, float *x)
     x[9] = (float)(1 / fmax(cos(inner) - cos(outer), 0.001)); /* as KHR_lights_punctual bounds it */
     x[10] = (float)cos(outer);
     x[11] = (float)(ec_draw(random) < 0.5 ? 0 : 1 / (distance * ec_draw_in(random, 1.01, 10)));
-    for (int k = 0; k < 3; k++) x[16 + k] = (float)ec_draw_log(random, 1e-3, 1e3);
+    put_emission(random, EC_KIND_SPOT, x);
 }
 
 /* 32 bits that are no NaN, two numbers. */

@@ -46,7 +46,7 @@ ec_result ec_selftest_none(ec_selftest *t, const char *what, uint64_t wrong, uin
 {
     char all[sizeof((ec_selftest_row *)0)->note];
     ec_selftest_row row = {.measured = (double)wrong, .digits = digits_of(fmax((double)wrong, 1) / (double)of)};
-    snprintf(all, sizeof all, "of %llu%s%s", (unsigned long long)of, note ? "; " : "", note ? note : "");
+    snprintf(all, sizeof all, "of %llu%s%s", (unsigned long long)of, note && *note ? "; " : "", note ? note : "");
     return add(t, what, row, all, err);
 }
 

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "pipeline/render.h"
 #include "selftest/cases.h"
+#include "selftest/tracer.h"
 
 #define ROW(name, is_long, function, breaks) {name, is_long, function, breaks},
 static const ec_selftest_case cases[] = {EC_SELFTEST_CASES(ROW)};
@@ -44,21 +45,31 @@ static void finish(ec_selftest_report *r)
     for (uint32_t i = 0; i < r->count; i++) r->failed += !r->rows[i].pass;
 }
 
-ec_result ec_selftest_run(ec_cl *cl, const ec_selftest_options *options, ec_selftest_report *report, ec_error *err)
+static ec_result run_cases(ec_selftest *t, const ec_selftest_options *options, uint32_t count, ec_error *err)
 {
-    ec_selftest t = {.cl = cl, .full = options->full, .lanes = ec_pipeline_lanes(cl, options->lanes), .report = report};
-    uint32_t count = 0, done = 0;
-    double start = ec_now();
-    report->lanes = t.lanes;
-    for (int i = 0; i < CASE_COUNT; i++) count += is_wanted(options, &cases[i]);
-    if (!count) return ec_fail(err, "no case of the self-test has '%s' in its name", options->only);
+    uint32_t done = 0;
     for (int i = 0; i < CASE_COUNT; i++) {
         const ec_selftest_case *c = &cases[i];
         if (!is_wanted(options, c)) continue;
         if (options->go_on && !options->go_on(options->user, c->name, done, count)) return ec_fail(err, "stopped before %s", c->name);
-        EC_TRY(run_case(&t, c, err));
+        EC_TRY(run_case(t, c, err));
         done++;
     }
+    return EC_OK;
+}
+
+ec_result ec_selftest_run(ec_cl *cl, const ec_selftest_options *options, ec_selftest_report *report, ec_error *err)
+{
+    ec_selftest t = {.cl = cl, .full = options->full, .report = report};
+    uint32_t count = 0;
+    double start = ec_now();
+    EC_TRY(ec_pipeline_lanes(cl, options->lanes, &t.lanes, err));
+    report->lanes = t.lanes;
+    for (int i = 0; i < CASE_COUNT; i++) count += is_wanted(options, &cases[i]);
+    if (!count) return ec_fail(err, "no case of the self-test has '%s' in its name", options->only);
+    ec_result result = run_cases(&t, options, count, err);
+    ec_tracer_close(t.tracer);
+    EC_TRY(result);
     report->seconds = ec_now() - start;
     finish(report);
     return EC_OK;

@@ -79,7 +79,8 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
         }
         sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
-        /* A lobe that matters at other angles must not starve, though at this one 1 - F may have been rounded to 0. */
+        /* A lobe that matters at other angles must not starve. What is left for the base goes by the half vector's angle: there may
+         * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing reflects less than head-on. */
         b.p_specular = ((b.p_specular > 0.0f) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
     }
     if (HAS(SHEEN)) {

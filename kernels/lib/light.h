@@ -4,7 +4,10 @@
 #define EC_LIB_LIGHT_H
 
 #include "environment.h"
+#include "spherical_triangle.h"
 #include "surface.h"
+
+#define EC_LIGHT_NEAR 0.25f /* squares of two edges over that of the distance */
 
 typedef struct lights {
     global const float *table; /* ec_light_data by word */
@@ -51,13 +54,12 @@ EC_FN light_record light_load_one(global const float *table, uint id)
     return r;
 }
 
-/* Uniform point on a triangle, seen from p. */
-EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f u1, lane_f u2)
+/* A point of a triangle by its barycentrics, seen from p. Its density is that of uniform points. */
+EC_FN light_sample light_point_of_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f b1, lane_f b2)
 {
     light_sample s;
     v3 a = l->a, b = l->b, c = l->c;
-    lane_f root = sqrt(u1);
-    lane_f b0 = 1.0f - root, b1 = u2 * root, b2 = 1.0f - b0 - b1;
+    lane_f b0 = 1.0f - b1 - b2;
     v3 q = v3_fma(c, b2, v3_fma(b, b1, v3_scale(a, b0)));
     v3 sum = v3_fma(v3_abs(c), b2, v3_fma(v3_abs(b), b1, v3_scale(v3_abs(a), b0)));
     s.end_error = v3_scale(sum, F(EC_GAMMA(9)));
@@ -79,6 +81,63 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
     }
     s.is_delta = s.is_far = !TRUE_MASK;
     s.valid = m & (cosine > 0.0f) & (d2 > 0.0f);
+    return s;
+}
+
+/* Is a triangle seen from p so near that densities of its points differ much? Then it is sampled by solid angle. By area they
+ * differ as the third power of distances: with edges of half the distance that adds a relative standard deviation of 0.2, at
+ * most 0.5, and costs less. */
+EC_FN lane_i light_is_near(v3 v0, v3 v1, v3 v2, v3 p)
+{
+    v3 e1 = v3_sub(v1, v0), e2 = v3_sub(v2, v0);
+    v3 sum = v3_fma(p, F(-3.0f), v3_add(v0, v3_add(v1, v2))); /* three times the way to the middle */
+    return v3_dot(e1, e1) + v3_dot(e2, e2) > (EC_LIGHT_NEAR / 9.0f) * v3_dot(sum, sum);
+}
+
+/* Density of uniform directions to a triangle, 0 where it has no solid angle. n: cross product of two edges. */
+EC_FN lane_f light_near_pdf(const spherical_triangle *t, lane_f pdf_a, v3 n)
+{
+    lane_f pmf = pdf_a * 0.5f * sqrt(v3_dot(n, n));
+    return t->turns > 0.0f ? pmf * (0.25f * EC_INV_PI) / t->turns : F(0.0f);
+}
+
+/* The density that light_sample_triangle has at p for the point of triangle h that a path from p has met: d2 away, seen
+ * under this cosine. Near or far is decided from the same numbers on both sides. */
+EC_FN lane_f light_found_pdf(const hit_point *h, lane_i m, v3 p, lane_f d2, lane_f cosine)
+{
+    lane_f pdf = h->light_pdf_a * d2 / cosine;
+    lane_i near = m & light_is_near(h->p0, h->p1, h->p2, p);
+    if (any_lane(near)) {
+        v3 a = v3_sub(h->p0, p), b = v3_sub(h->p1, p), c = v3_sub(h->p2, p);
+        v3 n = v3_cross(v3_sub(h->p1, h->p0), v3_sub(h->p2, h->p0));
+        spherical_triangle t = spherical_triangle_make(a, b, c, n);
+        pdf = near ? light_near_pdf(&t, h->light_pdf_a, n) : pdf;
+    }
+    return pdf;
+}
+
+/* A point of a triangle, seen from p. */
+EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f u1, lane_f u2)
+{
+    lane_f root = sqrt(u1), b1 = u2 * root, b2 = root - b1, pdf = F(0.0f);
+    v3 wi = v3_zero();
+    lane_i near = m & light_is_near(l->a, l->b, l->c, p), seen = near;
+    if (any_lane(near)) {
+        v3 a = v3_sub(l->a, p), b = v3_sub(l->b, p), c = v3_sub(l->c, p);
+        v3 n = v3_cross(v3_sub(l->b, l->a), v3_sub(l->c, l->a));
+        spherical_triangle t = spherical_triangle_make(a, b, c, n);
+        lane_f near_b1, near_b2;
+        wi = spherical_triangle_sample(&t, u1, u2, &near_b1, &near_b2);
+        b1 = near ? near_b1 : b1;
+        b2 = near ? near_b2 : b2;
+        pdf = light_near_pdf(&t, l->pdf_a, n);
+        seen = (pdf > 0.0f) & ((v3_dot(a, n) < 0.0f) | ((l->kind & EC_LIGHT_TWO_SIDED) != 0u));
+    }
+    light_sample s = light_point_of_triangle(l, g, m, p, b1, b2);
+    /* The direction itself: right above the lamp the way to its point, whose place is rounded, leads anywhere. */
+    s.wi = v3_select(near, wi, s.wi);
+    s.pdf = near ? pdf : s.pdf;
+    s.valid = near ? seen & (v3_dot(s.towards, s.towards) > 0.0f) : s.valid;
     return s;
 }
 

@@ -15,8 +15,8 @@ EC_FN light_sample light_from_centre(global const float *table, uint id, const g
     s.wi = v3_make(F(0.0f), F(0.0f), F(1.0f));
     s.radiance = v3_zero();
     if (HAS(AREA_LIGHTS)) {
-        /* sqrt(u1) = 2/3 and u2 = 1/2 are the centroid; the density per solid angle is pmf d^2 / (area cos). */
-        s = light_sample_triangle(&l, g, m & (type == EC_KIND_TRIANGLE), p, F(4.0f / 9.0f), F(0.5f));
+        /* The density per solid angle is pmf d^2 / (area cos). */
+        s = light_point_of_triangle(&l, g, m & (type == EC_KIND_TRIANGLE), p, F(1.0f / 3.0f), F(1.0f / 3.0f));
         s.radiance = v3_scale(s.radiance, l.pmf / s.pdf);
     }
     if (HAS(PUNCTUAL_LIGHTS) || HAS(AREA_LIGHTS)) { /* curved lamps count as points */

@@ -29,11 +29,12 @@ EC_FN v3 v3_abs(v3 a) { return v3_make(fabs(a.x), fabs(a.y), fabs(a.z)); }
 /* a + s b */
 EC_FN v3 v3_fma(v3 b, lane_f s, v3 a) { return v3_make(fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)); }
 EC_FN lane_f v3_dot(v3 a, v3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
-/* a b - c d within 1.5 ulps of itself: what one product rounds off is put back (Kahan; Jeannerod, Louvet, Muller 2013). */
+/* a b - c d within 1.5 ulps of itself: what one product rounds off is put back (Kahan; Jeannerod, Louvet, Muller 2013). Taken
+ * away, not added: a zero keeps its sign. */
 EC_FN lane_f product_difference(lane_f a, lane_f b, lane_f c, lane_f d)
 {
     lane_f cd = c * d;
-    return fma(a, b, -cd) + fma(-c, d, cd);
+    return fma(a, b, -cd) - fma(c, d, -cd);
 }
 EC_FN v3 v3_cross(v3 a, v3 b)
 {
@@ -48,10 +49,11 @@ EC_FN v3 v3_normalize(v3 a) { return v3_scale(a, 1.0f / sqrt(v3_dot(a, a))); }
 EC_FN lane_i is_finite_bits(lane_f x) { return (as_lane_u(x) & 0x7f800000u) != 0x7f800000u; }
 EC_FN lane_i v3_is_finite(v3 a) { return is_finite_bits(a.x) & is_finite_bits(a.y) & is_finite_bits(a.z); }
 
-/* Orthonormal frame around the unit vector n (Duff et al. 2017, listing 3). */
+/* Orthonormal frame around the unit vector n (Duff et al. 2017, listing 3, but for -0, which counts as 0: compilers differ about the
+ * signs of zeros, and an axis-parallel n would turn its frame by them). */
 EC_FN void v3_frame(v3 n, v3 *s, v3 *t)
 {
-    lane_f sign = copysign(F(1.0f), n.z);
+    lane_f sign = n.z < 0.0f ? F(-1.0f) : F(1.0f);
     lane_f a = -1.0f / (sign + n.z);
     lane_f b = n.x * n.y * a;
     *s = v3_make(fma(sign * n.x * n.x, a, F(1.0f)), sign * b, -sign * n.x);

@@ -14,8 +14,9 @@ EC_FN v3 shadow_transmittance(const geometry *g, const hit_point *h, const surfa
     return medium_transmittance(g, between, sqrt(v3_dot(l->towards, l->towards)));
 }
 
-/* Appends to i's part of the queue, which counts counts; what is not finite is dropped and counted. */
-EC_FN void shadow_push(constant ec_params *params, global float *shadows, volatile global uint *counts, uint i, const surface *s,
+/* Appends a ray from `from` to the light that was sampled for p to i's part of the queue, which counts counts; what is not finite is
+ * dropped and counted. */
+EC_FN void shadow_push(constant ec_params *params, global float *shadows, volatile global uint *counts, uint i, v3 p, v3 from,
                        const light_sample *l, v3 arriving, lane_u slot, lane_u prim, lane_i m, volatile global uint *invalid)
 {
     m = m & (v3_max_component(arriving) != 0.0f);
@@ -24,8 +25,7 @@ EC_FN void shadow_push(constant ec_params *params, global float *shadows, volati
     if (bad) atomic_add(invalid, popcount(bad));
     if (!bits) return;
     uint at = queue_reserve(counts, params->part, i, popcount(bits));
-    v3 from = surface_offset(s->p, s->p_error, s->ng, l->wi);
-    v3 end = surface_offset(v3_add(s->p, l->towards), l->end_error, l->end_normal, v3_negate(l->wi));
+    v3 end = surface_offset(v3_add(p, l->towards), l->end_error, l->end_normal, v3_negate(l->wi));
     queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
     queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
     queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);

@@ -7,34 +7,45 @@
 #include "../lib/raster.h"
 #include "precision_surface.h"
 
-/* Words: p 0, vertices 3, u 12, pmf and pdf_a 14, emission 16. */
-EC_FN light_record light_of(global const float *in, lane_u kind)
+/* Words: p 0; the light's record 3; u 19. */
+#define PRECISION_RECORD 3
+EC_FN light_record light_of(global const float *in)
 {
-    light_record r = {V(3), V(6), V(9), V(16), kind, U(0), X(14), X(15)};
-    return r;
+    lights l = {in + PRECISION_RECORD, 0, {0, 0, 0}};
+    return light_load(&l, ITEM * (EC_PRECISION_WORDS / EC_LIGHT_WORDS));
 }
+
+/* What is not valid is not looked at. A direction may be off by u edge / height: spherical_triangle.h. */
 PRECISION(light_sample_triangle)
 {
     geometry g = geometry_of(in, memory);
-    light_record l = light_of(in, U(EC_KIND_TRIANGLE | EC_LIGHT_TWO_SIDED));
-    light_sample s = light_sample_triangle(&l, &g, TRUE_MASK, V(0), X(12), X(13));
-    PUT_V(0, s.wi);
-    PUT_V(3, s.towards);
-    PUT(6, s.pdf);
-    PUT_V(7, s.end_normal);
-    PUT_V(10, s.end_error);
+    light_record l = light_of(in);
+    light_sample s = light_sample_triangle(&l, &g, TRUE_MASK, V(0), X(19), X(20));
+    PUT_V(0, v3_select(s.valid, s.wi, v3_zero()));
+    v3 e1 = v3_sub(l.b, l.a), e2 = v3_sub(l.c, l.a);
+    lane_f height = fabs(v3_dot(v3_sub(l.a, V(0)), s.end_normal));
+    PUT(3, sqrt(max(v3_dot(e1, e1), v3_dot(e2, e2))) / height);
+    PUT_V(4, v3_select(s.valid, s.towards, v3_zero()));
+    PUT(7, s.valid ? s.pdf : F(0.0f));
+    PUT_V(8, s.end_normal);
+    PUT_V(11, s.end_error);
 }
+/* One light for all lanes where it is used, so one lane after the other. */
 PRECISION(light_from_centre)
 {
-    light_record l = light_of(in, U(EC_KIND_TRIANGLE | EC_LIGHT_TWO_SIDED));
     geometry g = geometry_of(in, memory);
-    light_sample s = light_sample_triangle(&l, &g, TRUE_MASK, V(0), F(4.0f / 9.0f), F(0.5f));
-    PUT_V(0, v3_scale(s.radiance, l.pmf / s.pdf));
+    for (uint k = 0; k < LANES; k++) {
+        global const float *w = in + (get_global_id(0) * LANES + k) * EC_PRECISION_WORDS;
+        light_sample s = light_from_centre(w + PRECISION_RECORD, 0u, &g, TRUE_MASK, v3_make(F(w[0]), F(w[1]), F(w[2])), 1.0f);
+        v3 radiance = v3_select(s.valid, s.radiance, v3_zero());
+        scatter_f(out, ITEM * EC_PRECISION_RESULTS, radiance.x, 1u << k);
+        scatter_f(out + 1, ITEM * EC_PRECISION_RESULTS, radiance.y, 1u << k);
+        scatter_f(out + 2, ITEM * EC_PRECISION_RESULTS, radiance.z, 1u << k);
+    }
 }
-/* Words: p 0, position 3, direction 6, cone and range 9, intensity 16. */
 PRECISION(light_sample_punctual)
 {
-    light_record l = light_of(in, U(EC_KIND_SPOT));
+    light_record l = light_of(in);
     light_sample s = light_sample_punctual(&l, TRUE_MASK, V(0), 1.0f);
     PUT_V(0, s.wi);
     PUT_V(3, s.radiance);

@@ -28,6 +28,7 @@
 #define EC_FEATURE_TRANSMISSION_TEXTURE EC_FEATURE_BIT(19)
 #define EC_FEATURE_ABSORPTION EC_FEATURE_BIT(20)
 #define EC_FEATURE_SOBOL EC_FEATURE_BIT(21)
+#define EC_FEATURE_TERMINATOR EC_FEATURE_BIT(22)
 #define EC_FEATURE_CLEARCOAT EC_FEATURE_BIT(23)
 #define EC_FEATURE_CLEARCOAT_TEXTURE EC_FEATURE_BIT(24)
 #define EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE EC_FEATURE_BIT(25)
@@ -58,6 +59,7 @@
     X(TRANSMISSION_TEXTURE, "transmission-texture")                                                \
     X(ABSORPTION, "absorption")                                                                    \
     X(SOBOL, "sobol-sampler")                                                                      \
+    X(TERMINATOR, "smooth-terminator")                                                             \
     X(CLEARCOAT, "clearcoat")                                                                      \
     X(CLEARCOAT_TEXTURE, "clearcoat-texture")                                                      \
     X(CLEARCOAT_NORMAL_TEXTURE, "clearcoat-normal-texture")                                        \

@@ -4,15 +4,9 @@
 #include "../lib/bsdf.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
+#include "../lib/roulette.h"
 #include "../lib/shadow.h"
-
-/* Density of light sampling for a point that this ray found on an emissive triangle. */
-EC_FN lane_f emitter_pdf(const hit_point *h, const surface *s, v3 o, v3 wo)
-{
-    v3 d = v3_sub(s->p, o);
-    lane_f cosine = fabs(v3_dot(s->ng, wo));
-    return h->light_pdf_a * v3_dot(d, d) / cosine;
-}
+#include "../lib/terminator.h"
 
 /* Weight of light that a path meets, against light_pdf; 1 where light sampling cannot find it or is not asked to. */
 EC_FN lane_f found_weight(uint sample, lane_f path_pdf, lane_f light_pdf)
@@ -31,10 +25,24 @@ EC_FN lane_f joined_weight(uint sample, const light_sample *l, lane_f path_pdf)
     return l->is_delta ? F(1.0f) : weight;
 }
 
-/* Shading normals can put a direction on one side of the surface and the path on the other. */
-EC_FN lane_i same_side(const surface *s, v3 w, v3 w_local)
+/* Shading normals can put a direction on one side of the surface and the path on the other. From above the facet it may dip
+ * below its plane. */
+EC_FN lane_i same_side(const surface *s, v3 w, v3 w_local, lane_i lifted)
 {
-    return v3_dot(s->ng, w) * w_local.z > 0.0f;
+    return (v3_dot(s->ng, w) * w_local.z > 0.0f) | (lifted & (w_local.z > 0.0f));
+}
+
+/* A ray's origin: above the surface, or below where it passes. */
+EC_FN v3 leave(const surface *s, v3 above, v3 w, v3 w_local)
+{
+    if (!HAS(TRANSMISSION)) return above;
+    return v3_select(w_local.z < 0.0f, surface_offset(s->p, s->p_error, s->ng, w), above);
+}
+
+/* The triangle that a ray need not be tested against: its own, unless it dips below that. */
+EC_FN lane_u left_behind(const surface *s, v3 w, lane_i lifted, lane_u prim)
+{
+    return HAS(TERMINATOR) ? ((lifted & (v3_dot(s->ng, w) < 0.0f)) ? U(EC_NO_ID) : prim) : prim;
 }
 
 kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
@@ -94,8 +102,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
-            v3 Le = v3_scale(surface_emission(&g, &h, m, emission),
-                             found_weight(params->sample, path_pdf, emitter_pdf(&h, &s, o, wo)));
+            v3 way = v3_sub(s.p, o);
+            lane_f pdf = light_found_pdf(&h, m, o, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
+            v3 Le = v3_scale(surface_emission(&g, &h, m, emission), found_weight(params->sample, path_pdf, pdf));
             emitted = v3_select(m, Le, emitted);
             emits = emits | m;
         }
@@ -126,25 +135,31 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     sample_pair_u(random, pair + EC_PAIR_CHOICE, &choice, &lobe);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
 
+    /* Where reflected rays start. Lights are looked for from there, so that a path that meets one finds the same density. */
+    lane_i lifted = !TRUE_MASK;
+    v3 start = HAS(TERMINATOR) && normals ? terminator_origin(&g, &h, &s, &lifted) : s.p;
+    v3 above = surface_offset(start, s.p_error, s.ng, wo);
+
     lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
         lane_f u1, u2, pdf_bsdf;
         sample_pair(random, pair + EC_PAIR_LIGHT, &u1, &u2);
-        light_sample l = light_sample_one(&light, &g, joins, s.p, choice, u1, u2);
+        light_sample l = light_sample_one(&light, &g, joins, above, choice, u1, u2);
         v3 wi_local = surface_to_local(&s, l.wi);
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
         if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z));
-        lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local);
-        shadow_push(params, shadows, counters->shadows[step], i, &s, &l, arriving, slot, prim, m, invalid + EC_STAGE_SHADE);
+        lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local, lifted);
+        shadow_push(params, shadows, counters->shadows[step], i, above, leave(&s, above, l.wi, wi_local), &l, arriving, slot,
+                    left_behind(&s, l.wi, lifted, prim), m, invalid + EC_STAGE_SHADE);
     }
 
     lane_f u1, u2;
     sample_pair(random, pair + EC_PAIR_BSDF, &u1, &u2);
     bsdf_direction next_way = bsdf_sample(&b, params->sample == EC_SAMPLE_HEMISPHERE, u1, u2, to_unit(lobe));
     v3 wi = surface_to_world(&s, next_way.wi); /* unit to 8 u: frame and local direction are */
-    lane_i alive = scatters & (next_way.pdf != 0.0f) & same_side(&s, wi, next_way.wi);
+    lane_i alive = scatters & (next_way.pdf != 0.0f) & same_side(&s, wi, next_way.wi, lifted);
     beta = v3_mul(beta, next_way.weight);
     lane_i finite = v3_is_finite(beta);
     uint bad = mask_bits(alive & !finite);
@@ -152,7 +167,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     lane_f brightest = v3_max_component(beta);
     alive = alive & finite & (brightest > 0.0f);
     if (bounce + 1 >= params->first_roulette) {
-        lane_f survival = params->survival > 0.0f ? F(params->survival) : min(brightest, F(0.95f)), u, unused;
+        lane_f survival = roulette_survival(brightest, params->survival), u, unused;
         sample_pair(random, pair + EC_PAIR_ROULETTE, &u, &unused);
         alive = alive & (u < survival);
         beta = v3_scale(beta, 1.0f / survival);
@@ -160,12 +175,12 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     uint bits = mask_bits(alive);
     if (!bits) return;
     uint at = queue_reserve(counters->rays[step + 1], params->part, i, popcount(bits));
-    queue_push_v3(next, wave, EC_PATH_OX, at, surface_offset(s.p, s.p_error, s.ng, wi), bits);
+    queue_push_v3(next, wave, EC_PATH_OX, at, leave(&s, above, wi, next_way.wi), bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);
     queue_push_v3(next, wave, EC_PATH_BR, at, beta, bits);
     queue_push_f(next, wave, EC_PATH_PDF, at, next_way.pdf, bits);
     queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
-    queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(prim), bits);
+    queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(left_behind(&s, wi, lifted, prim)), bits);
     if (HAS(ABSORPTION))
         queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium_towards(&h, &s, medium, next_way.wi.z)), bits);
 }

@@ -37,5 +37,6 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
         lane_u medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
         arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z));
     }
-    shadow_push(params, shadows, counters->shadows[step], i, &s, &l, arriving, slot, prim, lit, invalid + EC_STAGE_SHADE);
+    v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
+    shadow_push(params, shadows, counters->shadows[step], i, s.p, from, &l, arriving, slot, prim, lit, invalid + EC_STAGE_SHADE);
 }

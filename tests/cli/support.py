@@ -152,6 +152,7 @@ def read_chunks(data, at, width, height, y0, attributes):
         y, size = struct.unpack_from("<ii", data, offset)
         lines = min(rows, height - (y - y0))
         block = data[offset + 8:offset + 8 + size]
+        assert len(block) == size, "a block ends behind the file's end"
         if size < lines * width * 4 * len(planes):
             block = unzip(block)
         for line in range(lines):

@@ -44,7 +44,7 @@ class Files(Render):
         attributes, planes = read_exr(self.path("a.exr"))
         self.assertEqual(sorted(planes), CHANNELS)
         self.assertEqual([kind for _, kind in attributes["channels"]], [2] * len(CHANNELS))
-        for name in ["command", "version", "scene", "camera", "environment", "seed", "integrator", "rr", "sample", "cutoff", "adaptive", "sampler", "batch",
+        for name in ["command", "version", "scene", "camera", "environment", "seed", "integrator", "rr", "sample", "cutoff", "adaptive", "sampler", "terminator", "batch",
                      "samplesPerPixel", "maxDepth", "lanes", "wave", "device", "device.version", "device.driver",
                      "device.platform", "seconds", "error", "errorBound", "relMSE", "heavyPixels", "batches", "effects", "invalid", "stoppedBy", "host",
                      "png.exposure", "png.tonemap"]:

@@ -103,6 +103,7 @@ class WrongOptions(Case):
             "--wave": ["0", "-5"],
             "--sampler": ["halton", ""],
             "--tonemap": ["aces"],
+            "--terminator": ["soft", ""],
             "--sample": ["all", "nee", ""],
             "--accel": ["octree"],
             "--grid-density": ["0", "-1", "0.009", "10001", "inf", "nan", "27x", ""],
@@ -122,7 +123,7 @@ class WrongOptions(Case):
     def test_options_of_another_integrator(self):
         for integrator, option, says in [("raster", ["--rr", "0.5"], "path"), ("raster", ["--sample", "light"], "path"),
                                          ("raster", ["--max-depth", "3"], "path or whitted"), ("raster", ["--accel", "bvh8"], "path or whitted"),
-                                         ("whitted", ["--rr", "0.5"], "path"), ("whitted", ["--sample", "mis"], "path"),
+                                         ("whitted", ["--rr", "0.5"], "path"), ("whitted", ["--terminator", "smooth"], "path"), ("whitted", ["--sample", "mis"], "path"),
                                          ("path", ["--cutoff", "0"], "whitted"), ("raster", ["--cutoff", "0"], "whitted")]:
             with self.subTest(integrator=integrator, option=option):
                 self.usage("render", "s.gltf", "--integrator", integrator, *option, says=f"{option[0]} belongs to --integrator {says};")

@@ -123,11 +123,12 @@ static void a_full_disk_leaves_the_old_file(kind k)
     struct rlimit usual, small;
     getrlimit(RLIMIT_FSIZE, &usual);
     small = usual;
-    small.rlim_cur = 1000;
     signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &small);
-    CHECK_REFUSED(k, in_folder("target"), "free some space");
-    CHECK_REFUSED(k, in_folder("new"), "free some space");
+    for (small.rlim_cur = 10; small.rlim_cur <= 1000; small.rlim_cur *= 100) { /* within the header, and behind it */
+        setrlimit(RLIMIT_FSIZE, &small);
+        CHECK_REFUSED(k, in_folder("target"), "ulimit -f");
+        CHECK_REFUSED(k, in_folder("new"), "ulimit -f");
+    }
     setrlimit(RLIMIT_FSIZE, &usual);
     CHECK(holds("target", "old") && access(in_folder("new"), F_OK) != 0);
     unlink(in_folder("target"));

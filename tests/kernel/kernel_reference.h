@@ -17,7 +17,7 @@ static inline bool run_all(const char *name, kernel_array *arrays, uint32_t coun
 {
     int before = test_failures;
     void *one[KERNEL_ARRAYS] = {NULL};
-    for (int i = 0; i < LANE_WIDTHS; i++) {
+    for (int i = 0; i < kernel_widths(&cl); i++) {
         if (!kernel_call(&cl, programs[i], name, N / (uint32_t)lane_widths[i], 64, arrays, count)) break;
         for (uint32_t k = first; k < count; k++) {
             if (i == 0) memcpy(one[k] = malloc(arrays[k].bytes), arrays[k].data, arrays[k].bytes);

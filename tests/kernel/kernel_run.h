@@ -5,10 +5,20 @@
 
 #include "base/random.h"
 #include "cl/cl.h"
+#include "cl/workarounds.h"
 #include "support/test.h"
 
 static const int lane_widths[] = {1, 4, 8, 16};
 #define LANE_WIDTHS 4
+
+/* How many of them the device's compiler can take. */
+static inline int kernel_widths(const ec_cl *cl)
+{
+    const ec_workaround *driver = ec_workaround_for(&cl->info);
+    int count = LANE_WIDTHS;
+    while (driver && driver->most_lanes && (uint32_t)lane_widths[count - 1] > driver->most_lanes) count--;
+    return count;
+}
 
 /* Opens the device that ECLAT_DEVICE or the rule chooses. 0; 77 without a device; 1 after a failure. */
 static inline int kernel_open(ec_cl *cl)

@@ -26,7 +26,11 @@ kernel void atan2_of(global const float *y, global const float *x, global float 
 
 kernel void exp_of(global const float *x, global float *out) { LANE_STORE(exp_negative(LANE_LOAD(x + AT)), out + AT); }
 
-kernel void log_of(global const float *x, global float *out) { LANE_STORE(log_unit(LANE_LOAD(x + AT), 1.0f - LANE_LOAD(x + AT)), out + AT); }
+kernel void log_of(global const float *x, global float *out)
+{
+    lane_f v = LANE_LOAD(x + AT);
+    LANE_STORE(log_unit(v, 1.0f - v), out + AT);
+}
 
 kernel void fresnel_of(global const float *cosine, global const float *eta, global float *out)
 {

@@ -6,11 +6,31 @@
 
 static cl_program programs[LANE_WIDTHS];
 
-/* ---- a triangle: cells of equal area ---- */
+/* ---- a triangle: cells of equal area, and what of its solid angle they have where it is near ---- */
 
-static void check_triangle(int lanes, bool two_sided, float side)
+static double solid_angle_of_cells(const float (*v)[3], const float *p, const double *n, double area, double *cells)
 {
-    const float v[3][3] = {{-1.0f, 2.0f, 0.5f}, {1.5f, 2.5f, -0.5f}, {0.25f, 3.0f, 2.0f}}, p[4] = {0.1f, side > 0 ? 6.0f : -0.3f, 0.2f};
+    enum { STEPS = 40 };
+    double total = 0;
+    for (int cell = 0; cell < 100; cell++) {
+        cells[cell] = 0;
+        for (int step = 0; step < STEPS * STEPS; step++) {
+            double root = sqrt((cell / 10 + (step / STEPS + 0.5) / STEPS) / 10), across = (cell % 10 + (step % STEPS + 0.5) / STEPS) / 10;
+            double w[3], d2 = 0, projected = 0;
+            for (int k = 0; k < 3; k++) {
+                w[k] = (1 - root) * (double)v[0][k] + root * (1 - across) * (double)v[1][k] + root * across * (double)v[2][k] - (double)p[k];
+                d2 += w[k] * w[k], projected += w[k] * n[k] / (2 * area);
+            }
+            cells[cell] += area / 100 / STEPS / STEPS * fabs(projected) / (d2 * sqrt(d2));
+        }
+        total += cells[cell];
+    }
+    return total;
+}
+
+static void check_triangle(int lanes, bool two_sided, bool near, const float *p)
+{
+    const float v[3][3] = {{-1.0f, 2.0f, 0.5f}, {1.5f, 2.5f, -0.5f}, {0.25f, 3.0f, 2.0f}};
     ec_params params = {.light_count = 2, .scene_radius = 10};
     ec_light_data table[2] = {{.kind = EC_KIND_TRIANGLE | (two_sided ? EC_LIGHT_TWO_SIDED : 0), .prim = 7},
                               {.kind = EC_KIND_POINT, .prim = EC_NO_ID, .a = {5, 5, 5}, .b = {0, 0, 1}}};
@@ -31,8 +51,8 @@ static void check_triangle(int lanes, bool two_sided, float side)
                      IN(&params, 1), IN(p, 4), IN(table, 2), IN(alias, 2), IN(nothing, 16), IN(nothing, 16), OUT(out, 4 * SAMPLES)))
         return;
     uint32_t count[101] = {0}, wrong = 0, points = 0, hidden = 0;
-    double expected[101];
-    for (int i = 0; i < 100; i++) expected[i] = pmf[0] * SAMPLES / 100;
+    double expected[101], solid_angle = solid_angle_of_cells(v, p, n, area, expected);
+    for (int i = 0; i < 100; i++) expected[i] = pmf[0] * SAMPLES * (near ? expected[i] / solid_angle : 0.01);
     expected[100] = pmf[1] * SAMPLES;
     bool seen = two_sided;
     double from_front = 0;
@@ -54,13 +74,14 @@ static void check_triangle(int lanes, bool two_sided, float side)
         for (int k = 0; k < 3; k++) q[k] = s[(k + 1) % 3] * e1[(k + 2) % 3] - s[(k + 2) % 3] * e1[(k + 1) % 3];
         for (int k = 0; k < 3; k++) b2 += w[k] * q[k], t += e2[k] * q[k];
         b1 /= det, b2 /= det, t /= det;
-        double cosine = fabs(n[0] * w[0] + n[1] * w[1] + n[2] * w[2]) / (2 * area), want = pmf[0] / area * t * t / cosine;
+        double cosine = fabs(n[0] * w[0] + n[1] * w[1] + n[2] * w[2]) / (2 * area);
+        double want = near ? pmf[0] / solid_angle : pmf[0] / area * t * t / cosine;
         wrong += fabs(pdf / want - 1) > 1e-4 || fmin(fmin(b1, b2), 1 - b1 - b2) < -1e-5;
         double root = fmin(fmax(b1 + b2, 0), 1), across = fmin(fmax(b2 / fmax(root, 1e-12), 0), 1);
         count[(uint32_t)fmin(root * root * 10, 9) * 10 + (uint32_t)fmin(across * 10, 9)]++;
     }
-    CHECK_MSG(wrong == 0, "triangle light: %u samples off the triangle or with another density than pmf d^2 / (A cos)", wrong);
-    if (seen) check_chi2(two_sided ? "triangle light, two-sided" : "triangle light", expected, count, 101);
+    CHECK_MSG(wrong == 0, "triangle light: %u samples off the triangle or with another density than theirs", wrong);
+    if (seen) check_chi2(near ? "near triangle light" : two_sided ? "triangle light, two-sided" : "triangle light", expected, count, 101);
     else CHECK_MSG(hidden + points == SAMPLES, "a light seen from behind gives %u samples", SAMPLES - hidden - points);
     CHECK(!seen || hidden == 0);
 }
@@ -165,12 +186,16 @@ int main(void)
     if (open) return open;
     chi2_build(programs, "-DFEATURES=(EC_FEATURE_AREA_LIGHTS+EC_FEATURE_PUNCTUAL_LIGHTS+EC_FEATURE_ENVIRONMENT+EC_FEATURE_ENVIRONMENT_MAP)");
     if (!test_failures) {
-        check_triangle(0, false, -1);
-        check_triangle(3, false, 1);
-        check_triangle(2, true, 1);
+        check_triangle(0, false, true, (const float[4]){0.1f, -0.3f, 0.2f}); /* before it */
+        check_triangle(3, false, true, (const float[4]){0.1f, 6.0f, 0.2f}); /* behind it */
+        check_triangle(2, true, true, (const float[4]){0.1f, 6.0f, 0.2f});
+        check_triangle(1, false, true, (const float[4]){0.2f, 2.45f, 0.6f}); /* 0.04 from its face */
+        check_triangle(3, false, true, (const float[4]){1.4f, 2.4f, -0.3f}); /* by a corner */
+        check_triangle(0, false, false, (const float[4]){0.1f, -9.0f, 0.2f});
+        check_triangle(2, true, false, (const float[4]){-14.0f, 6.0f, 0.2f});
         check_environment();
         printf("%d chi-square tests\n", tests);
-        CHECK(tests <= 5);
+        CHECK(tests <= 8);
     }
     chi2_release(programs);
     ec_cl_close(&cl);

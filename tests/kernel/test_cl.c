@@ -1,10 +1,12 @@
-/* host/cl: the device rule, the kernel cache, builds and their logs, buffers and kernels. */
+/* host/cl: the device rule, workarounds, the kernel cache, builds and their logs, buffers and kernels. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "cl/cache.h"
+#include "cl/workarounds.h"
+#include "pipeline/render.h"
 #include "support/test.h"
 
 static char folder[4096]; /* everything this test writes */
@@ -31,6 +33,24 @@ static int chosen(const char *id, uint32_t count, const char **why, ec_error *er
     uint32_t index = 99;
     fake_devices(devices);
     return ec_device_choose(devices, count, id, &index, why, err) == EC_OK ? (int)index : -1;
+}
+
+static void workarounds_go_by_the_driver(void) {
+    ec_cl cl = {.info = {.name = "llvmpipe", .platform_name = "rusticl", .type = CL_DEVICE_TYPE_CPU, .native_float_width = 8}};
+    ec_error err = {""};
+    uint32_t lanes = 0;
+    CHECK(ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 1);
+    CHECK(ec_pipeline_lanes(&cl, 1, &lanes, &err) == EC_OK && lanes == 1);
+    CHECK(ec_pipeline_lanes(&cl, 4, &lanes, &err) == EC_FAILED);
+    CHECK_MSG(strstr(err.text, "--lanes 4 on llvmpipe") && strstr(err.text, "choose 1") && !strchr(err.text, '\n'), "%s", err.text);
+    strcpy(cl.info.platform_name, "another"); /* no workaround: what the device says, or what is asked for */
+    CHECK(ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 8);
+    CHECK(ec_pipeline_lanes(&cl, 16, &lanes, &err) == EC_OK && lanes == 16);
+    CHECK(!ec_workaround_for(&cl.info));
+    ec_device_info devices[4];
+    fake_devices(devices);
+    const ec_workaround *pocl = ec_workaround_for(&devices[0]);
+    CHECK(pocl && pocl->source_only && !pocl->most_lanes && !ec_workaround_for(&devices[1]));
 }
 
 static void device_rule(void) {
@@ -329,6 +349,7 @@ int main(void) {
     setenv("XDG_CACHE_HOME", folder, 1);
     char *device = getenv("ECLAT_DEVICE") ? strdup(getenv("ECLAT_DEVICE")) : NULL;
     device_rule();
+    workarounds_go_by_the_driver();
     key_covers_everything();
     entries_are_checked();
     folder_follows_xdg();

@@ -22,10 +22,12 @@ kernel void nan_is_seen_by_its_bits(global test_result *result) {
     CHECK(isnan(nan));
 }
 
+#ifdef DENORMALS
 kernel void denormals_are_kept(global test_result *result) {
     volatile float smallest = 0x1p-126f, half_ = 0.5f;
     CHECK_SAME_BITS(smallest * half_, 0x1p-127f);
 }
+#endif
 
 #ifdef CORRECTLY_ROUNDED
 /* q is the float nearest to a / b if |a - q b| <= half an ulp of q times b; fma gives a - q b exactly here. */

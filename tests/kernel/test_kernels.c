@@ -87,8 +87,8 @@ static void run_program(ec_cl *cl, cl_program program, const char *file, int lan
 /* One lane width, one set of options more. */
 static void run_variant(ec_cl *cl, const char *name, const char *source, int lanes, const char *more) {
     char options[512], label[128];
-    snprintf(options, sizeof options, "-DLANES=%d%s %s", lanes,
-             cl->info.correctly_rounded_divide_sqrt ? " -DCORRECTLY_ROUNDED" : "", more);
+    snprintf(options, sizeof options, "-DLANES=%d%s%s %s", lanes, cl->info.correctly_rounded_divide_sqrt ? " -DCORRECTLY_ROUNDED" : "",
+             cl->info.denormals ? " -DDENORMALS" : "", more);
     snprintf(label, sizeof label, "test_%.90s_%d", name, lanes);
     ec_error err = {""};
     cl_program program = NULL;
@@ -106,7 +106,7 @@ static void run_test(ec_cl *cl, const char *name) {
     static const char directive[] = "\n// options:";
     char *source = flatten(name);
     CHECK_MSG(source, "test_%s.cl cannot be flattened", name);
-    for (int i = 0; source && i < LANE_WIDTHS; i++) {
+    for (int i = 0; source && i < kernel_widths(cl); i++) {
         const char *at = strstr(source, directive);
         if (!at) run_variant(cl, name, source, lane_widths[i], "");
         for (; at; at = strstr(at + 1, directive)) {

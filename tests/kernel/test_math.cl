@@ -93,6 +93,18 @@ kernel void frames_are_orthonormal(global test_result *result)
     check_frame(result, v3_make(F(0.0f), F(-1.0f), F(-0.0f)));
 }
 
+kernel void frames_do_not_see_signs_of_zeros(global test_result *result)
+{
+    volatile float zero = 0.0f;
+    v3 s[2], t[2];
+    for (int i = 0; i < 2; i++) v3_frame(v3_make(F(0.0f), F(-0x1.fffffep-1f), F(i ? -zero : zero)), &s[i], &t[i]);
+    CHECK_SAME_BITS(first(t[0].y), first(t[1].y));
+    CHECK(first(t[0].y) != 0.0f);
+    for (int i = 0; i < 2; i++) v3_frame(v3_make(F(1.0f), F(0.0f), F(i ? -zero : zero)), &s[i], &t[i]);
+    CHECK_SAME_BITS(first(s[0].z), first(s[1].z));
+    CHECK_SAME_BITS(first(t[0].y), first(t[1].y));
+}
+
 /* w(a, b) + w(b, a) = 1 within 2 ulp for all magnitudes; and each is a^2 / (a^2 + b^2) where that can be computed. */
 kernel void weights_sum_to_one(global test_result *result)
 {

@@ -1,5 +1,5 @@
-/* Kernel tests once more inside Oclgrind's simulator: out-of-bounds accesses, data races, uninitialised values, wrong API
- * calls. Runs itself inside it too, with a kernel that is wrong on purpose, to know that it would be told.
+/* Kernel tests and renders once more inside Oclgrind's simulator: out-of-bounds accesses, data races, uninitialised values, wrong
+ * API calls. Runs itself inside it too, with a kernel that is wrong on purpose, to know that it would be told.
  *
  * Oclgrind 21.10 has its own limits: LLVM's inliner leaves an intrinsic that it does not know, so nothing is inlined; and
  * its shadow of uninitialised values breaks on sub-vectors (x.lo, x.hi) and vload, so --uninitialized is for tests without. */
@@ -48,15 +48,41 @@ static long simulate(const char *options, const char *command, bool show)
     return good ? (long)size : -1;
 }
 
+/* Every stage and accelerator, on scenes that call for every effect: a few pixels each, since a sample takes a tenth of a second. */
+static const struct {
+    const char *ways, *options;
+} renders[] = {
+    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --batch 1 --max-depth 3"},
+    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --batch 1 --integrator whitted"},
+    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --lanes 1 --size 4x4 --spp 2 --batch 1 --integrator raster"},
+    {"--data-races", "cornell-box/cornell-box.gltf --accel bvh2 --lanes 4 --size 16x12 --spp 6 --batch 1 --max-depth 1 --adaptive"},
+    {"--data-races", "lamps/lamps.gltf --env 0.1,0.2,0.3 --accel grid --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
+    {"--data-races", "lamps/lamps.gltf --accel bvh2 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
+    {"--data-races", "glass/glass.gltf --accel kdtree --lanes 4 --size 4x4 --spp 2 --max-depth 3"},
+    {"--data-races", "glass/glass.gltf --integrator whitted --accel bvh8 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
+};
+
+static void check_renders(const char *folder)
+{
+    char command[2400];
+    for (size_t i = 0; i < sizeof renders / sizeof *renders; i++) {
+        snprintf(command, sizeof command, "'%s/../eclat' render '%s/scenes'/%s -q -o '%s/oclgrind.exr'", folder, ECLAT_SOURCE_DIR,
+                 renders[i].options, ECLAT_TEST_OUT);
+        CHECK_MSG(simulate(renders[i].ways, command, true) == 0, "%s: see above", renders[i].options);
+    }
+}
+
 int main(int argc, char **argv)
 {
     if (argc == 2) return be_wrong((uint32_t)atoi(argv[1]));
     if (system("command -v oclgrind >/dev/null") != 0) TEST_SKIP("oclgrind is not installed");
     unsetenv("ECLAT_DEVICE");
-    char self[2048], driver[2048], command[2200];
-    snprintf(self, sizeof self, "%s", argv[0]);
-    char *slash = strrchr(self, '/');
-    snprintf(driver, sizeof driver, "%.*skernel_test_kernels", slash ? (int)(slash - self + 1) : 0, self);
+    char folder[1024], driver[2048], command[2200];
+    snprintf(folder, sizeof folder, "%s", argv[0]);
+    char *slash = strrchr(folder, '/');
+    if (slash) *slash = 0;
+    else snprintf(folder, sizeof folder, ".");
+    snprintf(driver, sizeof driver, "%s/kernel_test_kernels", folder);
     static const char *const ways[3] = {"", "--data-races", "--uninitialized"};
     for (int how = 0; how < 3; how++) {
         snprintf(command, sizeof command, "'%s' %d", argv[0], how);
@@ -66,5 +92,6 @@ int main(int argc, char **argv)
     CHECK_MSG(simulate("--data-races", command, true) == 0, "driver, lanes, math: see above");
     snprintf(command, sizeof command, "'%s' driver hash", driver);
     CHECK_MSG(simulate("--data-races --uninitialized", command, true) == 0, "driver, hash: see above");
+    check_renders(folder);
     TEST_END();
 }

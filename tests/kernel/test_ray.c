@@ -145,12 +145,12 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    for (int i = 0; i < LANE_WIDTHS; i++) programs[i] = kernel_build(&cl, "ray", lane_widths[i], NULL);
+    for (int i = 0; i < kernel_widths(&cl); i++) programs[i] = kernel_build(&cl, "ray", lane_widths[i], NULL);
     if (!test_failures) {
         intersections_are_right();
         degenerate_triangles_are_missed();
     }
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);
     ec_cl_close(&cl);
     TEST_END();

@@ -221,7 +221,7 @@ static void albedo_is_that_of_ggx(void)
     static const float alphas[9] = {.1f, .1f, .1f, .5f, .5f, .5f, 1, 1, 1}, cosines[9] = {1, .5f, .1f, 1, .5f, .1f, 1, .5f, .1f};
     static float sums[9 * 16];
     const uint32_t count = 1 << 16;
-    for (int i = 0; i < LANE_WIDTHS; i++) {
+    for (int i = 0; i < kernel_widths(&cl); i++) {
         if (!kernel_call(&cl, programs[i], "albedo_of", 9, 1, (kernel_array[]){SCALAR(count), IN(cosines, 9), IN(alphas, 9), OUT(sums, 144)}, 4))
             return;
         for (int k = 0; k < 9; k++) {
@@ -237,7 +237,7 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    for (int i = 0; i < LANE_WIDTHS; i++) programs[i] = kernel_build(&cl, "reference", lane_widths[i], "-DFEATURES=EC_FEATURE_SPECULAR");
+    for (int i = 0; i < kernel_widths(&cl); i++) programs[i] = kernel_build(&cl, "reference", lane_widths[i], "-DFEATURES=EC_FEATURE_SPECULAR");
     if (!test_failures) {
         sines();
         arcs();
@@ -246,7 +246,7 @@ int main(void)
         brdf_is_reciprocal();
         albedo_is_that_of_ggx();
     }
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);
     ec_cl_close(&cl);
     TEST_END();

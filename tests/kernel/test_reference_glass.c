@@ -329,7 +329,7 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         programs[i] = kernel_build(&cl, "reference", lane_widths[i], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
     if (!test_failures) {
         exponentials();
@@ -340,7 +340,7 @@ int main(void)
         glass_is_reciprocal();
         smooth_glass();
     }
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);
     ec_cl_close(&cl);
     TEST_END();

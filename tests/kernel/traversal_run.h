@@ -39,7 +39,7 @@ static inline int open_tracers(bool all_widths)
     if (open) return open;
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
         if (ec_accels[a].lanes) add_tracer(a, 1);
-        for (int i = 0; !ec_accels[a].lanes && i < LANE_WIDTHS; i++)
+        for (int i = 0; !ec_accels[a].lanes && i < kernel_widths(&cl); i++)
             if (all_widths || lane_widths[i] == 8) add_tracer(a, (uint32_t)lane_widths[i]);
     }
     return test_failures != 0;

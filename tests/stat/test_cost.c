@@ -125,22 +125,21 @@ static void slopes(void)
  *   Uniform directions, pdf 1 / 2 pi: X = 2 pi f L cos t where the lamp is seen, else 0. With integrals over the seen half,
  *     E X^2 / (E X)^2 = 2 pi I2 / I1^2,   I1 = int cos t dw,  I2 = int cos^2 t dw
  *   and the relative variance is that less 1: as good as 1 / area while the lamp is small.
- *   A point on the lamp, pdf 1 / area: X = area f L cos^2 t / d^2 = area f L cos^4 t on the seen half, so with integrals over area
- *     E X^2 / (E X)^2 = area J2 / J1^2,   J1 = int cos^4 t dA,  J2 = int cos^8 t dA
- *   which is 2 for a small lamp (half of the points are hidden) whatever its area: relative variance 1. */
+ *   A direction to the lamp, pdf 1 / W for its solid angle W: X = W f L cos t on the seen half, so
+ *     E X^2 / (E X)^2 = W I2 / I1^2
+ *   which is 2 for a small lamp (half of it is hidden) whatever its area: relative variance 1. */
 static void predict(double side, double *hemisphere, double *light)
 {
     enum { N = 400 };
-    double I1 = 0, I2 = 0, J1 = 0, J2 = 0, cell = side / N * (side / 2 / N);
+    double I1 = 0, I2 = 0, W = 0, cell = side / N * (side / 2 / N);
     for (int i = 0; i < N; i++)
         for (int k = 0; k < N; k++) {
             double x = (i + 0.5) / N * side / 2, z = ((k + 0.5) / N - 0.5) * side, cos2 = 1 / (1 + x * x + z * z), c = sqrt(cos2);
             double solid_angle = cell * cos2 * c; /* dA cos' / d^2 */
-            I1 += c * solid_angle, I2 += cos2 * solid_angle;
-            J1 += cos2 * cos2 * cell, J2 += cos2 * cos2 * cos2 * cos2 * cell;
+            I1 += c * solid_angle, I2 += cos2 * solid_angle, W += 2 * solid_angle;
         }
     *hemisphere = 2 * acos(-1) * I2 / (I1 * I1) - 1;
-    *light = side * side * J2 / (J1 * J1) - 1;
+    *light = W * I2 / (I1 * I1) - 1;
 }
 
 static ec_scene *lamp_scene(double side, const char *name)

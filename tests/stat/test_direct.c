@@ -1,31 +1,6 @@
 /* Direct light against closed forms: Lambert's formula, inverse squares, environments. Scenes are made here, so that every
- * number in a check stands beside its derivation. */
-#include "report/names.h"
-#include "support/gltf_writer.h"
-#include "support/render_case.h"
-
-#define PI 3.14159265358979323846
-
-enum { NOT_LIGHT = 5, SKILLED = 7, ALL = 15 }; /* uniform directions are noisier than most checks here allow */
-
-/* Renders what a camera sees through a needle's eye (8 x 8 pixels of one point). */
-static void check_point(const char *path, const char *environment, double expected, int samples, uint32_t spp, double most_se)
-{
-    ec_scene *scene = case_load(path, environment);
-    for (int s = 0; s <= EC_SAMPLE_HEMISPHERE; s++) {
-        if (!(samples >> s & 1)) continue;
-        ec_render_options o = case_options(8, 8, spp);
-        o.max_depth = 2;
-        o.sample = (ec_sample)s;
-        o.seed = 7;
-        case_image image = case_render(scene, &o);
-        printf("%-40s %-4s %.7f +- %.7f, expected %.7f\n", strrchr(path, '/') + 1, ec_sample_names[s], image.mean[1],
-               image.mean_se[1], expected);
-        CASE_NEAR(&image, expected, 4.5, most_se);
-        case_free(&image);
-    }
-    ec_scene_free(scene);
-}
+ * number in a check stands beside its derivation. (Lamps that touch what they light: test_near_lamps.c.) */
+#include "support/floor_case.h"
 
 /* Radiance 1 from triangles on a Lambert floor of albedo 0.5; numbers from Nori's polylum.py by way of ASSETS.md. */
 static void check_polylum(void)
@@ -35,49 +10,6 @@ static void check_polylum(void)
         char path[512];
         snprintf(path, sizeof path, SHARED("assets/classic/gltf/direct-nori/polylum%d.gltf"), i + 1);
         if (case_present(path)) check_point(path, NULL, expected[i], SKILLED, 16384, 4e-3);
-    }
-}
-
-/* Lambert 1760: irradiance / radiance of a polygon above the horizon: half the sum over edges of the angle an edge subtends
- * times the cosine between the normal and the edge plane's. */
-static double lambert(const double (*p)[3], int count, const double normal[3])
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++) {
-        const double *a = p[i], *b = p[(i + 1) % count];
-        double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-        double sine = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]), cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        sum += atan2(sine, cosine) * (c[0] * normal[0] + c[1] * normal[1] + c[2] * normal[2]) / sine;
-    }
-    return fabs(0.5 * sum);
-}
-
-static const double up[3] = {0, 1, 0};
-
-/* A floor of albedo 0.6 around the origin, seen from just beside the normal at a height below everything else. */
-static gltf_writer *floor_scene(double camera_height)
-{
-    gltf_writer *w = gltf_new();
-    int grey = gltf_lambert(w, 0.6, 0);
-    gltf_quad(w, grey, (double[3]){-3, 0, 3}, (double[3]){6, 0, 0}, (double[3]){0, 0, -6});
-    gltf_camera(w, (double[3]){0, camera_height, 0}, (double[3]){0, 0, 0}, 1e-5);
-    return w;
-}
-
-/* A 2 x 2 lamp of radiance 3 at height h over its centre: the form factor is that of NUMERICS.md A3. */
-static void check_square_lamp(void)
-{
-    static const double heights[3] = {1, 0.1, 0.01}, form_factors[3] = {0.5541264, 0.9918856, 0.9999182};
-    for (int i = 0; i < 3; i++) {
-        double h = heights[i], lamp[4][3] = {{-1, h, -1}, {1, h, -1}, {1, h, 1}, {-1, h, 1}};
-        CHECK_NEAR(lambert((const double(*)[3])lamp, 4, up) / PI, form_factors[i], 1e-7);
-        gltf_writer *w = floor_scene(0.5 * h);
-        gltf_quad(w, gltf_lambert(w, 0, 3), lamp[0], (double[3]){2, 0, 0}, (double[3]){0, 0, 2}); /* x cross z = -y: down */
-        char name[64];
-        snprintf(name, sizeof name, "direct-square-lamp-%g", h);
-        /* Uniform points on a near lamp: nearly all of them are far away, so NEE alone is left out below h = 1. */
-        check_point(gltf_write(w, name), NULL, 0.6 * 3 * form_factors[i], i == 0 ? SKILLED : NOT_LIGHT, 8192, 2e-3);
-        free(w);
     }
 }
 
@@ -225,7 +157,6 @@ static void check_hot_texel(uint32_t tx, uint32_t ty, float background)
 int main(void)
 {
     check_polylum();
-    check_square_lamp();
     check_random_triangles();
     check_punctual();
     check_single_sided();

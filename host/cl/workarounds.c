@@ -1,0 +1,27 @@
+/* The table of drivers that need something else. A row goes when the driver is mended; `seen` says what to try.
+ *
+ * PoCL compiles a kernel at its first launch, for the local size of that launch, and keeps the result in its own cache below
+ * XDG_CACHE_HOME. Asking it for binaries compiles every kernel once more, for any local size, which takes as long as the first
+ * launches did (the sketch's five kernels: 1.2-1.5 s), and the result lacks what launches use unless they ran before. Warm, its
+ * cache is as good: 0.03-0.05 s instead of 0.01 s. It compiles under one lock for the process, so threads do not help, nor do
+ * contexts, and each program more costs 0.1-0.2 s: see ec_kernel_sources_join.
+ *
+ * rusticl was still busy with kernels of eight lanes after five minutes of processor time. It ends the process over a binary that it
+ * does not know, and has a cache of its own. */
+#include "cl/workarounds.h"
+
+#include <string.h>
+
+static const ec_workaround workarounds[] = {
+    {"PoCL", "3.1, 2026-11", "binaries lack what launches use", .source_only = true},
+    {"Oclgrind", "21.10, 2026-11", "the simulator names lines of the source", .source_only = true},
+    {"rusticl", "Mesa 22.3.6, 2026-11", "its compiler takes gigabytes and many minutes for kernels of more than one lane", .most_lanes = 1,
+     .source_only = true},
+};
+
+const ec_workaround *ec_workaround_for(const ec_device_info *device) {
+    for (size_t i = 0; i < sizeof workarounds / sizeof *workarounds; i++)
+        if (strstr(device->platform_name, workarounds[i].driver) || strstr(device->platform_version, workarounds[i].driver))
+            return &workarounds[i];
+    return NULL;
+}

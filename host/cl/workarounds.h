@@ -1,0 +1,18 @@
+/* What eclat does differently for one driver or another: the only place that asks which it is. */
+#ifndef EC_CL_WORKAROUNDS_H
+#define EC_CL_WORKAROUNDS_H
+
+#include "cl/cl.h"
+
+typedef struct ec_workaround {
+    const char *driver;     /* a part of the platform's name or version */
+    const char *seen;       /* version and date it was last seen with: try again when there is a newer one */
+    const char *what;       /* what is wrong, for messages */
+    bool source_only;       /* its programs do not go through eclat's binary cache */
+    uint32_t most_lanes;    /* 0: any */
+} ec_workaround;
+
+/* The one for a device, or NULL. */
+const ec_workaround *ec_workaround_for(const ec_device_info *device);
+
+#endif

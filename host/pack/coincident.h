@@ -1,0 +1,14 @@
+/* Emitting triangles that lie exactly on one another: a mesh that is there twice. Inside host/pack only. */
+#ifndef EC_PACK_COINCIDENT_H
+#define EC_PACK_COINCIDENT_H
+
+#include <stdbool.h>
+
+#include "pack/pack.h"
+
+/* For every triangle of an emitting material the first one that emits where it does, often itself: same corners, and the same
+ * front or both two-sided. Rays meet only that one, so light sampling must count it once. malloc'ed; other entries are
+ * undefined. Lamps back to back or shifted in their plane stay two: where rays meet only one of them, light sampling finds more. */
+ec_result ec_coincident_find(const ec_scene *scene, const ec_pack *pack, const bool *emits, uint32_t **first, ec_error *err);
+
+#endif

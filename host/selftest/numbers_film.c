@@ -1,0 +1,152 @@
+/* From samples to what is written: sums of many, very bright and very dark ones, variance, sRGB. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "image/image.h"
+#include "scene/model.h"
+#include "selftest/shot.h"
+
+/* A camera that sees nothing but a lamp: every sample is its radiance. */
+static ec_result lamp(double radiance, ec_scene **scene, ec_error *err)
+{
+    ec_model *m = ec_model_new();
+    if (m) {
+        ec_material material = ec_material_lambert(0, radiance);
+        ec_model_quad(m, ec_model_material(m, &material), (double[3]){-1, -1, 0}, (double[3]){2, 0, 0}, (double[3]){0, 2, 0});
+        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 1}, (double[3]){0, 0, 0}, 0.5);
+    }
+    return ec_model_scene(m, scene, err);
+}
+
+static ec_result lamp_row(ec_selftest *t, const char *what, double radiance, double expected, uint32_t size, uint32_t spp, uint32_t batch,
+                          ec_error *err)
+{
+    ec_scene *scene;
+    EC_TRY(lamp(radiance, &scene, err));
+    ec_render_options o = ec_shot_options(t, size, spp);
+    o.max_depth = 1;
+    o.batch = batch;
+    ec_result result = ec_shot_row(t, what, scene, &o, expected, err);
+    ec_scene_free(scene);
+    return result;
+}
+
+/* Batches are summed in float, their means in double. In one batch of 2^18 the error of plain float sums is 2.5e-3, of sums of sums of 64
+ * still 4e-5. */
+ec_result ec_selftest_sums(ec_selftest *t, ec_error *err)
+{
+    EC_TRY(lamp_row(t, "65 536 samples a pixel", 0.1, (double)0.1f, 4, 65536, 0, err));
+    return lamp_row(t, "2^18 samples in one batch", 0.1, (double)0.1f, 1, 1u << 18, 1u << 18, err);
+}
+
+ec_result ec_selftest_many_samples(ec_selftest *t, ec_error *err)
+{
+    EC_TRY(lamp_row(t, "2^23 samples a pixel, 2^27 in all", 0.1, (double)0.1f, 4, 1u << 23, 0, err));
+    ec_model *m = ec_model_new();
+    ec_scene *scene;
+    if (m) {
+        ec_material walls = ec_material_lambert(0.5, 1);
+        ec_model_box(m, ec_model_material(m, &walls), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1}, true);
+        ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0.3, 0.2, 0.1}, (double[3]){-1, -0.4, -0.7}, 0.9);
+    }
+    EC_TRY(ec_model_scene(m, &scene, err));
+    ec_render_options o = ec_shot_options(t, 2, 1u << 20);
+    ec_result result = ec_shot_row(t, "furnace of 2^20 samples a pixel", scene, &o, 2, err);
+    ec_scene_free(scene);
+    return result;
+}
+
+/* Nothing in the way of an environment whose samples add up to more than a float holds. */
+static ec_result bright_sky(ec_selftest *t, double radiance, ec_error *err)
+{
+    ec_scene *scene;
+    EC_TRY(lamp(1, &scene, err));
+    for (int k = 0; k < 3; k++) scene->environment.constant[k] = (float)radiance;
+    scene->has_environment = true;
+    scene->cameras[0].forward[2] = -scene->cameras[0].forward[2];
+    ec_render_options o = ec_shot_options(t, 4, 64);
+    o.max_depth = 1;
+    o.batch = 16;
+    ec_result result = ec_shot_row(t, "sky of 1e38", scene, &o, (double)(float)radiance, err);
+    ec_scene_free(scene);
+    return result;
+}
+
+/* The loader takes no emission over 1e30, with a warning: products with it are to stay finite. */
+ec_result ec_selftest_range(ec_selftest *t, ec_error *err)
+{
+    EC_TRY(lamp_row(t, "lamp of 1e38, taken for 1e30", 1e38, 1e30, 4, 64, 0, err));
+    EC_TRY(lamp_row(t, "lamp of 2e-38", 2e-38, 2e-38, 4, 64, 0, err));
+    return bright_sky(t, 1e38, err);
+}
+
+/* Mean 100, deviation 0.1 by turns: E[x^2] - E[x]^2 in floats gives -0.0127. Floats near 100 are 8e-6 apart, which is 8e-5 of 0.1. */
+ec_result ec_selftest_variance(ec_selftest *t, ec_error *err)
+{
+    ec_film film;
+    float error[3];
+    uint32_t batches = 1000;
+    EC_TRY(ec_film_create(&film, 1, 1, 1, err));
+    for (uint32_t i = 0; i < batches; i++) {
+        float x = i % 2 ? 100.1f : 99.9f;
+        ec_film_add_batch(&film, (float[3]){x, x, x});
+    }
+    ec_film_resolve(&film, NULL, error);
+    ec_film_destroy(&film);
+    return ec_selftest_value(t, "mean 100, deviation 0.1", 0.1 / sqrt(batches - 1.0), (double)error[1], 0, 1e-4 * 0.1 / sqrt(batches), err);
+}
+
+/* A texture of all 256 sRGB values as an unlit surface, a texel a pixel. */
+static ec_result ramp(ec_scene **scene, ec_error *err)
+{
+    ec_model *m = ec_model_new();
+    if (m) {
+        ec_material paper = ec_material_default();
+        paper.unlit = true;
+        ec_model_quad(m, ec_model_material(m, &paper), (double[3]){-1, -1, 0}, (double[3]){2, 0, 0}, (double[3]){0, 2, 0});
+        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 1}, (double[3]){0, 0, 0}, 1);
+    }
+    EC_TRY(ec_model_scene(m, scene, err));
+    uint8_t *texels = malloc(4 * 256);
+    (*scene)->images = calloc(1, sizeof *(*scene)->images);
+    (*scene)->textures = calloc(1, sizeof *(*scene)->textures);
+    if (!texels || !(*scene)->images || !(*scene)->textures) {
+        free(texels);
+        return ec_fail(err, "out of memory for a texture");
+    }
+    for (int i = 0; i < 4 * 256; i++) texels[i] = (uint8_t)(i % 4 == 3 ? 255 : i / 4);
+    (*scene)->images[0] = (ec_image){.width = 16, .height = 16, .rgba8 = texels};
+    (*scene)->textures[0] = (ec_texture){.image = 0, .wrap_s = EC_WRAP_CLAMP, .wrap_t = EC_WRAP_CLAMP, .nearest = true};
+    (*scene)->image_count = (*scene)->texture_count = 1;
+    for (uint32_t i = 0; i < (*scene)->material_count; i++)
+        (*scene)->materials[i].textures[EC_SLOT_BASE_COLOR] = (ec_texture_use){.texture = 0, .transform = {1, 0, 0, 0, 1, 0}};
+    return EC_OK;
+}
+
+static double srgb_decode(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
+
+/* Through texture look-up, film and tone mapping: linear radiance is rounded once, bytes come back as they were. */
+ec_result ec_selftest_srgb(ec_selftest *t, ec_error *err)
+{
+    ec_scene *scene = NULL;
+    ec_shot shot = {0};
+    uint8_t bytes[3 * 256];
+    double worst = 0;
+    uint64_t changed = 0;
+    ec_render_options o = ec_shot_options(t, 16, 16);
+    ec_result result = ramp(&scene, err);
+    if (result == EC_OK) result = ec_shot_take(t, scene, &o, &shot, err);
+    ec_scene_free(scene);
+    EC_TRY(result);
+    ec_tonemap_rgb(shot.rgb, bytes, 256, 0, EC_TONEMAP_NONE);
+    for (int i = 0; i < 256; i++) {
+        int value = 16 * (15 - i / 16) + i % 16; /* v = 0 at the quad's foot, and the texture's top there */
+        double off = fabs((double)shot.rgb[3 * i + 1] - srgb_decode(value / 255.0));
+        if (!(off <= worst)) worst = off;
+        for (int c = 0; c < 3; c++) changed += bytes[3 * i + c] != value;
+    }
+    ec_shot_free(&shot);
+    EC_TRY(ec_selftest_largest(t, "decoded", worst, 1e-6, NULL, err));
+    return ec_selftest_none(t, "bytes that do not come back", changed, 3 * 256, NULL, err);
+}

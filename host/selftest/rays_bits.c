@@ -1,0 +1,73 @@
+/* How a picture is computed must not show in it: every lane width and accelerator gives the same bits. */
+#include <stdio.h>
+#include <string.h>
+
+#include "accel/accel.h"
+#include "selftest/room.h"
+#include "selftest/shot.h"
+
+enum { SIZE = 16 };
+
+static uint64_t other_numbers(const ec_film *a, const ec_film *b)
+{
+    uint64_t other = 0;
+    for (size_t i = 0; i < 3 * SIZE * SIZE; i++) other += memcmp(&a->mean[i], &b->mean[i], sizeof a->mean[i]) != 0;
+    return other;
+}
+
+static ec_result compare(ec_selftest *t, const ec_scene *scene, const ec_render_options *o, const ec_shot *first, uint64_t *other, char *note,
+                         size_t size, ec_error *err)
+{
+    ec_shot shot;
+    EC_TRY(ec_shot_take(t, scene, o, &shot, err));
+    uint64_t differ = other_numbers(&shot.film, &first->film);
+    if (differ && !*other) snprintf(note, size, "first with %u lanes through %s", o->lanes, o->accel ? o->accel : "auto");
+    *other += differ;
+    ec_shot_free(&shot);
+    return EC_OK;
+}
+
+/* The first is of the kernels for every effect, the others of those that this room needs: that must not show either. Each width
+ * is a build. */
+ec_result ec_selftest_lane_widths(ec_selftest *t, ec_error *err)
+{
+    static const uint32_t widths[] = {1, 4, 8, 16};
+    const ec_room room = {0};
+    ec_render_options o = ec_shot_options(t, SIZE, 16);
+    uint64_t other = 0;
+    char note[80] = "";
+    ec_scene *scene;
+    ec_shot first = {0};
+    EC_TRY(ec_room_scene(&room, &scene, err));
+    ec_result result = ec_shot_take(t, scene, &o, &first, err);
+    for (int i = 0; i < 4 && result == EC_OK; i++) {
+        o.lanes = widths[i];
+        o.all_effects = false;
+        result = compare(t, scene, &o, &first, &other, note, sizeof note, err);
+    }
+    ec_scene_free(scene);
+    ec_shot_free(&first);
+    EC_TRY(result);
+    return ec_selftest_none(t, "", other, 4 * 3 * SIZE * SIZE, note, err);
+}
+
+ec_result ec_selftest_accelerators(ec_selftest *t, ec_error *err)
+{
+    const ec_room room = {0};
+    ec_render_options o = ec_shot_options(t, SIZE, 16);
+    uint64_t other = 0;
+    char note[80] = "";
+    ec_scene *scene;
+    ec_shot first = {0};
+    EC_TRY(ec_room_scene(&room, &scene, err));
+    ec_result result = ec_shot_take(t, scene, &o, &first, err);
+    for (int a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
+        o.accel = ec_accels[a].name;
+        o.all_effects = false;
+        result = compare(t, scene, &o, &first, &other, note, sizeof note, err);
+    }
+    ec_scene_free(scene);
+    ec_shot_free(&first);
+    EC_TRY(result);
+    return ec_selftest_none(t, "", other, EC_ACCEL_COUNT * 3 * SIZE * SIZE, note, err);
+}

@@ -1,0 +1,135 @@
+/* Closed surfaces: no ray gets out between two triangles, or sees the one behind before the one in front. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "selftest/tracer.h"
+
+/* From within a ball of ec_soup_ball at a vertex, at a point of an edge or at any; some along an axis, with components of 0 and -0. */
+static void put_rays(ec_tracer *r, uint64_t *random, const double centre[3])
+{
+    for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
+        const float *v = ec_tracer_triangle(r, (uint32_t)(ec_random_bits(random) % r->soup->count));
+        const float *from = ec_tracer_triangle(r, (uint32_t)(ec_random_bits(random) % r->soup->count));
+        double in = i % 11 ? ec_random_between(random, 0, 0.6) : 0, a = ec_random_unit(random), b = ec_random_unit(random) * (1 - a);
+        double target[3], at[3];
+        float o[3], d[3];
+        if (i % 5 < 2) a = b = 0;
+        else if (i % 5 < 4) b = 0;
+        if (i % 35 == 2) a = 0.5;
+        for (int k = 0; k < 3; k++) {
+            o[k] = (float)(centre[k] + in * (from[k] - centre[k]));
+            at[k] = o[k];
+            target[k] = v[k] + a * ((double)v[3 + k] - v[k]) + b * ((double)v[6 + k] - v[k]);
+        }
+        ec_float_direction(at, target, d);
+        if (i % 13 == 0) /* from the same height as a vertex, in two axes at once */
+            for (int k = 0; k < 3; k++) {
+                int axis = (int)(i / 13 % 3);
+                if (k != axis) o[k] = i % 2 ? (float)centre[k] : (float)(centre[k] + 0.5 * (v[k] - centre[k]));
+                d[k] = k == axis ? (i % 4 < 2 ? 1.0f : -1.0f) : (i % 8 < 4 ? 0.0f : -0.0f);
+                if (k == axis) o[k] = (float)centre[k];
+            }
+        ec_tracer_ray(r, i, o, d, EC_NO_ID);
+    }
+}
+
+typedef struct shape {
+    const char *name;
+    int levels;
+    double bumps, stretch[3], centre[3];
+    bool is_long;
+} shape;
+/* Slivers are thinner than this at their owner's risk: with 1e-5 one ray in 4 million leaves the spindle. Seen nearly along a needle, a
+ * hit's weights are off by u (length / width)^2, and with them the sign of a t that is short against the needle's length. */
+static const shape shapes[] = {
+    {"icosphere", 4, 0, {1, 1, 1}, {0, 0, 0}, false},
+    {"spindle of slivers", 4, 0, {1e-3, 1e-3, 1}, {0, 0, 0}, false},
+    {"flat slivers", 4, 0, {1, 1e-5, 1}, {0, 0, 0}, false},
+    {"bumps", 5, 0.25, {1, 1, 1}, {0, 0, 0}, false},
+    {"tiny icosphere", 5, 0, {1e-6, 1e-6, 1e-6}, {0, 0, 0}, true},
+    {"huge icosphere", 5, 0, {1e6, 1e6, 1e6}, {0, 0, 0}, true},
+    {"icosphere far away", 4, 0, {1, 1, 1}, {700, -300, 1.0 / 3}, true},
+};
+
+/* NUMERICS A1: Moeller and Trumbore's test misses 9 % of rays aimed at vertices of a closed mesh, 11 % of those at edges. */
+ec_result ec_selftest_watertight(ec_selftest *t, ec_error *err)
+{
+    enum { COUNT = sizeof shapes / sizeof shapes[0], LONG_RUNS = 110 }; /* 10^8 rays in all */
+    uint64_t random = 2;
+    ec_tracer *r;
+    EC_TRY(ec_tracer_of(t, &r, err));
+    for (int s = 0; s < COUNT; s++) {
+        const shape *shape = &shapes[s];
+        uint64_t rays = 0, out = 0;
+        char note[64] = "";
+        ec_soup soup;
+        if (shape->is_long && !t->full) continue;
+        EC_TRY(ec_soup_ball(shape->levels, shape->bumps, shape->stretch, shape->centre, &soup, err));
+        ec_result result = ec_tracer_build(r, &soup, err);
+        for (int run = 0; run < (t->full ? LONG_RUNS : 1) && result == EC_OK; run++) {
+            put_rays(r, &random, shape->centre);
+            for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
+                if (!ec_tracer_has(r, a)) continue;
+                if ((result = ec_tracer_trace(r, a, EC_TRACER_RAYS, err)) != EC_OK) break;
+                for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
+                    bool is_out = ec_tracer_hit(r, i).prim == EC_NO_ID;
+                    if (is_out && !out) snprintf(note, sizeof note, "first through %s", ec_accels[a].name);
+                    out += is_out;
+                }
+                rays += EC_TRACER_RAYS;
+            }
+        }
+        ec_soup_free(&soup);
+        EC_TRY(result);
+        EC_TRY(ec_selftest_none(t, shape->name, out, rays, note, err));
+    }
+    return EC_OK;
+}
+
+/* Two balls, the second 4e-5 of the radius within the first, facets parallel. Seen from outside the outer one is in front everywhere,
+ * from inside the inner one. Along a ray they lie 4e-5 / cosine apart, and t is wrong by 2e-6 reach / cosine at most. */
+ec_result ec_selftest_nested(ec_selftest *t, ec_error *err)
+{
+    enum { LEVELS = 4 };
+    const double inner = 1 - 4e-5, nowhere[3] = {0, 0, 0};
+    uint64_t random = 3;
+    ec_soup outer_ball, inner_ball, both;
+    ec_tracer *r;
+    EC_TRY(ec_tracer_of(t, &r, err));
+    EC_TRY(ec_soup_ball(LEVELS, 0, (double[3]){1, 1, 1}, nowhere, &outer_ball, err));
+    ec_result result = ec_soup_ball(LEVELS, 0, (double[3]){inner, inner, inner}, nowhere, &inner_ball, err);
+    if (result == EC_OK) result = ec_soup_make(2 * outer_ball.count, &both, err);
+    if (result == EC_OK) {
+        memcpy(both.vertices, outer_ball.vertices, 9 * sizeof(float) * outer_ball.count);
+        memcpy(both.vertices + 9 * (size_t)outer_ball.count, inner_ball.vertices, 9 * sizeof(float) * outer_ball.count);
+    }
+    uint32_t half = outer_ball.count;
+    uint64_t rays = 0, wrong[2] = {0};
+    ec_soup_free(&outer_ball);
+    ec_soup_free(&inner_ball);
+    EC_TRY(result);
+    result = ec_tracer_build(r, &both, err);
+    for (int outside = 0; outside < 2 && result == EC_OK; outside++) {
+        put_rays(r, &random, nowhere);
+        for (uint32_t i = 0; i < EC_TRACER_RAYS && outside; i++) { /* back along the same lines, to stay on the far side's outside */
+            float o[3], d[3];
+            ec_tracer_given(r, i, o, d);
+            for (int k = 0; k < 3; k++) o[k] += 3 * d[k], d[k] = -d[k];
+            ec_tracer_ray(r, i, o, d, EC_NO_ID);
+        }
+        for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
+            if (!ec_tracer_has(r, a)) continue;
+            if ((result = ec_tracer_trace(r, a, EC_TRACER_RAYS, err)) != EC_OK) break;
+            for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
+                uint32_t prim = ec_tracer_hit(r, i).prim;
+                wrong[outside] += prim == EC_NO_ID || (prim < half) != (outside == 1);
+            }
+            rays += EC_TRACER_RAYS;
+        }
+    }
+    ec_soup_free(&both);
+    EC_TRY(result);
+    EC_TRY(ec_selftest_none(t, "from inside", wrong[0], rays / 2, NULL, err));
+    return ec_selftest_none(t, "from outside", wrong[1], rays / 2, NULL, err);
+}

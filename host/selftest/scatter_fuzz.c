@@ -1,0 +1,26 @@
+/* What nobody would render on purpose. */
+#include <stdlib.h>
+
+#include "selftest/scatter.h"
+
+/* Random materials, directions and numbers, the ends of their ranges as often as not. */
+ec_result ec_selftest_fuzz(ec_selftest *t, ec_error *err)
+{
+    static const char *const names[EC_FUZZ_COUNTS] = {
+        "not finite", "negative", "direction not unit", "through what is opaque", "weight over 138.6",
+    };
+    ec_scatter_run run;
+    uint64_t sums[EC_FUZZ_COUNTS] = {0};
+    uint32_t n = EC_SCATTER_N, seed = 1, rounds = t->full ? 3072 : 32, items = n / t->lanes;
+    EC_TRY(ec_scatter_open(t, &run, err));
+    uint32_t *counts = calloc((size_t)items * EC_FUZZ_COUNTS, sizeof *counts);
+    const ec_array arrays[] = {EC_SCALAR(n), EC_SCALAR(rounds), EC_SCALAR(seed), EC_OUT(counts, (size_t)items * EC_FUZZ_COUNTS)};
+    ec_result result = counts ? EC_OK : ec_fail(err, "out of memory for counts");
+    if (result == EC_OK) result = ec_kernel_call(t->cl, run.program, "ec_scatter_fuzz", items, 64, arrays, 4, err);
+    for (uint32_t i = 0; i < items * EC_FUZZ_COUNTS && result == EC_OK; i++) sums[i % EC_FUZZ_COUNTS] += counts[i];
+    for (int k = 0; k < EC_FUZZ_COUNTS && result == EC_OK; k++)
+        result = ec_selftest_none(t, names[k], sums[k], (uint64_t)n * rounds, NULL, err);
+    free(counts);
+    ec_scatter_close(&run);
+    return result;
+}

@@ -1,0 +1,123 @@
+#include "selftest/soup.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "scene/model.h"
+
+ec_result ec_soup_make(uint32_t count, ec_soup *soup, ec_error *err)
+{
+    *soup = (ec_soup){count, calloc(9 * (size_t)count + 1, sizeof(float))};
+    return soup->vertices ? EC_OK : ec_fail(err, "out of memory for %u triangles", count);
+}
+
+void ec_soup_free(ec_soup *soup)
+{
+    free(soup->vertices);
+    *soup = (ec_soup){0};
+}
+
+float ec_soup_largest(const ec_soup *soup)
+{
+    float largest = 0;
+    for (size_t i = 0; i < 9 * (size_t)soup->count; i++) largest = fmaxf(largest, fabsf(soup->vertices[i]));
+    return largest;
+}
+
+ec_result ec_soup_from_scene(const ec_scene *scene, ec_soup *soup, ec_error *err)
+{
+    EC_TRY(ec_soup_make(scene->triangle_count, soup, err));
+    for (size_t i = 0; i < 3 * (size_t)soup->count; i++)
+        for (size_t k = 0; k < 3; k++) soup->vertices[3 * i + k] = scene->positions[3 * (size_t)scene->indices[i] + k];
+    return EC_OK;
+}
+
+ec_result ec_soup_random(uint64_t *random, uint32_t count, double edge, double spread, const double centre[3], ec_soup *soup, ec_error *err)
+{
+    uint32_t kept = 0;
+    EC_TRY(ec_soup_make(count, soup, err));
+    for (uint32_t i = 0; i < count; i++) {
+        float *v = soup->vertices + 9 * (size_t)kept;
+        double at[3], normal[3];
+        for (int k = 0; k < 3; k++) at[k] = centre[k] + ec_random_between(random, -spread, spread);
+        for (int k = 0; k < 9; k++) v[k] = (float)(at[k % 3] + ec_random_between(random, -edge, edge));
+        ec_triangle_normal(v, normal);
+        kept += ec_dot(normal, normal) > 0;
+    }
+    soup->count = kept;
+    return EC_OK;
+}
+
+ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const double centre[3], ec_soup *soup, ec_error *err)
+{
+    ec_model *m = ec_model_new();
+    ec_scene *scene;
+    ec_material material = ec_material_default();
+    if (m) ec_model_sphere(m, ec_model_material(m, &material), (double[3]){0, 0, 0}, 1, levels, false);
+    EC_TRY(ec_model_scene(m, &scene, err));
+    ec_result result = ec_soup_from_scene(scene, soup, err);
+    ec_scene_free(scene);
+    EC_TRY(result);
+    /* Equal corners stay equal, so it stays closed. */
+    for (size_t i = 0; i < 3 * (size_t)soup->count; i++) {
+        float *p = soup->vertices + 3 * i;
+        double radius = 1 + bumps * (sin(9.0 * p[0]) * sin(7.0 * p[1] + 1) + sin(31.0 * p[2]) * cos(23.0 * p[0] + 40.0 * p[1])) / 2;
+        for (int k = 0; k < 3; k++) p[k] = (float)(centre[k] + stretch[k] * radius * p[k]);
+    }
+    return EC_OK;
+}
+
+double ec_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static void edges_of(const float v[9], double e1[3], double e2[3])
+{
+    for (int k = 0; k < 3; k++) e1[k] = (double)v[3 + k] - v[k], e2[k] = (double)v[6 + k] - v[k];
+}
+
+void ec_triangle_normal(const float v[9], double normal[3])
+{
+    double e1[3], e2[3];
+    edges_of(v, e1, e2);
+    cross(e1, e2, normal);
+}
+
+void ec_direction(uint64_t *random, double d[3])
+{
+    double z = ec_random_between(random, -1, 1), angle = ec_random_between(random, -3.14159265358979323846, 3.14159265358979323846);
+    double r = sqrt(1 - z * z);
+    d[0] = r * cos(angle);
+    d[1] = r * sin(angle);
+    d[2] = z;
+}
+
+ec_exact_hit ec_exact_meet(const float o[3], const float d[3], const float v[9])
+{
+    double e1[3], e2[3], normal[3], s[3], p[3], q[3], way[3];
+    edges_of(v, e1, e2);
+    cross(e1, e2, normal);
+    for (int k = 0; k < 3; k++) s[k] = (double)o[k] - v[k], way[k] = d[k];
+    cross(way, e2, p);
+    cross(s, e1, q);
+    double det = ec_dot(e1, p), area = sqrt(ec_dot(normal, normal)), longest = fmax(ec_dot(e1, e1), ec_dot(e2, e2)), third = 0;
+    ec_exact_hit h = {.cosine = fabs(ec_dot(normal, way)) / (area * sqrt(ec_dot(way, way)))};
+    if (!(det != 0) || !(h.cosine > 0)) return (ec_exact_hit){0};
+    h.t = ec_dot(e2, q) / det;
+    h.b1 = ec_dot(s, p) / det;
+    h.b2 = ec_dot(way, q) / det;
+    h.inside = fmin(fmin(h.b1, h.b2), 1 - h.b1 - h.b2);
+    for (int k = 0; k < 3; k++) third += (e2[k] - e1[k]) * (e2[k] - e1[k]);
+    for (int corner = 0; corner < 3; corner++) {
+        double distance2 = 0;
+        for (int k = 0; k < 3; k++) distance2 += ((double)v[3 * corner + k] - o[k]) * ((double)v[3 * corner + k] - o[k]);
+        h.reach = fmax(h.reach, sqrt(distance2));
+    }
+    h.least_height = area / sqrt(fmax(longest, third));
+    return h;
+}

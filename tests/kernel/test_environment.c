@@ -1,0 +1,149 @@
+/* An environment map of 4096 x 2048 whose sun is one texel of 1e6 in a sky of 1, with a hundred black rows (NUMERICS.md A3): the
+ * density is the one sampled. In 32 bits a texel by the pole has less than one random number to itself. */
+#include "kernel/kernel_run.h"
+#include "pack/pack.h"
+#include "shared/params.h"
+
+#define WIDTH 4096u
+#define HEIGHT 2048u
+#define TEXELS (WIDTH * HEIGHT)
+#define SAMPLES (1u << 21)
+#define SUN_X 1234u
+#define SUN_Y 600u
+#define BLACK_FIRST 1500u
+#define BLACK_END 1600u
+
+static const double pi = 3.14159265358979323846;
+static ec_cl cl;
+static cl_program program;
+static ec_pack pack;
+static float wi[3 * TEXELS], look[2 * TEXELS], out[4 * SAMPLES];
+static const ec_params params = {
+    .light_count = 1, .environment = {1, 1, 1, 1}, .environment_width = WIDTH, .environment_height = HEIGHT, .environment_pmf = 1, .scene_radius = 3};
+
+static void make_map(void)
+{
+    float *rgb = malloc(3 * TEXELS * sizeof *rgb);
+    if (!rgb) exit(1);
+    for (uint32_t i = 0; i < 3 * TEXELS; i++) {
+        uint32_t y = i / 3 / WIDTH;
+        rgb[i] = y >= BLACK_FIRST && y < BLACK_END ? 0.0f : i / 3 == SUN_Y * WIDTH + SUN_X ? 1e6f : 1.0f;
+    }
+    ec_scene scene = {.has_environment = true};
+    scene.environment.width = WIDTH;
+    scene.environment.height = HEIGHT;
+    scene.environment.rgb = rgb;
+    double mean;
+    ec_error err = {""};
+    CHECK_OK(ec_pack_environment(&scene, &pack, &mean, &err), err);
+    free(rgb);
+}
+
+/* Bilinear look-up bleeds half a texel into the outer black rows: those between them are never sampled. */
+static bool is_black(uint32_t row)
+{
+    return row > BLACK_FIRST && row + 1 < BLACK_END;
+}
+
+/* Every random number counted: how often the table picks each texel is what its density says, and never a black one. */
+static void check_table(void)
+{
+    uint64_t *count = calloc(TEXELS, sizeof *count), wrong = 0, dark = 0, empty = 0;
+    for (uint32_t c = 0; count && c < TEXELS; c++) {
+        uint64_t first = ((uint64_t)c << 32) / TEXELS, end = ((uint64_t)(c + 1) << 32) / TEXELS; /* exact: a power of two */
+        for (uint64_t r = first; r < end; r++)
+            count[(uint32_t)r * TEXELS < pack.environment_alias[c].threshold ? c : pack.environment_alias[c].other]++;
+    }
+    for (uint32_t i = 0; count && i < TEXELS; i++) {
+        bool black = is_black(i / WIDTH);
+        wrong += pack.environment_texels[4 * i + 3] != (float)((double)count[i] * 0x1p-32);
+        dark += black && count[i];
+        empty += !black && !count[i];
+    }
+    CHECK_MSG(count && wrong == 0 && dark == 0 && empty == 0, "%llu texels of another probability, %llu black ones sampled, %llu never",
+              (unsigned long long)wrong, (unsigned long long)dark, (unsigned long long)empty);
+    free(count);
+}
+
+/* The density that a path finds, at the middle of every texel: its integral is 1. */
+static void check_integral(void)
+{
+    for (uint32_t i = 0; i < TEXELS; i++) {
+        double phi = 2 * pi * ((i % WIDTH + 0.5) / WIDTH - 0.5), theta = pi * (i / WIDTH + 0.5) / HEIGHT;
+        wi[i] = (float)(sin(theta) * cos(phi));
+        wi[TEXELS + i] = (float)cos(theta);
+        wi[2 * TEXELS + i] = (float)(sin(theta) * sin(phi));
+    }
+    uint32_t n = TEXELS;
+    if (!KERNEL_CALL(&cl, program, "environment_densities", n / 8, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * TEXELS),
+                     IN(pack.environment_alias, TEXELS), IN(wi, 3 * TEXELS), OUT(look, 2 * TEXELS)))
+        return;
+    double total = 0;
+    uint32_t dark = 0;
+    for (uint32_t i = 0; i < TEXELS; i++) {
+        total += (double)look[i] * sin(pi * (i / WIDTH + 0.5) / HEIGHT) * 2 * pi / WIDTH * pi / HEIGHT;
+        dark += is_black(i / WIDTH) && look[i] != 0;
+    }
+    printf("density integrates to 1 %+.1e\n", total - 1);
+    CHECK_MSG(fabs(total - 1) < 1e-5 && dark == 0, "the density integrates to %.8f; %u black directions have one", total, dark);
+}
+
+/* Irradiance of a plane that looks up: pi, and the sun's pyramid over 2 x 2 texels. */
+static double irradiance(void)
+{
+    enum { STEPS = 100 };
+    double sum = pi;
+    for (int j = 0; j < STEPS; j++)
+        for (int i = 0; i < STEPS; i++) {
+            double x = 2 * (i + 0.5) / STEPS - 1, y = 2 * (j + 0.5) / STEPS - 1, theta = pi * (SUN_Y + 0.5 + y) / HEIGHT;
+            double area = pow(2.0 / STEPS, 2) * 2 * pi / WIDTH * pi / HEIGHT;
+            sum += cos(theta) * sin(theta) * area * (1 - fabs(x)) * (1 - fabs(y)) * (1e6 - 1);
+        }
+    return sum;
+}
+
+static void check_samples(void)
+{
+    const ec_light_data light = {.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID, .pmf = 1};
+    const ec_alias only = {UINT32_MAX, 0};
+    const float p[4] = {0};
+    uint32_t n = SAMPLES, seed = 1, dark = 0, other = 0;
+    if (!KERNEL_CALL(&cl, program, "light_samples", n / 8, SCALAR(n), SCALAR(seed), IN(&params, 1), IN(p, 4), IN(&light, 1), IN(&only, 1),
+                     IN(pack.environment_texels, 4 * TEXELS), IN(pack.environment_alias, TEXELS), OUT(out, 4 * SAMPLES)) ||
+        !KERNEL_CALL(&cl, program, "environment_densities", n / 8, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * TEXELS),
+                     IN(pack.environment_alias, TEXELS), IN(out, 3 * SAMPLES), OUT(look, 2 * SAMPLES)))
+        return;
+    double sum = 0, squares = 0;
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        double up = out[SAMPLES + i], pdf = out[3 * SAMPLES + i], x = look[SAMPLES + i] * fmax(up, 0) / pdf;
+        double row = acos(fmin(fmax(up, -1), 1)) / pi * HEIGHT;
+        dark += row > BLACK_FIRST + 1.01 && row < BLACK_END - 1.01;
+        other += fabs(look[i] / pdf - 1) > 1e-2;
+        sum += x / SAMPLES;
+        squares += x * x / SAMPLES;
+    }
+    double se = sqrt((squares - sum * sum) / SAMPLES), want = irradiance();
+    printf("irradiance %.5f +- %.5f, expected %.5f; %u samples lie on their texel's edge\n", sum, se, want, other);
+    CHECK_MSG(dark == 0, "%u samples in black rows", dark);
+    CHECK_MSG(fabs(sum - want) < 4 * se && se < 2e-3 * want, "irradiance %.6f +- %.6f, expected %.6f", sum, se, want);
+    /* Angles of float directions are 6e-4 of such a texel off, and next to the sun's the neighbours' densities are others. */
+    CHECK_MSG(other < SAMPLES / 500, "%u samples are found again with another density", other);
+}
+
+int main(void)
+{
+    int open = kernel_open(&cl);
+    if (open) return open;
+    program = kernel_build(&cl, "chi2", 8, "-DFEATURES=(EC_FEATURE_ENVIRONMENT+EC_FEATURE_ENVIRONMENT_MAP)");
+    if (!test_failures) make_map();
+    if (!test_failures) {
+        check_table();
+        check_integral();
+        check_samples();
+    }
+    free(pack.environment_texels);
+    free(pack.environment_alias);
+    if (program) clReleaseProgram(program);
+    ec_cl_close(&cl);
+    TEST_END();
+}

@@ -1,0 +1,239 @@
+/* LD_PRELOADed into eclat: lets one OpenCL or file call fail, and counts them. By environment variables:
+ *   FAULT_CALL=clCreateBuffer   which call; FAULT_AT=3: the third one (1 if not given)
+ *   FAULT_CODE=-5               what it answers: an OpenCL code, or an errno for calls on files; default CL_OUT_OF_RESOURCES, ENOSPC
+ *   FAULT_SIGNAL=9              instead: the process is sent this signal there, and the call goes on
+ *   FAULT_SLEEP=60              instead: the call takes so many seconds, as with a device that hangs
+ *   FAULT_LOST=1                from then on every OpenCL call answers so, as with a device that was lost
+ *   FAULT_STATUS=-5             of clGetEventInfo: the call succeeds, and tells that the command did not
+ *   FAULT_MEMORY=BYTES          of all buffers; above it FAULT_CALL fails every time (creation, or the first use)
+ *   FAULT_LOG=TEXT              what the compiler says
+ *   FAULT_PLATFORM=TEXT         the platform's version; one without PoCL's name gets eclat's own kernel cache
+ *   FAULT_FOLDER=PATH           calls on files count below it only
+ *   FAULT_NO_TMPFILE=1          files must have names there
+ *   FAULT_COUNTS=FILE           gets a line "call count" for each call that was met */
+#define _GNU_SOURCE
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define CALLS(X)                                                                                                                   \
+    X(clGetPlatformIDs) X(clGetPlatformInfo) X(clGetDeviceIDs) X(clGetDeviceInfo) X(clCreateContext) X(clCreateCommandQueue)       \
+    X(clCreateBuffer) X(clCreateProgramWithSource) X(clCreateProgramWithBinary) X(clBuildProgram) X(clGetProgramBuildInfo)         \
+    X(clGetProgramInfo) X(clCreateKernel) X(clSetKernelArg) X(clEnqueueNDRangeKernel) X(clEnqueueReadBuffer)                       \
+    X(clEnqueueWriteBuffer) X(clEnqueueFillBuffer) X(clFinish) X(clWaitForEvents) X(clGetEventInfo)                                \
+    X(write) X(pwrite) X(fsync) X(linkat) X(rename) X(open) X(close)
+enum call {
+#define NAME(name) CALL_##name,
+    CALLS(NAME)
+#undef NAME
+    CALL_COUNT
+};
+#define NAME(name) #name,
+static const char *const names[] = {CALLS(NAME)};
+#undef NAME
+static unsigned counts[CALL_COUNT];
+static size_t allocated;
+static bool lost;
+
+static long number(const char *variable, long otherwise)
+{
+    const char *text = getenv(variable);
+    return text ? atol(text) : otherwise;
+}
+
+__attribute__((destructor)) static void tell(void)
+{
+    const char *path = getenv("FAULT_COUNTS");
+    FILE *file = path ? fopen(path, "w") : NULL;
+    for (int i = 0; file && i < CALL_COUNT; i++)
+        if (counts[i]) fprintf(file, "%s %u\n", names[i], counts[i]);
+    if (file) fclose(file);
+}
+
+/* Is it this call's turn? */
+static bool is_due(enum call call)
+{
+    const char *chosen = getenv("FAULT_CALL");
+    long memory = number("FAULT_MEMORY", 0), signal_number = number("FAULT_SIGNAL", 0);
+    unsigned count = __atomic_add_fetch(&counts[call], 1, __ATOMIC_RELAXED);
+    if (!chosen || strcmp(chosen, names[call])) return false;
+    if (memory) return allocated > (size_t)memory;
+    if (count != (unsigned)number("FAULT_AT", 1)) return false;
+    if (signal_number) kill(getpid(), (int)signal_number);
+    if (getenv("FAULT_SLEEP")) sleep((unsigned)number("FAULT_SLEEP", 0));
+    return !signal_number && !getenv("FAULT_SLEEP");
+}
+
+static cl_int device_fault(enum call call)
+{
+    if (!is_due(call) && !lost) return CL_SUCCESS;
+    lost = getenv("FAULT_LOST") != NULL;
+    return (cl_int)number("FAULT_CODE", CL_OUT_OF_RESOURCES);
+}
+
+#define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+#define ANSWERS(name, parameters, arguments)                                                                                       \
+    cl_int name parameters                                                                                                         \
+    {                                                                                                                              \
+        cl_int code = device_fault(CALL_##name);                                                                                   \
+        return code ? code : REAL(name) arguments;                                                                                 \
+    }
+ANSWERS(clGetPlatformIDs, (cl_uint n, cl_platform_id *p, cl_uint *found), (n, p, found))
+ANSWERS(clGetDeviceIDs, (cl_platform_id p, cl_device_type t, cl_uint n, cl_device_id *d, cl_uint *found), (p, t, n, d, found))
+ANSWERS(clGetDeviceInfo, (cl_device_id d, cl_device_info i, size_t n, void *v, size_t *r), (d, i, n, v, r))
+ANSWERS(clBuildProgram, (cl_program p, cl_uint n, const cl_device_id *d, const char *o, void(CL_CALLBACK *f)(cl_program, void *), void *u), (p, n, d, o, f, u))
+ANSWERS(clGetProgramInfo, (cl_program p, cl_program_info i, size_t n, void *v, size_t *r), (p, i, n, v, r))
+ANSWERS(clSetKernelArg, (cl_kernel k, cl_uint i, size_t n, const void *v), (k, i, n, v))
+ANSWERS(clEnqueueNDRangeKernel, (cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint n, const cl_event *w, cl_event *e), (q, k, d, o, g, l, n, w, e))
+ANSWERS(clEnqueueReadBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
+ANSWERS(clEnqueueWriteBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, const void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
+ANSWERS(clEnqueueFillBuffer, (cl_command_queue q, cl_mem m, const void *v, size_t vs, size_t o, size_t s, cl_uint n, const cl_event *w, cl_event *e), (q, m, v, vs, o, s, n, w, e))
+ANSWERS(clFinish, (cl_command_queue q), (q))
+ANSWERS(clWaitForEvents, (cl_uint n, const cl_event *e), (n, e))
+
+#define MAKES(type, name, parameters, arguments)                                                                                   \
+    type name parameters                                                                                                           \
+    {                                                                                                                              \
+        cl_int code = device_fault(CALL_##name);                                                                                   \
+        if (!code) return REAL(name) arguments;                                                                                    \
+        if (error) *error = code;                                                                                                  \
+        return NULL;                                                                                                               \
+    }
+MAKES(cl_context, clCreateContext, (const cl_context_properties *p, cl_uint n, const cl_device_id *d, void(CL_CALLBACK *f)(const char *, const void *, size_t, void *), void *u, cl_int *error), (p, n, d, f, u, error))
+MAKES(cl_command_queue, clCreateCommandQueue, (cl_context c, cl_device_id d, cl_command_queue_properties p, cl_int *error), (c, d, p, error))
+MAKES(cl_program, clCreateProgramWithSource, (cl_context c, cl_uint n, const char **s, const size_t *l, cl_int *error), (c, n, s, l, error))
+MAKES(cl_program, clCreateProgramWithBinary, (cl_context c, cl_uint n, const cl_device_id *d, const size_t *l, const unsigned char **b, cl_int *s, cl_int *error), (c, n, d, l, b, s, error))
+MAKES(cl_kernel, clCreateKernel, (cl_program p, const char *n, cl_int *error), (p, n, error))
+
+cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t size, void *host, cl_int *error)
+{
+    allocated += size;
+    cl_int code = device_fault(CALL_clCreateBuffer);
+    if (!code) return REAL(clCreateBuffer)(context, flags, size, host, error);
+    allocated -= size;
+    *error = code;
+    return NULL;
+}
+
+cl_int clReleaseMemObject(cl_mem buffer)
+{
+    size_t size = 0;
+    clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof size, &size, NULL);
+    allocated -= size;
+    return REAL(clReleaseMemObject)(buffer);
+}
+
+cl_int clGetEventInfo(cl_event event, cl_event_info what, size_t size, void *value, size_t *length)
+{
+    cl_int code = device_fault(CALL_clGetEventInfo);
+    if (!code) return REAL(clGetEventInfo)(event, what, size, value, length);
+    if (!getenv("FAULT_STATUS")) return code;
+    *(cl_int *)value = (cl_int)number("FAULT_STATUS", 0);
+    return CL_SUCCESS;
+}
+
+/* A text in place of the driver's. */
+static cl_int say(const char *text, size_t size, void *value, size_t *length)
+{
+    if (length) *length = strlen(text) + 1;
+    if (value && size <= strlen(text)) return CL_INVALID_VALUE;
+    if (value) strcpy(value, text);
+    return CL_SUCCESS;
+}
+
+cl_int clGetProgramBuildInfo(cl_program program, cl_device_id device, cl_program_build_info what, size_t size, void *value, size_t *length)
+{
+    cl_int code = device_fault(CALL_clGetProgramBuildInfo);
+    if (code) return code;
+    if (what == CL_PROGRAM_BUILD_LOG && getenv("FAULT_LOG")) return say(getenv("FAULT_LOG"), size, value, length);
+    return REAL(clGetProgramBuildInfo)(program, device, what, size, value, length);
+}
+
+cl_int clGetPlatformInfo(cl_platform_id platform, cl_platform_info what, size_t size, void *value, size_t *length)
+{
+    cl_int code = device_fault(CALL_clGetPlatformInfo);
+    if (code) return code;
+    if (what == CL_PLATFORM_VERSION && getenv("FAULT_PLATFORM")) return say(getenv("FAULT_PLATFORM"), size, value, length);
+    return REAL(clGetPlatformInfo)(platform, what, size, value, length);
+}
+
+/* Files. */
+static bool is_below(const char *path)
+{
+    const char *folder = getenv("FAULT_FOLDER");
+    return folder && !strncmp(path, folder, strlen(folder));
+}
+
+static bool is_open_below(int fd)
+{
+    char link[64], path[4096];
+    int saved = errno;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+    ssize_t length = readlink(link, path, sizeof path - 1);
+    errno = saved;
+    path[length > 0 ? length : 0] = 0;
+    return is_below(path);
+}
+
+static bool file_fault(bool counts_here, enum call call)
+{
+    if (!counts_here || !is_due(call)) return false;
+    errno = (int)number("FAULT_CODE", ENOSPC);
+    return true;
+}
+
+ssize_t write(int fd, const void *from, size_t size)
+{
+    return file_fault(is_open_below(fd), CALL_write) ? -1 : REAL(write)(fd, from, size);
+}
+
+ssize_t pwrite(int fd, const void *from, size_t size, off_t at)
+{
+    return file_fault(is_open_below(fd), CALL_pwrite) ? -1 : REAL(pwrite)(fd, from, size, at);
+}
+
+int fsync(int fd)
+{
+    return file_fault(is_open_below(fd), CALL_fsync) ? -1 : REAL(fsync)(fd);
+}
+
+int close(int fd) /* closes all the same, as Linux does */
+{
+    bool fails = file_fault(is_open_below(fd), CALL_close);
+    int saved = errno, result = REAL(close)(fd);
+    if (fails) errno = saved;
+    return fails ? -1 : result;
+}
+
+int linkat(int from, const char *old, int to, const char *name, int flags)
+{
+    return file_fault(is_below(name), CALL_linkat) ? -1 : REAL(linkat)(from, old, to, name, flags);
+}
+
+int rename(const char *old, const char *name)
+{
+    return file_fault(is_below(name), CALL_rename) ? -1 : REAL(rename)(old, name);
+}
+
+int open(const char *path, int flags, ...)
+{
+    va_list arguments;
+    va_start(arguments, flags);
+    int mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(arguments, int) : 0;
+    va_end(arguments);
+    if ((flags & O_TMPFILE) == O_TMPFILE && is_below(path) && getenv("FAULT_NO_TMPFILE")) {
+        errno = EOPNOTSUPP;
+        return -1;
+    }
+    return file_fault(is_below(path), CALL_open) ? -1 : REAL(open)(path, flags, mode);
+}

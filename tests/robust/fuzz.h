@@ -1,0 +1,55 @@
+/* What the fuzzers share. Each file fuzz_NAME.c defines libFuzzer's entry point, which judges one input: whatever the bytes, it
+ * is read or refused in one line, and what was read keeps its promises. The sanitizers judge the rest. Linked with libFuzzer by
+ * clang (-DECLAT_FUZZ=ON), or with fuzz_corpus.c, which goes over stored inputs: that is the test. */
+#ifndef EC_TESTS_ROBUST_FUZZ_H
+#define EC_TESTS_ROBUST_FUZZ_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* Read by the address sanitizer: an allocation that a header's claim makes large fails, as it would on a small machine. */
+__attribute__((weak)) const char *__asan_default_options(void);
+const char *__asan_default_options(void) { return "allocator_may_return_null=1:max_allocation_size_mb=64"; }
+
+/* A broken promise ends the process, as libFuzzer expects of a finding. */
+#define PROMISE(condition, ...)                                                                    \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            fprintf(stderr, "%s:%d: %s: ", __FILE__, __LINE__, #condition);                        \
+            fprintf(stderr, __VA_ARGS__);                                                          \
+            fputc('\n', stderr);                                                                   \
+            abort();                                                                               \
+        }                                                                                          \
+    } while (0)
+
+/* A refusal is one line; success leaves none. */
+static inline void fuzz_judge_result(ec_result result, const ec_error *err)
+{
+    PROMISE((result == EC_OK) == (err->text[0] == 0), "result %d with the message \"%s\"", (int)result, err->text);
+    PROMISE(!strchr(err->text, '\n'), "more than a line: %s", err->text);
+}
+
+/* The bytes as a file, always the same one, without a name on the disk that could outlive a crash. Readers open files by name. */
+static inline const char *fuzz_file(const uint8_t *data, size_t size)
+{
+    static char path[64];
+    static int file = -1;
+    if (file < 0) {
+        char name[] = "/tmp/eclat-fuzz-XXXXXX";
+        file = mkstemp(name);
+        PROMISE(file >= 0 && unlink(name) == 0, "cannot write to /tmp");
+        snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    }
+    PROMISE(ftruncate(file, 0) == 0 && pwrite(file, data, size, 0) == (ssize_t)size, "cannot write to /tmp");
+    return path;
+}
+
+#endif

@@ -1,0 +1,59 @@
+/* Pictures by their bytes: an OpenEXR or Radiance file as an environment map, down to its table; a PNG or JPEG as a texture. */
+#include <math.h>
+
+#include "fuzz.h"
+#include "image/image.h"
+#include "pack/pack.h"
+#include "scene/image_decode.h"
+
+enum { PIXELS_MOST = 1 << 16 }; /* more teaches nothing and costs executions */
+
+static void judge_environment(ec_scene *scene)
+{
+    ec_pack pack = {0};
+    ec_error err = {""};
+    double luminance;
+    ec_result result = ec_pack_environment(scene, &pack, &luminance, &err);
+    fuzz_judge_result(result, &err);
+    PROMISE(isfinite(luminance) && luminance >= 0, "mean luminance %g", luminance);
+    double sum = 0;
+    size_t count = (size_t)pack.environment_width * pack.environment_height;
+    for (size_t i = 0; pack.environment_alias && i < count; i++) {
+        PROMISE(pack.environment_alias[i].other < count, "alias %u", pack.environment_alias[i].other);
+        sum += pack.environment_texels[4 * i + 3];
+    }
+    PROMISE(!pack.environment_alias || fabs(sum - 1) < 1e-4, "the chances of %zu texels add up to %g", count, sum);
+    ec_pack_free(&pack);
+}
+
+static void read_environment(const uint8_t *data, size_t size)
+{
+    ec_scene scene = {0};
+    ec_error err = {""};
+    ec_result result = ec_scene_set_environment(&scene, fuzz_file(data, size), NULL, &err);
+    fuzz_judge_result(result, &err);
+    size_t values = 3 * (size_t)scene.environment.width * scene.environment.height;
+    for (size_t i = 0; result == EC_OK && i < values; i++)
+        PROMISE(isfinite(scene.environment.rgb[i]) && scene.environment.rgb[i] >= 0, "texel %g", scene.environment.rgb[i]);
+    if (result == EC_OK && values <= 3 * (size_t)PIXELS_MOST) judge_environment(&scene);
+    free(scene.environment.rgb);
+}
+
+static void decode_texture(const uint8_t *data, size_t size)
+{
+    ec_image image = {0};
+    ec_decode_error why = {""};
+    if (ec_image_decode(data, size, &image, &why))
+        PROMISE(image.width && image.height && !image.rgba8 != !image.rgba16, "%u x %u", image.width, image.height);
+    else
+        PROMISE(!image.rgba8 && !image.rgba16 && why.text[0] && !strchr(why.text, '\n'), "%s", why.text);
+    free(image.rgba8);
+    free(image.rgba16);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (size && (data[0] == 0x89 || data[0] == 0xff)) decode_texture(data, size); /* PNG, JPEG */
+    else read_environment(data, size);
+    return 0;
+}

@@ -1,0 +1,124 @@
+"""Signals at any moment: the picture of the complete batches, or the file of before; never half of one."""
+import glob
+import os
+import random
+import signal
+import subprocess
+import time
+import unittest
+
+from faults import FaultCase, at_once, spread
+from support import eclat, read_exr
+
+ENOUGH = ["--size", "24x24", "--batch", "2"]
+INTERRUPTED = "eclat: error: interrupted before there was a picture; nothing is written\n"
+
+
+class Signals(FaultCase):
+    def at_random(self, count, numbers):
+        """Moments from the start to a little behind the end of a render, and a signal for each."""
+        dice = random.Random(20)
+        times = []
+        for i in range(3):
+            start = time.monotonic()
+            self.run_with(f"timed{i}", *ENOUGH, spp=128)
+            times.append(time.monotonic() - start)
+        return [(i, dice.uniform(0, 1.8 * max(times)), dice.choice(numbers)) for i in range(count)]
+
+    def send(self, i, delay, number):
+        process, folder = self.start(f"run{i}", *ENOUGH, spp=128)
+        try:
+            process.wait(delay)
+        except subprocess.TimeoutExpired:
+            process.send_signal(number)
+        out, error = process.communicate(timeout=600)
+        return process.returncode, out, error, folder
+
+    def check_interrupted(self, code, error, folder, number):
+        files = self.check_files(folder)
+        if code == 0:
+            self.assertEqual([files, error], [{"a.exr": "new", "a.png": "new"}, ""])
+            attributes, planes = read_exr(os.path.join(folder, "a.exr"))
+            self.assertIn(attributes["eclat.stoppedBy"], ["user", "spp"])
+            self.assertEqual(set(planes["samples"]), {float(attributes["eclat.samplesPerPixel"])})
+            return "user" == attributes["eclat.stoppedBy"]
+        self.assertIn((code, error), [(-number, ""), (1, INTERRUPTED)])
+        self.assertEqual(files, {"a.exr": "old", "a.png": "old"})
+        return code
+
+    def test_asked_to_stop_at_random_moments(self):
+        def stop(i, delay, number):
+            code, _, error, folder = self.send(i, delay, number)
+            with self.subTest(delay=delay, signal=number):
+                return self.check_interrupted(code, error, folder, number)
+        ends = at_once(stop, self.at_random(40, [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]))
+        self.assertGreater(len(set(ends)), 1, ends)
+
+    def test_asked_to_stop_at_any_call(self):
+        counts = self.count_calls(*ENOUGH, spp=128)
+
+        def stop(call, n, number):
+            run, folder = self.run_with(f"{call}{n}", *ENOUGH, spp=128, call=call, at=n, signal=number)
+            with self.subTest(call=call, n=n, signal=number):
+                return self.check_interrupted(run.returncode, run.stderr, folder, number)
+        calls = ["clGetDeviceInfo", "clCreateContext", "clBuildProgram", "clEnqueueNDRangeKernel", "clEnqueueReadBuffer", "pwrite"]
+        ends = at_once(stop, [(call, n, signal.SIGINT) for call in calls for n in spread(counts[call], 4)])
+        for end in [True, False]: # whether one at the start still kills depends on which thread is faster
+            self.assertIn(end, ends)
+
+    def test_killed_at_random_moments(self):
+        def kill(i, delay, number):
+            code, _, _, folder = self.send(i, delay, number)
+            with self.subTest(delay=delay):
+                for name in set(os.listdir(folder)) - {"a.exr", "a.png"}:
+                    self.assertRegex(name, r"^\.eclat-\d+-[0-9a-f]{8}\.tmp$")
+                    os.remove(os.path.join(folder, name))
+                self.check_files(folder)
+                self.assertIn(code, [0, -signal.SIGKILL])
+                return code
+        self.assertEqual(set(at_once(kill, self.at_random(40, [signal.SIGKILL]))), {0, -signal.SIGKILL})
+
+    def test_the_second_signal_ends_even_a_device_that_hangs(self):
+        process, folder = self.start("hangs", call="clEnqueueNDRangeKernel", at=30, sleep=100)
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.2)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, -signal.SIGTERM)
+        self.assertEqual(self.check_files(folder), {"a.exr": "old", "a.png": "old"})
+
+    def test_ctrl_c_while_the_driver_runs_a_program_of_its_own(self):
+        """A terminal sends SIGINT to the linker that PoCL has started too, whose death PoCL answers by abort()."""
+        cache = self.path("cache")
+        os.mkdir(cache)
+        process, folder = self.start("links", "--accel", "bvh8", "--lanes", "1", env={"XDG_CACHE_HOME": cache, "POCL_CACHE_DIR": cache})
+        children = []
+        while process.poll() is None and not children:
+            for path in glob.glob(f"/proc/{process.pid}/task/*/children"):
+                try:
+                    with open(path, encoding="ascii") as file:
+                        children += file.read().split()
+                except OSError:
+                    pass
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGINT)
+        _, error = process.communicate(timeout=600)
+        if not children and process.returncode == 0:
+            self.skipTest("this driver starts no program")
+        self.assertEqual([process.returncode, self.check_files(folder)], [0, {"a.exr": "new", "a.png": "new"}], error)
+
+    def test_a_reader_that_is_gone(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        arguments, environment, folder = self.prepare("pipe", quiet=False)
+        run = eclat(*arguments, env=environment, stdout=writer)
+        os.close(writer)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("eclat: error: cannot write the result to standard output: Broken pipe", run.stderr)
+        self.assertEqual(self.check_files(folder), {"a.exr": "new", "a.png": "new"})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,53 @@
+"""valgrind's memcheck on whole commands: no invalid access, no branch on what was never written, nothing lost. The kernels, as PoCL
+makes them, run under it too. The first run compiles them under valgrind, which is what takes time (ctest label: slow); later
+ones find them in build/tests/cache-valgrind."""
+import os
+import shutil
+import unittest
+
+import support
+from hard_scene import LAMP, NORMAL, QUAD, UV, HardCase, Scene, one_pixel_png
+from support import CORNELL, SOURCE
+
+VALGRIND = shutil.which("valgrind")
+CACHE = os.path.join(os.path.dirname(os.path.abspath(support.ECLAT)), "tests", "cache-valgrind")
+# One thread each for kernels and builders, since valgrind runs one at a time. memcheck knows no AVX-512 and hides it from LLVM, so
+# that these kernels must not mix with those of other tests.
+ENVIRONMENT = dict(os.environ, XDG_CACHE_HOME=CACHE, POCL_CACHE_DIR=os.path.join(CACHE, "pocl"), POCL_MAX_PTHREAD_COUNT="1",
+                   OMP_NUM_THREADS="1", OCL_ICD_VENDORS="pocl.icd")  # other drivers are not ours to judge
+
+
+@unittest.skipUnless(VALGRIND, "there is no valgrind")
+class Valgrind(HardCase):
+    def watch(self, code, *arguments):
+        os.makedirs(os.path.join(CACHE, "pocl"), exist_ok=True)
+        log = self.path("valgrind.log")
+        command = [VALGRIND, "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
+                   "--error-exitcode=99", "--num-callers=30", "--log-file=" + log,
+                   "--suppressions=" + os.path.join(SOURCE, "tests", "robust", "valgrind.supp"), support.ECLAT, *arguments]
+        run = support.subprocess.run(command, env=ENVIRONMENT, cwd=self.folder, stdin=support.subprocess.DEVNULL, encoding="utf-8",
+                                     stdout=support.subprocess.PIPE, stderr=support.subprocess.PIPE, timeout=1100)
+        with open(log) as file:
+            self.assertEqual(run.returncode, code, run.stderr + file.read()[:6000])
+
+    def test_render_and_compare(self):
+        for seed in "12":
+            self.watch(0, "render", CORNELL, "--size", "8x8", "--spp", "4", "--batch", "2", "--lanes", "1", "--seed", seed, "-o",
+                       f"{seed}.exr", "-o", f"{seed}.png")
+        self.watch(0, "compare", "1.exr", "2.exr")
+
+    def test_info_on_every_stream_and_a_texture(self):
+        material = dict(LAMP, normalTexture={"index": 0}, emissiveTexture={"index": 0})
+        scene = Scene(material).texture(one_pixel_png([1, 2, 3])).add(QUAD, streams=[NORMAL, UV, ("TANGENT", 4, [1, 0, 0, 1] * 6)])
+        self.watch(0, "info", scene.write(self.path("scene.gltf")))
+
+    def test_refusals(self):
+        for count, nodes in enumerate([{"children": [7]}, {"scale": [0, 0, 0]}, {"translation": [1e39, 0, 0]}]):
+            path = Scene(LAMP).add(QUAD, **nodes).write(self.path(f"{count}.gltf"))
+            self.watch(1, "info", path)
+        self.watch(1, "compare", path, path)
+        self.watch(2, "render", path, "--spp", "none")
+
+
+if __name__ == "__main__":
+    unittest.main()
