@@ -11,7 +11,7 @@ import sys
 
 from embed_kernels import PRELUDE, EmbedError, Flattener, without_comments, write_if_changed
 
-FLOAT = re.compile(r"\b(const(?:ant)? float \*)|\bfloat\b")
+FLOAT = re.compile(r"\b(const(?:ant)? float (?:\*|\w+\[))|\bfloat\b")
 CONSTANT = re.compile(r"(?<![\w.])((?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?|0x[0-9a-fA-F.]+p[+-]?\d+)f\b")
 KERNEL = re.compile(r"^PRECISION\((\w+)\)", re.M)
 

@@ -20,6 +20,9 @@ static bool transmits(const ec_scene *scene, const ec_material *m)
     return most > 0.0f;
 }
 
+/* May kernels find this roughness, whose product rounds otherwise there, to be none? */
+static bool is_smooth(float roughness) { return roughness * roughness * 0.99f < EC_SMOOTH_ALPHA; }
+
 /* May kernels find reflection or refraction too narrow for a density: surface_material, surface_transmission? */
 static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refracts)
 {
@@ -29,9 +32,35 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
 }
 
-static uint32_t material_features(const ec_scene *scene, const ec_material *m)
+static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
 {
-    uint32_t f = 0;
+    float least, most;
+    ec_texture_range(scene, &m->textures[EC_SLOT_CLEARCOAT], 0, &least, &most);
+    if (m->coat * most == 0.0f) return 0;
+    uint64_t f = EC_FEATURE_CLEARCOAT;
+    if (m->textures[EC_SLOT_CLEARCOAT].texture >= 0 || m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS].texture >= 0) f |= EC_FEATURE_CLEARCOAT_TEXTURE;
+    if (m->textures[EC_SLOT_CLEARCOAT_NORMAL].texture >= 0) f |= EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE;
+    ec_texture_range(scene, &m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS], 1, &least, &most);
+    if (is_smooth(m->coat_roughness * least)) f |= EC_FEATURE_SMOOTH;
+    return f;
+}
+
+/* A texture's channels are multiplied by the colour's: where each is 0 on one side or the other there is no sheen. */
+static uint64_t sheen_features(const ec_scene *scene, const ec_material *m)
+{
+    bool any = false;
+    for (int k = 0; k < 3; k++) {
+        float least, most;
+        ec_texture_range(scene, &m->textures[EC_SLOT_SHEEN_COLOR], k, &least, &most);
+        any |= m->sheen[k] * most > 0.0f;
+    }
+    bool textured = m->textures[EC_SLOT_SHEEN_COLOR].texture >= 0 || m->textures[EC_SLOT_SHEEN_ROUGHNESS].texture >= 0;
+    return any ? EC_FEATURE_SHEEN | (textured ? EC_FEATURE_SHEEN_TEXTURE : 0) : 0;
+}
+
+static uint64_t material_features(const ec_scene *scene, const ec_material *m)
+{
+    uint64_t f = 0;
     if (m->unlit) return EC_FEATURE_UNLIT | (m->textures[EC_SLOT_BASE_COLOR].texture >= 0 ? EC_FEATURE_BASE_COLOR_TEXTURE : 0);
     if (max3(m->emission) > 0.0f) f |= EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS;
     if (max3(m->emission) > 0.0f && m->textures[EC_SLOT_EMISSION].texture >= 0) f |= EC_FEATURE_EMISSION_TEXTURE;
@@ -40,7 +69,8 @@ static uint32_t material_features(const ec_scene *scene, const ec_material *m)
         if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
         if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
     }
-    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & EC_FEATURE_TRANSMISSION)) {
+    f |= coat_features(scene, m) | sheen_features(scene, m);
+    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN))) {
         f |= EC_FEATURE_SPECULAR;
         if (may_be_smooth(scene, m, (f & EC_FEATURE_TRANSMISSION) && ec_refracts(m))) f |= EC_FEATURE_SMOOTH;
         if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
@@ -93,9 +123,9 @@ static bool has_deep_images(const ec_scene *scene)
     return false;
 }
 
-uint32_t ec_pack_features(const ec_scene *scene)
+uint64_t ec_pack_features(const ec_scene *scene)
 {
-    uint32_t f = 0;
+    uint64_t f = 0;
     bool *used = calloc(scene->material_count, sizeof *used);
     for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
     for (uint32_t m = 0; m < scene->material_count; m++)

@@ -69,6 +69,11 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         d->specular = m->specular;
         d->transmission = m->transmission;
         d->ior = m->ior;
+        memcpy(d->sheen, m->sheen, sizeof d->sheen);
+        d->sheen_roughness = m->sheen_roughness;
+        d->coat = m->coat;
+        d->coat_roughness = m->coat_roughness;
+        d->coat_normal_scale = m->coat_normal_scale;
         for (int k = 0; k < EC_SLOT_COUNT; k++) pack_slot(scene, &m->textures[k], slot_is_srgb[k], &d->slots[k]);
     }
     return EC_OK;

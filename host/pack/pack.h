@@ -11,7 +11,7 @@
 #include "shared/scene_buffers.h"
 
 typedef struct ec_pack {
-    uint32_t features;             /* ec_feature bits that the scene calls for (the sampler's bit is the caller's) */
+    uint64_t features;             /* ec_feature bits that the scene calls for (the sampler's bit is the caller's) */
     uint32_t prim_count;
     ec_prim *prims;
     uint32_t material_count;
@@ -36,7 +36,7 @@ ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err);
 void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 
 /* The steps, in order; each fills its part of pack. */
-uint32_t ec_pack_features(const ec_scene *scene);
+uint64_t ec_pack_features(const ec_scene *scene);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);

@@ -1,25 +1,26 @@
 /* The kernels a scene calls for, each built with the features that can change its code and no others. */
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "pipeline/pipeline.h"
 
-void ec_feature_names(uint32_t features, char *text, size_t size)
+void ec_feature_names(uint64_t features, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = 0;
-#define ADD_NAME(bit, name, words)                                                                 \
-    if ((features & (1u << (bit))) && used < size)                                                 \
+#define ADD_NAME(name, words)                                                                 \
+    if ((features & EC_FEATURE_##name) && used < size)                                             \
         used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " " : "", words);
     EC_FEATURES(ADD_NAME)
 #undef ADD_NAME
 }
 
 /* Alpha decides by base colour; without it the traversal does not look at colour at all. */
-static uint32_t canonical(const ec_stage_entry *stage, uint32_t features)
+static uint64_t canonical(const ec_stage_entry *stage, uint64_t features)
 {
-    uint32_t f = features & stage->features;
-    const uint32_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
+    uint64_t f = features & stage->features;
+    const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
     if ((stage->features & EC_FEATURE_ALPHA) && !(f & EC_FEATURE_ALPHA)) f &= ~of_alpha;
     return f;
 }
@@ -37,7 +38,8 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
 {
     const char *names[EC_STAGE_ID_COUNT + EC_ACCEL_COUNT + 1] = {NULL};
     char traversals[EC_ACCEL_COUNT][32];
-    uint32_t features = 0, count = 0;
+    uint64_t features = 0;
+    uint32_t count = 0;
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
         if (!is_needed(p, (ec_stage_id)id) || lanes_of(p, ec_stages[id].lanes) != lanes) continue;
         names[count++] = ec_stages[id].source;
@@ -50,7 +52,7 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
         features |= canonical(&ec_stages[EC_INTERSECT], p->features) | canonical(&ec_stages[EC_CONNECT], p->features);
     }
     char options[96], label[32], *source;
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%xu%s", lanes, features, p->fast_math ? " " EC_FAST_MATH : "");
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s", lanes, features, p->fast_math ? " " EC_FAST_MATH : "");
     snprintf(label, sizeof label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     EC_TRY(ec_kernel_sources_join(names, &source, err));
     ec_result result = ec_program_build(p->cl, label, source, options, program, err);

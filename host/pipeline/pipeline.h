@@ -17,7 +17,8 @@ typedef struct ec_pipeline {
     ec_integrator integrator;
     ec_params params;
     ec_counters counters;         /* the host's copy */
-    uint32_t features, lanes, wave, triangle_count;
+    uint64_t features;
+    uint32_t lanes, wave, triangle_count;
     uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
     bool fast_math;
     cl_mem buffers[EC_ARG_COUNT];
@@ -78,6 +79,6 @@ ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t 
 ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce, const uint32_t *scalars, ec_error *err);
 
 /* Names of the features in a mask, blank separated. */
-void ec_feature_names(uint32_t features, char *text, size_t size);
+void ec_feature_names(uint64_t features, char *text, size_t size);
 
 #endif

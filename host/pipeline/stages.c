@@ -34,7 +34,7 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_AR
 
 #define ARGS(list) sizeof(list) / sizeof *(list), list
 
-#define SHADING_FEATURES ((uint32_t)EC_FEATURE_ALL & ~(uint32_t)(EC_FEATURE_ALPHA | EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR))
+#define SHADING_FEATURES (EC_FEATURE_ALL & ~(EC_FEATURE_ALPHA | EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR))
 
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, EC_FEATURE_SOBOL | EC_FEATURE_ABSORPTION,

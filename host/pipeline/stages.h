@@ -85,7 +85,7 @@ typedef struct ec_stage_entry {
     const char *label;         /* for messages and profiles */
     uint32_t integrators;      /* EC_OF(x): those that launch it */
     uint32_t lanes;
-    uint32_t features;         /* bits that can change its code; others do not multiply binaries */
+    uint64_t features;         /* bits that can change its code; others do not multiply binaries */
     uint32_t argument_count;
     const ec_arg *arguments;
 } ec_stage_entry;

@@ -37,7 +37,7 @@ static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, ec_error *err
 
 ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pack *pack, ec_error *err)
 {
-    const uint32_t f = pack->features; /* also for universal kernels: what is not called for stays NULL */
+    const uint64_t f = pack->features; /* also for universal kernels: what is not called for stays NULL */
     const bool textured = f & EC_FEATURES_TEXTURED;
     const uint64_t vertices = scene->vertex_count;
     EC_TRY(upload(p, EC_ARG_PRIMS, "triangles", (uint64_t)pack->prim_count * sizeof *pack->prims, pack->prims, err));
@@ -46,7 +46,7 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     if (f & EC_FEATURES_ATTRIBUTES)
         EC_TRY(upload_padded(p, EC_ARG_INDICES, "indices", 12 * (uint64_t)scene->triangle_count, scene->indices, err));
     if (f & EC_FEATURE_SMOOTH_NORMALS) EC_TRY(upload_padded(p, EC_ARG_NORMALS, "normals", 12 * vertices, scene->normals, err));
-    if (f & EC_FEATURE_NORMAL_TEXTURE) EC_TRY(upload(p, EC_ARG_TANGENTS, "tangents", 16 * vertices, scene->tangents, err));
+    if (f & EC_FEATURES_TANGENTS) EC_TRY(upload(p, EC_ARG_TANGENTS, "tangents", 16 * vertices, scene->tangents, err));
     if (f & EC_FEATURE_VERTEX_COLORS) EC_TRY(upload(p, EC_ARG_COLORS, "colours", 16 * vertices, scene->colors, err));
     if (textured) {
         EC_TRY(upload_uvs(p, scene, err));

@@ -75,7 +75,6 @@ static void set_specular(ec_material &out, const tinygltf::Material &in, const s
                          const ec_log *log)
 {
     out.specular = out.specular_color[0] = out.specular_color[1] = out.specular_color[2] = 1;
-    out.textures[EC_SLOT_SPECULAR] = out.textures[EC_SLOT_SPECULAR_COLOR] = no_texture;
     const Value *s = find_extension(in.extensions, "KHR_materials_specular");
     if (!s) return;
     out.specular = float(get_number(*s, "specularFactor", 1));
@@ -107,11 +106,33 @@ static void set_transmission(ec_material &out, const tinygltf::Material &in, con
     const Value *transmission = find_extension(in.extensions, "KHR_materials_transmission");
     const Value *volume = find_extension(in.extensions, "KHR_materials_volume");
     out.ior = ior ? float(get_number(*ior, "ior", 1.5)) : 1.5f;
-    out.textures[EC_SLOT_TRANSMISSION] = no_texture;
     if (!transmission) return; /* without it nothing gets into a volume */
     out.transmission = float(get_number(*transmission, "transmissionFactor", 0));
     out.textures[EC_SLOT_TRANSMISSION] = make_use(*transmission, "transmissionTexture", where, gltf, log);
     if (volume) set_volume(out, *volume, where, gltf, log);
+}
+
+static void set_coat(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
+{
+    out.coat_normal_scale = 1;
+    const Value *c = find_extension(in.extensions, "KHR_materials_clearcoat");
+    if (!c) return;
+    out.coat = float(get_number(*c, "clearcoatFactor", 0));
+    out.coat_roughness = float(get_number(*c, "clearcoatRoughnessFactor", 0));
+    out.textures[EC_SLOT_CLEARCOAT] = make_use(*c, "clearcoatTexture", where, gltf, log);
+    out.textures[EC_SLOT_CLEARCOAT_ROUGHNESS] = make_use(*c, "clearcoatRoughnessTexture", where, gltf, log);
+    out.textures[EC_SLOT_CLEARCOAT_NORMAL] = make_use(*c, "clearcoatNormalTexture", where, gltf, log);
+    if (c->Has("clearcoatNormalTexture")) out.coat_normal_scale = float(get_number(c->Get("clearcoatNormalTexture"), "scale", 1));
+}
+
+static void set_sheen(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
+{
+    const Value *s = find_extension(in.extensions, "KHR_materials_sheen");
+    if (!s) return;
+    for (int i = 0; i < 3; i++) out.sheen[i] = float(get_element(*s, "sheenColorFactor", i, 0));
+    out.sheen_roughness = float(get_number(*s, "sheenRoughnessFactor", 0));
+    out.textures[EC_SLOT_SHEEN_COLOR] = make_use(*s, "sheenColorTexture", where, gltf, log);
+    out.textures[EC_SLOT_SHEEN_ROUGHNESS] = make_use(*s, "sheenRoughnessTexture", where, gltf, log);
 }
 
 static void set_emission(ec_material &out, const tinygltf::Material &in)
@@ -130,6 +151,7 @@ static void set_material(ec_material &out, const tinygltf::Material &in, const s
                         where + "." + name, gltf, log);
     };
     const tinygltf::PbrMetallicRoughness &pbr = in.pbrMetallicRoughness;
+    for (ec_texture_use &slot : out.textures) slot = no_texture;
     out.base_color[0] = out.base_color[1] = out.base_color[2] = out.base_color[3] = 1;
     copy_floats(out.base_color, pbr.baseColorFactor, 4);
     out.metallic = float(pbr.metallicFactor);
@@ -146,6 +168,8 @@ static void set_material(ec_material &out, const tinygltf::Material &in, const s
     set_emission(out, in);
     set_specular(out, in, where, gltf, log);
     set_transmission(out, in, where, gltf, log);
+    set_coat(out, in, where, gltf, log);
+    set_sheen(out, in, where, gltf, log);
     out.name = copy_string(in.name);
 }
 

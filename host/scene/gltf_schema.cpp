@@ -128,12 +128,20 @@ static const schema transmission_s(transmission);
 static const field volume[] = {number("thicknessFactor"), object("thicknessTexture", texture_info_s),
                                number("attenuationDistance"), numbers("attenuationColor", 3)};
 static const schema volume_s(volume);
+static const field clearcoat[] = {number("clearcoatFactor"), object("clearcoatTexture", texture_info_s),
+                                  number("clearcoatRoughnessFactor"), object("clearcoatRoughnessTexture", texture_info_s),
+                                  object("clearcoatNormalTexture", texture_info_s)};
+static const schema clearcoat_s(clearcoat);
+static const field sheen[] = {numbers("sheenColorFactor", 3), object("sheenColorTexture", texture_info_s),
+                              number("sheenRoughnessFactor"), object("sheenRoughnessTexture", texture_info_s)};
+static const schema sheen_s(sheen);
 static const field nothing[] = {plain("", kind::flag)};
 static const schema nothing_s(nothing);
 static const field material_extensions[] = {object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
                                             object("KHR_materials_emissive_strength", emissive_strength_s),
                                             object("KHR_materials_ior", ior_s), object("KHR_materials_transmission", transmission_s),
-                                            object("KHR_materials_volume", volume_s)};
+                                            object("KHR_materials_volume", volume_s),
+                                            object("KHR_materials_clearcoat", clearcoat_s), object("KHR_materials_sheen", sheen_s)};
 static const schema material_extensions_s(material_extensions);
 static const field material[] = {
     object("pbrMetallicRoughness", metallic_roughness_s), object("normalTexture", texture_info_s),

@@ -49,6 +49,9 @@ typedef struct ec_material {
     float transmission;        /* KHR_materials_transmission; 0 where absent */
     bool volume;               /* KHR_materials_volume with a thickness: bounds a body that refracts; else thin-walled */
     float absorption[3];       /* 1/m: -ln attenuationColor / attenuationDistance; 0 where nothing is absorbed */
+    float coat, coat_roughness; /* KHR_materials_clearcoat; 0 where absent */
+    float coat_normal_scale;
+    float sheen[3], sheen_roughness; /* KHR_materials_sheen; 0 where absent */
     float alpha_cutoff;
     ec_alpha_mode alpha_mode;
     bool double_sided;

@@ -14,7 +14,7 @@ ec_result ec_numbers_open(ec_selftest *t, ec_numbers_run *run, ec_error *err)
     run->b = all + EC_NUMBERS_N;
     run->c = all + 2 * EC_NUMBERS_N;
     run->out = all + 3 * EC_NUMBERS_N;
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=%d", t->lanes, EC_FEATURE_SOBOL);
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=EC_FEATURE_SOBOL", t->lanes);
     ec_result result = ec_program_build(t->cl, "numbers", ec_kernel_source("numbers"), options, &run->program, err);
     if (result != EC_OK) ec_numbers_close(run);
     return result;

@@ -11,8 +11,8 @@ ec_result ec_scatter_open(ec_selftest *t, ec_scatter_run *run, ec_error *err)
     char options[96];
     *run = (ec_scatter_run){.in = calloc((size_t)EC_SCATTER_INS * EC_SCATTER_N, sizeof *run->in),
                             .out = calloc((size_t)EC_SCATTER_OUTS * EC_SCATTER_N, sizeof *run->out)};
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=%d", t->lanes,
-             EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION);
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_SMOOTH+EC_FEATURE_TRANSMISSION)",
+             t->lanes);
     ec_result result = run->in && run->out ? ec_program_build(t->cl, "scatter", ec_kernel_source("scatter"), options, &run->program, err)
                                            : ec_fail(err, "out of memory for directions");
     if (result != EC_OK) ec_scatter_close(run);

@@ -2,7 +2,7 @@
  *
  *   f = metallic F_m D V + (1 - metallic) (F_d D V + (1 - max F_d) base ((1 - transmission) / pi + transmission T))
  *
- * D, V: GGX with height-correlated Smith masking (Heitz 2014, eq. 99). T passes light on: through a thin wall by the same
+ * D, V: of GGX microfacets (ggx.h). T passes light on: through a thin wall by the same
  * lobe mirrored, into a body by the microfacet BTDF of Walter et al. 2007, eq. 21, between basic radiances L / n^2 (Nicodemus
  * 1963), so that no factor n^2 comes and goes with each body. A smooth surface has one direction of reflection and one of
  * transmission: bsdf_eval leaves those out, since nothing but bsdf_sample finds them.
@@ -10,16 +10,22 @@
 #ifndef EC_LIB_BSDF_H
 #define EC_LIB_BSDF_H
 
+#include "coat.h"
 #include "fresnel.h"
+#include "ggx.h"
+#include "sheen.h"
 #include "surface.h"
 
 typedef struct bsdf {
     v3 wo;
     v3 base, f0;
-    lane_f f90, metallic, alpha2, alpha;
+    lane_f f90, metallic;
+    ggx facets;
     lane_f p_specular;   /* probability of sampling what mirrors or passes, not the diffuse lobe */
     lane_f transmission, eta;
-    lane_i smooth, refracts;
+    lane_i refracts;
+    sheen sheen;
+    coat coat;
 } bsdf;
 
 /* What a microfacet does with light, for the cosine between its normal and wo: reflectance, and the share of the rest that
@@ -55,12 +61,11 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     b.f0 = s->f0;
     b.f90 = s->f90;
     b.metallic = s->metallic;
-    b.alpha = s->alpha_ggx;
-    b.alpha2 = s->alpha_ggx * s->alpha_ggx;
+    b.facets = ggx_make(s->alpha_ggx, s->smooth);
     b.p_specular = F(0.0f);
+    lane_f sum = luminance(b.base);
     b.transmission = HAS(TRANSMISSION) ? s->transmission : F(0.0f);
     b.eta = s->eta;
-    b.smooth = HAS(SMOOTH) ? s->smooth : !TRUE_MASK;
     b.refracts = HAS(TRANSMISSION) ? s->refracts : !TRUE_MASK;
     if (HAS(SPECULAR)) {
         lane_f rest;
@@ -72,25 +77,18 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
             diffuse = diffuse * (1.0f - b.transmission);
             most = most * (1.0f - b.transmission);
         }
-        lane_f sum = specular + diffuse;
+        sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
         /* A lobe that matters at other angles must not starve. What is left for the base goes by the half vector's angle: there may
          * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing reflects less than head-on. */
         b.p_specular = ((b.p_specular > 0.0f) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
     }
+    if (HAS(SHEEN)) {
+        b.sheen = sheen_make(s->sheen, s->sheen_roughness, wo_local.z, sum);
+        sum = fma(b.sheen.own, 1.0f - sum, sum);
+    }
+    if (HAS(CLEARCOAT)) b.coat = coat_make(s, wo_local, sum);
     return b;
-}
-
-/* GGX's density of microfacet normals, from components: 1 - cos^2 would lose every digit of a narrow lobe. */
-EC_FN lane_f ggx_d(const bsdf *b, v3 h)
-{
-    lane_f k = fma(fma(h.x, h.x, h.y * h.y), 1.0f / b->alpha2, h.z * h.z);
-    return EC_INV_PI / (b->alpha2 * k * k);
-}
-/* cos sqrt(1 + alpha^2 tan^2): Smith's masking in a form that stays finite at grazing angles. */
-EC_FN lane_f ggx_lambda(const bsdf *b, lane_f cosine)
-{
-    return sqrt(fma(cosine * cosine, 1.0f - b->alpha2, b->alpha2));
 }
 
 /* What passes, for wi below the surface of a rough one. */
@@ -105,7 +103,7 @@ EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
     lane_i valid = (length > 0.0f) & (oh > 0.0f) & ((ih > 0.0f) | !b->refracts);
     v3 reflectance = bsdf_fresnel(b, min(oh, F(1.0f)), &rest);
     bsdf_p_reflect(b, reflectance, rest, &p_pass);
-    lane_f lambda_o = ggx_lambda(b, no), lambda_i = ggx_lambda(b, ni), d = ggx_d(b, h);
+    lane_f lambda_o = ggx_lambda(&b->facets, no), lambda_i = ggx_lambda(&b->facets, ni), d = ggx_d(&b->facets, h);
     /* Density of wi for that of h: Walter et al. 2007, eq. 17; a mirrored lobe has 1 / (4 oh). */
     lane_f denominator = ih - oh / b->eta;
     lane_f jacobian_oh = b->refracts ? ih * oh / (denominator * denominator) : F(0.25f);
@@ -115,8 +113,8 @@ EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
     return v3_select(valid, v3_scale(b->base, f), v3_zero());
 }
 
-/* f |cos(wi)| and its sampling density. Both leave out the single directions of a smooth surface. */
-EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
+/* Of the surface without what lies over it. */
+EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 {
     lane_f no = b->wo.z, ni = wi.z;
     lane_i above = (ni > 0.0f) & (no > 0.0f);
@@ -129,8 +127,8 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     v3 h = v3_scale(sum, 1.0f / length);
     lane_f rest;
     v3 fresnel = bsdf_fresnel(b, oh, &rest);
-    lane_f d = ggx_d(b, h);
-    lane_f lambda_o = ggx_lambda(b, no), lambda_i = ggx_lambda(b, ni);
+    lane_f d = ggx_d(&b->facets, h);
+    lane_f lambda_o = ggx_lambda(&b->facets, no), lambda_i = ggx_lambda(&b->facets, ni);
     lane_f v_ni = 0.5f * ni / fma(ni, lambda_o, no * lambda_i); /* V cos, which stays finite at grazing angles */
     lane_f diffuse = rest * ni * EC_INV_PI;
     lane_f specular = d * v_ni;
@@ -142,14 +140,14 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
         pdf_specular *= bsdf_p_reflect(b, fresnel, rest, &p_pass);
     }
     if (HAS(SMOOTH)) {
-        specular = b->smooth ? F(0.0f) : specular;
-        pdf_specular = b->smooth ? F(0.0f) : pdf_specular;
+        specular = b->facets.smooth ? F(0.0f) : specular;
+        pdf_specular = b->facets.smooth ? F(0.0f) : pdf_specular;
     }
     v3 f = v3_fma(fresnel, specular, v3_scale(b->base, diffuse));
     *pdf = above ? fma(b->p_specular, pdf_specular, (1.0f - b->p_specular) * ni * EC_INV_PI) : F(0.0f);
     f = v3_select(above, f, v3_zero());
     if (HAS(TRANSMISSION)) {
-        lane_i below = (ni < 0.0f) & (no > 0.0f) & (b->transmission > 0.0f) & !b->smooth;
+        lane_i below = (ni < 0.0f) & (no > 0.0f) & (b->transmission > 0.0f) & !b->facets.smooth;
         if (any_lane(below)) {
             lane_f pdf_below;
             v3 f_below = bsdf_eval_below(b, wi, &pdf_below);
@@ -160,33 +158,40 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     return f;
 }
 
+/* f |cos(wi)| and its sampling density. Both leave out the single directions of smooth surfaces. */
+EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
+{
+    v3 f = bsdf_eval_base(b, wi, pdf);
+    if (HAS(SHEEN)) sheen_over(&b->sheen, b->wo, wi, &f, pdf);
+    if (HAS(CLEARCOAT)) coat_over(&b->coat, wi, &f, pdf);
+    return f;
+}
+
+/* Does it send light in single directions only? */
+EC_FN lane_i bsdf_is_single(const bsdf *b)
+{
+    lane_i single = b->facets.smooth & (b->p_specular == 1.0f);
+    if (HAS(SHEEN)) single = single & (b->sheen.p == 0.0f);
+    if (HAS(CLEARCOAT)) single = single & ((b->coat.p == 0.0f) | b->coat.facets.smooth);
+    return single;
+}
+
 typedef struct bsdf_direction {
     v3 wi;
     v3 weight;  /* f |cos wi| / pdf */
     lane_f pdf; /* 0: no direction; < 0: the only one of its kind, which no other strategy finds */
 } bsdf_direction;
 
-/* A visible normal by spherical caps (Dupuy, Benyoub 2023); of smooth surfaces the only one. */
-EC_FN v3 ggx_sample(const bsdf *b, lane_f cosine, lane_f sine, lane_f u2)
-{
-    v3 warped = v3_normalize(v3_make(b->wo.x * b->alpha, b->wo.y * b->alpha, b->wo.z));
-    /* z of the point on the cap is 1 - down, but 1 - z^2 and z + warped.z would cancel at its ends. */
-    lane_f height = 1.0f + warped.z, down = u2 * height, sin_theta = sqrt(max(down * (2.0f - down), F(0.0f)));
-    v3 c = v3_make(fma(sin_theta, cosine, warped.x), fma(sin_theta, sine, warped.y), (1.0f - u2) * height);
-    v3 m = v3_normalize(v3_make(c.x * b->alpha, c.y * b->alpha, c.z));
-    return HAS(SMOOTH) ? v3_select(b->smooth, v3_make(F(0.0f), F(0.0f), F(1.0f)), m) : m;
-}
-
 /* The mirrored or the passing direction at a sampled microfacet; u in [0, 1] chooses. The weight is a smooth surface's. */
 EC_FN bsdf_direction bsdf_sample_specular(const bsdf *b, lane_f cosine, lane_f sine, lane_f u2, lane_f u)
 {
     bsdf_direction r;
-    v3 m = ggx_sample(b, cosine, sine, u2);
+    v3 m = ggx_sample(&b->facets, b->wo, cosine, sine, u2);
     lane_f om = v3_dot(b->wo, m);
     r.wi = v3_fma(m, 2.0f * om, v3_negate(b->wo));
     r.pdf = F(1.0f);
     r.weight = v3_zero();
-    bool any_smooth = HAS(SMOOTH) && any_lane(b->smooth);
+    bool any_smooth = HAS(SMOOTH) && any_lane(b->facets.smooth);
     if (!HAS(TRANSMISSION) && !any_smooth) return r;
     lane_f rest;
     v3 reflectance = bsdf_fresnel(b, min(max(om, F(0.0f)), F(1.0f)), &rest);
@@ -217,6 +222,16 @@ EC_FN v3 blind_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f *pdf)
     return v3_make(r * cosine, r * sine, z);
 }
 
+/* Probability that no single direction is sampled. */
+EC_FN lane_f bsdf_p_spread(const bsdf *b)
+{
+    if (!HAS(SMOOTH)) return F(1.0f);
+    lane_f p = b->facets.smooth ? 1.0f - b->p_specular : F(1.0f);
+    if (HAS(SHEEN)) p = (1.0f - b->sheen.p) * p + b->sheen.p;
+    if (HAS(CLEARCOAT)) p = (1.0f - b->coat.p) * p + (b->coat.facets.smooth ? F(0.0f) : b->coat.p);
+    return p;
+}
+
 /* A direction from (u1, u2); u picks the lobe. blind: uniform, but for what a smooth surface mirrors or lets pass. */
 EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2, lane_f u)
 {
@@ -224,11 +239,20 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
     lane_f cosine, sine = sincos_2pi(u1, &cosine), root = sqrt(u2), blind_pdf = F(0.0f);
     r.wi = v3_make(root * cosine, root * sine, sqrt(max(1.0f - u2, F(0.0f))));
     if (blind) r.wi = blind_sample(b, u1, u2, &blind_pdf);
-    lane_i single = !TRUE_MASK;
+    lane_i single = !TRUE_MASK, by_coat = !TRUE_MASK;
     v3 single_weight = v3_zero();
+    if (HAS(CLEARCOAT)) {
+        by_coat = u < b->coat.p;
+        u = min((u - b->coat.p) / (1.0f - b->coat.p), F(0.99999994f)); /* the largest float under 1 */
+    }
+    lane_i by_sheen = !TRUE_MASK;
+    if (HAS(SHEEN)) {
+        by_sheen = u < b->sheen.p;
+        u = min((u - b->sheen.p) / (1.0f - b->sheen.p), F(0.99999994f));
+    }
     if (HAS(SPECULAR)) {
         lane_i specular = u < b->p_specular;
-        if (HAS(SMOOTH)) single = specular & b->smooth;
+        if (HAS(SMOOTH)) single = specular & b->facets.smooth;
         if (blind) specular = single;
         if (any_lane(specular)) {
             bsdf_direction s = bsdf_sample_specular(b, cosine, sine, u2, u / b->p_specular);
@@ -236,11 +260,22 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
             single_weight = s.weight;
         }
     }
-    v3 f = bsdf_eval(b, r.wi, &r.pdf);
-    if (blind) {
-        r.pdf = blind_pdf;
-        if (HAS(SMOOTH)) r.pdf *= b->smooth ? 1.0f - b->p_specular : F(1.0f);
+    if (HAS(SHEEN)) {
+        lane_f r_uniform = sqrt(max(fma(-u2, u2, F(1.0f)), F(0.0f)));
+        r.wi = v3_select(blind ? !TRUE_MASK : by_sheen, v3_make(r_uniform * cosine, r_uniform * sine, u2), r.wi);
+        single = single & !by_sheen;
+        single_weight = v3_scale(single_weight, sheen_leaves(&b->sheen, r.wi.z) / (1.0f - b->sheen.p));
     }
+    if (HAS(CLEARCOAT)) single_weight = v3_scale(single_weight, (1.0f - b->coat.share) / (1.0f - b->coat.p));
+    if (HAS(CLEARCOAT) && any_lane(by_coat)) {
+        lane_i mirrored = by_coat & b->coat.facets.smooth;
+        v3 wi = coat_sample(&b->coat, cosine, sine, u2);
+        r.wi = v3_select(blind ? mirrored : by_coat, wi, r.wi);
+        single_weight = v3_select(mirrored, v3_splat(b->coat.share / b->coat.p), single_weight);
+        single = by_coat ? mirrored & (r.wi.z > 0.0f) : single;
+    }
+    v3 f = bsdf_eval(b, r.wi, &r.pdf);
+    if (blind) r.pdf = blind_pdf * bsdf_p_spread(b);
     r.weight = v3_scale(f, 1.0f / r.pdf);
     if (HAS(SMOOTH)) {
         r.weight = v3_select(single, single_weight, r.weight);

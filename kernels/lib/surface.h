@@ -19,6 +19,12 @@ typedef struct surface {
     lane_f transmission; /* share of what a dielectric does not reflect that passes, not scattered back by the base */
     lane_f eta;    /* index of refraction beyond the surface over that on wo's side; 1: passes through a thin wall */
     lane_i refracts;
+    lane_f coat;       /* weight of a clear coat; with it its width, as alpha_ggx and smooth, and its normal */
+    lane_f coat_alpha;
+    lane_i coat_smooth;
+    v3 coat_ns;
+    v3 sheen;          /* colour of fibres over it; 0: none */
+    lane_f sheen_roughness;
 } surface;
 
 /* Position, its error bound and the geometric normal; wo points away from the surface. */
@@ -66,14 +72,14 @@ EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, l
     return v3_select(missing, dpdu, tangent);
 }
 
-/* The normal n bent by the normal map. */
-EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, v3 n)
+/* The normal n bent by the normal map in a slot, whose scale is the third of four words of the material. */
+EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, v3 n, uint map, uint words)
 {
-    quad slot = material_quad(g, h, EC_MATERIAL_SLOTS + EC_SLOT_NORMAL * 8u);
+    quad slot = material_quad(g, h, EC_MATERIAL_SLOTS + map * 8u);
     m = m & (uint_to_lane_i(as_lane_u(slot.a)) >= 0);
     if (!any_lane(m)) return n;
-    lane_f scale = material_quad(g, h, EC_MATERIAL_METALLIC).c, handedness;
-    v3 texel = material_texture(g, h, m, EC_SLOT_NORMAL, false).rgb;
+    lane_f scale = material_quad(g, h, words).c, handedness;
+    v3 texel = material_texture(g, h, m, map, false).rgb;
     lane_f x = fma(texel.x, F(2.0f), F(-1.0f)) * scale, y = fma(texel.y, F(2.0f), F(-1.0f)) * scale;
     lane_f z = fma(texel.z, F(2.0f), F(-1.0f));
     v3 t = surface_tangent(g, h, as_lane_u(slot.b) != 0u, &handedness);
@@ -87,11 +93,21 @@ EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, 
     return v3_select(m, v3_scale(r, 1.0f / sqrt(r2)), n);
 }
 
-/* Shading normal and frame: on wo's side, and never turned so far that wo sees its back. */
+/* The normal on wo's side, and never turned so far that wo sees its back. */
+EC_FN v3 surface_seen_normal(const surface *s, v3 wo, v3 n)
+{
+    /* Files whose normals oppose their winding exist: the side is the geometric normal's. */
+    n = v3_select(v3_dot(n, s->ng) < 0.0f, v3_negate(n), n);
+    lane_f cosine = v3_dot(n, wo), least = min(v3_dot(s->ng, wo), F(0.01f));
+    v3 bent = v3_normalize(v3_fma(wo, least - cosine, n));
+    return v3_select(cosine < least, bent, n);
+}
+
+/* Shading normal and frame. */
 EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo, surface *s)
 {
-    s->ns = s->ng;
-    if (HAS(SMOOTH_NORMALS) || HAS(NORMAL_TEXTURE)) {
+    s->ns = s->coat_ns = s->ng;
+    if (HAS(SMOOTH_NORMALS) || HAS(NORMAL_TEXTURE) || HAS(CLEARCOAT_NORMAL_TEXTURE)) {
         v3 n = v3_select(s->front, s->ng, v3_negate(s->ng));
         if (HAS(SMOOTH_NORMALS) && g->normals) {
             quad q = interpolate_stream(g->normals, 3, h);
@@ -99,12 +115,11 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
             lane_f length2 = v3_dot(smooth, smooth);
             n = v3_select(length2 > 0.0f, v3_scale(smooth, 1.0f / sqrt(length2)), n);
         }
-        if (HAS(NORMAL_TEXTURE)) n = surface_mapped_normal(g, h, m, n);
-        /* Files whose normals oppose their winding exist: the side is the geometric normal's. */
-        n = v3_select(v3_dot(n, s->ng) < 0.0f, v3_negate(n), n);
-        lane_f cosine = v3_dot(n, wo), least = min(v3_dot(s->ng, wo), F(0.01f));
-        v3 bent = v3_normalize(v3_fma(wo, least - cosine, n));
-        s->ns = v3_select(cosine < least, bent, n);
+        v3 coat = n;
+        if (HAS(NORMAL_TEXTURE)) n = surface_mapped_normal(g, h, m, n, EC_SLOT_NORMAL, EC_MATERIAL_METALLIC);
+        s->ns = s->coat_ns = surface_seen_normal(s, wo, n);
+        if (HAS(CLEARCOAT_NORMAL_TEXTURE)) coat = surface_mapped_normal(g, h, m, coat, EC_SLOT_CLEARCOAT_NORMAL, EC_MATERIAL_COAT);
+        if (HAS(CLEARCOAT) && HAS_TANGENTS) s->coat_ns = surface_seen_normal(s, wo, coat);
     }
     v3_frame(s->ns, &s->s, &s->t);
 }
@@ -122,7 +137,35 @@ EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m,
     if (HAS(SMOOTH)) s->smooth = s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);
 }
 
-/* Parameters of the metallic-roughness model with KHR_materials_specular. */
+/* KHR_materials_clearcoat. The inside of a body that refracts has none. */
+EC_FN void surface_coat(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad coat = material_quad(g, h, EC_MATERIAL_COAT);
+    lane_f roughness = coat.b;
+    s->coat = coat.a;
+    if (HAS(CLEARCOAT_TEXTURE)) {
+        s->coat *= material_texture(g, h, m, EC_SLOT_CLEARCOAT, false).rgb.x;
+        roughness *= material_texture(g, h, m, EC_SLOT_CLEARCOAT_ROUGHNESS, false).rgb.y;
+    }
+    s->coat = (s->refracts & !s->front) ? F(0.0f) : s->coat;
+    s->coat_alpha = max(roughness * roughness, F(EC_SMOOTH_ALPHA));
+    s->coat_smooth = roughness * roughness < EC_SMOOTH_ALPHA;
+}
+
+/* KHR_materials_sheen, likewise. */
+EC_FN void surface_sheen(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_SHEEN);
+    s->sheen = v3_make(q.a, q.b, q.c);
+    s->sheen_roughness = q.d;
+    if (HAS(SHEEN_TEXTURE)) {
+        s->sheen = v3_mul(s->sheen, material_texture(g, h, m, EC_SLOT_SHEEN_COLOR, true).rgb);
+        s->sheen_roughness *= material_texture(g, h, m, EC_SLOT_SHEEN_ROUGHNESS, false).a;
+    }
+    s->sheen = v3_select(s->refracts & !s->front, v3_zero(), s->sheen);
+}
+
+/* Parameters of the metallic-roughness model with KHR_materials_specular, and of what lies over it. */
 EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
     s->base = surface_base_color(g, h, m).rgb;
@@ -133,6 +176,8 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->smooth = s->refracts = !TRUE_MASK;
     s->transmission = F(0.0f);
     s->eta = F(1.0f);
+    s->coat = F(0.0f);
+    s->sheen = v3_zero();
     if (!HAS(SPECULAR)) return;
     quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_F0);
     lane_f roughness = factors.b;
@@ -155,6 +200,8 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     /* KHR_materials_specular: f0 = min(color ((ior - 1) / (ior + 1))^2, 1) weight. */
     s->f0 = v3_scale(v3_make(min(color.x, F(1.0f)), min(color.y, F(1.0f)), min(color.z, F(1.0f))), weight);
     s->f90 = weight;
+    if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
+    if (HAS(SHEEN)) surface_sheen(g, h, m, s);
 }
 
 EC_FN v3 surface_to_local(const surface *s, v3 w)

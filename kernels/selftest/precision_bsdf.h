@@ -18,6 +18,8 @@ EC_FN surface material_of(global const float *in)
     s.transmission = X(13);
     s.eta = X(14);
     s.refracts = s.eta != 1.0f;
+    s.coat = F(0.0f);
+    s.sheen = v3_zero();
     return s;
 }
 EC_FN bsdf bsdf_of(global const float *in)
@@ -38,12 +40,40 @@ PRECISION(bsdf_fresnel)
 PRECISION(ggx_d)
 {
     bsdf b = bsdf_of(in);
-    PUT(0, ggx_d(&b, V(0)));
+    PUT(0, ggx_d(&b.facets, V(0)));
 }
 PRECISION(ggx_lambda)
 {
     bsdf b = bsdf_of(in);
-    PUT(0, ggx_lambda(&b, X(2)));
+    PUT(0, ggx_lambda(&b.facets, X(2)));
+}
+/* Over black, its normal the surface's, alpha in 12. */
+PRECISION(coat_over)
+{
+    surface s = material_of(in);
+    s.s = v3_make(F(1.0f), F(0.0f), F(0.0f));
+    s.t = v3_make(F(0.0f), F(1.0f), F(0.0f));
+    s.ns = s.coat_ns = v3_make(F(0.0f), F(0.0f), F(1.0f));
+    s.coat = F(1.0f);
+    s.coat_alpha = s.alpha_ggx;
+    s.coat_smooth = s.smooth;
+    coat c = coat_make(&s, V(0), F(0.5f));
+    v3 f = v3_zero();
+    lane_f pdf = F(0.0f);
+    coat_over(&c, V(3), &f, &pdf);
+    PUT(0, f.x);
+    PUT(1, pdf);
+}
+/* Over black; colour in base, roughness in alpha's place. */
+PRECISION(sheen_over)
+{
+    sheen s = sheen_make(V(6), X(12), X(2), F(0.5f));
+    v3 f = v3_zero();
+    lane_f pdf = F(0.0f);
+    sheen_over(&s, V(0), V(3), &f, &pdf);
+    PUT_V(0, f);
+    PUT(3, pdf);
+    PUT(4, s.own);
 }
 /* A share of the light is worth its error against the whole: what 1 - F rounds off is a part of the light that comes. The scale of
  * a value is therefore the value where nothing is reflected. */
@@ -60,7 +90,7 @@ PRECISION(ggx_sample)
 {
     bsdf b = bsdf_of(in);
     lane_f cosine, sine = sincos_2pi(X(15), &cosine);
-    v3 m = ggx_sample(&b, cosine, sine, X(16));
+    v3 m = ggx_sample(&b.facets, b.wo, cosine, sine, X(16));
     PUT(0, m.x);
     PUT(1, m.y);
     PUT(2, m.z);

@@ -5,39 +5,79 @@
 
 #include "types.h"
 
-/* X(bit, NAME, text for `eclat info`) */
-#define EC_FEATURES(X)                                                                             \
-    X(0, EMISSION, "emission")                                                                     \
-    X(1, AREA_LIGHTS, "area-lights")                                                               \
-    X(2, PUNCTUAL_LIGHTS, "punctual-lights")                                                       \
-    X(3, ENVIRONMENT, "environment")                                                               \
-    X(4, ENVIRONMENT_MAP, "environment-map")                                                       \
-    X(5, SPECULAR, "specular")                                                                     \
-    X(6, SMOOTH_NORMALS, "smooth-normals")                                                         \
-    X(7, VERTEX_COLORS, "vertex-colors")                                                           \
-    X(8, BASE_COLOR_TEXTURE, "base-color-texture")                                                 \
-    X(9, METALLIC_ROUGHNESS_TEXTURE, "metallic-roughness-texture")                                 \
-    X(10, NORMAL_TEXTURE, "normal-texture")                                                        \
-    X(11, EMISSION_TEXTURE, "emission-texture")                                                    \
-    X(12, SPECULAR_TEXTURE, "specular-texture")                                                    \
-    X(13, ALPHA, "alpha")                                                                          \
-    X(14, CULLING, "back-face-culling")                                                            \
-    X(15, UNLIT, "unlit")                                                                          \
-    X(16, FLOAT_TEXTURE, "float-textures")                                                          \
-    X(17, SMOOTH, "smooth-surfaces")                                                               \
-    X(18, TRANSMISSION, "transmission")                                                            \
-    X(19, TRANSMISSION_TEXTURE, "transmission-texture")                                            \
-    X(20, ABSORPTION, "absorption")                                                                \
-    X(21, SOBOL, "sobol-sampler")                                                                  \
-    X(22, TERMINATOR, "smooth-terminator")
+#define EC_FEATURE_BIT(n) ((ec_ulong)1 << (n))
+#define EC_FEATURE_EMISSION EC_FEATURE_BIT(0)
+#define EC_FEATURE_AREA_LIGHTS EC_FEATURE_BIT(1)
+#define EC_FEATURE_PUNCTUAL_LIGHTS EC_FEATURE_BIT(2)
+#define EC_FEATURE_ENVIRONMENT EC_FEATURE_BIT(3)
+#define EC_FEATURE_ENVIRONMENT_MAP EC_FEATURE_BIT(4)
+#define EC_FEATURE_SPECULAR EC_FEATURE_BIT(5)
+#define EC_FEATURE_SMOOTH_NORMALS EC_FEATURE_BIT(6)
+#define EC_FEATURE_VERTEX_COLORS EC_FEATURE_BIT(7)
+#define EC_FEATURE_BASE_COLOR_TEXTURE EC_FEATURE_BIT(8)
+#define EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE EC_FEATURE_BIT(9)
+#define EC_FEATURE_NORMAL_TEXTURE EC_FEATURE_BIT(10)
+#define EC_FEATURE_EMISSION_TEXTURE EC_FEATURE_BIT(11)
+#define EC_FEATURE_SPECULAR_TEXTURE EC_FEATURE_BIT(12)
+#define EC_FEATURE_ALPHA EC_FEATURE_BIT(13)
+#define EC_FEATURE_CULLING EC_FEATURE_BIT(14)
+#define EC_FEATURE_UNLIT EC_FEATURE_BIT(15)
+#define EC_FEATURE_FLOAT_TEXTURE EC_FEATURE_BIT(16)
+#define EC_FEATURE_SMOOTH EC_FEATURE_BIT(17)
+#define EC_FEATURE_TRANSMISSION EC_FEATURE_BIT(18)
+#define EC_FEATURE_TRANSMISSION_TEXTURE EC_FEATURE_BIT(19)
+#define EC_FEATURE_ABSORPTION EC_FEATURE_BIT(20)
+#define EC_FEATURE_SOBOL EC_FEATURE_BIT(21)
+#define EC_FEATURE_TERMINATOR EC_FEATURE_BIT(22)
+#define EC_FEATURE_CLEARCOAT EC_FEATURE_BIT(23)
+#define EC_FEATURE_CLEARCOAT_TEXTURE EC_FEATURE_BIT(24)
+#define EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE EC_FEATURE_BIT(25)
+#define EC_FEATURE_SHEEN EC_FEATURE_BIT(26)
+#define EC_FEATURE_SHEEN_TEXTURE EC_FEATURE_BIT(27)
 
-#define EC_FEATURE_ENUM(bit, name, text) EC_FEATURE_##name = 1 << bit,
-enum ec_feature { EC_FEATURES(EC_FEATURE_ENUM) EC_FEATURE_ALL = (1 << 23) - 1 };
+/* X(NAME, text for `eclat info`) */
+#define EC_FEATURES(X)                                                                             \
+    X(EMISSION, "emission")                                                                        \
+    X(AREA_LIGHTS, "area-lights")                                                                  \
+    X(PUNCTUAL_LIGHTS, "punctual-lights")                                                          \
+    X(ENVIRONMENT, "environment")                                                                  \
+    X(ENVIRONMENT_MAP, "environment-map")                                                          \
+    X(SPECULAR, "specular")                                                                        \
+    X(SMOOTH_NORMALS, "smooth-normals")                                                            \
+    X(VERTEX_COLORS, "vertex-colors")                                                              \
+    X(BASE_COLOR_TEXTURE, "base-color-texture")                                                    \
+    X(METALLIC_ROUGHNESS_TEXTURE, "metallic-roughness-texture")                                    \
+    X(NORMAL_TEXTURE, "normal-texture")                                                            \
+    X(EMISSION_TEXTURE, "emission-texture")                                                        \
+    X(SPECULAR_TEXTURE, "specular-texture")                                                        \
+    X(ALPHA, "alpha")                                                                              \
+    X(CULLING, "back-face-culling")                                                                \
+    X(UNLIT, "unlit")                                                                              \
+    X(FLOAT_TEXTURE, "float-textures")                                                             \
+    X(SMOOTH, "smooth-surfaces")                                                                   \
+    X(TRANSMISSION, "transmission")                                                                \
+    X(TRANSMISSION_TEXTURE, "transmission-texture")                                                \
+    X(ABSORPTION, "absorption")                                                                    \
+    X(SOBOL, "sobol-sampler")                                                                      \
+    X(TERMINATOR, "smooth-terminator")                                                             \
+    X(CLEARCOAT, "clearcoat")                                                                      \
+    X(CLEARCOAT_TEXTURE, "clearcoat-texture")                                                      \
+    X(CLEARCOAT_NORMAL_TEXTURE, "clearcoat-normal-texture")                                        \
+    X(SHEEN, "sheen")                                                                              \
+    X(SHEEN_TEXTURE, "sheen-texture")
+
+#define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
+#define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name
+#define EC_FEATURE_ALL (0 EC_FEATURES(EC_FEATURE_OR_))
+EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_its_own_bit);
 
 /* All of what reads a texture, and so wants texels and places on them. */
 #define EC_FEATURES_TEXTURED                                                                                          \
     (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |              \
-     EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE)
+     EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE |                    \
+     EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN_TEXTURE)
+/* What bends normals, and so wants tangents. */
+#define EC_FEATURES_TANGENTS (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_ATTRIBUTES (EC_FEATURES_TEXTURED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
 
 #ifdef EC_DEVICE_CODE
@@ -46,6 +86,7 @@ enum ec_feature { EC_FEATURES(EC_FEATURE_ENUM) EC_FEATURE_ALL = (1 << 23) - 1 };
 #endif
 #define HAS(name) ((FEATURES & EC_FEATURE_##name) != 0)
 #define HAS_TEXTURES ((FEATURES & EC_FEATURES_TEXTURED) != 0)
+#define HAS_TANGENTS ((FEATURES & EC_FEATURES_TANGENTS) != 0)
 #define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)
 #endif
 

@@ -38,10 +38,12 @@ typedef struct ec_material_data {
     ec_float absorption[3];     /* 1/m, inside the body */
     ec_float transmission;
     ec_float ior, pad[3];
+    ec_float coat, coat_roughness, coat_normal_scale, coat_pad;
+    ec_float sheen[3], sheen_roughness;
     ec_texture_slot slots[EC_SLOT_COUNT];
 } ec_material_data;
-EC_ASSERT_SIZE(ec_material_data, 320);
-#define EC_MATERIAL_WORDS 80
+EC_ASSERT_SIZE(ec_material_data, 512);
+#define EC_MATERIAL_WORDS 128
 #define EC_MATERIAL_BASE_COLOR 0
 #define EC_MATERIAL_EMISSION 4
 #define EC_MATERIAL_FLAGS 7
@@ -52,7 +54,9 @@ EC_ASSERT_SIZE(ec_material_data, 320);
 #define EC_MATERIAL_F0 12
 #define EC_MATERIAL_ABSORPTION 16
 #define EC_MATERIAL_IOR 20
-#define EC_MATERIAL_SLOTS 24
+#define EC_MATERIAL_COAT 24
+#define EC_MATERIAL_SHEEN 28
+#define EC_MATERIAL_SLOTS 32
 #define EC_MATERIAL_DOUBLE_SIDED 1u
 #define EC_MATERIAL_EMISSIVE 2u
 #define EC_MATERIAL_UNLIT 4u

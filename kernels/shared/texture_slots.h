@@ -10,7 +10,12 @@
     X(EMISSION, 1)                                                                                                     \
     X(SPECULAR, 0)           /* A */                                                                                   \
     X(SPECULAR_COLOR, 1)                                                                                               \
-    X(TRANSMISSION, 0)       /* R */
+    X(TRANSMISSION, 0)       /* R */                                                                                   \
+    X(CLEARCOAT, 0)          /* R */                                                                                   \
+    X(CLEARCOAT_ROUGHNESS, 0) /* G */                                                                                  \
+    X(CLEARCOAT_NORMAL, 0)                                                                                             \
+    X(SHEEN_COLOR, 1)                                                                                                  \
+    X(SHEEN_ROUGHNESS, 0)    /* A */
 
 #define EC_SLOT_ENUM(name, is_srgb) EC_SLOT_##name,
 enum ec_slot { EC_SLOTS(EC_SLOT_ENUM) EC_SLOT_COUNT };

@@ -8,11 +8,13 @@
 #define EC_FN static inline __attribute__((always_inline))
 typedef int ec_int;
 typedef uint ec_uint;
+typedef ulong ec_ulong;
 typedef float ec_float;
 #else
 #include <stdint.h>
 typedef int32_t ec_int;
 typedef uint32_t ec_uint;
+typedef uint64_t ec_ulong;
 typedef float ec_float;
 #endif
 
@@ -21,7 +23,7 @@ typedef float ec_float;
 /* A negative array size says "no" in every dialect. */
 #define EC_STATIC_ASSERT_NAME_(a, b) a##b
 #define EC_STATIC_ASSERT_NAME(a, b) EC_STATIC_ASSERT_NAME_(a, b)
-#define EC_ASSERT_SIZE(type, bytes)                                                                \
-    typedef char EC_STATIC_ASSERT_NAME(type, _has_size_##bytes)[sizeof(type) == (bytes) ? 1 : -1]
+#define EC_ASSERT(condition, name) typedef char name[(condition) ? 1 : -1]
+#define EC_ASSERT_SIZE(type, bytes) EC_ASSERT(sizeof(type) == (bytes), EC_STATIC_ASSERT_NAME(type, _has_size_##bytes))
 
 #endif

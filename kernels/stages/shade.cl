@@ -140,7 +140,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     v3 start = HAS(TERMINATOR) && normals ? terminator_origin(&g, &h, &s, &lifted) : s.p;
     v3 above = surface_offset(start, s.p_error, s.ng, wo);
 
-    lane_i joins = scatters & !(b.smooth & (b.p_specular == 1.0f)); /* no light sample lies in a mirror's one direction */
+    lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
         lane_f u1, u2, pdf_bsdf;
         sample_pair(random, pair + EC_PAIR_LIGHT, &u1, &u2);

@@ -30,6 +30,10 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
     surface s = e.s;
     s.alpha_ggx = max(s.alpha_ggx, F(LEAST_ALPHA));
     s.smooth = !TRUE_MASK;
+    if (HAS(CLEARCOAT)) {
+        s.coat_alpha = max(s.coat_alpha, F(LEAST_ALPHA));
+        s.coat_smooth = !TRUE_MASK;
+    }
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
     v3 direct = v3_zero();
     for (uint k = 0; (HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS)) && k < params->light_count; k++) {
@@ -41,7 +45,10 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
     if (HAS(ENVIRONMENT)) {
         lane_f rest; /* The mean from everywhere reflects as albedo, here that of normal incidence. */
         v3 fresnel = HAS(SPECULAR) ? bsdf_fresnel(&b, F(1.0f), &rest) : v3_zero();
-        direct = v3_add(direct, light_ambient(params, HAS(SPECULAR) ? v3_fma(b.base, rest, fresnel) : b.base));
+        v3 albedo = HAS(SPECULAR) ? v3_fma(b.base, rest, fresnel) : b.base;
+        if (HAS(SHEEN)) albedo = v3_fma(b.sheen.color, min(b.sheen.albedo_o, F(1.0f)), v3_scale(albedo, 1.0f - b.sheen.own));
+        if (HAS(CLEARCOAT)) albedo = v3_fma(v3_splat(F(1.0f)), b.coat.share, v3_scale(albedo, 1.0f - b.coat.share));
+        direct = v3_add(direct, light_ambient(params, albedo));
     }
     v3 out = v3_add(seen_background(&env, active & !found, d), e.glow);
     out = v3_add(out, v3_select(e.lit, direct, v3_zero()));

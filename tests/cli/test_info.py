@@ -109,6 +109,54 @@ class Info(Case):
             with self.subTest(material=material):
                 self.assertEqual(self.effects(**material), expected)
 
+    def layers(self, extension, *texels, metallic=0.0, unlit=False):
+        """Effects that a quad calls for by an extension; textures by index."""
+        extensions = dict(extension, **({"KHR_materials_unlit": {}} if unlit else {}))
+        scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": metallic}, "extensions": extensions})
+        scene["images"] = [{"uri": png(*t)} for t in texels]
+        scene["textures"] = [{"source": i} for i in range(len(texels))]
+        scene["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC2"})
+        scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+        return set(self.info(write_gltf(self.path("layers.gltf"), scene))["effects"])
+
+    def check_layers(self, name, words, cases):
+        for expected, members, *texels in cases:
+            with self.subTest(extension=name, members=members, texels=texels):
+                self.assertEqual(self.layers({name: members}, *texels) & words, expected)
+                self.assertEqual(self.layers({name: members}, *texels, unlit=True) & words, set())
+
+    def test_coats_call_for_what_they_have(self):
+        coat, textured, bent, smooth = "clearcoat", "clearcoat-texture", "clearcoat-normal-texture", "smooth-surfaces"
+        black, green, white = [(0, 0, 0)], [(0, 255, 0)], [(0, 0, 0), (255, 255, 255)]
+        one = {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 1}
+        self.check_layers("KHR_materials_clearcoat", {coat, textured, bent, smooth}, [
+            (set(), {}),
+            (set(), {"clearcoatFactor": 0, "clearcoatTexture": {"index": 0}, "clearcoatNormalTexture": {"index": 0}}, white),
+            ({coat}, one),
+            ({coat, smooth}, {"clearcoatFactor": 0.1}),
+            ({coat, smooth}, {"clearcoatFactor": 0.1, "clearcoatRoughnessFactor": 0.0099}),
+            ({coat}, {"clearcoatFactor": 0.1, "clearcoatRoughnessFactor": 0.0102}),
+            # the weight is in red, roughness in green
+            (set(), {**one, "clearcoatTexture": {"index": 0}}, green),
+            ({coat, textured}, {**one, "clearcoatTexture": {"index": 0}}, white),
+            ({coat, textured}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, green),
+            ({coat, textured, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, black),
+            ({coat, bent}, {**one, "clearcoatNormalTexture": {"index": 0}}, white),
+        ])
+
+    def test_sheen_calls_for_what_it_has(self):
+        sheen, textured = "sheen", "sheen-texture"
+        black, green, white = [(0, 0, 0)], [(0, 255, 0)], [(0, 0, 0), (255, 255, 255)]
+        self.check_layers("KHR_materials_sheen", {sheen, textured}, [
+            (set(), {}),
+            (set(), {"sheenRoughnessFactor": 1, "sheenRoughnessTexture": {"index": 0}}, white),
+            ({sheen}, {"sheenColorFactor": [0, 0, 0.1]}),
+            (set(), {"sheenColorFactor": [1, 1, 1], "sheenColorTexture": {"index": 0}}, black),
+            (set(), {"sheenColorFactor": [1, 0, 1], "sheenColorTexture": {"index": 0}}, green),
+            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, green),
+            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, black),
+        ])
+
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))
         for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "effects",

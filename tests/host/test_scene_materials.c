@@ -183,6 +183,53 @@ static void test_glass(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) expect_failure(bad[i].text, textured_blobs, bad[i].message);
 }
 
+/* What lies over a surface: an extension's members in, what the renderer needs out; values out of range are clamped with a warning, those of
+ * another kind are an error. */
+#define LAYER(NAME, MEMBERS) TEXTURED(",'extensions':{'" NAME "':{" MEMBERS "}}", ",'extensionsRequired':['" NAME "']")
+
+static const ec_material *load_layer(const char *text, ec_scene **s, bool odd)
+{
+    *s = load(text);
+    CHECK_MSG(odd == (strstr(messages, "clamped") && strstr(messages, "materials[0] \"m\"")), "%s: %s", text, messages);
+    return (*s)->materials;
+}
+
+static void test_coat(void)
+{
+    ec_scene *s;
+    const ec_material *m = load_layer(LAYER("KHR_materials_clearcoat", ""), &s, false);
+    CHECK(m->coat == 0 && m->coat_roughness == 0 && m->coat_normal_scale == 1 && m->textures[EC_SLOT_CLEARCOAT_NORMAL].texture < 0);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_clearcoat", "'clearcoatFactor':0.5,'clearcoatRoughnessFactor':0.25,'clearcoatTexture':{'index':0},"
+                         "'clearcoatRoughnessTexture':{'index':1},'clearcoatNormalTexture':{'index':5,'scale':-2}"), &s, false);
+    CHECK(m->coat == 0.5f && m->coat_roughness == 0.25f && m->coat_normal_scale == -2);
+    CHECK(m->textures[EC_SLOT_CLEARCOAT].texture == 0 && m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS].texture == 1 &&
+          m->textures[EC_SLOT_CLEARCOAT_NORMAL].texture == 2);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_clearcoat", "'clearcoatFactor':2,'clearcoatRoughnessFactor':-1"), &s, true);
+    CHECK(m->coat == 1 && m->coat_roughness == 0);
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_clearcoat", "'clearcoatFactor':'1'"), textured_blobs, "KHR_materials_clearcoat.clearcoatFactor must be a number");
+    expect_failure(LAYER("KHR_materials_clearcoat", "'clearcoatNormalTexture':{}"), textured_blobs, "clearcoatNormalTexture.index is missing");
+}
+
+static void test_sheen(void)
+{
+    ec_scene *s;
+    const ec_material *m = load_layer(LAYER("KHR_materials_sheen", ""), &s, false);
+    CHECK(m->sheen[0] == 0 && m->sheen[2] == 0 && m->sheen_roughness == 0 && m->textures[EC_SLOT_SHEEN_COLOR].texture < 0);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_sheen", "'sheenColorFactor':[0.5,0.25,1],'sheenRoughnessFactor':0.75,'sheenColorTexture':{'index':0},"
+                         "'sheenRoughnessTexture':{'index':1}"), &s, false);
+    CHECK(m->sheen[0] == 0.5f && m->sheen[1] == 0.25f && m->sheen[2] == 1 && m->sheen_roughness == 0.75f);
+    CHECK(m->textures[EC_SLOT_SHEEN_COLOR].texture == 0 && m->textures[EC_SLOT_SHEEN_ROUGHNESS].texture == 1);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_sheen", "'sheenColorFactor':[-1,0.5,3],'sheenRoughnessFactor':7"), &s, true);
+    CHECK(m->sheen[0] == 0 && m->sheen[1] == 0.5f && m->sheen[2] == 1 && m->sheen_roughness == 1);
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_sheen", "'sheenColorFactor':[1,1]"), textured_blobs, "KHR_materials_sheen.sheenColorFactor must have 3 numbers");
+}
+
 static void test_images(void)
 {
     ec_scene *s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
@@ -298,6 +345,8 @@ int main(void)
     test_defaults();
     test_factors();
     test_glass();
+    test_coat();
+    test_sheen();
     test_images();
     test_transform();
     test_missing_coordinates();

@@ -20,7 +20,7 @@
     S(ec_material_data) F(ec_material_data, base_color) F(ec_material_data, emission) F(ec_material_data, flags) \
     F(ec_material_data, metallic) F(ec_material_data, roughness) F(ec_material_data, normal_scale) \
     F(ec_material_data, alpha_cutoff) F(ec_material_data, f0) F(ec_material_data, specular) \
-    F(ec_material_data, absorption) F(ec_material_data, transmission) F(ec_material_data, ior) \
+    F(ec_material_data, absorption) F(ec_material_data, transmission) F(ec_material_data, ior) F(ec_material_data, coat_normal_scale) \
     F(ec_material_data, slots) F(ec_material_data, slots[EC_SLOT_COUNT - 1].transform[5])          \
     S(ec_texture_data) F(ec_texture_data, offset) F(ec_texture_data, width) F(ec_texture_data, height) F(ec_texture_data, flags) \
     S(ec_light_data) F(ec_light_data, a) F(ec_light_data, b) F(ec_light_data, c) F(ec_light_data, emission) \

@@ -1,6 +1,7 @@
 /* Directions from the sampling routines, with the densities that they claim, for test_chi2_*.c. */
 #include "lib/bsdf.h"
 #include "lib/light.h"
+#include "packed_material.h"
 
 /* Numbers of a hash: what is tested is the map from them to directions. */
 static void numbers(lane_u i, uint seed, lane_f *u1, lane_f *u2, lane_u *choice)
@@ -23,19 +24,28 @@ static void store(global float *out, uint n, v3 w, lane_f pdf)
 static bsdf make_bsdf(constant float *m)
 {
     surface s;
-    s.base = v3_make(F(m[0]), F(m[1]), F(m[2]));
-    s.f0 = v3_splat(F(m[3]));
-    s.f90 = F(m[4]);
-    s.metallic = F(m[5]);
-    s.alpha_ggx = F(m[6]);
-    s.smooth = !TRUE_MASK;
-    s.transmission = F(m[8]);
-    s.eta = F(m[9]);
-    s.refracts = LANE_NUMBERS < (m[9] != 1.0f ? (uint)LANES : 0u);
-    return bsdf_make(&s, v3_make(F(sqrt(max(1.0f - m[7] * m[7], 0.0f))), F(0.0f), F(m[7])));
+    s.base = v3_make(F(m[PACKED_BASE]), F(m[PACKED_BASE + 1]), F(m[PACKED_BASE + 2]));
+    s.f0 = v3_splat(F(m[PACKED_F0]));
+    s.f90 = F(m[PACKED_F90]);
+    s.metallic = F(m[PACKED_METALLIC]);
+    s.alpha_ggx = F(m[PACKED_ALPHA]);
+    s.smooth = s.coat_smooth = !TRUE_MASK;
+    s.transmission = F(m[PACKED_TRANSMISSION]);
+    s.eta = F(m[PACKED_ETA]);
+    s.refracts = LANE_NUMBERS < (m[PACKED_ETA] != 1.0f ? (uint)LANES : 0u);
+    s.s = v3_make(F(1.0f), F(0.0f), F(0.0f));
+    s.t = v3_make(F(0.0f), F(1.0f), F(0.0f));
+    s.ns = v3_make(F(0.0f), F(0.0f), F(1.0f));
+    s.sheen = v3_make(F(m[PACKED_SHEEN]), F(m[PACKED_SHEEN + 1]), F(m[PACKED_SHEEN + 2]));
+    s.sheen_roughness = F(m[PACKED_SHEEN_ROUGHNESS]);
+    s.coat = F(m[PACKED_COAT]);
+    s.coat_alpha = F(m[PACKED_COAT_ALPHA]);
+    float tilt = m[PACKED_COAT_TILT], cosine = m[PACKED_COSINE];
+    s.coat_ns = v3_make(F(tilt), F(0.0f), F(sqrt(1.0f - tilt * tilt)));
+    return bsdf_make(&s, v3_make(F(sqrt(max(1.0f - cosine * cosine, 0.0f))), F(0.0f), F(cosine)));
 }
 
-/* m: base (3), f0, f90, metallic, alpha, cosine of wo, transmission, eta (1: thin). The fifth array is the weight, green. */
+/* m: packed_material.h. The fifth array is the weight, green. */
 kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out)
 {
     lane_f u1, u2, pdf;
@@ -56,6 +66,17 @@ kernel void bsdf_densities(uint n, constant float *m, global const float *wi, gl
     bsdf b = make_bsdf(m);
     lane_f p;
     bsdf_eval(&b, v3_make(LANE_LOAD(wi + at), LANE_LOAD(wi + n + at), LANE_LOAD(wi + 2 * n + at)), &p);
+    LANE_STORE(p, pdf + at);
+}
+
+/* f |cos wi|, green, and density of given directions. */
+kernel void bsdf_values(uint n, constant float *m, global const float *wi, global float *f, global float *pdf)
+{
+    uint at = get_global_id(0) * LANES;
+    if (at >= n) return;
+    bsdf b = make_bsdf(m);
+    lane_f p;
+    LANE_STORE(bsdf_eval(&b, v3_make(LANE_LOAD(wi + at), LANE_LOAD(wi + n + at), LANE_LOAD(wi + 2 * n + at)), &p).y, f + at);
     LANE_STORE(p, pdf + at);
 }
 

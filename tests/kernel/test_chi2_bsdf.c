@@ -1,8 +1,10 @@
 /* What bsdf_sample samples against bsdf_eval's density, by chi-square; the density against 1. A sample where the density is 0 fails at
  * once. Polar cells about the mirrored direction above the surface and about the refracted one below, finer where the lobe is. */
 #include "kernel/chi2.h"
+#include "kernel/packed_material.h"
 
-static cl_program programs[LANE_WIDTHS], glass_programs[LANE_WIDTHS]; /* without and with transmission */
+/* Without and with transmission; with all that lies over a surface. */
+static cl_program programs[LANE_WIDTHS], glass_programs[LANE_WIDTHS], layered_programs[LANE_WIDTHS];
 
 #define RINGS 20
 #define SECTORS 24
@@ -69,7 +71,7 @@ static void integrate_cells(cl_program program, const frame *f, int side, const 
         weight[p] = density / RINGS / FINE * 2 * pi / SECTORS / FINEST;
     }
     memset(mass, 0, CELLS * sizeof *mass);
-    if (KERNEL_CALL(&cl, program, "bsdf_densities", n / 8, SCALAR(n), IN(packed, 10), IN(wi, 3 * n), OUT(pdf, n)))
+    if (KERNEL_CALL(&cl, program, "bsdf_densities", n / 8, SCALAR(n), IN(packed, PACKED_FIELDS), IN(wi, 3 * n), OUT(pdf, n)))
         for (uint32_t p = 0; p < n; p++)
             if (wi[2 * n + p] * (float)side > 0) mass[p / (FINE * FINEST)] += weight[p] * pdf[p];
     free(wi);
@@ -91,14 +93,16 @@ static void check_energy(const char *name, const material *m)
     CHECK_MSG(!closed || (sum <= 1 + 4 * se + 1e-5 && sum > 0.2), "%s: a white surface returns %g +- %g of what comes in", name, sum, se);
 }
 
-static void check_bsdf(cl_program *built, int lanes, material m)
+/* over: what lies over the surface, its fields from PACKED_COAT on. */
+static void check_covered(cl_program *built, int lanes, material m, const char *what, const float *over)
 {
-    char name[160];
-    snprintf(name, sizeof name, "BSDF, LANES %d, metallic %g alpha %g cosine %g transmission %g eta %g", lane_widths[lanes],
+    char name[240];
+    snprintf(name, sizeof name, "%s, LANES %d, metallic %g alpha %g cosine %g transmission %g eta %g", what, lane_widths[lanes],
              (double)m.metallic, (double)m.alpha, (double)m.cosine, (double)m.transmission, (double)m.eta);
     float r = (m.eta - 1) / (m.eta + 1), f0 = m.eta == 1 ? 0.04f : r * r;
-    const float packed[10] = {m.base, m.base == 1 ? 1 : m.base * 0.5f, m.base == 1 ? 1 : 0.1f, f0, 1.0f, m.metallic, m.alpha, m.cosine,
+    float packed[PACKED_FIELDS] = {m.base, m.base == 1 ? 1 : m.base * 0.5f, m.base == 1 ? 1 : 0.1f, f0, 1.0f, m.metallic, m.alpha, m.cosine,
                               m.transmission, m.eta};
+    memcpy(packed + PACKED_COAT, over + PACKED_COAT, (PACKED_FIELDS - PACKED_COAT) * sizeof *packed);
     const frame frames[2] = {frame_above(&m), frame_below(&m)};
     double mass[CELLS], expected[2 * CELLS + 1], total = 0;
     uint32_t count[2 * CELLS + 1] = {0}, dark = 0, astray = 0;
@@ -107,7 +111,7 @@ static void check_bsdf(cl_program *built, int lanes, material m)
         for (uint32_t i = 0; i < CELLS; i++) total += mass[i], expected[CELLS * side + i] = mass[i] * SAMPLES;
     }
     if (!KERNEL_CALL(&cl, built[lanes], "bsdf_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
-                     IN(packed, 10), OUT(out, 5 * SAMPLES)))
+                     IN(packed, PACKED_FIELDS), OUT(out, 5 * SAMPLES)))
         return;
     seed++;
     expected[2 * CELLS] = fmax(0, 1 - total) * SAMPLES; /* off a microfacet onto the wrong side */
@@ -123,6 +127,12 @@ static void check_bsdf(cl_program *built, int lanes, material m)
     CHECK_MSG(total < 1 + 2e-3, "%s: the density integrates to %g", name, total);
     check_chi2(name, expected, count, 2 * CELLS + 1);
     check_energy(name, &m);
+}
+
+static void check_bsdf(cl_program *built, int lanes, material m)
+{
+    static const float nothing[PACKED_FIELDS];
+    check_covered(built, lanes, m, "BSDF", nothing);
 }
 
 /* Thin walls, bodies from outside and from inside, where part or all of the light is reflected totally; half of the base
@@ -158,20 +168,55 @@ static void check_opaque(void)
     check_bsdf(programs, 1, (material){0.0f, 0.5f, 0.5f, 0.0f, 0, 1}); /* black: one lobe */
 }
 
+static void check_coat_over(int lanes, material m, float weight, float alpha, float tilt)
+{
+    const float over[PACKED_FIELDS] = {[PACKED_COAT] = weight, [PACKED_COAT_ALPHA] = alpha, [PACKED_COAT_TILT] = tilt};
+    check_covered(layered_programs, lanes, m, tilt == 0 ? "coat" : "bent coat", over);
+}
+
+/* Clear coats over matt, metal and glass; bent away from the surface's normal; over black, where only the coat is left. */
+static void check_coat(void)
+{
+    static const float alphas[3] = {0.1f, 0.4f, 1.0f}, cosines[3] = {1.0f, 0.5f, 0.05f};
+    for (int a = 0; a < 3; a++)
+        for (int c = 0; c < 3; c++)
+            check_coat_over((a + c) % LANE_WIDTHS, (material){a == 1, 0.5f, cosines[c], a == 1 ? 1 : 0.8f, 0, 1}, 1, alphas[a], 0);
+    check_coat_over(0, (material){0, 0.5f, 0.6f, 0.8f, 0, 1}, 0.5f, 0.3f, 0.3f);
+    check_coat_over(1, (material){1, 0.3f, 0.4f, 1, 0, 1}, 1, 0.2f, -0.4f);
+    check_coat_over(2, (material){0, 0.5f, 0.5f, 1, 1, 1.5f}, 1, 0.2f, 0);
+    check_coat_over(3, (material){0, 0.5f, 0.3f, 0, 0, 1}, 1, 0.5f, 0);
+}
+
+/* Fibres, coated too. */
+static void check_sheen(void)
+{
+    static const float roughness[3] = {0.2f, 0.5f, 1.0f}, cosines[3] = {1.0f, 0.5f, 0.05f};
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            const float over[PACKED_FIELDS] = {[PACKED_SHEEN] = 0.3f, [PACKED_SHEEN + 1] = 0.9f, [PACKED_SHEEN + 2] = 0.1f,
+                                               [PACKED_SHEEN_ROUGHNESS] = roughness[r], [PACKED_COAT] = r == 1, [PACKED_COAT_ALPHA] = 0.3f};
+            check_covered(layered_programs, (r + c) % LANE_WIDTHS, (material){c == 1, 0.5f, cosines[c], c == 1 ? 1 : 0.8f, r == 2, r == 2 ? 1.5f : 1}, "sheen", over);
+        }
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
     chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
     chi2_build(glass_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
+    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN)");
     if (!test_failures) {
         check_opaque();
         check_glass();
+        check_coat();
+        check_sheen();
         printf("%d chi-square tests\n", tests);
         CHECK(tests <= TESTS - 5); /* the lights' */
     }
     chi2_release(programs);
     chi2_release(glass_programs);
+    chi2_release(layered_programs);
     ec_cl_close(&cl);
     TEST_END();
 }

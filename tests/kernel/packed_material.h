@@ -1,0 +1,22 @@
+/* A surface as numbers, for run_chi2.cl and those who run it. Directions are local; wo lies in the plane of x and z. */
+#ifndef EC_TESTS_KERNEL_PACKED_MATERIAL_H
+#define EC_TESTS_KERNEL_PACKED_MATERIAL_H
+
+enum packed_field {
+    PACKED_BASE, /* 3 */
+    PACKED_F0 = 3,
+    PACKED_F90,
+    PACKED_METALLIC,
+    PACKED_ALPHA,
+    PACKED_COSINE, /* of wo */
+    PACKED_TRANSMISSION,
+    PACKED_ETA, /* 1: thin */
+    PACKED_COAT,
+    PACKED_COAT_ALPHA,
+    PACKED_COAT_TILT, /* sine of its normal's angle, in the plane of wo */
+    PACKED_SHEEN, /* 3 */
+    PACKED_SHEEN_ROUGHNESS = PACKED_SHEEN + 3,
+    PACKED_FIELDS
+};
+
+#endif
