@@ -31,7 +31,7 @@ ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err)
 
     /* A wrong ECLAT_DEVICE must not hide the list that mends it. */
     uint32_t chosen = 0;
-    ec_error reason = {""};
+    ec_error reason = {0};
     if (ec_device_choose(devices, report.count, NULL, &chosen, &report.why, &reason) == EC_OK) {
         report.chosen = chosen;
     } else {

@@ -82,11 +82,11 @@ static ec_result deliver(ec_console *console, ec_render_job *job, double start, 
 /* Hours of samples are not to be lost with the device: the picture is written, and the command fails all the same. */
 static ec_result render(ec_console *console, ec_render_job *job, double start, ec_error *err)
 {
-    ec_error why = {""};
+    ec_error why = {0};
     if (ec_render_job_run(job, console, &why) == EC_OK) return deliver(console, job, start, err);
     if (job->film.batch_count == 0) return ec_fail(err, "%s", why.text);
     ec_fail(err, "the render failed after %llu samples a pixel: %s", (unsigned long long)job->stats.samples_per_pixel, why.text);
-    ec_error unwritten = {""};
+    ec_error unwritten = {0};
     if (deliver(console, job, start, &unwritten) == EC_OK) ec_fail_more(err, "; the picture so far is written");
     else ec_fail_more(err, "; and then: %s", unwritten.text);
     return EC_FAILED;

@@ -97,7 +97,7 @@ int ec_cli_main(int argc, char **argv)
         fputs(EC_HELP_SHORT, stderr);
         return EC_USAGE;
     }
-    ec_error err = {""};
+    ec_error err = {0};
     cli.line = ec_command_line(argc, argv);
     ec_result result = cli.line ? run(&cli, &err) : ec_fail(&err, "out of memory");
     if (result == EC_OK) result = flush_results(&err);

@@ -175,7 +175,7 @@ ec_result ec_cost_measure(ec_cost_study *study, ec_cost_base *base, ec_cost_row 
     bool is_base = row->rung.is_base;
     measurement m = {.study = study, .base = is_base ? NULL : base, .row = row, .runner = is_base ? &base->runner : &own};
     ec_render_stats stats = {0};
-    ec_error why = {""};
+    ec_error why = {0};
     ec_result result = ec_cost_runner_open(study, &row->rung, m.runner, &stats, &row->setup_seconds, &why);
     row->device_bytes = stats.device_bytes;
     if (result != EC_OK) {

@@ -1,4 +1,5 @@
 /* The wave: how many paths are in flight, and the buffers that hold them. */
+#include "cl/workarounds.h"
 #include "pipeline/pipeline.h"
 
 #define EC_SMALLEST_WAVE 4096
@@ -32,7 +33,9 @@ static void set_wave(ec_pipeline *p, uint64_t wave)
 /* Drivers give memory when it is first used. Used here it is missed while there is a remedy. */
 static ec_result create(ec_pipeline *p, const char *label, uint64_t bytes, cl_mem *buffer, ec_error *err)
 {
+    const ec_workaround *workaround = ec_workaround_for(&p->cl->info);
     EC_TRY(ec_buffer_create(p->cl, label, bytes, NULL, buffer, err));
+    if (workaround && workaround->no_touch) return EC_OK;
     EC_TRY(ec_buffer_zero(p->cl, *buffer, 0, 4, err));
     return ec_cl_finish(p->cl, err);
 }
@@ -61,7 +64,7 @@ static void release_wave(ec_pipeline *p)
 /* Other programs may be using what a device says it has. Fewer paths in flight cost speed only, so the wave is halved until it fits. */
 static ec_result create_wave_that_fits(ec_pipeline *p, const ec_render_options *o, ec_error *err)
 {
-    ec_error why = {""};
+    ec_error why = {0};
     set_wave(p, o->wave ? o->wave : fit_wave(p, o));
     p->first_wave = p->wave;
     for (uint32_t refused = 0; create_wave(p, &why) != EC_OK; release_wave(p)) {

@@ -297,7 +297,7 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     if (result == EC_OK && r.pipeline.wave < r.pipeline.first_wave)
         ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", r.pipeline.wave, r.pipeline.first_wave);
     if (result == EC_OK) {
-        ec_error why = {""};
+        ec_error why = {0};
         result = render_loop(&r, log, &why);
         if (result != EC_OK) r.stopped_by = why.kind == EC_ERROR_OTHER ? "failure" : "device";
         if (result != EC_OK && err) *err = why;

@@ -59,6 +59,7 @@
     CASE("numbers/many samples", true, ec_selftest_many_samples, "pictures that darken with more samples: float sums (-58 % at 1e8)")\
     CASE("numbers/range", false, ec_selftest_range, "suns that turn black: sums over 3.4e38")                                      \
     CASE("numbers/variance", false, ec_selftest_variance, "errors stated as 0: E[x^2] - E[x]^2 cancels")                           \
-    CASE("numbers/srgb", false, ec_selftest_srgb, "washed-out textures: gamma 2.2 for sRGB")
+    CASE("numbers/srgb", false, ec_selftest_srgb, "washed-out textures: gamma 2.2 for sRGB")                    \
+    CASE("precision/float", true, ec_selftest_precision, "digits lost where numbers that were rounded cancel")
 
 #endif

@@ -36,10 +36,15 @@ ec_result ec_selftest_value(ec_selftest *t, const char *what, double expected, d
     return add(t, what, row, NULL, err);
 }
 
+ec_result ec_selftest_digits(ec_selftest *t, const char *what, double error, double tolerance, double digits, const char *note, ec_error *err)
+{
+    ec_selftest_row row = {.measured = error, .tolerance = tolerance, .digits = fmin(digits, EC_SELFTEST_DIGITS)};
+    return add(t, what, row, note, err);
+}
+
 ec_result ec_selftest_largest(ec_selftest *t, const char *what, double error, double tolerance, const char *note, ec_error *err)
 {
-    ec_selftest_row row = {.measured = error, .tolerance = tolerance, .digits = digits_of(error)};
-    return add(t, what, row, note, err);
+    return ec_selftest_digits(t, what, error, tolerance, digits_of(error), note, err);
 }
 
 ec_result ec_selftest_none(ec_selftest *t, const char *what, uint64_t wrong, uint64_t of, const char *note, ec_error *err)

@@ -21,7 +21,7 @@ static bool is_wanted(const ec_selftest_options *o, const ec_selftest_case *c)
 
 static ec_result run_case(ec_selftest *t, const ec_selftest_case *c, ec_error *err)
 {
-    ec_error why = {""};
+    ec_error why = {0};
     uint32_t first = t->report->count;
     double start = ec_now();
     t->current = c;

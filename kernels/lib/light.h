@@ -137,7 +137,7 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
     /* The direction itself: right above the lamp the way to its point, whose place is rounded, leads anywhere. */
     s.wi = v3_select(near, wi, s.wi);
     s.pdf = near ? pdf : s.pdf;
-    s.valid = near ? seen & (v3_dot(s.towards, s.towards) > 0.0f) : s.valid;
+    s.valid = near ? seen : s.valid;
     return s;
 }
 

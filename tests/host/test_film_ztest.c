@@ -7,7 +7,6 @@
 enum { W = 64, H = 48, VALUES = 3 * W * H };
 
 static test_random state = {1};
-static double uniform(void) { return test_uniform(&state); }
 static double normal(void) { return test_normal(&state); }
 
 static double truth(int i) { return 0.1 + (double)(i % 97) / 50; }

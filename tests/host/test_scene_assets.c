@@ -31,7 +31,7 @@ static int by_name(const void *a, const void *b)
 
 static void run_child(const char *path, int out)
 {
-    ec_error err = {""};
+    ec_error err = {0};
     ec_scene *scene;
     alarm(LIMIT_SECONDS);
     if (ec_scene_load(path, &scene, NULL, &err) != EC_OK) {

@@ -92,7 +92,7 @@ static inline ec_scene *load_bytes(const void *bytes, size_t size, const char *s
     CHECK((result == EC_OK) == (scene != NULL));
     CHECK_MSG((result == EC_OK) == (err->text[0] == 0), "message %s", err->text);
     CHECK_MSG(!strchr(err->text, '\n'), "an error of more than one line: %s", err->text);
-    ec_error invalid = {"fine"};
+    ec_error invalid = {.text = "fine"};
     if (scene) CHECK_MSG(ec_scene_validate(scene, &invalid) == EC_OK, "%s", invalid.text);
     return scene;
 }

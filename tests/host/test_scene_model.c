@@ -8,7 +8,7 @@
 
 static ec_scene *end(ec_model *m)
 {
-    ec_error err = {""};
+    ec_error err = {0};
     ec_scene *scene;
     CHECK_OK(ec_model_scene(m, &scene, &err), err);
     return scene;
@@ -99,7 +99,7 @@ static void spheres_are_closed(void)
 
 static void nothing_is_an_error(void)
 {
-    ec_error err = {""};
+    ec_error err = {0};
     ec_scene *scene;
     CHECK(ec_model_scene(ec_model_new(), &scene, &err) == EC_FAILED && !scene && *err.text);
     CHECK(ec_model_scene(NULL, &scene, &err) == EC_FAILED && strstr(err.text, "memory"));

@@ -45,7 +45,7 @@ int main(void)
         {"bsdf-sobol", EC_SAMPLE_BSDF, EC_SAMPLER_SOBOL, 512, 8},
         {"bsdf-independent", EC_SAMPLE_BSDF, EC_SAMPLER_INDEPENDENT, 512, 8},
     };
-    ec_error err = {{0}};
+    ec_error err = {0};
     ztest_picture reference = {0};
     CHECK_OK(ztest_load(reference_path, 63, &reference, &err), err);
     ec_scene *scene = case_load(scene_path, NULL);

@@ -32,7 +32,7 @@ enum { RENDERED, UNSUPPORTED, EMPTY, BAD };
 /* In the child. Universal kernels: one build for all models; specialised ones where asked. */
 static int render_model(const char *path, bool all_effects)
 {
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_scene *scene;
     if (ec_scene_load(path, &scene, NULL, &err) != EC_OK) {
         if (strstr(err.text, "which eclat does not support") || strstr(err.text, "eclat reads glTF 2.0")) return UNSUPPORTED;

@@ -41,7 +41,7 @@ static void against_picture(const char *name, const char *scene_path, const char
         printf("not there: %s\n", picture_path);
         return;
     }
-    ec_error err = {{0}};
+    ec_error err = {0};
     ztest_picture full = {0};
     CHECK_OK(ztest_load(picture_path, INFINITY, &full, &err), err);
     if (!full.rgb) return;

@@ -26,7 +26,7 @@ static inline int kernel_open(ec_cl *cl)
     ec_device_info *devices;
     uint32_t count, index = 0;
     const char *why = "";
-    ec_error err = {""};
+    ec_error err = {0};
     if (ec_devices_list(&devices, &count, &err) != EC_OK) TEST_SKIP("%s", err.text);
     CHECK_OK(ec_device_choose(devices, count, NULL, &index, &why, &err), err);
     if (!test_failures) CHECK_OK(ec_cl_open(&devices[index], cl, &err), err);
@@ -67,7 +67,7 @@ static inline cl_program kernel_build(ec_cl *cl, const char *name, int lanes, co
     snprintf(options, sizeof options, "-DLANES=%d %s", lanes, more ? more : "");
     char *source = kernel_flatten(file);
     CHECK_MSG(source, "%s cannot be flattened", file);
-    ec_error err = {""};
+    ec_error err = {0};
     cl_program program = NULL;
     if (source) CHECK_OK(ec_program_build(cl, label, source, options, &program, &err), err);
     free(source);
@@ -85,7 +85,7 @@ typedef ec_array kernel_array;
 static inline bool kernel_call(ec_cl *cl, cl_program program, const char *name, uint64_t items, uint32_t local,
                                const kernel_array *arrays, uint32_t count)
 {
-    ec_error err = {""};
+    ec_error err = {0};
     ec_result result = ec_kernel_call(cl, program, name, items, local, arrays, count, &err);
     CHECK_OK(result, err);
     return result == EC_OK;

@@ -24,7 +24,7 @@ static void check_alias(uint32_t n, int kind)
         if (kind == 2 && i % 3 == 1) weights[i] = 0;
         sum += weights[i];
     }
-    ec_error err = {""};
+    ec_error err = {0};
     CHECK_OK(ec_alias_build(weights, n, table, pmf, &err), err);
     for (uint32_t c = 0; c < n; c++) {
         uint64_t first = (((uint64_t)c << 32) + n - 1) / n, end = (((uint64_t)(c + 1) << 32) + n - 1) / n, low = first, high = end;

@@ -39,7 +39,7 @@ static void check_triangle(int lanes, bool two_sided, bool near, const float *p)
     for (int k = 0; k < 3; k++) n[k] = e1[(k + 1) % 3] * e2[(k + 2) % 3] - e1[(k + 2) % 3] * e2[(k + 1) % 3];
     area = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
     ec_alias alias[2];
-    ec_error err = {""};
+    ec_error err = {0};
     CHECK_OK(ec_alias_build((const double[]){3, 1}, 2, alias, pmf, &err), err);
     memcpy(table[0].a, v[0], sizeof v[0]);
     memcpy(table[0].b, v[1], sizeof v[1]);
@@ -123,7 +123,7 @@ static void check_environment(void)
     scene.environment.rgb = rgb;
     ec_pack pack = {0};
     double mean;
-    ec_error err = {""};
+    ec_error err = {0};
     CHECK_OK(ec_pack_environment(&scene, &pack, &mean, &err), err);
     if (!pack.environment_alias) return;
     ec_params params = {.light_count = 1, .environment_width = WIDTH, .environment_height = HEIGHT, .environment_pmf = 1, .scene_radius = 3};

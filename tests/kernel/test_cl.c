@@ -37,7 +37,7 @@ static int chosen(const char *id, uint32_t count, const char **why, ec_error *er
 
 static void workarounds_go_by_the_driver(void) {
     ec_cl cl = {.info = {.name = "llvmpipe", .platform_name = "rusticl", .type = CL_DEVICE_TYPE_CPU, .native_float_width = 8}};
-    ec_error err = {""};
+    ec_error err = {0};
     uint32_t lanes = 0;
     CHECK(ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 1);
     CHECK(ec_pipeline_lanes(&cl, 1, &lanes, &err) == EC_OK && lanes == 1);
@@ -55,7 +55,7 @@ static void workarounds_go_by_the_driver(void) {
 
 static void device_rule(void) {
     const char *why = "";
-    ec_error err = {""};
+    ec_error err = {0};
     unsetenv("ECLAT_DEVICE");
     CHECK(chosen(NULL, 4, &why, &err) == 3 && strcmp(why, "first GPU") == 0); /* not the absent one */
     CHECK(chosen(NULL, 3, &why, &err) == 0 && strcmp(why, "first CPU") == 0);
@@ -196,7 +196,7 @@ static const char doubler[] = "kernel void doubler(global float *x, float by) { 
 static void doubles(ec_cl *cl, cl_program program) {
     float values[100], by = 2.0f;
     for (int i = 0; i < 100; i++) values[i] = (float)i;
-    ec_error err = {""};
+    ec_error err = {0};
     cl_kernel kernel = NULL;
     cl_mem buffer = NULL;
     CHECK_OK(ec_kernel_create(program, "doubler", &kernel, &err), err);
@@ -218,7 +218,7 @@ static void doubles(ec_cl *cl, cl_program program) {
 
 /* Builds and runs it; how the cache answered is then in cl. */
 static void build_doubler(ec_cl *cl, const char *options) {
-    ec_error err = {""};
+    ec_error err = {0};
     cl_program program = NULL;
     cl->cache_hits = cl->cache_misses = 0;
     CHECK_OK(ec_program_build(cl, "doubler", doubler, options, &program, &err), err);
@@ -273,7 +273,7 @@ static void broken_source_says_where(ec_cl *cl) {
                                  "kernel void shade(global float *x) { *x = f(*x); }\n";
     char dump[4200];
     snprintf(dump, sizeof dump, "%s/dump", folder);
-    ec_error err = {""};
+    ec_error err = {0};
     cl_program program = (cl_program)&err;
     CHECK(ec_program_build(cl, "shade", source, NULL, &program, &err) == EC_FAILED && program == NULL);
     CHECK_MSG(strstr(err.text, "kernels/lib/bsdf.h:42"), "%s", err.text);
@@ -291,7 +291,7 @@ static void broken_source_says_where(ec_cl *cl) {
 }
 
 static void unknown_kernel_is_named(ec_cl *cl) {
-    ec_error err = {""};
+    ec_error err = {0};
     cl_program program = NULL;
     cl_kernel kernel;
     CHECK_OK(ec_program_build(cl, "doubler", doubler, "", &program, &err), err);
@@ -301,7 +301,7 @@ static void unknown_kernel_is_named(ec_cl *cl) {
 }
 
 static void buffers_are_limited(ec_cl *cl) {
-    ec_error err = {""};
+    ec_error err = {0};
     cl_mem buffer = (cl_mem)&err, second = NULL;
     uint64_t before = cl->allocated_bytes;
     CHECK(ec_buffer_create(cl, "film", cl->info.max_allocation_bytes + 1, NULL, &buffer, &err) == EC_FAILED);
@@ -319,7 +319,7 @@ static void buffers_are_limited(ec_cl *cl) {
 }
 
 static void buffers_hold_bytes(ec_cl *cl) {
-    ec_error err = {""};
+    ec_error err = {0};
     cl_mem buffer = NULL;
     unsigned char in[1000], out[1000];
     for (int i = 0; i < 1000; i++) in[i] = (unsigned char)(i * 7 + 1);
@@ -356,7 +356,7 @@ int main(void) {
 
     ec_device_info *devices;
     uint32_t count, index;
-    ec_error err = {""};
+    ec_error err = {0};
     ec_cl cl = {0};
     CHECK_OK(ec_devices_list(&devices, &count, &err), err);
     if (test_failures) return 1;

@@ -109,7 +109,7 @@ static void every_stage_is_embedded(void) {
 }
 
 static void joined_stages_hold_all(void) {
-    ec_error err = {""};
+    ec_error err = {0};
     char *joined = NULL;
     CHECK_OK(ec_kernel_sources_join(ec_kernel_source_names(), &joined, &err), err);
     const char *at = joined;

@@ -34,7 +34,7 @@ static void make_map(void)
     scene.environment.height = HEIGHT;
     scene.environment.rgb = rgb;
     double mean;
-    ec_error err = {""};
+    ec_error err = {0};
     CHECK_OK(ec_pack_environment(&scene, &pack, &mean, &err), err);
     free(rgb);
 }

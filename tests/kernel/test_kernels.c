@@ -70,7 +70,7 @@ static void run_program(ec_cl *cl, cl_program program, const char *file, int lan
     int kernels = 0;
     char *rest;
     for (char *name = strtok_r(names, ";", &rest); name; name = strtok_r(NULL, ";", &rest)) {
-        ec_error err = {""};
+        ec_error err = {0};
         test_result r;
         test_checks++;
         kernels++;
@@ -90,7 +90,7 @@ static void run_variant(ec_cl *cl, const char *name, const char *source, int lan
     snprintf(options, sizeof options, "-DLANES=%d%s%s %s", lanes, cl->info.correctly_rounded_divide_sqrt ? " -DCORRECTLY_ROUNDED" : "",
              cl->info.denormals ? " -DDENORMALS" : "", more);
     snprintf(label, sizeof label, "test_%.90s_%d", name, lanes);
-    ec_error err = {""};
+    ec_error err = {0};
     cl_program program = NULL;
     int before = test_failures;
     CHECK_OK(ec_program_build(cl, label, source, options, &program, &err), err);
@@ -122,7 +122,7 @@ static void run_test(ec_cl *cl, const char *name) {
 /* A driver that never fails would let everything pass. */
 static void driver_sees_failures(ec_cl *cl) {
     char *source = flatten("driver");
-    ec_error err = {""};
+    ec_error err = {0};
     cl_program program = NULL;
     test_result r = {0};
     CHECK_OK(ec_program_build(cl, "test_driver_fails", source ? source : "", "-DTEST_MUST_FAIL", &program, &err), err);
@@ -147,7 +147,7 @@ int main(int argc, char **argv) {
     ec_device_info *devices;
     uint32_t count, index;
     const char *why;
-    ec_error err = {""};
+    ec_error err = {0};
     ec_cl cl = {0};
     if (ec_devices_list(&devices, &count, &err) != EC_OK) TEST_SKIP("%s", err.text);
     CHECK_OK(ec_device_choose(devices, count, NULL, &index, &why, &err), err);

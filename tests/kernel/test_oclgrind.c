@@ -17,7 +17,7 @@ static const char wrong[] = "kernel void wrong(global uint *x, uint how) {\n"
 static int be_wrong(uint32_t how)
 {
     ec_cl cl;
-    ec_error err = {""};
+    ec_error err = {0};
     cl_program program = NULL;
     cl_kernel kernel = NULL;
     cl_mem buffer = NULL;

@@ -19,7 +19,7 @@ static ec_result attempt(double survival, uint32_t max_depth, ec_integrator inte
 
 int main(void)
 {
-    ec_error err = {""};
+    ec_error err = {0};
     scene = case_load(OWN_SCENE("cornell-box/cornell-box.gltf"), NULL);
     const double endless[] = {1.0, 1.5, -0.5, NAN};
     for (int i = 0; i < 4; i++) {

@@ -105,7 +105,7 @@ static void check_densities(const set *s, const float *queue, const float *expec
     while (t->accel != ec_accel_find("grid")) t++;
     float *hits = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *hits);
     for (int i = 0; i < 2; i++) {
-        ec_error err = {""};
+        ec_error err = {0};
         ec_accel grid;
         uint32_t *indices;
         ec_accel_input input = set_input(s, &indices);

@@ -22,7 +22,7 @@ static uint32_t tracer_count;
 static inline void add_tracer(uint32_t accel, uint32_t lanes)
 {
     char name[64], options[64];
-    ec_error err = {""};
+    ec_error err = {0};
     tracer *t = &tracers[tracer_count++];
     uint32_t width = ec_accels[accel].lanes ? ec_accels[accel].lanes : lanes;
     *t = (tracer){.accel = accel, .lanes = lanes};
@@ -62,7 +62,7 @@ static inline ec_accel_input set_input(const set *s, uint32_t **indices)
 /* One of each kind that takes so many triangles; the others stay empty. */
 static inline bool build_accels(const set *s, ec_accel accels[EC_ACCEL_COUNT])
 {
-    ec_error err = {""};
+    ec_error err = {0};
     int before = test_failures;
     uint32_t *indices;
     ec_accel_input input = set_input(s, &indices);

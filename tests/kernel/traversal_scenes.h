@@ -10,7 +10,7 @@
 /* The triangles of a glTF file. */
 static inline set set_scene(const char *name, const char *path)
 {
-    ec_error err = {""};
+    ec_error err = {0};
     ec_scene *scene = NULL;
     CHECK_OK(ec_scene_load(path, &scene, NULL, &err), err);
     set s = set_make(name, scene ? scene->triangle_count : 0, 0.0f);

@@ -29,7 +29,7 @@ static void judge_lights(const ec_pack *pack)
 static void pack(const ec_scene *scene)
 {
     ec_pack packed;
-    ec_error err = {""};
+    ec_error err = {0};
     ec_result result = ec_pack_scene(scene, &packed, &err);
     fuzz_judge_result(result, &err);
     if (result != EC_OK) return;
@@ -46,13 +46,13 @@ static void build(const ec_scene *scene)
                             .triangle_count = scene->triangle_count};
     for (uint32_t which = 0; which < EC_ACCEL_COUNT; which++) {
         ec_accel accel;
-        ec_error err = {""};
+        ec_error err = {0};
         ec_result result = ec_accel_build(which, &input, &accel, &err);
         fuzz_judge_result(result, &err);
         PROMISE(result == EC_OK, "%s: %s", ec_accels[which].name, err.text);
         ec_accel_free(&accel);
     }
-    ec_error err = {""};
+    ec_error err = {0};
     if (input.bvh.nodes)
         PROMISE(ec_bvh_check(&input.bvh, scene->positions, scene->indices, &err) == EC_OK, "%s", err.text);
     ec_accel_input_free(&input);
@@ -61,7 +61,7 @@ static void build(const ec_scene *scene)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     ec_scene *scene = NULL;
-    ec_error err = {""};
+    ec_error err = {0};
     ec_log log = {keep_one_line, NULL};
     ec_result result = ec_scene_load(fuzz_file(data, size), &scene, &log, &err);
     fuzz_judge_result(result, &err);

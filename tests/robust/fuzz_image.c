@@ -11,7 +11,7 @@ enum { PIXELS_MOST = 1 << 16 }; /* more teaches nothing and costs executions */
 static void judge_environment(ec_scene *scene)
 {
     ec_pack pack = {0};
-    ec_error err = {""};
+    ec_error err = {0};
     double luminance;
     ec_result result = ec_pack_environment(scene, &pack, &luminance, &err);
     fuzz_judge_result(result, &err);
@@ -29,7 +29,7 @@ static void judge_environment(ec_scene *scene)
 static void read_environment(const uint8_t *data, size_t size)
 {
     ec_scene scene = {0};
-    ec_error err = {""};
+    ec_error err = {0};
     ec_result result = ec_scene_set_environment(&scene, fuzz_file(data, size), NULL, &err);
     fuzz_judge_result(result, &err);
     size_t values = 3 * (size_t)scene.environment.width * scene.environment.height;

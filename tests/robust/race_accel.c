@@ -30,7 +30,7 @@ static void make_field(float *positions, uint32_t *indices)
 static int build_all(const float *positions, const uint32_t *indices)
 {
     ec_accel_input input = {.positions = positions, .indices = indices, .triangle_count = TRIANGLES, .threads = THREADS};
-    ec_error err = {""};
+    ec_error err = {0};
     int built = 0;
     for (uint32_t which = 0; which < EC_ACCEL_COUNT; which++) {
         if (which == ec_accel_find("none")) continue; /* nothing to build, and no threads */

@@ -30,7 +30,7 @@ static void every_kernel_has_a_case(void)
 
 int main(void)
 {
-    ec_error err = {""};
+    ec_error err = {0};
     ec_cl cl;
     uint32_t count, other_count;
     int opened = kernel_open(&cl);

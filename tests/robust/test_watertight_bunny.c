@@ -107,7 +107,7 @@ static void trace_all(ec_selftest *t, const ec_soup *soup)
     float origins[ORIGINS][3];
     uint64_t random = 1;
     ec_tracer *r;
-    ec_error err = {""};
+    ec_error err = {0};
     find_origins(soup, &random, origins);
     CHECK_OK(ec_tracer_of(t, &r, &err), err);
     if (!test_failures) CHECK_OK(ec_tracer_build(r, soup, &err), err);
@@ -130,7 +130,7 @@ int main(void)
     ec_cl cl = {0};
     mesh m;
     ec_soup soup = {0};
-    ec_error err = {""};
+    ec_error err = {0};
     int open = kernel_open(&cl);
     if (open) return open;
     CHECK(read_mesh(BUNNY, &m));

@@ -9,7 +9,7 @@
 
 static ec_cost_reference reference_of(const ec_scene *scene, const ec_render_options *options, uint32_t spp)
 {
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_cost_reference reference = {0};
     ec_render_options o = *options;
     o.spp = spp;
@@ -32,7 +32,7 @@ typedef struct strategy {
 static strategy open_strategy(const ec_scene *scene, const ec_render_options *o, const ec_cost_reference *reference)
 {
     strategy s = {.mean = malloc((size_t)o->width * o->height * 12)};
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_render_stats stats;
     s.row.rung.unbiased = true;
     if (!s.mean || ec_session_open(case_cl(), scene, o, 64, &s.session, &stats, &err) != EC_OK) case_end("session", &err);
@@ -49,7 +49,7 @@ static void close_strategy(strategy *s)
 
 static double take(strategy *s, uint32_t samples)
 {
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_session_batch batch = {.seed = ec_session_seed(7, EC_COST_STREAM_RUNGS, s->index++), .samples = samples, .mean = s->mean};
     CHECK_OK(ec_session_take(s->session, &batch, &err), err);
     CHECK(batch.complete && batch.invalid == 0);

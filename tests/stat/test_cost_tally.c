@@ -41,7 +41,7 @@ static ec_cost_reference make_reference(void)
 static ec_cost_row study(double bias, const int pictures[4])
 {
     static float rgb[3 * PIXELS];
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_cost_tally tally;
     ec_cost_row row = {.rung.unbiased = false};
     ec_cost_reference reference = make_reference();
@@ -105,7 +105,7 @@ static void figures_are_honest(double bias)
 static void relative_error(void)
 {
     static float rgb[3 * PIXELS];
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_cost_tally tally;
     ec_cost_row row = {0};
     ec_cost_reference reference = make_reference();

@@ -35,7 +35,7 @@ static render make_render(const case_batches *batches, uint32_t first, uint32_t 
 static ec_noise_test compare(const render *a, const render *b)
 {
     ec_noise_test test;
-    ec_error err = {{0}};
+    ec_error err = {0};
     if (ec_test_noise(&a->measured, &b->measured, &test, &err) != EC_OK) case_end("compare", &err);
     return test;
 }

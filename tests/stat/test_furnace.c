@@ -38,7 +38,8 @@ static void check_box(const char *path, double albedo)
 
 /* In the closed box BSDF sampling knows each path's radiance before it starts: segment k adds albedo^(k - 1), and no ray leaves.
  * So without roulette the picture is the series cut off after max_depth, with no noise at all, and every sample takes
- * max_depth rays. With a constant survival P it is the whole series, and a sample takes 1 / (1 - P) rays in the mean, with
+ * max_depth rays: but for hits so near a concave edge that the other wall is within their error bound, gamma_9 = 5.4e-7 of the box's
+ * half side, which may leave through it. That is as large a share of two walls' strips by all edges; half of the segments are then missing. With a constant survival P it is the whole series, and a sample takes 1 / (1 - P) rays in the mean, with
  * variance P / (1 - P)^2: a path may end at its first surface. Its noise is finite, since 0.5^2 is less than P. */
 static void check_roulette(void)
 {
@@ -55,7 +56,8 @@ static void check_roulette(void)
         case_image image = case_render(scene, &o);
         CHECK_NEAR(image.mean[1], (1 - pow(albedo, depths[d])) / (1 - albedo), 1e-5);
         CHECK_MSG(image.mean_se[1] < 1e-6, "off, depth %u: noise of %g", depths[d], image.mean_se[1]);
-        CHECK(image.stats.rays == depths[d] * image.stats.samples);
+        double whole = (double)depths[d] * (double)image.stats.samples, lost = whole - (double)image.stats.rays;
+        CHECK_MSG(lost >= 0 && lost <= 5.4e-7 * depths[d] * whole, "depth %u: %g of %g rays are missing", depths[d], lost, whole);
         printf("box, roulette off, depth %-2u %.6f +- %.1g\n", depths[d], image.mean[1], image.mean_se[1]);
         case_free(&image);
     }

@@ -114,7 +114,7 @@ static const char *write_environment(void)
             for (int k = 0; k < 3; k++) rgb[3 * (y * WIDTH + x) + k] = is_sun ? 40 : is_sky ? 0.3f + 0.1f * (float)k : 0.1f;
         }
     ec_channel channels[3] = {{"R", rgb, 3}, {"G", rgb + 1, 3}, {"B", rgb + 2, 3}};
-    ec_error err = {{0}};
+    ec_error err = {0};
     CHECK_OK(ec_exr_write(ECLAT_TEST_OUT "/strategies-sky.exr", WIDTH, HEIGHT, channels, 3, NULL, 0, &err), err);
     return ECLAT_TEST_OUT "/strategies-sky.exr";
 }
@@ -124,7 +124,7 @@ static int add_texture(gltf_writer *w, const char *name, uint32_t size, const ui
 {
     char path[512];
     snprintf(path, sizeof path, "%s/strategies-%s-%d.png", ECLAT_TEST_OUT, name, w->textures.count);
-    ec_error err = {{0}};
+    ec_error err = {0};
     CHECK_OK(ec_png_write(path, size, size, rgb, &err), err);
     return gltf_add(&w->textures, "{\"source\":%d}", w->textures.count);
 }

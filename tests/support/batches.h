@@ -38,7 +38,7 @@ static inline bool case_take_batch(void *user, const ec_progress *progress)
 
 static inline case_batches case_render_batches(const ec_scene *scene, const ec_render_options *options)
 {
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_render_stats stats;
     case_batches b = {.width = options->width, .height = options->height, .samples = options->batch,
                       .values = 3ull * options->width * options->height};
@@ -61,7 +61,7 @@ static inline void case_batches_free(case_batches *b)
 
 static inline ec_film case_film_of(const case_batches *b, uint32_t first, uint32_t n)
 {
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_film film;
     if (ec_film_create(&film, b->width, b->height, b->samples, &err) != EC_OK) case_end("film", &err);
     for (uint32_t i = first; i < first + n; i++) ec_film_add_batch(&film, b->data + (i % b->count) * b->values);

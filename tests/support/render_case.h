@@ -47,7 +47,7 @@ static inline ec_cl *case_cl(void)
     static ec_cl cl;
     static int is_open;
     if (is_open) return &cl;
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_device_info *devices;
     uint32_t count, chosen = 0;
     if (ec_devices_list(&devices, &count, &err) != EC_OK) case_end("no device", &err);
@@ -60,7 +60,7 @@ static inline ec_cl *case_cl(void)
 
 static inline ec_scene *case_load(const char *path, const char *environment)
 {
-    ec_error err = {{0}};
+    ec_error err = {0};
     ec_scene *scene;
     if (ec_scene_load(path, &scene, NULL, &err) != EC_OK) case_end(path, &err);
     if (!environment && !ec_scene_has_light(scene)) environment = "1,1,1";
@@ -103,7 +103,7 @@ static inline ec_result case_try(const ec_scene *scene, const ec_render_options 
 /* Ends the test where the render fails; NaN and Inf are failures of the check, not of the set-up. */
 static inline case_image case_render(const ec_scene *scene, const ec_render_options *options)
 {
-    ec_error err = {{0}};
+    ec_error err = {0};
     case_image image;
     if (case_try(scene, options, &image, &err) != EC_OK) case_end("render", &err);
     CHECK_MSG(image.stats.invalid_samples == 0, "%llu samples are not finite", (unsigned long long)image.stats.invalid_samples);

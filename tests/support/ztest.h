@@ -193,7 +193,7 @@ static inline ztest_result ztest_compare(const ztest_picture *image, const ztest
                           100 * r.mean_difference[1] / r.reference_mean[1],
                           100 * r.mean_difference[2] / r.reference_mean[2], r.mean_z[0], r.mean_z[1], r.mean_z[2]);
     if (!r.pass && map_path && length > 0 && (size_t)length < sizeof r.text) {
-        ec_error err = {{0}};
+        ec_error err = {0};
         int written = ztest_write_map(map_path, image, reference, z, &err) == EC_OK;
         snprintf(r.text + length, sizeof r.text - (size_t)length, written ? "; see %s" : "; no error map: %s",
                  written ? map_path : err.text);
