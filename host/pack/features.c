@@ -58,6 +58,18 @@ static uint64_t sheen_features(const ec_scene *scene, const ec_material *m)
     return any ? EC_FEATURE_SHEEN | (textured ? EC_FEATURE_SHEEN_TEXTURE : 0) : 0;
 }
 
+/* At roughness 1 the lobe is as wide as it gets in all directions. */
+static uint64_t anisotropy_features(const ec_scene *scene, const ec_material *m)
+{
+    float least, most, unused;
+    ec_texture_range(scene, &m->textures[EC_SLOT_ANISOTROPY], 2, &unused, &most);
+    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &unused);
+    if (m->anisotropy * most == 0.0f || m->roughness * least == 1.0f) return 0;
+    if (transmits(scene, m) && m->metallic < 1.0f && m->textures[EC_SLOT_TRANSMISSION].texture < 0 &&
+        m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture < 0) return 0; /* glass is as rough in all directions */
+    return EC_FEATURE_ANISOTROPY | (m->textures[EC_SLOT_ANISOTROPY].texture >= 0 ? EC_FEATURE_ANISOTROPY_TEXTURE : 0);
+}
+
 static uint64_t material_features(const ec_scene *scene, const ec_material *m)
 {
     uint64_t f = 0;
@@ -76,6 +88,7 @@ static uint64_t material_features(const ec_scene *scene, const ec_material *m)
         if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
         if (m->textures[EC_SLOT_SPECULAR].texture >= 0 || m->textures[EC_SLOT_SPECULAR_COLOR].texture >= 0) f |= EC_FEATURE_SPECULAR_TEXTURE;
     }
+    if (f & EC_FEATURE_SPECULAR) f |= anisotropy_features(scene, m);
     if (m->textures[EC_SLOT_BASE_COLOR].texture >= 0) f |= EC_FEATURE_BASE_COLOR_TEXTURE;
     if (m->textures[EC_SLOT_NORMAL].texture >= 0) f |= EC_FEATURE_NORMAL_TEXTURE;
     if (!m->double_sided) f |= EC_FEATURE_CULLING;

@@ -71,6 +71,9 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         d->ior = m->ior;
         memcpy(d->sheen, m->sheen, sizeof d->sheen);
         d->sheen_roughness = m->sheen_roughness;
+        d->anisotropy = m->anisotropy;
+        d->anisotropy_cosine = cosf(m->anisotropy_rotation);
+        d->anisotropy_sine = sinf(m->anisotropy_rotation);
         d->coat = m->coat;
         d->coat_roughness = m->coat_roughness;
         d->coat_normal_scale = m->coat_normal_scale;

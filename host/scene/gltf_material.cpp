@@ -135,6 +135,15 @@ static void set_sheen(ec_material &out, const tinygltf::Material &in, const std:
     out.textures[EC_SLOT_SHEEN_ROUGHNESS] = make_use(*s, "sheenRoughnessTexture", where, gltf, log);
 }
 
+static void set_anisotropy(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
+{
+    const Value *a = find_extension(in.extensions, "KHR_materials_anisotropy");
+    if (!a) return;
+    out.anisotropy = float(get_number(*a, "anisotropyStrength", 0));
+    out.anisotropy_rotation = float(std::remainder(get_number(*a, "anisotropyRotation", 0), 6.283185307179586));
+    out.textures[EC_SLOT_ANISOTROPY] = make_use(*a, "anisotropyTexture", where, gltf, log);
+}
+
 static void set_emission(ec_material &out, const tinygltf::Material &in)
 {
     const Value *strength = find_extension(in.extensions, "KHR_materials_emissive_strength");
@@ -170,6 +179,7 @@ static void set_material(ec_material &out, const tinygltf::Material &in, const s
     set_transmission(out, in, where, gltf, log);
     set_coat(out, in, where, gltf, log);
     set_sheen(out, in, where, gltf, log);
+    set_anisotropy(out, in, where, gltf, log);
     out.name = copy_string(in.name);
 }
 

@@ -135,13 +135,16 @@ static const schema clearcoat_s(clearcoat);
 static const field sheen[] = {numbers("sheenColorFactor", 3), object("sheenColorTexture", texture_info_s),
                               number("sheenRoughnessFactor"), object("sheenRoughnessTexture", texture_info_s)};
 static const schema sheen_s(sheen);
+static const field anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"), object("anisotropyTexture", texture_info_s)};
+static const schema anisotropy_s(anisotropy);
 static const field nothing[] = {plain("", kind::flag)};
 static const schema nothing_s(nothing);
 static const field material_extensions[] = {object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
                                             object("KHR_materials_emissive_strength", emissive_strength_s),
                                             object("KHR_materials_ior", ior_s), object("KHR_materials_transmission", transmission_s),
                                             object("KHR_materials_volume", volume_s),
-                                            object("KHR_materials_clearcoat", clearcoat_s), object("KHR_materials_sheen", sheen_s)};
+                                            object("KHR_materials_clearcoat", clearcoat_s), object("KHR_materials_sheen", sheen_s),
+                                            object("KHR_materials_anisotropy", anisotropy_s)};
 static const schema material_extensions_s(material_extensions);
 static const field material[] = {
     object("pbrMetallicRoughness", metallic_roughness_s), object("normalTexture", texture_info_s),

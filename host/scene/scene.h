@@ -51,6 +51,7 @@ typedef struct ec_material {
     float absorption[3];       /* 1/m: -ln attenuationColor / attenuationDistance; 0 where nothing is absorbed */
     float coat, coat_roughness; /* KHR_materials_clearcoat; 0 where absent */
     float coat_normal_scale;
+    float anisotropy, anisotropy_rotation; /* KHR_materials_anisotropy; 0 where absent; radians from the tangent */
     float sheen[3], sheen_roughness; /* KHR_materials_sheen; 0 where absent */
     float alpha_cutoff;
     ec_alpha_mode alpha_mode;

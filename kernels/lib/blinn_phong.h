@@ -28,7 +28,7 @@ EC_FN v3 blinn_phong_eval(const bsdf *b, lane_i mirrors, v3 wi)
     lane_f length = sqrt(v3_dot(sum, sum)), rest;
     v3 h = v3_scale(sum, 1.0f / length);
     v3 fresnel = bsdf_fresnel(b, min(length * 0.5f, F(1.0f)), &rest);
-    lane_f n = 2.0f / b->facets.alpha2 - 2.0f;
+    lane_f n = 2.0f / (HAS(ANISOTROPY) ? b->facets.alpha2 * b->facets.stretch : b->facets.alpha2) - 2.0f;
     /* cos^n by the sine too, which has the digits in narrow lobes. */
     lane_f log_cosine = 0.5f * log_unit(h.z * h.z, fma(h.x, h.x, h.y * h.y));
     lane_f lobe = (n + 8.0f) * (0.125f * EC_INV_PI) * exp_negative(n * log_cosine);

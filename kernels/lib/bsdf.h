@@ -61,7 +61,7 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     b.f0 = s->f0;
     b.f90 = s->f90;
     b.metallic = s->metallic;
-    b.facets = ggx_make(s->alpha_ggx, s->smooth);
+    b.facets = ggx_make(s->alpha_ggx, s->smooth, s->stretch);
     b.p_specular = F(0.0f);
     lane_f sum = luminance(b.base);
     b.transmission = HAS(TRANSMISSION) ? s->transmission : F(0.0f);
@@ -103,7 +103,7 @@ EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
     lane_i valid = (length > 0.0f) & (oh > 0.0f) & ((ih > 0.0f) | !b->refracts);
     v3 reflectance = bsdf_fresnel(b, min(oh, F(1.0f)), &rest);
     bsdf_p_reflect(b, reflectance, rest, &p_pass);
-    lane_f lambda_o = ggx_lambda(&b->facets, no), lambda_i = ggx_lambda(&b->facets, ni), d = ggx_d(&b->facets, h);
+    lane_f lambda_o = ggx_lambda(&b->facets, b->wo), lambda_i = ggx_lambda(&b->facets, wi), d = ggx_d(&b->facets, h);
     /* Density of wi for that of h: Walter et al. 2007, eq. 17; a mirrored lobe has 1 / (4 oh). */
     lane_f denominator = ih - oh / b->eta;
     lane_f jacobian_oh = b->refracts ? ih * oh / (denominator * denominator) : F(0.25f);
@@ -128,7 +128,7 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
     lane_f rest;
     v3 fresnel = bsdf_fresnel(b, oh, &rest);
     lane_f d = ggx_d(&b->facets, h);
-    lane_f lambda_o = ggx_lambda(&b->facets, no), lambda_i = ggx_lambda(&b->facets, ni);
+    lane_f lambda_o = ggx_lambda(&b->facets, b->wo), lambda_i = ggx_lambda(&b->facets, wi);
     lane_f v_ni = 0.5f * ni / fma(ni, lambda_o, no * lambda_i); /* V cos, which stays finite at grazing angles */
     lane_f diffuse = rest * ni * EC_INV_PI;
     lane_f specular = d * v_ni;

@@ -28,9 +28,9 @@ EC_FN v3 coat_local(const coat *c, v3 w)
 EC_FN coat coat_make(const surface *s, v3 wo, lane_f albedo)
 {
     coat c;
-    c.facets = ggx_make(s->coat_alpha, s->coat_smooth);
+    c.facets = ggx_make(s->coat_alpha, s->coat_smooth, F(1.0f));
     c.n = v3_make(F(0.0f), F(0.0f), F(1.0f));
-    if (HAS_TANGENTS) {
+    if (HAS_BENDING) {
         v3 away = v3_sub(s->coat_ns, s->ns);
         lane_i tilted = v3_dot(away, away) > 0.0f;
         c.n = v3_select(tilted, v3_normalize(surface_to_local(s, s->coat_ns)), c.n);
@@ -51,7 +51,7 @@ EC_FN void coat_over(const coat *c, v3 wi_local, v3 *f, lane_f *pdf)
     if (!any_lane(coated)) return;
     v3 wi = coat_local(c, wi_local), sum = v3_add(c->wo, wi), h = v3_scale(sum, 1.0f / sqrt(v3_dot(sum, sum)));
     lane_i above = coated & (wi_local.z > 0.0f) & (wi.z > 0.0f) & (c->wo.z > 0.0f) & !c->facets.smooth;
-    lane_f d = 0.5f * ggx_d(&c->facets, h), lambda_o = ggx_lambda(&c->facets, c->wo.z), lambda_i = ggx_lambda(&c->facets, wi.z);
+    lane_f d = 0.5f * ggx_d(&c->facets, h), lambda_o = ggx_lambda(&c->facets, c->wo), lambda_i = ggx_lambda(&c->facets, wi);
     lane_f value = above ? c->share * d * wi.z / fma(wi.z, lambda_o, c->wo.z * lambda_i) : F(0.0f);
     lane_f density = above ? c->p * d / (c->wo.z + lambda_o) : F(0.0f);
     *f = v3_add(v3_scale(*f, 1.0f - c->share), v3_splat(value));

@@ -13,6 +13,7 @@ typedef struct surface {
     v3 base;       /* base colour, linear */
     lane_f metallic;
     lane_f alpha_ggx; /* roughness squared, at least EC_SMOOTH_ALPHA */
+    lane_f stretch;   /* of the lobe along s: KHR_materials_anisotropy; 1 where there is none */
     lane_i smooth;    /* under that: reflection and refraction have one direction each */
     v3 f0;         /* dielectric reflectance at normal incidence */
     lane_f f90;    /* and at grazing */
@@ -119,7 +120,7 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
         if (HAS(NORMAL_TEXTURE)) n = surface_mapped_normal(g, h, m, n, EC_SLOT_NORMAL, EC_MATERIAL_METALLIC);
         s->ns = s->coat_ns = surface_seen_normal(s, wo, n);
         if (HAS(CLEARCOAT_NORMAL_TEXTURE)) coat = surface_mapped_normal(g, h, m, coat, EC_SLOT_CLEARCOAT_NORMAL, EC_MATERIAL_COAT);
-        if (HAS(CLEARCOAT) && HAS_TANGENTS) s->coat_ns = surface_seen_normal(s, wo, coat);
+        if (HAS(CLEARCOAT) && HAS_BENDING) s->coat_ns = surface_seen_normal(s, wo, coat);
     }
     v3_frame(s->ns, &s->s, &s->t);
 }
@@ -135,6 +136,39 @@ EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m,
     s->eta = s->refracts ? (s->front ? ior : 1.0f / ior) : F(1.0f);
     /* The lobe's width is about alpha |eta - 1|, and float half vectors have no more digits than that. */
     if (HAS(SMOOTH)) s->smooth = s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);
+}
+
+/* KHR_materials_anisotropy: alpha along the direction is mix(alpha, 1, strength^2), across it stays. The frame's s goes along it; where
+ * a mesh has no tangents, nor coordinates to make them of, and where light passes, the lobe stays round. */
+EC_FN void surface_anisotropy(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_ANISOTROPY);
+    lane_f strength = q.a, x = q.b, y = q.c, handedness;
+    lane_u second = U(0);
+    m = m & (strength > 0.0f) & ((s->transmission == 0.0f) | (s->metallic == 1.0f));
+    if (!any_lane(m)) return;
+    if (HAS(ANISOTROPY_TEXTURE)) {
+        v3 t = material_texture(g, h, m, EC_SLOT_ANISOTROPY, false).rgb;
+        quad slot = material_quad(g, h, EC_MATERIAL_SLOTS + EC_SLOT_ANISOTROPY * 8u);
+        lane_i textured = uint_to_lane_i(as_lane_u(slot.a)) >= 0;
+        lane_f u = textured ? fma(t.x, F(2.0f), F(-1.0f)) : F(1.0f), v = textured ? fma(t.y, F(2.0f), F(-1.0f)) : F(0.0f);
+        x = fma(q.b, u, -q.c * v);
+        y = fma(q.c, u, q.b * v);
+        strength *= t.z;
+        second = textured ? as_lane_u(slot.b) : second;
+    }
+    v3 n = v3_select(s->front, s->ns, v3_negate(s->ns)), t = surface_tangent(g, h, second != 0u, &handedness);
+    t = v3_fma(n, -v3_dot(n, t), t);
+    lane_f t2 = v3_dot(t, t);
+    t = v3_scale(t, 1.0f / sqrt(t2));
+    v3 along = v3_normalize(v3_fma(v3_scale(v3_cross(n, t), handedness), y, v3_scale(t, x)));
+    m = m & (t2 > 0.0f) & v3_is_finite(along);
+    lane_f stretch = fma(strength * strength, 1.0f - s->alpha_ggx, s->alpha_ggx) / s->alpha_ggx;
+    m = m & (stretch > 1.0f);
+    s->stretch = m ? stretch : F(1.0f);
+    if (HAS(SMOOTH)) s->smooth = s->smooth & !m;
+    s->s = v3_select(m, along, s->s);
+    s->t = v3_select(m, v3_cross(s->ns, along), s->t);
 }
 
 /* KHR_materials_clearcoat. The inside of a body that refracts has none. */
@@ -170,7 +204,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
 {
     s->base = surface_base_color(g, h, m).rgb;
     s->metallic = F(0.0f);
-    s->alpha_ggx = F(1.0f);
+    s->alpha_ggx = s->stretch = F(1.0f);
     s->f0 = v3_zero();
     s->f90 = F(0.0f);
     s->smooth = s->refracts = !TRUE_MASK;
@@ -191,6 +225,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     if (HAS(TRANSMISSION)) surface_transmission(g, h, m, s);
     if (HAS(SMOOTH)) s->smooth = s->smooth | (s->alpha_ggx < EC_SMOOTH_ALPHA);
     s->alpha_ggx = max(s->alpha_ggx, F(EC_SMOOTH_ALPHA));
+    if (HAS(ANISOTROPY)) surface_anisotropy(g, h, m, s);
     lane_f weight = specular.d;
     v3 color = v3_make(specular.a, specular.b, specular.c);
     if (HAS(SPECULAR_TEXTURE)) {

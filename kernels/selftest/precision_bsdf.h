@@ -18,6 +18,7 @@ EC_FN surface material_of(global const float *in)
     s.transmission = X(13);
     s.eta = X(14);
     s.refracts = s.eta != 1.0f;
+    s.stretch = F(1.0f);
     s.coat = F(0.0f);
     s.sheen = v3_zero();
     return s;
@@ -45,7 +46,7 @@ PRECISION(ggx_d)
 PRECISION(ggx_lambda)
 {
     bsdf b = bsdf_of(in);
-    PUT(0, ggx_lambda(&b.facets, X(2)));
+    PUT(0, ggx_lambda(&b.facets, V(0)));
 }
 /* Over black, its normal the surface's, alpha in 12. */
 PRECISION(coat_over)

@@ -34,6 +34,8 @@
 #define EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE EC_FEATURE_BIT(25)
 #define EC_FEATURE_SHEEN EC_FEATURE_BIT(26)
 #define EC_FEATURE_SHEEN_TEXTURE EC_FEATURE_BIT(27)
+#define EC_FEATURE_ANISOTROPY EC_FEATURE_BIT(28)
+#define EC_FEATURE_ANISOTROPY_TEXTURE EC_FEATURE_BIT(29)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -64,20 +66,24 @@
     X(CLEARCOAT_TEXTURE, "clearcoat-texture")                                                      \
     X(CLEARCOAT_NORMAL_TEXTURE, "clearcoat-normal-texture")                                        \
     X(SHEEN, "sheen")                                                                              \
-    X(SHEEN_TEXTURE, "sheen-texture")
+    X(SHEEN_TEXTURE, "sheen-texture")                                                              \
+    X(ANISOTROPY, "anisotropy")                                                                    \
+    X(ANISOTROPY_TEXTURE, "anisotropy-texture")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name
 #define EC_FEATURE_ALL (0 EC_FEATURES(EC_FEATURE_OR_))
 EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_its_own_bit);
 
-/* All of what reads a texture, and so wants texels and places on them. */
+/* All of what reads a texture or goes along one, and so wants texels and places on them. */
 #define EC_FEATURES_TEXTURED                                                                                          \
     (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |              \
      EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE |                    \
-     EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN_TEXTURE)
-/* What bends normals, and so wants tangents. */
-#define EC_FEATURES_TANGENTS (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
+     EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN_TEXTURE |                       \
+     EC_FEATURE_ANISOTROPY | EC_FEATURE_ANISOTROPY_TEXTURE)
+/* What bends normals, what has a direction: what wants tangents. */
+#define EC_FEATURES_BENDING (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
+#define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)
 #define EC_FEATURES_ATTRIBUTES (EC_FEATURES_TEXTURED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
 
 #ifdef EC_DEVICE_CODE
@@ -86,7 +92,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #endif
 #define HAS(name) ((FEATURES & EC_FEATURE_##name) != 0)
 #define HAS_TEXTURES ((FEATURES & EC_FEATURES_TEXTURED) != 0)
-#define HAS_TANGENTS ((FEATURES & EC_FEATURES_TANGENTS) != 0)
+#define HAS_BENDING ((FEATURES & EC_FEATURES_BENDING) != 0)
 #define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)
 #endif
 

@@ -15,7 +15,8 @@
     X(CLEARCOAT_ROUGHNESS, 0) /* G */                                                                                  \
     X(CLEARCOAT_NORMAL, 0)                                                                                             \
     X(SHEEN_COLOR, 1)                                                                                                  \
-    X(SHEEN_ROUGHNESS, 0)    /* A */
+    X(SHEEN_ROUGHNESS, 0)    /* A */                                                                                   \
+    X(ANISOTROPY, 0)         /* RG direction, B strength */
 
 #define EC_SLOT_ENUM(name, is_srgb) EC_SLOT_##name,
 enum ec_slot { EC_SLOTS(EC_SLOT_ENUM) EC_SLOT_COUNT };

@@ -109,10 +109,10 @@ class Info(Case):
             with self.subTest(material=material):
                 self.assertEqual(self.effects(**material), expected)
 
-    def layers(self, extension, *texels, metallic=0.0, unlit=False):
+    def layers(self, extension, *texels, roughness=1.0, unlit=False):
         """Effects that a quad calls for by an extension; textures by index."""
         extensions = dict(extension, **({"KHR_materials_unlit": {}} if unlit else {}))
-        scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": metallic}, "extensions": extensions})
+        scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": roughness}, "extensions": extensions})
         scene["images"] = [{"uri": png(*t)} for t in texels]
         scene["textures"] = [{"source": i} for i in range(len(texels))]
         scene["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC2"})
@@ -156,6 +156,16 @@ class Info(Case):
             ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, green),
             ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, black),
         ])
+
+    def test_anisotropy_calls_for_what_it_has(self):
+        one = {"anisotropyStrength": 0.5}
+        long, textured, blue, yellow = "anisotropy", "anisotropy-texture", [(0, 0, 255)], [(255, 255, 0)]
+        cases = [(set(), {}), (set(), {"anisotropyRotation": 1}), (set(), one)]
+        self.check_layers("KHR_materials_anisotropy", {long, textured}, cases)  # at roughness 1
+        for expected, members, *texels in [({long}, one), ({long, textured}, {**one, "anisotropyTexture": {"index": 0}}, blue),
+                                           (set(), {**one, "anisotropyTexture": {"index": 0}}, yellow)]:
+            found = self.layers({"KHR_materials_anisotropy": members}, *texels, roughness=0.5)
+            self.assertEqual(found & {long, textured}, expected)
 
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))

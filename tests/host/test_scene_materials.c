@@ -230,6 +230,21 @@ static void test_sheen(void)
     expect_failure(LAYER("KHR_materials_sheen", "'sheenColorFactor':[1,1]"), textured_blobs, "KHR_materials_sheen.sheenColorFactor must have 3 numbers");
 }
 
+static void test_anisotropy(void)
+{
+    ec_scene *s;
+    const ec_material *m = load_layer(LAYER("KHR_materials_anisotropy", ""), &s, false);
+    CHECK(m->anisotropy == 0 && m->anisotropy_rotation == 0 && m->textures[EC_SLOT_ANISOTROPY].texture < 0);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_anisotropy", "'anisotropyStrength':0.5,'anisotropyRotation':0.25,'anisotropyTexture':{'index':1}"), &s, false);
+    CHECK(m->anisotropy == 0.5f && m->anisotropy_rotation == 0.25f && m->textures[EC_SLOT_ANISOTROPY].texture == 0);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_anisotropy", "'anisotropyStrength':1.5,'anisotropyRotation':62831.853071795864"), &s, true);
+    CHECK(m->anisotropy == 1 && fabsf(m->anisotropy_rotation) < 1e-6f); /* whole turns */
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_anisotropy", "'anisotropyRotation':[1]"), textured_blobs, "KHR_materials_anisotropy.anisotropyRotation must be a number");
+}
+
 static void test_images(void)
 {
     ec_scene *s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
@@ -347,6 +362,7 @@ int main(void)
     test_glass();
     test_coat();
     test_sheen();
+    test_anisotropy();
     test_images();
     test_transform();
     test_missing_coordinates();

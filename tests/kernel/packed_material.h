@@ -16,6 +16,8 @@ enum packed_field {
     PACKED_COAT_TILT, /* sine of its normal's angle, in the plane of wo */
     PACKED_SHEEN, /* 3 */
     PACKED_SHEEN_ROUGHNESS = PACKED_SHEEN + 3,
+    PACKED_STRETCH, /* less 1 */
+    PACKED_TURN,    /* turns of wo's plane from the direction of the stretch, 0 to 1 */
     PACKED_FIELDS
 };
 

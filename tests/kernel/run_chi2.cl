@@ -12,6 +12,8 @@ static void numbers(lane_u i, uint seed, lane_f *u1, lane_f *u2, lane_u *choice)
     *choice = hash_u(h + 0x85ebca6bu);
 }
 
+static v3 load_v3(global const float *p, uint n) { return v3_make(LANE_LOAD(p), LANE_LOAD(p + n), LANE_LOAD(p + 2 * n)); }
+
 static void store(global float *out, uint n, v3 w, lane_f pdf)
 {
     uint at = get_global_id(0) * LANES;
@@ -19,6 +21,13 @@ static void store(global float *out, uint n, v3 w, lane_f pdf)
     LANE_STORE(w.y, out + n + at);
     LANE_STORE(w.z, out + 2 * n + at);
     LANE_STORE(pdf, out + 3 * n + at);
+}
+
+/* About the normal, by turns. */
+static v3 turned(v3 w, float turns)
+{
+    lane_f c, s = sincos_2pi(F(turns), &c);
+    return v3_make(fma(c, w.x, -s * w.y), fma(s, w.x, c * w.y), w.z);
 }
 
 static bsdf make_bsdf(constant float *m)
@@ -36,13 +45,14 @@ static bsdf make_bsdf(constant float *m)
     s.s = v3_make(F(1.0f), F(0.0f), F(0.0f));
     s.t = v3_make(F(0.0f), F(1.0f), F(0.0f));
     s.ns = v3_make(F(0.0f), F(0.0f), F(1.0f));
+    s.stretch = F(1.0f + m[PACKED_STRETCH]);
     s.sheen = v3_make(F(m[PACKED_SHEEN]), F(m[PACKED_SHEEN + 1]), F(m[PACKED_SHEEN + 2]));
     s.sheen_roughness = F(m[PACKED_SHEEN_ROUGHNESS]);
     s.coat = F(m[PACKED_COAT]);
     s.coat_alpha = F(m[PACKED_COAT_ALPHA]);
     float tilt = m[PACKED_COAT_TILT], cosine = m[PACKED_COSINE];
     s.coat_ns = v3_make(F(tilt), F(0.0f), F(sqrt(1.0f - tilt * tilt)));
-    return bsdf_make(&s, v3_make(F(sqrt(max(1.0f - cosine * cosine, 0.0f))), F(0.0f), F(cosine)));
+    return bsdf_make(&s, turned(v3_make(F(sqrt(max(1.0f - cosine * cosine, 0.0f))), F(0.0f), F(cosine)), m[PACKED_TURN]));
 }
 
 /* m: packed_material.h. The fifth array is the weight, green. */
@@ -54,7 +64,7 @@ kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out
     bsdf b = make_bsdf(m);
     bsdf_direction d = bsdf_sample(&b, false, u1, u2, to_unit(choice));
     bsdf_eval(&b, d.wi, &pdf);
-    store(out, n, d.wi, pdf);
+    store(out, n, turned(d.wi, 1.0f - m[PACKED_TURN]), pdf);
     LANE_STORE(d.pdf > 0.0f ? d.weight.y : F(0.0f), out + 4 * n + get_global_id(0) * LANES);
 }
 
@@ -65,7 +75,7 @@ kernel void bsdf_densities(uint n, constant float *m, global const float *wi, gl
     if (at >= n) return;
     bsdf b = make_bsdf(m);
     lane_f p;
-    bsdf_eval(&b, v3_make(LANE_LOAD(wi + at), LANE_LOAD(wi + n + at), LANE_LOAD(wi + 2 * n + at)), &p);
+    bsdf_eval(&b, turned(load_v3(wi + at, n), m[PACKED_TURN]), &p);
     LANE_STORE(p, pdf + at);
 }
 
@@ -76,7 +86,7 @@ kernel void bsdf_values(uint n, constant float *m, global const float *wi, globa
     if (at >= n) return;
     bsdf b = make_bsdf(m);
     lane_f p;
-    LANE_STORE(bsdf_eval(&b, v3_make(LANE_LOAD(wi + at), LANE_LOAD(wi + n + at), LANE_LOAD(wi + 2 * n + at)), &p).y, f + at);
+    LANE_STORE(bsdf_eval(&b, turned(load_v3(wi + at, n), m[PACKED_TURN]), &p).y, f + at);
     LANE_STORE(p, pdf + at);
 }
 
@@ -101,7 +111,7 @@ kernel void environment_densities(uint n, constant ec_params *params, global con
     if (at >= n) return;
     environment e = {params, texels, texel_alias};
     lane_f p;
-    v3 radiance = environment_look_up(&e, v3_make(LANE_LOAD(wi + at), LANE_LOAD(wi + n + at), LANE_LOAD(wi + 2 * n + at)), &p);
+    v3 radiance = environment_look_up(&e, load_v3(wi + at, n), &p);
     LANE_STORE(p, pdf + at);
     LANE_STORE(radiance.x, pdf + n + at);
 }

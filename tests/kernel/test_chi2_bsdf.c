@@ -103,7 +103,8 @@ static void check_covered(cl_program *built, int lanes, material m, const char *
     float packed[PACKED_FIELDS] = {m.base, m.base == 1 ? 1 : m.base * 0.5f, m.base == 1 ? 1 : 0.1f, f0, 1.0f, m.metallic, m.alpha, m.cosine,
                               m.transmission, m.eta};
     memcpy(packed + PACKED_COAT, over + PACKED_COAT, (PACKED_FIELDS - PACKED_COAT) * sizeof *packed);
-    const frame frames[2] = {frame_above(&m), frame_below(&m)};
+    frame frames[2] = {frame_above(&m), frame_below(&m)};
+    for (int side = 0; side < 2; side++) frames[side].width *= sqrt(1 + (double)over[PACKED_STRETCH]);
     double mass[CELLS], expected[2 * CELLS + 1], total = 0;
     uint32_t count[2 * CELLS + 1] = {0}, dark = 0, astray = 0;
     for (int side = 0; side < 2; side++) {
@@ -199,18 +200,31 @@ static void check_sheen(void)
         }
 }
 
+/* Lobes five times and twenty times as long as wide, along, across and askew. */
+static void check_anisotropy(void)
+{
+    static const float stretches[2] = {5, 20}, turns[3] = {0, 0.25f, 0.1f}, cosines[3] = {1, 0.5f, 0.1f};
+    for (int s = 0; s < 2; s++)
+        for (int a = 0; a < 3; a++) {
+            const float over[PACKED_FIELDS] = {[PACKED_STRETCH] = stretches[s] - 1, [PACKED_TURN] = turns[a]};
+            float alpha = s ? 0.05f : 0.15f;
+            check_covered(layered_programs, (s + a) % LANE_WIDTHS, (material){a != 2, alpha, cosines[(s + a) % 3], a == 2 ? 0.8f : 1, 0, 1}, "anisotropy", over);
+        }
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
     chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
     chi2_build(glass_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
-    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN)");
+    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY)");
     if (!test_failures) {
         check_opaque();
         check_glass();
         check_coat();
         check_sheen();
+        check_anisotropy();
         printf("%d chi-square tests\n", tests);
         CHECK(tests <= TESTS - 5); /* the lights' */
     }

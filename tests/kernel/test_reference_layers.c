@@ -131,7 +131,7 @@ static void check_reciprocity(const char *what, const float *m)
 }
 
 /* Over roughness and angle: never more than comes in, by more than 4 standard errors; says how little comes back at the least. */
-static void furnace(const char *what, const float *white, int roughness_field)
+static void furnace(const char *what, const float *white, int roughness_field, double anisotropy)
 {
     static const double roughness[7] = {0.02, 0.07, 0.15, 0.3, 0.5, 0.75, 1}, cosines[6] = {1, 0.7, 0.4, 0.15, 0.03, 0.003};
     double most = 0, least = 2, least_roughness = 0, least_cosine = 0;
@@ -142,6 +142,7 @@ static void furnace(const char *what, const float *white, int roughness_field)
             memcpy(m, white, sizeof m);
             m[roughness_field] = (float)(roughness[r] * roughness[r]);
             m[PACKED_COSINE] = (float)cosines[c];
+            if (anisotropy > 0) m[PACKED_STRETCH] = (float)(anisotropy * anisotropy * (1 / pow(roughness[r], 2) - 1)); /* mix(alpha, 1, strength^2) */
             double sum = albedo(m, &se);
             CHECK_MSG(sum <= 1 + 4 * se + 1e-5, "%s, roughness %g, cosine %g: %.5f +- %.5f comes back", what, roughness[r], cosines[c], sum, se);
             most = fmax(most, sum - 4 * se);
@@ -176,9 +177,9 @@ static void coats(void)
     /* Over a mirror of roughness 0.07 whose albedo is 1 but for 1e-3: what is missing is the coat's. */
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_F0] = 1, [PACKED_F90] = 1,
                                   [PACKED_METALLIC] = 1, [PACKED_ALPHA] = 0.005f, [PACKED_ETA] = 1, [PACKED_COAT] = 1};
-    furnace("coat over white metal", white, PACKED_COAT_ALPHA);
+    furnace("coat over white metal", white, PACKED_COAT_ALPHA, 0);
     white[PACKED_COAT_TILT] = 0.3f;
-    furnace("bent coat over white metal", white, PACKED_COAT_ALPHA);
+    furnace("bent coat over white metal", white, PACKED_COAT_ALPHA, 0);
 }
 
 /* ---- KHR_materials_sheen, by Estevez and Kulla 2017; eclat's own: divided by E where E is more than 1 ---- */
@@ -264,22 +265,52 @@ static void sheens(void)
     }
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_ALPHA] = 1, [PACKED_ETA] = 1,
                                   [PACKED_SHEEN] = 1, [PACKED_SHEEN + 1] = 1, [PACKED_SHEEN + 2] = 1};
-    furnace("white sheen over white Lambert", white, PACKED_SHEEN_ROUGHNESS);
+    furnace("white sheen over white Lambert", white, PACKED_SHEEN_ROUGHNESS, 0);
+}
+
+/* ---- KHR_materials_anisotropy: D and V of Burley 2012 and Heitz 2014 for widths at and ab ---- */
+
+static double stretched(const float *m, vector l, vector v)
+{
+    double turn = 2 * pi * (double)m[PACKED_TURN], c = cos(turn), s = sin(turn), ab = m[PACKED_ALPHA], at = ab * (1 + (double)m[PACKED_STRETCH]);
+    vector own_l = {c * l.x - s * l.y, s * l.x + c * l.y, l.z}, own_v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z}, h = half_of(own_l, own_v);
+    double k = h.x * h.x / (at * at) + h.y * h.y / (ab * ab) + h.z * h.z, d = 1 / (pi * at * ab * k * k);
+    double to_v = sqrt(pow(at * own_v.x, 2) + pow(ab * own_v.y, 2) + v.z * v.z), to_l = sqrt(pow(at * own_l.x, 2) + pow(ab * own_l.y, 2) + l.z * l.z);
+    double fresnel = m[PACKED_F0] + (1 - (double)m[PACKED_F0]) * pow(1 - product(h, own_v), 5);
+    return fresnel * d * 0.5 * l.z / (l.z * to_v + v.z * to_l) + (1 - fresnel) * m[PACKED_BASE + 1] / pi * l.z;
+}
+
+static void anisotropies(void)
+{
+    static const float cases[6][4] = {{0.3f, 1.5f, 0, 0.7f}, {0.1f, 9, 0.25f, 0.5f}, {0.1f, 3, 0.125f, 0.9f}, {0.01f, 99, 0.4f, 0.3f}, {0.05f, 10, 0.7f, 0.1f}, {0.2f, 0, 0.3f, 0.5f}};
+    for (int i = 0; i < 6; i++) {
+        float m[PACKED_FIELDS];
+        char name[96];
+        memcpy(m, plain, sizeof m);
+        m[PACKED_ALPHA] = cases[i][0], m[PACKED_STRETCH] = cases[i][1], m[PACKED_TURN] = cases[i][2], m[PACKED_COSINE] = cases[i][3];
+        snprintf(name, sizeof name, "anisotropy alpha %g stretch %g turn %g", (double)cases[i][0], (double)cases[i][1] + 1, (double)cases[i][2]);
+        compare(name, m, cases[i][0], 0, stretched); /* whose formula does not change when l and v do: reciprocal */
+    }
+    float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_F0] = 1, [PACKED_F90] = 1,
+                                  [PACKED_METALLIC] = 1, [PACKED_ETA] = 1, [PACKED_TURN] = 0.1f};
+    furnace("white metal of anisotropy 0.5", white, PACKED_ALPHA, 0.5);
+    furnace("white metal of anisotropy 1", white, PACKED_ALPHA, 1);
 }
 
 int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         programs[i] = kernel_build(&cl, "chi2", lane_widths[i],
                                    "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+"
-                                   "EC_FEATURE_SHEEN)");
+                                   "EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY)");
     if (!test_failures) {
         coats();
         sheens();
+        anisotropies();
     }
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);
     ec_cl_close(&cl);
     TEST_END();

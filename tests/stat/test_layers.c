@@ -9,6 +9,7 @@ static const char *const tiles[] = {
     "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0.9,0.5,0.2],\"sheenRoughnessFactor\":0.3}",
     "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0.2,0.5,0.9],\"sheenRoughnessFactor\":1},"
     "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1,\"clearcoatRoughnessFactor\":0.2}",
+    "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.7,\"anisotropyRotation\":0.6}",
 };
 enum { TILES = sizeof tiles / sizeof *tiles };
 
@@ -20,7 +21,7 @@ static const char *floor_of_tiles(void)
         bool metal = i >= TILES;
         int id = gltf_add(&w->materials,
                           "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.8,0.6,0.4,1],\"metallicFactor\":%d,\"roughnessFactor\":%g},"
-                          "\"extensions\":{%s}}", metal, metal ? 0.3 : 0.9, tiles[i % TILES]);
+                          "\"extensions\":{%s}}", metal, metal ? 0.3 : 0.8, tiles[i % TILES]);
         gltf_quad(w, id, (double[3]){i % TILES - TILES / 2.0, 0, metal ? 0 : 1}, (double[3]){1, 0, 0}, (double[3]){0, 0, -1});
     }
     gltf_quad(w, gltf_lambert(w, 0, 8), (double[3]){-0.5, 1.5, -0.5}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1});
