@@ -26,7 +26,7 @@ kernel void ec_scatter(uint n, global const float *in, global float *out)
     PUT(EC_SCATTER_F, bsdf_eval(&b, w, &pdf).y);
     PUT(EC_SCATTER_PDF, pdf);
     PUT(EC_SCATTER_D, ggx_d(&b.facets, w));
-    PUT(EC_SCATTER_LAMBDA, ggx_lambda(&b.facets, w.z));
+    PUT(EC_SCATTER_LAMBDA, ggx_lambda(&b.facets, w));
     PUT(EC_SCATTER_FRESNEL, fresnel_dielectric(w.z, s.eta));
     bsdf_direction d = bsdf_sample(&b, false, w.x, w.y, w.z);
     PUT(EC_SCATTER_WI, d.wi.x);
