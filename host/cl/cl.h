@@ -56,6 +56,9 @@ typedef struct ec_cl {
     double build_seconds;     /* spent in clBuildProgram and cache look-ups */
     uint32_t cache_hits, cache_misses;
     const char *cache_dir;    /* NULL: the default (see ec_program_build) */
+    bool keeps_programs;      /* set after ec_cl_open: programs stay built until ec_cl_close, and are found again */
+    struct ec_kept_program *kept;
+    uint32_t kept_count;
     ec_cache_use cache;       /* EC_CACHE_AUTO unless set after ec_cl_open */
     ec_cl_launch launches[EC_LAUNCHES]; /* whose end has not been looked at */
     uint32_t launch_count;

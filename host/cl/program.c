@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "cl/build_log.h"
 #include "cl/cache.h"
+#include "cl/kept.h"
 #include "cl/workarounds.h"
 
 typedef struct build {
@@ -85,18 +86,22 @@ ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, con
     build b = {.cl = cl, .label = label, .source = source, .options = all_options(&cl->info, options ? options : "")};
     if (!b.options) return ec_fail(err, "out of memory while building kernels %s", label);
     bool use = cl->cache == EC_CACHE_ON || (cl->cache == EC_CACHE_AUTO && !driver_needs_source(&cl->info));
-    if (use && ec_cache_folder(cl->cache_dir, b.folder, sizeof b.folder))
-        b.key = ec_cache_key_of(&cl->info, source, b.options);
-    else b.folder[0] = 0;
+    if (!use || !ec_cache_folder(cl->cache_dir, b.folder, sizeof b.folder)) b.folder[0] = 0;
+    if (*b.folder || cl->keeps_programs) b.key = ec_cache_key_of(&cl->info, source, b.options);
     bool dump = ec_build_log_dump(label, NULL, NULL, NULL);
     ec_result result = EC_OK;
-    if (!dump && build_from_cache(&b, program)) {
+    cl_program kept = cl->keeps_programs ? ec_kept_find(cl, &b.key) : NULL;
+    if (kept) {
+        if (clRetainProgram(kept) == CL_SUCCESS) *program = kept;
+        else result = ec_fail(err, "cannot retain kernels %s", label);
+    } else if (!dump && build_from_cache(&b, program)) {
         cl->cache_hits++;
     } else {
         result = build_from_source(&b, program, err);
         if (*b.folder) cl->cache_misses++;
         if (result == EC_OK && *b.folder) store(&b, *program);
     }
+    if (cl->keeps_programs && !kept && result == EC_OK) ec_kept_add(cl, &b.key, *program);
     free(b.options);
     cl->build_seconds += ec_now() - start;
     return result;

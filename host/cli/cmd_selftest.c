@@ -50,6 +50,7 @@ static ec_result test_device(ec_cli *cli, const ec_device_info *device, uint32_t
     r->options.user = &cli->console;
     ec_stop_catch_signals(ec_console_wants_progress(&cli->console));
     EC_TRY_CLEANUP(ec_cl_open(device, &cl, err));
+    cl.keeps_programs = true;
     ec_console_say(&cli->console, "testing %s, %s", device->name, device->driver);
     result = ec_selftest_run(&cl, &r->options, &report, err);
     ec_console_erase(&cli->console);

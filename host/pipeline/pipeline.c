@@ -76,7 +76,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
         return result;
     }
     const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
-    p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features;
+    p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features | options->more_effects;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
     if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
     ec_params *params = &p->params;

@@ -135,6 +135,7 @@ ec_result ec_selftest_srgb(ec_selftest *t, ec_error *err)
     double worst = 0;
     uint64_t changed = 0;
     ec_render_options o = ec_shot_options(t, 16, 16);
+    o.more_effects = 0; /* textures are for this one alone */
     ec_result result = ramp(&scene, err);
     if (result == EC_OK) result = ec_shot_take(t, scene, &o, &shot, err);
     ec_scene_free(scene);

@@ -42,7 +42,7 @@ ec_result ec_selftest_lane_widths(ec_selftest *t, ec_error *err)
     ec_result result = ec_shot_take(t, scene, &o, &first, err);
     for (int i = 0; i < 4 && result == EC_OK; i++) {
         o.lanes = widths[i];
-        o.all_effects = false;
+        o.more_effects = 0;
         result = compare(t, scene, &o, &first, &other, note, sizeof note, err);
     }
     ec_scene_free(scene);
@@ -63,7 +63,7 @@ ec_result ec_selftest_accelerators(ec_selftest *t, ec_error *err)
     ec_result result = ec_shot_take(t, scene, &o, &first, err);
     for (int a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
         o.accel = ec_accels[a].name;
-        o.all_effects = false;
+        o.more_effects = 0;
         result = compare(t, scene, &o, &first, &other, note, sizeof note, err);
     }
     ec_scene_free(scene);

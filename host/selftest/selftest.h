@@ -42,7 +42,7 @@ typedef struct ec_selftest_options {
     void *user;
 } ec_selftest_options;
 
-/* A case that cannot be run at all (kernels do not build, out of memory) is a failed row. err: where no case fits `only`, or
+/* Set cl->keeps_programs, since most cases share theirs. A case that cannot be run at all (kernels do not build, out of memory) is a failed row. err: where no case fits `only`, or
  * memory ends. */
 ec_result ec_selftest_run(ec_cl *cl, const ec_selftest_options *options, ec_selftest_report *report, ec_error *err);
 

@@ -3,6 +3,14 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "shared/features.h"
+
+/* What most cases call for. Textures, coverage and further lobes are left out: kernels with all effects take PoCL 20 s to build. */
+#define EC_SHOT_EFFECTS                                                                                                          \
+    (EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | \
+     EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION | EC_FEATURE_SMOOTH_NORMALS |          \
+     EC_FEATURE_CULLING)
+
 void ec_shot_free(ec_shot *shot)
 {
     ec_film_destroy(&shot->film);
@@ -12,7 +20,7 @@ void ec_shot_free(ec_shot *shot)
 
 ec_render_options ec_shot_options(const ec_selftest *t, uint32_t size, uint32_t spp)
 {
-    return (ec_render_options){.width = size, .height = size, .spp = spp, .lanes = t->lanes, .all_effects = true};
+    return (ec_render_options){.width = size, .height = size, .spp = spp, .lanes = t->lanes, .more_effects = EC_SHOT_EFFECTS};
 }
 
 static ec_result measure(ec_shot *s, ec_error *err)

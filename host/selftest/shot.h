@@ -13,7 +13,7 @@ typedef struct ec_shot {
 } ec_shot;
 void ec_shot_free(ec_shot *shot); /* zero-initialised is fine */
 
-/* size x size pixels, unlimited depth, Sobol, MIS, seed 0. Kernels for every effect: one build for all scenes. */
+/* size x size pixels, unlimited depth, Sobol, MIS, seed 0. Kernels for what most cases call for: one build for all these scenes. */
 ec_render_options ec_shot_options(const ec_selftest *t, uint32_t size, uint32_t spp);
 
 /* Samples that are not finite make the mean NaN: no row passes with it. */

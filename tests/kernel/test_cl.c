@@ -343,6 +343,24 @@ static void buffers_hold_bytes(ec_cl *cl) {
     ec_buffer_release(cl, &buffer);
 }
 
+static void programs_are_kept_where_asked(ec_cl *cl) {
+    ec_error err = {0};
+    cl_program all[4] = {NULL};
+    for (int i = 0; i < 4; i++) {
+        cl->keeps_programs = i > 0;
+        CHECK_OK(ec_program_build(cl, "doubler", doubler, i == 3 ? "-DOTHER" : "", &all[i], &err), err);
+    }
+    CHECK(all[1] != all[0] && all[2] == all[1] && all[3] != all[1] && cl->kept_count == 2);
+    for (int i = 0; i < 4; i++)
+        if (all[i]) clReleaseProgram(all[i]);
+    cl_kernel kernel = NULL; /* still there, though the caller has given back both */
+    CHECK_OK(ec_program_build(cl, "doubler", doubler, "", &all[0], &err), err);
+    CHECK_OK(ec_kernel_create(all[0], "doubler", &kernel, &err), err);
+    if (kernel) clReleaseKernel(kernel);
+    if (all[0]) clReleaseProgram(all[0]);
+    cl->keeps_programs = false;
+}
+
 int main(void) {
     snprintf(folder, sizeof folder, "%s/cl-XXXXXX", ECLAT_TEST_OUT);
     if (!mkdtemp(folder)) TEST_SKIP("no folder %s", folder);
@@ -369,6 +387,7 @@ int main(void) {
     programs_are_cached(&cl);
     broken_source_says_where(&cl);
     unknown_kernel_is_named(&cl);
+    programs_are_kept_where_asked(&cl);
     buffers_hold_bytes(&cl);
     CHECK_OK(ec_cl_finish(&cl, &err), err);
     buffers_are_limited(&cl);
