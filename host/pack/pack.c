@@ -103,6 +103,6 @@ void ec_pack_free(ec_pack *pack)
     free(pack->lights);
     free(pack->light_alias);
     free(pack->environment_texels);
-    free(pack->environment_alias);
+    free(pack->environment_table);
     memset(pack, 0, sizeof *pack);
 }

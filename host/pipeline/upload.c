@@ -57,7 +57,7 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     EC_TRY(upload(p, EC_ARG_LIGHT_ALIAS, "light table", (uint64_t)pack->light_count * sizeof *pack->light_alias, pack->light_alias, err));
     uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
     EC_TRY(upload(p, EC_ARG_ENVIRONMENT_TEXELS, "environment map", texels * 16, pack->environment_texels, err));
-    return upload(p, EC_ARG_ENVIRONMENT_ALIAS, "environment table", texels * sizeof *pack->environment_alias, pack->environment_alias, err);
+    return upload(p, EC_ARG_ENVIRONMENT_TABLE, "environment table", (texels + pack->environment_height) * sizeof *pack->environment_table, pack->environment_table, err);
 }
 
 ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)

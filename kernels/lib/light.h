@@ -169,10 +169,10 @@ EC_FN light_sample light_sample_punctual(const light_record *l, lane_i m, v3 p, 
     return s;
 }
 
-EC_FN light_sample light_sample_environment(const lights *l, lane_i m, lane_u r, lane_f u1, lane_f u2, float scene_radius)
+EC_FN light_sample light_sample_environment(const lights *l, lane_i m, lane_u r1, lane_u r2, float scene_radius)
 {
     light_sample s;
-    s.wi = environment_sample(&l->env, r, u1, u2, &s.pdf, &s.radiance);
+    s.wi = environment_sample(&l->env, r1, r2, &s.pdf, &s.radiance);
     s.towards = v3_scale(s.wi, F(2.0f * scene_radius));
     s.is_delta = !TRUE_MASK;
     s.is_far = TRUE_MASK;
@@ -198,8 +198,8 @@ EC_FN light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
     return s;
 }
 
-/* One light for a point p. choice: 32 random bits that pick the light, and what is left of them the texel. */
-EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u choice, lane_f u1, lane_f u2)
+/* One light for a point p, picked by choice, and a point or direction on it by r1 and r2: random 32-bit numbers. */
+EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u choice, lane_u r1, lane_u r2)
 {
     constant ec_params *params = l->env.params;
     uint count = params->light_count;
@@ -211,7 +211,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
 
     light_sample s;
     s.valid = !TRUE_MASK;
-    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(&one, g, m & (type == EC_KIND_TRIANGLE), p, u1, u2);
+    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(&one, g, m & (type == EC_KIND_TRIANGLE), p, to_unit(r1), to_unit(r2));
     if (HAS(PUNCTUAL_LIGHTS)) {
         lane_i is = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
         light_sample other = light_sample_punctual(&one, m & is, p, params->scene_radius);
@@ -219,7 +219,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     }
     if (HAS(ENVIRONMENT)) {
         lane_i is = type == EC_KIND_ENVIRONMENT;
-        light_sample other = light_sample_environment(l, m & is, hash_u(choice), u1, u2, params->scene_radius);
+        light_sample other = light_sample_environment(l, m & is, r1, r2, params->scene_radius);
         s = HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) ? light_sample_select(is, other, s) : other;
     }
     return s;
