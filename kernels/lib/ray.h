@@ -109,15 +109,19 @@ EC_FN edges edges_make(v3 a, v3 b, v3 c)
     return e;
 }
 
+/* Below the rounding of the vertices' depths, and with them of a mean of these, the sign of t means nothing: what lies in the plane that
+ * a ray starts on is not met (pbrt-v4, section 6.8.7, delta_t). */
+EC_FN lane_f edges_least(lane_f z0, lane_f z1, lane_f z2) { return max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP); }
+
 /* Which of the lanes m meet their triangle's plane in front of them, at t <= t_max, as far as floats can tell; inverse = 1 / det.
  * *close: those of them that have to ask edges_settle, whatever their t; reference_clamp looks at t_max. */
 EC_FN lane_i edges_distance(const ray *r, const edges *e, lane_i m, lane_f t_max, lane_i *close, lane_f *inverse, lane_f *t)
 {
-    lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z, z = max(z0, max(z1, z2));
+    lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z;
     *inverse = 1.0f / e->det;
     *t = fma(e->u, z0, fma(e->v, z1, e->w * z2)) * *inverse;
-    lane_i is_short = *t <= z * (8.0f * EC_ULP); /* a mean of depths of one sign has that sign, but for its own rounding */
-    *close = m & is_short & (z > 0.0f);
+    lane_i is_short = *t <= edges_least(z0, z1, z2);
+    *close = m & is_short & (max(z0, max(z1, z2)) > 0.0f); /* a mean of negative depths is negative */
     return *close | (m & !is_short & (*t <= t_max));
 }
 
@@ -148,18 +152,19 @@ EC_FN lane_f edges_exact_sum(const edges *e, v3 a, v3 b, v3 c, lane_f z0, lane_f
     return sum + lost;
 }
 
-/* t of close triangles, positive where the hit counts. The edge functions' rounding hides the sign where t is short: each product is at
- * most `most`, so each of the three is off by 4 u most, and their sum with the depths by three times that and its own roundings,
- * 32 u most deepest in all. Along needles this is any t. Then twice the digits decide: vertices are rounded the same way for all
- * triangles around them, so a closed mesh stays closed. a, b, c: sheared vertices. */
+/* t of close triangles, negative where they are not met. The edge functions' rounding hides what is in front of the origin and what
+ * behind it where t is short: each product is at most `most`, so each of the three is off by 4 u most, and their sum with the depths by
+ * three times that and its own roundings, 32 u most deepest in all. Along needles this is any t. Then twice the digits decide: vertices
+ * are rounded the same way for all triangles around them, so a closed mesh stays closed. a, b, c: sheared vertices. */
 EC_FN lane_f edges_settle(const ray *r, const edges *e, v3 a, v3 b, v3 c, lane_i close, lane_f inverse, lane_f t)
 {
-    lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z;
+    lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z, least = edges_least(z0, z1, z2);
     lane_f most = max(fabs(a.x), max(fabs(b.x), fabs(c.x))) * max(fabs(a.y), max(fabs(b.y), fabs(c.y)));
-    lane_f deepest = max(fabs(z0), max(fabs(z1), fabs(z2)));
-    lane_i hidden = close & (fabs(t) <= most * deepest * fabs(inverse) * (32.0f * EC_ULP));
+    lane_i hidden = close & (fabs(t) <= most * least * fabs(inverse) * 4.0f);
+    t = close ? F(-1.0f) : t;
     if (!any_lane(hidden)) return t;
-    return hidden ? edges_exact_sum(e, a, b, c, z0, z1, z2) * inverse : t;
+    lane_f exact = edges_exact_sum(e, a, b, c, z0, z1, z2) * inverse;
+    return (hidden & (exact > least)) ? exact : t;
 }
 
 /* Does the ray meet the triangle at all, its box left aside? The traversals do the same step by step. */
