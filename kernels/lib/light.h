@@ -54,6 +54,17 @@ EC_FN light_record light_load_one(global const float *table, uint id)
     return r;
 }
 
+/* By how much a traversal may misplace, along each axis, the point that a ray meets on a triangle: u of `reach`, the vertices' ways from
+ * the ray's origin, weighted as the point, for each rounding of an edge function and what goes into it, and along the ray those of the
+ * shear, of t and of the ray itself (ray.h). What lies in the plane of a lamp is met no sooner than that before it. */
+EC_FN v3 light_met_error(v3 reach, v3 towards)
+{
+    v3 way = v3_abs(towards);
+    lane_i x = (way.x >= way.y) & (way.x >= way.z), y = !x & (way.y >= way.z);
+    lane_f beyond = (x ? reach.x : y ? reach.y : reach.z) / v3_max_component(way);
+    return v3_fma(way, beyond * EC_GAMMA(13), v3_scale(reach, F(EC_GAMMA(4))));
+}
+
 /* A point of a triangle by its barycentrics, seen from p. Its density is that of uniform points. */
 EC_FN light_sample light_point_of_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f b1, lane_f b2)
 {
@@ -62,9 +73,11 @@ EC_FN light_sample light_point_of_triangle(const light_record *l, const geometry
     lane_f b0 = 1.0f - b1 - b2;
     v3 q = v3_fma(c, b2, v3_fma(b, b1, v3_scale(a, b0)));
     v3 sum = v3_fma(v3_abs(c), b2, v3_fma(v3_abs(b), b1, v3_scale(v3_abs(a), b0)));
-    s.end_error = v3_scale(sum, F(EC_GAMMA(9)));
     s.end_normal = v3_normalize(v3_cross(v3_sub(b, a), v3_sub(c, a)));
     s.towards = v3_sub(q, p);
+    v3 reach = v3_scale(v3_abs(v3_sub(a, p)), b0);
+    reach = v3_fma(v3_abs(v3_sub(c, p)), b2, v3_fma(v3_abs(v3_sub(b, p)), b1, reach));
+    s.end_error = v3_fma(sum, F(EC_GAMMA(9)), light_met_error(reach, s.towards));
     lane_f d2 = v3_dot(s.towards, s.towards);
     s.wi = v3_scale(s.towards, 1.0f / sqrt(d2));
     lane_f cosine = -v3_dot(s.wi, s.end_normal);
