@@ -53,6 +53,8 @@ static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec
 {
     const double *m = g->nodes[node].local;
     out->node = node;
+    out->mesh = g->nodes[node].mesh;
+    out->extra = false;
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++) {
             double sum = 0;
@@ -94,6 +96,7 @@ ec_result ec_gltf_place_nodes(const ec_gltf *g, ec_placement_list *list, ec_erro
     uint32_t *seen_from = calloc(count, sizeof *seen_from);
     bool *visited = calloc(count, sizeof *visited);
     list->count = 0;
+    list->room = (uint32_t)count;
     list->items = malloc(count * sizeof *list->items);
     if (!parent || !seen_from || !visited || !list->items) {
         ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
@@ -111,6 +114,36 @@ cleanup:
         *list = (ec_placement_list){0};
     }
     return result;
+}
+
+ec_result ec_placement_append(ec_placement_list *list, const ec_placement *placement, ec_error *err)
+{
+    ec_placement copy = *placement; /* may be one of the items */
+    if (list->count == list->room) {
+        size_t room = 2 * (size_t)list->room + 8;
+        ec_placement *grown = room <= INT32_MAX ? realloc(list->items, room * sizeof *grown) : NULL;
+        if (!grown) return ec_fail(err, "out of memory for more than %u instances", list->count);
+        list->items = grown;
+        list->room = (uint32_t)room;
+    }
+    list->items[list->count++] = copy;
+    return EC_OK;
+}
+
+void ec_gltf_compose(const double t[3], const double q[4], const double s[3], double m[16])
+{
+    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    double x = 0, y = 0, z = 0, w = 1;
+    if (length > 0) x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
+    const double r[9] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w),
+                         2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w),
+                         2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
+    memset(m, 0, 16 * sizeof *m);
+    for (int column = 0; column < 3; column++) {
+        for (int row = 0; row < 3; row++) m[4 * column + row] = r[3 * column + row] * s[column];
+        m[12 + column] = t[column];
+    }
+    m[15] = 1;
 }
 
 double ec_gltf_determinant(const double m[9])
