@@ -70,6 +70,20 @@ static void add_list(cJSON *root, const char *key, char **names, uint32_t count)
     for (uint32_t i = 0; i < count; i++) ec_json_text(array, NULL, names[i]);
 }
 
+static void add_contents(cJSON *root, const ec_scene_contents *contents)
+{
+    add_list(root, "scenes", contents->scenes.names, contents->scenes.count);
+    ec_json_whole(root, "scene_shown", contents->scene);
+    add_list(root, "variants", contents->variants.names, contents->variants.count);
+    cJSON *animations = cJSON_AddArrayToObject(root, "animations");
+    for (uint32_t i = 0; i < contents->animations.count; i++) {
+        cJSON *object = cJSON_CreateObject();
+        ec_json_text(object, "name", contents->animations.names[i]);
+        ec_json_real(object, "seconds", contents->seconds[i]); /* null: the file does not say */
+        cJSON_AddItemToArray(animations, object);
+    }
+}
+
 static void add_bvh(cJSON *root, const ec_bvh_stats *stats)
 {
     cJSON *bvh = cJSON_AddObjectToObject(root, "bvh");
@@ -118,6 +132,7 @@ ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error
     add_geometry(root, scene);
     add_lights(root, report);
     add_cameras(root, scene);
+    add_contents(root, &scene->contents);
     add_list(root, "extensions_used", scene->extensions_used, scene->extension_count);
     add_list(root, "extensions_unsupported", scene->extensions_ignored, scene->extension_ignored_count);
     ec_json_words(root, "effects", report->effects);
