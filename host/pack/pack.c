@@ -74,6 +74,10 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         d->anisotropy = m->anisotropy;
         d->anisotropy_cosine = cosf(m->anisotropy_rotation);
         d->anisotropy_sine = sinf(m->anisotropy_rotation);
+        d->film = m->film;
+        d->film_ior = m->film_ior;
+        d->film_least = m->film_least;
+        d->film_most = m->film_most;
         d->coat = m->coat;
         d->coat_roughness = m->coat_roughness;
         d->coat_normal_scale = m->coat_normal_scale;

@@ -144,6 +144,19 @@ static void set_anisotropy(ec_material &out, const tinygltf::Material &in, const
     out.textures[EC_SLOT_ANISOTROPY] = make_use(*a, "anisotropyTexture", where, gltf, log);
 }
 
+static void set_film(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
+{
+    const Value *f = find_extension(in.extensions, "KHR_materials_iridescence");
+    out.film_ior = 1.3f;
+    if (!f) return;
+    out.film = float(get_number(*f, "iridescenceFactor", 0));
+    out.film_ior = float(get_number(*f, "iridescenceIor", 1.3));
+    out.film_least = float(get_number(*f, "iridescenceThicknessMinimum", 100));
+    out.film_most = float(get_number(*f, "iridescenceThicknessMaximum", 400));
+    out.textures[EC_SLOT_IRIDESCENCE] = make_use(*f, "iridescenceTexture", where, gltf, log);
+    out.textures[EC_SLOT_IRIDESCENCE_THICKNESS] = make_use(*f, "iridescenceThicknessTexture", where, gltf, log);
+}
+
 static void set_emission(ec_material &out, const tinygltf::Material &in)
 {
     const Value *strength = find_extension(in.extensions, "KHR_materials_emissive_strength");
@@ -180,6 +193,7 @@ static void set_material(ec_material &out, const tinygltf::Material &in, const s
     set_coat(out, in, where, gltf, log);
     set_sheen(out, in, where, gltf, log);
     set_anisotropy(out, in, where, gltf, log);
+    set_film(out, in, where, gltf, log);
     out.name = copy_string(in.name);
 }
 

@@ -52,6 +52,8 @@ typedef struct ec_material {
     float coat, coat_roughness; /* KHR_materials_clearcoat; 0 where absent */
     float coat_normal_scale;
     float anisotropy, anisotropy_rotation; /* KHR_materials_anisotropy; 0 where absent; radians from the tangent */
+    float film, film_ior;      /* KHR_materials_iridescence; 0 where absent */
+    float film_least, film_most; /* thickness in nanometres where its texture is 0, and where it is 1 */
     float sheen[3], sheen_roughness; /* KHR_materials_sheen; 0 where absent */
     float alpha_cutoff;
     ec_alpha_mode alpha_mode;

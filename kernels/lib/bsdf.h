@@ -2,7 +2,7 @@
  *
  *   f = metallic F_m D V + (1 - metallic) (F_d D V + (1 - max F_d) base ((1 - transmission) / pi + transmission T))
  *
- * D, V: of GGX microfacets (ggx.h). T passes light on: through a thin wall by the same
+ * Under a thin film (iridescence.h) both F are the film's. D, V: of GGX microfacets (ggx.h). T passes light on: through a thin wall by the same
  * lobe mirrored, into a body by the microfacet BTDF of Walter et al. 2007, eq. 21, between basic radiances L / n^2 (Nicodemus
  * 1963), so that no factor n^2 comes and goes with each body. A smooth surface has one direction of reflection and one of
  * transmission: bsdf_eval leaves those out, since nothing but bsdf_sample finds them.
@@ -13,6 +13,7 @@
 #include "coat.h"
 #include "fresnel.h"
 #include "ggx.h"
+#include "iridescence.h"
 #include "sheen.h"
 #include "surface.h"
 
@@ -24,6 +25,7 @@ typedef struct bsdf {
     lane_f p_specular;   /* probability of sampling what mirrors or passes, not the diffuse lobe */
     lane_f transmission, eta;
     lane_i refracts;
+    thin_film film;
     sheen sheen;
     coat coat;
 } bsdf;
@@ -40,7 +42,16 @@ EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *rest)
     if (HAS(TRANSMISSION)) dielectric = v3_select(b->refracts & (rise == 1.0f), v3_splat(F(1.0f)), dielectric);
     v3 metal = v3_make(fma(1.0f - b->base.x, metal_rise, b->base.x), fma(1.0f - b->base.y, metal_rise, b->base.y),
                        fma(1.0f - b->base.z, metal_rise, b->base.z));
-    *rest = (1.0f - b->metallic) * (1.0f - min(v3_max_component(dielectric), F(1.0f)));
+    lane_f left = 1.0f - min(v3_max_component(dielectric), F(1.0f));
+    if (HAS(IRIDESCENCE) && any_lane(b->film.weight > 0.0f)) {
+        lane_f w = b->film.weight;
+        film_light l = film_light_make(&b->film, cosine, b->eta, b->refracts);
+        v3 over = film_reflectance(&l, b->f0, b->f90), over_metal = film_reflectance(&l, b->base, F(1.0f));
+        left = w > 0.0f ? fma(w, 1.0f - v3_max_component(over), (1.0f - w) * left) : left;
+        dielectric = v3_select(w > 0.0f, v3_fma(over, w, v3_scale(dielectric, 1.0f - w)), dielectric);
+        metal = v3_select(w > 0.0f, v3_fma(over_metal, w, v3_scale(metal, 1.0f - w)), metal);
+    }
+    *rest = (1.0f - b->metallic) * left;
     return v3_fma(v3_sub(metal, dielectric), b->metallic, dielectric);
 }
 
@@ -67,11 +78,14 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     b.transmission = HAS(TRANSMISSION) ? s->transmission : F(0.0f);
     b.eta = s->eta;
     b.refracts = HAS(TRANSMISSION) ? s->refracts : !TRUE_MASK;
+    if (HAS(IRIDESCENCE)) b.film = (thin_film){s->film, s->film_ior, s->film_thickness};
     if (HAS(SPECULAR)) {
         lane_f rest;
         lane_f specular = luminance(bsdf_fresnel(&b, min(max(wo_local.z, F(0.0f)), F(1.0f)), &rest));
         lane_f base = luminance(b.base), diffuse = rest * base;
         lane_f most = (1.0f - b.metallic) * (1.0f - min(v3_max_component(b.f0), F(1.0f))) * base; /* diffuse, head-on */
+        lane_i filmed = HAS(IRIDESCENCE) ? b.film.weight > 0.0f : !TRUE_MASK; /* which may reflect all or nothing at any angle */
+        most = filmed ? (1.0f - b.metallic) * base : most;
         if (HAS(TRANSMISSION)) {
             specular = fma(diffuse, b.transmission, specular);
             diffuse = diffuse * (1.0f - b.transmission);
@@ -80,8 +94,8 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
         sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
         /* A lobe that matters at other angles must not starve. What is left for the base goes by the half vector's angle: there may
-         * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing reflects less than head-on. */
-        b.p_specular = ((b.p_specular > 0.0f) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
+         * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing but a film reflects less than head-on. */
+        b.p_specular = (((b.p_specular > 0.0f) | filmed) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
     }
     if (HAS(SHEEN)) {
         b.sheen = sheen_make(s->sheen, s->sheen_roughness, wo_local.z, sum);

@@ -24,6 +24,8 @@ typedef struct surface {
     lane_f coat_alpha;
     lane_i coat_smooth;
     v3 coat_ns;
+    lane_f film;       /* weight of a thin film; with it its index and nanometres */
+    lane_f film_ior, film_thickness;
     v3 sheen;          /* colour of fibres over it; 0: none */
     lane_f sheen_roughness;
 } surface;
@@ -199,6 +201,21 @@ EC_FN void surface_sheen(const geometry *g, const hit_point *h, lane_i m, surfac
     s->sheen = v3_select(s->refracts & !s->front, v3_zero(), s->sheen);
 }
 
+/* KHR_materials_iridescence. */
+EC_FN void surface_film(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_FILM);
+    s->film = q.a;
+    s->film_ior = q.b;
+    s->film_thickness = q.d;
+    if (HAS(IRIDESCENCE_TEXTURE)) {
+        s->film *= material_texture(g, h, m, EC_SLOT_IRIDESCENCE, false).rgb.x;
+        lane_f t = material_texture(g, h, m, EC_SLOT_IRIDESCENCE_THICKNESS, false).rgb.y; /* 1 where there is none */
+        s->film_thickness = fma(t, q.d, (1.0f - t) * q.c);
+    }
+    s->film = s->film_thickness > 0.0f ? s->film : F(0.0f);
+}
+
 /* Parameters of the metallic-roughness model with KHR_materials_specular, and of what lies over it. */
 EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
@@ -212,6 +229,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->eta = F(1.0f);
     s->coat = F(0.0f);
     s->sheen = v3_zero();
+    s->film = F(0.0f);
     if (!HAS(SPECULAR)) return;
     quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_F0);
     lane_f roughness = factors.b;
@@ -237,6 +255,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->f90 = weight;
     if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
     if (HAS(SHEEN)) surface_sheen(g, h, m, s);
+    if (HAS(IRIDESCENCE)) surface_film(g, h, m, s);
 }
 
 EC_FN v3 surface_to_local(const surface *s, v3 w)

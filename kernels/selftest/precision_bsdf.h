@@ -21,6 +21,7 @@ EC_FN surface material_of(global const float *in)
     s.stretch = F(1.0f);
     s.coat = F(0.0f);
     s.sheen = v3_zero();
+    s.film = F(0.0f);
     return s;
 }
 EC_FN bsdf bsdf_of(global const float *in)
@@ -75,6 +76,14 @@ PRECISION(sheen_over)
     PUT_V(0, f);
     PUT(3, pdf);
     PUT(4, s.own);
+}
+/* Words: cosine, eta, index and nanometres of the film, f0, 0 or 1: refracts. A colour is a difference of what both faces send. */
+PRECISION(film_reflectance)
+{
+    thin_film m = {F(1.0f), X(2), X(3)};
+    film_light l = film_light_make(&m, X(0), X(1), X(5) != 0.0f);
+    PUT_V(0, film_reflectance(&l, v3_splat(X(4)), F(1.0f)));
+    PUT(3, F(1.0f));
 }
 /* A share of the light is worth its error against the whole: what 1 - F rounds off is a part of the light that comes. The scale of
  * a value is therefore the value where nothing is reflected. */

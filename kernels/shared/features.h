@@ -36,6 +36,8 @@
 #define EC_FEATURE_SHEEN_TEXTURE EC_FEATURE_BIT(27)
 #define EC_FEATURE_ANISOTROPY EC_FEATURE_BIT(28)
 #define EC_FEATURE_ANISOTROPY_TEXTURE EC_FEATURE_BIT(29)
+#define EC_FEATURE_IRIDESCENCE EC_FEATURE_BIT(30)
+#define EC_FEATURE_IRIDESCENCE_TEXTURE EC_FEATURE_BIT(31)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -68,7 +70,9 @@
     X(SHEEN, "sheen")                                                                              \
     X(SHEEN_TEXTURE, "sheen-texture")                                                              \
     X(ANISOTROPY, "anisotropy")                                                                    \
-    X(ANISOTROPY_TEXTURE, "anisotropy-texture")
+    X(ANISOTROPY_TEXTURE, "anisotropy-texture")                                                    \
+    X(IRIDESCENCE, "iridescence")                                                                  \
+    X(IRIDESCENCE_TEXTURE, "iridescence-texture")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name
@@ -80,7 +84,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
     (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |              \
      EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE |                    \
      EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN_TEXTURE |                       \
-     EC_FEATURE_ANISOTROPY | EC_FEATURE_ANISOTROPY_TEXTURE)
+     EC_FEATURE_ANISOTROPY | EC_FEATURE_ANISOTROPY_TEXTURE | EC_FEATURE_IRIDESCENCE_TEXTURE)
 /* What bends normals, what has a direction: what wants tangents. */
 #define EC_FEATURES_BENDING (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)

@@ -41,10 +41,11 @@ typedef struct ec_material_data {
     ec_float coat, coat_roughness, coat_normal_scale, coat_pad;
     ec_float sheen[3], sheen_roughness;
     ec_float anisotropy, anisotropy_cosine, anisotropy_sine, anisotropy_pad;
+    ec_float film, film_ior, film_least, film_most; /* nanometres */
     ec_texture_slot slots[EC_SLOT_COUNT];
 } ec_material_data;
-EC_ASSERT_SIZE(ec_material_data, 560);
-#define EC_MATERIAL_WORDS 140
+EC_ASSERT_SIZE(ec_material_data, 640);
+#define EC_MATERIAL_WORDS 160
 #define EC_MATERIAL_BASE_COLOR 0
 #define EC_MATERIAL_EMISSION 4
 #define EC_MATERIAL_FLAGS 7
@@ -58,7 +59,8 @@ EC_ASSERT_SIZE(ec_material_data, 560);
 #define EC_MATERIAL_COAT 24
 #define EC_MATERIAL_SHEEN 28
 #define EC_MATERIAL_ANISOTROPY 32
-#define EC_MATERIAL_SLOTS 36
+#define EC_MATERIAL_FILM 36
+#define EC_MATERIAL_SLOTS 40
 #define EC_MATERIAL_DOUBLE_SIDED 1u
 #define EC_MATERIAL_EMISSIVE 2u
 #define EC_MATERIAL_UNLIT 4u

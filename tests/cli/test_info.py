@@ -167,6 +167,24 @@ class Info(Case):
             found = self.layers({"KHR_materials_anisotropy": members}, *texels, roughness=0.5)
             self.assertEqual(found & {long, textured}, expected)
 
+    def test_films_call_for_what_they_have(self):
+        film, textured = "iridescence", "iridescence-texture"
+        black, green, white = [(0, 0, 0)], [(0, 255, 0)], [(0, 0, 0), (255, 255, 255)]
+        thickness = {"iridescenceFactor": 1, "iridescenceThicknessTexture": {"index": 0}}
+        self.check_layers("KHR_materials_iridescence", {film, textured}, [
+            (set(), {}),
+            ({film}, {"iridescenceFactor": 0.1}),
+            (set(), {"iridescenceFactor": 1, "iridescenceIor": 1}),
+            (set(), {"iridescenceFactor": 1, "iridescenceThicknessMaximum": 0}),
+            # the weight is in red, thickness in green
+            (set(), {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, green),
+            ({film, textured}, {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, white),
+            ({film, textured}, thickness, black),
+            (set(), {**thickness, "iridescenceThicknessMinimum": 0}, black),
+            (set(), {**thickness, "iridescenceThicknessMaximum": 0}, green),
+            ({film, textured}, {**thickness, "iridescenceThicknessMinimum": 0}, green),
+        ])
+
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))
         for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "effects",

@@ -245,6 +245,23 @@ static void test_anisotropy(void)
     expect_failure(LAYER("KHR_materials_anisotropy", "'anisotropyRotation':[1]"), textured_blobs, "KHR_materials_anisotropy.anisotropyRotation must be a number");
 }
 
+static void test_film(void)
+{
+    ec_scene *s;
+    const ec_material *m = load_layer(LAYER("KHR_materials_iridescence", ""), &s, false);
+    CHECK(m->film == 0 && m->film_ior == 1.3f && m->film_least == 100 && m->film_most == 400 && m->textures[EC_SLOT_IRIDESCENCE].texture < 0);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_iridescence", "'iridescenceFactor':0.5,'iridescenceIor':1.75,'iridescenceThicknessMinimum':30,"
+                         "'iridescenceThicknessMaximum':20,'iridescenceTexture':{'index':1},'iridescenceThicknessTexture':{'index':0}"), &s, false);
+    CHECK(m->film == 0.5f && m->film_ior == 1.75f && m->film_least == 30 && m->film_most == 20);
+    CHECK(m->textures[EC_SLOT_IRIDESCENCE].texture == 0 && m->textures[EC_SLOT_IRIDESCENCE_THICKNESS].texture == 1);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_iridescence", "'iridescenceFactor':2,'iridescenceIor':0.5,'iridescenceThicknessMaximum':-1"), &s, true);
+    CHECK(m->film == 1 && m->film_ior == 1 && m->film_most == 0);
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_iridescence", "'iridescenceIor':'1'"), textured_blobs, "KHR_materials_iridescence.iridescenceIor must be a number");
+}
+
 static void test_images(void)
 {
     ec_scene *s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
@@ -363,6 +380,7 @@ int main(void)
     test_coat();
     test_sheen();
     test_anisotropy();
+    test_film();
     test_images();
     test_transform();
     test_missing_coordinates();

@@ -212,19 +212,31 @@ static void check_anisotropy(void)
         }
 }
 
+/* Thin films: they decide how often light is reflected, passes or reaches the base. */
+static void check_film(void)
+{
+    const float over[PACKED_FIELDS] = {[PACKED_FILM] = 1, [PACKED_FILM + 1] = 1.6f, [PACKED_FILM + 2] = 350};
+    check_covered(layered_programs, 0, (material){0, 0.3f, 0.5f, 0.8f, 0, 1}, "film", over);
+    check_covered(layered_programs, 1, (material){0.5f, 0.2f, 0.2f, 1, 0, 1}, "film", over);
+    check_covered(layered_programs, 2, (material){0, 0.3f, 0.7f, 1, 1, 1}, "film on a pane", over);
+    check_covered(layered_programs, 3, (material){0, 0.3f, 0.5f, 1, 1, 1.5f}, "film on glass", over);
+    check_covered(layered_programs, 0, (material){0, 0.2f, 0.6f, 1, 0.5f, 1 / 1.5f}, "film on glass from inside", over);
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
     chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
     chi2_build(glass_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
-    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY)");
+    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE)");
     if (!test_failures) {
         check_opaque();
         check_glass();
         check_coat();
         check_sheen();
         check_anisotropy();
+        check_film();
         printf("%d chi-square tests\n", tests);
         CHECK(tests <= TESTS - 5); /* the lights' */
     }
