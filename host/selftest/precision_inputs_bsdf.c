@@ -163,6 +163,12 @@ void ec_inputs_film(ec_precision_random *random, float *x)
     x[5] = refracts;
 }
 
+void ec_inputs_dispersion(ec_precision_random *random, float *x)
+{
+    x[0] = (float)(1 + ec_draw_log(random, 1e-6, 1.5));
+    x[1] = (float)ec_draw_log(random, 1e-3, 10);
+}
+
 /* A half vector in the place of wo. */
 void ec_inputs_half_vector(ec_precision_random *random, float *x)
 {

@@ -13,6 +13,7 @@ typedef struct vector {
 } vector;
 
 static double product(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static vector above(vector w) { return (vector){w.x, w.y, fabs(w.z)}; }
 static vector in_frame(vector w, double sine, double cosine) { return (vector){w.x * cosine - w.z * sine, w.y, w.x * sine + w.z * cosine}; }
 static vector half_of(vector a, vector b)
 {
@@ -42,8 +43,9 @@ static vector seen_from(const float *m)
     return (vector){sqrt(1 - cosine * cosine), 0, cosine};
 }
 
-/* Anywhere above, a quarter of them near the horizon; half of all where a lobe of this width, bent by this sine, mirrors v. */
-static void draw_directions(vector v, double alpha, double tilt)
+/* Anywhere above, a quarter of them near the horizon; half of all where a lobe of this width, bent by this sine, mirrors v;
+ * a third of them below where light goes through. */
+static void draw_directions(vector v, double alpha, double tilt, bool through)
 {
     for (uint32_t i = 0; i < N; i++) {
         double z = i % 4 ? test_random_in(1e-3, 1) : pow(10, test_random_in(-4, 0)), angle = test_random_in(-pi, pi), r = sqrt(1 - z * z);
@@ -54,7 +56,7 @@ static void draw_directions(vector v, double alpha, double tilt)
             vector mirrored = {2 * product(v, h) * h.x - v.x, 2 * product(v, h) * h.y - v.y, 2 * product(v, h) * h.z - v.z};
             if (mirrored.z > 1e-3) l = mirrored;
         }
-        wi[i] = (float)l.x, wi[N + i] = (float)l.y, wi[2 * N + i] = (float)l.z;
+        wi[i] = (float)l.x, wi[N + i] = (float)l.y, wi[2 * N + i] = (float)(through && i % 3 == 0 ? -l.z : l.z);
     }
 }
 
@@ -69,13 +71,13 @@ typedef double value_of(const float *m, vector l, vector v);
 static void compare(const char *what, const float *m, double least_alpha, double tilt, value_of *want, value_of *scale)
 {
     vector v = seen_from(m);
-    draw_directions(v, least_alpha, tilt);
+    draw_directions(v, least_alpha, tilt, m[PACKED_SEEPS] > 0);
     if (!RUN_ALL("bsdf_values", 3, SCALAR(n), IN(m, PACKED_FIELDS), IN(wi, 3 * N), OUT(f, N), OUT(pdf, N))) return;
     double worst = 0, tolerance = 8e-6 + 16 * U / least_alpha / fmax(0.02, m[PACKED_COSINE]);
     uint32_t at = 0, dark = 0;
     for (uint32_t i = 0; i < N; i++) {
         vector l = direction(i);
-        double expected = want(m, l, v), sum = sqrt(2 + 2 * product(l, v)); /* nearly opposite directions: their half vector is worth less */
+        double expected = want(m, l, v), sum = sqrt(2 + 2 * product(above(l), v)); /* nearly opposite directions: their half vector is worth less */
         double error = fabs(f[i] - expected) / (scale(m, l, v) + 1e-7) / (1 + 0.1 / sum);
         if (error > worst) worst = error, at = i;
         dark += !(pdf[i] > 0) && expected > 1e-6;
@@ -355,6 +357,32 @@ static void films(void)
     furnace("film on glass from inside", white, PACKED_ALPHA, 0);
 }
 
+/* ---- KHR_materials_diffuse_transmission: the base is mix(base / pi on this side, colour / pi on the other, share) ---- */
+
+static double seeping(const float *m, vector l, vector v)
+{
+    double share = m[PACKED_SEEPS], fresnel = film_schlick(m[PACKED_F0], product(half_of(above(l), v), v));
+    if (l.z < 0) return (1 - fresnel) * share * m[PACKED_SEEPS + 2] / pi * -l.z;
+    return fresnel * lobe(m[PACKED_ALPHA], l, v) + (1 - fresnel) * (1 - share) * m[PACKED_BASE + 1] / pi * l.z;
+}
+
+static void seepings(void)
+{
+    static const float cases[4][3] = {{0.25f, 0.3f, 0.7f}, {1, 0.1f, 0.2f}, {0.5f, 1, 0.02f}, {0.9f, 0.02f, 1}};
+    for (int i = 0; i < 4; i++) {
+        float m[PACKED_FIELDS];
+        char name[96];
+        memcpy(m, plain, sizeof m);
+        m[PACKED_SEEPS] = cases[i][0], m[PACKED_SEEPS + 1] = 0.2f, m[PACKED_SEEPS + 2] = 0.9f, m[PACKED_SEEPS + 3] = 0.5f;
+        m[PACKED_ALPHA] = cases[i][1], m[PACKED_COSINE] = cases[i][2];
+        snprintf(name, sizeof name, "diffuse transmission %g alpha %g cosine %g", (double)cases[i][0], (double)cases[i][1], (double)cases[i][2]);
+        compare(name, m, fmin(0.3, cases[i][1]), 0, seeping, seeping); /* the same formula from below: reciprocal */
+    }
+    float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_ETA] = 1, [PACKED_SEEPS] = 0.5f,
+                                  [PACKED_SEEPS + 1] = 1, [PACKED_SEEPS + 2] = 1, [PACKED_SEEPS + 3] = 1};
+    furnace("white paper", white, PACKED_ALPHA, 0);
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
@@ -362,12 +390,13 @@ int main(void)
     for (int i = 0; i < kernel_widths(&cl); i++)
         programs[i] = kernel_build(&cl, "chi2", lane_widths[i],
                                    "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+"
-                                   "EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE)");
+                                   "EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION)");
     if (!test_failures) {
         coats();
         sheens();
         anisotropies();
         films();
+        seepings();
     }
     for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);
