@@ -2,6 +2,7 @@
  * Reads: path queue and hits. Writes: radiance of the slots, the shadow queue (next: connect), the next path queue (next:
  * intersect), first-hit features at bounce 0 where asked for. Every path either ends here or is pushed once. */
 #include "../lib/bsdf.h"
+#include "../lib/dispersion.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
 #include "../lib/roulette.h"
@@ -35,7 +36,7 @@ EC_FN lane_i same_side(const surface *s, v3 w, v3 w_local, lane_i lifted)
 /* A ray's origin: above the surface, or below where it passes. */
 EC_FN v3 leave(const surface *s, v3 above, v3 w, v3 w_local)
 {
-    if (!HAS(TRANSMISSION)) return above;
+    if (!HAS_PASSING) return above;
     return v3_select(w_local.z < 0.0f, surface_offset(s->p, s->p_error, s->ng, w), above);
 }
 
@@ -133,6 +134,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     uint pair = EC_PAIR_BOUNCE(bounce);
     lane_u choice, lobe;
     sample_pair_u(random, pair + EC_PAIR_CHOICE, &choice, &lobe);
+    if (HAS(DISPERSION)) {
+        lane_f u_roulette, u_channel;
+        sample_pair(random, pair + EC_PAIR_ROULETTE, &u_roulette, &u_channel);
+        disperse(&g, &h, scatters, u_channel, &s, &beta);
+    }
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
 
     /* Where reflected rays start. Lights are looked for from there, so that a path that meets one finds the same density. */

@@ -13,7 +13,7 @@ def png(*texels):
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
     row = b"\0" + b"".join(bytes(t) for t in texels)
-    return data_uri(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 2, 0, 0, 0)) +
+    return data_uri(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 6 if len(texels[0]) == 4 else 2, 0, 0, 0)) +
                     chunk(b"IDAT", zlib.compress(row)) + chunk(b"IEND", b""))
 
 
@@ -166,6 +166,48 @@ class Info(Case):
                                            (set(), {**one, "anisotropyTexture": {"index": 0}}, yellow)]:
             found = self.layers({"KHR_materials_anisotropy": members}, *texels, roughness=0.5)
             self.assertEqual(found & {long, textured}, expected)
+
+    def test_films_call_for_what_they_have(self):
+        film, textured = "iridescence", "iridescence-texture"
+        black, green, white = [(0, 0, 0)], [(0, 255, 0)], [(0, 0, 0), (255, 255, 255)]
+        thickness = {"iridescenceFactor": 1, "iridescenceThicknessTexture": {"index": 0}}
+        self.check_layers("KHR_materials_iridescence", {film, textured}, [
+            (set(), {}),
+            ({film}, {"iridescenceFactor": 0.1}),
+            (set(), {"iridescenceFactor": 1, "iridescenceIor": 1}),
+            (set(), {"iridescenceFactor": 1, "iridescenceThicknessMaximum": 0}),
+            # the weight is in red, thickness in green
+            (set(), {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, green),
+            ({film, textured}, {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, white),
+            ({film, textured}, thickness, black),
+            (set(), {**thickness, "iridescenceThicknessMinimum": 0}, black),
+            (set(), {**thickness, "iridescenceThicknessMaximum": 0}, green),
+            ({film, textured}, {**thickness, "iridescenceThicknessMinimum": 0}, green),
+        ])
+
+    def test_diffuse_transmission_calls_for_what_it_has(self):
+        through, textured, dimmed = "diffuse-transmission", "diffuse-transmission-texture", "absorption"
+        name, half = "KHR_materials_diffuse_transmission", {"diffuseTransmissionFactor": 0.5}
+        clear, open_ = [(255, 255, 255, 0)], [(0, 0, 0, 255)]
+        self.check_layers(name, {through, textured, dimmed}, [
+            (set(), {}),
+            ({through}, half),
+            ({through}, {**half, "diffuseTransmissionColorFactor": [0, 0, 0]}),
+            (set(), {**half, "diffuseTransmissionTexture": {"index": 0}}, clear),
+            ({through, textured}, {**half, "diffuseTransmissionTexture": {"index": 0}}, open_),
+            ({through, textured}, {**half, "diffuseTransmissionColorTexture": {"index": 0}}, clear),
+        ])
+        brown = {"attenuationDistance": 1, "attenuationColor": [1, 0.5, 0.2]}
+        for expected, volume in [({through}, brown), ({through, dimmed}, {**brown, "thicknessFactor": 1})]:
+            self.assertEqual(self.layers({name: half, "KHR_materials_volume": volume}) & {through, textured, dimmed}, expected)
+        self.assertEqual(self.layers({name: half, "KHR_materials_transmission": {"transmissionFactor": 1}}) & {through}, set())
+
+    def test_dispersion_wants_a_body_that_bends(self):
+        glass, body = {"KHR_materials_transmission": {"transmissionFactor": 1}}, {"KHR_materials_volume": {"thicknessFactor": 1}}
+        flat, parts, none = {"KHR_materials_ior": {"ior": 1}}, {"KHR_materials_dispersion": {"dispersion": 1}}, {"KHR_materials_dispersion": {}}
+        for expected, extensions in [({"dispersion"}, {**glass, **body, **parts}), (set(), {**glass, **body, **none}), (set(), {**glass, **parts}),
+                                     (set(), {**glass, **body, **flat, **parts}), (set(), {**body, **parts})]:
+            self.assertEqual(self.layers(extensions) & {"dispersion"}, expected)
 
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))

@@ -48,6 +48,11 @@ static bsdf make_bsdf(constant float *m)
     s.stretch = F(1.0f + m[PACKED_STRETCH]);
     s.sheen = v3_make(F(m[PACKED_SHEEN]), F(m[PACKED_SHEEN + 1]), F(m[PACKED_SHEEN + 2]));
     s.sheen_roughness = F(m[PACKED_SHEEN_ROUGHNESS]);
+    s.seeps = F(m[PACKED_SEEPS]);
+    s.below = v3_make(F(m[PACKED_SEEPS + 1]), F(m[PACKED_SEEPS + 2]), F(m[PACKED_SEEPS + 3]));
+    s.film = F(m[PACKED_FILM]);
+    s.film_ior = F(m[PACKED_FILM + 1]);
+    s.film_thickness = F(m[PACKED_FILM + 2]);
     s.coat = F(m[PACKED_COAT]);
     s.coat_alpha = F(m[PACKED_COAT_ALPHA]);
     float tilt = m[PACKED_COAT_TILT], cosine = m[PACKED_COSINE];
