@@ -35,6 +35,8 @@ PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 PARSED_SETTER(time, ec_parse_seconds, options.time_limit)
 RANGE_SETTER(batch, ec_parse_u32, 1, EC_MAX_SPP, options.batch)
 RANGE_SETTER(cutoff, ec_parse_real, 0, 1, options.cutoff)
+RANGE_SETTER(focus, ec_parse_real, EC_FOCUS_LEAST, EC_FOCUS_MOST, options.focus)
+RANGE_SETTER(fstop, ec_parse_real, EC_FSTOP_LEAST, EC_FSTOP_MOST, options.fstop)
 RANGE_SETTER(exposure, ec_parse_real, -100, 100, exposure)
 RANGE_SETTER(seed, ec_parse_whole, 0, UINT64_MAX, options.seed)
 RANGE_SETTER(spp, ec_parse_u32, 1, EC_MAX_SPP, options.spp)
@@ -94,6 +96,8 @@ static const ec_option options[] = {
     {"env", 0, true, set_env},
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
+    {"focus", 0, true, set_focus},
+    {"fstop", 0, true, set_fstop},
     {"grid-density", 0, true, set_grid_density},
     {"integrator", 0, true, set_integrator},
     {"json", 0, false, set_json},

@@ -7,22 +7,6 @@
 #include "base/clock.h"
 #include "cl/workarounds.h"
 
-static void set_camera(const ec_scene *scene, const ec_render_options *o, ec_params *params)
-{
-    const ec_camera *c = &scene->cameras[o->camera];
-    double aspect = (double)o->width / o->height;
-    bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
-    double half_height = is_flat ? c->ymag : tan(0.5 * c->yfov);
-    double half_width = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f ? c->xmag : half_height * aspect;
-    for (int k = 0; k < 3; k++) {
-        params->camera_origin[k] = c->position[k];
-        params->camera_right[k] = (float)(c->right[k] * half_width);
-        params->camera_up[k] = (float)(c->up[k] * half_height);
-        params->camera_forward[k] = c->forward[k];
-    }
-    params->orthographic = is_flat;
-}
-
 /* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
  * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
  * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
@@ -60,6 +44,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     p->triangle_count = scene->triangle_count;
     p->integrator = options->integrator;
     p->fast_math = options->fast_math;
+    EC_TRY(ec_pipeline_set_camera(scene, options, &p->params, err));
     EC_TRY(ec_pipeline_lanes(cl, options->lanes, &p->lanes, err));
     if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
 
@@ -79,8 +64,8 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features | options->more_effects;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
     if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
+    if (options->fstop > 0) p->features |= EC_FEATURE_LENS;
     ec_params *params = &p->params;
-    set_camera(scene, options, params);
     params->width = options->width;
     params->height = options->height;
     params->batch = batch;

@@ -31,6 +31,8 @@ typedef enum ec_integrator {
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
     uint32_t camera;            /* index into the scene's cameras */
+    double fstop;               /* of a thin lens; 0 = a pinhole. The aperture's diameter is focal length / fstop */
+    double focus;               /* metres to the plane in focus, along the camera's axis */
     uint32_t spp;               /* stop after so many samples a pixel; 0 = no such limit */
     double time_limit;          /* stop before this many seconds of rendering; 0 = none */
     double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */

@@ -34,11 +34,11 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_AR
 
 #define ARGS(list) sizeof(list) / sizeof *(list), list
 
-#define SHADING_FEATURES (EC_FEATURE_ALL & ~(EC_FEATURE_ALPHA | EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR))
+#define SHADING_FEATURES (EC_FEATURE_ALL & ~(EC_FEATURE_ALPHA | EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_LENS))
 
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
-    [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, EC_FEATURE_SOBOL | EC_FEATURE_ABSORPTION,
-                     ARGS(generate)},
+    [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, 
+                     EC_FEATURE_SOBOL | EC_FEATURE_ABSORPTION | EC_FEATURE_LENS, ARGS(generate)},
     [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, EC_FEATURE_CULLING | ALPHA_FEATURES,
                       ARGS(intersect)},
     [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE, SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR,

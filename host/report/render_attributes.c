@@ -66,6 +66,10 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
         add_made(attributes, "eclat.maxDepth", "%u", options->max_depth);
     else
         add_text(attributes, "eclat.maxDepth", "inf");
+    if (options->fstop > 0) {
+        add_real(attributes, "eclat.fstop", options->fstop);
+        add_real(attributes, "eclat.focus", options->focus);
+    }
     add_real(attributes, "eclat.cutoff", options->cutoff);
     add_text(attributes, "eclat.adaptive", options->adaptive ? "yes" : "no");
     add_real(attributes, "eclat.png.exposure", report->exposure);

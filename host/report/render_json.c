@@ -28,6 +28,10 @@ static void add_setting(cJSON *root, const ec_render_report *report)
     else
         cJSON_AddNullToObject(root, "max_depth");
     cJSON_AddBoolToObject(root, "adaptive", options->adaptive);
+    if (options->fstop > 0) {
+        ec_json_real(root, "fstop", options->fstop);
+        ec_json_real(root, "focus", options->focus);
+    }
     ec_json_real(root, "cutoff", options->cutoff);
     ec_json_real(root, "exposure", report->exposure);
     ec_json_text(root, "tonemap", ec_tonemap_names[report->tonemap]);
