@@ -25,6 +25,7 @@ FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(camera, camera)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
+CHOICE_SETTER(filter, options.filter, ec_pixel_filter, ec_filter_names)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
 CHOICE_SETTER(sample, options.sample, ec_sample, ec_sample_names)
 CHOICE_SETTER(sampler, options.sampler, ec_sampler_type, ec_sampler_names)
@@ -35,6 +36,7 @@ PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 PARSED_SETTER(time, ec_parse_seconds, options.time_limit)
 RANGE_SETTER(batch, ec_parse_u32, 1, EC_MAX_SPP, options.batch)
 RANGE_SETTER(cutoff, ec_parse_real, 0, 1, options.cutoff)
+RANGE_SETTER(filter_width, ec_parse_real, EC_FILTER_WIDTH_LEAST, EC_FILTER_WIDTH_MOST, options.filter_width)
 RANGE_SETTER(focus, ec_parse_real, EC_FOCUS_LEAST, EC_FOCUS_MOST, options.focus)
 RANGE_SETTER(fstop, ec_parse_real, EC_FSTOP_LEAST, EC_FSTOP_MOST, options.fstop)
 RANGE_SETTER(exposure, ec_parse_real, -100, 100, exposure)
@@ -96,6 +98,8 @@ static const ec_option options[] = {
     {"env", 0, true, set_env},
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
+    {"filter", 0, true, set_filter},
+    {"filter-width", 0, true, set_filter_width},
     {"focus", 0, true, set_focus},
     {"fstop", 0, true, set_fstop},
     {"grid-density", 0, true, set_grid_density},

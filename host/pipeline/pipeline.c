@@ -64,6 +64,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features | options->more_effects;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
     if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
+    if (options->filter != EC_FILTER_BOX) p->features |= EC_FEATURE_PIXEL_FILTER;
     if (options->fstop > 0) p->features |= EC_FEATURE_LENS;
     ec_params *params = &p->params;
     params->width = options->width;
@@ -86,6 +87,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->scene_max = pack.scene_max;
     result = ec_pipeline_upload(p, scene, &pack, err);
     ec_pack_free(&pack);
+    if (result == EC_OK) result = ec_pipeline_upload_filter(p, options, err);
     if (result == EC_OK) result = ec_pipeline_create_queues(p, options, err);
     stats->pack_seconds = ec_now() - start;
     if (result != EC_OK) return result;

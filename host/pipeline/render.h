@@ -28,9 +28,15 @@ typedef enum ec_integrator {
 #define EC_WHITTED_DEPTH 10     /* segments of Whitted's trees where max_depth is 0 */
 #define EC_WHITTED_DEPTH_MOST 64 /* each takes 48 bytes a path in flight */
 
+/* Rasterising has the box alone: its samples look at the triangles of their pixel's tile. */
+typedef enum ec_pixel_filter { EC_FILTER_BOX, EC_FILTER_BLACKMAN_HARRIS } ec_pixel_filter;
+#define EC_FILTER_WIDTH 1.5 /* as Cycles has it */
+
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
     uint32_t camera;            /* index into the scene's cameras */
+    ec_pixel_filter filter;
+    double filter_width;        /* pixels from the centre to the edge, of other filters than the box; 0 = EC_FILTER_WIDTH */
     double fstop;               /* of a thin lens; 0 = a pinhole. The aperture's diameter is focal length / fstop */
     double focus;               /* metres to the plane in focus, along the camera's axis */
     uint32_t spp;               /* stop after so many samples a pixel; 0 = no such limit */

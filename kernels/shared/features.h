@@ -37,6 +37,7 @@
 #define EC_FEATURE_ANISOTROPY EC_FEATURE_BIT(28)
 #define EC_FEATURE_ANISOTROPY_TEXTURE EC_FEATURE_BIT(29)
 #define EC_FEATURE_LENS EC_FEATURE_BIT(40)
+#define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -70,7 +71,8 @@
     X(SHEEN_TEXTURE, "sheen-texture")                                                              \
     X(ANISOTROPY, "anisotropy")                                                                    \
     X(ANISOTROPY_TEXTURE, "anisotropy-texture")                                                    \
-    X(LENS, "depth-of-field")
+    X(LENS, "depth-of-field")                                                                      \
+    X(PIXEL_FILTER, "pixel-filter")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name

@@ -6,7 +6,8 @@
 #include "../shared/features.h"
 #include "../shared/params.h"
 
-kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint path_count, global float *paths,
+kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                        global const float *filter, uint path_count, global float *paths,
                         global float *radiance)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
@@ -14,7 +15,7 @@ kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel,
     lane_u slot = LANE_NUMBERS + i;
     lane_u x, y;
     lane_f sx, sy;
-    sampler random = camera_sample(params, seed, first_pixel, pixel_list, slot, &x, &y, &sx, &sy);
+    sampler random = camera_sample(params, seed, first_pixel, pixel_list, filter, slot, &x, &y, &sx, &sy);
     v3 offset = v3_make(fma(sx, F(params->camera_right[0]), sy * params->camera_up[0]),
                         fma(sx, F(params->camera_right[1]), sy * params->camera_up[1]),
                         fma(sx, F(params->camera_right[2]), sy * params->camera_up[2]));

@@ -108,6 +108,8 @@ class WrongOptions(Case):
             "--accel": ["octree"],
             "--grid-density": ["0", "-1", "0.009", "10001", "inf", "nan", "27x", ""],
             "--integrator": ["raytrace", ""],
+            "--filter": ["gaussian", ""],
+            "--filter-width": ["0", "11", "nan", ""],
             "--fstop": ["0", "-2", "nan", "f/2", ""],
             "--focus": ["0", "-1", "nan", "inf", "2m", ""],
             "--cutoff": ["-0.1", "1.5", "nan", "1%", ""],
@@ -134,6 +136,10 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "--fstop", "2", says="--fstop and --focus go together: how wide the lens is, and how far away it is sharp; give --focus too")
         self.usage("render", "s.gltf", "--focus", "2", says="give --fstop too")
         self.usage("render", "s.gltf", "--fstop", "2", "--focus", "1", "--integrator", "raster", says="belongs to --integrator path or whitted;")
+
+    def test_a_box_has_one_width(self):
+        for rest in [[], ["--filter", "box"]]:
+            self.usage("render", "s.gltf", "--filter-width", "2", *rest, says="--filter-width belongs to --filter blackman-harris;")
 
     def test_a_ray_tree_is_finite(self):
         for depth in ["inf", "65"]:
