@@ -51,6 +51,8 @@ static const char help_render[] =
     "      --camera NAME|INDEX    look through this camera (default: the scene's first; without any, one that frames it)\n"
     "      --env FILE|R,G,B       light from all around: an equirectangular .hdr or .exr map, or one radiance\n"
     "                             (default: none; 1,1,1 where a scene has no light at all)\n"
+    "      --env-rotate DEG       turn the environment by so many degrees, counter-clockwise seen from above (default: 0)\n"
+    "      --env-strength S       make it S times as bright (default: 1)\n"
     "      --exposure EV          brighten the PNG by this many stops (default: 0)\n"
     "      --filter NAME          how samples make a pixel: box, those in it alike; blackman-harris, a smooth bell over its\n"
     "                             neighbours too, by importance sampling (default: box)\n"

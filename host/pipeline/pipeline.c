@@ -82,6 +82,8 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->environment_pmf = pack.environment_pmf;
     for (int k = 0; k < 3; k++)
         params->environment[k] = !scene->has_environment ? 0.0f : scene->environment.rgb ? 1.0f : scene->environment.constant[k];
+    params->environment_turned = scene->has_environment && scene->environment.turned;
+    for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = scene->environment.turn[k];
     memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;

@@ -38,6 +38,7 @@
 #define EC_FEATURE_ANISOTROPY_TEXTURE EC_FEATURE_BIT(29)
 #define EC_FEATURE_LENS EC_FEATURE_BIT(40)
 #define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
+#define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -72,7 +73,8 @@
     X(ANISOTROPY, "anisotropy")                                                                    \
     X(ANISOTROPY_TEXTURE, "anisotropy-texture")                                                    \
     X(LENS, "depth-of-field")                                                                      \
-    X(PIXEL_FILTER, "pixel-filter")
+    X(PIXEL_FILTER, "pixel-filter")                                                                \
+    X(ENVIRONMENT_TURN, "environment-rotation")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name

@@ -24,6 +24,7 @@ typedef struct ec_params {
     ec_float lens_up[4];
     ec_float environment[4];      /* constant radiance, or factor of the map */
     ec_float environment_mean[4]; /* over all directions */
+    ec_float environment_turn[12]; /* three rows of four: directions of the map to those of the scene */
     ec_uint orthographic;
     ec_uint width, height;        /* pixels */
     ec_uint batch;                /* m: samples a pixel in a batch */
@@ -40,9 +41,10 @@ typedef struct ec_params {
     ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
     ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
     ec_float lens_nearness;       /* 1 / distance of the plane in focus */
-    ec_float pad[2];
+    ec_uint environment_turned;   /* 0: environment_turn is not looked at */
+    ec_float pad[1];
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 208);
+EC_ASSERT_SIZE(ec_params, 256);
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

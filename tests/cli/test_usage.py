@@ -108,6 +108,8 @@ class WrongOptions(Case):
             "--accel": ["octree"],
             "--grid-density": ["0", "-1", "0.009", "10001", "inf", "nan", "27x", ""],
             "--integrator": ["raytrace", ""],
+            "--env-rotate": ["nan", "inf", "90d", ""],
+            "--env-strength": ["-1", "nan", "inf", "2x", ""],
             "--filter": ["gaussian", ""],
             "--filter-width": ["0", "11", "nan", ""],
             "--fstop": ["0", "-2", "nan", "f/2", ""],
