@@ -20,6 +20,7 @@ static const struct {
     {"filter-width", ONLY(PATH) | ONLY(WHITTED)},
     {"focus", ONLY(PATH) | ONLY(WHITTED)},
     {"fstop", ONLY(PATH) | ONLY(WHITTED)},
+    {"light-choice", ONLY(PATH)},
     {"rr", ONLY(PATH)},
     {"sample", ONLY(PATH)},
     {"terminator", ONLY(PATH)},

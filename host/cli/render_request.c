@@ -27,6 +27,7 @@ TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
 CHOICE_SETTER(filter, options.filter, ec_pixel_filter, ec_filter_names)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
+CHOICE_SETTER(light_choice, options.light_choice, ec_light_choice, ec_light_choice_names)
 CHOICE_SETTER(sample, options.sample, ec_sample, ec_sample_names)
 CHOICE_SETTER(sampler, options.sampler, ec_sampler_type, ec_sampler_names)
 CHOICE_SETTER(terminator, options.terminator, ec_terminator, ec_terminator_names)
@@ -118,6 +119,7 @@ static const ec_option options[] = {
     {"integrator", 0, true, set_integrator},
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},
+    {"light-choice", 0, true, set_light_choice},
     {"max-depth", 0, true, set_max_depth},
     {"output", 'o', true, set_output},
     {"quiet", 'q', false, set_quiet},

@@ -24,6 +24,13 @@ static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char
     return EC_OK;
 }
 
+static ec_result choose_lights(const ec_pipeline *p, const ec_render_options *o, ec_pack *pack, ec_error *err)
+{
+    if (p->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return EC_OK;
+    if (o->light_choice == EC_LIGHTS_AUTO && ec_pack_lamp_count(pack) < EC_LIGHT_TREE_FROM) return EC_OK;
+    return ec_pack_light_tree(pack, err);
+}
+
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err)
 {
     const ec_workaround *driver = ec_workaround_for(&cl->info);
@@ -60,10 +67,16 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
         ec_pack_free(&pack);
         return result;
     }
+    bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
+    if (joins && (result = choose_lights(p, options, &pack, err)) != EC_OK) {
+        ec_pack_free(&pack);
+        return result;
+    }
     const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
     p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features | options->more_effects;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
     if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
+    if (pack.light_node_count) p->features |= EC_FEATURE_LIGHT_TREE;
     if (options->filter != EC_FILTER_BOX) p->features |= EC_FEATURE_PIXEL_FILTER;
     if (options->fstop > 0) p->features |= EC_FEATURE_LENS;
     ec_params *params = &p->params;
@@ -75,7 +88,6 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->cutoff = (float)options->cutoff;
     set_roulette(options->survival, params);
     params->sample = options->sample;
-    bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
     params->light_count = joins ? pack.light_count : 0;
     params->environment_width = pack.environment_width;
     params->environment_height = pack.environment_height;
@@ -85,6 +97,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->environment_turned = scene->has_environment && scene->environment.turned;
     for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = scene->environment.turn[k];
     memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
+    params->light_tree_pmf = pack.light_tree_pmf;
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;
     result = ec_pipeline_upload(p, scene, &pack, err);

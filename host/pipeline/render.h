@@ -16,6 +16,10 @@ typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sam
 /* Where rays leave a facet with vertex normals: kernels/lib/terminator.h. */
 typedef enum ec_terminator { EC_TERMINATOR_GEOMETRIC, EC_TERMINATOR_SMOOTH } ec_terminator;
 
+/* Which light a surface is joined to: by power wherever it is, or by a tree that knows where lights are (kernels/lib/light_tree.h). */
+typedef enum ec_light_choice { EC_LIGHTS_AUTO, EC_LIGHTS_BY_POWER, EC_LIGHTS_BY_TREE } ec_light_choice;
+#define EC_LIGHT_TREE_FROM 64 /* lamps; auto leaves fewer to power */
+
 /* What makes the picture; the words are in report/names.c, the functions in wave.c, the options of each in
  * cli/combinations.c. */
 typedef enum ec_integrator {
@@ -49,6 +53,7 @@ typedef struct ec_render_options {
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
+    ec_light_choice light_choice;
     ec_terminator terminator;   /* smooth: rays start on the smooth surface, not on its facets */
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */

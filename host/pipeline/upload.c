@@ -56,6 +56,10 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     }
     EC_TRY(upload(p, EC_ARG_LIGHT_TABLE, "lights", (uint64_t)pack->light_count * sizeof *pack->lights, pack->lights, err));
     EC_TRY(upload(p, EC_ARG_LIGHT_ALIAS, "light table", (uint64_t)pack->light_count * sizeof *pack->light_alias, pack->light_alias, err));
+    if (pack->light_node_count) {
+        EC_TRY(upload(p, EC_ARG_LIGHT_TREE, "light tree", (uint64_t)pack->light_node_count * sizeof *pack->light_tree, pack->light_tree, err));
+        EC_TRY(upload(p, EC_ARG_LIGHT_TRAILS, "trails of lamps", 4 * (uint64_t)pack->prim_count, pack->light_of_prim, err));
+    }
     uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
     EC_TRY(upload(p, EC_ARG_ENVIRONMENT_TEXELS, "environment map", texels * 16, pack->environment_texels, err));
     return upload(p, EC_ARG_ENVIRONMENT_ALIAS, "environment table", texels * sizeof *pack->environment_alias, pack->environment_alias, err);

@@ -39,6 +39,7 @@
 #define EC_FEATURE_LENS EC_FEATURE_BIT(40)
 #define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
+#define EC_FEATURE_LIGHT_TREE EC_FEATURE_BIT(43)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -74,7 +75,8 @@
     X(ANISOTROPY_TEXTURE, "anisotropy-texture")                                                    \
     X(LENS, "depth-of-field")                                                                      \
     X(PIXEL_FILTER, "pixel-filter")                                                                \
-    X(ENVIRONMENT_TURN, "environment-rotation")
+    X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
+    X(LIGHT_TREE, "light-tree")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name

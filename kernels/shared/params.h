@@ -42,7 +42,7 @@ typedef struct ec_params {
     ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
     ec_float lens_nearness;       /* 1 / distance of the plane in focus */
     ec_uint environment_turned;   /* 0: environment_turn is not looked at */
-    ec_float pad[1];
+    ec_float light_tree_pmf;      /* probability that light sampling goes to the tree */
 } ec_params;
 EC_ASSERT_SIZE(ec_params, 256);
 

@@ -110,6 +110,7 @@ class WrongOptions(Case):
             "--integrator": ["raytrace", ""],
             "--env-rotate": ["nan", "inf", "90d", ""],
             "--env-strength": ["-1", "nan", "inf", "2x", ""],
+            "--light-choice": ["bvh", ""],
             "--filter": ["gaussian", ""],
             "--filter-width": ["0", "11", "nan", ""],
             "--fstop": ["0", "-2", "nan", "f/2", ""],
@@ -127,7 +128,7 @@ class WrongOptions(Case):
                 self.usage("render", "s.gltf", *end, says="--rr off belongs with a finite --max-depth")
 
     def test_options_of_another_integrator(self):
-        for integrator, option, says in [("raster", ["--rr", "0.5"], "path"), ("raster", ["--sample", "light"], "path"),
+        for integrator, option, says in [("raster", ["--rr", "0.5"], "path"), ("raster", ["--sample", "light"], "path"), ("whitted", ["--light-choice", "tree"], "path"),
                                          ("raster", ["--max-depth", "3"], "path or whitted"), ("raster", ["--accel", "bvh8"], "path or whitted"),
                                          ("whitted", ["--rr", "0.5"], "path"), ("whitted", ["--terminator", "smooth"], "path"), ("whitted", ["--sample", "mis"], "path"),
                                          ("path", ["--cutoff", "0"], "whitted"), ("raster", ["--cutoff", "0"], "whitted")]:
