@@ -99,6 +99,8 @@ typedef struct ec_environment {
     uint32_t width, height;
     float *rgb;           /* 3 * width * height, linear, finite and >= 0, owned */
     float constant[3];
+    bool turned;          /* by turn, row major: directions of the map, as above, to those of the scene */
+    float turn[9];
 } ec_environment;
 
 /* Among what a file lets one choose. All owned; a name may be NULL. */
@@ -177,6 +179,10 @@ bool ec_scene_has_light(const ec_scene *scene);
 /* Replaces the environment. spec is a file (.hdr, .exr; equirectangular) or "R,G,B". Non-finite and negative values
  * are set to 0, those above EC_RADIANCE_MOST to that; a warning counts them. */
 ec_result ec_scene_set_environment(ec_scene *scene, const char *spec, const ec_log *log, ec_error *err);
+
+/* Makes the environment so many times as bright (none at all at 0), and turns it about +y, counter-clockwise seen from above. There
+ * must be one. */
+void ec_scene_adjust_environment(ec_scene *scene, double degrees, double strength, const ec_log *log);
 
 /* Camera by name, else by index; failure lists what there is. */
 ec_result ec_scene_find_camera(const ec_scene *scene, const char *name_or_index, uint32_t *camera, ec_error *err);

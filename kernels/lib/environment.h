@@ -13,6 +13,22 @@ typedef struct environment {
     global const uint *table;   /* ec_distribution_entry by word: of rows, then of each row's texels */
 } environment;
 
+/* The map may stand turned: directions of the scene in its own frame, and back. */
+EC_FN v3 environment_to_map(const environment *e, v3 d)
+{
+    constant float *r = e->params->environment_turn;
+    if (!HAS(ENVIRONMENT_TURN) || !e->params->environment_turned) return d;
+    return v3_make(fma(d.x, F(r[0]), fma(d.y, F(r[4]), d.z * r[8])), fma(d.x, F(r[1]), fma(d.y, F(r[5]), d.z * r[9])),
+                   fma(d.x, F(r[2]), fma(d.y, F(r[6]), d.z * r[10])));
+}
+EC_FN v3 environment_from_map(const environment *e, v3 d)
+{
+    constant float *r = e->params->environment_turn;
+    if (!HAS(ENVIRONMENT_TURN) || !e->params->environment_turned) return d;
+    return v3_make(fma(d.x, F(r[0]), fma(d.y, F(r[1]), d.z * r[2])), fma(d.x, F(r[4]), fma(d.y, F(r[5]), d.z * r[6])),
+                   fma(d.x, F(r[8]), fma(d.y, F(r[9]), d.z * r[10])));
+}
+
 /* v by both sides of the angle: acos(y) would have lost half the digits at the poles. */
 EC_FN void environment_uv(v3 d, lane_f *u, lane_f *v)
 {
@@ -60,6 +76,7 @@ EC_FN v3 environment_look_up(const environment *e, v3 d, lane_f *pdf)
         return factor;
     }
     lane_f u, v;
+    d = environment_to_map(e, d);
     environment_uv(d, &u, &v);
     int width = (int)e->params->environment_width, height = (int)e->params->environment_height;
     lane_i x = min(to_lane_i(u * (float)width), I(width - 1)), y = min(to_lane_i(v * (float)height), I(height - 1));
@@ -91,7 +108,7 @@ EC_FN v3 environment_sample(const environment *e, lane_u r1, lane_u r2, lane_f *
     sin_theta = fabs(sin_theta);
     *pdf = environment_pdf_at(e, texel, sin_theta);
     *radiance = v3_mul(environment_bilinear(e, u, v), factor);
-    return v3_make(-sin_theta * cosine, cos_theta, -sin_theta * sin_phi);
+    return environment_from_map(e, v3_make(-sin_theta * cosine, cos_theta, -sin_theta * sin_phi));
 }
 
 #endif

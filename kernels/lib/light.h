@@ -4,6 +4,7 @@
 #define EC_LIB_LIGHT_H
 
 #include "environment.h"
+#include "light_tree.h"
 #include "spherical_triangle.h"
 #include "surface.h"
 
@@ -13,6 +14,7 @@ typedef struct lights {
     global const float *table; /* ec_light_data by word */
     global const uint *alias;  /* ec_alias by word */
     environment env;
+    global const float *tree;  /* ec_light_node by word; NULL: by power alone */
 } lights;
 
 typedef struct light_sample {
@@ -219,7 +221,26 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     lane_u column = mul_hi(choice, U(count)), rest = choice * count;
     lane_u threshold = gather_u(l->alias, column * 2u);
     lane_u id = rest < threshold ? column : gather_u(l->alias, column * 2u + 1u);
+    lane_f share = F(1.0f);
+    if (HAS(LIGHT_TREE) && l->tree) {
+        /* The table has said whether it is a lamp. Which one says the tree, by bits of its own. */
+        lane_i far = !TRUE_MASK;
+        if (params->light_tree_pmf < 1.0f) {
+            lane_u kind = as_lane_u(gather_f(l->table, id * EC_LIGHT_WORDS + 12u)) & EC_LIGHT_KIND_MASK;
+            far = (kind == EC_KIND_ENVIRONMENT) | (kind == EC_KIND_DIRECTIONAL);
+        }
+        lane_u bits = params->light_tree_pmf < 1.0f ? hash_u(choice + 0x9e3779b9u) : choice;
+        lane_i m_lamp = m & !far;
+        if (any_lane(m_lamp)) {
+            lane_f pmf;
+            lane_u lamp = light_tree_choose(l->tree, m_lamp, p, bits, &pmf);
+            id = m_lamp ? lamp : id;
+            share = m_lamp ? pmf : share;
+        }
+    }
     light_record one = light_load(l, id);
+    one.pmf *= share;
+    one.pdf_a *= share;
     lane_u type = one.kind & EC_LIGHT_KIND_MASK;
 
     light_sample s;

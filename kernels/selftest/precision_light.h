@@ -100,7 +100,7 @@ PRECISION(camera_sample)
 {
     lane_u x, y;
     lane_f sx, sy;
-    camera_sample(params, 0u, 0u, 0, BITS(0), &x, &y, &sx, &sy);
+    camera_sample(params, 0u, 0u, 0, 0, BITS(0), &x, &y, &sx, &sy);
     PUT(0, sx);
     PUT(1, sy);
     PUT(2, F(1.0f));
