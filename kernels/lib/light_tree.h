@@ -61,7 +61,7 @@ EC_FN lane_u light_tree_choose(global const float *tree, lane_i m, v3 p, lane_u 
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
         lane_u first, second, share = light_tree_share(tree, going ? link : U(1u), p, all, &first, &second);
         lane_i is_first = rest < share;
-        rest = going & !is_first ? rest - share : rest;
+        rest = (going & !is_first) ? rest - share : rest;
         all = going ? (is_first ? share : all - share) : all;
         link = going ? (is_first ? first : second) : link;
         lane_i few = going & (all < EC_TREE_FEW);

@@ -11,7 +11,7 @@
 #define PRECISION_RECORD 3
 EC_FN light_record light_of(global const float *in)
 {
-    lights l = {in + PRECISION_RECORD, 0, {0, 0, 0}};
+    lights l = {in + PRECISION_RECORD, 0, {0, 0, 0}, 0};
     return light_load(&l, ITEM * (EC_PRECISION_WORDS / EC_LIGHT_WORDS));
 }
 
