@@ -141,7 +141,8 @@ ec_result ec_gltf_deform(ec_gltf *g, ec_placement_list *placements, ec_error *er
     ec_result result = d.placement_of && d.shared ? EC_OK : ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
     for (uint32_t i = 0; i < g->node_count && result == EC_OK; i++) d.placement_of[i] = -1;
     for (uint32_t i = 0; i < g->mesh_count && result == EC_OK; i++) d.shared[i] = -1;
-    for (uint32_t i = 0; i < placements->count && result == EC_OK; i++) d.placement_of[placements->items[i].node] = (int32_t)i;
+    for (uint32_t i = 0; i < placements->count && result == EC_OK; i++)
+        if (!placements->items[i].extra) d.placement_of[placements->items[i].node] = (int32_t)i;
     uint32_t count = placements->count;
     for (uint32_t i = 0; i < count && result == EC_OK; i++) result = visit(&d, i);
     free(d.placement_of);

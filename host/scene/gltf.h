@@ -73,6 +73,12 @@ typedef struct ec_gltf_skin {
     int32_t inverse_bind; /* accessor; -1: identities */
 } ec_gltf_skin;
 
+/* EXT_mesh_gpu_instancing: accessors with one element for each place at which the node's mesh stands. */
+typedef struct ec_gltf_instancing {
+    bool used;
+    int32_t translation, rotation, scale;
+} ec_gltf_instancing;
+
 typedef struct ec_gltf_node {
     char *name;
     double local[16]; /* column major, as in the file */
@@ -80,6 +86,7 @@ typedef struct ec_gltf_node {
     int32_t *children;
     float *weights;
     uint32_t child_count, weight_count;
+    ec_gltf_instancing instances;
 } ec_gltf_node;
 
 /* Encoded pixels: a bufferView or a URI, the latter already checked for shape but not yet opened. */

@@ -147,6 +147,10 @@ void convert_nodes(const json &list, ec_gltf *gltf)
         const json *light = find_extension(in, "KHR_lights_punctual");
         out.light = light ? (*light)["light"].get<int32_t>() : -1;
         out.weights = copy_numbers(list_of(in, "weights"), &out.weight_count);
+        if (const json *instancing = find_extension(in, "EXT_mesh_gpu_instancing")) {
+            const json &attributes = (*instancing)["attributes"];
+            out.instances = {true, attributes.value("TRANSLATION", -1), attributes.value("ROTATION", -1), attributes.value("SCALE", -1)};
+        }
         if (in.contains("matrix"))
             for (size_t i = 0; i < 16; i++) out.local[i] = element(in, "matrix", i, 0);
         else

@@ -84,7 +84,9 @@ static const schema mesh_s(mesh);
 
 static const field node_light[] = {index("light", "lights", required)};
 static const schema node_light_s(node_light);
-static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s)};
+static const field instancing[] = {object("attributes", attributes_s, required)};
+static const schema instancing_s(instancing);
+static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s), object("EXT_mesh_gpu_instancing", instancing_s)};
 static const schema node_extensions_s(node_extensions);
 static const field node[] = {
     indices("children", "nodes"), index("mesh", "meshes"), index("skin", "skins"), index("camera", "cameras"), numbers("matrix", 16),

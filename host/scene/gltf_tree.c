@@ -49,12 +49,8 @@ static ec_result check_cycles(const ec_gltf *g, const int32_t *parent, uint32_t 
     return EC_OK;
 }
 
-static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec_placement *out)
+void ec_placement_compose(const ec_placement *parent, const double m[16], ec_placement *out)
 {
-    const double *m = g->nodes[node].local;
-    out->node = node;
-    out->mesh = g->nodes[node].mesh;
-    out->extra = false;
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++) {
             double sum = 0;
@@ -65,6 +61,12 @@ static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec
         for (int k = 0; k < 3; k++) origin += (parent ? parent->linear[3 * row + k] : row == k) * m[12 + k];
         out->origin[row] = origin;
     }
+}
+
+static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec_placement *out)
+{
+    *out = (ec_placement){.node = node, .mesh = g->nodes[node].mesh};
+    ec_placement_compose(parent, g->nodes[node].local, out);
 }
 
 static ec_result walk(const ec_gltf *g, bool *visited, ec_placement_list *list, ec_error *err)

@@ -21,6 +21,12 @@ typedef struct ec_placement_list {
 /* Every node of the default scene, parents before children. A node with two parents or inside a cycle is an error. */
 ec_result ec_gltf_place_nodes(const ec_gltf *gltf, ec_placement_list *placements, ec_error *err);
 
+/* instances.c: where a node has instances, they stand in its place. */
+ec_result ec_gltf_place_instances(ec_gltf *gltf, ec_placement_list *placements, const ec_log *log, ec_error *err);
+
+/* What stands at `local` (column major, as in the file) in the frame of `parent`; NULL: in the world. The rest of *out stays. */
+void ec_placement_compose(const ec_placement *parent, const double local[16], ec_placement *out);
+
 /* One more at the end. Items may move. */
 ec_result ec_placement_append(ec_placement_list *placements, const ec_placement *placement, ec_error *err);
 

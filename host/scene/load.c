@@ -42,6 +42,7 @@ ec_result ec_scene_from_gltf(ec_gltf *gltf, ec_scene **scene, const ec_log *log,
     *scene = NULL;
     if (!s) return ec_fail(err, "%s: out of memory", gltf->path);
     EC_TRY_CLEANUP(ec_gltf_place_nodes(gltf, &placements, err));
+    EC_TRY_CLEANUP(ec_gltf_place_instances(gltf, &placements, log, err));
     EC_TRY_CLEANUP(build(gltf, &placements, s, log, err));
     *scene = s;
     s = NULL;
