@@ -69,6 +69,7 @@ static ec_result copy_mesh(deformer *d, int32_t index)
     for (uint32_t k = 0; k < from->primitive_count; k++) {
         primitives[k] = from->primitives[k];
         primitives[k].targets = NULL;
+        primitives[k].draco = NULL;
         primitives[k].joints = primitives[k].weights = NULL;
         primitives[k].target_count = primitives[k].influence_sets = 0;
     }

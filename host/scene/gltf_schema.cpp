@@ -63,7 +63,13 @@ static const schema accessor_s(accessor);
 
 static const field buffer[] = {count("byteLength", 1, required), plain("uri", kind::text)};
 static const schema buffer_s(buffer);
-static const field view[] = {index("buffer", "buffers", required), count("byteOffset"), count("byteLength", 1, required),
+static const field meshopt[] = {index("buffer", "buffers", required), count("byteOffset"), count("byteLength", 1, required),
+                                count("byteStride", 1, required, 256), count("count", 1, required),
+                                choice("mode", "ATTRIBUTES TRIANGLES INDICES", required), choice("filter", "NONE OCTAHEDRAL QUATERNION EXPONENTIAL")};
+static const schema meshopt_s(meshopt);
+static const field view_extensions[] = {object("EXT_meshopt_compression", meshopt_s)};
+static const schema view_extensions_s(view_extensions);
+static const field view[] = {object("extensions", view_extensions_s), index("buffer", "buffers", required), count("byteOffset"), count("byteLength", 1, required),
                              count("byteStride", 4, false, 252)};
 static const schema view_s(view);
 
@@ -73,7 +79,11 @@ static const field mapping[] = {indices("variants", "variants", required), index
 static const schema mapping_s(mapping);
 static const field mappings[] = {objects("mappings", mapping_s, required)};
 static const schema mappings_s(mappings);
-static const field primitive_extensions[] = {object("KHR_materials_variants", mappings_s)};
+static const field nothing[] = {plain("", kind::flag)};
+static const schema nothing_s(nothing);
+static const field draco[] = {index("bufferView", "bufferViews", required), object("attributes", nothing_s, required)};
+static const schema draco_s(draco);
+static const field primitive_extensions[] = {object("KHR_draco_mesh_compression", draco_s), object("KHR_materials_variants", mappings_s)};
 static const schema primitive_extensions_s(primitive_extensions);
 static const field primitive[] = {object("attributes", attributes_s, required), index("indices", "accessors"),
                                   index("material", "materials"), choice("mode", "0 1 2 3 4 5 6"),
@@ -124,7 +134,11 @@ static const schema camera_s(camera);
 
 static const field image[] = {plain("uri", kind::text), index("bufferView", "bufferViews"), plain("name", kind::text)};
 static const schema image_s(image);
-static const field texture[] = {index("source", "images"), index("sampler", "samplers")};
+static const field webp[] = {index("source", "images", required)};
+static const schema webp_s(webp);
+static const field texture_extensions[] = {object("EXT_texture_webp", webp_s)};
+static const schema texture_extensions_s(texture_extensions);
+static const field texture[] = {index("source", "images"), index("sampler", "samplers"), object("extensions", texture_extensions_s)};
 static const schema texture_s(texture);
 static const field sampler[] = {choice("magFilter", "9728 9729"),
                                 choice("minFilter", "9728 9729 9984 9985 9986 9987"),
@@ -165,9 +179,11 @@ static const field sheen[] = {numbers("sheenColorFactor", 3), object("sheenColor
 static const schema sheen_s(sheen);
 static const field anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"), object("anisotropyTexture", texture_info_s)};
 static const schema anisotropy_s(anisotropy);
-static const field nothing[] = {plain("", kind::flag)};
-static const schema nothing_s(nothing);
-static const field material_extensions[] = {object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
+static const field specular_glossiness[] = {
+    numbers("diffuseFactor", 4), object("diffuseTexture", texture_info_s), numbers("specularFactor", 3), number("glossinessFactor"),
+    object("specularGlossinessTexture", texture_info_s)};
+static const schema specular_glossiness_s(specular_glossiness);
+static const field material_extensions[] = {object("KHR_materials_pbrSpecularGlossiness", specular_glossiness_s), object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
                                             object("KHR_materials_emissive_strength", emissive_strength_s),
                                             object("KHR_materials_ior", ior_s), object("KHR_materials_transmission", transmission_s),
                                             object("KHR_materials_volume", volume_s),

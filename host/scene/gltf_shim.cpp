@@ -7,17 +7,39 @@
 #include <memory>
 #include <set>
 
+extern "C" {
+#include "scene/codecs.h"
+}
+
 namespace eclat {
 
 using nlohmann::json;
 
 static const char *const supported_extensions[] = {
-    "EXT_mesh_gpu_instancing", "KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "EXT_mesh_gpu_instancing", "KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_variants",
     "KHR_materials_volume", "KHR_mesh_quantization", "KHR_texture_transform"};
 
+/* Those that take a library which this build may lack. */
+static const struct {
+    const char *name, *package;
+    const bool &built;
+} optional_extensions[] = {{"EXT_meshopt_compression", "libmeshoptimizer-dev", ec_has_meshopt},
+                           {"EXT_texture_webp", "libwebp-dev", ec_has_webp},
+                           {"KHR_draco_mesh_compression", "libdraco-dev", ec_has_draco}};
+
+static void refuse_unbuilt(const std::string &name)
+{
+    for (auto &optional : optional_extensions)
+        if (name == optional.name && !optional.built)
+            throw bad_file("the file requires " + name + ", which this eclat was built without; install " + optional.package +
+                           " and build again, or export it without");
+}
+
 static bool is_supported(const std::string &name)
 {
+    for (auto &optional : optional_extensions)
+        if (name == optional.name) return optional.built;
     return std::find(std::begin(supported_extensions), std::end(supported_extensions), name) !=
            std::end(supported_extensions);
 }
@@ -68,7 +90,10 @@ static void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
     for (const std::string &name : used)
         if (!is_supported(name)) ignored.insert(name);
     for (const std::string &name : needed)
-        if (!is_supported(name)) missing.insert(name);
+        if (!is_supported(name)) {
+            refuse_unbuilt(name);
+            missing.insert(name);
+        }
     if (!missing.empty())
         throw bad_file("the file requires " + comma_list(missing) + ", which eclat does not support; export it without");
     if (!ignored.empty())
