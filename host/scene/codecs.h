@@ -9,7 +9,8 @@
 extern const bool ec_has_draco, ec_has_meshopt, ec_has_webp;
 
 /* KHR_draco_mesh_compression: fills the accessors of a primitive, which then need no view. `where` is for the message. */
-ec_result ec_draco_decode(ec_gltf *gltf, ec_gltf_primitive *primitive, const uint8_t *bytes, uint64_t length, const char *where, ec_error *err);
+ec_result ec_draco_decode(ec_gltf *gltf, ec_gltf_primitive *primitive, const uint8_t *bytes, uint64_t length,
+                          const char *where, ec_error *err);
 
 /* EXT_meshopt_compression: count elements of stride bytes; `out` has room for them. false: the data are broken. */
 bool ec_meshopt_decode(const ec_gltf_meshopt *packed, const uint8_t *bytes, uint8_t *out);

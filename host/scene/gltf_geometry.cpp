@@ -105,7 +105,8 @@ static void convert_draco(const json &in, ec_gltf_primitive &out)
     const json &ids = (*draco)["attributes"];
     out.draco = make_array<ec_gltf_draco>(ids.size());
     for (auto &id : ids.items()) {
-        if (!id.value().is_number_unsigned()) throw bad_file("KHR_draco_mesh_compression.attributes." + id.key() + " must be a non-negative integer");
+        if (!id.value().is_number_unsigned())
+            throw bad_file("KHR_draco_mesh_compression.attributes." + id.key() + " must be a non-negative integer");
         if (in["attributes"].contains(id.key())) out.draco[out.draco_count++] = {in["attributes"][id.key()], id.value()};
     }
 }

@@ -16,9 +16,11 @@ namespace eclat {
 using nlohmann::json;
 
 static const char *const supported_extensions[] = {
-    "EXT_mesh_gpu_instancing", "KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_variants",
-    "KHR_materials_volume", "KHR_mesh_quantization", "KHR_texture_transform"};
+    "EXT_mesh_gpu_instancing", "KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen", "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume",
+    "KHR_mesh_quantization", "KHR_texture_transform"};
 
 /* Those that take a library which this build may lack. */
 static const struct {
@@ -167,7 +169,8 @@ static void pad_for_tinygltf(json &root)
 /* What is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. */
 static void parse_rest(json &root, tinygltf::Model &model)
 {
-    for (const char *done : {"accessors", "animations", "buffers", "bufferViews", "images", "meshes", "nodes", "scene", "scenes", "skins"})
+    for (const char *done : {"accessors", "animations", "buffers", "bufferViews", "images", "meshes", "nodes", "scene",
+                             "scenes", "skins"})
         root.erase(done);
     pad_for_tinygltf(root);
     std::string text = root.dump(), error, warning;
@@ -221,7 +224,8 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice 
 
 } // namespace eclat
 
-extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **result, const ec_log *log, ec_error *err)
+extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **result, const ec_log *log,
+                                  ec_error *err)
 {
     using namespace eclat;
     *result = nullptr;
