@@ -201,8 +201,32 @@ static void test_specular_glossiness(void)
     ec_scene_free(s);
 }
 
+/* Khronos' models, packed and plain: as many triangles, and the same box to within the quantisation of 11 bits that is common. */
+static void test_models(void)
+{
+    static const char *const names[] = {"Box", "Duck", "RiggedSimple"};
+    for (size_t i = 0; ec_has_draco && i < sizeof names / sizeof *names; i++) {
+        char path[2][1024];
+        ec_scene *s[2] = {NULL, NULL};
+        ec_error err;
+        for (int k = 0; k < 2; k++)
+            snprintf(path[k], sizeof path[k], "%s/assets/gltf/%s/%s/%s.gltf", ECLAT_SHARED, names[i], k ? "glTF-Draco" : "glTF", names[i]);
+        if (access(path[0], R_OK) || access(path[1], R_OK)) continue;
+        for (int k = 0; k < 2; k++) CHECK_OK(ec_scene_load(path[k], &s[k], NULL, &err), err);
+        if (s[0] && s[1]) CHECK(s[0]->triangle_count == s[1]->triangle_count);
+        for (int k = 0; s[0] && s[1] && k < 3; k++) {
+            double extent = (double)s[0]->bounds_max[k] - s[0]->bounds_min[k];
+            CHECK_NEAR(s[1]->bounds_max[k], s[0]->bounds_max[k], extent / 2048);
+            CHECK_NEAR(s[1]->center[k], s[0]->center[k], extent / 2048);
+        }
+        ec_scene_free(s[0]);
+        ec_scene_free(s[1]);
+    }
+}
+
 int main(void)
 {
+    test_models();
     test_meshopt();
     test_draco();
     test_webp();
