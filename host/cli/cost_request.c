@@ -56,6 +56,7 @@ ec_result ec_cost_request_parse(int argc, char **argv, ec_cost_request *request,
     ec_request asked;
     request->budget = EC_DEFAULT_BUDGET;
     request->render.options.cutoff = EC_DEFAULT_CUTOFF;
+    request->render.env_strength = 1;
     EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], request, argc, argv, &first, NULL, &asked, err));
     *done = ec_request_serve(asked, argv[0]);
     if (*done) return EC_OK;

@@ -29,6 +29,19 @@ static void add_lights(cJSON *root, const ec_scene_report *report)
     cJSON_AddBoolToObject(lights, "any", report->has_light);
 }
 
+/* Camera to world as a node's matrix has it, by columns: right, up, back, position. */
+static cJSON *camera_matrix(const ec_scene *scene, const ec_camera *camera)
+{
+    double m[16] = {[15] = 1};
+    for (int k = 0; k < 3; k++) {
+        m[k] = camera->right[k];
+        m[4 + k] = camera->up[k];
+        m[8 + k] = 0.0 - camera->forward[k];
+        m[12 + k] = camera->position[k] + scene->center[k];
+    }
+    return cJSON_CreateDoubleArray(m, 16);
+}
+
 static void add_cameras(cJSON *root, const ec_scene *scene)
 {
     cJSON *cameras = cJSON_AddArrayToObject(root, "cameras");
@@ -40,7 +53,12 @@ static void add_cameras(cJSON *root, const ec_scene *scene)
         ec_json_text(object, "name", camera->name);
         ec_json_text(object, "type", perspective ? "perspective" : "orthographic");
         if (perspective) ec_json_real(object, "yfov", camera->yfov);
+        else {
+            ec_json_real(object, "xmag", camera->xmag);
+            ec_json_real(object, "ymag", camera->ymag);
+        }
         ec_json_real(object, "aspect", camera->aspect > 0 ? camera->aspect : INFINITY); /* null: the image's */
+        cJSON_AddItemToObject(object, "matrix", camera_matrix(scene, camera));
         cJSON_AddItemToArray(cameras, object);
     }
     ec_json_whole(root, "default_camera", scene->default_camera);

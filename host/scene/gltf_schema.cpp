@@ -185,6 +185,16 @@ static const field sheen[] = {numbers("sheenColorFactor", 3), object("sheenColor
 static const schema sheen_s(sheen);
 static const field anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"), object("anisotropyTexture", texture_info_s)};
 static const schema anisotropy_s(anisotropy);
+static const field iridescence[] = {number("iridescenceFactor"), object("iridescenceTexture", texture_info_s), number("iridescenceIor"),
+                                    number("iridescenceThicknessMinimum"), number("iridescenceThicknessMaximum"),
+                                    object("iridescenceThicknessTexture", texture_info_s)};
+static const schema iridescence_s(iridescence);
+static const field diffuse_transmission[] = {number("diffuseTransmissionFactor"), object("diffuseTransmissionTexture", texture_info_s),
+                                             numbers("diffuseTransmissionColorFactor", 3),
+                                             object("diffuseTransmissionColorTexture", texture_info_s)};
+static const schema diffuse_transmission_s(diffuse_transmission);
+static const field dispersion[] = {number("dispersion")};
+static const schema dispersion_s(dispersion);
 static const field specular_glossiness[] = {
     numbers("diffuseFactor", 4), object("diffuseTexture", texture_info_s), numbers("specularFactor", 3), number("glossinessFactor"),
     object("specularGlossinessTexture", texture_info_s)};
@@ -195,7 +205,10 @@ static const field material_extensions[] = {object("KHR_materials_pbrSpecularGlo
                                             object("KHR_materials_ior", ior_s), object("KHR_materials_transmission", transmission_s),
                                             object("KHR_materials_volume", volume_s),
                                             object("KHR_materials_clearcoat", clearcoat_s), object("KHR_materials_sheen", sheen_s),
-                                            object("KHR_materials_anisotropy", anisotropy_s)};
+                                            object("KHR_materials_anisotropy", anisotropy_s),
+                                            object("KHR_materials_iridescence", iridescence_s),
+                                            object("KHR_materials_diffuse_transmission", diffuse_transmission_s),
+                                            object("KHR_materials_dispersion", dispersion_s)};
 static const schema material_extensions_s(material_extensions);
 static const field material[] = {
     object("pbrMetallicRoughness", metallic_roughness_s), object("normalTexture", texture_info_s),
