@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "cli/combinations.h"
 #include "cli/defaults.h"
+#include "cli/scene_choice.h"
 #include "cli/setters.h"
 #include "report/names.h"
 
@@ -25,6 +26,7 @@ FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(camera, camera)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
+SCENE_CHOICE_SETTERS(choice)
 CHOICE_SETTER(filter, options.filter, ec_pixel_filter, ec_filter_names)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
 CHOICE_SETTER(light_choice, options.light_choice, ec_light_choice, ec_light_choice_names)
@@ -133,6 +135,7 @@ static const ec_option options[] = {
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
     {"wave", 0, true, set_wave},
+    SCENE_CHOICE_OPTIONS,
 };
 
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)

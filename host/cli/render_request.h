@@ -11,6 +11,7 @@
 
 typedef struct ec_render_request {
     const char *scene;
+    ec_scene_choice choice;
     ec_outputs outputs;
     bool default_outputs;      /* no -o was given */
     ec_render_options options; /* complete but for the camera and, without --size, the size */

@@ -31,7 +31,7 @@ typedef struct ec_pack {
     float light_tree_pmf;          /* chance that light sampling goes to the tree */
     uint32_t environment_width, environment_height;
     float *environment_texels;     /* R, G, B, pmf; NULL where the environment is constant */
-    ec_alias *environment_alias;
+    ec_distribution_entry *environment_table; /* of rows; then of the texels of each row. NULL where it is black */
     float environment_mean[3];     /* radiance over all directions */
     float environment_pmf;         /* chance that light sampling chooses the environment */
     float scene_radius, scene_max;

@@ -17,7 +17,7 @@ static const ec_arg generate[] = {EC_ARG_PARAMS,     EC_ARG_SEED,  EC_ARG_FIRST_
 static const ec_arg intersect[] = {WAVE_ARGS, EC_ARG_PATHS, EC_ARG_HITS, ACCEL_ARGS, FILTER_ARGS};
 static const ec_arg shade[] = {WAVE_ARGS,          EC_ARG_INVALID, EC_ARG_PATHS, EC_ARG_HITS,        EC_ARG_NEXT,
                                EC_ARG_SHADOWS,     EC_ARG_RADIANCE, EC_ARG_AOV,  SURFACE_ARGS,       EC_ARG_LIGHT_TABLE,
-                               EC_ARG_LIGHT_ALIAS, EC_ARG_ENVIRONMENT_TEXELS,    EC_ARG_ENVIRONMENT_ALIAS,
+                               EC_ARG_LIGHT_ALIAS, EC_ARG_ENVIRONMENT_TEXELS,    EC_ARG_ENVIRONMENT_TABLE,
                                EC_ARG_LIGHT_TREE,  EC_ARG_LIGHT_TRAILS};
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS};
 static const ec_arg raster_setup[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_PRIMS, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS};

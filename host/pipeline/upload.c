@@ -62,7 +62,7 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     }
     uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
     EC_TRY(upload(p, EC_ARG_ENVIRONMENT_TEXELS, "environment map", texels * 16, pack->environment_texels, err));
-    return upload(p, EC_ARG_ENVIRONMENT_ALIAS, "environment table", texels * sizeof *pack->environment_alias, pack->environment_alias, err);
+    return upload(p, EC_ARG_ENVIRONMENT_TABLE, "environment table", (texels + pack->environment_height) * sizeof *pack->environment_table, pack->environment_table, err);
 }
 
 ec_result ec_pipeline_upload_filter(ec_pipeline *p, const ec_render_options *o, ec_error *err)

@@ -22,8 +22,8 @@ EC_FN lane_f light_node_weight(quad place, quad cone, quad rest, v3 p, lane_f *d
     v3 way = v3_sub(p, v3_make(place.a, place.b, place.c));
     lane_f distance2 = v3_dot(way, way), radius2 = place.d, cos_spread = cone.d, sin_spread = rest.b;
     /* Near or within a cluster the mean of its lamps' 1 / d^2 is not that of its centre. This is the mean over a ball of half the
-     * sphere's squared radius, within 3 % but for 1 % at its edge: 3 / r^2 at its centre, 3 / 2 r^2 at its edge, far off 1 / d^2. Without it the
-     * lamps around a point would lose half of their share at each level that they share with others. */
+     * sphere's squared radius: 3 / r^2 at its centre, 3 / 2 r^2 at its edge, far off 1 / d^2, between these within 18 %. Without it the
+     * lamps around a point would lose a part of their share at each level at which the point lies in both clusters. */
     lane_f ball2 = 0.5f * radius2, size = ball2 / distance2;
     *d2 = distance2 > ball2 ? distance2 / fma(0.5f * size, size, F(1.0f)) : (ball2 + distance2) * (1.0f / 3.0f);
     lane_f cosine = v3_dot(way, v3_make(cone.a, cone.b, cone.c)) / sqrt(distance2);
@@ -65,7 +65,7 @@ EC_FN lane_u light_tree_choose(global const float *tree, lane_i m, v3 p, lane_u 
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
         lane_u first, second, share = light_tree_share(tree, going ? link : U(1u), p, all, &first, &second);
         lane_i is_first = rest < share;
-        rest = going & !is_first ? rest - share : rest;
+        rest = (going & !is_first) ? rest - share : rest;
         all = going ? (is_first ? share : all - share) : all;
         link = going ? (is_first ? first : second) : link;
         lane_i few = going & (all < EC_TREE_FEW);
