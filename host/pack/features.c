@@ -32,6 +32,11 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
 }
 
+bool ec_pack_is_pane(const ec_scene *scene, const ec_material *m)
+{
+    return !m->unlit && !ec_refracts(m) && transmits(scene, m) && may_be_smooth(scene, m, false);
+}
+
 static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
 {
     float least, most;
@@ -80,6 +85,7 @@ static uint64_t material_features(const ec_scene *scene, const ec_material *m)
         f |= EC_FEATURE_TRANSMISSION;
         if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
         if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
+        if (ec_pack_is_pane(scene, m)) f |= EC_FEATURE_PANES;
     }
     f |= coat_features(scene, m) | sheen_features(scene, m);
     if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN))) {

@@ -37,6 +37,8 @@ void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 
 /* The steps, in order; each fills its part of pack. */
 uint64_t ec_pack_features(const ec_scene *scene);
+/* May light go straight on through it, somewhere: thin-walled and smooth? */
+bool ec_pack_is_pane(const ec_scene *scene, const ec_material *m);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);

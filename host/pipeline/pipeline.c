@@ -87,6 +87,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     const uint32_t unlimited = p->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
     params->max_depth = options->max_depth ? options->max_depth : unlimited;
     params->cutoff = (float)options->cutoff;
+    params->panes_count = p->integrator == EC_INTEGRATOR_PATH;
     set_roulette(options->survival, params);
     params->sample = options->sample;
     bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;

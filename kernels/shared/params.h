@@ -37,7 +37,8 @@ typedef struct ec_params {
     ec_uint first_roulette;       /* path segments that are never cut short */
     ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
     ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
-    ec_float pad[3];
+    ec_uint panes_count;          /* is a pane that a shadow ray passes a vertex, as max_depth counts them? Not in Whitted's */
+    ec_float pad[2];
 } ec_params;
 EC_ASSERT_SIZE(ec_params, 176);
 

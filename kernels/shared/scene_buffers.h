@@ -20,6 +20,7 @@ EC_ASSERT_SIZE(ec_prim, 48);
 #define EC_PRIM_WORDS 12
 #define EC_PRIM_SINGLE_SIDED 1u /* camera rays pass through its back */
 #define EC_PRIM_ALPHA 2u        /* coverage must be looked up */
+#define EC_PRIM_PANE 4u         /* may let light straight on (lib/pane.h) */
 
 typedef struct ec_texture_slot {
     ec_int texture;      /* -1: none */

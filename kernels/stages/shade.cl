@@ -98,12 +98,14 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         beta = v3_mul(beta, medium_transmittance(&g, medium, sqrt(v3_dot(way, way))));
     }
 
+    v3 source = o; /* where light was last looked for */
+    if (HAS(PANES) && bounce) source = queue_load_v3(paths, wave, EC_PATH_SX, i);
     if (HAS(EMISSION)) {
         lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
-            v3 way = v3_sub(s.p, o);
-            lane_f pdf = light_found_pdf(&h, m, o, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
+            v3 way = v3_sub(s.p, source);
+            lane_f pdf = light_found_pdf(&h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = v3_scale(surface_emission(&g, &h, m, emission), found_weight(params->sample, path_pdf, pdf));
             emitted = v3_select(m, Le, emitted);
             emits = emits | m;
@@ -175,9 +177,15 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     uint bits = mask_bits(alive);
     if (!bits) return;
     uint at = queue_reserve(counters->rays[step + 1], params->part, i, popcount(bits));
-    queue_push_v3(next, wave, EC_PATH_OX, at, leave(&s, above, wi, next_way.wi), bits);
+    v3 origin = leave(&s, above, wi, next_way.wi);
+    queue_push_v3(next, wave, EC_PATH_OX, at, origin, bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);
     queue_push_v3(next, wave, EC_PATH_BR, at, beta, bits);
+    if (HAS(PANES)) {
+        lane_i straight = (next_way.pdf < 0.0f) & (next_way.wi.z < 0.0f) & !b.refracts;
+        next_way.pdf = straight ? path_pdf : next_way.pdf;
+        queue_push_v3(next, wave, EC_PATH_SX, at, v3_select(straight, source, origin), bits);
+    }
     queue_push_f(next, wave, EC_PATH_PDF, at, next_way.pdf, bits);
     queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
     queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(left_behind(&s, wi, lifted, prim)), bits);
