@@ -15,9 +15,9 @@ import tempfile
 import zlib
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from scenes import cornell_box, furnace, glass, ladder, lamps, ring, showcase, stadium, terminator, veach_plates  # noqa: E402
+from scenes import cornell_box, drink, furnace, glass, ladder, lamps, ring, showcase, stadium, terminator, veach_plates  # noqa: E402
 
-SCENES = {"cornell-box": cornell_box, "furnace": furnace, "glass": glass, "ladder": ladder, "lamps": lamps, "ring": ring,
+SCENES = {"cornell-box": cornell_box, "drink": drink, "furnace": furnace, "glass": glass, "ladder": ladder, "lamps": lamps, "ring": ring,
           "showcase": showcase, "stadium": stadium, "terminator": terminator, "veach-plates": veach_plates}
 WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 CODE = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}

@@ -37,6 +37,21 @@ bool ec_pack_is_pane(const ec_scene *scene, const ec_material *m)
     return !m->unlit && !ec_refracts(m) && transmits(scene, m) && may_be_smooth(scene, m, false);
 }
 
+bool ec_pack_is_body(const ec_scene *scene, const ec_material *m)
+{
+    return !m->unlit && ec_refracts(m) && transmits(scene, m);
+}
+
+void ec_pack_find_bodies(const ec_scene *scene, ec_bodies *bodies)
+{
+    *bodies = (ec_bodies){0};
+    bool *is_body = calloc(scene->material_count, sizeof *is_body);
+    if (!is_body) return;
+    for (uint32_t m = 0; m < scene->material_count; m++) is_body[m] = ec_pack_is_body(scene, &scene->materials[m]);
+    ec_bodies_find(scene, is_body, bodies);
+    free(is_body);
+}
+
 static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
 {
     float least, most;
@@ -150,6 +165,11 @@ uint64_t ec_pack_features(const ec_scene *scene)
     for (uint32_t m = 0; m < scene->material_count; m++)
         if (!used || used[m]) f |= material_features(scene, &scene->materials[m]);
     free(used);
+    if (f & EC_FEATURE_TRANSMISSION) {
+        ec_bodies bodies;
+        ec_pack_find_bodies(scene, &bodies);
+        if (bodies.count) f |= EC_FEATURE_NESTED | EC_FEATURE_SMOOTH; /* walls that are not there have one direction */
+    }
     if (scene->light_count) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
     if (scene->has_environment) {
         const ec_environment *e = &scene->environment;

@@ -53,6 +53,19 @@ static float head_on_reflectance(float ior)
     return r * r;
 }
 
+/* Between bodies reflectance depends on both sides: the kernels multiply by it. */
+static void pack_bodies(const ec_scene *scene, ec_pack *pack)
+{
+    for (uint32_t rank = 0; rank < pack->bodies.count; rank++) {
+        uint32_t material = pack->bodies.material[rank];
+        ec_material_data *d = &pack->materials[material];
+        d->flags |= EC_MATERIAL_NESTED;
+        d->body = 1u << rank;
+        memcpy(d->f0, scene->materials[material].specular_color, sizeof d->f0);
+        pack->materials[rank].body_of_rank = material * EC_MATERIAL_WORDS;
+    }
+}
+
 static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     pack->material_count = scene->material_count;
@@ -96,6 +109,9 @@ ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err)
     ec_result result = pack_prims(scene, pack, err);
     if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
     if (result == EC_OK) result = pack_materials(scene, pack, err);
+    ec_pack_find_bodies(scene, &pack->bodies);
+    if (result == EC_OK) result = ec_bodies_rank(scene, &pack->bodies, err);
+    if (result == EC_OK) pack_bodies(scene, pack);
     if (result == EC_OK) result = ec_pack_lights(scene, pack, err);
     if (result != EC_OK) ec_pack_free(pack);
     return result;

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "pack/bodies.h"
 #include "scene/scene.h"
 #include "shared/features.h"
 #include "shared/scene_buffers.h"
@@ -14,6 +15,7 @@ typedef struct ec_pack {
     uint64_t features;             /* ec_feature bits that the scene calls for (the sampler's bit is the caller's) */
     uint32_t prim_count;
     ec_prim *prims;
+    ec_bodies bodies;              /* in order; none unless some may be nested */
     uint32_t material_count;
     ec_material_data *materials;
     uint32_t texture_count;
@@ -39,6 +41,10 @@ void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 uint64_t ec_pack_features(const ec_scene *scene);
 /* May light go straight on through it, somewhere: thin-walled and smooth? */
 bool ec_pack_is_pane(const ec_scene *scene, const ec_material *m);
+/* Does it bend light, somewhere? */
+bool ec_pack_is_body(const ec_scene *scene, const ec_material *m);
+/* Bodies that may lie in one another, in no order. */
+void ec_pack_find_bodies(const ec_scene *scene, ec_bodies *bodies);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);

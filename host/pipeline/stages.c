@@ -40,7 +40,7 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_AR
 #define SHADOW_FEATURES (SHADING_FEATURES | EC_FEATURE_ALPHA | EC_FEATURE_PANES)
 
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
-    [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, EC_FEATURE_SOBOL | EC_FEATURE_ABSORPTION,
+    [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, EC_FEATURE_SOBOL | EC_FEATURES_MEDIUM,
                      ARGS(generate)},
     [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, EC_FEATURE_CULLING | ALPHA_FEATURES,
                       ARGS(intersect)},

@@ -48,6 +48,7 @@
     CASE("scatter/reciprocity", false, ec_selftest_reciprocity, "a picture that depends on the side paths start from")             \
     CASE("scatter/fuzz", false, ec_selftest_fuzz, "NaN and fireflies")                                                             \
     CASE("scatter/slab", false, ec_selftest_slabs, "glass that darkens or brightens what is behind it")                            \
+    CASE("scatter/slab in slab", false, ec_selftest_slab_in_slab, "liquid in glass that refracts as if in air (Schmidt and Budge 2002)") \
     CASE("scatter/nested glass", false, ec_selftest_nested_glass, "black glass: paths lost at faces or by depth")                  \
     CASE("scatter/continuity", false, ec_selftest_continuity, "a jump in brightness where roughness gets to 0")                    \
     CASE("numbers/arithmetic", false, ec_selftest_arithmetic, "cracks between triangles: products contracted (NUMERICS: half of all)") \

@@ -37,6 +37,7 @@
 #define EC_FEATURE_ANISOTROPY EC_FEATURE_BIT(28)
 #define EC_FEATURE_ANISOTROPY_TEXTURE EC_FEATURE_BIT(29)
 #define EC_FEATURE_PANES EC_FEATURE_BIT(30)
+#define EC_FEATURE_NESTED EC_FEATURE_BIT(31)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -70,7 +71,8 @@
     X(SHEEN_TEXTURE, "sheen-texture")                                                              \
     X(ANISOTROPY, "anisotropy")                                                                    \
     X(ANISOTROPY_TEXTURE, "anisotropy-texture")                                                    \
-    X(PANES, "transparent-shadows")
+    X(PANES, "transparent-shadows")                                                                \
+    X(NESTED, "nested-bodies")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name
@@ -86,6 +88,8 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 /* What bends normals, what has a direction: what wants tangents. */
 #define EC_FEATURES_BENDING (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)
+/* What asks which body a ray is in. */
+#define EC_FEATURES_MEDIUM (EC_FEATURE_ABSORPTION | EC_FEATURE_NESTED)
 #define EC_FEATURES_ATTRIBUTES (EC_FEATURES_TEXTURED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
 
 #ifdef EC_DEVICE_CODE
@@ -95,6 +99,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #define HAS(name) ((FEATURES & EC_FEATURE_##name) != 0)
 #define HAS_TEXTURES ((FEATURES & EC_FEATURES_TEXTURED) != 0)
 #define HAS_BENDING ((FEATURES & EC_FEATURES_BENDING) != 0)
+#define HAS_MEDIUM ((FEATURES & EC_FEATURES_MEDIUM) != 0)
 #define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)
 #endif
 

@@ -38,7 +38,8 @@ typedef struct ec_params {
     ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
     ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
     ec_uint panes_count;          /* is a pane that a shadow ray passes a vertex, as max_depth counts them? Not in Whitted's */
-    ec_float pad[2];
+    ec_uint nested;               /* bodies may lie in one another: media are sets (lib/medium.h) */
+    ec_uint camera_medium;        /* what the camera is inside of */
 } ec_params;
 EC_ASSERT_SIZE(ec_params, 176);
 

@@ -89,13 +89,15 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     surface s;
     surface_place(&h, wo, &s);
     surface_frame(&g, &h, found, wo, &s);
+    bool nested = MEDIA_NESTED(params);
+    if (nested) s.bodies = found ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
     surface_material(&g, &h, found, &s);
     quad emission = material_quad(&g, &h, EC_MATERIAL_EMISSION);
     lane_u flags = as_lane_u(emission.d), medium = U(EC_NO_ID);
+    if (HAS_MEDIUM) medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
     if (HAS(ABSORPTION)) {
-        medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
         v3 way = v3_sub(s.p, o);
-        beta = v3_mul(beta, medium_transmittance(&g, medium, sqrt(v3_dot(way, way))));
+        beta = v3_mul(beta, medium_transmittance(&g, medium_material(&g, medium, nested), sqrt(v3_dot(way, way))));
     }
 
     v3 source = o; /* where light was last looked for */
@@ -151,7 +153,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
-        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z));
+        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
         lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local, lifted);
         shadow_push(params, shadows, counters->shadows[step], i, above, leave(&s, above, l.wi, wi_local), &l, arriving, slot,
                     left_behind(&s, l.wi, lifted, prim), m, invalid + EC_STAGE_SHADE);
@@ -189,6 +191,6 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     queue_push_f(next, wave, EC_PATH_PDF, at, next_way.pdf, bits);
     queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
     queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(left_behind(&s, wi, lifted, prim)), bits);
-    if (HAS(ABSORPTION))
-        queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium_towards(&h, &s, medium, next_way.wi.z)), bits);
+    if (HAS_MEDIUM)
+        queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium_towards(&h, &s, medium, next_way.wi.z, nested)), bits);
 }

@@ -116,6 +116,23 @@ class Info(Case):
             with self.subTest(material=material):
                 self.assertEqual(self.effects(**material), expected)
 
+    def test_bodies_call_for_nesting_where_they_may_be_nested(self):
+        def nested(apart, same=False, thin=False):
+            scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {
+                "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}}})
+            other = json.loads(json.dumps(scene["materials"][0]))
+            other["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0 if thin else 1
+            scene["materials"].append(other)
+            primitive = dict(scene["meshes"][0]["primitives"][0], material=0 if same else 1)
+            scene["meshes"].append({"primitives": [primitive]})
+            scene["nodes"].append({"mesh": len(scene["meshes"]) - 1, "translation": [0, 0, apart]})
+            scene["scenes"][0]["nodes"].append(len(scene["nodes"]) - 1)
+            return "nested-bodies" in self.info(write_gltf(self.path("nested.gltf"), scene))["effects"]
+        self.assertTrue(nested(0))
+        self.assertFalse(nested(0.1))
+        self.assertFalse(nested(0, same=True))
+        self.assertFalse(nested(0, thin=True))
+
     def layers(self, extension, *texels, roughness=1.0, unlit=False):
         """Effects that a quad calls for by an extension; textures by index."""
         extensions = dict(extension, **({"KHR_materials_unlit": {}} if unlit else {}))
