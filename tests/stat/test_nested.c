@@ -108,7 +108,7 @@ static void slabs(void)
                     add_slab(w, inner[n], 1, -0.2, -0.5, 80);
                     add_sheet(w, gltf_lambert(w, 0, lit), -1);
                     add_camera(w, angles[a]);
-                    ec_render_options o = options_for(EC_SAMPLE_MIS, whitted ? 4 : 1024);
+                    ec_render_options o = options_for(EC_SAMPLE_MIS, whitted ? 4 : 256);
                     o.integrator = whitted ? EC_INTEGRATOR_WHITTED : EC_INTEGRATOR_PATH;
                     if (whitted) o.max_depth = 40, o.cutoff = 1e-6; /* of branches that are left out there are some dozens */
                     expect(w, name, lit ? NULL : "1,1,1", &o, want, whitted ? 3e-4 : 3e-6);
@@ -123,7 +123,7 @@ static void overlaps(void)
         for (int lit = 0; lit < 2; lit++) {
             double wall = s ? 0.2 : 0.199;
             layer stack[3] = {{1.5, wall, 0}, {1.33, 0.7 - 2 * wall, 1}, {1.5, wall, 0}}, ice[2] = {{1.31, 0.3, 0}, {1.33, 0.2, 1}};
-            ec_render_options o = options_for(s, 1024);
+            ec_render_options o = options_for(s, 256);
             double want[3], other;
             gltf_writer *w = gltf_new();
             for (int c = 0; c < 3; c++) add_up(stack, 3, sin(0.5), c, lit ? &other : &want[c], lit ? &want[c] : &other);
@@ -162,7 +162,7 @@ static void deep(void)
         for (int c = 0; c < 3; c++) add_up(stack, 2 * BODIES - 1, sin(0.5), c, &other, &want[c]);
         add_sheet(w, gltf_lambert(w, 0, 1), -1);
         add_camera(w, 0.5);
-        ec_render_options o = options_for(EC_SAMPLE_MIS, bare ? 4 : 1024);
+        ec_render_options o = options_for(EC_SAMPLE_MIS, bare ? 4 : 256);
         o.survival = 1;
         o.max_depth = 400;
         expect(w, bare ? "64-walls-of-index-1" : "64-walls", NULL, &o, want, bare ? 1e-4 : 2e-5);
@@ -176,7 +176,7 @@ static void within(void)
     double want[3], seen[3], other, Fu = fresnel(0, 1.33, 1.5), Fg = fresnel(0, 1.5, 1);
     double R = Fu + (1 - Fu) * (1 - Fu) * Fg / (1 - Fu * Fg), T = (1 - Fu) * (1 - Fg) / (1 - Fu * Fg);
     for (int c = 0; c < 3; c++) seen[c] = left_after(1, c, 0.1) * (T + R * left_after(1, c, 0.3));
-    ec_render_options o = options_for(EC_SAMPLE_MIS, 1024);
+    ec_render_options o = options_for(EC_SAMPLE_MIS, 512);
     gltf_writer *w = gltf_new();
     add_slab(w, 1.5, 0, 0, -0.8, 90);
     add_slab(w, 1.33, 1, -0.2, -0.7, 80);

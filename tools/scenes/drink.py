@@ -56,13 +56,18 @@ def make(folder):
 
     g.add("outer-ball", fine, body("ball-glass", 1.52), translation=(0.86, 0.3, 0.35), scale=0.3)
     g.add("inner-ball", fine, body("water", 1.33, attenuation=((0.25, 0.6, 0.9), 0.3)), translation=(0.86, 0.3, 0.35), scale=0.24)
-    g.add("hollow", coarse, air, translation=(0.86, 0.36, 0.35), scale=0.1)
-    g.add("full-ball", fine, body("liquid-glass", 1.5, attenuation=((0.35, 0.8, 0.4), 0.4)), translation=(-0.92, 0.26, 0.3), scale=0.26)
+    g.add("hollow", coarse, air, translation=(0.86, 0.36, 0.35), scale=0.09)
+    g.add("frosted-ball", fine, g.material("frosted-glass", WHITE, roughness=0.25, transmission=1.0, ior=1.5, body=True,
+                                              attenuation=((0.35, 0.8, 0.4), 0.4)), translation=(-0.92, 0.26, 0.3), scale=0.26)
     g.add("behind", coarse, g.material("clay", (0.75, 0.28, 0.18), roughness=0.7), translation=(-0.55, 0.22, -0.8), scale=0.22)
+
+    pane = quad((0.5, 0.6, -0.95), (0.42, 0.0, -0.12), (0.0, 0.6, 0.0))
+    pane.uvs = []
+    g.add("pane", pane, g.material("pane", (0.75, 0.92, 0.9), roughness=0.0, transmission=1.0, double_sided=True))
 
     panel(g, "key", (-3.4, 3.6, 1.6), (0.0, 0.4, 0.0), 1.3, 1.3, (1.0, 0.92, 0.8), 9.0)
     panel(g, "fill", (3.8, 2.4, 2.2), (0.2, 0.4, 0.0), 1.4, 1.4, (0.7, 0.84, 1.0), 2.5)
-    panel(g, "back", (0.6, 2.6, -3.6), (0.0, 0.5, 0.0), 1.6, 1.2, (1.0, 0.98, 0.95), 5.0)
+    panel(g, "back", (0.6, 3.7, -2.6), (0.0, 0.5, 0.0), 1.3, 1.2, (1.0, 0.98, 0.95), 5.0)
     panel(g, "front-card", (0.5, 3.0, 8.0), (0.0, 0.8, 0.0), 2.2, 4.5, (0.8, 0.88, 1.0), 0.5)
     g.perspective("camera", (0.1, 1.35, 4.6), (0.0, 0.55, 0.0), 24.0, 1.5)
     g.write(folder, "drink")
