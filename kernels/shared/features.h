@@ -36,8 +36,8 @@
 #define EC_FEATURE_SHEEN_TEXTURE EC_FEATURE_BIT(27)
 #define EC_FEATURE_ANISOTROPY EC_FEATURE_BIT(28)
 #define EC_FEATURE_ANISOTROPY_TEXTURE EC_FEATURE_BIT(29)
-#define EC_FEATURE_PANES EC_FEATURE_BIT(30)
-#define EC_FEATURE_NESTED EC_FEATURE_BIT(31)
+#define EC_FEATURE_PANES EC_FEATURE_BIT(52)
+#define EC_FEATURE_NESTED EC_FEATURE_BIT(53)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
