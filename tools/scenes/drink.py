@@ -41,23 +41,23 @@ def make(folder):
     ice, air = body("ice", 1.31), body("air", 1.0)
     cube = box((-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
     cube.uvs = []
-    fine, coarse = icosphere(1.0, 4), icosphere(1.0, 3)
+    fine, coarse, tiny = icosphere(1.0, 4), icosphere(1.0, 3), icosphere(1.0, 2)
     for k, (at, axis, angle) in enumerate([((-0.16, 0.76, 0.08), (0.3, 1.0, 0.1), 25), ((0.09, 0.74, 0.17), (1.0, 0.5, 0.2), 50),
                                            ((0.13, 0.77, -0.13), (0.2, 0.4, 1.0), 35)]):
         g.add(f"ice-{k}", cube, ice, translation=at, rotation=axis_angle(axis, angle))
-        g.add(f"ice-bubble-{k}", coarse, air, translation=(at[0] + 0.01, at[1] - 0.02, at[2]), scale=0.025)
+        g.add(f"ice-bubble-{k}", tiny, air, translation=(at[0] + 0.01, at[1] - 0.02, at[2]), scale=0.025)
     for k in range(9):
         angle, radius = 2.4 * k, 0.08 + 0.022 * k
-        g.add(f"bubble-{k}", coarse, air, translation=(radius * math.cos(angle), 0.16 + 0.05 * k, radius * math.sin(angle)),
+        g.add(f"bubble-{k}", tiny, air, translation=(radius * math.cos(angle), 0.16 + 0.05 * k, radius * math.sin(angle)),
               scale=0.010 + 0.002 * (k % 3))
     rod = lathe([(0.0, 0.0), (0.02, 0.0), (0.02, 1.35), (0.0, 1.35)], 32)
     g.add("rod", rod, body("rod-glass", 1.52, attenuation=((0.55, 0.8, 0.95), 0.05)), translation=(-0.05, 0.1, -0.26),
           rotation=axis_angle((0.25, 0.0, -1.0), 12))
 
     g.add("outer-ball", fine, body("ball-glass", 1.52), translation=(0.86, 0.3, 0.35), scale=0.3)
-    g.add("inner-ball", fine, body("water", 1.33, attenuation=((0.25, 0.6, 0.9), 0.3)), translation=(0.86, 0.3, 0.35), scale=0.24)
+    g.add("inner-ball", coarse, body("water", 1.33, attenuation=((0.25, 0.6, 0.9), 0.3)), translation=(0.86, 0.3, 0.35), scale=0.24)
     g.add("hollow", coarse, air, translation=(0.86, 0.36, 0.35), scale=0.09)
-    g.add("frosted-ball", fine, g.material("frosted-glass", WHITE, roughness=0.25, transmission=1.0, ior=1.5, body=True,
+    g.add("frosted-ball", coarse, g.material("frosted-glass", WHITE, roughness=0.25, transmission=1.0, ior=1.5, body=True,
                                               attenuation=((0.35, 0.8, 0.4), 0.4)), translation=(-0.92, 0.26, 0.3), scale=0.26)
     g.add("behind", coarse, g.material("clay", (0.75, 0.28, 0.18), roughness=0.7), translation=(-0.55, 0.22, -0.8), scale=0.22)
 
