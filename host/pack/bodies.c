@@ -124,10 +124,22 @@ static double largest_part(const ec_scene *scene, uint32_t material, desk *d)
     return most;
 }
 
+/* Of one of the materials. */
+static uint32_t most_triangles(const ec_scene *scene, const ec_bodies *bodies)
+{
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < bodies->count; i++) {
+        uint32_t count = 0;
+        for (uint32_t t = 0; t < scene->triangle_count; t++) count += scene->triangle_material[t] == bodies->material[i];
+        most = count > most ? count : most;
+    }
+    return most;
+}
+
 ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err)
 {
     double volume[EC_BODIES_MOST];
-    size_t n = scene->triangle_count;
+    size_t n = most_triangles(scene, bodies);
     if (!bodies->count) return EC_OK;
     desk d = {malloc(n * sizeof *d.triangles), malloc(3 * n * sizeof *d.parent), malloc(3 * n * sizeof *d.places), malloc(3 * n * sizeof *d.parts)};
     bool complete = d.triangles && d.parent && d.places && d.parts;
@@ -145,7 +157,7 @@ ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err
     free(d.parent);
     free(d.places);
     free(d.parts);
-    return complete ? EC_OK : ec_fail(err, "out of memory for the bodies of %u triangles", scene->triangle_count);
+    return complete ? EC_OK : ec_fail(err, "out of memory for bodies of %zu triangles", n);
 }
 
 /* Solid angles of its triangles, signed (van Oosterom and Strackee 1983), over 4 pi. */
