@@ -19,14 +19,18 @@ typedef struct surface {
     lane_f f90;    /* and at grazing */
     lane_f transmission; /* share of what a dielectric does not reflect that passes, not scattered back by the base */
     lane_f eta;    /* index of refraction beyond the surface over that on wo's side; 1: passes through a thin wall */
-    lane_i refracts;
+    lane_i refracts;     /* bounds a body: what passes goes on inside, bent if transmission is above 0 */
     lane_u bodies, beyond; /* with NESTED: those on wo's side, those behind (bodies.h) */
     lane_i displaced;      /* the same body fills both sides */
     lane_f head_on;        /* reflectance to multiply f0 by, where that depends on what is on both sides */
+    lane_f seeps;        /* KHR_materials_diffuse_transmission: share of diffuse light that comes out on the other side */
+    v3 below;            /* and its colour */
     lane_f coat;       /* weight of a clear coat; with it its width, as alpha_ggx and smooth, and its normal */
     lane_f coat_alpha;
     lane_i coat_smooth;
     v3 coat_ns;
+    lane_f film;       /* weight of a thin film; with it its index and nanometres */
+    lane_f film_ior, film_thickness;
     v3 sheen;          /* colour of fibres over it; 0: none */
     lane_f sheen_roughness;
 } surface;
@@ -129,16 +133,25 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
     v3_frame(s->ns, &s->s, &s->t);
 }
 
-/* Light between bodies. That one is met from behind tells that it was entered, seen or not; from the front, that it was not. */
+/* A wall of bodies is crossed. That one is met from behind tells that it was entered, seen or not; from the front, that it was not. */
+EC_FN void surface_cross(const geometry *g, quad index, lane_i nested, surface *s, lane_u *here, lane_u *there)
+{
+    lane_u own = as_lane_u(index.c), bodies = s->front ? s->bodies & ~own : s->bodies | own;
+    s->bodies = nested ? bodies : s->bodies;
+    s->beyond = nested ? bodies ^ own : s->beyond;
+    *here = bodies_material(g, nested ? s->bodies : U(0));
+    *there = bodies_material(g, nested ? s->beyond : U(0));
+    s->displaced = s->displaced | (nested & (*here == *there));
+}
+
+/* And light is bent between what is on its two sides. f0 of such materials is a colour to be multiplied by the reflectance head-on. */
 EC_FN void surface_between(const geometry *g, quad index, lane_i nested, surface *s)
 {
-    lane_u own = nested ? as_lane_u(index.c) : U(0);
-    s->bodies = s->front ? s->bodies & ~own : s->bodies | own;
-    s->beyond = s->bodies ^ own;
-    lane_u here = bodies_material(g, s->bodies), there = bodies_material(g, s->beyond);
-    s->displaced = nested & (here == there);
-    s->eta = nested ? bodies_index(g, there) / bodies_index(g, here) : s->eta;
-    lane_f r = (s->eta - 1.0f) / (s->eta + 1.0f);
+    lane_u here, there;
+    lane_i bends = nested & s->refracts;
+    surface_cross(g, index, bends, s, &here, &there);
+    s->eta = bends ? bodies_index(g, there) / bodies_index(g, here) : s->eta;
+    lane_f eta = bends ? s->eta : index.a, r = (eta - 1.0f) / (eta + 1.0f);
     s->head_on = nested ? r * r : F(1.0f);
 }
 
@@ -154,6 +167,9 @@ EC_FN void surface_displace(surface *s)
     s->smooth = s->smooth | gone;
     s->coat = gone ? F(0.0f) : s->coat;
     s->sheen = v3_select(gone, v3_zero(), s->sheen);
+    s->seeps = gone ? F(0.0f) : s->seeps;
+    s->film = gone ? F(0.0f) : s->film;
+    s->eta = gone ? F(1.0f) : s->eta;
 }
 
 /* KHR_materials_transmission, _ior and _volume. A body is entered through its front. Around it is air, where no bodies are nested. */
@@ -165,7 +181,7 @@ EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m,
     if (HAS(TRANSMISSION_TEXTURE)) s->transmission *= material_texture(g, h, m, EC_SLOT_TRANSMISSION, false).rgb.x;
     s->refracts = ((flags & EC_MATERIAL_REFRACTS) != 0u) & (s->transmission > 0.0f) & (s->metallic < 1.0f);
     s->eta = s->refracts ? (s->front ? index.a : 1.0f / index.a) : F(1.0f);
-    if (HAS(NESTED)) surface_between(g, index, s->refracts & ((flags & EC_MATERIAL_NESTED) != 0u), s);
+    if (HAS(NESTED)) surface_between(g, index, ((flags & EC_MATERIAL_NESTED) != 0u) & ((flags & EC_MATERIAL_REFRACTS) != 0u), s);
     /* The lobe's width is about alpha |eta - 1|, and float half vectors have no more digits than that. */
     if (HAS(SMOOTH)) s->smooth = s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);
 }
@@ -231,6 +247,40 @@ EC_FN void surface_sheen(const geometry *g, const hit_point *h, lane_i m, surfac
     s->sheen = v3_select(s->refracts & !s->front, v3_zero(), s->sheen);
 }
 
+/* KHR_materials_diffuse_transmission. */
+EC_FN void surface_seeping(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_SEEPING);
+    lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
+    s->below = v3_make(q.a, q.b, q.c);
+    s->seeps = q.d;
+    if (HAS(DIFFUSE_TRANSMISSION_TEXTURE)) {
+        s->below = v3_mul(s->below, material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, true).rgb);
+        s->seeps *= material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION, false).a;
+    }
+    lane_i bends = s->refracts;
+    s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->seeps > 0.0f) & (s->metallic < 1.0f));
+    if (HAS(NESTED)) {
+        lane_u here, there;
+        surface_cross(g, material_quad(g, h, EC_MATERIAL_IOR), s->refracts & !bends & ((flags & EC_MATERIAL_NESTED) != 0u), s, &here, &there);
+    }
+}
+
+/* KHR_materials_iridescence. */
+EC_FN void surface_film(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_FILM);
+    s->film = q.a;
+    s->film_ior = q.b;
+    s->film_thickness = q.d;
+    if (HAS(IRIDESCENCE_TEXTURE)) {
+        s->film *= material_texture(g, h, m, EC_SLOT_IRIDESCENCE, false).rgb.x;
+        lane_f t = material_texture(g, h, m, EC_SLOT_IRIDESCENCE_THICKNESS, false).rgb.y; /* 1 where there is none */
+        s->film_thickness = fma(t, q.d, (1.0f - t) * q.c);
+    }
+    s->film = s->film_thickness > 0.0f ? s->film : F(0.0f);
+}
+
 /* Parameters of the metallic-roughness model with KHR_materials_specular, and of what lies over it. */
 EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
@@ -245,6 +295,8 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->displaced = !TRUE_MASK;
     s->coat = F(0.0f);
     s->sheen = v3_zero();
+    s->film = s->seeps = F(0.0f);
+    s->below = v3_zero();
     if (!HAS(SPECULAR)) return;
     quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_F0);
     lane_f roughness = factors.b;
@@ -269,8 +321,10 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     /* KHR_materials_specular: f0 = min(color ((ior - 1) / (ior + 1))^2, 1) weight. */
     s->f0 = v3_scale(v3_make(min(color.x, F(1.0f)), min(color.y, F(1.0f)), min(color.z, F(1.0f))), weight);
     s->f90 = weight;
+    if (HAS(DIFFUSE_TRANSMISSION)) surface_seeping(g, h, m, s);
     if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
     if (HAS(SHEEN)) surface_sheen(g, h, m, s);
+    if (HAS(IRIDESCENCE)) surface_film(g, h, m, s);
     if (HAS(NESTED)) surface_displace(s);
 }
 
