@@ -162,7 +162,7 @@ static void deep(void)
         for (int c = 0; c < 3; c++) add_up(stack, 2 * BODIES - 1, sin(0.5), c, &other, &want[c]);
         add_sheet(w, gltf_lambert(w, 0, 1), -1);
         add_camera(w, 0.5);
-        ec_render_options o = options_for(EC_SAMPLE_MIS, bare ? 4 : 256);
+        ec_render_options o = options_for(EC_SAMPLE_MIS, bare ? 4 : 1024);
         o.survival = 1;
         o.max_depth = 400;
         expect(w, bare ? "64-walls-of-index-1" : "64-walls", NULL, &o, want, bare ? 1e-4 : 2e-5);
