@@ -101,7 +101,7 @@ typedef struct ec_render_stats {
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
     uint32_t lanes, wave, batch;
     uint64_t device_bytes;        /* peak of all buffers */
-    char effects[512];            /* names of the effects built in, blank separated */
+    char effects[1024];            /* names of the effects built in, blank separated */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */
     uint32_t cache_hits, cache_misses;
 } ec_render_stats;
