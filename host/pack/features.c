@@ -175,11 +175,12 @@ uint64_t ec_pack_features(const ec_scene *scene)
     for (uint32_t m = 0; m < scene->material_count; m++)
         if (!used || used[m]) f |= material_features(scene, &scene->materials[m]);
     free(used);
-    if (scene->light_count) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        if (max3(scene->lights[i].intensity) > 0.0f) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
     if (scene->has_environment) {
         const ec_environment *e = &scene->environment;
         if (e->rgb)
-            f |= EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP;
+            f |= EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | (e->turned ? EC_FEATURE_ENVIRONMENT_TURN : 0);
         else if (max3(e->constant) > 0.0f)
             f |= EC_FEATURE_ENVIRONMENT;
     }

@@ -110,7 +110,9 @@ void ec_pack_free(ec_pack *pack)
     free(pack->texels);
     free(pack->lights);
     free(pack->light_alias);
+    free(pack->light_of_prim);
+    free(pack->light_tree);
     free(pack->environment_texels);
-    free(pack->environment_alias);
+    free(pack->environment_table);
     memset(pack, 0, sizeof *pack);
 }

@@ -99,7 +99,24 @@ typedef struct ec_environment {
     uint32_t width, height;
     float *rgb;           /* 3 * width * height, linear, finite and >= 0, owned */
     float constant[3];
+    bool turned;          /* by turn, row major: directions of the map, as above, to those of the scene */
+    float turn[9];
 } ec_environment;
+
+/* Among what a file lets one choose. All owned; a name may be NULL. */
+typedef struct ec_scene_names {
+    char **names;
+    uint32_t count;
+} ec_scene_names;
+typedef struct ec_scene_contents {
+    ec_scene_names scenes, variants, animations;
+    uint32_t scene;        /* the one that is shown */
+    double *seconds;       /* how long each animation is; NaN: the file does not say */
+} ec_scene_contents;
+void ec_scene_contents_free(ec_scene_contents *contents);
+
+/* Which one is `wanted`: by name, else by index. `what` is for the message, which lists what there is. */
+ec_result ec_scene_names_find(const ec_scene_names *names, const char *what, const char *wanted, uint32_t *index, ec_error *err);
 
 typedef struct ec_scene {
     /* Vertices; optional streams are NULL where no primitive has them. A vertex without a normal or tangent has
@@ -138,16 +155,22 @@ typedef struct ec_scene {
     uint32_t extension_count;
     char **extensions_ignored;     /* used by the file, not supported here; owned strings */
     uint32_t extension_ignored_count;
+    ec_scene_contents contents;
 } ec_scene;
 
-typedef struct ec_scene_options {
-    bool framing_camera_only;      /* unused by the CLI; tests */
-} ec_scene_options;
+/* What of a file is wanted, where there is a choice. Names or indices; NULL and false: what the file shows by default. */
+typedef struct ec_scene_choice {
+    const char *scene, *variant;
+    const char *animation;     /* also "all"; NULL: the first */
+    double at;                 /* seconds into it */
+    bool animated;             /* false: everything as it is stored */
+} ec_scene_choice;
 
-/* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. The file's own default
- * scene is taken. Adds a framing camera where there is none (noted in log). Environment and light fall-backs are the
- * caller's (see ec_scene_set_environment, ec_scene_has_light). Owned by the caller: ec_scene_free. */
+/* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. Adds a framing camera where
+ * there is none (noted in log). Environment and light fall-backs are the caller's (see ec_scene_set_environment,
+ * ec_scene_has_light). Owned by the caller: ec_scene_free. */
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
+ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
 
 /* Does anything in the scene give light: an emissive or unlit triangle, a punctual light, an environment? */
@@ -156,6 +179,10 @@ bool ec_scene_has_light(const ec_scene *scene);
 /* Replaces the environment. spec is a file (.hdr, .exr; equirectangular) or "R,G,B". Non-finite and negative values
  * are set to 0, those above EC_RADIANCE_MOST to that; a warning counts them. */
 ec_result ec_scene_set_environment(ec_scene *scene, const char *spec, const ec_log *log, ec_error *err);
+
+/* Makes the environment so many times as bright (none at all at 0), and turns it about +y, counter-clockwise seen from above. There
+ * must be one. */
+void ec_scene_adjust_environment(ec_scene *scene, double degrees, double strength, const ec_log *log);
 
 /* Camera by name, else by index; failure lists what there is. */
 ec_result ec_scene_find_camera(const ec_scene *scene, const char *name_or_index, uint32_t *camera, ec_error *err);

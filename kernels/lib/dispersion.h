@@ -17,7 +17,7 @@ EC_FN lane_f dispersed_index(lane_f ior, lane_f dispersion, lane_i channel)
 EC_FN lane_i dispersion_choose(v3 beta, lane_f u, v3 *left)
 {
     lane_f sum = beta.x + beta.y + beta.z, at = u * sum;
-    lane_i red = (at < beta.x) | (beta.y + beta.z == 0.0f), green = !red & ((at < beta.x + beta.y) | (beta.z == 0.0f));
+    lane_i red = (at < beta.x) | (beta.y + beta.z == 0.0f), green = (!red) & ((at < beta.x + beta.y) | (beta.z == 0.0f));
     green = green & (beta.y > 0.0f);
     *left = v3_make(red ? sum : F(0.0f), green ? sum : F(0.0f), (red | green) ? F(0.0f) : sum);
     return red ? I(0) : (green ? I(1) : I(2));

@@ -41,6 +41,10 @@
 #define EC_FEATURE_DIFFUSE_TRANSMISSION EC_FEATURE_BIT(32)
 #define EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE EC_FEATURE_BIT(33)
 #define EC_FEATURE_DISPERSION EC_FEATURE_BIT(34)
+#define EC_FEATURE_LENS EC_FEATURE_BIT(40)
+#define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
+#define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
+#define EC_FEATURE_LIGHT_TREE EC_FEATURE_BIT(43)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -78,7 +82,11 @@
     X(IRIDESCENCE_TEXTURE, "iridescence-texture")                                                  \
     X(DIFFUSE_TRANSMISSION, "diffuse-transmission")                                                \
     X(DIFFUSE_TRANSMISSION_TEXTURE, "diffuse-transmission-texture")                                \
-    X(DISPERSION, "dispersion")
+    X(DISPERSION, "dispersion")                                                                    \
+    X(LENS, "depth-of-field")                                                                      \
+    X(PIXEL_FILTER, "pixel-filter")                                                                \
+    X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
+    X(LIGHT_TREE, "light-tree")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name

@@ -110,4 +110,12 @@ typedef struct ec_alias {
 } ec_alias;
 EC_ASSERT_SIZE(ec_alias, 8);
 
+/* Entry of a distribution that is sampled by inversion: its share of the 32-bit numbers begins at `first` and ends where the next
+ * entry's begins, the last one's at 2^32. guide: of the numbers r with r * n >> 32 equal to this entry's place the last one's entry. */
+typedef struct ec_distribution_entry {
+    ec_uint first;
+    ec_uint guide;
+} ec_distribution_entry;
+EC_ASSERT_SIZE(ec_distribution_entry, 8);
+
 #endif

@@ -263,6 +263,19 @@ class Info(Case):
         line = self.assert_one_error(eclat("info", write_gltf(self.path("required.gltf"), scene)), 1)
         self.assertIn("EXT_of_another_world", line)
 
+    def test_cameras_say_where_they_stand(self):
+        # A quarter turn about y, at (5, 6, 7): a node's matrix, by columns. 5e5 more recentres the scene: it must not show.
+        for x in [5, 5e5]:
+            scene, _ = quad_scene()
+            scene["nodes"][0]["translation"] = [x, 0, 0]
+            scene["nodes"][1] = {"camera": 0, "translation": [x, 6, 7], "rotation": [0, 0.5 ** 0.5, 0, 0.5 ** 0.5]}
+            camera = self.info(write_gltf(self.path("turned.gltf"), scene))["cameras"][0]
+            for got, expected in zip(camera["matrix"], [0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, x, 6, 7, 1], strict=True):
+                self.assertAlmostEqual(got, expected, delta=1e-5)
+        scene["cameras"][0] = {"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 9}}
+        camera = self.info(write_gltf(self.path("orthographic.gltf"), scene))["cameras"][0]
+        self.assertEqual([camera["xmag"], camera["ymag"]], [3, 2])
+
     def test_no_light_and_no_camera_are_told(self):
         scene, _ = quad_scene(material={})
         del scene["cameras"], scene["nodes"][1]["camera"]
