@@ -258,8 +258,9 @@ EC_FN void surface_seeping(const geometry *g, const hit_point *h, lane_i m, surf
         s->below = v3_mul(s->below, material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, true).rgb);
         s->seeps *= material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION, false).a;
     }
+    s->seeps = s->metallic < 1.0f ? s->seeps : F(0.0f);
     lane_i bends = s->refracts;
-    s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->seeps > 0.0f) & (s->metallic < 1.0f));
+    s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->seeps > 0.0f));
     if (HAS(NESTED)) {
         lane_u here, there;
         surface_cross(g, material_quad(g, h, EC_MATERIAL_IOR), s->refracts & !bends & ((flags & EC_MATERIAL_NESTED) != 0u), s, &here, &there);
@@ -278,7 +279,7 @@ EC_FN void surface_film(const geometry *g, const hit_point *h, lane_i m, surface
         lane_f t = material_texture(g, h, m, EC_SLOT_IRIDESCENCE_THICKNESS, false).rgb.y; /* 1 where there is none */
         s->film_thickness = fma(t, q.d, (1.0f - t) * q.c);
     }
-    s->film = s->film_thickness > 0.0f ? s->film : F(0.0f);
+    s->film = ((s->film_thickness > 0.0f) & (s->film_ior > 1.0f)) ? s->film : F(0.0f);
 }
 
 /* Parameters of the metallic-roughness model with KHR_materials_specular, and of what lies over it. */
