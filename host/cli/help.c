@@ -100,6 +100,7 @@ static const char help_render[] =
     "  -h, --help                 show this\n"
     "      --json                 print one JSON object with everything measured instead of text\n"
     "  -q, --quiet                only warnings and errors (and what --json prints)\n"
+    "  -v, --verbose              also what calls for each effect, and the kernels and buffers that it makes\n"
     "      --version              show the version\n";
 
 static const char help_cost[] =
@@ -149,7 +150,7 @@ static const char help_info[] =
     "Usage: eclat info SCENE [options]\n"
     "\n"
     "Says what a glTF scene holds: geometry, materials, lights, cameras, extensions used and not supported, the effects it\n"
-    "calls for, the memory it will take, and how good its bounding-volume hierarchy is.\n"
+    "calls for and why, the memory it will take, and how good its bounding-volume hierarchy is.\n"
     "\n"
     "Options\n"
     "      --accel NAME   also build this acceleration structure (bvh2, bvh8, grid, kdtree, none, or all), send rays\n"

@@ -22,6 +22,7 @@ FLAG_SETTER(adaptive, options.adaptive)
 FLAG_SETTER(all_effects, options.all_effects)
 FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
+FLAG_SETTER(verbose, verbose)
 TEXT_SETTER(camera, camera)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
@@ -110,6 +111,7 @@ static const ec_option options[] = {
     {"terminator", 0, true, set_terminator},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
+    {"verbose", 'v', false, set_verbose},
     {"wave", 0, true, set_wave},
 };
 

@@ -39,6 +39,13 @@ static bool is_shown(const ec_scene *scene, uint32_t material)
     return false;
 }
 
+static bool has_smooth_normals(const ec_scene *scene)
+{
+    ec_effects effects;
+    ec_pack_effects(scene, &effects);
+    return effects.bits & EC_FEATURE_SMOOTH_NORMALS;
+}
+
 bool ec_cost_has_effect(const ec_scene *scene, ec_cost_effect effect)
 {
     switch (effect.kind) {
@@ -46,7 +53,7 @@ bool ec_cost_has_effect(const ec_scene *scene, ec_cost_effect effect)
     case EC_EFFECT_INDIRECT: return true;
     case EC_EFFECT_ENVIRONMENT: return scene->has_environment;
     case EC_EFFECT_PUNCTUAL: return scene->light_count > 0;
-    case EC_EFFECT_SMOOTH_NORMALS: return ec_pack_features(scene) & EC_FEATURE_SMOOTH_NORMALS;
+    case EC_EFFECT_SMOOTH_NORMALS: return has_smooth_normals(scene);
     case EC_EFFECT_LAMPS:
         return material_has(&scene->materials[effect.material], effect.kind) && is_shown(scene, effect.material);
     default: break;

@@ -1,5 +1,7 @@
-/* Which effects does the scene call for? Only materials that some triangle uses count. */
+/* Which effects does the scene call for, and why? Only materials that some triangle uses count. */
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "pack/pack.h"
@@ -32,75 +34,149 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
 }
 
-static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
+/* A material, and what it calls for. */
+typedef struct scan {
+    const ec_scene *scene;
+    const ec_material *m;
+    char name[64];
+    ec_effects found;
+} scan;
+
+static void name_material(const ec_scene *scene, uint32_t index, char *text, size_t size)
 {
+    const char *name = scene->materials[index].name;
+    if (name && *name) snprintf(text, size, "material %u \"%.36s\"", index, name);
+    else snprintf(text, size, "material %u", index);
+}
+
+/* A line that calls for an effect says what the material has that calls for it. */
+__attribute__((format(printf, 3, 4))) static void call(scan *s, uint64_t feature, const char *has, ...)
+{
+    char text[EC_EFFECT_WHY];
+    va_list args;
+    va_start(args, has);
+    vsnprintf(text, sizeof text, has, args);
+    va_end(args);
+    ec_effects_call(&s->found, feature, "%s %s", s->name, text);
+}
+
+static bool has_texture(const scan *s, int slot) { return s->m->textures[slot].texture >= 0; }
+static bool calls_for(const scan *s, uint64_t features) { return s->found.bits & features; }
+
+static void scan_emission(scan *s)
+{
+    if (max3(s->m->emission) == 0.0f) return;
+    call(s, EC_FEATURE_EMISSION, "emits");
+    call(s, EC_FEATURE_AREA_LIGHTS, "emits");
+    if (has_texture(s, EC_SLOT_EMISSION)) call(s, EC_FEATURE_EMISSION_TEXTURE, "has an emissive texture");
+}
+
+static void scan_transmission(scan *s)
+{
+    const ec_material *m = s->m;
+    if (!transmits(s->scene, m)) return;
+    call(s, EC_FEATURE_TRANSMISSION, "has transmission %g", (double)m->transmission);
+    if (has_texture(s, EC_SLOT_TRANSMISSION)) call(s, EC_FEATURE_TRANSMISSION_TEXTURE, "has a transmission texture");
+    if (ec_refracts(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
+}
+
+static void scan_coat(scan *s)
+{
+    const ec_material *m = s->m;
     float least, most;
-    ec_texture_range(scene, &m->textures[EC_SLOT_CLEARCOAT], 0, &least, &most);
-    if (m->coat * most == 0.0f) return 0;
-    uint64_t f = EC_FEATURE_CLEARCOAT;
-    if (m->textures[EC_SLOT_CLEARCOAT].texture >= 0 || m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS].texture >= 0) f |= EC_FEATURE_CLEARCOAT_TEXTURE;
-    if (m->textures[EC_SLOT_CLEARCOAT_NORMAL].texture >= 0) f |= EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE;
-    ec_texture_range(scene, &m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS], 1, &least, &most);
-    if (is_smooth(m->coat_roughness * least)) f |= EC_FEATURE_SMOOTH;
-    return f;
+    ec_texture_range(s->scene, &m->textures[EC_SLOT_CLEARCOAT], 0, &least, &most);
+    if (m->coat * most == 0.0f) return;
+    call(s, EC_FEATURE_CLEARCOAT, "has clear coat %g", (double)m->coat);
+    if (has_texture(s, EC_SLOT_CLEARCOAT) || has_texture(s, EC_SLOT_CLEARCOAT_ROUGHNESS))
+        call(s, EC_FEATURE_CLEARCOAT_TEXTURE, "has a texture of its clear coat");
+    if (has_texture(s, EC_SLOT_CLEARCOAT_NORMAL)) call(s, EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE, "has a normal map of its clear coat");
+    ec_texture_range(s->scene, &m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS], 1, &least, &most);
+    if (is_smooth(m->coat_roughness * least)) call(s, EC_FEATURE_SMOOTH, "has a coat of roughness %g", (double)(m->coat_roughness * least));
 }
 
 /* A texture's channels are multiplied by the colour's: where each is 0 on one side or the other there is no sheen. */
-static uint64_t sheen_features(const ec_scene *scene, const ec_material *m)
+static void scan_sheen(scan *s)
 {
     bool any = false;
     for (int k = 0; k < 3; k++) {
         float least, most;
-        ec_texture_range(scene, &m->textures[EC_SLOT_SHEEN_COLOR], k, &least, &most);
-        any |= m->sheen[k] * most > 0.0f;
+        ec_texture_range(s->scene, &s->m->textures[EC_SLOT_SHEEN_COLOR], k, &least, &most);
+        any |= s->m->sheen[k] * most > 0.0f;
     }
-    bool textured = m->textures[EC_SLOT_SHEEN_COLOR].texture >= 0 || m->textures[EC_SLOT_SHEEN_ROUGHNESS].texture >= 0;
-    return any ? EC_FEATURE_SHEEN | (textured ? EC_FEATURE_SHEEN_TEXTURE : 0) : 0;
+    if (!any) return;
+    call(s, EC_FEATURE_SHEEN, "has sheen");
+    if (has_texture(s, EC_SLOT_SHEEN_COLOR) || has_texture(s, EC_SLOT_SHEEN_ROUGHNESS))
+        call(s, EC_FEATURE_SHEEN_TEXTURE, "has a texture of its sheen");
 }
 
 /* At roughness 1 the lobe is as wide as it gets in all directions. */
-static uint64_t anisotropy_features(const ec_scene *scene, const ec_material *m)
+static void scan_anisotropy(scan *s)
 {
+    const ec_material *m = s->m;
     float least, most, unused;
-    ec_texture_range(scene, &m->textures[EC_SLOT_ANISOTROPY], 2, &unused, &most);
-    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &unused);
-    if (m->anisotropy * most == 0.0f || m->roughness * least == 1.0f) return 0;
-    if (transmits(scene, m) && m->metallic < 1.0f && m->textures[EC_SLOT_TRANSMISSION].texture < 0 &&
-        m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture < 0) return 0; /* glass is as rough in all directions */
-    return EC_FEATURE_ANISOTROPY | (m->textures[EC_SLOT_ANISOTROPY].texture >= 0 ? EC_FEATURE_ANISOTROPY_TEXTURE : 0);
+    ec_texture_range(s->scene, &m->textures[EC_SLOT_ANISOTROPY], 2, &unused, &most);
+    ec_texture_range(s->scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &unused);
+    if (m->anisotropy * most == 0.0f || m->roughness * least == 1.0f) return;
+    if (calls_for(s, EC_FEATURE_TRANSMISSION) && m->metallic < 1.0f && !has_texture(s, EC_SLOT_TRANSMISSION) &&
+        !has_texture(s, EC_SLOT_METALLIC_ROUGHNESS)) return; /* glass is as rough in all directions */
+    call(s, EC_FEATURE_ANISOTROPY, "has anisotropy %g", (double)m->anisotropy);
+    if (has_texture(s, EC_SLOT_ANISOTROPY)) call(s, EC_FEATURE_ANISOTROPY_TEXTURE, "has an anisotropy texture");
 }
 
-static uint64_t material_features(const ec_scene *scene, const ec_material *m)
+static void scan_specular(scan *s)
 {
-    uint64_t f = 0;
-    if (m->unlit) return EC_FEATURE_UNLIT | (m->textures[EC_SLOT_BASE_COLOR].texture >= 0 ? EC_FEATURE_BASE_COLOR_TEXTURE : 0);
-    if (max3(m->emission) > 0.0f) f |= EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS;
-    if (max3(m->emission) > 0.0f && m->textures[EC_SLOT_EMISSION].texture >= 0) f |= EC_FEATURE_EMISSION_TEXTURE;
-    if (transmits(scene, m)) {
-        f |= EC_FEATURE_TRANSMISSION;
-        if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
-        if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
+    const ec_material *m = s->m;
+    if (m->metallic > 0.0f) call(s, EC_FEATURE_SPECULAR, "has metallic %g", (double)m->metallic);
+    else if (m->specular > 0.0f && max3(m->specular_color) > 0.0f) call(s, EC_FEATURE_SPECULAR, "has specular reflection");
+    else if (calls_for(s, EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN))
+        call(s, EC_FEATURE_SPECULAR, "has transmission, clear coat or sheen");
+    else return;
+    if (may_be_smooth(s->scene, m, calls_for(s, EC_FEATURE_TRANSMISSION) && ec_refracts(m)))
+        call(s, EC_FEATURE_SMOOTH, "reflects or refracts in one direction, by its roughness or ior");
+    if (has_texture(s, EC_SLOT_METALLIC_ROUGHNESS))
+        call(s, EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE, "has a metallic-roughness texture");
+    if (has_texture(s, EC_SLOT_SPECULAR) || has_texture(s, EC_SLOT_SPECULAR_COLOR))
+        call(s, EC_FEATURE_SPECULAR_TEXTURE, "has a specular texture");
+    scan_anisotropy(s);
+}
+
+static void scan_material(scan *s)
+{
+    const ec_material *m = s->m;
+    if (has_texture(s, EC_SLOT_BASE_COLOR)) call(s, EC_FEATURE_BASE_COLOR_TEXTURE, "has a base colour texture");
+    if (m->unlit) {
+        call(s, EC_FEATURE_UNLIT, "is unlit");
+        return;
     }
-    f |= coat_features(scene, m) | sheen_features(scene, m);
-    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN))) {
-        f |= EC_FEATURE_SPECULAR;
-        if (may_be_smooth(scene, m, (f & EC_FEATURE_TRANSMISSION) && ec_refracts(m))) f |= EC_FEATURE_SMOOTH;
-        if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
-        if (m->textures[EC_SLOT_SPECULAR].texture >= 0 || m->textures[EC_SLOT_SPECULAR_COLOR].texture >= 0) f |= EC_FEATURE_SPECULAR_TEXTURE;
+    scan_emission(s);
+    scan_transmission(s);
+    scan_coat(s);
+    scan_sheen(s);
+    scan_specular(s);
+    if (has_texture(s, EC_SLOT_NORMAL)) call(s, EC_FEATURE_NORMAL_TEXTURE, "has a normal map");
+    if (!m->double_sided) call(s, EC_FEATURE_CULLING, "is single-sided");
+    bool may_be_open = m->base_color[3] < 1.0f || has_texture(s, EC_SLOT_BASE_COLOR) || s->scene->colors;
+    if (m->alpha_mode != EC_ALPHA_OPAQUE && may_be_open) call(s, EC_FEATURE_ALPHA, "has alpha");
+}
+
+static void scan_materials(const ec_scene *scene, ec_effects *effects)
+{
+    bool *used = calloc(scene->material_count, sizeof *used);
+    for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        if (used && !used[m]) continue;
+        scan s = {.scene = scene, .m = &scene->materials[m]};
+        name_material(scene, m, s.name, sizeof s.name);
+        scan_material(&s);
+        ec_effects_add(effects, &s.found);
     }
-    if (f & EC_FEATURE_SPECULAR) f |= anisotropy_features(scene, m);
-    if (m->textures[EC_SLOT_BASE_COLOR].texture >= 0) f |= EC_FEATURE_BASE_COLOR_TEXTURE;
-    if (m->textures[EC_SLOT_NORMAL].texture >= 0) f |= EC_FEATURE_NORMAL_TEXTURE;
-    if (!m->double_sided) f |= EC_FEATURE_CULLING;
-    bool may_be_open = m->base_color[3] < 1.0f || m->textures[EC_SLOT_BASE_COLOR].texture >= 0 || scene->colors;
-    if (m->alpha_mode != EC_ALPHA_OPAQUE && may_be_open) f |= EC_FEATURE_ALPHA;
-    return f;
+    free(used);
 }
 
 /* Does any vertex normal differ from its triangle's? Otherwise interpolating them would change nothing. */
-static bool has_smooth_normals(const ec_scene *scene)
+static void scan_normals(const ec_scene *scene, ec_effects *effects)
 {
-    if (!scene->normals) return false;
+    if (!scene->normals) return;
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         const uint32_t *i = scene->indices + 3 * (size_t)t;
         const float *a = scene->positions + 3 * (size_t)i[0], *b = scene->positions + 3 * (size_t)i[1],
@@ -116,44 +192,57 @@ static bool has_smooth_normals(const ec_scene *scene)
             const float *m = scene->normals + 3 * (size_t)i[v];
             if (m[0] == 0.0f && m[1] == 0.0f && m[2] == 0.0f) continue;
             /* Against the winding is flat as well: the kernels turn it round. 1e-6 is 0.08 degrees. */
-            if (fabs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) < length * (1.0 - 1e-6)) return true;
+            if (fabs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) < length * (1.0 - 1e-6)) {
+                char name[64];
+                name_material(scene, scene->triangle_material[t], name, sizeof name);
+                ec_effects_call(effects, EC_FEATURE_SMOOTH_NORMALS, "the surface of %s has vertex normals", name);
+                return;
+            }
         }
     }
-    return false;
 }
 
-static bool has_vertex_colors(const ec_scene *scene)
+static void scan_colors(const ec_scene *scene, ec_effects *effects)
 {
-    for (size_t i = 0; scene->colors && i < 4 * (size_t)scene->vertex_count; i++)
-        if (scene->colors[i] != 1.0f) return true;
-    return false;
-}
-
-static bool has_deep_images(const ec_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->image_count; i++)
-        if (scene->images[i].rgba16) return true;
-    return false;
-}
-
-uint64_t ec_pack_features(const ec_scene *scene)
-{
-    uint64_t f = 0;
-    bool *used = calloc(scene->material_count, sizeof *used);
-    for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
-    for (uint32_t m = 0; m < scene->material_count; m++)
-        if (!used || used[m]) f |= material_features(scene, &scene->materials[m]);
-    free(used);
-    if (scene->light_count) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
-    if (scene->has_environment) {
-        const ec_environment *e = &scene->environment;
-        if (e->rgb)
-            f |= EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP;
-        else if (max3(e->constant) > 0.0f)
-            f |= EC_FEATURE_ENVIRONMENT;
+    for (size_t i = 0; scene->colors && i < 4 * (size_t)scene->vertex_count; i++) {
+        if (scene->colors[i] == 1.0f) continue;
+        ec_effects_call(effects, EC_FEATURE_VERTEX_COLORS, "vertices have colours");
+        return;
     }
-    if (has_smooth_normals(scene)) f |= EC_FEATURE_SMOOTH_NORMALS;
-    if (has_vertex_colors(scene)) f |= EC_FEATURE_VERTEX_COLORS;
-    if ((f & EC_FEATURES_TEXTURED) && has_deep_images(scene)) f |= EC_FEATURE_FLOAT_TEXTURE;
-    return f;
+}
+
+static void scan_lights(const ec_scene *scene, ec_effects *effects)
+{
+    static const char *const types[] = {[EC_LIGHT_POINT] = "point", [EC_LIGHT_SPOT] = "spot", [EC_LIGHT_DIRECTIONAL] = "directional"};
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const ec_light *light = &scene->lights[i];
+        ec_effects one = {0};
+        if (light->name) ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light \"%.60s\"", types[light->type], light->name);
+        else ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light %u", types[light->type], i);
+        ec_effects_add(effects, &one);
+    }
+    const ec_environment *e = &scene->environment;
+    if (!scene->has_environment) return;
+    if (e->rgb) {
+        ec_effects_call(effects, EC_FEATURE_ENVIRONMENT, "the environment map shines");
+        ec_effects_call(effects, EC_FEATURE_ENVIRONMENT_MAP, "the environment is a map of %u x %u", e->width, e->height);
+    } else if (max3(e->constant) > 0.0f) {
+        ec_effects_call(effects, EC_FEATURE_ENVIRONMENT, "the environment shines");
+    }
+}
+
+static void scan_images(const ec_scene *scene, ec_effects *effects)
+{
+    for (uint32_t i = 0; (effects->bits & EC_FEATURES_TEXTURED) && i < scene->image_count; i++)
+        if (scene->images[i].rgba16) ec_effects_call(effects, EC_FEATURE_FLOAT_TEXTURE, "image %u has more than 8 bits", i);
+}
+
+void ec_pack_effects(const ec_scene *scene, ec_effects *effects)
+{
+    *effects = (ec_effects){0};
+    scan_materials(scene, effects);
+    scan_lights(scene, effects);
+    scan_normals(scene, effects);
+    scan_colors(scene, effects);
+    scan_images(scene, effects);
 }

@@ -85,7 +85,7 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
 ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     memset(pack, 0, sizeof *pack);
-    pack->features = ec_pack_features(scene);
+    ec_pack_effects(scene, &pack->effects);
     ec_result result = pack_prims(scene, pack, err);
     if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
     if (result == EC_OK) result = pack_materials(scene, pack, err);

@@ -6,12 +6,13 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "pack/effects.h"
 #include "scene/scene.h"
 #include "shared/features.h"
 #include "shared/scene_buffers.h"
 
 typedef struct ec_pack {
-    uint64_t features;             /* ec_feature bits that the scene calls for (the sampler's bit is the caller's) */
+    ec_effects effects;            /* that the scene calls for (those that options call for are the caller's) */
     uint32_t prim_count;
     ec_prim *prims;
     uint32_t material_count;
@@ -36,7 +37,7 @@ ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err);
 void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 
 /* The steps, in order; each fills its part of pack. */
-uint64_t ec_pack_features(const ec_scene *scene);
+void ec_pack_effects(const ec_scene *scene, ec_effects *effects);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);

@@ -75,10 +75,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
         ec_pack_free(&pack);
         return result;
     }
-    const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
-    p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features | options->more_effects;
-    if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
-    if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
+    ec_pipeline_effects(options, &pack, &p->effects);
     ec_params *params = &p->params;
     set_camera(scene, options, params);
     params->width = options->width;
@@ -89,8 +86,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->cutoff = (float)options->cutoff;
     set_roulette(options->survival, params);
     params->sample = options->sample;
-    bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
-    params->light_count = joins ? pack.light_count : 0;
+    params->light_count = ec_pipeline_joins(options, &pack) ? pack.light_count : 0;
     params->environment_width = pack.environment_width;
     params->environment_height = pack.environment_height;
     params->environment_pmf = pack.environment_pmf;
@@ -111,7 +107,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     stats->lanes = p->lanes;
     stats->wave = p->wave;
     stats->batch = batch;
-    ec_feature_names(p->features, stats->effects, sizeof stats->effects);
+    stats->effects = p->effects;
     return result;
 }
 

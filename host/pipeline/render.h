@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cl/cl.h"
 #include "film/film.h"
+#include "pipeline/effects.h"
 #include "scene/scene.h"
 #include "shared/params.h"
 
@@ -89,7 +90,7 @@ typedef struct ec_render_stats {
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
     uint32_t lanes, wave, batch;
     uint64_t device_bytes;        /* peak of all buffers */
-    char effects[512];            /* names of the effects built in, blank separated */
+    ec_render_effects effects;    /* which were called for, why, and what came of it */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */
     uint32_t cache_hits, cache_misses;
 } ec_render_stats;
@@ -102,9 +103,8 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
 /* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);
 
-/* Bytes of device memory the scene itself will take (geometry, BVH of ref_count references, textures, lights), and the effects
- * it calls for. For `eclat info`. */
-ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, char *effects, size_t effects_size,
-                            ec_error *err);
+/* Bytes of device memory the scene itself will take (geometry, BVH of ref_count references, textures, lights), and what a render
+ * by default makes of its effects. For `eclat info`. */
+ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, ec_render_effects *effects, ec_error *err);
 
 #endif

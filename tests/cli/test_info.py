@@ -167,9 +167,52 @@ class Info(Case):
             found = self.layers({"KHR_materials_anisotropy": members}, *texels, roughness=0.5)
             self.assertEqual(found & {long, textured}, expected)
 
+    def reasons(self, scene, *arguments):
+        run = self.assert_ok(eclat("info", "--json", *arguments, write_gltf(self.path("why.gltf"), scene)))
+        report = json.loads(run.stdout)
+        rows = {row["name"]: row for row in report["effect_list"]}
+        self.assertEqual([name for name in rows if rows[name]["called_for"]], report["effects"])
+        for row in rows.values():  # why, where and what for: all of it or nothing
+            self.assertEqual(row["called_for"], bool(row["why"]))
+            self.assertEqual(row["called_for"], bool(row["kernels"]), row)
+            self.assertEqual(bool(row["buffers"]), row["buffer_bytes"] > 0, row)
+            self.assertLessEqual(set(row["kernels"]), set(report["kernels"]))
+        return report, rows
+
+    def test_each_effect_says_why(self):
+        scene, _ = quad_scene(material={"name": "velvet", "pbrMetallicRoughness": {"metallicFactor": 0},
+                                        "extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0, 1]}}})
+        report, rows = self.reasons(scene)
+        self.assertEqual(rows["sheen"]["why"], 'material 0 "velvet" has sheen')
+        self.assertEqual(rows["sheen"]["kernels"], ["shade"])
+        self.assertEqual(rows["sheen"]["buffers"], [])
+        self.assertEqual(rows["sobol-sampler"]["why"], "--sampler sobol")
+        self.assertEqual(rows["environment"]["why"], "the environment shines")  # the white one of a scene without light
+        self.assertIsNone(rows["clearcoat"]["why"])
+        self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "connect", "accumulate", "features"])
+
+    def test_lights_by_their_nodes(self):
+        scene, _ = quad_scene(material={})
+        light = [{"type": "point"}, {"type": "spot"}]
+        scene["extensions"] = {"KHR_lights_punctual": {"lights": light}}
+        scene["nodes"] += [{"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                           {"name": "torch", "extensions": {"KHR_lights_punctual": {"light": 1}}}]
+        scene["scenes"][0]["nodes"] = [0, 1, 2, 3]
+        _, rows = self.reasons(scene)
+        self.assertEqual(rows["punctual-lights"]["why"], 'point light "bulb", and 1 other')
+        # two lights of ec_light_data and of ec_alias
+        self.assertEqual(rows["punctual-lights"]["buffers"], ["lights", "light table"])
+        self.assertEqual(rows["punctual-lights"]["buffer_bytes"], 2 * (64 + 8))
+
+    def test_no_light_to_join_no_shadow_rays(self):
+        scene, _ = quad_scene(material={"extensions": {"KHR_materials_unlit": {}}})
+        report, rows = self.reasons(scene)
+        self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "accumulate", "features"])
+        self.assertEqual(rows["unlit"]["why"], "material 0 is unlit")
+
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))
-        for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "effects",
+        for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "kernels", "effects",
                      "memory", "BVH"]:
             self.assertRegex(run.stdout, rf"(?m)^{word} ")
 

@@ -39,6 +39,21 @@ class Files(Render):
         self.assertRegex(run.stdout, r"error .* at 2 samples a pixel in .* samples/s")
         self.assertRegex(run.stdout, r"(?m)^invalid  0 samples$")
 
+    def test_effects_are_told_in_all_places(self):
+        report = self.render(*SMALL, "-o", "a.exr", scene=CORNELL)
+        attributes, _ = read_exr(self.path("a.exr"))
+        rows = [row for row in report["effect_list"] if row["called_for"]]
+        self.assertEqual(report["effects"], ["emission", "area-lights", "back-face-culling", "sobol-sampler"])
+        self.assertEqual([row["name"] for row in rows], report["effects"])
+        self.assertEqual(rows[0]["why"], 'material 3 "lamp" emits')
+        self.assertEqual(attributes["eclat.effects"].split(), report["effects"])
+        self.assertEqual(attributes["eclat.effects.why"].splitlines(), [f"{row['name']}: {row['why']}" for row in rows])
+        self.assertEqual(attributes["eclat.kernels"].split(", "), report["kernels"])
+        for option, pattern in [("-q", r"\A\Z"), ("-v", r'(?m)^  emission +material 3 "lamp" emits; in shade$'),
+                                ("--exposure=0", r"(?m)^effects  4 of \d+: emission area-lights back-face-culling sobol-sampler$")]:
+            run = self.assert_ok(eclat("render", CORNELL, *SMALL, option, "-o", "a.exr", cwd=self.folder))
+            self.assertRegex(run.stdout, pattern)
+
     def test_exr_has_the_channels_and_all_that_is_needed_to_render_it_again(self):
         report = self.render(*SMALL, "-o", "a.exr", "--seed", "18446744073709551615")
         attributes, planes = read_exr(self.path("a.exr"))
