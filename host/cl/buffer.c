@@ -7,7 +7,8 @@
 
 static double mib(uint64_t bytes) { return (double)bytes / 1048576.0; }
 
-static ec_result check_limits(const ec_cl *cl, const char *label, uint64_t bytes, ec_error *err) {
+static ec_result check_limits(const ec_cl *cl, const char *label, uint64_t bytes, ec_error *err)
+{
     uint64_t used = cl->allocated_bytes, all = cl->info.memory_bytes, left = used < all ? all - used : 0;
     if (bytes <= cl->info.max_allocation_bytes && bytes <= left) return EC_OK;
     if (bytes > cl->info.max_allocation_bytes)
@@ -21,7 +22,8 @@ static ec_result check_limits(const ec_cl *cl, const char *label, uint64_t bytes
     return EC_FAILED;
 }
 
-static ec_result refused(const ec_cl *cl, const char *label, uint64_t bytes, cl_int code, ec_error *err) {
+static ec_result refused(const ec_cl *cl, const char *label, uint64_t bytes, cl_int code, ec_error *err)
+{
     char what[128];
     snprintf(what, sizeof what, "%s, %.1f MiB beside %.1f in use", label, mib(bytes), mib(cl->allocated_bytes));
     return ec_cl_check(code, "clCreateBuffer", what, err);
@@ -52,7 +54,8 @@ ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const v
     return EC_OK;
 }
 
-void ec_buffer_release(ec_cl *cl, cl_mem *buffer) {
+void ec_buffer_release(ec_cl *cl, cl_mem *buffer)
+{
     if (!*buffer) return;
     size_t size = 0;
     clGetMemObjectInfo(*buffer, CL_MEM_SIZE, sizeof size, &size, NULL);
@@ -61,20 +64,23 @@ void ec_buffer_release(ec_cl *cl, cl_mem *buffer) {
     *buffer = NULL;
 }
 
-ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err) {
+ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err)
+{
     if (bytes == 0) return EC_OK;
     cl_int code = clEnqueueReadBuffer(cl->queue, buffer, CL_TRUE, offset, bytes, to, 0, NULL, NULL);
     EC_TRY(ec_cl_check(code, "clEnqueueReadBuffer", NULL, err));
     return ec_cl_landed(cl, err);
 }
 
-ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err) {
+ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err)
+{
     if (bytes == 0) return EC_OK;
     cl_int code = clEnqueueWriteBuffer(cl->queue, buffer, CL_TRUE, offset, bytes, from, 0, NULL, NULL);
     return ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err);
 }
 
-ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err) {
+ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err)
+{
     if (bytes == 0) return EC_OK;
     const cl_uint zero = 0;
     cl_event event;

@@ -8,7 +8,8 @@
 
 #define EC_LOG_LINES 15
 
-char *ec_build_log(const ec_cl *cl, cl_program program) {
+char *ec_build_log(const ec_cl *cl, cl_program program)
+{
     size_t size = 0;
     if (clGetProgramBuildInfo(program, cl->info.id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) != CL_SUCCESS || size < 2)
         return NULL;
@@ -20,14 +21,16 @@ char *ec_build_log(const ec_cl *cl, cl_program program) {
     return NULL;
 }
 
-static bool is_error(const char *line, size_t length) {
+static bool is_error(const char *line, size_t length)
+{
     for (size_t i = 0; i + 5 <= length; i++)
         if (memcmp(line + i, "error", 5) == 0) return true;
     return false;
 }
 
 /* Appends up to *lines lines of the log that are errors, or that are not. */
-static void append_lines(char *text, size_t size, const char *log, bool errors, int *lines) {
+static void append_lines(char *text, size_t size, const char *log, bool errors, int *lines)
+{
     size_t used = strlen(text);
     while (*log && *lines > 0) {
         size_t length = strcspn(log, "\n");
@@ -44,7 +47,8 @@ static void append_lines(char *text, size_t size, const char *log, bool errors, 
     }
 }
 
-ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log, cl_int code, ec_error *err) {
+ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log, cl_int code, ec_error *err)
+{
     ec_fail(err, "kernels %s do not compile on %s: %s (%d); ECLAT_DUMP_KERNELS=DIR writes source and full log there",
             label, cl->info.name, ec_cl_error_name(code), code);
     if (!err || !log) return EC_FAILED;
@@ -54,7 +58,8 @@ ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log,
     return EC_FAILED;
 }
 
-static void write_file(const char *folder, const char *label, const char *suffix, const char *first, const char *rest) {
+static void write_file(const char *folder, const char *label, const char *suffix, const char *first, const char *rest)
+{
     char path[4096];
     if (snprintf(path, sizeof path, "%s/%s.%s", folder, label, suffix) >= (int)sizeof path) return;
     FILE *file = fopen(path, "w");
@@ -66,7 +71,8 @@ static void write_file(const char *folder, const char *label, const char *suffix
     fclose(file);
 }
 
-bool ec_build_log_dump(const char *label, const char *source, const char *options, const char *log) {
+bool ec_build_log_dump(const char *label, const char *source, const char *options, const char *log)
+{
     const char *folder = getenv("ECLAT_DUMP_KERNELS");
     if (!folder || !*folder) return false;
     if (!source) return true;

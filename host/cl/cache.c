@@ -20,7 +20,8 @@ typedef struct cache_header {
     uint64_t bytes;       /* of the binary */
 } cache_header;
 
-static void sha256(const unsigned char *data, size_t bytes, uint8_t digest[32]) {
+static void sha256(const unsigned char *data, size_t bytes, uint8_t digest[32])
+{
     SHA2_CTX context;
     SHA256Init(&context);
     SHA256Update(&context, data, bytes);
@@ -28,13 +29,15 @@ static void sha256(const unsigned char *data, size_t bytes, uint8_t digest[32]) 
 }
 
 /* The length goes in front: otherwise moving a character from one text to the next would leave the key as it is. */
-static void add_text(SHA2_CTX *context, const char *text) {
+static void add_text(SHA2_CTX *context, const char *text)
+{
     uint64_t length = strlen(text);
     SHA256Update(context, (const uint8_t *)&length, sizeof length);
     SHA256Update(context, (const uint8_t *)text, length);
 }
 
-ec_cache_key ec_cache_key_of(const ec_device_info *device, const char *source, const char *options) {
+ec_cache_key ec_cache_key_of(const ec_device_info *device, const char *source, const char *options)
+{
     const char *parts[] = {EC_CACHE_MAGIC,  source,         options,
                            device->name,    device->vendor, device->version,
                            device->driver,  device->platform_name, device->platform_version};
@@ -47,7 +50,8 @@ ec_cache_key ec_cache_key_of(const ec_device_info *device, const char *source, c
     return key;
 }
 
-bool ec_cache_folder(const char *chosen, char *path, size_t size) {
+bool ec_cache_folder(const char *chosen, char *path, size_t size)
+{
     const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
     int length;
     if (chosen) length = snprintf(path, size, "%s", chosen);
@@ -57,7 +61,8 @@ bool ec_cache_folder(const char *chosen, char *path, size_t size) {
     return length > 0 && (size_t)length < size;
 }
 
-static bool read_all(int file, void *to, size_t bytes) {
+static bool read_all(int file, void *to, size_t bytes)
+{
     for (size_t done = 0; done < bytes;) {
         ssize_t got = read(file, (char *)to + done, bytes - done);
         if (got < 0 && errno == EINTR) continue;
@@ -67,7 +72,8 @@ static bool read_all(int file, void *to, size_t bytes) {
     return true;
 }
 
-static bool write_all(int file, const void *from, size_t bytes) {
+static bool write_all(int file, const void *from, size_t bytes)
+{
     for (size_t done = 0; done < bytes;) {
         ssize_t put = write(file, (const char *)from + done, bytes - done);
         if (put < 0 && errno == EINTR) continue;
@@ -77,13 +83,15 @@ static bool write_all(int file, const void *from, size_t bytes) {
     return true;
 }
 
-static bool header_fits(const cache_header *header, const ec_cache_key *key, uint64_t file_bytes) {
+static bool header_fits(const cache_header *header, const ec_cache_key *key, uint64_t file_bytes)
+{
     return memcmp(header->magic, EC_CACHE_MAGIC, sizeof header->magic) == 0 &&
            memcmp(header->key, key->bytes, sizeof header->key) == 0 && header->bytes > 0 &&
            header->bytes <= EC_CACHE_LARGEST && file_bytes == sizeof *header + header->bytes;
 }
 
-static bool read_entry(int file, const ec_cache_key *key, unsigned char **binary, size_t *bytes) {
+static bool read_entry(int file, const ec_cache_key *key, unsigned char **binary, size_t *bytes)
+{
     cache_header header;
     struct stat status;
     if (fstat(file, &status) != 0 || !read_all(file, &header, sizeof header)) return false;
@@ -104,7 +112,8 @@ static bool read_entry(int file, const ec_cache_key *key, unsigned char **binary
     return true;
 }
 
-bool ec_cache_load(const char *folder, const ec_cache_key *key, unsigned char **binary, size_t *bytes) {
+bool ec_cache_load(const char *folder, const ec_cache_key *key, unsigned char **binary, size_t *bytes)
+{
     char path[4096];
     if (snprintf(path, sizeof path, "%s/%s.bin", folder, key->hex) >= (int)sizeof path) return false;
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* not to hang on a FIFO of that name */
@@ -115,7 +124,8 @@ bool ec_cache_load(const char *folder, const ec_cache_key *key, unsigned char **
 }
 
 /* mkdir -p, private as XDG asks. */
-static bool make_folders(const char *folder) {
+static bool make_folders(const char *folder)
+{
     char path[4096];
     if (snprintf(path, sizeof path, "%s", folder) >= (int)sizeof path) return false;
     for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
@@ -126,7 +136,8 @@ static bool make_folders(const char *folder) {
     return mkdir(path, 0700) == 0 || errno == EEXIST;
 }
 
-bool ec_cache_store(const char *folder, const ec_cache_key *key, const unsigned char *binary, size_t bytes) {
+bool ec_cache_store(const char *folder, const ec_cache_key *key, const unsigned char *binary, size_t bytes)
+{
     char path[4096], temporary[4096];
     if (snprintf(path, sizeof path, "%s/%s.bin", folder, key->hex) >= (int)sizeof path ||
         snprintf(temporary, sizeof temporary, "%s/.%.16s.XXXXXX", folder, key->hex) >= (int)sizeof temporary)

@@ -6,7 +6,8 @@
 
 #include "cl/cl.h"
 
-static bool contains(const char *text, const char *part) {
+static bool contains(const char *text, const char *part)
+{
     size_t length = strlen(part);
     for (; *text; text++)
         if (strncasecmp(text, part, length) == 0) return true;
@@ -16,7 +17,8 @@ static bool contains(const char *text, const char *part) {
 static bool usable(const ec_device_info *device) { return device->available && device->compiler_available; }
 
 /* "0: pthread-AMD EPYC, 1: NVIDIA H200": what there is, for a message. */
-static void list_names(const ec_device_info *devices, uint32_t count, char *text, size_t size) {
+static void list_names(const ec_device_info *devices, uint32_t count, char *text, size_t size)
+{
     size_t used = 0;
     text[0] = 0;
     for (uint32_t i = 0; i < count && used < size; i++)
@@ -25,7 +27,8 @@ static void list_names(const ec_device_info *devices, uint32_t count, char *text
 
 /* A number is an index if there is one like it, else part of a name such as "3090". The platform's name counts too, but
  * after the devices' own: "pocl" and "intel" mean something to users. */
-static bool find(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index) {
+static bool find(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index)
+{
     char *end;
     unsigned long number = strtoul(id, &end, 10);
     if (id[0] >= '0' && id[0] <= '9' && *end == 0 && number < count) {
@@ -39,7 +42,8 @@ static bool find(const ec_device_info *devices, uint32_t count, const char *id, 
     return false;
 }
 
-static bool first_of(const ec_device_info *devices, uint32_t count, cl_device_type type, uint32_t *index) {
+static bool first_of(const ec_device_info *devices, uint32_t count, cl_device_type type, uint32_t *index)
+{
     for (*index = 0; *index < count; ++*index)
         if ((devices[*index].type & type) && usable(&devices[*index])) return true;
     return false;
@@ -73,7 +77,8 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
     return EC_OK;
 }
 
-ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err) {
+ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err)
+{
     ec_device_info *devices = NULL;
     uint32_t count = 0, chosen = 0;
     EC_TRY(ec_devices_list(&devices, &count, err));

@@ -4,7 +4,8 @@
 #include "cl/cl.h"
 #include "cl/kept.h"
 
-ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err) {
+ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err)
+{
     memset(cl, 0, sizeof *cl);
     cl->info = *info;
     const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)info->platform, 0};
@@ -17,7 +18,8 @@ ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err) {
     return result;
 }
 
-void ec_cl_close(ec_cl *cl) {
+void ec_cl_close(ec_cl *cl)
+{
     ec_cl_forget_launches(cl);
     ec_kept_release(cl);
     if (cl->queue) clReleaseCommandQueue(cl->queue);
@@ -26,7 +28,8 @@ void ec_cl_close(ec_cl *cl) {
     cl->context = NULL;
 }
 
-ec_result ec_cl_finish(ec_cl *cl, ec_error *err) {
+ec_result ec_cl_finish(ec_cl *cl, ec_error *err)
+{
     EC_TRY(ec_cl_check(clFinish(cl->queue), "clFinish", cl->info.name, err));
     return ec_cl_landed(cl, err);
 }

@@ -11,21 +11,24 @@
 #define EC_INSTALL_HINT "install a driver, for instance PoCL for the CPU: apt-get install pocl-opencl-icd"
 
 /* Drivers pad names with spaces (Intel in front, NVIDIA behind). */
-static void trim(char *text) {
+static void trim(char *text)
+{
     size_t start = strspn(text, " \t\n"), length = strlen(text + start);
     memmove(text, text + start, length + 1);
     while (length && isspace((unsigned char)text[length - 1])) text[--length] = 0;
 }
 
 /* Texts that do not fit are cut; a query that fails leaves "". */
-static void device_text(cl_device_id device, cl_device_info what, char text[256]) {
+static void device_text(cl_device_id device, cl_device_info what, char text[256])
+{
     char all[4096] = "";
     if (clGetDeviceInfo(device, what, sizeof all, all, NULL) != CL_SUCCESS) all[0] = 0;
     snprintf(text, 256, "%.255s", all);
     trim(text);
 }
 
-static void platform_text(cl_platform_id platform, cl_platform_info what, char text[256]) {
+static void platform_text(cl_platform_id platform, cl_platform_info what, char text[256])
+{
     char all[4096] = "";
     if (clGetPlatformInfo(platform, what, sizeof all, all, NULL) != CL_SUCCESS) all[0] = 0;
     snprintf(text, 256, "%.255s", all);
@@ -40,7 +43,8 @@ static void platform_text(cl_platform_id platform, cl_platform_info what, char t
         (to) = number;                                                                             \
     } while (0)
 
-static void describe(cl_platform_id platform, cl_device_id device, ec_device_info *info) {
+static void describe(cl_platform_id platform, cl_device_id device, ec_device_info *info)
+{
     memset(info, 0, sizeof *info);
     info->platform = platform;
     info->id = device;
@@ -70,7 +74,8 @@ static void describe(cl_platform_id platform, cl_device_id device, ec_device_inf
 }
 
 /* Adds the devices of one platform to the list. A platform without any is no failure. */
-static ec_result add_platform(cl_platform_id platform, ec_device_info **list, uint32_t *count, ec_error *err) {
+static ec_result add_platform(cl_platform_id platform, ec_device_info **list, uint32_t *count, ec_error *err)
+{
     cl_uint found = 0;
     cl_int code = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, NULL, &found);
     if (code != CL_SUCCESS || found == 0) return EC_OK;
@@ -88,7 +93,8 @@ static ec_result add_platform(cl_platform_id platform, ec_device_info **list, ui
     return EC_OK;
 }
 
-ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *err) {
+ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *err)
+{
     *devices = NULL;
     *count = 0;
     cl_platform_id platforms[64];

@@ -22,7 +22,8 @@
     X(CL_INVALID_IMAGE_DESCRIPTOR) X(CL_INVALID_COMPILER_OPTIONS) X(CL_INVALID_LINKER_OPTIONS)     \
     X(CL_INVALID_DEVICE_PARTITION_COUNT)
 
-const char *ec_cl_error_name(cl_int code) {
+const char *ec_cl_error_name(cl_int code)
+{
 #define EC_NAME(name) case name: return #name;
     switch (code) {
         EC_CL_ERRORS(EC_NAME)
@@ -32,7 +33,8 @@ const char *ec_cl_error_name(cl_int code) {
 #undef EC_NAME
 }
 
-ec_error_kind ec_cl_error_kind(cl_int code) {
+ec_error_kind ec_cl_error_kind(cl_int code)
+{
     switch (code) {
         case CL_OUT_OF_RESOURCES:
         case CL_OUT_OF_HOST_MEMORY:
@@ -41,7 +43,8 @@ ec_error_kind ec_cl_error_kind(cl_int code) {
     }
 }
 
-static const char *remedy(cl_int code) {
+static const char *remedy(cl_int code)
+{
     switch (code) {
         case CL_OUT_OF_RESOURCES: /* NVIDIA's word for a crashed kernel too */
             return "the device ran out of memory or was reset; try a smaller --size, or another --device";
@@ -57,7 +60,8 @@ static const char *remedy(cl_int code) {
     }
 }
 
-ec_result ec_cl_check(cl_int code, const char *call, const char *label, ec_error *err) {
+ec_result ec_cl_check(cl_int code, const char *call, const char *label, ec_error *err)
+{
     if (code == CL_SUCCESS) return EC_OK;
     const char *open = label && *label ? " (" : "", *close = *open ? ")" : "";
     ec_fail(err, "%s%s%s%s failed: %s (%d); %s", call, open, *open ? label : "", close, ec_cl_error_name(code), code, remedy(code));

@@ -3,7 +3,8 @@
 
 #include "cl/cl.h"
 
-ec_result ec_kernel_create(cl_program program, const char *name, cl_kernel *kernel, ec_error *err) {
+ec_result ec_kernel_create(cl_program program, const char *name, cl_kernel *kernel, ec_error *err)
+{
     cl_int code;
     *kernel = clCreateKernel(program, name, &code);
     if (code == CL_INVALID_KERNEL_NAME) {
@@ -14,7 +15,8 @@ ec_result ec_kernel_create(cl_program program, const char *name, cl_kernel *kern
     return ec_cl_check(code, "clCreateKernel", name, err);
 }
 
-ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, uint32_t count, ec_error *err) {
+ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, uint32_t count, ec_error *err)
+{
     char name[128] = "?", label[192];
     clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
     cl_uint wanted = 0;

@@ -2,14 +2,16 @@
  * without a look at the events the picture would be made of what a buffer held before. */
 #include "cl/cl.h"
 
-ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_error *err) {
+ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_error *err)
+{
     ec_result result = cl->launch_count == EC_LAUNCHES ? ec_cl_landed(cl, err) : EC_OK;
     if (result == EC_OK) cl->launches[cl->launch_count++] = (ec_cl_launch){event, label};
     else clReleaseEvent(event);
     return result;
 }
 
-ec_result ec_cl_landed(ec_cl *cl, ec_error *err) {
+ec_result ec_cl_landed(ec_cl *cl, ec_error *err)
+{
     const char *culprit = NULL; /* the first: what follows may fail for its sake */
     cl_int why = CL_SUCCESS, waited = CL_SUCCESS;
     if (cl->launch_count) waited = clWaitForEvents(1, &cl->launches[cl->launch_count - 1].event);
@@ -25,6 +27,7 @@ ec_result ec_cl_landed(ec_cl *cl, ec_error *err) {
     return culprit ? ec_cl_check(why, "running a kernel", culprit, err) : ec_cl_check(waited, "clWaitForEvents", cl->info.name, err);
 }
 
-void ec_cl_forget_launches(ec_cl *cl) {
+void ec_cl_forget_launches(ec_cl *cl)
+{
     while (cl->launch_count) clReleaseEvent(cl->launches[--cl->launch_count].event);
 }

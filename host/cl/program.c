@@ -17,12 +17,14 @@ typedef struct build {
     ec_cache_key key;
 } build;
 
-static bool driver_needs_source(const ec_device_info *info) {
+static bool driver_needs_source(const ec_device_info *info)
+{
     const ec_workaround *w = ec_workaround_for(info);
     return w && w->source_only;
 }
 
-static char *all_options(const ec_device_info *info, const char *options) {
+static char *all_options(const ec_device_info *info, const char *options)
+{
     const char *standard = "-cl-std=CL1.2";
     const char *divide = info->correctly_rounded_divide_sqrt && !strstr(options, EC_FAST_MATH) ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
     size_t size = strlen(options) + strlen(standard) + strlen(divide) + 2;
@@ -32,7 +34,8 @@ static char *all_options(const ec_device_info *info, const char *options) {
 }
 
 /* False is a miss: nothing in the cache, or a driver that does not take it (any more). */
-static bool build_from_cache(build *b, cl_program *program) {
+static bool build_from_cache(build *b, cl_program *program)
+{
     unsigned char *binary;
     size_t bytes;
     if (!*b->folder || !ec_cache_load(b->folder, &b->key, &binary, &bytes)) return false;
@@ -50,7 +53,8 @@ static bool build_from_cache(build *b, cl_program *program) {
     return false;
 }
 
-static ec_result build_from_source(build *b, cl_program *program, ec_error *err) {
+static ec_result build_from_source(build *b, cl_program *program, ec_error *err)
+{
     cl_int code;
     cl_program made = clCreateProgramWithSource(b->cl->context, 1, (const char **)&b->source, NULL, &code);
     EC_TRY(ec_cl_check(code, "clCreateProgramWithSource", b->label, err));
@@ -69,7 +73,8 @@ static ec_result build_from_source(build *b, cl_program *program, ec_error *err)
 }
 
 /* A cache that cannot be written costs time at the next start, nothing else. */
-static void store(const build *b, cl_program program) {
+static void store(const build *b, cl_program program)
+{
     size_t bytes = 0;
     if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, NULL) != CL_SUCCESS || bytes == 0)
         return;

@@ -4,7 +4,8 @@
 
 #include "cl/cl.h"
 
-ec_result ec_kernel_sources_join(const char *const *names, char **joined, ec_error *err) {
+ec_result ec_kernel_sources_join(const char *const *names, char **joined, ec_error *err)
+{
     *joined = NULL;
     size_t size = 1;
     for (size_t i = 0; names[i]; i++) {

@@ -20,7 +20,8 @@ static const ec_workaround workarounds[] = {
      .source_only = true},
 };
 
-const ec_workaround *ec_workaround_for(const ec_device_info *device) {
+const ec_workaround *ec_workaround_for(const ec_device_info *device)
+{
     for (size_t i = 0; i < sizeof workarounds / sizeof *workarounds; i++)
         if (strstr(device->platform_name, workarounds[i].driver) || strstr(device->platform_version, workarounds[i].driver))
             return &workarounds[i];

@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <string.h>
 
+#include "base/bits.h"
 #include "selftest/precision_internal.h"
 #include "shared/types.h"
 
@@ -36,19 +36,8 @@ typedef uint32_t lane_u;
 #define U(x) ((lane_u)(x))
 #define TRUE_MASK 1
 
-static inline double as_double(uint32_t bits)
-{
-    float f;
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
-static inline uint32_t as_uint(double x)
-{
-    float f = (float)x;
-    uint32_t bits;
-    memcpy(&bits, &f, sizeof bits);
-    return bits;
-}
+static inline double as_double(uint32_t bits) { return ec_float_of_bits(bits); }
+static inline uint32_t as_uint(double x) { return ec_bits_of_float((float)x); }
 EC_FN lane_f as_lane_f(lane_u v) { return as_double(v); }
 EC_FN lane_u as_lane_u(lane_f v) { return as_uint(v); }
 EC_FN lane_f to_lane_f(lane_u v) { return v; }

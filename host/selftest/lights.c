@@ -70,9 +70,7 @@ static ec_result direct_row(ec_selftest *t, ec_model *m, const char *what, uint3
     ec_render_options o = ec_shot_options(t, 16, spp);
     o.max_depth = 2;
     o.sample = sample;
-    ec_result result = ec_shot_row(t, what, scene, &o, expected, err);
-    ec_scene_free(scene);
-    return result;
+    return ec_shot_only_row(t, what, scene, &o, expected, err);
 }
 
 ec_result ec_selftest_near_lamp(ec_selftest *t, ec_error *err)
@@ -186,9 +184,7 @@ ec_result ec_selftest_occlusion(ec_selftest *t, ec_error *err)
     scene->has_environment = true;
     ec_render_options o = ec_shot_options(t, 16, 256);
     o.max_depth = 2;
-    ec_result result = ec_shot_row(t, "", scene, &o, 1 - 2 * wall_factor(1, 100, 1), err);
-    ec_scene_free(scene);
-    return result;
+    return ec_shot_only_row(t, "", scene, &o, 1 - 2 * wall_factor(1, 100, 1), err);
 }
 
 /* Punctual lights have no noise: floor radiance E / pi. */

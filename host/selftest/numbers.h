@@ -2,6 +2,7 @@
 #ifndef EC_SELFTEST_NUMBERS_H
 #define EC_SELFTEST_NUMBERS_H
 
+#include "base/bits.h"
 #include "base/random.h"
 #include "selftest/cases.h"
 #include "shared/selftest.h"
@@ -20,23 +21,6 @@ ec_result ec_numbers_go(ec_selftest *t, ec_numbers_run *run, uint32_t function, 
 /* Pairs of random integers of `index` and `pixel`, n of either. */
 ec_result ec_numbers_random(ec_selftest *t, ec_numbers_run *run, uint32_t seed, const uint32_t *pixel, const uint32_t *index, uint32_t pair,
                             uint32_t *pairs, ec_error *err);
-
-static inline float ec_float_of_bits(uint32_t bits)
-{
-    union {
-        uint32_t u;
-        float f;
-    } both = {bits};
-    return both.f;
-}
-static inline uint32_t ec_bits_of_float(float value)
-{
-    union {
-        float f;
-        uint32_t u;
-    } both = {value};
-    return both.u;
-}
 
 /* Of any size that leaves products, quotients and what rounding takes from them normal. */
 static inline float ec_any_float(uint64_t *random)

@@ -27,9 +27,7 @@ static ec_result lamp_row(ec_selftest *t, const char *what, double radiance, dou
     ec_render_options o = ec_shot_options(t, size, spp);
     o.max_depth = 1;
     o.batch = batch;
-    ec_result result = ec_shot_row(t, what, scene, &o, expected, err);
-    ec_scene_free(scene);
-    return result;
+    return ec_shot_only_row(t, what, scene, &o, expected, err);
 }
 
 /* Batches are summed in float, their means in double. In one batch of 2^18 the error of plain float sums is 2.5e-3, of sums of sums of 64
@@ -52,9 +50,7 @@ ec_result ec_selftest_many_samples(ec_selftest *t, ec_error *err)
     }
     EC_TRY(ec_model_scene(m, &scene, err));
     ec_render_options o = ec_shot_options(t, 2, 1u << 20);
-    ec_result result = ec_shot_row(t, "furnace of 2^20 samples a pixel", scene, &o, 2, err);
-    ec_scene_free(scene);
-    return result;
+    return ec_shot_only_row(t, "furnace of 2^20 samples a pixel", scene, &o, 2, err);
 }
 
 /* Nothing in the way of an environment whose samples add up to more than a float holds. */
@@ -68,9 +64,7 @@ static ec_result bright_sky(ec_selftest *t, double radiance, ec_error *err)
     ec_render_options o = ec_shot_options(t, 4, 64);
     o.max_depth = 1;
     o.batch = 16;
-    ec_result result = ec_shot_row(t, "sky of 1e38", scene, &o, (double)(float)radiance, err);
-    ec_scene_free(scene);
-    return result;
+    return ec_shot_only_row(t, "sky of 1e38", scene, &o, (double)(float)radiance, err);
 }
 
 /* The loader takes no emission over 1e30, with a warning: products with it are to stay finite. */

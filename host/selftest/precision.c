@@ -57,8 +57,8 @@ static const ec_precision_reference *find_reference(const char *kernel)
 /* Every case has inputs of its own, whatever others there are. */
 static void make_inputs(run *r, const ec_precision_case *c)
 {
-    ec_precision_random random = {0};
-    for (const char *p = c->name; *p; p++) random.state = random.state * 31 + (unsigned char)*p;
+    uint64_t random = 0;
+    for (const char *p = c->name; *p; p++) random = random * 31 + (unsigned char)*p;
     memset(r->host_in, 0, sizeof r->host_in);
     for (uint32_t i = 0; i < INPUTS; i++) c->inputs(&random, r->host_in + (size_t)i * EC_PRECISION_WORDS);
 }

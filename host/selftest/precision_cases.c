@@ -83,9 +83,9 @@ const ec_precision_case ec_precision_cases[] = {
 static void put_texture(float *memory, uint32_t id, uint32_t wrap)
 {
     float *row = memory + EC_PRECISION_TEXTURES + 4 * id;
-    row[0] = ec_draw_bits(0);
-    row[1] = row[2] = ec_draw_bits(EC_PRECISION_TEXTURE_SIZE);
-    row[3] = ec_draw_bits(EC_TEXTURE_FLOAT | wrap | wrap << EC_TEXTURE_WRAP_T);
+    row[0] = ec_float_of_bits(0);
+    row[1] = row[2] = ec_float_of_bits(EC_PRECISION_TEXTURE_SIZE);
+    row[3] = ec_float_of_bits(EC_TEXTURE_FLOAT | wrap | wrap << EC_TEXTURE_WRAP_T);
 }
 
 static void put_material(float *memory, uint32_t id, int32_t normal_map)
@@ -93,7 +93,7 @@ static void put_material(float *memory, uint32_t id, int32_t normal_map)
     float *material = memory + EC_PRECISION_MATERIALS + EC_MATERIAL_WORDS * id;
     for (uint32_t slot = 0; slot < EC_SLOT_COUNT; slot++) {
         float *s = material + EC_MATERIAL_SLOTS + 8 * slot;
-        s[0] = ec_draw_bits((uint32_t)(slot == EC_SLOT_NORMAL ? normal_map : -1));
+        s[0] = ec_float_of_bits((uint32_t)(slot == EC_SLOT_NORMAL ? normal_map : -1));
         s[2] = s[6] = 1; /* (u, v) as they are */
     }
     material[EC_MATERIAL_NORMAL_SCALE] = 1;
@@ -101,18 +101,18 @@ static void put_material(float *memory, uint32_t id, int32_t normal_map)
 
 void ec_precision_fill(float *memory, ec_params *params)
 {
-    ec_precision_random random = {1};
+    uint64_t random = 1;
     uint32_t texels = EC_PRECISION_MAP_WIDTH * EC_PRECISION_MAP_HEIGHT;
     for (uint32_t i = 0; i < texels; i++) {
-        for (int k = 0; k < 3; k++) memory[EC_PRECISION_MAP + 4 * i + k] = (float)ec_draw_in(&random, 1, 2);
+        for (int k = 0; k < 3; k++) memory[EC_PRECISION_MAP + 4 * i + k] = (float)ec_random_between(&random, 1, 2);
         memory[EC_PRECISION_MAP + 4 * i + 3] = 1.0f / (float)texels; /* alike, so that no density jumps between texels */
-        memory[EC_PRECISION_ALIAS + 2 * i] = ec_draw_bits(0xffffffffu);
-        memory[EC_PRECISION_ALIAS + 2 * i + 1] = ec_draw_bits(i);
+        memory[EC_PRECISION_ALIAS + 2 * i] = ec_float_of_bits(0xffffffffu);
+        memory[EC_PRECISION_ALIAS + 2 * i + 1] = ec_float_of_bits(i);
     }
     for (uint32_t id = 0; id < 3; id++) put_texture(memory, id, id);
     for (uint32_t i = 0; i < 4 * EC_PRECISION_TEXTURE_SIZE * EC_PRECISION_TEXTURE_SIZE; i++) {
         double is_z = i % 4 == 2; /* a normal map of moderate slopes */
-        memory[EC_PRECISION_TEXELS + i] = (float)(is_z ? ec_draw_in(&random, 0.9, 1) : ec_draw_in(&random, 0.2, 0.8));
+        memory[EC_PRECISION_TEXELS + i] = (float)(is_z ? ec_random_between(&random, 0.9, 1) : ec_random_between(&random, 0.2, 0.8));
     }
     put_material(memory, 0, -1);
     put_material(memory, 1, 0);

@@ -4,7 +4,7 @@
 
 #include "selftest/precision_internal.h"
 
-typedef void ec_precision_inputs(ec_precision_random *random, float *x);
+typedef void ec_precision_inputs(uint64_t *random, float *x);
 
 /* precision_inputs.c: numbers, vectors, directions */
 ec_precision_inputs ec_inputs_turn, ec_inputs_exponent, ec_inputs_logarithm, ec_inputs_plane, ec_inputs_two_vectors, ec_inputs_vector,

@@ -6,36 +6,36 @@
 
 enum { WO = 0, WI = 3, BASE = 6, F0 = 9, F90, METALLIC, ALPHA, TRANSMISSION, ETA, U1, U2, U };
 
-static double draw_grazing(ec_precision_random *random)
+static double draw_grazing(uint64_t *random)
 {
     uint32_t kind = ec_draw_one(random, 3);
     if (kind == 0) return ec_draw_log(random, 1e-7, 1);
-    return kind == 1 ? 1 - ec_draw_log(random, 1e-7, 1) : ec_draw_in(random, 0.01, 1);
+    return kind == 1 ? 1 - ec_draw_log(random, 1e-7, 1) : ec_random_between(random, 0.01, 1);
 }
 
 /* Indices of glass to air and back, of liquids in each other, of almost the same. */
-static double draw_eta(ec_precision_random *random, double least)
+static double draw_eta(uint64_t *random, double least)
 {
-    double eta = ec_draw(random) < 0.5 ? ec_draw_in(random, 1.1, 2.5) : 1 + ec_draw_log(random, least, 1);
-    return ec_draw(random) < 0.5 ? eta : 1 / eta;
+    double eta = ec_random_unit(random) < 0.5 ? ec_random_between(random, 1.1, 2.5) : 1 + ec_draw_log(random, least, 1);
+    return ec_random_unit(random) < 0.5 ? eta : 1 / eta;
 }
 
 /* A cosine under the critical angle, often just under it. */
-static double draw_refracted(ec_precision_random *random, double eta)
+static double draw_refracted(uint64_t *random, double eta)
 {
     double least = eta < 1 ? sqrt(1 - eta * eta) : 0;
-    if (ec_draw(random) < 0.5) return fmin(least + (1 - least) * ec_draw_log(random, 1e-6, 1), 1);
-    return least + (1 - least) * ec_draw_in(random, 0.01, 1);
+    if (ec_random_unit(random) < 0.5) return fmin(least + (1 - least) * ec_draw_log(random, 1e-6, 1), 1);
+    return least + (1 - least) * ec_random_between(random, 0.01, 1);
 }
 
-void ec_inputs_interface(ec_precision_random *random, float *x)
+void ec_inputs_interface(uint64_t *random, float *x)
 {
     double eta = draw_eta(random, 1e-6);
     x[0] = (float)draw_refracted(random, eta);
     x[1] = (float)eta;
 }
 
-void ec_inputs_refraction(ec_precision_random *random, float *x)
+void ec_inputs_refraction(uint64_t *random, float *x)
 {
     double eta = draw_eta(random, 1e-6), m[3], w[3];
     ec_draw_direction(random, m);
@@ -45,22 +45,22 @@ void ec_inputs_refraction(ec_precision_random *random, float *x)
     x[6] = (float)eta;
 }
 
-static void draw_material(ec_precision_random *random, float *x)
+static void draw_material(uint64_t *random, float *x)
 {
-    for (int k = 0; k < 3; k++) x[BASE + k] = (float)ec_draw(random);
-    x[F0] = (float)(ec_draw(random) < 0.5 ? 0.04 : ec_draw(random));
-    x[F90] = ec_draw(random) < 0.75 ? 1 : (float)ec_draw_in(random, x[F0], 1);
+    for (int k = 0; k < 3; k++) x[BASE + k] = (float)ec_random_unit(random);
+    x[F0] = (float)(ec_random_unit(random) < 0.5 ? 0.04 : ec_random_unit(random));
+    x[F90] = ec_random_unit(random) < 0.75 ? 1 : (float)ec_random_between(random, x[F0], 1);
     x[METALLIC] = (float)(0.5 * ec_draw_one(random, 3));
-    x[ALPHA] = (float)(ec_draw(random) < 0.75 ? ec_draw_log(random, EC_SMOOTH_ALPHA, 1) : 1);
+    x[ALPHA] = (float)(ec_random_unit(random) < 0.75 ? ec_draw_log(random, EC_SMOOTH_ALPHA, 1) : 1);
     x[TRANSMISSION] = 0;
     x[ETA] = 1;
     for (int k = 0; k < 3; k++) x[U1 + k] = ec_draw_unit(random);
 }
 
 /* A normal out of the middle of a lobe of this width. */
-static void draw_normal(ec_precision_random *random, double alpha, double *m)
+static void draw_normal(uint64_t *random, double alpha, double *m)
 {
-    double angle = ec_draw_in(random, -M_PI, M_PI), r = alpha * ec_draw_log(random, 1e-2, 5), length = sqrt(1 + r * r);
+    double angle = ec_random_between(random, -M_PI, M_PI), r = alpha * ec_draw_log(random, 1e-2, 5), length = sqrt(1 + r * r);
     m[0] = r * cos(angle) / length;
     m[1] = r * sin(angle) / length;
     m[2] = 1 / length;
@@ -69,10 +69,10 @@ static void draw_normal(ec_precision_random *random, double alpha, double *m)
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* wo anywhere above; wi anywhere above, or mirrored in a normal of the lobe. */
-static void draw_reflection(ec_precision_random *random, float *x)
+static void draw_reflection(uint64_t *random, float *x)
 {
     double wo[3], wi[3], m[3];
-    bool mirrored = ec_draw(random) < 0.75;
+    bool mirrored = ec_random_unit(random) < 0.75;
     do {
         ec_draw_direction_at(random, draw_grazing(random), wo);
         ec_draw_direction_at(random, draw_grazing(random), wi);
@@ -83,13 +83,13 @@ static void draw_reflection(ec_precision_random *random, float *x)
     ec_put(x + WI, wi);
 }
 
-void ec_inputs_opaque(ec_precision_random *random, float *x)
+void ec_inputs_opaque(uint64_t *random, float *x)
 {
     draw_material(random, x);
     draw_reflection(random, x);
 }
 
-void ec_inputs_highlight(ec_precision_random *random, float *x)
+void ec_inputs_highlight(uint64_t *random, float *x)
 {
     draw_material(random, x);
     x[ALPHA] = (float)ec_draw_log(random, 0.01, 1); /* under it Whitted's surfaces mirror */
@@ -97,11 +97,11 @@ void ec_inputs_highlight(ec_precision_random *random, float *x)
 }
 
 /* A rough interface of two media, its lobes no narrower than float half vectors resolve (surface_transmission). */
-static void draw_glass(ec_precision_random *random, float *x)
+static void draw_glass(uint64_t *random, float *x)
 {
     draw_material(random, x);
     x[METALLIC] = 0;
-    x[TRANSMISSION] = (float)(ec_draw(random) < 0.5 ? 1 : ec_draw_in(random, 0.1, 1));
+    x[TRANSMISSION] = (float)(ec_random_unit(random) < 0.5 ? 1 : ec_random_between(random, 0.1, 1));
     do {
         x[ALPHA] = (float)ec_draw_log(random, EC_SMOOTH_ALPHA, 1);
         x[ETA] = (float)draw_eta(random, 1e-3);
@@ -111,7 +111,7 @@ static void draw_glass(ec_precision_random *random, float *x)
     x[F90] = 1;
 }
 
-void ec_inputs_into_glass(ec_precision_random *random, float *x)
+void ec_inputs_into_glass(uint64_t *random, float *x)
 {
     double wo[3], wi[3], m[3], square;
     draw_glass(random, x);
@@ -126,22 +126,22 @@ void ec_inputs_into_glass(ec_precision_random *random, float *x)
     ec_put(x + WI, wi);
 }
 
-void ec_inputs_off_glass(ec_precision_random *random, float *x)
+void ec_inputs_off_glass(uint64_t *random, float *x)
 {
     draw_glass(random, x);
     draw_reflection(random, x);
 }
 
-void ec_inputs_thin(ec_precision_random *random, float *x)
+void ec_inputs_thin(uint64_t *random, float *x)
 {
     draw_material(random, x);
     x[METALLIC] = 0;
-    x[TRANSMISSION] = (float)ec_draw_in(random, 0.1, 1);
+    x[TRANSMISSION] = (float)ec_random_between(random, 0.1, 1);
     draw_reflection(random, x);
     x[WI + 2] = -x[WI + 2];
 }
 
-void ec_inputs_smooth_glass(ec_precision_random *random, float *x)
+void ec_inputs_smooth_glass(uint64_t *random, float *x)
 {
     double wo[3];
     draw_glass(random, x);
@@ -151,11 +151,11 @@ void ec_inputs_smooth_glass(ec_precision_random *random, float *x)
 }
 
 /* A half vector in the place of wo. */
-void ec_inputs_half_vector(ec_precision_random *random, float *x)
+void ec_inputs_half_vector(uint64_t *random, float *x)
 {
     double m[3];
     draw_material(random, x);
     draw_normal(random, x[ALPHA], m);
-    if (ec_draw(random) < 0.25) ec_draw_direction_at(random, draw_grazing(random), m);
+    if (ec_random_unit(random) < 0.25) ec_draw_direction_at(random, draw_grazing(random), m);
     ec_put(x + WO, m);
 }

@@ -9,24 +9,24 @@ static void cross(const double *a, const double *b, double *c)
 }
 
 /* Of size 1, a tenth of them slivers down to 1 : 10^5, half of them up to 10^4 sizes from the origin. */
-static void draw_triangle(ec_precision_random *random, double v[3][3])
+static void draw_triangle(uint64_t *random, double v[3][3])
 {
-    double at[3], far = ec_draw(random) < 0.5 ? 0 : ec_draw_log(random, 1, 1e4);
+    double at[3], far = ec_random_unit(random) < 0.5 ? 0 : ec_draw_log(random, 1, 1e4);
     ec_draw_direction(random, at);
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) v[i][k] = at[k] * far + ec_draw_in(random, -1, 1);
-    if (ec_draw(random) > 0.1) return;
-    double thin = ec_draw_log(random, 1e-5, 1e-1), along = ec_draw(random);
-    for (int k = 0; k < 3; k++) v[2][k] = v[0][k] + along * (v[1][k] - v[0][k]) + thin * ec_draw_in(random, -1, 1);
+        for (int k = 0; k < 3; k++) v[i][k] = at[k] * far + ec_random_between(random, -1, 1);
+    if (ec_random_unit(random) > 0.1) return;
+    double thin = ec_draw_log(random, 1e-5, 1e-1), along = ec_random_unit(random);
+    for (int k = 0; k < 3; k++) v[2][k] = v[0][k] + along * (v[1][k] - v[0][k]) + thin * ec_random_between(random, -1, 1);
 }
 
-static void draw_barycentrics(ec_precision_random *random, double *b)
+static void draw_barycentrics(uint64_t *random, double *b)
 {
-    double root = sqrt(ec_draw(random)), u = ec_draw(random);
+    double root = sqrt(ec_random_unit(random)), u = ec_random_unit(random);
     b[0] = 1 - root;
     b[1] = root * (1 - u);
     b[2] = root * u;
-    if (ec_draw(random) < 0.25) { /* by an edge */
+    if (ec_random_unit(random) < 0.25) { /* by an edge */
         double tiny = ec_draw_log(random, 1e-8, 1e-2);
         b[ec_draw_one(random, 3)] = tiny;
         double sum = b[0] + b[1] + b[2];
@@ -34,7 +34,7 @@ static void draw_barycentrics(ec_precision_random *random, double *b)
     }
 }
 
-void ec_inputs_hit(ec_precision_random *random, float *x)
+void ec_inputs_hit(uint64_t *random, float *x)
 {
     double v[3][3], b[3], e1[3], e2[3], n[3], wo[3];
     draw_triangle(random, v);
@@ -42,39 +42,39 @@ void ec_inputs_hit(ec_precision_random *random, float *x)
     for (int i = 0; i < 3; i++) ec_put(x + 3 * i, v[i]);
     x[9] = (float)b[1];
     x[10] = (float)b[2];
-    for (int k = 0; k < 6; k++) x[11 + k] = (float)(ec_draw(random) < 0.9 ? ec_draw(random) : 0.5 + ec_draw_log(random, 1e-5, 1e-2));
+    for (int k = 0; k < 6; k++) x[11 + k] = (float)(ec_random_unit(random) < 0.9 ? ec_random_unit(random) : 0.5 + ec_draw_log(random, 1e-5, 1e-2));
     for (int k = 0; k < 3; k++) e1[k] = v[1][k] - v[0][k], e2[k] = v[2][k] - v[0][k];
     cross(e1, e2, n);
-    double bend = ec_draw(random) < 0.25 ? 1.5 : 0.3, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double bend = ec_random_unit(random) < 0.25 ? 1.5 : 0.3, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int i = 0; i < 3; i++) {
         double bent[3];
-        for (int k = 0; k < 3; k++) bent[k] = n[k] / length + ec_draw_in(random, -bend, bend);
+        for (int k = 0; k < 3; k++) bent[k] = n[k] / length + ec_random_between(random, -bend, bend);
         ec_put_unit(x + 18 + 3 * i, bent);
     }
     for (int k = 0; k < 3; k++) n[k] /= length;
-    ec_draw_direction_about(random, n, ec_draw_sign(random, ec_draw(random) < 0.5 ? ec_draw_log(random, 1e-4, 1) : ec_draw_in(random, 0.1, 1)), wo);
+    ec_draw_direction_about(random, n, ec_draw_sign(random, ec_random_unit(random) < 0.5 ? ec_draw_log(random, 1e-4, 1) : ec_random_between(random, 0.1, 1)), wo);
     ec_put(x + 27, wo);
-    x[30] = ec_draw_bits(0);
+    x[30] = ec_float_of_bits(0);
 }
 
-void ec_inputs_mapped_hit(ec_precision_random *random, float *x)
+void ec_inputs_mapped_hit(uint64_t *random, float *x)
 {
     ec_inputs_hit(random, x);
-    x[30] = ec_draw_bits(EC_MATERIAL_WORDS);
+    x[30] = ec_float_of_bits(EC_MATERIAL_WORDS);
 }
 
-void ec_inputs_values(ec_precision_random *random, float *x)
+void ec_inputs_values(uint64_t *random, float *x)
 {
     ec_inputs_hit(random, x);
     for (int k = 0; k < 3; k++) x[k] = (float)ec_draw_sign(random, ec_draw_log(random, 1e-3, 1e3));
 }
 
-void ec_inputs_offset(ec_precision_random *random, float *x)
+void ec_inputs_offset(uint64_t *random, float *x)
 {
     double v[3];
     for (int k = 0; k < 3; k++) {
         x[k] = (float)ec_draw_sign(random, ec_draw_log(random, 1e-3, 1e4));
-        x[3 + k] = (float)(fabs(x[k]) * ec_draw_in(random, 3, 9) * 0x1p-24);
+        x[3 + k] = (float)(fabs(x[k]) * ec_random_between(random, 3, 9) * 0x1p-24);
     }
     ec_draw_direction(random, v);
     ec_put(x + 6, v);
@@ -82,13 +82,13 @@ void ec_inputs_offset(ec_precision_random *random, float *x)
     ec_put(x + 9, v);
 }
 
-void ec_inputs_box(ec_precision_random *random, float *x)
+void ec_inputs_box(uint64_t *random, float *x)
 {
-    double o[3], d[3], t = ec_draw_log(random, 1e-2, 1e3), far = ec_draw(random) < 0.5 ? 1 : ec_draw_log(random, 1, 1e4);
+    double o[3], d[3], t = ec_draw_log(random, 1e-2, 1e3), far = ec_random_unit(random) < 0.5 ? 1 : ec_draw_log(random, 1, 1e4);
     ec_draw_direction(random, d);
     for (int k = 0; k < 3; k++) {
-        o[k] = ec_draw_in(random, -far, far);
-        double size = ec_draw_log(random, 1e-3, 1), lo = o[k] + t * d[k] - ec_draw(random) * size;
+        o[k] = ec_random_between(random, -far, far);
+        double size = ec_draw_log(random, 1e-3, 1), lo = o[k] + t * d[k] - ec_random_unit(random) * size;
         x[6 + k] = (float)lo;
         x[9 + k] = (float)(lo + size);
     }
@@ -96,7 +96,7 @@ void ec_inputs_box(ec_precision_random *random, float *x)
     ec_put(x + 3, d);
 }
 
-void ec_inputs_triangle(ec_precision_random *random, float *x)
+void ec_inputs_triangle(uint64_t *random, float *x)
 {
     double v[3][3], b[3], o[3], d[3], t = ec_draw_log(random, 1e-4, 1e4);
     draw_triangle(random, v);
@@ -109,15 +109,15 @@ void ec_inputs_triangle(ec_precision_random *random, float *x)
 }
 
 /* The rest of a light's record, which starts at word 3. */
-static void put_emission(ec_precision_random *random, uint32_t kind, float *x)
+static void put_emission(uint64_t *random, uint32_t kind, float *x)
 {
     for (int k = 0; k < 3; k++) x[12 + k] = (float)ec_draw_log(random, 1e-3, 1e3);
-    x[15] = ec_draw_bits(kind);
-    x[16] = ec_draw_bits(EC_NO_ID);
+    x[15] = ec_float_of_bits(kind);
+    x[16] = ec_float_of_bits(EC_NO_ID);
 }
 
 /* p at any distance and at any angle; a third of the lamps are far larger than their distance. */
-void ec_inputs_light(ec_precision_random *random, float *x)
+void ec_inputs_light(uint64_t *random, float *x)
 {
     double v[3][3], b[3], n[3], e1[3], e2[3], away[3], distance = ec_draw_log(random, 1e-5, 1e3);
     draw_triangle(random, v);
@@ -126,7 +126,7 @@ void ec_inputs_light(ec_precision_random *random, float *x)
     cross(e1, e2, n);
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) n[k] /= length;
-    ec_draw_direction_about(random, n, ec_draw(random) < 0.25 ? ec_draw_log(random, 1e-5, 1) : ec_draw_in(random, 0.1, 1), away);
+    ec_draw_direction_about(random, n, ec_random_unit(random) < 0.25 ? ec_draw_log(random, 1e-5, 1) : ec_random_between(random, 0.1, 1), away);
     for (int i = 0; i < 3; i++) ec_put(x + 3 + 3 * i, v[i]);
     double height = 0, coordinate = 1;
     for (; height < 16 * 0x1p-24 * coordinate; distance *= 4) { /* nearer, its place in the plane is a matter of rounding */
@@ -145,52 +145,52 @@ void ec_inputs_light(ec_precision_random *random, float *x)
     x[20] = ec_draw_unit(random);
 }
 
-void ec_inputs_spot(ec_precision_random *random, float *x)
+void ec_inputs_spot(uint64_t *random, float *x)
 {
-    double p[3], d[3], w[3], outer = ec_draw_log(random, 1e-3, 1.5), inner = outer * ec_draw_in(random, 0, 0.99);
+    double p[3], d[3], w[3], outer = ec_draw_log(random, 1e-3, 1.5), inner = outer * ec_random_between(random, 0, 0.99);
     double distance = ec_draw_log(random, 1e-5, 1e3);
     ec_draw_direction(random, d);
-    ec_draw_direction_about(random, d, cos(outer * ec_draw(random)), w);
+    ec_draw_direction_about(random, d, cos(outer * ec_random_unit(random)), w);
     for (int k = 0; k < 3; k++) {
-        p[k] = ec_draw_in(random, -1, 1);
+        p[k] = ec_random_between(random, -1, 1);
         x[3 + k] = (float)(p[k] - distance * w[k]);
     }
     ec_put(x, p);
     ec_put(x + 6, d);
     x[9] = (float)(1 / fmax(cos(inner) - cos(outer), 0.001)); /* as KHR_lights_punctual bounds it */
     x[10] = (float)cos(outer);
-    x[11] = (float)(ec_draw(random) < 0.5 ? 0 : 1 / (distance * ec_draw_in(random, 1.01, 10)));
+    x[11] = (float)(ec_random_unit(random) < 0.5 ? 0 : 1 / (distance * ec_random_between(random, 1.01, 10)));
     put_emission(random, EC_KIND_SPOT, x);
 }
 
 /* 32 bits that are no NaN, two numbers. */
-void ec_inputs_sample(ec_precision_random *random, float *x)
+void ec_inputs_sample(uint64_t *random, float *x)
 {
-    x[0] = ec_draw_bits((uint32_t)(ec_draw(random) * 4294967296.0) & 0xbfffffffu);
+    x[0] = ec_float_of_bits((uint32_t)(ec_random_unit(random) * 4294967296.0) & 0xbfffffffu);
     x[1] = ec_draw_unit(random);
     x[2] = ec_draw_unit(random);
 }
 
-void ec_inputs_texture(ec_precision_random *random, float *x)
+void ec_inputs_texture(uint64_t *random, float *x)
 {
-    x[0] = ec_draw_bits(ec_draw_one(random, 3));
+    x[0] = ec_float_of_bits(ec_draw_one(random, 3));
     for (int k = 1; k < 3; k++) {
         uint32_t kind = ec_draw_one(random, 3);
-        double u = ec_draw_in(random, -3, 3);
-        if (kind == 0) u = ec_draw_in(random, -1000, 1000);
+        double u = ec_random_between(random, -3, 3);
+        if (kind == 0) u = ec_random_between(random, -1000, 1000);
         if (kind == 1) u = ec_draw_one(random, 16) / 16.0 + ec_draw_sign(random, ec_draw_log(random, 1e-8, 1e-3));
         x[k] = (float)u;
     }
 }
 
-void ec_inputs_slot(ec_precision_random *random, float *x) { x[0] = ec_draw_bits(ec_draw_one(random, 1u << 24)); }
+void ec_inputs_slot(uint64_t *random, float *x) { x[0] = ec_float_of_bits(ec_draw_one(random, 1u << 24)); }
 
-void ec_inputs_edge(ec_precision_random *random, float *x)
+void ec_inputs_edge(uint64_t *random, float *x)
 {
     double p[3], q[3], right[3], up[3], forward[3], apart = ec_draw_log(random, 1e-4, 10);
     for (int k = 0; k < 3; k++) {
-        p[k] = ec_draw_in(random, -10, 10);
-        q[k] = p[k] + ec_draw_in(random, -apart, apart);
+        p[k] = ec_random_between(random, -10, 10);
+        q[k] = p[k] + ec_random_between(random, -apart, apart);
     }
     ec_draw_direction(random, forward);
     ec_draw_direction_about(random, forward, 0, right);

@@ -25,13 +25,9 @@ typedef struct ec_precision_result {
 } ec_precision_result;
 enum { EC_PRECISION_MOST_RESULTS = 6 };
 
-typedef struct ec_precision_random {
-    uint64_t state;
-} ec_precision_random;
-
 typedef struct ec_precision_case {
     const char *name, *kernel, *file;
-    void (*inputs)(ec_precision_random *random, float *x);
+    void (*inputs)(uint64_t *random, float *x);
     uint32_t words;   /* of x */
     uint64_t exact;   /* bit k: word k is no measured number (bits, a choice): it is not rounded */
     uint64_t turns;   /* bit k: word k is an angle from the sampler, a multiple of 2^-24: that is its ulp */

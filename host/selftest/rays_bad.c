@@ -58,9 +58,7 @@ static ec_result trace_flat(ec_selftest *t, uint64_t *hits, uint64_t *rays, ec_e
         ec_float_direction(from, to, d);
         ec_tracer_ray(r, i, o, d, EC_NO_ID);
     }
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-        if (!ec_tracer_has(r, a)) continue;
-        if ((result = ec_tracer_trace(r, a, EC_TRACER_RAYS, err)) != EC_OK) break;
+    for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
         for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) *hits += ec_tracer_hit(r, i).prim != EC_NO_ID;
         *rays += EC_TRACER_RAYS;
     }
@@ -107,9 +105,7 @@ ec_result ec_selftest_singular_nodes(ec_selftest *t, ec_error *err)
     for (int rank = t->full ? 0 : 1; rank < 3; rank++) {
         ec_scene *scene;
         EC_TRY(flattened(rank, &scene, err));
-        ec_result result = ec_shot_row(t, names[rank], scene, &o, 2, err);
-        ec_scene_free(scene);
-        EC_TRY(result);
+        EC_TRY(ec_shot_only_row(t, names[rank], scene, &o, 2, err));
     }
     return EC_OK;
 }

@@ -27,11 +27,10 @@ static ec_result compare(ec_selftest *t, const ec_scene *scene, const ec_render_
     return EC_OK;
 }
 
-/* The first is of the kernels for every effect, the others of those that this room needs: that must not show either. Each width
- * is a build. */
-ec_result ec_selftest_lane_widths(ec_selftest *t, ec_error *err)
+/* The room as the defaults and the kernels that most cases share show it, then in other ways, by kernels for what it needs: that
+ * must not show either. */
+static ec_result same_room(ec_selftest *t, const uint32_t *lanes, const char *const *accels, uint32_t count, ec_error *err)
 {
-    static const uint32_t widths[] = {1, 4, 8, 16};
     const ec_room room = {0};
     ec_render_options o = ec_shot_options(t, SIZE, 16);
     uint64_t other = 0;
@@ -40,34 +39,27 @@ ec_result ec_selftest_lane_widths(ec_selftest *t, ec_error *err)
     ec_shot first = {0};
     EC_TRY(ec_room_scene(&room, &scene, err));
     ec_result result = ec_shot_take(t, scene, &o, &first, err);
-    for (int i = 0; i < 4 && result == EC_OK; i++) {
-        o.lanes = widths[i];
+    for (uint32_t i = 0; i < count && result == EC_OK; i++) {
+        if (lanes) o.lanes = lanes[i];
+        if (accels) o.accel = accels[i];
         o.more_effects = 0;
         result = compare(t, scene, &o, &first, &other, note, sizeof note, err);
     }
     ec_scene_free(scene);
     ec_shot_free(&first);
     EC_TRY(result);
-    return ec_selftest_none(t, "", other, 4 * 3 * SIZE * SIZE, note, err);
+    return ec_selftest_none(t, "", other, count * 3 * SIZE * SIZE, note, err);
+}
+
+ec_result ec_selftest_lane_widths(ec_selftest *t, ec_error *err)
+{
+    static const uint32_t widths[] = {1, 4, 8, 16};
+    return same_room(t, widths, NULL, 4, err);
 }
 
 ec_result ec_selftest_accelerators(ec_selftest *t, ec_error *err)
 {
-    const ec_room room = {0};
-    ec_render_options o = ec_shot_options(t, SIZE, 16);
-    uint64_t other = 0;
-    char note[80] = "";
-    ec_scene *scene;
-    ec_shot first = {0};
-    EC_TRY(ec_room_scene(&room, &scene, err));
-    ec_result result = ec_shot_take(t, scene, &o, &first, err);
-    for (int a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-        o.accel = ec_accels[a].name;
-        o.more_effects = 0;
-        result = compare(t, scene, &o, &first, &other, note, sizeof note, err);
-    }
-    ec_scene_free(scene);
-    ec_shot_free(&first);
-    EC_TRY(result);
-    return ec_selftest_none(t, "", other, EC_ACCEL_COUNT * 3 * SIZE * SIZE, note, err);
+    const char *names[EC_ACCEL_COUNT];
+    for (int a = 0; a < EC_ACCEL_COUNT; a++) names[a] = ec_accels[a].name;
+    return same_room(t, NULL, names, EC_ACCEL_COUNT, err);
 }

@@ -69,9 +69,7 @@ ec_result ec_selftest_watertight(ec_selftest *t, ec_error *err)
         ec_result result = ec_tracer_build(r, &soup, err);
         for (int run = 0; run < (t->full ? LONG_RUNS : 1) && result == EC_OK; run++) {
             put_rays(r, &random, shape->centre);
-            for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-                if (!ec_tracer_has(r, a)) continue;
-                if ((result = ec_tracer_trace(r, a, EC_TRACER_RAYS, err)) != EC_OK) break;
+            for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
                 for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
                     bool is_out = ec_tracer_hit(r, i).prim == EC_NO_ID;
                     if (is_out && !out) snprintf(note, sizeof note, "first through %s", ec_accels[a].name);
@@ -118,9 +116,7 @@ ec_result ec_selftest_nested(ec_selftest *t, ec_error *err)
             for (int k = 0; k < 3; k++) o[k] += 3 * d[k], d[k] = -d[k];
             ec_tracer_ray(r, i, o, d, EC_NO_ID);
         }
-        for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-            if (!ec_tracer_has(r, a)) continue;
-            if ((result = ec_tracer_trace(r, a, EC_TRACER_RAYS, err)) != EC_OK) break;
+        for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
             for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
                 uint32_t prim = ec_tracer_hit(r, i).prim;
                 wrong[outside] += prim == EC_NO_ID || (prim < half) != (outside == 1);

@@ -67,9 +67,7 @@ ec_result ec_selftest_grazing(ec_selftest *t, ec_error *err)
     ec_result result = ec_tracer_build(r, &soup, err);
     for (int power = 1; power <= 7 && result == EC_OK; power++) {
         for (uint32_t i = 0; i < rays; i++) put_ray_at(r, &random, i, pow(10, -power), pow(10, ec_random_between(&random, -1, 1)));
-        for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-            if (!ec_tracer_has(r, a)) continue;
-            if ((result = ec_tracer_trace(r, a, rays, err)) != EC_OK) break;
+        for (uint32_t a = 0; ec_tracer_next(r, &a, rays, &result, err); a++) {
             for (uint32_t i = 0; i < rays; i++) compare(r, i, &all);
         }
         if (all.t > worst) snprintf(note, sizeof note, "of reach / cosine; at a cosine of 1e-%d", power);
@@ -123,9 +121,7 @@ static ec_result slivers(ec_selftest *t, double aspect, bool has_weights, ec_err
     for (int i = 0; i < SLIVERS; i++) put_sliver(&random, aspect, soup.vertices + 9 * i);
     ec_result result = ec_tracer_build(r, &soup, err);
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) put_ray_at(r, &random, i, ec_random_between(&random, 0.1, 1), ec_random_between(&random, 0.1, 4));
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-        if (!ec_tracer_has(r, a)) continue;
-        if ((result = ec_tracer_trace(r, a, EC_TRACER_RAYS, err)) != EC_OK) break;
+    for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
         for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) compare(r, i, &all);
     }
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) /* what missed still needs a triangle to leave */

@@ -90,9 +90,7 @@ ec_result ec_selftest_box_planes(ec_selftest *t, ec_error *err)
         }
         tried += EC_TRACER_RAYS;
         result = ec_tracer_build(r, &soup, err);
-        for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-            if (!ec_tracer_has(r, a)) continue;
-            if ((result = ec_tracer_trace(r, a, EC_TRACER_RAYS, err)) != EC_OK) break;
+        for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
             for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
                 ec_traced h = ec_tracer_hit(r, i);
                 missed += expected[i] > 0 && h.prim == EC_NO_ID;
@@ -160,9 +158,7 @@ ec_result ec_selftest_ties(ec_selftest *t, ec_error *err)
         ec_soup soup;
         if ((result = copies(&once, reversed, &soup, err)) != EC_OK) break;
         result = ec_tracer_build(r, &soup, err);
-        for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-            if (!ec_tracer_has(r, a)) continue;
-            if ((result = ec_tracer_trace(r, a, EC_TRACER_RAYS, err)) != EC_OK) break;
+        for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
             for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
                 ec_traced h = ec_tracer_hit(r, i);
                 if (!reversed && a == 0) first[i] = h;
@@ -207,12 +203,9 @@ ec_result ec_selftest_coincident(ec_selftest *t, ec_error *err)
         ec_tracer_ray(r, i, o, d, EC_NO_ID);
     }
     ec_result result = ec_tracer_build(r, &soup, err);
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++) {
-       if (!ec_tracer_has(r, a)) continue;
-        if (!ec_tracer_has(r, a)) continue;
+    for (uint32_t a = 0; ec_tracer_next(r, &a, RAYS, &result, err); a++) {
         uint64_t entries = r->accels[a].stats.references + r->accels[a].stats.nodes;
         if (entries > most) snprintf(note, sizeof note, "%.1f a triangle in %s", (double)entries / count, ec_accels[a].name), most = entries;
-        if ((result = ec_tracer_trace(r, a, RAYS, err)) != EC_OK) break;
         for (uint32_t i = 0; i < RAYS; i++) wrong += ec_tracer_hit(r, i).prim != 0;
         rays += RAYS;
     }

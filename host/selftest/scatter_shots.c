@@ -43,9 +43,7 @@ static ec_result slab(ec_selftest *t, const char *what, ec_material material, bo
     EC_TRY(ec_model_scene(m, &scene, err));
     if (!lamp) shine_from_everywhere(scene);
     ec_render_options o = ec_shot_options(t, 16, 256);
-    ec_result result = ec_shot_row(t, what, scene, &o, expected, err);
-    ec_scene_free(scene);
-    return result;
+    return ec_shot_only_row(t, what, scene, &o, expected, err);
 }
 
 /* Light goes to and fro between the faces: R = 2 F / (1 + F), T = 1 - R. Index 1 reflects nothing and is not seen. */
@@ -76,9 +74,7 @@ ec_result ec_selftest_nested_glass(ec_selftest *t, ec_error *err)
     ec_render_options o = ec_shot_options(t, 16, 64);
     o.survival = 1;
     o.max_depth = 1000;
-    ec_result result = ec_shot_row(t, "", scene, &o, 1, err);
-    ec_scene_free(scene);
-    return result;
+    return ec_shot_only_row(t, "", scene, &o, 1, err);
 }
 
 /* Brighter to the right and to the top, without steps that a narrow lobe could tell from a mirror's single direction. */

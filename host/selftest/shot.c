@@ -63,3 +63,11 @@ ec_result ec_shot_row(ec_selftest *t, const char *what, const ec_scene *scene, c
     ec_shot_free(&shot);
     return result;
 }
+
+ec_result ec_shot_only_row(ec_selftest *t, const char *what, ec_scene *scene, const ec_render_options *options, double expected,
+                           ec_error *err)
+{
+    ec_result result = ec_shot_row(t, what, scene, options, expected, err);
+    ec_scene_free(scene);
+    return result;
+}

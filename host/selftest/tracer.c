@@ -143,6 +143,14 @@ ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *er
                           arrays, COUNT_OF(arrays), err);
 }
 
+bool ec_tracer_next(ec_tracer *r, uint32_t *a, uint32_t count, ec_result *result, ec_error *err)
+{
+    while (*a < EC_ACCEL_COUNT && !ec_tracer_has(r, *a)) (*a)++;
+    if (*a == EC_ACCEL_COUNT || *result != EC_OK) return false;
+    *result = ec_tracer_trace(r, *a, count, err);
+    return *result == EC_OK;
+}
+
 ec_result ec_tracer_leave(ec_tracer *r, ec_error *err)
 {
     uint32_t wave = EC_TRACER_RAYS;

@@ -12,7 +12,8 @@
 static char folder[4096]; /* everything this test writes */
 
 /* Two CPUs, an absent GPU, a GPU, in that order. */
-static uint32_t fake_devices(ec_device_info devices[4]) {
+static uint32_t fake_devices(ec_device_info devices[4])
+{
     static const char *names[] = {"pthread-EPYC", "Intel Xeon 3090", "Absent GPU", "NVIDIA GeForce RTX 3090"};
     static const char *platforms[] = {"Portable Computing Language", "Intel(R) OpenCL", "NVIDIA CUDA", "NVIDIA CUDA"};
     memset(devices, 0, 4 * sizeof *devices);
@@ -28,14 +29,16 @@ static uint32_t fake_devices(ec_device_info devices[4]) {
 }
 
 /* The index that `id` chooses among the first `count` fake devices, or -1. */
-static int chosen(const char *id, uint32_t count, const char **why, ec_error *err) {
+static int chosen(const char *id, uint32_t count, const char **why, ec_error *err)
+{
     ec_device_info devices[4];
     uint32_t index = 99;
     fake_devices(devices);
     return ec_device_choose(devices, count, id, &index, why, err) == EC_OK ? (int)index : -1;
 }
 
-static void workarounds_go_by_the_driver(void) {
+static void workarounds_go_by_the_driver(void)
+{
     ec_cl cl = {.info = {.name = "llvmpipe", .platform_name = "rusticl", .type = CL_DEVICE_TYPE_CPU, .native_float_width = 8}};
     ec_error err = {0};
     uint32_t lanes = 0;
@@ -53,7 +56,8 @@ static void workarounds_go_by_the_driver(void) {
     CHECK(pocl && pocl->source_only && !pocl->most_lanes && !ec_workaround_for(&devices[1]));
 }
 
-static void device_rule(void) {
+static void device_rule(void)
+{
     const char *why = "";
     ec_error err = {0};
     unsetenv("ECLAT_DEVICE");
@@ -80,7 +84,8 @@ static void device_rule(void) {
 
 static bool same_key(const ec_cache_key *a, const ec_cache_key *b) { return memcmp(a->bytes, b->bytes, 32) == 0; }
 
-static void key_covers_everything(void) {
+static void key_covers_everything(void)
+{
     ec_device_info base[4], other;
     fake_devices(base);
     ec_cache_key key = ec_cache_key_of(base, "source", "-DA=1"), changed = ec_cache_key_of(base, "source", "-DA=1");
@@ -102,7 +107,8 @@ static void key_covers_everything(void) {
     }
 }
 
-static int files_in(const char *path) {
+static int files_in(const char *path)
+{
     int count = 0;
     DIR *dir = opendir(path);
     for (struct dirent *entry; dir && (entry = readdir(dir));)
@@ -112,7 +118,8 @@ static int files_in(const char *path) {
 }
 
 /* 1 hit with the right bytes, 0 miss, -1 wrong bytes. */
-static int loads(const char *cache, const ec_cache_key *key, const char *expected, size_t bytes) {
+static int loads(const char *cache, const ec_cache_key *key, const char *expected, size_t bytes)
+{
     unsigned char *data = NULL;
     size_t got = 0;
     if (!ec_cache_load(cache, key, &data, &got)) return 0;
@@ -122,7 +129,8 @@ static int loads(const char *cache, const ec_cache_key *key, const char *expecte
 }
 
 /* Changes a byte; behind the end it adds one. */
-static void flip_byte(const char *path, long at) {
+static void flip_byte(const char *path, long at)
+{
     FILE *file = fopen(path, "r+b");
     if (!file) return;
     fseek(file, at, SEEK_SET);
@@ -132,7 +140,8 @@ static void flip_byte(const char *path, long at) {
     fclose(file);
 }
 
-static void entries_are_checked(void) {
+static void entries_are_checked(void)
+{
     static const char binary[] = "not really a binary, but bytes";
     char cache[4200], path[4400], path2[4400];
     snprintf(cache, sizeof cache, "%s/a/b/entries", folder);
@@ -171,7 +180,8 @@ static void entries_are_checked(void) {
     CHECK(LOADS(&key) == 0);
 }
 
-static void folder_follows_xdg(void) {
+static void folder_follows_xdg(void)
+{
     char path[256];
     char *xdg = strdup(getenv("XDG_CACHE_HOME")), *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
     setenv("XDG_CACHE_HOME", "/xdg", 1);
@@ -193,7 +203,8 @@ static void folder_follows_xdg(void) {
 static const char doubler[] = "kernel void doubler(global float *x, float by) { x[get_global_id(0)] *= by; }\n";
 
 /* Runs it, so that a program from the cache is known to work and not just to build. */
-static void doubles(ec_cl *cl, cl_program program) {
+static void doubles(ec_cl *cl, cl_program program)
+{
     float values[100], by = 2.0f;
     for (int i = 0; i < 100; i++) values[i] = (float)i;
     ec_error err = {0};
@@ -217,7 +228,8 @@ static void doubles(ec_cl *cl, cl_program program) {
 }
 
 /* Builds and runs it; how the cache answered is then in cl. */
-static void build_doubler(ec_cl *cl, const char *options) {
+static void build_doubler(ec_cl *cl, const char *options)
+{
     ec_error err = {0};
     cl_program program = NULL;
     cl->cache_hits = cl->cache_misses = 0;
@@ -227,7 +239,8 @@ static void build_doubler(ec_cl *cl, const char *options) {
     clReleaseProgram(program);
 }
 
-static void programs_are_cached(ec_cl *cl) {
+static void programs_are_cached(ec_cl *cl)
+{
     char cache[4200], path[4400], all[256];
     snprintf(cache, sizeof cache, "%s/eclat/kernels", folder); /* folder is XDG_CACHE_HOME */
     cl->cache = EC_CACHE_ON;
@@ -260,14 +273,16 @@ static void programs_are_cached(ec_cl *cl) {
     CHECK(cl->build_seconds > 0.0);
 }
 
-static long size_of(const char *name) {
+static long size_of(const char *name)
+{
     char path[4400];
     struct stat status;
     snprintf(path, sizeof path, "%s/dump/%s", folder, name);
     return stat(path, &status) == 0 ? (long)status.st_size : -1;
 }
 
-static void broken_source_says_where(ec_cl *cl) {
+static void broken_source_says_where(ec_cl *cl)
+{
     static const char source[] = "#line 1 \"kernels/stages/shade.cl\"\n#line 41 \"kernels/lib/bsdf.h\"\n\nfloat f(float x) "
                                  "{ return x + undeclared; }\n#line 2 \"kernels/stages/shade.cl\"\n"
                                  "kernel void shade(global float *x) { *x = f(*x); }\n";
@@ -290,7 +305,8 @@ static void broken_source_says_where(ec_cl *cl) {
     unsetenv("ECLAT_DUMP_KERNELS");
 }
 
-static void unknown_kernel_is_named(ec_cl *cl) {
+static void unknown_kernel_is_named(ec_cl *cl)
+{
     ec_error err = {0};
     cl_program program = NULL;
     cl_kernel kernel;
@@ -300,7 +316,8 @@ static void unknown_kernel_is_named(ec_cl *cl) {
     clReleaseProgram(program);
 }
 
-static void buffers_are_limited(ec_cl *cl) {
+static void buffers_are_limited(ec_cl *cl)
+{
     ec_error err = {0};
     cl_mem buffer = (cl_mem)&err, second = NULL;
     uint64_t before = cl->allocated_bytes;
@@ -318,7 +335,8 @@ static void buffers_are_limited(ec_cl *cl) {
     CHECK(cl->allocated_bytes == before && cl->peak_allocated_bytes >= before + 1000);
 }
 
-static void buffers_hold_bytes(ec_cl *cl) {
+static void buffers_hold_bytes(ec_cl *cl)
+{
     ec_error err = {0};
     cl_mem buffer = NULL;
     unsigned char in[1000], out[1000];
@@ -343,7 +361,8 @@ static void buffers_hold_bytes(ec_cl *cl) {
     ec_buffer_release(cl, &buffer);
 }
 
-static void programs_are_kept_where_asked(ec_cl *cl) {
+static void programs_are_kept_where_asked(ec_cl *cl)
+{
     ec_error err = {0};
     cl_program all[4] = {NULL};
     for (int i = 0; i < 4; i++) {
@@ -361,7 +380,8 @@ static void programs_are_kept_where_asked(ec_cl *cl) {
     cl->keeps_programs = false;
 }
 
-int main(void) {
+int main(void)
+{
     snprintf(folder, sizeof folder, "%s/cl-XXXXXX", ECLAT_TEST_OUT);
     if (!mkdtemp(folder)) TEST_SKIP("no folder %s", folder);
     setenv("XDG_CACHE_HOME", folder, 1);

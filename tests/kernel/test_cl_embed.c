@@ -7,7 +7,8 @@
 
 static char root[4096], output[1 << 16];
 
-static void put(const char *name, const char *text) {
+static void put(const char *name, const char *text)
+{
     char path[4400];
     snprintf(path, sizeof path, "%s/%s", root, name);
     FILE *file = fopen(path, "w");
@@ -18,7 +19,8 @@ static void put(const char *name, const char *text) {
 }
 
 /* Runs the tool on files of `root`; its words, stdout and stderr, are then in output. */
-static int embed(const char *arguments) {
+static int embed(const char *arguments)
+{
     char command[9000];
     snprintf(command, sizeof command, "cd '%s' && python3 '%s/tools/embed_kernels.py' --root kernels %s 2>&1", root,
              ECLAT_SOURCE_DIR, arguments);
@@ -28,13 +30,15 @@ static int embed(const char *arguments) {
     return pclose(pipe);
 }
 
-static int times(const char *text) {
+static int times(const char *text)
+{
     int count = 0;
     for (const char *at = output; (at = strstr(at, text)); at++) count++;
     return count;
 }
 
-static void make_kernels(void) {
+static void make_kernels(void)
+{
     char command[9000];
     snprintf(command, sizeof command, "mkdir -p '%s/kernels/lib' '%s/kernels/stages'", root, root);
     CHECK(system(command) == 0);
@@ -51,7 +55,8 @@ static void make_kernels(void) {
     put("kernels/stages/ring.cl", "#include \"ring.cl\"\n");
 }
 
-static void text_is_flattened(void) {
+static void text_is_flattened(void)
+{
     CHECK(embed("--stdout kernels/stages/good.cl") == 0);
     CHECK(strstr(output, "#pragma OPENCL FP_CONTRACT OFF\n#line 1 \"kernels/stages/good.cl\"\n") == output);
     CHECK(times("int a;") == 1 && times("int b;") == 1 && times("FIELD(x)") == 2);
@@ -64,12 +69,14 @@ static void text_is_flattened(void) {
 }
 
 /* The first text may not be compiled; the second must be there then. */
-static void condition_keeps_both(void) {
+static void condition_keeps_both(void)
+{
     CHECK(embed("--stdout kernels/stages/either.cl") == 0);
     CHECK(times("int b;") == 2 && times("#ifndef B_H") == 2);
 }
 
-static void mistakes_are_named(void) {
+static void mistakes_are_named(void)
+{
     CHECK(embed("--stdout kernels/stages/missing.cl") != 0);
     CHECK_MSG(strcmp(output, "embed_kernels.py: kernels/stages/missing.cl:3: \"lib/none.h\" is neither beside this "
                              "file nor under kernels/\n") == 0, "%s", output);
@@ -79,7 +86,8 @@ static void mistakes_are_named(void) {
     CHECK(!strstr(output, "Traceback"));
 }
 
-static void c_file_is_the_same_text(void) {
+static void c_file_is_the_same_text(void)
+{
     char command[9000], out[4400];
     snprintf(out, sizeof out, "%s/check.c", root);
     CHECK(embed("--output first.c kernels/stages/good.cl kernels/stages/either.cl") == 0);
@@ -95,7 +103,8 @@ static void c_file_is_the_same_text(void) {
     CHECK(system(command) == 0);
 }
 
-static void every_stage_is_embedded(void) {
+static void every_stage_is_embedded(void)
+{
     for (const char *const *name = ec_kernel_source_names(); *name; name++) {
         const char *source = ec_kernel_source(*name);
         char stage[256], lib[256], selftest[256];
@@ -108,7 +117,8 @@ static void every_stage_is_embedded(void) {
     CHECK(ec_kernel_source("no such stage") == NULL);
 }
 
-static void joined_stages_hold_all(void) {
+static void joined_stages_hold_all(void)
+{
     ec_error err = {0};
     char *joined = NULL;
     CHECK_OK(ec_kernel_sources_join(ec_kernel_source_names(), &joined, &err), err);
@@ -124,7 +134,8 @@ static void joined_stages_hold_all(void) {
     CHECK(strstr(err.text, "no such stage"));
 }
 
-int main(void) {
+int main(void)
+{
     snprintf(root, sizeof root, "%s/embed-XXXXXX", ECLAT_TEST_OUT);
     if (!mkdtemp(root)) TEST_SKIP("no folder %s", root);
     make_kernels();

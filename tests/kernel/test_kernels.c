@@ -8,7 +8,8 @@
 static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
 /* The names between "test_" and ".cl", sorted. */
-static int find_tests(char **names, int capacity) {
+static int find_tests(char **names, int capacity)
+{
     DIR *folder = opendir(ECLAT_SOURCE_DIR "/tests/kernel");
     int count = 0;
     for (struct dirent *entry; folder && (entry = readdir(folder));) {
@@ -23,13 +24,15 @@ static int find_tests(char **names, int capacity) {
     return count;
 }
 
-static char *flatten(const char *name) {
+static char *flatten(const char *name)
+{
     char file[512];
     snprintf(file, sizeof file, "test_%s.cl", name);
     return kernel_flatten(file);
 }
 
-static void print_failure(const char *file, const char *kernel, int lanes, const test_result *r) {
+static void print_failure(const char *file, const char *kernel, int lanes, const test_result *r)
+{
     fprintf(stderr, "FAIL test_%s.cl:%u %s LANES=%d: %u of %u checks", file, r->line, kernel, lanes, r->failures,
             r->checks);
     for (ec_uint i = 0; i < r->count && i < 4; i++) {
@@ -42,7 +45,8 @@ static void print_failure(const char *file, const char *kernel, int lanes, const
     fputc('\n', stderr);
 }
 
-static ec_result run_kernel(ec_cl *cl, cl_program program, const char *name, test_result *r, ec_error *err) {
+static ec_result run_kernel(ec_cl *cl, cl_program program, const char *name, test_result *r, ec_error *err)
+{
     cl_kernel kernel = NULL;
     cl_mem buffer = NULL, scratch = NULL;
     ec_result result;
@@ -64,7 +68,8 @@ cleanup:
 }
 
 /* Every kernel of one program. */
-static void run_program(ec_cl *cl, cl_program program, const char *file, int lanes) {
+static void run_program(ec_cl *cl, cl_program program, const char *file, int lanes)
+{
     char names[8192] = "";
     clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, sizeof names, names, NULL);
     int kernels = 0;
@@ -85,7 +90,8 @@ static void run_program(ec_cl *cl, cl_program program, const char *file, int lan
 }
 
 /* One lane width, one set of options more. */
-static void run_variant(ec_cl *cl, const char *name, const char *source, int lanes, const char *more) {
+static void run_variant(ec_cl *cl, const char *name, const char *source, int lanes, const char *more)
+{
     char options[512], label[128];
     snprintf(options, sizeof options, "-DLANES=%d%s%s %s", lanes, cl->info.correctly_rounded_divide_sqrt ? " -DCORRECTLY_ROUNDED" : "",
              cl->info.denormals ? " -DDENORMALS" : "", more);
@@ -102,7 +108,8 @@ static void run_variant(ec_cl *cl, const char *name, const char *source, int lan
 }
 
 /* Every "// options: -DX …" line of a test is one more build; without such a line there is one without options. */
-static void run_test(ec_cl *cl, const char *name) {
+static void run_test(ec_cl *cl, const char *name)
+{
     static const char directive[] = "\n// options:";
     char *source = flatten(name);
     CHECK_MSG(source, "test_%s.cl cannot be flattened", name);
@@ -120,7 +127,8 @@ static void run_test(ec_cl *cl, const char *name) {
 }
 
 /* A driver that never fails would let everything pass. */
-static void driver_sees_failures(ec_cl *cl) {
+static void driver_sees_failures(ec_cl *cl)
+{
     char *source = flatten("driver");
     ec_error err = {0};
     cl_program program = NULL;
@@ -137,13 +145,15 @@ static void driver_sees_failures(ec_cl *cl) {
     free(source);
 }
 
-static bool wanted(const char *name, int argc, char **argv) {
+static bool wanted(const char *name, int argc, char **argv)
+{
     for (int i = 1; i < argc; i++)
         if (strcmp(argv[i], name) == 0) return true;
     return argc == 1;
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char **argv)
+{
     ec_device_info *devices;
     uint32_t count, index;
     const char *why;
