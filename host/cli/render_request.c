@@ -6,6 +6,7 @@
 #include "cli/combinations.h"
 #include "cli/defaults.h"
 #include "cli/setters.h"
+#include "pack/view.h"
 #include "report/names.h"
 
 #define REQUEST ((ec_render_request *)target)
@@ -19,7 +20,6 @@ SETTER(accel)
 }
 
 FLAG_SETTER(adaptive, options.adaptive)
-FLAG_SETTER(all_effects, options.all_effects)
 FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
 FLAG_SETTER(verbose, verbose)
@@ -78,6 +78,28 @@ SETTER(rr)
     return EC_OK;
 }
 
+SETTER(effects)
+{
+    static const char *const names[] = {"needed", "all", NULL};
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, names, &index, err));
+    REQUEST->options.all_effects = index == 1;
+    return EC_OK;
+}
+
+/* May be repeated. */
+SETTER(without)
+{
+    char names[1024];
+    for (uint32_t i = 0; i < ec_feature_count; i++) {
+        if (!(ec_effects_optional & ec_features[i].bit) || strcmp(value, ec_features[i].name)) continue;
+        REQUEST->options.without |= ec_features[i].bit;
+        return EC_OK;
+    }
+    ec_feature_names(ec_effects_optional, names, sizeof names);
+    return ec_usage(err, "--%s: '%s' is not one of the effects that can be left out: %s", option, value, names);
+}
+
 SETTER(size)
 {
     REQUEST->has_size = true;
@@ -87,11 +109,11 @@ SETTER(size)
 static const ec_option options[] = {
     {"accel", 0, true, set_accel},
     {"adaptive", 0, false, set_adaptive},
-    {"all-effects", 0, false, set_all_effects},
     {"batch", 0, true, set_batch},
     {"camera", 0, true, set_camera},
     {"cutoff", 0, true, set_cutoff},
     {"device", 0, true, set_device},
+    {"effects", 0, true, set_effects},
     {"env", 0, true, set_env},
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
@@ -113,6 +135,7 @@ static const ec_option options[] = {
     {"tonemap", 0, true, set_tonemap},
     {"verbose", 'v', false, set_verbose},
     {"wave", 0, true, set_wave},
+    {"without", 0, true, set_without},
 };
 
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)

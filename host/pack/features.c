@@ -1,4 +1,4 @@
-/* Which effects does the scene call for, and why? Only materials that some triangle uses count. */
+/* Which effects does the scene call for, and why? Asked of a plain view (view.h), where what is there counts. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,16 +10,6 @@
 static float max3(const float v[3])
 {
     return fmaxf(v[0], fmaxf(v[1], v[2]));
-}
-
-static bool transmits(const ec_scene *scene, const ec_material *m)
-{
-    float least_metal, least, most;
-    if (m->transmission == 0.0f) return false;
-    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 2, &least_metal, &most);
-    if (m->metallic * least_metal == 1.0f) return false;
-    ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
-    return most > 0.0f;
 }
 
 /* May kernels find this roughness, whose product rounds otherwise there, to be none? */
@@ -74,7 +64,7 @@ static void scan_emission(scan *s)
 static void scan_transmission(scan *s)
 {
     const ec_material *m = s->m;
-    if (!transmits(s->scene, m)) return;
+    if (m->transmission == 0.0f) return;
     call(s, EC_FEATURE_TRANSMISSION, "has transmission %g", (double)m->transmission);
     if (has_texture(s, EC_SLOT_TRANSMISSION)) call(s, EC_FEATURE_TRANSMISSION_TEXTURE, "has a transmission texture");
     if (ec_refracts(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
@@ -84,8 +74,7 @@ static void scan_coat(scan *s)
 {
     const ec_material *m = s->m;
     float least, most;
-    ec_texture_range(s->scene, &m->textures[EC_SLOT_CLEARCOAT], 0, &least, &most);
-    if (m->coat * most == 0.0f) return;
+    if (m->coat == 0.0f) return;
     call(s, EC_FEATURE_CLEARCOAT, "has clear coat %g", (double)m->coat);
     if (has_texture(s, EC_SLOT_CLEARCOAT) || has_texture(s, EC_SLOT_CLEARCOAT_ROUGHNESS))
         call(s, EC_FEATURE_CLEARCOAT_TEXTURE, "has a texture of its clear coat");
@@ -94,32 +83,18 @@ static void scan_coat(scan *s)
     if (is_smooth(m->coat_roughness * least)) call(s, EC_FEATURE_SMOOTH, "has a coat of roughness %g", (double)(m->coat_roughness * least));
 }
 
-/* A texture's channels are multiplied by the colour's: where each is 0 on one side or the other there is no sheen. */
 static void scan_sheen(scan *s)
 {
-    bool any = false;
-    for (int k = 0; k < 3; k++) {
-        float least, most;
-        ec_texture_range(s->scene, &s->m->textures[EC_SLOT_SHEEN_COLOR], k, &least, &most);
-        any |= s->m->sheen[k] * most > 0.0f;
-    }
-    if (!any) return;
+    if (max3(s->m->sheen) == 0.0f) return;
     call(s, EC_FEATURE_SHEEN, "has sheen");
     if (has_texture(s, EC_SLOT_SHEEN_COLOR) || has_texture(s, EC_SLOT_SHEEN_ROUGHNESS))
         call(s, EC_FEATURE_SHEEN_TEXTURE, "has a texture of its sheen");
 }
 
-/* At roughness 1 the lobe is as wide as it gets in all directions. */
 static void scan_anisotropy(scan *s)
 {
-    const ec_material *m = s->m;
-    float least, most, unused;
-    ec_texture_range(s->scene, &m->textures[EC_SLOT_ANISOTROPY], 2, &unused, &most);
-    ec_texture_range(s->scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &unused);
-    if (m->anisotropy * most == 0.0f || m->roughness * least == 1.0f) return;
-    if (calls_for(s, EC_FEATURE_TRANSMISSION) && m->metallic < 1.0f && !has_texture(s, EC_SLOT_TRANSMISSION) &&
-        !has_texture(s, EC_SLOT_METALLIC_ROUGHNESS)) return; /* glass is as rough in all directions */
-    call(s, EC_FEATURE_ANISOTROPY, "has anisotropy %g", (double)m->anisotropy);
+    if (s->m->anisotropy == 0.0f) return;
+    call(s, EC_FEATURE_ANISOTROPY, "has anisotropy %g", (double)s->m->anisotropy);
     if (has_texture(s, EC_SLOT_ANISOTROPY)) call(s, EC_FEATURE_ANISOTROPY_TEXTURE, "has an anisotropy texture");
 }
 
@@ -127,7 +102,7 @@ static void scan_specular(scan *s)
 {
     const ec_material *m = s->m;
     if (m->metallic > 0.0f) call(s, EC_FEATURE_SPECULAR, "has metallic %g", (double)m->metallic);
-    else if (m->specular > 0.0f && max3(m->specular_color) > 0.0f) call(s, EC_FEATURE_SPECULAR, "has specular reflection");
+    else if (m->specular > 0.0f) call(s, EC_FEATURE_SPECULAR, "has specular reflection");
     else if (calls_for(s, EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN))
         call(s, EC_FEATURE_SPECULAR, "has transmission, clear coat or sheen");
     else return;
@@ -144,6 +119,8 @@ static void scan_material(scan *s)
 {
     const ec_material *m = s->m;
     if (has_texture(s, EC_SLOT_BASE_COLOR)) call(s, EC_FEATURE_BASE_COLOR_TEXTURE, "has a base colour texture");
+    if (!m->double_sided && !ec_refracts(m)) call(s, EC_FEATURE_CULLING, "is single-sided");
+    if (m->alpha_mode != EC_ALPHA_OPAQUE) call(s, EC_FEATURE_ALPHA, "leaves open what its alpha says");
     if (m->unlit) {
         call(s, EC_FEATURE_UNLIT, "is unlit");
         return;
@@ -154,9 +131,13 @@ static void scan_material(scan *s)
     scan_sheen(s);
     scan_specular(s);
     if (has_texture(s, EC_SLOT_NORMAL)) call(s, EC_FEATURE_NORMAL_TEXTURE, "has a normal map");
-    if (!m->double_sided) call(s, EC_FEATURE_CULLING, "is single-sided");
-    bool may_be_open = m->base_color[3] < 1.0f || has_texture(s, EC_SLOT_BASE_COLOR) || s->scene->colors;
-    if (m->alpha_mode != EC_ALPHA_OPAQUE && may_be_open) call(s, EC_FEATURE_ALPHA, "has alpha");
+}
+
+static void scan_images(scan *s)
+{
+    for (int k = 0; k < EC_SLOT_COUNT; k++)
+        if (has_texture(s, k) && s->scene->images[s->scene->textures[s->m->textures[k].texture].image].rgba16)
+            call(s, EC_FEATURE_FLOAT_TEXTURE, "has a texture of more than 8 bits");
 }
 
 static void scan_materials(const ec_scene *scene, ec_effects *effects)
@@ -168,6 +149,7 @@ static void scan_materials(const ec_scene *scene, ec_effects *effects)
         scan s = {.scene = scene, .m = &scene->materials[m]};
         name_material(scene, m, s.name, sizeof s.name);
         scan_material(&s);
+        scan_images(&s);
         ec_effects_add(effects, &s.found);
     }
     free(used);
@@ -202,11 +184,15 @@ static void scan_normals(const ec_scene *scene, ec_effects *effects)
     }
 }
 
+/* Of vertices that a triangle has. */
 static void scan_colors(const ec_scene *scene, ec_effects *effects)
 {
-    for (size_t i = 0; scene->colors && i < 4 * (size_t)scene->vertex_count; i++) {
-        if (scene->colors[i] == 1.0f) continue;
-        ec_effects_call(effects, EC_FEATURE_VERTEX_COLORS, "vertices have colours");
+    for (size_t i = 0; scene->colors && i < 3 * (size_t)scene->triangle_count; i++) {
+        const float *c = scene->colors + 4 * (size_t)scene->indices[i];
+        if (c[0] == 1.0f && c[1] == 1.0f && c[2] == 1.0f && c[3] == 1.0f) continue;
+        char name[64];
+        name_material(scene, scene->triangle_material[i / 3], name, sizeof name);
+        ec_effects_call(effects, EC_FEATURE_VERTEX_COLORS, "the surface of %s has vertex colours", name);
         return;
     }
 }
@@ -231,12 +217,6 @@ static void scan_lights(const ec_scene *scene, ec_effects *effects)
     }
 }
 
-static void scan_images(const ec_scene *scene, ec_effects *effects)
-{
-    for (uint32_t i = 0; (effects->bits & EC_FEATURES_TEXTURED) && i < scene->image_count; i++)
-        if (scene->images[i].rgba16) ec_effects_call(effects, EC_FEATURE_FLOAT_TEXTURE, "image %u has more than 8 bits", i);
-}
-
 void ec_pack_effects(const ec_scene *scene, ec_effects *effects)
 {
     *effects = (ec_effects){0};
@@ -244,5 +224,4 @@ void ec_pack_effects(const ec_scene *scene, ec_effects *effects)
     scan_lights(scene, effects);
     scan_normals(scene, effects);
     scan_colors(scene, effects);
-    scan_images(scene, effects);
 }

@@ -10,6 +10,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
     ec_effects *called = &effects->called;
     *called = pack->effects;
+    effects->without = options->without_of ? 0 : options->without;
     if (options->sampler == EC_SAMPLER_SOBOL) ec_effects_call(called, EC_FEATURE_SOBOL, "--sampler sobol");
     if (options->terminator == EC_TERMINATOR_SMOOTH && (called->bits & EC_FEATURE_SMOOTH_NORMALS))
         ec_effects_call(called, EC_FEATURE_TERMINATOR, "--terminator smooth, and there are vertex normals");
@@ -44,7 +45,8 @@ static void add_word(char *text, size_t size, const char *word)
 ec_effect_row ec_effect_describe(const ec_render_effects *effects, uint32_t i)
 {
     uint64_t bit = ec_features[i].bit;
-    ec_effect_row row = {.name = ec_features[i].name, .called = effects->called.bits & bit, .built = effects->built & bit};
+    ec_effect_row row = {.name = ec_features[i].name, .called = effects->called.bits & bit, .built = effects->built & bit,
+                         .left_out = effects->without & bit};
     ec_effects_why(&effects->called, bit, row.why, sizeof row.why);
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
         if ((effects->launched >> id & 1) && (ec_stage_features(&ec_stages[id], effects->built) & bit))

@@ -18,6 +18,7 @@ enum { EC_SCENE_BUFFERS = 16 };
 typedef struct ec_render_effects {
     ec_effects called;   /* by the scene and the options */
     uint64_t built;      /* EC_FEATURE_* in the kernels: more than that with all_effects */
+    uint64_t without;    /* switched off on purpose */
     uint32_t launched;   /* stages: 1 << ec_stage_id */
     ec_scene_buffer buffers[EC_SCENE_BUFFERS];
     uint32_t buffer_count;
@@ -26,7 +27,7 @@ typedef struct ec_render_effects {
 /* One effect in words, as every report has it; empty texts where there is nothing. */
 typedef struct ec_effect_row {
     const char *name;
-    bool called, built;
+    bool called, built, left_out; /* left_out: by --without, whether it was called for or not */
     char why[EC_EFFECT_WHY + 24];
     char kernels[128], buffers[192]; /* ", " between them */
     uint64_t bytes;                  /* of these buffers; others may share them */

@@ -52,8 +52,8 @@ ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, e
     return EC_OK;
 }
 
-ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
-                             ec_pipeline *p, ec_render_stats *stats, ec_error *err)
+static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
+                        ec_pipeline *p, ec_render_stats *stats, ec_error *err)
 {
     memset(p, 0, sizeof *p);
     p->cl = cl;
@@ -71,11 +71,12 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     start = ec_now();
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));
-    if (p->integrator != EC_INTEGRATOR_PATH && (result = ec_pack_light_centres(scene, &pack, err)) != EC_OK) {
+    if (p->integrator != EC_INTEGRATOR_PATH && (result = ec_pack_light_centres(&pack.plain.scene, &pack, err)) != EC_OK) {
         ec_pack_free(&pack);
         return result;
     }
     ec_pipeline_effects(options, &pack, &p->effects);
+    const ec_scene *plain = &pack.plain.scene;
     ec_params *params = &p->params;
     set_camera(scene, options, params);
     params->width = options->width;
@@ -91,7 +92,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->environment_height = pack.environment_height;
     params->environment_pmf = pack.environment_pmf;
     for (int k = 0; k < 3; k++)
-        params->environment[k] = !scene->has_environment ? 0.0f : scene->environment.rgb ? 1.0f : scene->environment.constant[k];
+        params->environment[k] = !plain->has_environment ? 0.0f : plain->environment.rgb ? 1.0f : plain->environment.constant[k];
     memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;
@@ -108,6 +109,18 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     stats->wave = p->wave;
     stats->batch = batch;
     stats->effects = p->effects;
+    return result;
+}
+
+ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
+                             ec_pipeline *p, ec_render_stats *stats, ec_error *err)
+{
+    if (!options->without) return create(cl, scene, options, batch, p, stats, err);
+    ec_scene_view view;
+    memset(p, 0, sizeof *p);
+    EC_TRY(ec_scene_view_without(scene, options->without, (int64_t)options->without_of - 1, &view, err));
+    ec_result result = create(cl, &view.scene, options, batch, p, stats, err);
+    ec_scene_view_free(&view);
     return result;
 }
 

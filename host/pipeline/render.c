@@ -282,11 +282,24 @@ static ec_result check_ends(const ec_render_options *o, ec_error *err)
     return ec_fail(err, "a survival probability of %g with unlimited depth: nothing would end a path; set max_depth, or a survival under 1", o->survival);
 }
 
+/* No option is without effect in silence. */
+static ec_result note_unneeded(const ec_scene *scene, uint64_t without, const ec_log *log, ec_error *err)
+{
+    ec_effects effects;
+    char names[1024];
+    if (!without) return EC_OK;
+    EC_TRY(ec_scene_calls(scene, &effects, err));
+    ec_feature_names(without & ~effects.bits, names, sizeof names);
+    if (*names) ec_note(log, "--without: the scene does not call for %s", names);
+    return EC_OK;
+}
+
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     memset(stats, 0, sizeof *stats);
     EC_TRY(check_ends(options, err));
+    EC_TRY(note_unneeded(scene, options->without, log, err));
     render_state r = {.options = options, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.allotment.gain = 1.0;

@@ -48,6 +48,8 @@ typedef struct ec_render_options {
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
+    uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */
+    uint32_t without_of;        /* in material n - 1 alone; 0: in all */
     uint64_t more_effects;      /* EC_FEATURE_*, built in though the scene may not call for them: so that scenes share kernels */
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
     float grid_density;         /* cells a reference, where that is a grid; 0 = EC_GRID_DENSITY */

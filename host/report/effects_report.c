@@ -29,6 +29,7 @@ void ec_effects_json(cJSON *root, const ec_render_effects *effects)
         cJSON_AddItemToArray(list, object);
         ec_json_text(object, "name", row.name);
         cJSON_AddBoolToObject(object, "called_for", row.called);
+        cJSON_AddBoolToObject(object, "left_out", row.left_out);
         ec_json_text(object, "why", row.called ? row.why : NULL);
         add_list(object, "kernels", row.kernels);
         add_list(object, "buffers", row.buffers);
@@ -50,7 +51,7 @@ void ec_effects_line(const ec_render_effects *effects, char *text, size_t size)
 static void print_row(const ec_effect_row *row, FILE *to)
 {
     char bytes[32];
-    fprintf(to, "  %-26s %s", row->name, row->called ? row->why : "nothing calls for it: --effects all");
+    fprintf(to, "  %-26s %s", row->name, row->called ? row->why : row->left_out ? "left out: --without" : "nothing calls for it: --effects all");
     if (*row->kernels) fprintf(to, "; in %s", row->kernels);
     ec_format_bytes(row->bytes, bytes, sizeof bytes);
     if (*row->buffers) fprintf(to, "; %s, %s", row->buffers, bytes);
@@ -65,11 +66,11 @@ void ec_effects_text(const ec_render_effects *effects, FILE *to, int width)
     fprintf(to, "%-*s%s\n%-*swhat calls for each, the kernels it is built into, its buffers\n", width, "kernels", kernels, width, "effects");
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         ec_effect_row row = ec_effect_describe(effects, i);
-        if (row.built) print_row(&row, to);
+        if (row.built || row.left_out) print_row(&row, to);
     }
     fputs("  not built:", to);
     for (uint32_t i = 0; i < ec_feature_count; i++) {
-        if (effects->built & ec_features[i].bit) continue;
+        if ((effects->built | effects->without) & ec_features[i].bit) continue;
         if (column + strlen(ec_features[i].name) > 118) column = (size_t)fprintf(to, "\n            ") - 1;
         column += (size_t)fprintf(to, " %s", ec_features[i].name);
     }

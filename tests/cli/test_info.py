@@ -139,8 +139,10 @@ class Info(Case):
             # the weight is in red, roughness in green
             (set(), {**one, "clearcoatTexture": {"index": 0}}, green),
             ({coat, textured}, {**one, "clearcoatTexture": {"index": 0}}, white),
-            ({coat, textured}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, green),
-            ({coat, textured, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, black),
+            ({coat, textured, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, white),
+            # one value is a factor
+            ({coat}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, green),
+            ({coat, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, black),
             ({coat, bent}, {**one, "clearcoatNormalTexture": {"index": 0}}, white),
         ])
 
@@ -153,8 +155,9 @@ class Info(Case):
             ({sheen}, {"sheenColorFactor": [0, 0, 0.1]}),
             (set(), {"sheenColorFactor": [1, 1, 1], "sheenColorTexture": {"index": 0}}, black),
             (set(), {"sheenColorFactor": [1, 0, 1], "sheenColorTexture": {"index": 0}}, green),
-            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, green),
-            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, black),
+            ({sheen}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, green),
+            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, white),
+            ({sheen}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, white),  # of factor 0
         ])
 
     def test_anisotropy_calls_for_what_it_has(self):
@@ -203,6 +206,16 @@ class Info(Case):
         # two lights of ec_light_data and of ec_alias
         self.assertEqual(rows["punctual-lights"]["buffers"], ["lights", "light table"])
         self.assertEqual(rows["punctual-lights"]["buffer_bytes"], 2 * (64 + 8))
+
+    def test_of_another_scene_nothing_counts(self):
+        scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": 0}})
+        scene["materials"].append({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0, 1]}}})
+        scene["meshes"].append({"primitives": [{**scene["meshes"][0]["primitives"][0], "material": 1}]})
+        scene["nodes"].append({"mesh": 1})
+        scene["scenes"].append({"nodes": [1, 2]})
+        for chosen, called in ((0, False), (1, True)):
+            _, rows = self.reasons({**scene, "scene": chosen})
+            self.assertEqual(rows["sheen"]["called_for"], called)
 
     def test_no_light_to_join_no_shadow_rays(self):
         scene, _ = quad_scene(material={"extensions": {"KHR_materials_unlit": {}}})

@@ -113,12 +113,12 @@ class Picture:
 
 
 class HardCase(Case):
-    """One set of kernels for all scenes (--all-effects): compiled once."""
+    """One set of kernels for all scenes (--effects all): compiled once."""
 
     def render(self, scene, *options, invalid=0, size="16x16", spp="16"):
         path = scene if isinstance(scene, str) else scene.write(self.path("scene.gltf"))
         picture = self.path("picture.exr")
-        run = self.assert_ok(eclat("render", path, "--all-effects", "--size", size, "--spp", spp, "--json", "-o", picture, *options))
+        run = self.assert_ok(eclat("render", path, "--effects", "all", "--size", size, "--spp", spp, "--json", "-o", picture, *options))
         stats = json.loads(run.stdout)
         channels = read_exr(picture)[1]
         os.remove(picture)
