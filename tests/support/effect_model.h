@@ -8,8 +8,9 @@
 
 #include "scene/model.h"
 
-/* Textures that every such scene has. MIXED: texels of 0 and of 255 in all channels; DEEP the same with 16 bits. */
-enum { EM_BLACK, EM_WHITE, EM_MIXED, EM_DEEP, EM_GREEN, EM_GREY, EM_TEXTURES };
+/* Textures that every such scene has. MIXED: texels of 0 and of 255 in all channels; DEEP the same with 16 bits;
+ * NOISE: values from 100 on. */
+enum { EM_BLACK, EM_WHITE, EM_MIXED, EM_DEEP, EM_GREEN, EM_GREY, EM_NOISE, EM_TEXTURES };
 enum { EM_SIDE = 4, EM_MATERIALS = 64 };
 
 /* A model whose materials may use them: it learns of textures once it is a scene. */
@@ -58,6 +59,7 @@ static inline void em_add_textures(ec_scene *s)
         for (int i = 0; i < 4 * texels; i++) {
             bool mixed = i / 4 % 2, green = i % 4 == 1;
             int v = t == EM_WHITE || (mixed && (t == EM_MIXED || t == EM_DEEP)) || (green && t == EM_GREEN) ? 255 : t == EM_GREY ? 128 : 0;
+            if (t == EM_NOISE) v = 100 + i * 37 % 156;
             if (image->rgba16) image->rgba16[i] = (uint16_t)(257 * v);
             else image->rgba8[i] = (uint8_t)v;
         }
