@@ -29,7 +29,8 @@ class Scene:
     """Renders one scene by any program, with caches of its own or the usual ones."""
 
     def __init__(self, file, environment, options, folder):
-        self.arguments = [file, "--size", f"{options.size}x{options.size}", "-o", os.path.join(folder, "effects.exr")]
+        self.arguments = [file, "--size", f"{options.size}x{options.size}", "--lanes", options.lanes]
+        self.arguments += ["-o", os.path.join(folder, "effects.exr")]
         self.arguments += ["--env", environment] if environment else []
         self.spp, self.caches = options.spp, os.path.join(folder, "caches")
 
@@ -112,6 +113,7 @@ def main():
     parser.add_argument("--cold", type=int, default=3, help="starts with empty caches of each build")
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--size", type=int, default=512)
+    parser.add_argument("--lanes", default="auto", help="as of eclat render")
     parser.add_argument("--scene", action="append", metavar="NAME", help="only these; may be repeated")
     parser.add_argument("--before", metavar="ECLAT", help="a program of an earlier commit, to take turns with too")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
