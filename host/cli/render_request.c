@@ -90,7 +90,7 @@ SETTER(effects)
 /* May be repeated. */
 SETTER(without)
 {
-    char names[1024];
+    char names[EC_EFFECT_NAMES];
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         if (!(ec_effects_optional & ec_features[i].bit) || strcmp(value, ec_features[i].name)) continue;
         REQUEST->options.without |= ec_features[i].bit;

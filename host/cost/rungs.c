@@ -9,7 +9,7 @@
 #include "cost/cost.h"
 #include "pack/pack.h"
 
-enum { ROWS_MOST = 64, LAMPS_MOST = 6, DEPTH_CUT = 8 };
+enum { ROWS_MOST = 96, LAMPS_MOST = 6, DEPTH_CUT = 8 };
 
 const double ec_cost_targets[EC_COST_TARGETS] = {0.05, 0.02, 0.01, 0.005};
 

@@ -11,7 +11,7 @@
 
 #include "shared/features.h"
 
-enum { EC_EFFECT_BITS = 64, EC_EFFECT_WHY = 112 };
+enum { EC_EFFECT_BITS = 64, EC_EFFECT_WHY = 112, EC_EFFECT_NAMES = 2048 /* all of them */ };
 
 typedef struct ec_effects {
     uint64_t bits; /* EC_FEATURE_* */

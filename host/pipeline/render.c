@@ -286,7 +286,7 @@ static ec_result check_ends(const ec_render_options *o, ec_error *err)
 static ec_result note_unneeded(const ec_scene *scene, uint64_t without, const ec_log *log, ec_error *err)
 {
     ec_effects effects;
-    char names[1024];
+    char names[EC_EFFECT_NAMES];
     if (!without) return EC_OK;
     EC_TRY(ec_scene_calls(scene, &effects, err));
     ec_feature_names(without & ~effects.bits, names, sizeof names);

@@ -19,7 +19,7 @@ static void add_list(cJSON *object, const char *key, const char *list)
 
 void ec_effects_json(cJSON *root, const ec_render_effects *effects)
 {
-    char text[1024];
+    char text[EC_EFFECT_NAMES];
     ec_feature_names(effects->built, text, sizeof text);
     ec_json_words(root, "effects", text);
     cJSON *list = cJSON_AddArrayToObject(root, "effect_list");
@@ -41,7 +41,7 @@ void ec_effects_json(cJSON *root, const ec_render_effects *effects)
 
 void ec_effects_line(const ec_render_effects *effects, char *text, size_t size)
 {
-    char names[1024];
+    char names[EC_EFFECT_NAMES];
     uint32_t built = 0;
     for (uint32_t i = 0; i < ec_feature_count; i++) built += (effects->built & ec_features[i].bit) != 0;
     ec_feature_names(effects->built, names, sizeof names);

@@ -75,7 +75,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
 /* "sheen: material 1 "Velvet" has sheen" in lines. */
 static void add_effects(ec_report_attributes *attributes, const ec_render_effects *effects)
 {
-    char text[4096];
+    char text[EC_EFFECT_BITS * (EC_EFFECT_WHY + 64)];
     size_t used = 0;
     ec_feature_names(effects->built, text, sizeof text);
     add_made(attributes, "eclat.effects", "%s", text);

@@ -35,7 +35,7 @@ static void print_heavy(const ec_render_report *report, FILE *to)
 
 static void print_effects(const ec_render_effects *effects, FILE *to)
 {
-    char line[1152];
+    char line[EC_EFFECT_NAMES + 32];
     ec_effects_line(effects, line, sizeof line);
     fprintf(to, "effects  %s\n", line);
 }

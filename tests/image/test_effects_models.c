@@ -32,7 +32,7 @@ int main(void)
         case_free(&full);
         ec_scene_free(scene);
     }
-    char names[1024];
+    char names[EC_EFFECT_NAMES];
     ec_feature_names(EC_FEATURE_ALL & ~called, names, sizeof names);
     printf("%d models; none calls for: %s\n", compared, names);
     CHECK(compared > 20);

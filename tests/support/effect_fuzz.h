@@ -261,7 +261,7 @@ static inline bool ef_same(const ec_scene *scene, ec_integrator integrator, uint
 /* Scene `seed` without as many of its effects as it takes to fail still; then the bits that mend it. */
 static inline void ef_report(uint64_t seed, effect_run run, ec_integrator integrator, uint64_t allowed)
 {
-    char names[1024], missed[1024];
+    char names[EC_EFFECT_NAMES], missed[EC_EFFECT_NAMES];
     double mean;
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         uint64_t less = ef_close(allowed & ~ec_features[i].bit);
@@ -289,7 +289,7 @@ static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrato
     int lit = 0;
     case_cl()->keeps_programs = true;
     for (uint64_t seed = first; seed < first + (uint64_t)count; seed++) {
-        char names[1024];
+        char names[EC_EFFECT_NAMES];
         double mean;
         ec_effects called;
         ec_error err = {0};

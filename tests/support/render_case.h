@@ -121,7 +121,7 @@ static inline case_image case_render_file(const char *path, const char *environm
 /* Names of the effects that were built in. */
 static inline const char *case_effects(const case_image *image)
 {
-    static char text[1024];
+    static char text[EC_EFFECT_NAMES];
     ec_feature_names(image->stats.effects.built, text, sizeof text);
     return text;
 }
