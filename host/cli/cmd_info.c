@@ -8,12 +8,14 @@
 #include "cli/combinations.h"
 #include "cli/defaults.h"
 #include "cli/options.h"
+#include "cli/scene_choice.h"
 #include "cli/setters.h"
 #include "pipeline/render.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
     const char *scene, *accel, *device; /* accel: a name, "all", or NULL for none */
+    ec_scene_choice choice;
     double grid_density; /* 0: the default */
     bool json, quiet;
 } info_request;
@@ -23,6 +25,7 @@ typedef struct info_request {
 FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(device, device)
+SCENE_CHOICE_SETTERS(choice)
 RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
 SETTER(accel)
@@ -42,6 +45,7 @@ static const ec_option options[] = {
     {"grid-density", 0, true, set_grid_density},
     {"json", 0, false, set_json},
     {"quiet", 'q', false, set_quiet},
+    SCENE_CHOICE_OPTIONS,
 };
 
 static ec_result measure(ec_scene_report *report, ec_error *err)
@@ -93,7 +97,7 @@ static ec_result tell(const info_request *request, const ec_log *log, ec_error *
     ec_scene_report report = {.path = request->scene};
     ec_scene *scene = NULL;
     double start = ec_now();
-    EC_TRY(ec_scene_load(request->scene, &scene, log, err));
+    EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &scene, log, err));
     report.load_seconds = ec_now() - start;
     report.scene = scene;
 

@@ -21,7 +21,8 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
     float alpha = m->roughness * m->roughness * least * least * 0.99f; /* the kernels' product rounds otherwise */
-    return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
+    float ior = fmaxf(m->ior - 0.0151f * m->dispersion * (m->ior - 1.0f), 1.0f); /* red's: dispersed_index */
+    return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / ior) < EC_SMOOTH_ALPHA);
 }
 
 /* A material, and what it calls for. */
@@ -50,6 +51,10 @@ __attribute__((format(printf, 3, 4))) static void call(scan *s, uint64_t feature
     ec_effects_call(&s->found, feature, "%s %s", s->name, text);
 }
 
+/* All that a kernel looks at beside the diffuse base. */
+#define EC_FEATURES_OVER_DIFFUSE                                                                                       \
+    (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION)
+
 static bool has_texture(const scan *s, int slot) { return s->m->textures[slot].texture >= 0; }
 static bool calls_for(const scan *s, uint64_t features) { return s->found.bits & features; }
 
@@ -68,6 +73,7 @@ static void scan_transmission(scan *s)
     call(s, EC_FEATURE_TRANSMISSION, "has transmission %g", (double)m->transmission);
     if (has_texture(s, EC_SLOT_TRANSMISSION)) call(s, EC_FEATURE_TRANSMISSION_TEXTURE, "has a transmission texture");
     if (ec_refracts(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
+    if (m->dispersion > 0.0f) call(s, EC_FEATURE_DISPERSION, "has dispersion %g", (double)m->dispersion);
 }
 
 static void scan_coat(scan *s)
@@ -91,6 +97,24 @@ static void scan_sheen(scan *s)
         call(s, EC_FEATURE_SHEEN_TEXTURE, "has a texture of its sheen");
 }
 
+static void scan_film(scan *s)
+{
+    if (s->m->film == 0.0f) return;
+    call(s, EC_FEATURE_IRIDESCENCE, "has iridescence %g", (double)s->m->film);
+    if (has_texture(s, EC_SLOT_IRIDESCENCE) || has_texture(s, EC_SLOT_IRIDESCENCE_THICKNESS))
+        call(s, EC_FEATURE_IRIDESCENCE_TEXTURE, "has a texture of its film");
+}
+
+static void scan_seeping(scan *s)
+{
+    const ec_material *m = s->m;
+    if (m->seeps == 0.0f) return;
+    call(s, EC_FEATURE_DIFFUSE_TRANSMISSION, "has diffuse transmission %g", (double)m->seeps);
+    if (has_texture(s, EC_SLOT_DIFFUSE_TRANSMISSION) || has_texture(s, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR))
+        call(s, EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, "has a texture of its diffuse transmission");
+    if (ec_bounds(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
+}
+
 static void scan_anisotropy(scan *s)
 {
     if (s->m->anisotropy == 0.0f) return;
@@ -103,8 +127,7 @@ static void scan_specular(scan *s)
     const ec_material *m = s->m;
     if (m->metallic > 0.0f) call(s, EC_FEATURE_SPECULAR, "has metallic %g", (double)m->metallic);
     else if (m->specular > 0.0f) call(s, EC_FEATURE_SPECULAR, "has specular reflection");
-    else if (calls_for(s, EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN))
-        call(s, EC_FEATURE_SPECULAR, "has transmission, clear coat or sheen");
+    else if (calls_for(s, EC_FEATURES_OVER_DIFFUSE)) call(s, EC_FEATURE_SPECULAR, "has more than a diffuse base");
     else return;
     if (may_be_smooth(s->scene, m, calls_for(s, EC_FEATURE_TRANSMISSION) && ec_refracts(m)))
         call(s, EC_FEATURE_SMOOTH, "reflects or refracts in one direction, by its roughness or ior");
@@ -119,7 +142,7 @@ static void scan_material(scan *s)
 {
     const ec_material *m = s->m;
     if (has_texture(s, EC_SLOT_BASE_COLOR)) call(s, EC_FEATURE_BASE_COLOR_TEXTURE, "has a base colour texture");
-    if (!m->double_sided && !ec_refracts(m)) call(s, EC_FEATURE_CULLING, "is single-sided");
+    if (!m->double_sided && !ec_refracts(m) && !ec_bounds(m)) call(s, EC_FEATURE_CULLING, "is single-sided");
     if (m->alpha_mode != EC_ALPHA_OPAQUE) call(s, EC_FEATURE_ALPHA, "leaves open what its alpha says");
     if (m->unlit) {
         call(s, EC_FEATURE_UNLIT, "is unlit");
@@ -129,6 +152,8 @@ static void scan_material(scan *s)
     scan_transmission(s);
     scan_coat(s);
     scan_sheen(s);
+    scan_film(s);
+    scan_seeping(s);
     scan_specular(s);
     if (has_texture(s, EC_SLOT_NORMAL)) call(s, EC_FEATURE_NORMAL_TEXTURE, "has a normal map");
 }
@@ -212,6 +237,7 @@ static void scan_lights(const ec_scene *scene, ec_effects *effects)
     if (e->rgb) {
         ec_effects_call(effects, EC_FEATURE_ENVIRONMENT, "the environment map shines");
         ec_effects_call(effects, EC_FEATURE_ENVIRONMENT_MAP, "the environment is a map of %u x %u", e->width, e->height);
+        if (e->turned) ec_effects_call(effects, EC_FEATURE_ENVIRONMENT_TURN, "the environment is turned");
     } else if (max3(e->constant) > 0.0f) {
         ec_effects_call(effects, EC_FEATURE_ENVIRONMENT, "the environment shines");
     }

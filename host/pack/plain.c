@@ -23,9 +23,28 @@ static void plain_transmission(const ec_scene *scene, ec_material *m)
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 2, &least, &most);
     if (m->metallic * least == 1.0f) m->transmission = 0.0f;
-    if (m->transmission > 0.0f) return;
-    drop(m, EC_SLOT_TRANSMISSION);
-    memset(m->absorption, 0, sizeof m->absorption);
+    if (!(m->metallic * least < 1.0f)) m->seeps = 0.0f;
+    ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
+    if (m->transmission * least == 1.0f) m->seeps = 0.0f; /* nothing of the light is left for it */
+    if (m->transmission == 0.0f) drop(m, EC_SLOT_TRANSMISSION);
+    if (!ec_refracts(m) || m->ior <= 1.0f) m->dispersion = 0.0f;
+    if (!ec_refracts(m) && !ec_bounds(m)) memset(m->absorption, 0, sizeof m->absorption);
+    if (m->seeps > 0.0f) return;
+    drop(m, EC_SLOT_DIFFUSE_TRANSMISSION);
+    drop(m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR);
+}
+
+/* A film of no thickness, or of air, is none. */
+static void plain_film(const ec_scene *scene, ec_material *m)
+{
+    const ec_texture_use *thickness = &m->textures[EC_SLOT_IRIDESCENCE_THICKNESS];
+    float low = 1.0f, high = 1.0f;
+    if (thickness->texture >= 0) ec_texture_range(scene, thickness, 1, &low, &high);
+    bool thick = (m->film_least > 0.0f && low < 1.0f) || (m->film_most > 0.0f && high > 0.0f);
+    if (m->film_ior == 1.0f || !thick) m->film = 0.0f;
+    if (m->film > 0.0f) return;
+    drop(m, EC_SLOT_IRIDESCENCE);
+    drop(m, EC_SLOT_IRIDESCENCE_THICKNESS);
 }
 
 static void plain_coat(ec_material *m)
@@ -58,7 +77,7 @@ static void plain_bare(ec_material *m)
     memset(m->emission, 0, sizeof m->emission);
     memset(m->sheen, 0, sizeof m->sheen);
     memset(m->absorption, 0, sizeof m->absorption);
-    m->metallic = m->specular = m->transmission = m->coat = m->anisotropy = 0.0f;
+    m->metallic = m->specular = m->transmission = m->coat = m->anisotropy = m->film = m->seeps = m->dispersion = 0.0f;
 }
 
 /* Coverage between these two: does it leave anything open, and does it show anything? A product and a bilinear look-up round. */
@@ -83,6 +102,7 @@ static void plain_material(const ec_scene *scene, ec_material *m, const shown *s
     plain_alpha(scene, m, s);
     plain_transmission(scene, m);
     plain_coat(m);
+    plain_film(scene, m);
     if (is_zero(m->sheen)) drop(m, EC_SLOT_SHEEN_ROUGHNESS);
     if (m->specular == 0.0f) drop(m, EC_SLOT_SPECULAR_COLOR);
     if (m->normal_scale == 0.0f) drop(m, EC_SLOT_NORMAL);

@@ -10,7 +10,8 @@ const uint64_t ec_effects_optional =
     EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_ALPHA | EC_FEATURE_TRANSMISSION |
     EC_FEATURE_TRANSMISSION_TEXTURE | EC_FEATURE_ABSORPTION | EC_FEATURE_CLEARCOAT | EC_FEATURE_CLEARCOAT_TEXTURE |
     EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN | EC_FEATURE_SHEEN_TEXTURE | EC_FEATURE_ANISOTROPY |
-    EC_FEATURE_ANISOTROPY_TEXTURE;
+    EC_FEATURE_ANISOTROPY_TEXTURE | EC_FEATURE_IRIDESCENCE | EC_FEATURE_IRIDESCENCE_TEXTURE | EC_FEATURE_DIFFUSE_TRANSMISSION |
+    EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE | EC_FEATURE_DISPERSION;
 
 /* Textures by their means: slots that an effect reads. */
 static const struct {
@@ -30,6 +31,10 @@ static const struct {
     {EC_FEATURE_SHEEN_TEXTURE, EC_SLOT_SHEEN_COLOR},
     {EC_FEATURE_SHEEN_TEXTURE, EC_SLOT_SHEEN_ROUGHNESS},
     {EC_FEATURE_ANISOTROPY_TEXTURE, EC_SLOT_ANISOTROPY},
+    {EC_FEATURE_IRIDESCENCE_TEXTURE, EC_SLOT_IRIDESCENCE},
+    {EC_FEATURE_IRIDESCENCE_TEXTURE, EC_SLOT_IRIDESCENCE_THICKNESS},
+    {EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, EC_SLOT_DIFFUSE_TRANSMISSION},
+    {EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR},
 };
 
 static void without(const ec_scene *scene, uint64_t off, ec_material *m)
@@ -46,6 +51,9 @@ static void without(const ec_scene *scene, uint64_t off, ec_material *m)
     if (off & EC_FEATURE_CLEARCOAT) m->coat = 0.0f;
     if (off & EC_FEATURE_SHEEN) memset(m->sheen, 0, sizeof m->sheen);
     if (off & EC_FEATURE_ANISOTROPY) m->anisotropy = 0.0f;
+    if (off & EC_FEATURE_IRIDESCENCE) m->film = 0.0f;
+    if (off & EC_FEATURE_DIFFUSE_TRANSMISSION) m->seeps = 0.0f;
+    if (off & EC_FEATURE_DISPERSION) m->dispersion = 0.0f;
 }
 
 ec_result ec_scene_view_without(const ec_scene *scene, uint64_t off, int64_t material, ec_scene_view *view, ec_error *err)

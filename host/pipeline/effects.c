@@ -14,6 +14,9 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     if (options->sampler == EC_SAMPLER_SOBOL) ec_effects_call(called, EC_FEATURE_SOBOL, "--sampler sobol");
     if (options->terminator == EC_TERMINATOR_SMOOTH && (called->bits & EC_FEATURE_SMOOTH_NORMALS))
         ec_effects_call(called, EC_FEATURE_TERMINATOR, "--terminator smooth, and there are vertex normals");
+    if (pack->light_node_count) ec_effects_call(called, EC_FEATURE_LIGHT_TREE, "%u lights are chosen among", pack->light_count);
+    if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
+    if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
     effects->built = called->bits | (options->all_effects ? EC_FEATURE_ALL & ~asked_for : options->more_effects);
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
         if (ec_stages[id].integrators >> options->integrator & 1) effects->launched |= 1u << id;

@@ -62,6 +62,8 @@ void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
 /* whitted.c: of the stack of a slot; max_depth as in the options */
 uint64_t ec_whitted_stack_words(uint32_t max_depth);
 
+/* camera.c */
+ec_result ec_pipeline_set_camera(const ec_scene *scene, const ec_render_options *options, ec_params *params, ec_error *err);
 /* upload.c: what of the scene goes to the device, and for which effects; doing it */
 typedef struct ec_upload {
     ec_arg arg;
@@ -71,6 +73,7 @@ typedef struct ec_upload {
 } ec_upload;
 uint32_t ec_upload_plan(const ec_scene *scene, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects);
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
+ec_result ec_pipeline_upload_filter(ec_pipeline *pipeline, const ec_render_options *options, ec_error *err);
 /* Builds an accelerator and uploads it; stats may be NULL. */
 ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
 /* Those that are in use. */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "pipeline/pipeline.h"
+#include "pipeline/pixel_filter.h"
 
 /* Both sets side by side. They must be finite and small enough for the kernels' integer texels. */
 static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, const ec_upload *u, ec_error *err)
@@ -39,15 +40,18 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_LIGHT_TABLE, pack->lights, 0, {"lights", light, lights * sizeof *pack->lights}},
         {EC_ARG_LIGHT_ALIAS, pack->light_alias, 0, {"light table", light, lights * sizeof *pack->light_alias}},
         {EC_ARG_ENVIRONMENT_TEXELS, pack->environment_texels, 0, {"environment map", EC_FEATURE_ENVIRONMENT_MAP, texels * 16}},
-        {EC_ARG_ENVIRONMENT_ALIAS, pack->environment_alias, 0,
-         {"environment table", EC_FEATURE_ENVIRONMENT_MAP, texels * sizeof *pack->environment_alias}},
+        {EC_ARG_ENVIRONMENT_TABLE, pack->environment_table, 0,
+         {"environment table", EC_FEATURE_ENVIRONMENT_MAP, (texels + pack->environment_height) * sizeof *pack->environment_table}},
+        {EC_ARG_LIGHT_TREE, pack->light_tree, 0, {"light tree", EC_FEATURE_LIGHT_TREE, pack->light_node_count * sizeof *pack->light_tree}},
+        {EC_ARG_LIGHT_TRAILS, pack->light_of_prim, 0,
+         {"trails of lamps", EC_FEATURE_LIGHT_TREE, pack->light_node_count ? (uint64_t)pack->prim_count * sizeof *pack->light_of_prim : 0}},
     };
     const uint32_t count = sizeof all / sizeof *all;
     effects->buffer_count = count;
     for (uint32_t i = 0; i < count; i++) {
         plan[i] = all[i];
         uint64_t for_whom = plan[i].buffer.effects; /* also for universal kernels: what is not called for stays NULL */
-        if (for_whom && !(pack->effects.bits & for_whom)) plan[i].buffer.bytes = 0;
+        if ((for_whom && !(effects->called.bits & for_whom)) || (!plan[i].data && plan[i].arg != EC_ARG_UVS)) plan[i].buffer.bytes = 0;
         if (plan[i].buffer.bytes) plan[i].buffer.bytes += plan[i].slack;
         effects->buffers[i] = plan[i].buffer;
     }
@@ -67,6 +71,14 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
         if (u->slack) EC_TRY(ec_buffer_write(p->cl, p->buffers[u->arg], 0, bytes - u->slack, u->data, err));
     }
     return EC_OK;
+}
+
+ec_result ec_pipeline_upload_filter(ec_pipeline *p, const ec_render_options *o, ec_error *err)
+{
+    float table[EC_FILTER_ENTRIES];
+    if (o->filter == EC_FILTER_BOX) return EC_OK;
+    ec_pixel_filter_blackman_harris(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH, table);
+    return ec_buffer_create(p->cl, "pixel filter", sizeof table, table, &p->buffers[EC_ARG_PIXEL_FILTER], err);
 }
 
 ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)

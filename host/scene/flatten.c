@@ -16,7 +16,7 @@ typedef ec_result (*draw_function)(ec_flattener *f, const ec_draw *d);
 static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, draw_function function)
 {
     for (uint32_t i = 0; i < list->count; i++) {
-        int32_t mesh = g->nodes[list->items[i].node].mesh;
+        int32_t mesh = list->items[i].mesh;
         if (mesh < 0) continue;
         ec_draw d = {.g = g, .at = &list->items[i]};
         ec_gltf_normal_matrix(d.at->linear, d.normal_matrix);
@@ -46,10 +46,10 @@ static ec_result count_draw(ec_flattener *f, const ec_draw *d)
         return ec_fail(f->err, "%s: more than %d triangles or vertices once all instances are counted; simplify the scene",
                        d->g->path, INT32_MAX);
     if (range > f->remap_size) f->remap_size = range;
-    f->has_normals |= d->p->normal >= 0;
-    f->has_tangents |= d->p->tangent >= 0 && d->p->normal >= 0;
-    f->has_colors |= d->p->color >= 0;
-    for (int i = 0; i < 2; i++) f->has_uv[i] |= d->p->uv[i] >= 0;
+    f->has_normals |= d->p->streams.normal >= 0;
+    f->has_tangents |= d->p->streams.tangent >= 0 && d->p->streams.normal >= 0;
+    f->has_colors |= d->p->streams.color >= 0;
+    for (int i = 0; i < 2; i++) f->has_uv[i] |= d->p->streams.uv[i] >= 0;
     return EC_OK;
 }
 
@@ -105,7 +105,7 @@ static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
 {
     float local[3][3];
     double normal[3];
-    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->position], v[i], 3, local[i]);
+    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.position], v[i], 3, local[i]);
     cross_edges(local[0], local[1], local[2], normal);
     return largest_component(normal) == 0;
 }

@@ -69,6 +69,11 @@ static void test_weights(void)
     PAIR(ANISOTROPY, (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1, USE(ANISOTROPY, WHITE)),
          (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1, USE(ANISOTROPY, GREEN))); /* strength is in blue */
     PAIR(ANISOTROPY, (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1), (m->roughness = 0.5f, m->anisotropy = 1));
+    PAIR(IRIDESCENCE, (m->film = 1, m->film_ior = 1.3f, m->film_most = 400), (m->film = 1, m->film_ior = 1.3f));
+    PAIR(IRIDESCENCE, (m->film = 1, m->film_ior = 1.3f, m->film_most = 400), (m->film = 1, m->film_ior = 1, m->film_most = 400));
+    PAIR(DIFFUSE_TRANSMISSION, m->seeps = 1, (m->seeps = 1, USE(DIFFUSE_TRANSMISSION, BLACK)));
+    PAIR(DIFFUSE_TRANSMISSION, m->seeps = 1, (m->seeps = m->metallic = 1));
+    PAIR(DISPERSION, (m->transmission = m->dispersion = 1, m->volume = true), (m->transmission = m->dispersion = 1));
     PAIR(SMOOTH, (m->metallic = 1, m->roughness = 0), (m->metallic = 1, m->roughness = 0.02f));
     PAIR(SMOOTH, (m->metallic = 1, m->roughness = 0), m->roughness = 0); /* nothing reflects */
     PAIR(UNLIT, m->unlit = true, m->unlit = false);
@@ -225,8 +230,8 @@ static void test_vertices(void)
 static effect_model everything(void)
 {
     effect_model e = em_new();
-    ec_material list[8];
-    for (int i = 0; i < 8; i++) {
+    ec_material list[10];
+    for (int i = 0; i < 10; i++) {
         list[i] = em_plain();
         list[i].metallic = 0.5f;
         list[i].roughness = 0.5f;
@@ -240,10 +245,13 @@ static effect_model everything(void)
     list[4].coat = list[4].coat_roughness = 1;
     list[5].sheen[0] = list[5].sheen_roughness = 1;
     list[6].anisotropy = 1;
+    list[3].dispersion = 1;
+    list[8].film = 1, list[8].film_ior = 1.3f, list[8].film_most = 400;
+    list[9].seeps = 1;
     list[7].alpha_mode = EC_ALPHA_BLEND;
     list[7].base_color[3] = 0.5f;
     static const float bent[12] = {0.6f, 0, 0.8f, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-    for (int i = 0; i < 8; i++) em_quad(&e, em_material(&e, &list[i]), bent);
+    for (int i = 0; i < 10; i++) em_quad(&e, em_material(&e, &list[i]), bent);
     ec_model_light(e.model, &(ec_light){.intensity = {1, 1, 1}}, (double[]){0, 0, 2}, (double[]){0, 0, 0});
     return e;
 }
@@ -261,7 +269,7 @@ static void test_without(void)
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         uint64_t bit = ec_features[i].bit, off = bit;
         if (!(ec_effects_optional & bit)) continue;
-        if (bit == EC_FEATURE_SPECULAR) off |= EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN; /* these reflect too */
+        if (bit == EC_FEATURE_SPECULAR) off |= EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION; /* these reflect too */
         if (bit == EC_FEATURE_BASE_COLOR_TEXTURE) off |= EC_FEATURE_ALPHA; /* coverage is in it */
         CHECK_OK(ec_scene_view_without(scene, off, EC_ALL_MATERIALS, &view, &err), err);
         CHECK_MSG(!(scan(&view.scene) & bit), "%s is called for though it is left out", ec_features[i].name);

@@ -16,7 +16,9 @@
 
 enum { EF_MATERIALS = 7 };
 /* Not a scene's to call for. */
-#define EF_NEVER (EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR)
+#define EF_NEVER                                                                                                      \
+    (EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LIGHT_TREE |  \
+     EC_FEATURE_ENVIRONMENT_TURN)
 
 typedef enum effect_run { EF_SHARED, EF_EXACT } effect_run;
 
@@ -57,13 +59,15 @@ static inline uint64_t ef_close(uint64_t set)
         {EC_FEATURE_EMISSION, EC_FEATURE_AREA_LIGHTS},
         {EC_FEATURE_AREA_LIGHTS, EC_FEATURE_EMISSION},
         {EC_FEATURE_ENVIRONMENT_MAP, EC_FEATURE_ENVIRONMENT},
-        {EC_FEATURE_TRANSMISSION_TEXTURE | EC_FEATURE_ABSORPTION, EC_FEATURE_TRANSMISSION},
+        {EC_FEATURE_TRANSMISSION_TEXTURE | EC_FEATURE_ABSORPTION | EC_FEATURE_DISPERSION, EC_FEATURE_TRANSMISSION},
+        {EC_FEATURE_IRIDESCENCE_TEXTURE, EC_FEATURE_IRIDESCENCE},
+        {EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, EC_FEATURE_DIFFUSE_TRANSMISSION},
         {EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE, EC_FEATURE_CLEARCOAT},
         {EC_FEATURE_SHEEN_TEXTURE, EC_FEATURE_SHEEN},
         {EC_FEATURE_ANISOTROPY_TEXTURE, EC_FEATURE_ANISOTROPY},
         {EC_FEATURE_FLOAT_TEXTURE, EC_FEATURE_BASE_COLOR_TEXTURE},
         {EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT |
-             EC_FEATURE_SHEEN | EC_FEATURE_ANISOTROPY | EC_FEATURE_SMOOTH, EC_FEATURE_SPECULAR},
+             EC_FEATURE_SHEEN | EC_FEATURE_ANISOTROPY | EC_FEATURE_SMOOTH | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION, EC_FEATURE_SPECULAR},
     };
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
         if (set & needs[i][0]) set |= needs[i][1];
@@ -141,6 +145,19 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
         m->sheen_roughness = ef_real(d, 148);
         if (!sheen) EF_USE(SHEEN_COLOR, GREEN), EF_USE(SHEEN_ROUGHNESS, NOISE);
         else if (EF_HAS(SHEEN_TEXTURE)) EF_USE(SHEEN_COLOR, MIXED), EF_USE(SHEEN_ROUGHNESS, NOISE);
+    }
+    if (EF_HAS(DISPERSION) || (!m->volume && EF_NEARLY(DISPERSION))) m->dispersion = ef_real(d, 151);
+    if (EF_HAS(IRIDESCENCE) || EF_NEARLY(IRIDESCENCE)) {
+        m->film = 0.5f + 0.5f * ef_real(d, 152);
+        m->film_ior = 1.3f;
+        m->film_most = EF_HAS(IRIDESCENCE) ? 200 + 300 * ef_real(d, 153) : 0;
+        if (EF_HAS(IRIDESCENCE) && EF_HAS(IRIDESCENCE_TEXTURE)) EF_USE(IRIDESCENCE_THICKNESS, NOISE);
+    }
+    if (EF_HAS(DIFFUSE_TRANSMISSION) || EF_NEARLY(DIFFUSE_TRANSMISSION)) {
+        m->seeps = 0.5f + 0.5f * ef_real(d, 154);
+        for (int k = 0; k < 3; k++) m->below[k] = ef_real(d, 155 + (uint64_t)k);
+        if (!EF_HAS(DIFFUSE_TRANSMISSION)) EF_USE(DIFFUSE_TRANSMISSION, BLACK);
+        else if (EF_HAS(DIFFUSE_TRANSMISSION_TEXTURE)) EF_USE(DIFFUSE_TRANSMISSION, NOISE);
     }
     if (brushed || EF_NEARLY(ANISOTROPY)) {
         m->anisotropy = 0.2f + 0.8f * ef_real(d, 149);
