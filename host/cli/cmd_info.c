@@ -48,14 +48,19 @@ static const ec_option options[] = {
     SCENE_CHOICE_OPTIONS,
 };
 
-static ec_result measure(ec_scene_report *report, char *effects, size_t effects_size, ec_error *err)
+static ec_result measure(ec_scene_report *report, ec_error *err)
 {
     const ec_scene *scene = report->scene;
     ec_bvh bvh = {0};
     ec_scene_report_count(report);
     EC_TRY(ec_bvh_build(scene->positions, scene->indices, scene->triangle_count, 0, &bvh, &report->bvh, err));
     ec_bvh_free(&bvh);
-    EC_TRY(ec_scene_estimate(scene, report->bvh.ref_count, &report->device_bytes, effects, effects_size, err));
+    ec_scene lit = *scene;
+    if (!report->has_light) { /* what a render does then */
+        lit.has_environment = true;
+        for (int k = 0; k < 3; k++) lit.environment.constant[k] = 1.0f;
+    }
+    EC_TRY(ec_scene_estimate(&lit, report->bvh.ref_count, &report->device_bytes, &report->effects, err));
     report->peak_memory_bytes = ec_peak_memory_bytes();
     return EC_OK;
 }
@@ -89,8 +94,7 @@ static ec_result probe(const info_request *request, ec_scene_report *report, ec_
 
 static ec_result tell(const info_request *request, const ec_log *log, ec_error *err)
 {
-    char effects[1024] = "";
-    ec_scene_report report = {.path = request->scene, .effects = effects};
+    ec_scene_report report = {.path = request->scene};
     ec_scene *scene = NULL;
     double start = ec_now();
     EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &scene, log, err));
@@ -98,7 +102,7 @@ static ec_result tell(const info_request *request, const ec_log *log, ec_error *
     report.scene = scene;
 
     ec_device_info device;
-    ec_result result = measure(&report, effects, sizeof effects, err);
+    ec_result result = measure(&report, err);
     if (result == EC_OK && request->accel) result = probe(request, &report, &device, err);
     if (result == EC_OK && request->json)
         result = ec_scene_report_json(&report, stdout, err);

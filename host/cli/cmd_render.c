@@ -17,6 +17,7 @@ static ec_render_report make_report(const ec_render_job *job, const char **outpu
         .environment = job->environment_text,
         .options = &request->options,
         .stats = &job->stats,
+        .verbose = request->verbose,
         .device = &job->device,
         .device_why = job->device_why,
         .device_index = job->device_index,

@@ -7,6 +7,7 @@
 #include "cli/defaults.h"
 #include "cli/scene_choice.h"
 #include "cli/setters.h"
+#include "pack/view.h"
 #include "report/names.h"
 
 #define REQUEST ((ec_render_request *)target)
@@ -20,9 +21,9 @@ SETTER(accel)
 }
 
 FLAG_SETTER(adaptive, options.adaptive)
-FLAG_SETTER(all_effects, options.all_effects)
 FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
+FLAG_SETTER(verbose, verbose)
 TEXT_SETTER(camera, camera)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
@@ -94,6 +95,28 @@ SETTER(rr)
     return EC_OK;
 }
 
+SETTER(effects)
+{
+    static const char *const names[] = {"needed", "all", NULL};
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, names, &index, err));
+    REQUEST->options.all_effects = index == 1;
+    return EC_OK;
+}
+
+/* May be repeated. */
+SETTER(without)
+{
+    char names[EC_EFFECT_NAMES];
+    for (uint32_t i = 0; i < ec_feature_count; i++) {
+        if (!(ec_effects_optional & ec_features[i].bit) || strcmp(value, ec_features[i].name)) continue;
+        REQUEST->options.without |= ec_features[i].bit;
+        return EC_OK;
+    }
+    ec_feature_names(ec_effects_optional, names, sizeof names);
+    return ec_usage(err, "--%s: '%s' is not one of the effects that can be left out: %s", option, value, names);
+}
+
 SETTER(size)
 {
     REQUEST->has_size = true;
@@ -103,11 +126,11 @@ SETTER(size)
 static const ec_option options[] = {
     {"accel", 0, true, set_accel},
     {"adaptive", 0, false, set_adaptive},
-    {"all-effects", 0, false, set_all_effects},
     {"batch", 0, true, set_batch},
     {"camera", 0, true, set_camera},
     {"cutoff", 0, true, set_cutoff},
     {"device", 0, true, set_device},
+    {"effects", 0, true, set_effects},
     {"env", 0, true, set_env},
     {"env-rotate", 0, true, set_env_rotate},
     {"env-strength", 0, true, set_env_strength},
@@ -134,7 +157,9 @@ static const ec_option options[] = {
     {"terminator", 0, true, set_terminator},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
+    {"verbose", 'v', false, set_verbose},
     {"wave", 0, true, set_wave},
+    {"without", 0, true, set_without},
     SCENE_CHOICE_OPTIONS,
 };
 

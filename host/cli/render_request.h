@@ -26,7 +26,7 @@ typedef struct ec_render_request {
     const char *device;        /* NULL: chosen */
     double exposure;           /* EV */
     ec_tonemap tonemap;
-    bool quiet, json;
+    bool quiet, verbose, json;
 } ec_render_request;
 
 /* Reads the arguments of `render`. *done: --help or --version was served and nothing is left to do. */

@@ -13,7 +13,6 @@
 #ifndef EC_COST_COST_H
 #define EC_COST_COST_H
 
-#include "cost/effects.h"
 #include "film/film.h"
 #include "pipeline/render.h"
 
@@ -29,7 +28,7 @@ typedef struct ec_cost_rung {
     bool is_base;                /* what `eclat render` does by default */
     bool speed_only;             /* gives the same bits: only time is measured, and that the bits are the same */
     bool unbiased;               /* by design */
-    ec_cost_effect effect;       /* of the scene that is left out */
+    bool is_effect;              /* one that is left out: of the scene (options.without), or of light transport */
     ec_render_options options;
 } ec_cost_rung;
 

@@ -72,7 +72,7 @@ uint32_t ec_cost_pareto(const ec_cost_study *study, ec_cost_place *places, uint3
         for (uint32_t r = 0; r < study->row_count; r++)
             for (uint32_t i = 0; study->rows[r].state == EC_COST_MEASURED && i < study->rows[r].point_count; i++) {
                 const ec_cost_point *p = &study->rows[r].points[i];
-                if (study->rows[r].rung.effect.kind != EC_EFFECT_NONE || !is_known(p) || p->mse >= best || p->seconds < fastest) continue;
+                if (study->rows[r].rung.is_effect || !is_known(p) || p->mse >= best || p->seconds < fastest) continue;
                 if (next && (p->seconds > next->seconds || (p->seconds == next->seconds && p->mse >= next->mse))) continue;
                 next = p;
                 places[count] = (ec_cost_place){r, i};

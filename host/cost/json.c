@@ -92,7 +92,7 @@ static cJSON *rung_json(const ec_cost_study *study, const ec_cost_row *row)
     ec_json_text(to, "group_title", row->rung.title);
     ec_json_text(to, "name", row->rung.name);
     add_settings(to, &row->rung.options);
-    cJSON_AddBoolToObject(to, "scene_changed", row->rung.effect.kind > EC_EFFECT_INDIRECT);
+    cJSON_AddBoolToObject(to, "scene_changed", row->rung.options.without != 0);
     ec_json_text(to, "state", state_name(study, row->state));
     ec_json_text(to, "note", *row->note ? row->note : NULL);
     if (row->state != EC_COST_MEASURED) return to;

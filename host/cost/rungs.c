@@ -7,13 +7,15 @@
 
 #include "accel/accel.h"
 #include "cost/cost.h"
+#include "pack/pack.h"
 
-enum { ROWS_MOST = 64, LAMPS_MOST = 6, DEPTH_CUT = 8 };
+enum { ROWS_MOST = 96, LAMPS_MOST = 6, DEPTH_CUT = 8 };
 
 const double ec_cost_targets[EC_COST_TARGETS] = {0.05, 0.02, 0.01, 0.005};
 
 typedef struct rung_list {
     const ec_scene *scene;
+    uint64_t called; /* effects */
     const ec_render_options *base;
     ec_cost_row *rows;
     uint32_t count;
@@ -101,59 +103,70 @@ static void add_speeds(rung_list *list)
     add_speed(list, "lanes", "16")->options.lanes = 16;
 }
 
-static void add_effect(rung_list *list, ec_cost_effect effect, const char *id, const char *name)
+/* `without`: an effect of the scene; 0: of light transport. of: a material and 1, or 0 for all. */
+static ec_cost_rung *add_effect(rung_list *list, uint64_t without, uint32_t of, const char *id, const char *name)
 {
-    if (!ec_cost_has_effect(list->scene, effect)) return;
     ec_cost_rung *rung = add(list, id, "%s", name);
-    rung->effect = effect;
+    rung->is_effect = true;
+    rung->options.without = without;
+    rung->options.without_of = of;
     rung->unbiased = false;
-    if (effect.kind == EC_EFFECT_INDIRECT) rung->options.max_depth = 2;
+    return rung;
+}
+
+/* Effects of the scene, by their names. */
+static void add_called(rung_list *list, uint64_t which)
+{
+    for (uint32_t i = 0; i < ec_feature_count; i++) {
+        char id[48];
+        if (!(which & list->called & ec_effects_optional & ec_features[i].bit) || list->count == ROWS_MOST) continue;
+        snprintf(id, sizeof id, "no-%s", ec_features[i].name);
+        add_effect(list, ec_features[i].bit, 0, id, ec_features[i].name);
+    }
+}
+
+static bool is_lamp(const ec_scene *scene, uint32_t material)
+{
+    const ec_material *m = &scene->materials[material];
+    if (m->unlit || !(m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0)) return false;
+    for (uint32_t t = 0; t < scene->triangle_count; t++)
+        if (scene->triangle_material[t] == material) return true;
+    return false;
 }
 
 /* A light group is the environment, all lights without extent, or what shines with one material. */
+#define LIGHTS (EC_FEATURE_ENVIRONMENT | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_EMISSION)
 static void add_lights(rung_list *list)
 {
     uint32_t lamps = 0;
     begin(list, "lights", "The scene without the light of");
-    add_effect(list, (ec_cost_effect){EC_EFFECT_ENVIRONMENT, 0}, "no-environment", "environment");
-    add_effect(list, (ec_cost_effect){EC_EFFECT_PUNCTUAL, 0}, "no-punctual", "points, spots and suns");
+    add_called(list, LIGHTS & ~EC_FEATURE_EMISSION);
     for (uint32_t m = 0; m < list->scene->material_count && lamps < LAMPS_MOST; m++) {
         char id[48], name[96];
         const char *called = list->scene->materials[m].name;
+        if (!is_lamp(list->scene, m)) continue;
         snprintf(id, sizeof id, "no-lamps-%u", m);
         if (called && *called)
             snprintf(name, sizeof name, "lamps \"%.60s\"", called);
         else
             snprintf(name, sizeof name, "lamps of material %u", m);
-        uint32_t before = list->count;
-        add_effect(list, (ec_cost_effect){EC_EFFECT_LAMPS, m}, id, name);
-        lamps += list->count - before;
+        add_effect(list, EC_FEATURE_EMISSION, m + 1, id, name);
+        lamps++;
     }
 }
 
 static void add_effects(rung_list *list)
 {
-    static const struct {
-        ec_cost_effect_kind kind;
-        const char *id, *name;
-    } effects[] = {
-        {EC_EFFECT_INDIRECT, "no-indirect", "indirect light"},
-        {EC_EFFECT_GLOSS, "no-gloss", "gloss and metal"},
-        {EC_EFFECT_TRANSMISSION, "no-transmission", "glass"},
-        {EC_EFFECT_BASE_TEXTURES, "no-base-textures", "colour textures"},
-        {EC_EFFECT_NORMAL_MAPS, "no-normal-maps", "normal maps"},
-        {EC_EFFECT_OTHER_TEXTURES, "no-other-textures", "other textures"},
-        {EC_EFFECT_ALPHA, "no-alpha", "alpha"},
-        {EC_EFFECT_SMOOTH_NORMALS, "no-smooth-normals", "smooth normals"},
-    };
     begin(list, "effect", "The scene without");
-    for (size_t i = 0; i < sizeof effects / sizeof *effects; i++)
-        add_effect(list, (ec_cost_effect){effects[i].kind, 0}, effects[i].id, effects[i].name);
+    add_effect(list, 0, 0, "no-indirect", "indirect light")->options.max_depth = 2;
+    add_called(list, ~(uint64_t)LIGHTS);
 }
 
 ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_cost_row **rows, uint32_t *count, ec_error *err)
 {
-    rung_list list = {scene, base, calloc(ROWS_MOST, sizeof(ec_cost_row)), 0, NULL, NULL};
+    ec_effects effects;
+    EC_TRY(ec_scene_calls(scene, &effects, err));
+    rung_list list = {scene, effects.bits, base, calloc(ROWS_MOST, sizeof(ec_cost_row)), 0, NULL, NULL};
     *rows = list.rows;
     *count = 0;
     if (!list.rows) return ec_fail(err, "out of memory for the rungs of a study");

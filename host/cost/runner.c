@@ -9,12 +9,9 @@ enum { LARGEST_BATCH = 256 }; /* what waves are fitted to; pictures may have mor
 
 static ec_result open_session(ec_cost_study *study, const ec_cost_rung *rung, ec_session **session, ec_render_stats *stats, ec_error *err)
 {
-    ec_cost_edit edit;
     uint64_t before = study->cl->allocated_bytes;
     study->cl->peak_allocated_bytes = before;
-    EC_TRY(ec_cost_without(study->scene, rung->effect, &edit, err));
-    ec_result result = ec_session_open(study->cl, &edit.scene, &rung->options, LARGEST_BATCH, session, stats, err);
-    ec_cost_restore(&edit);
+    ec_result result = ec_session_open(study->cl, study->scene, &rung->options, LARGEST_BATCH, session, stats, err);
     stats->device_bytes = study->cl->peak_allocated_bytes - before;
     return result;
 }

@@ -21,7 +21,7 @@ typedef struct study_state {
 /* All comparisons stand on the base; times need fewer samples than errors. */
 static double weight(const ec_cost_rung *rung)
 {
-    return rung->is_base ? 1.5 : rung->speed_only ? 0.35 : rung->effect.kind ? 0.7 : 1;
+    return rung->is_base ? 1.5 : rung->speed_only ? 0.35 : rung->is_effect ? 0.7 : 1;
 }
 
 bool ec_cost_go_on(void *user)

@@ -22,7 +22,7 @@ typedef struct table {
  * does. */
 static double merit(const ec_cost_row *row, int column)
 {
-    bool ranked = row->state == EC_COST_MEASURED && row->rung.effect.kind == EC_EFFECT_NONE && !row->unmet;
+    bool ranked = row->state == EC_COST_MEASURED && !row->rung.is_effect && !row->unmet;
     if (!ranked || (!row->rung.unbiased && column != MEMORY) || (row->rung.speed_only && column != TIME && column != RELATIVE)) return NAN;
     if (column == TIME || column == RELATIVE) return row->seconds_per_sample;
     if (column == VARIANCE) return row->variance;

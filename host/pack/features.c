@@ -1,5 +1,7 @@
-/* Which effects does the scene call for? Only materials that some triangle uses count. */
+/* Which effects does the scene call for, and why? Asked of a plain view (view.h), where what is there counts. */
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "pack/pack.h"
@@ -8,16 +10,6 @@
 static float max3(const float v[3])
 {
     return fmaxf(v[0], fmaxf(v[1], v[2]));
-}
-
-static bool transmits(const ec_scene *scene, const ec_material *m)
-{
-    float least_metal, least, most;
-    if (m->transmission == 0.0f) return false;
-    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 2, &least_metal, &most);
-    if (m->metallic * least_metal == 1.0f) return false;
-    ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
-    return most > 0.0f;
 }
 
 /* May kernels find this roughness, whose product rounds otherwise there, to be none? */
@@ -33,126 +25,186 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / ior) < EC_SMOOTH_ALPHA);
 }
 
-bool ec_pack_is_pane(const ec_scene *scene, const ec_material *m)
+bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m)
 {
-    return !m->unlit && !ec_refracts(m) && transmits(scene, m) && may_be_smooth(scene, m, false);
+    return !ec_refracts(m) && m->transmission > 0.0f && may_be_smooth(plain, m, false);
 }
 
-bool ec_pack_is_body(const ec_scene *scene, const ec_material *m)
+bool ec_pack_is_body(const ec_material *m)
 {
-    return !m->unlit && (ec_bounds(m) || (ec_refracts(m) && transmits(scene, m)));
+    return !m->unlit && (ec_bounds(m) || (ec_refracts(m) && m->transmission > 0.0f));
 }
 
-void ec_pack_find_bodies(const ec_scene *scene, ec_bodies *bodies)
+void ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies)
 {
     *bodies = (ec_bodies){0};
-    bool *is_body = calloc(scene->material_count, sizeof *is_body);
+    bool *is_body = calloc(plain->material_count, sizeof *is_body);
     if (!is_body) return;
-    for (uint32_t m = 0; m < scene->material_count; m++) is_body[m] = ec_pack_is_body(scene, &scene->materials[m]);
-    ec_bodies_find(scene, is_body, bodies);
+    for (uint32_t m = 0; m < plain->material_count; m++) is_body[m] = ec_pack_is_body(&plain->materials[m]);
+    ec_bodies_find(plain, is_body, bodies);
     free(is_body);
 }
 
-static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
+/* A material, and what it calls for. */
+typedef struct scan {
+    const ec_scene *scene;
+    const ec_material *m;
+    char name[64];
+    ec_effects found;
+} scan;
+
+static void name_material(const ec_scene *scene, uint32_t index, char *text, size_t size)
 {
+    const char *name = scene->materials[index].name;
+    if (name && *name) snprintf(text, size, "material %u \"%.36s\"", index, name);
+    else snprintf(text, size, "material %u", index);
+}
+
+/* A line that calls for an effect says what the material has that calls for it. */
+__attribute__((format(printf, 3, 4))) static void call(scan *s, uint64_t feature, const char *has, ...)
+{
+    char text[EC_EFFECT_WHY];
+    va_list args;
+    va_start(args, has);
+    vsnprintf(text, sizeof text, has, args);
+    va_end(args);
+    ec_effects_call(&s->found, feature, "%s %s", s->name, text);
+}
+
+/* All that a kernel looks at beside the diffuse base. */
+#define EC_FEATURES_OVER_DIFFUSE                                                                                       \
+    (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION)
+
+static bool has_texture(const scan *s, int slot) { return s->m->textures[slot].texture >= 0; }
+static bool calls_for(const scan *s, uint64_t features) { return s->found.bits & features; }
+
+static void scan_emission(scan *s)
+{
+    if (max3(s->m->emission) == 0.0f) return;
+    call(s, EC_FEATURE_EMISSION, "emits");
+    call(s, EC_FEATURE_AREA_LIGHTS, "emits");
+    if (has_texture(s, EC_SLOT_EMISSION)) call(s, EC_FEATURE_EMISSION_TEXTURE, "has an emissive texture");
+}
+
+static void scan_transmission(scan *s)
+{
+    const ec_material *m = s->m;
+    if (m->transmission == 0.0f) return;
+    call(s, EC_FEATURE_TRANSMISSION, "has transmission %g", (double)m->transmission);
+    if (has_texture(s, EC_SLOT_TRANSMISSION)) call(s, EC_FEATURE_TRANSMISSION_TEXTURE, "has a transmission texture");
+    if (ec_refracts(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
+    if (ec_pack_is_pane(s->scene, m)) call(s, EC_FEATURE_PANES, "lets light straight through a thin wall");
+    if (m->dispersion > 0.0f) call(s, EC_FEATURE_DISPERSION, "has dispersion %g", (double)m->dispersion);
+}
+
+static void scan_coat(scan *s)
+{
+    const ec_material *m = s->m;
     float least, most;
-    ec_texture_range(scene, &m->textures[EC_SLOT_CLEARCOAT], 0, &least, &most);
-    if (m->coat * most == 0.0f) return 0;
-    uint64_t f = EC_FEATURE_CLEARCOAT;
-    if (m->textures[EC_SLOT_CLEARCOAT].texture >= 0 || m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS].texture >= 0) f |= EC_FEATURE_CLEARCOAT_TEXTURE;
-    if (m->textures[EC_SLOT_CLEARCOAT_NORMAL].texture >= 0) f |= EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE;
-    ec_texture_range(scene, &m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS], 1, &least, &most);
-    if (is_smooth(m->coat_roughness * least)) f |= EC_FEATURE_SMOOTH;
-    return f;
+    if (m->coat == 0.0f) return;
+    call(s, EC_FEATURE_CLEARCOAT, "has clear coat %g", (double)m->coat);
+    if (has_texture(s, EC_SLOT_CLEARCOAT) || has_texture(s, EC_SLOT_CLEARCOAT_ROUGHNESS))
+        call(s, EC_FEATURE_CLEARCOAT_TEXTURE, "has a texture of its clear coat");
+    if (has_texture(s, EC_SLOT_CLEARCOAT_NORMAL)) call(s, EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE, "has a normal map of its clear coat");
+    ec_texture_range(s->scene, &m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS], 1, &least, &most);
+    if (is_smooth(m->coat_roughness * least)) call(s, EC_FEATURE_SMOOTH, "has a coat of roughness %g", (double)(m->coat_roughness * least));
 }
 
-/* A texture's channels are multiplied by the colour's: where each is 0 on one side or the other there is no sheen. */
-static uint64_t sheen_features(const ec_scene *scene, const ec_material *m)
+static void scan_sheen(scan *s)
 {
-    bool any = false;
-    for (int k = 0; k < 3; k++) {
-        float least, most;
-        ec_texture_range(scene, &m->textures[EC_SLOT_SHEEN_COLOR], k, &least, &most);
-        any |= m->sheen[k] * most > 0.0f;
+    if (max3(s->m->sheen) == 0.0f) return;
+    call(s, EC_FEATURE_SHEEN, "has sheen");
+    if (has_texture(s, EC_SLOT_SHEEN_COLOR) || has_texture(s, EC_SLOT_SHEEN_ROUGHNESS))
+        call(s, EC_FEATURE_SHEEN_TEXTURE, "has a texture of its sheen");
+}
+
+static void scan_film(scan *s)
+{
+    if (s->m->film == 0.0f) return;
+    call(s, EC_FEATURE_IRIDESCENCE, "has iridescence %g", (double)s->m->film);
+    if (has_texture(s, EC_SLOT_IRIDESCENCE) || has_texture(s, EC_SLOT_IRIDESCENCE_THICKNESS))
+        call(s, EC_FEATURE_IRIDESCENCE_TEXTURE, "has a texture of its film");
+}
+
+static void scan_seeping(scan *s)
+{
+    const ec_material *m = s->m;
+    if (m->seeps == 0.0f) return;
+    call(s, EC_FEATURE_DIFFUSE_TRANSMISSION, "has diffuse transmission %g", (double)m->seeps);
+    if (has_texture(s, EC_SLOT_DIFFUSE_TRANSMISSION) || has_texture(s, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR))
+        call(s, EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, "has a texture of its diffuse transmission");
+    if (ec_bounds(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
+}
+
+static void scan_anisotropy(scan *s)
+{
+    if (s->m->anisotropy == 0.0f) return;
+    call(s, EC_FEATURE_ANISOTROPY, "has anisotropy %g", (double)s->m->anisotropy);
+    if (has_texture(s, EC_SLOT_ANISOTROPY)) call(s, EC_FEATURE_ANISOTROPY_TEXTURE, "has an anisotropy texture");
+}
+
+static void scan_specular(scan *s)
+{
+    const ec_material *m = s->m;
+    if (m->metallic > 0.0f) call(s, EC_FEATURE_SPECULAR, "has metallic %g", (double)m->metallic);
+    else if (m->specular > 0.0f) call(s, EC_FEATURE_SPECULAR, "has specular reflection");
+    else if (calls_for(s, EC_FEATURES_OVER_DIFFUSE)) call(s, EC_FEATURE_SPECULAR, "has more than a diffuse base");
+    else return;
+    if (may_be_smooth(s->scene, m, calls_for(s, EC_FEATURE_TRANSMISSION) && ec_refracts(m)))
+        call(s, EC_FEATURE_SMOOTH, "reflects or refracts in one direction, by its roughness or ior");
+    if (has_texture(s, EC_SLOT_METALLIC_ROUGHNESS))
+        call(s, EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE, "has a metallic-roughness texture");
+    if (has_texture(s, EC_SLOT_SPECULAR) || has_texture(s, EC_SLOT_SPECULAR_COLOR))
+        call(s, EC_FEATURE_SPECULAR_TEXTURE, "has a specular texture");
+    scan_anisotropy(s);
+}
+
+static void scan_material(scan *s)
+{
+    const ec_material *m = s->m;
+    if (has_texture(s, EC_SLOT_BASE_COLOR)) call(s, EC_FEATURE_BASE_COLOR_TEXTURE, "has a base colour texture");
+    if (!m->double_sided && !ec_refracts(m) && !ec_bounds(m)) call(s, EC_FEATURE_CULLING, "is single-sided");
+    if (m->alpha_mode != EC_ALPHA_OPAQUE) call(s, EC_FEATURE_ALPHA, "leaves open what its alpha says");
+    if (m->unlit) {
+        call(s, EC_FEATURE_UNLIT, "is unlit");
+        return;
     }
-    bool textured = m->textures[EC_SLOT_SHEEN_COLOR].texture >= 0 || m->textures[EC_SLOT_SHEEN_ROUGHNESS].texture >= 0;
-    return any ? EC_FEATURE_SHEEN | (textured ? EC_FEATURE_SHEEN_TEXTURE : 0) : 0;
+    scan_emission(s);
+    scan_transmission(s);
+    scan_coat(s);
+    scan_sheen(s);
+    scan_film(s);
+    scan_seeping(s);
+    scan_specular(s);
+    if (has_texture(s, EC_SLOT_NORMAL)) call(s, EC_FEATURE_NORMAL_TEXTURE, "has a normal map");
 }
 
-/* At roughness 1 the lobe is as wide as it gets in all directions. */
-static uint64_t anisotropy_features(const ec_scene *scene, const ec_material *m)
+static void scan_images(scan *s)
 {
-    float least, most, unused;
-    ec_texture_range(scene, &m->textures[EC_SLOT_ANISOTROPY], 2, &unused, &most);
-    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &unused);
-    if (m->anisotropy * most == 0.0f || m->roughness * least == 1.0f) return 0;
-    if (transmits(scene, m) && m->metallic < 1.0f && m->textures[EC_SLOT_TRANSMISSION].texture < 0 &&
-        m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture < 0) return 0; /* glass is as rough in all directions */
-    return EC_FEATURE_ANISOTROPY | (m->textures[EC_SLOT_ANISOTROPY].texture >= 0 ? EC_FEATURE_ANISOTROPY_TEXTURE : 0);
+    for (int k = 0; k < EC_SLOT_COUNT; k++)
+        if (has_texture(s, k) && s->scene->images[s->scene->textures[s->m->textures[k].texture].image].rgba16)
+            call(s, EC_FEATURE_FLOAT_TEXTURE, "has a texture of more than 8 bits");
 }
 
-/* A film of no thickness, or of air, is none. */
-static uint64_t film_features(const ec_scene *scene, const ec_material *m)
+static void scan_materials(const ec_scene *scene, ec_effects *effects)
 {
-    const ec_texture_use *thickness = &m->textures[EC_SLOT_IRIDESCENCE_THICKNESS];
-    float unused, most, low = 1, high = 1;
-    ec_texture_range(scene, &m->textures[EC_SLOT_IRIDESCENCE], 0, &unused, &most);
-    if (thickness->texture >= 0) ec_texture_range(scene, thickness, 1, &low, &high);
-    bool thick = (m->film_least > 0.0f && low < 1.0f) || (m->film_most > 0.0f && high > 0.0f);
-    if (m->film * most == 0.0f || m->film_ior == 1.0f || !thick) return 0;
-    bool textured = m->textures[EC_SLOT_IRIDESCENCE].texture >= 0 || thickness->texture >= 0;
-    return EC_FEATURE_IRIDESCENCE | (textured ? EC_FEATURE_IRIDESCENCE_TEXTURE : 0);
-}
-
-/* Of no use under metal, nor where all the light passes straight. */
-static uint64_t seeping_features(const ec_scene *scene, const ec_material *m)
-{
-    float least, most, unused;
-    ec_texture_range(scene, &m->textures[EC_SLOT_DIFFUSE_TRANSMISSION], 3, &unused, &most);
-    if (m->seeps * most == 0.0f) return 0;
-    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 2, &least, &unused);
-    if (m->metallic * least == 1.0f) return 0;
-    ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &unused);
-    if (m->transmission * least == 1.0f) return 0;
-    bool textured = m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture >= 0 || m->textures[EC_SLOT_DIFFUSE_TRANSMISSION_COLOR].texture >= 0;
-    return EC_FEATURE_DIFFUSE_TRANSMISSION | (textured ? EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE : 0) |
-           (ec_bounds(m) && max3(m->absorption) > 0.0f ? EC_FEATURE_ABSORPTION : 0);
-}
-
-static uint64_t material_features(const ec_scene *scene, const ec_material *m)
-{
-    uint64_t f = 0;
-    if (m->unlit) return EC_FEATURE_UNLIT | (m->textures[EC_SLOT_BASE_COLOR].texture >= 0 ? EC_FEATURE_BASE_COLOR_TEXTURE : 0);
-    if (max3(m->emission) > 0.0f) f |= EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS;
-    if (max3(m->emission) > 0.0f && m->textures[EC_SLOT_EMISSION].texture >= 0) f |= EC_FEATURE_EMISSION_TEXTURE;
-    if (transmits(scene, m)) {
-        f |= EC_FEATURE_TRANSMISSION;
-        if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
-        if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
-        if (ec_pack_is_pane(scene, m)) f |= EC_FEATURE_PANES;
-        if (ec_refracts(m) && m->ior > 1.0f && m->dispersion > 0.0f) f |= EC_FEATURE_DISPERSION;
+    bool *used = calloc(scene->material_count, sizeof *used);
+    for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        if (used && !used[m]) continue;
+        scan s = {.scene = scene, .m = &scene->materials[m]};
+        name_material(scene, m, s.name, sizeof s.name);
+        scan_material(&s);
+        scan_images(&s);
+        ec_effects_add(effects, &s.found);
     }
-    f |= coat_features(scene, m) | sheen_features(scene, m) | film_features(scene, m) | seeping_features(scene, m);
-    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || 
-        (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION))) {
-        f |= EC_FEATURE_SPECULAR;
-        if (may_be_smooth(scene, m, (f & EC_FEATURE_TRANSMISSION) && ec_refracts(m))) f |= EC_FEATURE_SMOOTH;
-        if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
-        if (m->textures[EC_SLOT_SPECULAR].texture >= 0 || m->textures[EC_SLOT_SPECULAR_COLOR].texture >= 0) f |= EC_FEATURE_SPECULAR_TEXTURE;
-    }
-    if (f & EC_FEATURE_SPECULAR) f |= anisotropy_features(scene, m);
-    if (m->textures[EC_SLOT_BASE_COLOR].texture >= 0) f |= EC_FEATURE_BASE_COLOR_TEXTURE;
-    if (m->textures[EC_SLOT_NORMAL].texture >= 0) f |= EC_FEATURE_NORMAL_TEXTURE;
-    if (!m->double_sided) f |= EC_FEATURE_CULLING;
-    bool may_be_open = m->base_color[3] < 1.0f || m->textures[EC_SLOT_BASE_COLOR].texture >= 0 || scene->colors;
-    if (m->alpha_mode != EC_ALPHA_OPAQUE && may_be_open) f |= EC_FEATURE_ALPHA;
-    return f;
+    free(used);
 }
 
 /* Does any vertex normal differ from its triangle's? Otherwise interpolating them would change nothing. */
-static bool has_smooth_normals(const ec_scene *scene)
+static void scan_normals(const ec_scene *scene, ec_effects *effects)
 {
-    if (!scene->normals) return false;
+    if (!scene->normals) return;
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         const uint32_t *i = scene->indices + 3 * (size_t)t;
         const float *a = scene->positions + 3 * (size_t)i[0], *b = scene->positions + 3 * (size_t)i[1],
@@ -168,51 +220,67 @@ static bool has_smooth_normals(const ec_scene *scene)
             const float *m = scene->normals + 3 * (size_t)i[v];
             if (m[0] == 0.0f && m[1] == 0.0f && m[2] == 0.0f) continue;
             /* Against the winding is flat as well: the kernels turn it round. 1e-6 is 0.08 degrees. */
-            if (fabs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) < length * (1.0 - 1e-6)) return true;
+            if (fabs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) < length * (1.0 - 1e-6)) {
+                char name[64];
+                name_material(scene, scene->triangle_material[t], name, sizeof name);
+                ec_effects_call(effects, EC_FEATURE_SMOOTH_NORMALS, "the surface of %s has vertex normals", name);
+                return;
+            }
         }
     }
-    return false;
 }
 
-static bool has_vertex_colors(const ec_scene *scene)
+/* Of vertices that a triangle has. */
+static void scan_colors(const ec_scene *scene, ec_effects *effects)
 {
-    for (size_t i = 0; scene->colors && i < 4 * (size_t)scene->vertex_count; i++)
-        if (scene->colors[i] != 1.0f) return true;
-    return false;
-}
-
-static bool has_deep_images(const ec_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->image_count; i++)
-        if (scene->images[i].rgba16) return true;
-    return false;
-}
-
-uint64_t ec_pack_features(const ec_scene *scene)
-{
-    uint64_t f = 0;
-    bool *used = calloc(scene->material_count, sizeof *used);
-    for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
-    for (uint32_t m = 0; m < scene->material_count; m++)
-        if (!used || used[m]) f |= material_features(scene, &scene->materials[m]);
-    free(used);
-    if (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_DIFFUSE_TRANSMISSION)) {
-        ec_bodies bodies;
-        ec_pack_find_bodies(scene, &bodies);
-        /* Walls that are not there have one direction, in which all passes. */
-        if (bodies.count) f |= EC_FEATURE_NESTED | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION;
+    for (size_t i = 0; scene->colors && i < 3 * (size_t)scene->triangle_count; i++) {
+        const float *c = scene->colors + 4 * (size_t)scene->indices[i];
+        if (c[0] == 1.0f && c[1] == 1.0f && c[2] == 1.0f && c[3] == 1.0f) continue;
+        char name[64];
+        name_material(scene, scene->triangle_material[i / 3], name, sizeof name);
+        ec_effects_call(effects, EC_FEATURE_VERTEX_COLORS, "the surface of %s has vertex colours", name);
+        return;
     }
-    for (uint32_t i = 0; i < scene->light_count; i++)
-        if (max3(scene->lights[i].intensity) > 0.0f) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
-    if (scene->has_environment) {
-        const ec_environment *e = &scene->environment;
-        if (e->rgb)
-            f |= EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | (e->turned ? EC_FEATURE_ENVIRONMENT_TURN : 0);
-        else if (max3(e->constant) > 0.0f)
-            f |= EC_FEATURE_ENVIRONMENT;
+}
+
+static void scan_lights(const ec_scene *scene, ec_effects *effects)
+{
+    static const char *const types[] = {[EC_LIGHT_POINT] = "point", [EC_LIGHT_SPOT] = "spot", [EC_LIGHT_DIRECTIONAL] = "directional"};
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const ec_light *light = &scene->lights[i];
+        ec_effects one = {0};
+        if (light->name) ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light \"%.60s\"", types[light->type], light->name);
+        else ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light %u", types[light->type], i);
+        ec_effects_add(effects, &one);
     }
-    if (has_smooth_normals(scene)) f |= EC_FEATURE_SMOOTH_NORMALS;
-    if (has_vertex_colors(scene)) f |= EC_FEATURE_VERTEX_COLORS;
-    if ((f & EC_FEATURES_TEXTURED) && has_deep_images(scene)) f |= EC_FEATURE_FLOAT_TEXTURE;
-    return f;
+    const ec_environment *e = &scene->environment;
+    if (!scene->has_environment) return;
+    if (e->rgb) {
+        ec_effects_call(effects, EC_FEATURE_ENVIRONMENT, "the environment map shines");
+        ec_effects_call(effects, EC_FEATURE_ENVIRONMENT_MAP, "the environment is a map of %u x %u", e->width, e->height);
+        if (e->turned) ec_effects_call(effects, EC_FEATURE_ENVIRONMENT_TURN, "the environment is turned");
+    } else if (max3(e->constant) > 0.0f) {
+        ec_effects_call(effects, EC_FEATURE_ENVIRONMENT, "the environment shines");
+    }
+}
+
+/* A wall that another body displaces has one direction, in which all passes. */
+static void scan_bodies(const ec_scene *scene, ec_effects *effects)
+{
+    static const uint64_t of_walls[] = {EC_FEATURE_NESTED, EC_FEATURE_SPECULAR, EC_FEATURE_SMOOTH, EC_FEATURE_TRANSMISSION};
+    ec_bodies bodies;
+    if (!(effects->bits & (EC_FEATURE_TRANSMISSION | EC_FEATURE_DIFFUSE_TRANSMISSION))) return;
+    ec_pack_find_bodies(scene, &bodies);
+    for (int i = 0; bodies.count && i < 4; i++)
+        ec_effects_call(effects, of_walls[i], "bodies of %u materials may lie in one another", bodies.count);
+}
+
+void ec_pack_effects(const ec_scene *scene, ec_effects *effects)
+{
+    *effects = (ec_effects){0};
+    scan_materials(scene, effects);
+    scan_bodies(scene, effects);
+    scan_lights(scene, effects);
+    scan_normals(scene, effects);
+    scan_colors(scene, effects);
 }

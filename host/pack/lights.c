@@ -62,14 +62,20 @@ static void add_triangle(const ec_scene *scene, const ec_pack *pack, uint32_t pr
     list->power[list->count++] = power;
 }
 
-static void add_punctual(const ec_light *in, double scene_radius, light_list *list)
+double ec_pack_punctual_power(const ec_light *in, double scene_radius)
 {
     double intensity[3] = {in->intensity[0], in->intensity[1], in->intensity[2]};
     double power = luminance(intensity);
     if (in->type == EC_LIGHT_POINT) power *= 4.0 * PI;
     if (in->type == EC_LIGHT_SPOT) power *= 2.0 * PI * (1.0 - 0.5 * (in->cos_inner + in->cos_outer));
     if (in->type == EC_LIGHT_DIRECTIONAL) power *= PI * scene_radius * scene_radius;
-    if (!(power > 0.0) || !isfinite(power)) return;
+    return power > 0.0 && isfinite(power) ? power : 0.0;
+}
+
+static void add_punctual(const ec_light *in, double scene_radius, light_list *list)
+{
+    double power = ec_pack_punctual_power(in, scene_radius);
+    if (power == 0.0) return;
     ec_light_data *l = &list->lights[list->count];
     memset(l, 0, sizeof *l);
     memcpy(l->a, in->position, sizeof l->a);

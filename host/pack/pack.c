@@ -110,10 +110,12 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
     return EC_OK;
 }
 
-ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err)
+ec_result ec_pack_scene(const ec_scene *all, ec_pack *pack, ec_error *err)
 {
     memset(pack, 0, sizeof *pack);
-    pack->features = ec_pack_features(scene);
+    EC_TRY(ec_scene_view_plain(all, &pack->plain, err));
+    const ec_scene *scene = &pack->plain.scene;
+    ec_pack_effects(scene, &pack->effects);
     ec_result result = pack_prims(scene, pack, err);
     if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
     if (result == EC_OK) result = pack_materials(scene, pack, err);
@@ -127,6 +129,7 @@ ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err)
 
 void ec_pack_free(ec_pack *pack)
 {
+    ec_scene_view_free(&pack->plain);
     free(pack->prims);
     free(pack->materials);
     free(pack->textures);

@@ -8,13 +8,16 @@
 
 #include "base/error.h"
 #include "pack/bodies.h"
+#include "pack/effects.h"
+#include "pack/view.h"
 #include "scene/scene.h"
 #include "shared/features.h"
 #include "shared/light_tree.h"
 #include "shared/scene_buffers.h"
 
 typedef struct ec_pack {
-    uint64_t features;             /* ec_feature bits that the scene calls for (the sampler's bit is the caller's) */
+    ec_scene_view plain;           /* what was packed */
+    ec_effects effects;            /* that the scene calls for (those that options call for are the caller's) */
     uint32_t prim_count;
     ec_prim *prims;
     ec_bodies bodies;              /* in order; none unless some may be nested */
@@ -44,13 +47,15 @@ ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err);
 void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 
 /* The steps, in order; each fills its part of pack. */
-uint64_t ec_pack_features(const ec_scene *scene);
-/* May light go straight on through it, somewhere: thin-walled and smooth? */
-bool ec_pack_is_pane(const ec_scene *scene, const ec_material *m);
-/* Does it bend light, somewhere? */
-bool ec_pack_is_body(const ec_scene *scene, const ec_material *m);
+void ec_pack_effects(const ec_scene *plain, ec_effects *effects);
+/* The scan alone. */
+ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *err);
+/* Of a plain scene: may light go straight on through it, somewhere: thin-walled and smooth? */
+bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m);
+/* Is there a body behind it? */
+bool ec_pack_is_body(const ec_material *m);
 /* Bodies that may lie in one another, in no order. */
-void ec_pack_find_bodies(const ec_scene *scene, ec_bodies *bodies);
+void ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
@@ -68,6 +73,9 @@ ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *
 
 /* Index into pack->textures of a texture in one encoding; -1 for none. Valid after ec_pack_textures. */
 int32_t ec_pack_texture_index(const ec_scene *scene, const ec_texture_use *use, int is_srgb);
+
+/* Radiant flux, luminance-weighted; of a directional light into a sphere of that radius. */
+double ec_pack_punctual_power(const ec_light *light, double scene_radius);
 
 double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1 */
 

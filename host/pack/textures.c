@@ -32,19 +32,32 @@ static void write_deep(const ec_image *image, int is_srgb, uint32_t *words)
     }
 }
 
+/* Of materials that triangles show, through slots that the plain view has left. */
+static void find_used(const ec_scene *scene, bool *used)
+{
+    for (uint32_t m = 0; m < scene->material_count; m++)
+        for (int k = 0; k < EC_SLOT_COUNT; k++) {
+            int32_t texture = scene->materials[m].textures[k].texture;
+            if (texture >= 0 && (uint32_t)texture < scene->texture_count) used[scene->textures[texture].image] = true;
+        }
+}
+
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     for (int i = 0; i < 256; i++) pack->srgb[i] = (float)ec_srgb_to_linear(i / 255.0);
     pack->texture_count = 2 * scene->texture_count;
     pack->textures = calloc(pack->texture_count ? pack->texture_count : 1, sizeof *pack->textures);
     size_t *offset = calloc(scene->image_count ? scene->image_count : 1, sizeof *offset);
+    bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used);
     ec_result result = EC_OK;
-    if (!pack->textures || !offset) {
+    if (!pack->textures || !offset || !used) {
         result = ec_fail(err, "out of memory for %u textures", scene->texture_count);
         goto cleanup;
     }
+    find_used(scene, used);
     for (uint32_t i = 0; i < scene->image_count; i++) {
         offset[i] = pack->texel_words;
+        if (!used[i]) continue;
         /* Deep images stand twice: once as they are, once decoded from sRGB. */
         pack->texel_words += image_texels(&scene->images[i]) * (scene->images[i].rgba16 ? 8 : 1);
     }
@@ -60,6 +73,7 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
     }
     for (uint32_t i = 0; i < scene->image_count; i++) {
         const ec_image *image = &scene->images[i];
+        if (!used[i]) continue;
         if (image->rgba16) {
             write_deep(image, 0, pack->texels + offset[i]);
             write_deep(image, 1, pack->texels + offset[i] + 4 * image_texels(image));
@@ -78,5 +92,6 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
     }
 cleanup:
     free(offset);
+    free(used);
     return result;
 }

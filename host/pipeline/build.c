@@ -5,27 +5,6 @@
 
 #include "pipeline/pipeline.h"
 
-void ec_feature_names(uint64_t features, char *text, size_t size)
-{
-    size_t used = 0;
-    text[0] = 0;
-#define ADD_NAME(name, words)                                                                 \
-    if ((features & EC_FEATURE_##name) && used < size)                                             \
-        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " " : "", words);
-    EC_FEATURES(ADD_NAME)
-#undef ADD_NAME
-}
-
-/* Alpha decides by base colour, panes by all of the surface; without them the traversal does not look at it. */
-static uint64_t canonical(const ec_stage_entry *stage, uint64_t features)
-{
-    uint64_t f = features & stage->features;
-    const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
-    if (!(stage->features & EC_FEATURE_ALPHA) || (f & EC_FEATURE_PANES)) return f;
-    uint64_t looks_at = EC_FEATURE_CULLING | EC_FEATURE_SOBOL | (f & EC_FEATURE_ALPHA ? EC_FEATURE_ALPHA | of_alpha : 0);
-    return f & looks_at;
-}
-
 static bool is_needed(const ec_pipeline *p, ec_stage_id id)
 {
     if (ec_stages[id].lanes == EC_LANES_OF_ACCEL) return false; /* there is one for each accelerator: see below */
@@ -44,13 +23,13 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
         if (!is_needed(p, (ec_stage_id)id) || lanes_of(p, ec_stages[id].lanes) != lanes) continue;
         names[count++] = ec_stages[id].source;
-        features |= canonical(&ec_stages[id], p->features);
+        features |= ec_stage_features(&ec_stages[id], p->effects.built);
     }
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
         if (!p->accels[a].in_use || lanes_of(p, ec_accels[a].lanes) != lanes) continue;
         snprintf(traversals[a], sizeof traversals[a], "traverse_%s", ec_accels[a].name);
         names[count++] = traversals[a];
-        features |= canonical(&ec_stages[EC_INTERSECT], p->features) | canonical(&ec_stages[EC_CONNECT], p->features);
+        features |= ec_stage_features(&ec_stages[EC_INTERSECT], p->effects.built) | ec_stage_features(&ec_stages[EC_CONNECT], p->effects.built);
     }
     char options[96], label[32], *source;
     snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s", lanes, features, p->fast_math ? " " EC_FAST_MATH : "");

@@ -11,9 +11,9 @@
 static uint32_t camera_medium(const ec_scene *scene, const ec_camera *camera, const ec_pack *pack)
 {
     uint32_t medium = pack->bodies.count ? 0 : EC_NO_ID;
-    if (!(pack->features & EC_FEATURES_MEDIUM) || camera->type == EC_CAMERA_ORTHOGRAPHIC) return medium;
+    if (!(pack->effects.bits & EC_FEATURES_MEDIUM) || camera->type == EC_CAMERA_ORTHOGRAPHIC) return medium;
     for (uint32_t m = 0; m < scene->material_count; m++) {
-        if (!ec_pack_is_body(scene, &scene->materials[m]) || !ec_bodies_contain(scene, m, camera->position)) continue;
+        if (!ec_pack_is_body(&scene->materials[m]) || !ec_bodies_contain(scene, m, camera->position)) continue;
         medium = pack->bodies.count ? medium | pack->materials[m].body : m * EC_MATERIAL_WORDS;
     }
     return medium;
@@ -55,8 +55,8 @@ ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, e
     return EC_OK;
 }
 
-ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
-                             ec_pipeline *p, ec_render_stats *stats, ec_error *err)
+static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
+                        ec_pipeline *p, ec_render_stats *stats, ec_error *err)
 {
     memset(p, 0, sizeof *p);
     p->cl = cl;
@@ -75,22 +75,16 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     start = ec_now();
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));
-    if (p->integrator != EC_INTEGRATOR_PATH && (result = ec_pack_light_centres(scene, &pack, err)) != EC_OK) {
+    if (p->integrator != EC_INTEGRATOR_PATH && (result = ec_pack_light_centres(&pack.plain.scene, &pack, err)) != EC_OK) {
         ec_pack_free(&pack);
         return result;
     }
-    bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
-    if (joins && (result = choose_lights(p, options, &pack, err)) != EC_OK) {
+    if (ec_pipeline_joins(options, &pack) && (result = choose_lights(p, options, &pack, err)) != EC_OK) {
         ec_pack_free(&pack);
         return result;
     }
-    const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
-    p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features | options->more_effects;
-    if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
-    if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
-    if (pack.light_node_count) p->features |= EC_FEATURE_LIGHT_TREE;
-    if (options->filter != EC_FILTER_BOX) p->features |= EC_FEATURE_PIXEL_FILTER;
-    if (options->fstop > 0) p->features |= EC_FEATURE_LENS;
+    ec_pipeline_effects(options, &pack, &p->effects);
+    const ec_scene *plain = &pack.plain.scene;
     ec_params *params = &p->params;
     params->width = options->width;
     params->height = options->height;
@@ -101,17 +95,17 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     params->panes_count = p->integrator == EC_INTEGRATOR_PATH;
     set_roulette(options->survival, params);
     params->sample = options->sample;
-    params->light_count = joins ? pack.light_count : 0;
+    params->light_count = ec_pipeline_joins(options, &pack) ? pack.light_count : 0;
     params->environment_width = pack.environment_width;
     params->environment_height = pack.environment_height;
     params->environment_pmf = pack.environment_pmf;
     for (int k = 0; k < 3; k++)
-        params->environment[k] = !scene->has_environment ? 0.0f : scene->environment.rgb ? 1.0f : scene->environment.constant[k];
-    params->environment_turned = scene->has_environment && scene->environment.turned;
-    for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = scene->environment.turn[k];
+        params->environment[k] = !plain->has_environment ? 0.0f : plain->environment.rgb ? 1.0f : plain->environment.constant[k];
+    params->environment_turned = plain->has_environment && plain->environment.turned;
+    for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = plain->environment.turn[k];
     memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
     params->nested = pack.bodies.count > 0;
-    params->camera_medium = camera_medium(scene, &scene->cameras[options->camera], &pack);
+    params->camera_medium = camera_medium(plain, &scene->cameras[options->camera], &pack);
     p->bodies_too_many = pack.bodies.too_many;
     params->light_tree_pmf = pack.light_tree_pmf;
     params->scene_radius = pack.scene_radius;
@@ -129,7 +123,19 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     stats->lanes = p->lanes;
     stats->wave = p->wave;
     stats->batch = batch;
-    ec_feature_names(p->features, stats->effects, sizeof stats->effects);
+    stats->effects = p->effects;
+    return result;
+}
+
+ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
+                             ec_pipeline *p, ec_render_stats *stats, ec_error *err)
+{
+    if (!options->without) return create(cl, scene, options, batch, p, stats, err);
+    ec_scene_view view;
+    memset(p, 0, sizeof *p);
+    EC_TRY(ec_scene_view_without(scene, options->without, (int64_t)options->without_of - 1, &view, err));
+    ec_result result = create(cl, &view.scene, options, batch, p, stats, err);
+    ec_scene_view_free(&view);
     return result;
 }
 

@@ -17,7 +17,7 @@ typedef struct ec_pipeline {
     ec_integrator integrator;
     ec_params params;
     ec_counters counters;         /* the host's copy */
-    uint64_t features;
+    ec_render_effects effects;
     uint32_t lanes, wave, triangle_count;
     uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
     uint32_t bodies_too_many;     /* materials of bodies, more than can be told apart; else 0 */
@@ -65,7 +65,14 @@ uint64_t ec_whitted_stack_words(uint32_t max_depth);
 
 /* camera.c */
 ec_result ec_pipeline_set_camera(const ec_scene *scene, const ec_render_options *options, ec_params *params, ec_error *err);
-/* upload.c */
+/* upload.c: what of the scene goes to the device, and for which effects; doing it */
+typedef struct ec_upload {
+    ec_arg arg;
+    const void *data; /* NULL: made as it is uploaded */
+    uint64_t slack;   /* spare bytes behind the end, for streams that are read in fours of words but not made of them */
+    ec_scene_buffer buffer;
+} ec_upload;
+uint32_t ec_upload_plan(const ec_scene *scene, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects);
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
 ec_result ec_pipeline_upload_filter(ec_pipeline *pipeline, const ec_render_options *options, ec_error *err);
 /* Builds an accelerator and uploads it; stats may be NULL. */
@@ -82,7 +89,9 @@ ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t 
 /* trace.c: the closest hits or the shadow rays of a bounce, through the accelerator that has proved the fastest there. */
 ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce, const uint32_t *scalars, ec_error *err);
 
-/* Names of the features in a mask, blank separated. */
-void ec_feature_names(uint64_t features, char *text, size_t size);
+/* effects.c: which are called for, built and launched; which can change a stage's code; is light looked for by shadow rays? */
+void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects);
+uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features);
+bool ec_pipeline_joins(const ec_render_options *options, const ec_pack *pack);
 
 #endif

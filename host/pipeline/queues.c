@@ -44,14 +44,14 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
 {
     /* Lane-wide loads may read a packet past the last entry. */
     const uint64_t field = (uint64_t)p->wave * 4, slack = 64;
-    const uint64_t path_fields = p->features & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS
-                                 : p->features & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
+    const uint64_t path_fields = p->effects.built & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS
+                                 : p->effects.built & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
     for (int i = 0; i < 2; i++) EC_TRY(create(p, "path queue", field * path_fields + slack, &p->path_queues[i], err));
     EC_TRY(create(p, "hits", field * EC_HIT_FIELDS + slack, &p->buffers[EC_ARG_HITS], err));
     EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));
     EC_TRY(create(p, "radiance", field * 3 + slack, &p->buffers[EC_ARG_RADIANCE], err));
     EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
-    if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->features & EC_FEATURE_TRANSMISSION)) return EC_OK; /* only what passes light branches */
+    if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->effects.built & EC_FEATURE_TRANSMISSION)) return EC_OK; /* only what passes light branches */
     return create(p, "ray trees", field * ec_whitted_stack_words(p->params.max_depth), &p->buffers[EC_ARG_BRANCHES], err);
 }
 

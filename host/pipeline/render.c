@@ -282,11 +282,24 @@ static ec_result check_ends(const ec_render_options *o, ec_error *err)
     return ec_fail(err, "a survival probability of %g with unlimited depth: nothing would end a path; set max_depth, or a survival under 1", o->survival);
 }
 
+/* No option is without effect in silence. */
+static ec_result note_unneeded(const ec_scene *scene, uint64_t without, const ec_log *log, ec_error *err)
+{
+    ec_effects effects;
+    char names[EC_EFFECT_NAMES];
+    if (!without) return EC_OK;
+    EC_TRY(ec_scene_calls(scene, &effects, err));
+    ec_feature_names(without & ~effects.bits, names, sizeof names);
+    if (*names) ec_note(log, "--without: the scene does not call for %s", names);
+    return EC_OK;
+}
+
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     memset(stats, 0, sizeof *stats);
     EC_TRY(check_ends(options, err));
+    EC_TRY(note_unneeded(scene, options->without, log, err));
     render_state r = {.options = options, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.allotment.gain = 1.0;
@@ -311,21 +324,20 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     return result;
 }
 
-ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, char *effects, size_t effects_size,
-                            ec_error *err)
+ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, ec_render_effects *effects, ec_error *err)
 {
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));
-    uint64_t vertices = scene->vertex_count, triangles = scene->triangle_count;
-    uint64_t bytes = triangles * (sizeof(ec_prim) + 12) + pack.material_count * sizeof(ec_material_data);
-    bytes += (scene->normals ? 12 * vertices : 0) + (scene->tangents ? 16 * vertices : 0) + (scene->colors ? 16 * vertices : 0);
-    bytes += (scene->uv[0] ? 8 * vertices : 0) + (scene->uv[1] ? 8 * vertices : 0);
-    bytes += pack.texel_words * 4 + (uint64_t)pack.light_count * (sizeof(ec_light_data) + sizeof(ec_alias));
-    bytes += (uint64_t)pack.environment_width * pack.environment_height * (4 * sizeof(float) + sizeof(ec_distribution_entry));
+    ec_upload plan[EC_SCENE_BUFFERS];
+    const ec_render_options by_default = {0};
+    *effects = (ec_render_effects){0};
+    ec_pipeline_effects(&by_default, &pack, effects);
+    uint32_t count = ec_upload_plan(scene, &pack, plan, effects);
+    uint64_t triangles = scene->triangle_count, bytes = 0;
+    for (uint32_t i = 0; i < count; i++) bytes += plan[i].buffer.bytes;
     uint64_t blocks = ref_count / 7, boxes = ref_count > triangles ? blocks : 0; /* leaf blocks seven eighths full */
     bytes += blocks * sizeof(ec_tri8) + boxes * sizeof(ec_box8) + ref_count / 20 * sizeof(ec_bvh8_node);
     *device_bytes = bytes;
-    ec_feature_names(pack.features, effects, effects_size);
     ec_pack_free(&pack);
     return EC_OK;
 }

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cl/cl.h"
 #include "film/film.h"
+#include "pipeline/effects.h"
 #include "scene/scene.h"
 #include "shared/params.h"
 
@@ -59,6 +60,8 @@ typedef struct ec_render_options {
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
+    uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */
+    uint32_t without_of;        /* in material n - 1 alone; 0: in all */
     uint64_t more_effects;      /* EC_FEATURE_*, built in though the scene may not call for them: so that scenes share kernels */
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
     float grid_density;         /* cells a reference, where that is a grid; 0 = EC_GRID_DENSITY */
@@ -101,7 +104,7 @@ typedef struct ec_render_stats {
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
     uint32_t lanes, wave, batch;
     uint64_t device_bytes;        /* peak of all buffers */
-    char effects[1024];            /* names of the effects built in, blank separated */
+    ec_render_effects effects;    /* which were called for, why, and what came of it */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */
     uint32_t cache_hits, cache_misses;
 } ec_render_stats;
@@ -114,9 +117,8 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
 /* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);
 
-/* Bytes of device memory the scene itself will take (geometry, BVH of ref_count references, textures, lights), and the effects
- * it calls for. For `eclat info`. */
-ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, char *effects, size_t effects_size,
-                            ec_error *err);
+/* Bytes of device memory the scene itself will take (geometry, BVH of ref_count references, textures, lights), and what a render
+ * by default makes of its effects. For `eclat info`. */
+ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, ec_render_effects *effects, ec_error *err);
 
 #endif

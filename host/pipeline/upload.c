@@ -6,24 +6,9 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/pixel_filter.h"
 
-static ec_result upload(ec_pipeline *p, ec_arg arg, const char *label, uint64_t bytes, const void *data, ec_error *err)
-{
-    if (!data || !bytes) return EC_OK; /* an absent stream stays NULL */
-    return ec_buffer_create(p->cl, label, bytes, data, &p->buffers[arg], err);
-}
-
-/* The same with 16 spare bytes behind the end, for streams that are read in fours of words but not made of them. */
-static ec_result upload_padded(ec_pipeline *p, ec_arg arg, const char *label, uint64_t bytes, const void *data, ec_error *err)
-{
-    if (!data || !bytes) return EC_OK;
-    EC_TRY(ec_buffer_create(p->cl, label, bytes + 16, NULL, &p->buffers[arg], err));
-    return ec_buffer_write(p->cl, p->buffers[arg], 0, bytes, data, err);
-}
-
 /* Both sets side by side. They must be finite and small enough for the kernels' integer texels. */
-static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, ec_error *err)
+static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, const ec_upload *u, ec_error *err)
 {
-    if (!scene->uv[0] && !scene->uv[1]) return EC_OK;
     float *uvs = calloc(4 * (size_t)scene->vertex_count, sizeof *uvs);
     if (!uvs) return ec_fail(err, "out of memory for texture coordinates of %u vertices", scene->vertex_count);
     for (int set = 0; set < 2; set++)
@@ -31,38 +16,61 @@ static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, ec_error *err
             float c = scene->uv[set][i];
             uvs[4 * (i / 2) + 2 * set + i % 2] = isfinite(c) ? fminf(fmaxf(c, -1e6f), 1e6f) : 0.0f;
         }
-    ec_result result = upload(p, EC_ARG_UVS, "texture coordinates", 16 * (uint64_t)scene->vertex_count, uvs, err);
+    ec_result result = ec_buffer_create(p->cl, u->buffer.label, u->buffer.bytes, uvs, &p->buffers[u->arg], err);
     free(uvs);
     return result;
 }
 
+uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects)
+{
+    const uint64_t vertices = s->vertex_count, triangles = s->triangle_count, lights = pack->light_count;
+    const uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
+    const uint64_t light = EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT;
+    const ec_upload all[] = {
+        {EC_ARG_PRIMS, pack->prims, 0, {"triangles", 0, pack->prim_count * sizeof *pack->prims}},
+        {EC_ARG_MATERIALS, pack->materials, 0, {"materials", 0, pack->material_count * sizeof *pack->materials}},
+        {EC_ARG_SRGB, pack->srgb, 0, {"sRGB table", 0, sizeof pack->srgb}},
+        {EC_ARG_INDICES, s->indices, 16, {"indices", EC_FEATURES_ATTRIBUTES, 12 * triangles}},
+        {EC_ARG_NORMALS, s->normals, 16, {"normals", EC_FEATURE_SMOOTH_NORMALS, s->normals ? 12 * vertices : 0}},
+        {EC_ARG_TANGENTS, s->tangents, 0, {"tangents", EC_FEATURES_TANGENTS, s->tangents ? 16 * vertices : 0}},
+        {EC_ARG_COLORS, s->colors, 0, {"colours", EC_FEATURE_VERTEX_COLORS, s->colors ? 16 * vertices : 0}},
+        {EC_ARG_UVS, NULL, 0, {"texture coordinates", EC_FEATURES_TEXTURED, s->uv[0] || s->uv[1] ? 16 * vertices : 0}},
+        {EC_ARG_TEXTURE_TABLE, pack->textures, 0, {"textures", EC_FEATURES_TEXTURED, pack->texture_count * sizeof *pack->textures}},
+        {EC_ARG_TEXELS, pack->texels, 0, {"texels", EC_FEATURES_TEXTURED, pack->texel_words * 4}},
+        {EC_ARG_LIGHT_TABLE, pack->lights, 0, {"lights", light, lights * sizeof *pack->lights}},
+        {EC_ARG_LIGHT_ALIAS, pack->light_alias, 0, {"light table", light, lights * sizeof *pack->light_alias}},
+        {EC_ARG_ENVIRONMENT_TEXELS, pack->environment_texels, 0, {"environment map", EC_FEATURE_ENVIRONMENT_MAP, texels * 16}},
+        {EC_ARG_ENVIRONMENT_TABLE, pack->environment_table, 0,
+         {"environment table", EC_FEATURE_ENVIRONMENT_MAP, (texels + pack->environment_height) * sizeof *pack->environment_table}},
+        {EC_ARG_LIGHT_TREE, pack->light_tree, 0, {"light tree", EC_FEATURE_LIGHT_TREE, pack->light_node_count * sizeof *pack->light_tree}},
+        {EC_ARG_LIGHT_TRAILS, pack->light_of_prim, 0,
+         {"trails of lamps", EC_FEATURE_LIGHT_TREE, pack->light_node_count ? (uint64_t)pack->prim_count * sizeof *pack->light_of_prim : 0}},
+    };
+    const uint32_t count = sizeof all / sizeof *all;
+    effects->buffer_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        plan[i] = all[i];
+        uint64_t for_whom = plan[i].buffer.effects; /* also for universal kernels: what is not called for stays NULL */
+        if ((for_whom && !(effects->called.bits & for_whom)) || (!plan[i].data && plan[i].arg != EC_ARG_UVS)) plan[i].buffer.bytes = 0;
+        if (plan[i].buffer.bytes) plan[i].buffer.bytes += plan[i].slack;
+        effects->buffers[i] = plan[i].buffer;
+    }
+    return count;
+}
+
 ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pack *pack, ec_error *err)
 {
-    const uint64_t f = pack->features; /* also for universal kernels: what is not called for stays NULL */
-    const bool textured = f & EC_FEATURES_TEXTURED;
-    const uint64_t vertices = scene->vertex_count;
-    EC_TRY(upload(p, EC_ARG_PRIMS, "triangles", (uint64_t)pack->prim_count * sizeof *pack->prims, pack->prims, err));
-    EC_TRY(upload(p, EC_ARG_MATERIALS, "materials", (uint64_t)pack->material_count * sizeof *pack->materials, pack->materials, err));
-    EC_TRY(upload(p, EC_ARG_SRGB, "sRGB table", sizeof pack->srgb, pack->srgb, err));
-    if (f & EC_FEATURES_ATTRIBUTES)
-        EC_TRY(upload_padded(p, EC_ARG_INDICES, "indices", 12 * (uint64_t)scene->triangle_count, scene->indices, err));
-    if (f & EC_FEATURE_SMOOTH_NORMALS) EC_TRY(upload_padded(p, EC_ARG_NORMALS, "normals", 12 * vertices, scene->normals, err));
-    if (f & EC_FEATURES_TANGENTS) EC_TRY(upload(p, EC_ARG_TANGENTS, "tangents", 16 * vertices, scene->tangents, err));
-    if (f & EC_FEATURE_VERTEX_COLORS) EC_TRY(upload(p, EC_ARG_COLORS, "colours", 16 * vertices, scene->colors, err));
-    if (textured) {
-        EC_TRY(upload_uvs(p, scene, err));
-        EC_TRY(upload(p, EC_ARG_TEXTURE_TABLE, "textures", (uint64_t)pack->texture_count * sizeof *pack->textures, pack->textures, err));
-        EC_TRY(upload(p, EC_ARG_TEXELS, "texels", (uint64_t)pack->texel_words * 4, pack->texels, err));
+    ec_upload plan[EC_SCENE_BUFFERS];
+    uint32_t count = ec_upload_plan(scene, pack, plan, &p->effects);
+    for (uint32_t i = 0; i < count; i++) {
+        const ec_upload *u = &plan[i];
+        uint64_t bytes = u->buffer.bytes;
+        if (!bytes) continue; /* an absent stream stays NULL */
+        if (u->arg == EC_ARG_UVS) EC_TRY(upload_uvs(p, scene, u, err));
+        else EC_TRY(ec_buffer_create(p->cl, u->buffer.label, bytes, u->slack ? NULL : u->data, &p->buffers[u->arg], err));
+        if (u->slack) EC_TRY(ec_buffer_write(p->cl, p->buffers[u->arg], 0, bytes - u->slack, u->data, err));
     }
-    EC_TRY(upload(p, EC_ARG_LIGHT_TABLE, "lights", (uint64_t)pack->light_count * sizeof *pack->lights, pack->lights, err));
-    EC_TRY(upload(p, EC_ARG_LIGHT_ALIAS, "light table", (uint64_t)pack->light_count * sizeof *pack->light_alias, pack->light_alias, err));
-    if (pack->light_node_count) {
-        EC_TRY(upload(p, EC_ARG_LIGHT_TREE, "light tree", (uint64_t)pack->light_node_count * sizeof *pack->light_tree, pack->light_tree, err));
-        EC_TRY(upload(p, EC_ARG_LIGHT_TRAILS, "trails of lamps", 4 * (uint64_t)pack->prim_count, pack->light_of_prim, err));
-    }
-    uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
-    EC_TRY(upload(p, EC_ARG_ENVIRONMENT_TEXELS, "environment map", texels * 16, pack->environment_texels, err));
-    return upload(p, EC_ARG_ENVIRONMENT_TABLE, "environment table", (texels + pack->environment_height) * sizeof *pack->environment_table, pack->environment_table, err);
+    return EC_OK;
 }
 
 ec_result ec_pipeline_upload_filter(ec_pipeline *p, const ec_render_options *o, ec_error *err)
@@ -70,7 +78,7 @@ ec_result ec_pipeline_upload_filter(ec_pipeline *p, const ec_render_options *o, 
     float table[EC_FILTER_ENTRIES];
     if (o->filter == EC_FILTER_BOX) return EC_OK;
     ec_pixel_filter_blackman_harris(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH, table);
-    return upload(p, EC_ARG_PIXEL_FILTER, "pixel filter", sizeof table, table, err);
+    return ec_buffer_create(p->cl, "pixel filter", sizeof table, table, &p->buffers[EC_ARG_PIXEL_FILTER], err);
 }
 
 ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)

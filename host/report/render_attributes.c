@@ -79,6 +79,24 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_text(attributes, "eclat.png.tonemap", ec_tonemap_names[report->tonemap]);
 }
 
+/* "sheen: material 1 "Velvet" has sheen" in lines. */
+static void add_effects(ec_report_attributes *attributes, const ec_render_effects *effects)
+{
+    char text[EC_EFFECT_BITS * (EC_EFFECT_WHY + 64)];
+    size_t used = 0;
+    ec_feature_names(effects->built, text, sizeof text);
+    add_made(attributes, "eclat.effects", "%s", text);
+    text[0] = 0;
+    for (uint32_t i = 0; i < ec_feature_count; i++) {
+        ec_effect_row row = ec_effect_describe(effects, i);
+        if (row.called && used < sizeof text)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s: %s", used ? "\n" : "", row.name, row.why);
+    }
+    add_made(attributes, "eclat.effects.why", "%s", text);
+    ec_effects_kernels(effects, text, sizeof text);
+    add_made(attributes, "eclat.kernels", "%s", text);
+}
+
 static void add_result(ec_report_attributes *attributes, const ec_render_report *report)
 {
     const ec_render_stats *stats = report->stats;
@@ -87,7 +105,7 @@ static void add_result(ec_report_attributes *attributes, const ec_render_report 
     add_whole(attributes, "eclat.batches", report->batches);
     add_whole(attributes, "eclat.lanes", stats->lanes);
     add_whole(attributes, "eclat.wave", stats->wave);
-    add_text(attributes, "eclat.effects", stats->effects);
+    add_effects(attributes, &stats->effects);
     add_real(attributes, "eclat.seconds", stats->seconds);
     add_real(attributes, "eclat.error", stats->error);
     add_real(attributes, "eclat.errorBound", stats->error_bound);

@@ -16,6 +16,7 @@ typedef struct ec_render_report {
     const char *environment;        /* --env, or in words */
     const ec_render_options *options;
     const ec_render_stats *stats;
+    bool verbose;                   /* every effect with what calls for it */
     const ec_device_info *device;
     const char *device_why;         /* "first GPU" */
     uint32_t device_index;
@@ -43,7 +44,7 @@ enum { EC_REPORT_ATTRIBUTES_MAX = 64 };
 typedef struct ec_report_attributes {
     ec_attribute list[EC_REPORT_ATTRIBUTES_MAX];
     uint32_t count;
-    char text[2048]; /* strings made for the occasion; list points into it */
+    char text[16384]; /* strings made for the occasion; list points into it */
     size_t text_used;
 } ec_report_attributes;
 /* `attributes` must not be moved or copied afterwards. */

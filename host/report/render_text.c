@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "report/effects_report.h"
 #include "report/forecast_text.h"
 #include "report/format.h"
 #include "report/render_report.h"
@@ -32,6 +33,13 @@ static void print_heavy(const ec_render_report *report, FILE *to)
             report->heavy_pixels == 1 ? "" : "s", share, report->heavy_pixels == 1 ? "its" : "their");
 }
 
+static void print_effects(const ec_render_effects *effects, FILE *to)
+{
+    char line[EC_EFFECT_NAMES + 32];
+    ec_effects_line(effects, line, sizeof line);
+    fprintf(to, "effects  %s\n", line);
+}
+
 static const char *stop_in_words(const char *stopped_by)
 {
     if (!strcmp(stopped_by, "error")) return "the error bound is under --error";
@@ -59,6 +67,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     print_heavy(report, to);
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
     fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
-    fprintf(to, "effects  %s\n", *stats->effects ? stats->effects : "none");
+    if (report->verbose) ec_effects_text(&stats->effects, to, 9);
+    else print_effects(&stats->effects, to);
     fprintf(to, "invalid  %" PRIu64 " samples\n", stats->invalid_samples);
 }

@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "report/json.h"
+#include "report/effects_report.h"
 #include "report/scene_report.h"
 
 static void add_geometry(cJSON *root, const ec_scene *scene)
@@ -135,7 +135,7 @@ ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error
     add_contents(root, &scene->contents);
     add_list(root, "extensions_used", scene->extensions_used, scene->extension_count);
     add_list(root, "extensions_unsupported", scene->extensions_ignored, scene->extension_ignored_count);
-    ec_json_words(root, "effects", report->effects);
+    ec_effects_json(root, &report->effects);
     add_bvh(root, &report->bvh);
     add_accels(root, report);
     ec_json_real(root, "load_seconds", report->load_seconds);

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "pipeline/effects.h"
 #include "pipeline/probe.h"
 #include "scene/scene.h"
 
@@ -20,7 +21,7 @@ typedef struct ec_scene_report {
     const ec_scene *scene;
     uint32_t emissive_triangles; /* whose material emits or is unlit */
     uint32_t light_types[3];     /* by ec_light_type */
-    const char *effects;         /* blank separated */
+    ec_render_effects effects;   /* of a render by default */
     uint64_t device_bytes;       /* the scene's buffers on the device */
     uint64_t peak_memory_bytes;  /* of this process: loading, and building the BVH */
     double load_seconds;

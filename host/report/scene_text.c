@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "report/effects_report.h"
 #include "report/format.h"
 #include "report/scene_report.h"
 
@@ -91,7 +92,7 @@ static void print_cost(const ec_scene_report *report, FILE *to)
     ec_format_bytes(report->peak_memory_bytes, host, sizeof host);
     ec_format_seconds(report->load_seconds, load, sizeof load);
     ec_format_seconds(bvh->build_seconds, build, sizeof build);
-    fprintf(to, "effects     %s\n", *report->effects ? report->effects : "none");
+    ec_effects_text(&report->effects, to, 12);
     fprintf(to, "memory      %s on the device for the scene, without the film; %s on the host at peak\n", device, host);
     fprintf(to, "BVH         %u nodes, %u leaves, depth %u, SAH cost %.4g, leaf blocks %.0f %% full\n", bvh->node_count,
             bvh->leaf_count, bvh->max_depth, bvh->sah_cost, 100 * bvh->leaf_fill);

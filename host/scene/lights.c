@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void aim(const double linear[9], float direction[3])
 {
@@ -29,6 +30,8 @@ ec_result ec_gltf_lights_place(const ec_gltf *g, const ec_placement_list *placem
             light.position[k] = (float)(at->origin[k] - s->center[k]);
             finite = finite && isfinite(light.position[k]);
         }
+        const char *name = g->nodes[at->node].name;
+        light.name = finite && name ? strdup(name) : NULL;
         if (finite) s->lights[s->light_count++] = light;
         else ec_warn(log, "%s: the light at nodes[%d] stands at infinity; it is left out", g->path, at->node);
     }

@@ -14,6 +14,7 @@ void ec_scene_free(ec_scene *s)
     if (!s) return;
     for (uint32_t i = 0; i < s->material_count; i++) free(s->materials[i].name);
     for (uint32_t i = 0; i < s->camera_count; i++) free(s->cameras[i].name);
+    for (uint32_t i = 0; i < s->light_count; i++) free(s->lights[i].name);
     for (uint32_t i = 0; i < s->image_count; i++) {
         free(s->images[i].rgba8);
         free(s->images[i].rgba16);

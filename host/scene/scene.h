@@ -78,6 +78,7 @@ typedef struct ec_light {
     float intensity[3];        /* colour x intensity: W/sr, or W/m^2 for directional */
     float range;               /* metres; 0 = infinite */
     float cos_inner, cos_outer;
+    char *name;                /* of its node, owned, may be NULL */
 } ec_light;
 
 typedef enum ec_camera_type { EC_CAMERA_PERSPECTIVE, EC_CAMERA_ORTHOGRAPHIC } ec_camera_type;

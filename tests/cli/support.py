@@ -46,7 +46,7 @@ class Case(unittest.TestCase):
         lines = run.stderr.splitlines()
         self.assertEqual(len(lines), 1, run.stderr)
         self.assertTrue(lines[0].startswith("eclat: error: "), run.stderr)
-        self.assertLess(len(lines[0]), 500)
+        self.assertLess(len(lines[0]), 700)
         return lines[0]
 
     def assert_ok(self, run):

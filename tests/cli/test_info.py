@@ -163,8 +163,10 @@ class Info(Case):
             # the weight is in red, roughness in green
             (set(), {**one, "clearcoatTexture": {"index": 0}}, green),
             ({coat, textured}, {**one, "clearcoatTexture": {"index": 0}}, white),
-            ({coat, textured}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, green),
-            ({coat, textured, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, black),
+            ({coat, textured, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, white),
+            # one value is a factor
+            ({coat}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, green),
+            ({coat, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, black),
             ({coat, bent}, {**one, "clearcoatNormalTexture": {"index": 0}}, white),
         ])
 
@@ -177,8 +179,9 @@ class Info(Case):
             ({sheen}, {"sheenColorFactor": [0, 0, 0.1]}),
             (set(), {"sheenColorFactor": [1, 1, 1], "sheenColorTexture": {"index": 0}}, black),
             (set(), {"sheenColorFactor": [1, 0, 1], "sheenColorTexture": {"index": 0}}, green),
-            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, green),
-            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, black),
+            ({sheen}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, green),
+            ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, white),
+            ({sheen}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, white),  # of factor 0
         ])
 
     def test_anisotropy_calls_for_what_it_has(self):
@@ -190,6 +193,59 @@ class Info(Case):
                                            (set(), {**one, "anisotropyTexture": {"index": 0}}, yellow)]:
             found = self.layers({"KHR_materials_anisotropy": members}, *texels, roughness=0.5)
             self.assertEqual(found & {long, textured}, expected)
+
+    def reasons(self, scene, *arguments):
+        run = self.assert_ok(eclat("info", "--json", *arguments, write_gltf(self.path("why.gltf"), scene)))
+        report = json.loads(run.stdout)
+        rows = {row["name"]: row for row in report["effect_list"]}
+        self.assertEqual([name for name in rows if rows[name]["called_for"]], report["effects"])
+        for row in rows.values():  # why, where and what for: all of it or nothing
+            self.assertEqual(row["called_for"], bool(row["why"]))
+            self.assertEqual(row["called_for"], bool(row["kernels"]), row)
+            self.assertEqual(bool(row["buffers"]), row["buffer_bytes"] > 0, row)
+            self.assertLessEqual(set(row["kernels"]), set(report["kernels"]))
+        return report, rows
+
+    def test_each_effect_says_why(self):
+        scene, _ = quad_scene(material={"name": "velvet", "pbrMetallicRoughness": {"metallicFactor": 0},
+                                        "extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0, 1]}}})
+        report, rows = self.reasons(scene)
+        self.assertEqual(rows["sheen"]["why"], 'material 0 "velvet" has sheen')
+        self.assertEqual(rows["sheen"]["kernels"], ["shade"])
+        self.assertEqual(rows["sheen"]["buffers"], [])
+        self.assertEqual(rows["sobol-sampler"]["why"], "--sampler sobol")
+        self.assertEqual(rows["environment"]["why"], "the environment shines")  # the white one of a scene without light
+        self.assertIsNone(rows["clearcoat"]["why"])
+        self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "connect", "accumulate", "features"])
+
+    def test_lights_by_their_nodes(self):
+        scene, _ = quad_scene(material={})
+        light = [{"type": "point"}, {"type": "spot"}]
+        scene["extensions"] = {"KHR_lights_punctual": {"lights": light}}
+        scene["nodes"] += [{"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                           {"name": "torch", "extensions": {"KHR_lights_punctual": {"light": 1}}}]
+        scene["scenes"][0]["nodes"] = [0, 1, 2, 3]
+        _, rows = self.reasons(scene)
+        self.assertEqual(rows["punctual-lights"]["why"], 'point light "bulb", and 1 other')
+        # two lights of ec_light_data and of ec_alias
+        self.assertEqual(rows["punctual-lights"]["buffers"], ["lights", "light table"])
+        self.assertEqual(rows["punctual-lights"]["buffer_bytes"], 2 * (64 + 8))
+
+    def test_of_another_scene_nothing_counts(self):
+        scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": 0}})
+        scene["materials"].append({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0, 1]}}})
+        scene["meshes"].append({"primitives": [{**scene["meshes"][0]["primitives"][0], "material": 1}]})
+        scene["nodes"].append({"mesh": 1})
+        scene["scenes"].append({"nodes": [1, 2]})
+        for chosen, called in ((0, False), (1, True)):
+            _, rows = self.reasons({**scene, "scene": chosen})
+            self.assertEqual(rows["sheen"]["called_for"], called)
+
+    def test_no_light_to_join_no_shadow_rays(self):
+        scene, _ = quad_scene(material={"extensions": {"KHR_materials_unlit": {}}})
+        report, rows = self.reasons(scene)
+        self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "accumulate", "features"])
+        self.assertEqual(rows["unlit"]["why"], "material 0 is unlit")
 
     def test_films_call_for_what_they_have(self):
         film, textured = "iridescence", "iridescence-texture"
@@ -235,7 +291,7 @@ class Info(Case):
 
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))
-        for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "effects",
+        for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "kernels", "effects",
                      "memory", "BVH"]:
             self.assertRegex(run.stdout, rf"(?m)^{word} ")
 

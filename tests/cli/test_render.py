@@ -39,6 +39,38 @@ class Files(Render):
         self.assertRegex(run.stdout, r"error .* at 2 samples a pixel in .* samples/s")
         self.assertRegex(run.stdout, r"(?m)^invalid  0 samples$")
 
+    def test_effects_are_told_in_all_places(self):
+        report = self.render(*SMALL, "-o", "a.exr", scene=CORNELL)
+        attributes, _ = read_exr(self.path("a.exr"))
+        rows = [row for row in report["effect_list"] if row["called_for"]]
+        self.assertEqual(report["effects"], ["emission", "area-lights", "back-face-culling", "sobol-sampler"])
+        self.assertEqual([row["name"] for row in rows], report["effects"])
+        self.assertEqual(rows[0]["why"], 'material 3 "lamp" emits')
+        self.assertEqual(attributes["eclat.effects"].split(), report["effects"])
+        self.assertEqual(attributes["eclat.effects.why"].splitlines(), [f"{row['name']}: {row['why']}" for row in rows])
+        self.assertEqual(attributes["eclat.kernels"].split(", "), report["kernels"])
+        for option, pattern in [("-q", r"\A\Z"), ("-v", r'(?m)^  emission +material 3 "lamp" emits; in shade$'),
+                                ("--exposure=0", r"(?m)^effects  4 of \d+: emission area-lights back-face-culling sobol-sampler$")]:
+            run = self.assert_ok(eclat("render", CORNELL, *SMALL, option, "-o", "a.exr", cwd=self.folder))
+            self.assertRegex(run.stdout, pattern)
+
+    def test_an_effect_is_left_out_by_its_name(self):
+        report = self.render(*SMALL, "-o", "a.exr", "--without", "emission", "--without", "sheen", scene=CORNELL)
+        left_out = [row["name"] for row in report["effect_list"] if row["left_out"]]
+        self.assertEqual(left_out, ["emission", "sheen"])
+        self.assertEqual(report["effects"], ["back-face-culling", "sobol-sampler"])
+        self.assertEqual(report["mean_luminance"], 0)  # the lamp was all its light
+        run = self.assert_ok(eclat("render", CORNELL, *SMALL, "-v", "-o", "a.exr", "--without", "emission", "--without", "sheen", cwd=self.folder))
+        self.assertRegex(run.stdout, r"(?m)^  emission +left out: --without$")
+        self.assertIn("--without: the scene does not call for sheen\n", run.stderr)
+
+    def test_what_is_no_effect_is_refused_with_the_names_of_all(self):
+        for name in ("shee", "sobol-sampler"):
+            line = self.assert_one_error(eclat("render", CORNELL, "--without", name, cwd=self.folder), 2)
+            self.assertIn(f"--without: '{name}' is not one of the effects that can be left out: emission punctual-lights environment specular", line)
+            self.assertIn(" sheen ", line)
+        self.assertIn("needed, all", self.assert_one_error(eclat("render", CORNELL, "--effects", "every", cwd=self.folder), 2))
+
     def test_exr_has_the_channels_and_all_that_is_needed_to_render_it_again(self):
         report = self.render(*SMALL, "-o", "a.exr", "--seed", "18446744073709551615")
         attributes, planes = read_exr(self.path("a.exr"))
@@ -229,7 +261,7 @@ class SameBits(Render):
         options = ["--size", "33x17", "--spp", "8", "--max-depth", "5"]
         first = self.render(*options, scene=CORNELL)["image_sha256"]
         for change in [[], ["--lanes", "1"], ["--lanes", "4"], ["--lanes", "8"], ["--lanes", "16"], ["--wave", "1000"],
-                       ["--wave", "100000"], ["--all-effects"], ["--accel", "bvh2"], ["--accel", "bvh8"],
+                       ["--wave", "100000"], ["--effects", "all"], ["--accel", "bvh2"], ["--accel", "bvh8"],
                        ["--accel", "grid"], ["--accel", "kdtree"], ["--accel", "none"]]:
             with self.subTest(change=change):
                 self.assertEqual(self.render(*options, *change, scene=CORNELL)["image_sha256"], first)

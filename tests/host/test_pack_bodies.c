@@ -54,7 +54,7 @@ static void less_displaces_more(void)
         CHECK(pack.materials[order[i]].body == 1u << i && pack.materials[i].body_of_rank == (uint32_t)order[i] * EC_MATERIAL_WORDS);
         CHECK(pack.materials[order[i]].flags & EC_MATERIAL_NESTED);
     }
-    CHECK((pack.features & EC_FEATURE_NESTED) && (pack.features & EC_FEATURE_SMOOTH));
+    CHECK((pack.effects.bits & EC_FEATURE_NESTED) && (pack.effects.bits & EC_FEATURE_SMOOTH));
     ec_pack_free(&pack);
     ec_scene_free(scene);
 }
@@ -72,7 +72,7 @@ static void apart(void)
         add_cube(m, b, i ? 0 : 2.5, 0.5);
         ec_scene *scene = scene_of(m);
         ec_pack pack = pack_of(scene);
-        CHECK_MSG(!(pack.features & EC_FEATURE_NESTED) == (i < 3) && !pack.bodies.count == (i < 3), "case %d", i);
+        CHECK_MSG(!(pack.effects.bits & EC_FEATURE_NESTED) == (i < 3) && !pack.bodies.count == (i < 3), "case %d", i);
         for (uint32_t k = 0; k < pack.material_count && i < 3; k++) CHECK(!(pack.materials[k].flags & EC_MATERIAL_NESTED) && !pack.materials[k].body);
         ec_pack_free(&pack);
         ec_scene_free(scene);
@@ -88,7 +88,7 @@ static void too_many(void)
         ec_pack pack = pack_of(scene);
         bool fits = n == EC_BODIES_MOST;
         CHECK(pack.bodies.count == (fits ? n : 0) && pack.bodies.too_many == (fits ? 0 : n));
-        CHECK(!(pack.features & EC_FEATURE_NESTED) == !fits);
+        CHECK(!(pack.effects.bits & EC_FEATURE_NESTED) == !fits);
         ec_pack_free(&pack);
         ec_scene_free(scene);
     }

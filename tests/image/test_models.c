@@ -1,31 +1,14 @@
 /* Every model under shared/assets/gltf that asks for nothing unsupported renders: no failure, no invalid sample, finite, not
  * black. Each in a child process, so that a crash is one failed check, with its peak memory. (ctest label: slow) */
 #define _XOPEN_SOURCE 700 /* nftw */
-#include <ftw.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "support/models.h"
 #include "support/render_case.h"
 
-enum { MODELS_MAX = 512, SIZE = 32 };
-
-static char *models[MODELS_MAX];
-static int model_count;
-
-static int collect(const char *path, const struct stat *status, int type, struct FTW *walk)
-{
-    (void)status, (void)walk;
-    const char *dot = strrchr(path, '.');
-    if (type == FTW_F && dot && (!strcmp(dot, ".gltf") || !strcmp(dot, ".glb")) && model_count < MODELS_MAX)
-        models[model_count++] = strdup(path);
-    return 0;
-}
-
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
+enum { SIZE = 32 };
 
 enum { RENDERED, UNSUPPORTED, EMPTY, BAD };
 
@@ -74,8 +57,7 @@ static int in_child(const char *path, bool all_effects, long *peak_kib)
 int main(void)
 {
     static const char folder[] = SHARED("assets/gltf");
-    if (!case_present(folder) || nftw(folder, collect, 16, FTW_PHYS) != 0) TEST_SKIP("no %s", folder);
-    qsort(models, (size_t)model_count, sizeof *models, by_name);
+    if (!case_present(folder) || !models_collect(folder)) TEST_SKIP("no %s", folder);
     int counts[BAD + 1] = {0};
     long peak;
     for (int i = 0; i < model_count; i++) {

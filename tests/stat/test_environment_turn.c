@@ -87,7 +87,7 @@ int main(void)
     uint32_t other = 0;
     for (int i = 0; i < 3 * 16 * 16; i++) other += bright.rgb[i] != 4 * once.rgb[i];
     CHECK_MSG(!other, "%u values are not four times as bright", other);
-    CHECK(strstr(once.stats.effects, "environment-map") && !strstr(once.stats.effects, "rotation"));
+    CHECK(strstr(case_effects(&once), "environment-map") && !strstr(case_effects(&once), "rotation"));
     ec_scene_adjust_environment(turned, 0, 0, NULL);
     CHECK(!turned->has_environment && !turned->environment.rgb);
     case_free(&once);

@@ -47,7 +47,7 @@ static void same_bits(const ec_scene *scene)
         image[i] = case_render(scene, &o);
         CHECK_MSG(case_same_bits(&image[i].film, &image[0].film), "lanes %u, all effects %d: other bits", lanes[i], i == 4);
     }
-    printf("%s\n", image[0].stats.effects);
+    printf("%s\n", case_effects(&image[0]));
     for (int i = 0; i < 5; i++) case_free(&image[i]);
 }
 

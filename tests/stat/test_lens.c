@@ -66,7 +66,7 @@ static void check_bits(void)
     CHECK(case_same_bits(&pinhole.film, &narrow.film));
     o = lens(0.1, 1.5);
     case_image wide = case_render(scene, &o);
-    CHECK(!case_same_bits(&pinhole.film, &wide.film) && strstr(wide.stats.effects, "depth-of-field") && !strstr(pinhole.stats.effects, "depth-of-field"));
+    CHECK(!case_same_bits(&pinhole.film, &wide.film) && strstr(case_effects(&wide), "depth-of-field") && !strstr(case_effects(&pinhole), "depth-of-field"));
     check_lanes(scene, &o, &wide);
     case_free(&pinhole);
     case_free(&narrow);

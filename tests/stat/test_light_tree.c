@@ -48,7 +48,7 @@ int main(void)
     case_image power = case_render(scene, &o);
     o = options(EC_LIGHTS_BY_TREE, EC_SAMPLE_MIS, 1024, 2);
     case_image tree = case_render(scene, &o);
-    CHECK(strstr(tree.stats.effects, "light-tree") && !strstr(power.stats.effects, "light-tree"));
+    CHECK(strstr(case_effects(&tree), "light-tree") && !strstr(case_effects(&power), "light-tree"));
     printf("relMSE by power %.3g in %.2f s, by the tree %.3g in %.2f s\n", power.stats.relmse, power.stats.seconds, tree.stats.relmse, tree.stats.seconds);
     case_check_same(&tree, &power, 4, "tree, mis, against power");
     CHECK_MSG(tree.stats.relmse < 0.5 * power.stats.relmse, "relMSE %g by the tree, %g by power", tree.stats.relmse, power.stats.relmse);

@@ -57,7 +57,7 @@ static void check_scene(const char *what, const ec_scene *scene)
     o.seed = 6; /* and the comparison can see a difference */
     case_image other = case_render(scene, &o);
     CHECK(!case_same_bits(&other.film, &expected.film));
-    printf("%s: %s\n", what, expected.stats.effects);
+    printf("%s: %s\n", what, case_effects(&expected));
     case_free(&other);
     case_free(&expected);
 }

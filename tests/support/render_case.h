@@ -118,6 +118,14 @@ static inline case_image case_render_file(const char *path, const char *environm
     return image;
 }
 
+/* Names of the effects that were built in. */
+static inline const char *case_effects(const case_image *image)
+{
+    static char text[EC_EFFECT_NAMES];
+    ec_feature_names(image->stats.effects.built, text, sizeof text);
+    return text;
+}
+
 static inline void case_free(case_image *image)
 {
     ec_film_destroy(&image->film);

@@ -1,0 +1,168 @@
+/* What changes nothing is taken out before the scan looks, so that a specialised build and a full one read the same numbers. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pack/fold.h"
+#include "pack/pack.h"
+#include "pack/texture_mean.h"
+
+/* What the triangles of a material have. */
+typedef struct shown {
+    bool any;
+    float least_alpha, most_alpha; /* of vertex colours; 1 without */
+} shown;
+
+static bool is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
+
+static void drop(ec_material *m, int slot) { m->textures[slot].texture = -1; }
+
+/* Light that passes: not through metal, nor where the texture is 0. */
+static void plain_transmission(const ec_scene *scene, ec_material *m)
+{
+    float least, most;
+    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 2, &least, &most);
+    if (m->metallic * least == 1.0f) m->transmission = 0.0f;
+    if (!(m->metallic * least < 1.0f)) m->seeps = 0.0f;
+    ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
+    if (m->transmission * least == 1.0f) m->seeps = 0.0f; /* nothing of the light is left for it */
+    if (m->transmission == 0.0f) drop(m, EC_SLOT_TRANSMISSION);
+    if (!ec_refracts(m) || m->ior <= 1.0f) m->dispersion = 0.0f;
+    if (!ec_refracts(m) && !ec_bounds(m)) memset(m->absorption, 0, sizeof m->absorption);
+    if (m->seeps > 0.0f) return;
+    drop(m, EC_SLOT_DIFFUSE_TRANSMISSION);
+    drop(m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR);
+}
+
+/* A film of no thickness, or of air, is none. */
+static void plain_film(const ec_scene *scene, ec_material *m)
+{
+    const ec_texture_use *thickness = &m->textures[EC_SLOT_IRIDESCENCE_THICKNESS];
+    float low = 1.0f, high = 1.0f;
+    if (thickness->texture >= 0) ec_texture_range(scene, thickness, 1, &low, &high);
+    bool thick = (m->film_least > 0.0f && low < 1.0f) || (m->film_most > 0.0f && high > 0.0f);
+    if (m->film_ior == 1.0f || !thick) m->film = 0.0f;
+    if (m->film > 0.0f) return;
+    drop(m, EC_SLOT_IRIDESCENCE);
+    drop(m, EC_SLOT_IRIDESCENCE_THICKNESS);
+}
+
+static void plain_coat(ec_material *m)
+{
+    if (m->coat > 0.0f && m->coat_normal_scale == 0.0f) drop(m, EC_SLOT_CLEARCOAT_NORMAL);
+    if (m->coat > 0.0f) return;
+    drop(m, EC_SLOT_CLEARCOAT);
+    drop(m, EC_SLOT_CLEARCOAT_ROUGHNESS);
+    drop(m, EC_SLOT_CLEARCOAT_NORMAL);
+}
+
+/* At roughness 1 a lobe is as wide as it gets in all directions; glass is as rough in all directions anyway. */
+static void plain_anisotropy(const ec_scene *scene, ec_material *m)
+{
+    float least, most, unused;
+    ec_texture_range(scene, &m->textures[EC_SLOT_ANISOTROPY], 2, &unused, &most);
+    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &unused);
+    bool is_glass = m->transmission > 0.0f && m->metallic < 1.0f && m->textures[EC_SLOT_TRANSMISSION].texture < 0 &&
+                    m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture < 0;
+    if (m->anisotropy * most > 0.0f && m->roughness * least < 1.0f && !is_glass) return;
+    m->anisotropy = 0.0f;
+    drop(m, EC_SLOT_ANISOTROPY);
+}
+
+/* An effect on what no ray sees, and on what shows its base colour alone, is none. */
+static void plain_bare(ec_material *m)
+{
+    for (int k = 0; k < EC_SLOT_COUNT; k++)
+        if (k != EC_SLOT_BASE_COLOR) drop(m, k);
+    memset(m->emission, 0, sizeof m->emission);
+    memset(m->sheen, 0, sizeof m->sheen);
+    memset(m->absorption, 0, sizeof m->absorption);
+    m->metallic = m->specular = m->transmission = m->coat = m->anisotropy = m->film = m->seeps = m->dispersion = 0.0f;
+}
+
+/* Coverage between these two: does it leave anything open, and does it show anything? A product and a bilinear look-up round. */
+static void plain_alpha(const ec_scene *scene, ec_material *m, const shown *s)
+{
+    if (m->alpha_mode == EC_ALPHA_OPAQUE) return;
+    const bool textured = m->textures[EC_SLOT_BASE_COLOR].texture >= 0;
+    float least, most;
+    ec_texture_range(scene, &m->textures[EC_SLOT_BASE_COLOR], 3, &least, &most);
+    const float low = m->base_color[3] * least * s->least_alpha, high = m->base_color[3] * most * s->most_alpha;
+    const float slack = textured || s->least_alpha != s->most_alpha ? 4e-7f : 0.0f;
+    const bool mask = m->alpha_mode == EC_ALPHA_MASK;
+    const bool hidden = mask ? high * (1.0f + slack) < m->alpha_cutoff : high == 0.0f;
+    if (mask ? low * (1.0f - slack) >= m->alpha_cutoff : low >= 1.0f) m->alpha_mode = EC_ALPHA_OPAQUE;
+    if (hidden) plain_bare(m);
+}
+
+static void plain_material(const ec_scene *scene, ec_material *m, const shown *s)
+{
+    if (m->unlit) plain_bare(m);
+    for (int slot = 0; slot < EC_SLOT_COUNT; slot++) ec_texture_fold(scene, m, slot);
+    plain_alpha(scene, m, s);
+    plain_transmission(scene, m);
+    plain_coat(m);
+    plain_film(scene, m);
+    if (is_zero(m->sheen)) drop(m, EC_SLOT_SHEEN_ROUGHNESS);
+    if (m->specular == 0.0f) drop(m, EC_SLOT_SPECULAR_COLOR);
+    if (m->normal_scale == 0.0f) drop(m, EC_SLOT_NORMAL);
+    plain_anisotropy(scene, m);
+}
+
+static void look_at_triangles(const ec_scene *scene, shown *list)
+{
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        shown *s = &list[scene->triangle_material[t]];
+        if (!s->any) *s = (shown){true, 1.0f, 1.0f};
+        if (!scene->colors) continue;
+        for (int v = 0; v < 3; v++) {
+            float alpha = scene->colors[4 * (size_t)scene->indices[3 * (size_t)t + (size_t)v] + 3];
+            s->least_alpha = fminf(s->least_alpha, alpha);
+            s->most_alpha = fmaxf(s->most_alpha, alpha);
+        }
+    }
+}
+
+static void plain_lights(ec_scene *scene)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        if (ec_pack_punctual_power(&scene->lights[i], 1.0) > 0.0) scene->lights[kept++] = scene->lights[i];
+    scene->light_count = kept;
+}
+
+static void plain_environment(ec_scene *scene)
+{
+    ec_environment *e = &scene->environment;
+    if (!scene->has_environment) return;
+    size_t values = 3 * (size_t)e->width * e->height, i = 3;
+    while (e->rgb && i < values && e->rgb[i] == e->rgb[i % 3]) i++;
+    if (e->rgb && values && i >= values) {
+        memcpy(e->constant, e->rgb, sizeof e->constant);
+        e->rgb = NULL;
+        e->width = e->height = 0;
+    }
+    if (!e->rgb && is_zero(e->constant)) scene->has_environment = false;
+}
+
+ec_result ec_scene_view_plain(const ec_scene *scene, ec_scene_view *view, ec_error *err)
+{
+    shown *list = calloc(scene->material_count + 1, sizeof *list);
+    if (!list) return ec_fail(err, "out of memory for %u materials", scene->material_count);
+    ec_result result = ec_scene_view_make(scene, view, err);
+    if (result == EC_OK) {
+        look_at_triangles(scene, list);
+        for (uint32_t m = 0; m < scene->material_count; m++) {
+            if (list[m].any) {
+                plain_material(scene, &view->scene.materials[m], &list[m]);
+                continue;
+            }
+            plain_bare(&view->scene.materials[m]); /* nothing shows it */
+            drop(&view->scene.materials[m], EC_SLOT_BASE_COLOR);
+        }
+        plain_lights(&view->scene);
+        plain_environment(&view->scene);
+    }
+    free(list);
+    return result;
+}

@@ -1,0 +1,82 @@
+/* A scene with effects switched off: what --without and `eclat cost` render. */
+#include <string.h>
+
+#include "pack/fold.h"
+#include "pack/pack.h"
+
+const uint64_t ec_effects_optional =
+    EC_FEATURE_EMISSION | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH_NORMALS |
+    EC_FEATURE_VERTEX_COLORS | EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |
+    EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_ALPHA | EC_FEATURE_TRANSMISSION |
+    EC_FEATURE_TRANSMISSION_TEXTURE | EC_FEATURE_ABSORPTION | EC_FEATURE_CLEARCOAT | EC_FEATURE_CLEARCOAT_TEXTURE |
+    EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN | EC_FEATURE_SHEEN_TEXTURE | EC_FEATURE_ANISOTROPY |
+    EC_FEATURE_ANISOTROPY_TEXTURE | EC_FEATURE_IRIDESCENCE | EC_FEATURE_IRIDESCENCE_TEXTURE | EC_FEATURE_DIFFUSE_TRANSMISSION |
+    EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE | EC_FEATURE_DISPERSION;
+
+/* Textures by their means: slots that an effect reads. */
+static const struct {
+    uint64_t effect;
+    int slot;
+} textured[] = {
+    {EC_FEATURE_BASE_COLOR_TEXTURE, EC_SLOT_BASE_COLOR},
+    {EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE, EC_SLOT_METALLIC_ROUGHNESS},
+    {EC_FEATURE_NORMAL_TEXTURE, EC_SLOT_NORMAL},
+    {EC_FEATURE_EMISSION_TEXTURE, EC_SLOT_EMISSION},
+    {EC_FEATURE_SPECULAR_TEXTURE, EC_SLOT_SPECULAR},
+    {EC_FEATURE_SPECULAR_TEXTURE, EC_SLOT_SPECULAR_COLOR},
+    {EC_FEATURE_TRANSMISSION_TEXTURE, EC_SLOT_TRANSMISSION},
+    {EC_FEATURE_CLEARCOAT_TEXTURE, EC_SLOT_CLEARCOAT},
+    {EC_FEATURE_CLEARCOAT_TEXTURE, EC_SLOT_CLEARCOAT_ROUGHNESS},
+    {EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE, EC_SLOT_CLEARCOAT_NORMAL},
+    {EC_FEATURE_SHEEN_TEXTURE, EC_SLOT_SHEEN_COLOR},
+    {EC_FEATURE_SHEEN_TEXTURE, EC_SLOT_SHEEN_ROUGHNESS},
+    {EC_FEATURE_ANISOTROPY_TEXTURE, EC_SLOT_ANISOTROPY},
+    {EC_FEATURE_IRIDESCENCE_TEXTURE, EC_SLOT_IRIDESCENCE},
+    {EC_FEATURE_IRIDESCENCE_TEXTURE, EC_SLOT_IRIDESCENCE_THICKNESS},
+    {EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, EC_SLOT_DIFFUSE_TRANSMISSION},
+    {EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR},
+};
+
+static void without(const ec_scene *scene, uint64_t off, ec_material *m)
+{
+    if (off & EC_FEATURE_ALPHA) m->alpha_mode = EC_ALPHA_OPAQUE;
+    for (size_t i = 0; i < sizeof textured / sizeof *textured; i++) {
+        bool covers = textured[i].slot == EC_SLOT_BASE_COLOR && m->alpha_mode != EC_ALPHA_OPAQUE; /* coverage is in it: it stays */
+        if ((off & textured[i].effect) && !covers) ec_texture_flatten(scene, m, textured[i].slot);
+    }
+    if (off & EC_FEATURE_EMISSION) memset(m->emission, 0, sizeof m->emission);
+    if (off & EC_FEATURE_SPECULAR) m->metallic = m->specular = 0.0f;
+    if (off & EC_FEATURE_TRANSMISSION) m->transmission = 0.0f;
+    if (off & EC_FEATURE_ABSORPTION) memset(m->absorption, 0, sizeof m->absorption);
+    if (off & EC_FEATURE_CLEARCOAT) m->coat = 0.0f;
+    if (off & EC_FEATURE_SHEEN) memset(m->sheen, 0, sizeof m->sheen);
+    if (off & EC_FEATURE_ANISOTROPY) m->anisotropy = 0.0f;
+    if (off & EC_FEATURE_IRIDESCENCE) m->film = 0.0f;
+    if (off & EC_FEATURE_DIFFUSE_TRANSMISSION) m->seeps = 0.0f;
+    if (off & EC_FEATURE_DISPERSION) m->dispersion = 0.0f;
+}
+
+ec_result ec_scene_view_without(const ec_scene *scene, uint64_t off, int64_t material, ec_scene_view *view, ec_error *err)
+{
+    EC_TRY(ec_scene_view_make(scene, view, err));
+    ec_scene *s = &view->scene;
+    for (uint32_t m = 0; m < s->material_count; m++)
+        if (material == EC_ALL_MATERIALS || material == m) without(scene, off, &s->materials[m]);
+    if (off & EC_FEATURE_PUNCTUAL_LIGHTS) s->light_count = 0;
+    if (off & EC_FEATURE_SMOOTH_NORMALS) s->normals = NULL;
+    if (off & EC_FEATURE_VERTEX_COLORS) s->colors = NULL;
+    if (off & EC_FEATURE_ENVIRONMENT) {
+        s->has_environment = false;
+        s->environment = (ec_environment){0};
+    }
+    return EC_OK;
+}
+
+ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *err)
+{
+    ec_scene_view plain;
+    EC_TRY(ec_scene_view_plain(scene, &plain, err));
+    ec_pack_effects(&plain.scene, effects);
+    ec_scene_view_free(&plain);
+    return EC_OK;
+}

@@ -1,0 +1,78 @@
+#include "report/effects_report.h"
+
+#include <string.h>
+
+#include "report/format.h"
+
+static void add_list(cJSON *object, const char *key, const char *list)
+{
+    cJSON *array = cJSON_AddArrayToObject(object, key);
+    while (*list) {
+        char word[64];
+        int size = (int)strcspn(list, ",");
+        snprintf(word, sizeof word, "%.*s", size, list);
+        ec_json_text(array, NULL, word);
+        list += size;
+        list += strspn(list, ", ");
+    }
+}
+
+void ec_effects_json(cJSON *root, const ec_render_effects *effects)
+{
+    char text[EC_EFFECT_NAMES];
+    ec_feature_names(effects->built, text, sizeof text);
+    ec_json_words(root, "effects", text);
+    cJSON *list = cJSON_AddArrayToObject(root, "effect_list");
+    for (uint32_t i = 0; i < ec_feature_count; i++) {
+        ec_effect_row row = ec_effect_describe(effects, i);
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddItemToArray(list, object);
+        ec_json_text(object, "name", row.name);
+        cJSON_AddBoolToObject(object, "called_for", row.called);
+        cJSON_AddBoolToObject(object, "left_out", row.left_out);
+        ec_json_text(object, "why", row.called ? row.why : NULL);
+        add_list(object, "kernels", row.kernels);
+        add_list(object, "buffers", row.buffers);
+        ec_json_whole(object, "buffer_bytes", row.bytes);
+    }
+    ec_effects_kernels(effects, text, sizeof text);
+    add_list(root, "kernels", text);
+}
+
+void ec_effects_line(const ec_render_effects *effects, char *text, size_t size)
+{
+    char names[EC_EFFECT_NAMES];
+    uint32_t built = 0;
+    for (uint32_t i = 0; i < ec_feature_count; i++) built += (effects->built & ec_features[i].bit) != 0;
+    ec_feature_names(effects->built, names, sizeof names);
+    snprintf(text, size, "%u of %u%s%s", built, ec_feature_count, built ? ": " : "", names);
+}
+
+static void print_row(const ec_effect_row *row, FILE *to)
+{
+    char bytes[32];
+    fprintf(to, "  %-26s %s", row->name, row->called ? row->why : row->left_out ? "left out: --without" : "nothing calls for it: --effects all");
+    if (*row->kernels) fprintf(to, "; in %s", row->kernels);
+    ec_format_bytes(row->bytes, bytes, sizeof bytes);
+    if (*row->buffers) fprintf(to, "; %s, %s", row->buffers, bytes);
+    fputc('\n', to);
+}
+
+void ec_effects_text(const ec_render_effects *effects, FILE *to, int width)
+{
+    char kernels[256];
+    size_t column = 12;
+    ec_effects_kernels(effects, kernels, sizeof kernels);
+    fprintf(to, "%-*s%s\n%-*swhat calls for each, the kernels it is built into, its buffers\n", width, "kernels", kernels, width, "effects");
+    for (uint32_t i = 0; i < ec_feature_count; i++) {
+        ec_effect_row row = ec_effect_describe(effects, i);
+        if (row.built || row.left_out) print_row(&row, to);
+    }
+    fputs("  not built:", to);
+    for (uint32_t i = 0; i < ec_feature_count; i++) {
+        if ((effects->built | effects->without) & ec_features[i].bit) continue;
+        if (column + strlen(ec_features[i].name) > 118) column = (size_t)fprintf(to, "\n            ") - 1;
+        column += (size_t)fprintf(to, " %s", ec_features[i].name);
+    }
+    fputc('\n', to);
+}

@@ -1,0 +1,17 @@
+/* The effects of a scene: which are called for, why, and what is built, launched and allocated for them. */
+#ifndef EC_REPORT_EFFECTS_REPORT_H
+#define EC_REPORT_EFFECTS_REPORT_H
+
+#include <stdio.h>
+
+#include "pipeline/effects.h"
+#include "report/json.h"
+
+/* "effects", the names of what is built in, and "effect_list", an object for each effect there is; "kernels", those launched. */
+void ec_effects_json(cJSON *root, const ec_render_effects *effects);
+/* A line for each effect that is built in, and the names of all others; titles are as wide as `width`. */
+void ec_effects_text(const ec_render_effects *effects, FILE *to, int width);
+/* "4 of 30: emission area-lights culling sobol-sampler" */
+void ec_effects_line(const ec_render_effects *effects, char *text, size_t size);
+
+#endif

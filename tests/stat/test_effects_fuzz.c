@@ -1,0 +1,17 @@
+/* Random scenes: does the scan miss an effect? A few tens of scenes of few sets of effects; test_effects_fuzz_many.c has more. */
+#include "support/effect_fuzz.h"
+
+int main(void)
+{
+    static const uint64_t sets[] = {
+        EC_FEATURE_EMISSION | EC_FEATURE_SHEEN | EC_FEATURE_ALPHA | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_BASE_COLOR_TEXTURE |
+            EC_FEATURE_CULLING,
+        EC_FEATURE_ENVIRONMENT_MAP | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_TRANSMISSION | EC_FEATURE_SMOOTH |
+            EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_UNLIT | EC_FEATURE_NORMAL_TEXTURE,
+    };
+    int lit = 0;
+    for (uint64_t i = 0; i < 2; i++) lit += ef_run(1000 * i, 15, EF_SHARED, EC_INTEGRATOR_PATH, sets[i]);
+    for (uint64_t seed = 5000; seed < 5004; seed++) lit += ef_run(seed, 1, EF_EXACT, EC_INTEGRATOR_PATH, ef_few(seed));
+    CHECK_MSG(lit == 34, "only %d of 34 scenes are lit", lit);
+    TEST_END();
+}

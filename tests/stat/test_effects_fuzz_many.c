@@ -1,0 +1,15 @@
+/* Hundreds of random scenes: what they nearly call for, through each integrator, and each with its own kernels. ctest label: long */
+#include "support/effect_fuzz.h"
+
+int main(void)
+{
+    const ec_integrator integrators[] = {EC_INTEGRATOR_PATH, EC_INTEGRATOR_WHITTED, EC_INTEGRATOR_PATH, EC_INTEGRATOR_RASTER};
+    int lit = 0;
+    for (uint64_t i = 0; i < 8; i++) {
+        uint64_t set = ec_random_mix(2 * i + 1) & ec_random_mix(2 * i + 2) & EC_FEATURE_ALL; /* a quarter of them, and what these need */
+        lit += ef_run(10000 + 1000 * i, 25, EF_SHARED, integrators[i % 4], set);
+    }
+    for (uint64_t seed = 50000; seed < 50100; seed++) lit += ef_run(seed, 1, EF_EXACT, EC_INTEGRATOR_PATH, ef_few(seed));
+    CHECK_MSG(lit >= 290, "only %d of 300 scenes are lit", lit);
+    TEST_END();
+}

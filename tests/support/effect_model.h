@@ -1,0 +1,91 @@
+/* Scenes for questions about effects: a few quads with textures of known texels. */
+#ifndef EC_TESTS_SUPPORT_EFFECT_MODEL_H
+#define EC_TESTS_SUPPORT_EFFECT_MODEL_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/model.h"
+
+/* Textures that every such scene has. MIXED: texels of 0 and of 255 in all channels; DEEP the same with 16 bits;
+ * NOISE: values from 100 on. */
+enum { EM_BLACK, EM_WHITE, EM_MIXED, EM_DEEP, EM_GREEN, EM_GREY, EM_NOISE, EM_TEXTURES };
+enum { EM_SIDE = 4, EM_MATERIALS = 64 };
+
+/* A model whose materials may use them: it learns of textures once it is a scene. */
+typedef struct effect_model {
+    ec_model *model;
+    ec_material materials[EM_MATERIALS];
+    int32_t count;
+} effect_model;
+
+static inline effect_model em_new(void) { return (effect_model){.model = ec_model_new()}; }
+
+static inline void em_use(ec_material *m, int slot, int texture)
+{
+    m->textures[slot] = (ec_texture_use){texture, 0, {1, 0, 0, 0, 1, 0}};
+}
+
+/* Pure Lambert, opaque, double-sided: calls for nothing. */
+static inline ec_material em_plain(void)
+{
+    ec_material m = ec_material_lambert(0.5, 0);
+    m.double_sided = true;
+    return m;
+}
+
+static inline int32_t em_material(effect_model *e, const ec_material *m)
+{
+    ec_material bare = e->materials[e->count++] = *m;
+    for (int k = 0; k < EC_SLOT_COUNT; k++) bare.textures[k].texture = -1;
+    return ec_model_material(e->model, &bare);
+}
+
+static inline void em_add_textures(ec_scene *s)
+{
+    free(s->images);
+    free(s->textures);
+    s->images = calloc(EM_TEXTURES, sizeof *s->images);
+    s->textures = calloc(EM_TEXTURES, sizeof *s->textures);
+    s->image_count = s->texture_count = EM_TEXTURES;
+    for (uint32_t t = 0; t < EM_TEXTURES; t++) {
+        ec_image *image = &s->images[t];
+        const int texels = EM_SIDE * EM_SIDE;
+        image->width = image->height = EM_SIDE;
+        s->textures[t].image = t;
+        if (t == EM_DEEP) image->rgba16 = calloc((size_t)texels * 4, 2);
+        else image->rgba8 = calloc((size_t)texels * 4, 1);
+        for (int i = 0; i < 4 * texels; i++) {
+            bool mixed = i / 4 % 2, green = i % 4 == 1;
+            int v = t == EM_WHITE || (mixed && (t == EM_MIXED || t == EM_DEEP)) || (green && t == EM_GREEN) ? 255 : t == EM_GREY ? 128 : 0;
+            if (t == EM_NOISE) v = 100 + i * 37 % 156;
+            if (image->rgba16) image->rgba16[i] = (uint16_t)(257 * v);
+            else image->rgba8[i] = (uint8_t)v;
+        }
+    }
+}
+
+/* A quad of 2 x 2 about the origin that faces +z, with texture coordinates; normals and colours (4 a vertex) may be NULL. */
+static inline void em_quad(effect_model *e, int32_t material, const float normals[12])
+{
+    static const float positions[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, uv[8] = {0, 1, 1, 1, 1, 0, 0, 0};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    ec_model_add(e->model, material, &(ec_model_mesh){.vertex_count = 4, .index_count = 6, .positions = positions, .uv = uv,
+                                                   .normals = normals, .indices = indices});
+}
+
+static inline ec_scene *em_scene(effect_model *e)
+{
+    ec_error err = {0};
+    ec_scene *scene;
+    if (ec_model_scene(e->model, &scene, &err) != EC_OK) {
+        fprintf(stderr, "model: %s\n", err.text);
+        exit(1);
+    }
+    em_add_textures(scene);
+    for (int32_t i = 0; i < e->count; i++) memcpy(scene->materials[i].textures, e->materials[i].textures, sizeof scene->materials[i].textures);
+    return scene;
+}
+
+#endif
