@@ -10,11 +10,13 @@
 #include "cli/options.h"
 #include "cli/setters.h"
 #include "pipeline/render.h"
+#include "report/names.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
     const char *scene, *accel, *device; /* accel: a name, "all", or NULL for none */
     double grid_density; /* 0: the default */
+    ec_scene_options load;
     bool json, quiet;
 } info_request;
 
@@ -23,6 +25,7 @@ typedef struct info_request {
 FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(device, device)
+CHOICE_SETTER(instancing, load.instancing, ec_instancing, ec_instancing_names)
 RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
 SETTER(accel)
@@ -40,6 +43,7 @@ static const ec_option options[] = {
     {"accel", 0, true, set_accel},
     {"device", 0, true, set_device},
     {"grid-density", 0, true, set_grid_density},
+    {"instancing", 0, true, set_instancing},
     {"json", 0, false, set_json},
     {"quiet", 'q', false, set_quiet},
 };
@@ -49,9 +53,9 @@ static ec_result measure(ec_scene_report *report, char *effects, size_t effects_
     const ec_scene *scene = report->scene;
     ec_bvh bvh = {0};
     ec_scene_report_count(report);
-    EC_TRY(ec_bvh_build(scene->positions, scene->indices, scene->triangle_count, 0, &bvh, &report->bvh, err));
+    EC_TRY(ec_bvh_build(scene->positions, scene->indices, ec_scene_flat_count(scene), 0, &bvh, &report->bvh, err));
     ec_bvh_free(&bvh);
-    EC_TRY(ec_scene_estimate(scene, report->bvh.ref_count, &report->device_bytes, effects, effects_size, err));
+    EC_TRY(ec_scene_estimate(scene, report->bvh.ref_count + scene->triangle_count - ec_scene_flat_count(scene), &report->device_bytes, effects, effects_size, err));
     report->peak_memory_bytes = ec_peak_memory_bytes();
     return EC_OK;
 }
@@ -89,7 +93,7 @@ static ec_result tell(const info_request *request, const ec_log *log, ec_error *
     ec_scene_report report = {.path = request->scene, .effects = effects};
     ec_scene *scene = NULL;
     double start = ec_now();
-    EC_TRY(ec_scene_load(request->scene, &scene, log, err));
+    EC_TRY(ec_scene_load_with(request->scene, &request->load, &scene, log, err));
     report.load_seconds = ec_now() - start;
     report.scene = scene;
 

@@ -87,7 +87,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
     const ec_log log = ec_console_log(console);
     EC_TRY(ec_device_find(job->request->device, &job->device, &job->device_index, &job->device_why, err));
     double start = ec_now();
-    EC_TRY(ec_scene_load(job->request->scene, &job->scene, &log, err));
+    EC_TRY(ec_scene_load_with(job->request->scene, &job->request->load, &job->scene, &log, err));
     EC_TRY(prepare_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));

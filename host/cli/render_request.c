@@ -25,6 +25,7 @@ FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(camera, camera)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
+CHOICE_SETTER(instancing, load.instancing, ec_instancing, ec_instancing_names)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
 CHOICE_SETTER(sample, options.sample, ec_sample, ec_sample_names)
 CHOICE_SETTER(sampler, options.sampler, ec_sampler_type, ec_sampler_names)
@@ -95,6 +96,7 @@ static const ec_option options[] = {
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
     {"grid-density", 0, true, set_grid_density},
+    {"instancing", 0, true, set_instancing},
     {"integrator", 0, true, set_integrator},
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},

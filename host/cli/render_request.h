@@ -14,6 +14,7 @@ typedef struct ec_render_request {
     ec_outputs outputs;
     bool default_outputs;      /* no -o was given */
     ec_render_options options; /* complete but for the camera and, without --size, the size */
+    ec_scene_options load;     /* how the scene is read */
     bool has_size;
     uint32_t default_height;   /* without --size; 0: that of `eclat render` */
     bool endless;              /* --max-depth inf was given */

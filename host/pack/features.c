@@ -144,6 +144,7 @@ uint64_t ec_pack_features(const ec_scene *scene)
     for (uint32_t m = 0; m < scene->material_count; m++)
         if (!used || used[m]) f |= material_features(scene, &scene->materials[m]);
     free(used);
+    if (scene->placed_count) f |= EC_FEATURE_INSTANCES;
     if (scene->light_count) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
     if (scene->has_environment) {
         const ec_environment *e = &scene->environment;

@@ -89,6 +89,7 @@ ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err)
     ec_result result = pack_prims(scene, pack, err);
     if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
     if (result == EC_OK) result = pack_materials(scene, pack, err);
+    if (result == EC_OK) result = ec_pack_places(scene, pack, err);
     if (result == EC_OK) result = ec_pack_lights(scene, pack, err);
     if (result != EC_OK) ec_pack_free(pack);
     return result;
@@ -100,6 +101,7 @@ void ec_pack_free(ec_pack *pack)
     free(pack->materials);
     free(pack->textures);
     free(pack->texels);
+    free(pack->places);
     free(pack->lights);
     free(pack->light_alias);
     free(pack->environment_texels);

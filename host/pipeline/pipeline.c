@@ -35,6 +35,7 @@ static void set_roulette(double survival, ec_params *params)
 static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char *name, ec_error *err)
 {
     uint32_t chosen;
+    if (scene->placed_count) name = "twolevel"; /* the others would have had them written out */
     EC_TRY(ec_accels_choose(name, scene->triangle_count, p->cl->info.type & CL_DEVICE_TYPE_CPU, &chosen, err));
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) p->accels[a].in_use = chosen >> a & 1;
     return EC_OK;
@@ -52,8 +53,9 @@ ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, e
     return EC_OK;
 }
 
-ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
-                             ec_pipeline *p, ec_render_stats *stats, ec_error *err)
+/* called_for: the scene itself, or that of which it is what is written out. */
+static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *options, uint32_t batch,
+                        ec_pipeline *p, ec_render_stats *stats, ec_error *err)
 {
     memset(p, 0, sizeof *p);
     p->cl = cl;
@@ -71,6 +73,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     start = ec_now();
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));
+    if (called_for != scene) pack.features = ec_pack_features(called_for) & ~EC_FEATURE_INSTANCES; /* rounding may not change effects */
     if (p->integrator != EC_INTEGRATOR_PATH && (result = ec_pack_light_centres(scene, &pack, err)) != EC_OK) {
         ec_pack_free(&pack);
         return result;
@@ -112,6 +115,20 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_o
     stats->wave = p->wave;
     stats->batch = batch;
     ec_feature_names(p->features, stats->effects, sizeof stats->effects);
+    return result;
+}
+
+ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
+                             ec_pipeline *p, ec_render_stats *stats, ec_error *err)
+{
+    const char *accel = options->accel;
+    bool keeps = options->integrator != EC_INTEGRATOR_RASTER && (!accel || !strcmp(accel, "auto") || !strcmp(accel, "twolevel"));
+    if (!scene->placed_count || keeps) return create(cl, scene, scene, options, batch, p, stats, err);
+    ec_scene written;
+    memset(p, 0, sizeof *p);
+    EC_TRY(ec_scene_write_out(scene, &written, err));
+    ec_result result = create(cl, &written, scene, options, batch, p, stats, err);
+    ec_scene_written_free(&written);
     return result;
 }
 

@@ -321,6 +321,7 @@ ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t 
     bytes += (uint64_t)pack.environment_width * pack.environment_height * 24;
     uint64_t blocks = ref_count / 7, boxes = ref_count > triangles ? blocks : 0; /* leaf blocks seven eighths full */
     bytes += blocks * sizeof(ec_tri8) + boxes * sizeof(ec_box8) + ref_count / 20 * sizeof(ec_bvh8_node);
+    if (scene->placed_count) bytes += pack.place_words * 4 + scene->placed_count * (sizeof(ec_instance) + sizeof(ec_bvh8_node) / 4);
     *device_bytes = bytes;
     ec_feature_names(pack.features, effects, effects_size);
     ec_pack_free(&pack);

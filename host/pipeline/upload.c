@@ -42,6 +42,7 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     const uint64_t vertices = scene->vertex_count;
     EC_TRY(upload(p, EC_ARG_PRIMS, "triangles", (uint64_t)pack->prim_count * sizeof *pack->prims, pack->prims, err));
     EC_TRY(upload(p, EC_ARG_MATERIALS, "materials", (uint64_t)pack->material_count * sizeof *pack->materials, pack->materials, err));
+    EC_TRY(upload(p, EC_ARG_PLACES, "places of instances", (uint64_t)pack->place_words * 4, pack->places, err));
     EC_TRY(upload(p, EC_ARG_SRGB, "sRGB table", sizeof pack->srgb, pack->srgb, err));
     if (f & EC_FEATURES_ATTRIBUTES)
         EC_TRY(upload_padded(p, EC_ARG_INDICES, "indices", 12 * (uint64_t)scene->triangle_count, scene->indices, err));
@@ -76,10 +77,16 @@ ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_inpu
     return result;
 }
 
+ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density)
+{
+    return (ec_accel_input){.positions = scene->positions, .indices = scene->indices, .triangle_count = ec_scene_flat_count(scene),
+                            .whole = scene->whole, .shape_count = scene->shape_count, .shapes = scene->shapes,
+                            .placed_count = scene->placed_count, .placed = scene->placed, .grid_density = grid_density};
+}
+
 ec_result ec_pipeline_upload_accels(ec_pipeline *p, const ec_scene *scene, float grid_density, ec_error *err)
 {
-    ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count,
-                            .grid_density = grid_density};
+    ec_accel_input input = ec_accel_input_of(scene, grid_density);
     ec_result result = EC_OK;
     for (uint32_t a = 0; result == EC_OK && a < EC_ACCEL_COUNT; a++)
         if (p->accels[a].in_use) result = ec_pipeline_upload_accel(p, a, &input, NULL, err);

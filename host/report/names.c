@@ -5,6 +5,8 @@
 #include "image/image.h"
 #include "pipeline/render.h"
 
+const char *const ec_instancing_names[] = {
+    [EC_INSTANCING_AUTO] = "auto", [EC_INSTANCING_OFF] = "off", [EC_INSTANCING_ON] = "on", NULL};
 const char *const ec_integrator_names[] = {[EC_INTEGRATOR_PATH] = "path",
                                            [EC_INTEGRATOR_WHITTED] = "whitted",
                                            [EC_INTEGRATOR_RASTER] = "raster", NULL};

@@ -2,6 +2,7 @@
 #ifndef EC_REPORT_NAMES_H
 #define EC_REPORT_NAMES_H
 
+extern const char *const ec_instancing_names[]; /* ec_instancing */
 extern const char *const ec_integrator_names[]; /* ec_integrator */
 extern const char *const ec_sample_names[];     /* ec_sample */
 extern const char *const ec_sampler_names[];    /* ec_sampler_type */

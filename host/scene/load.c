@@ -50,9 +50,15 @@ cleanup:
 
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err)
 {
+    return ec_scene_load_with(path, &(ec_scene_options){0}, scene, log, err);
+}
+
+ec_result ec_scene_load_with(const char *path, const ec_scene_options *options, ec_scene **scene, const ec_log *log, ec_error *err)
+{
     ec_gltf *gltf = NULL;
     *scene = NULL;
     ec_result result = ec_gltf_read(path, &gltf, log, err);
+    if (gltf) gltf->instancing = options->instancing;
     if (result == EC_OK) result = ec_scene_from_gltf(gltf, scene, log, err);
     ec_gltf_free(gltf);
     return result;

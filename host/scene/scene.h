@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "scene/instances.h"
 #include "shared/texture_slots.h"
 
 /* Decoded pixels, row 0 at the top (glTF's v = 0), always four channels. Exactly one of the two is set. */
@@ -109,6 +110,11 @@ typedef struct ec_scene {
     uint32_t triangle_count;
     uint32_t *indices;            /* 3 per triangle */
     uint32_t *triangle_material;  /* per triangle */
+    /* Meshes kept once: the triangles from shapes[0].first on, in spaces of their own. Nothing among them emits. */
+    uint32_t shape_count, placed_count;
+    ec_shape *shapes;
+    ec_placed *placed;            /* in the order of their ids, the first of which is shapes[0].first */
+    bool whole;                   /* no structure may cut triangles, so that all have the same bits with and without instances */
     uint32_t material_count;
     ec_material *materials;       /* at least one (glTF's default) */
     uint32_t texture_count;
@@ -135,14 +141,29 @@ typedef struct ec_scene {
 } ec_scene;
 
 typedef struct ec_scene_options {
-    bool framing_camera_only;      /* unused by the CLI; tests */
+    ec_instancing instancing;
 } ec_scene_options;
 
 /* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. The file's own default
  * scene is taken. Adds a framing camera where there is none (noted in log). Environment and light fall-backs are the
  * caller's (see ec_scene_set_environment, ec_scene_has_light). Owned by the caller: ec_scene_free. */
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
+ec_result ec_scene_load_with(const char *path, const ec_scene_options *options, ec_scene **scene, const ec_log *log, ec_error *err);
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
+
+/* Triangles that stand in the world as they are stored: those before the shapes'. */
+static inline uint32_t ec_scene_flat_count(const ec_scene *s) { return s->shape_count ? s->shapes[0].first : s->triangle_count; }
+/* Triangles that a ray can meet. */
+static inline uint64_t ec_scene_met_count(const ec_scene *s)
+{
+    const ec_placed *last = s->placed_count ? &s->placed[s->placed_count - 1] : NULL;
+    return last ? (uint64_t)last->id + s->shapes[last->shape].count : s->triangle_count;
+}
+
+/* The same scene with every instance written out, to the last bit: for what knows triangles only. What it shares with `scene` stays
+ * that one's: ec_scene_written_free. Fails where this machine has no memory for it. */
+ec_result ec_scene_write_out(const ec_scene *scene, ec_scene *written, ec_error *err);
+void ec_scene_written_free(ec_scene *written);
 
 /* Does anything in the scene give light: an emissive or unlit triangle, a punctual light, an environment? */
 bool ec_scene_has_light(const ec_scene *scene);

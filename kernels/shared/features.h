@@ -36,6 +36,7 @@
 #define EC_FEATURE_SHEEN_TEXTURE EC_FEATURE_BIT(27)
 #define EC_FEATURE_ANISOTROPY EC_FEATURE_BIT(28)
 #define EC_FEATURE_ANISOTROPY_TEXTURE EC_FEATURE_BIT(29)
+#define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -68,7 +69,8 @@
     X(SHEEN, "sheen")                                                                              \
     X(SHEEN_TEXTURE, "sheen-texture")                                                              \
     X(ANISOTROPY, "anisotropy")                                                                    \
-    X(ANISOTROPY_TEXTURE, "anisotropy-texture")
+    X(ANISOTROPY_TEXTURE, "anisotropy-texture")                                                    \
+    X(INSTANCES, "instances")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name

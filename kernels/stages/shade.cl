@@ -51,7 +51,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global float *aov, global const float *prims, global const float *indices,
                      global const float *normals, global const float *tangents, global const float *uvs,
                      global const float *colors, global const float *materials, global const float *texture_table,
-                     global const uint *texels, constant float *srgb,
+                     global const uint *texels, constant float *srgb, global const float *places,
                      global const float *light_table, global const uint *light_alias,
                      global const float *environment_texels, global const uint *environment_alias)
 {
@@ -59,7 +59,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;
-    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
     lights light = {light_table, light_alias, {params, environment_texels, environment_alias}};
 
     lane_i active = LANE_NUMBERS < left;
