@@ -114,6 +114,9 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     stats->lanes = p->lanes;
     stats->wave = p->wave;
     stats->batch = batch;
+    stats->instances = scene->placed_count;
+    stats->triangles = ec_scene_met_count(scene);
+    stats->stored_triangles = scene->triangle_count;
     ec_feature_names(p->features, stats->effects, sizeof stats->effects);
     return result;
 }

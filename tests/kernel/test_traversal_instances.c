@@ -93,6 +93,27 @@ static bool build(const ec_scene *s, const char *name, ec_accel *accel)
 
 static uint32_t lost_inside; /* rays from inside closed meshes that met nothing */
 
+/* Through two points of one instance, from outside: a mesh that is a plane is seen edge-on, where t is rounding alone. */
+static void aim_along(const ec_scene *s, const set *w, float *queue)
+{
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const ec_placed *p = &s->placed[i % PLACES];
+        const uint32_t none = EC_NO_ID;
+        float at[2][3], back = random_float(0, 3);
+        for (int end = 0; end < 2; end++) {
+            const float *v = w->vertices + 9 * ((size_t)p->id + random_below(s->shapes[0].count));
+            float a = random_float(0, 1), b = random_float(0, 1);
+            for (int k = 0; k < 3; k++) at[end][k] = (1 - a) * v[k] + a * ((1 - b) * v[3 + k] + b * v[6 + k]);
+        }
+        for (uint32_t k = 0; k < 3; k++) {
+            queue[(EC_PATH_OX + k) * RAYS + i] = at[0][k] - back * (at[1][k] - at[0][k]);
+            queue[(EC_PATH_DX + k) * RAYS + i] = at[1][k] - at[0][k];
+        }
+        if (!memcmp(at[0], at[1], sizeof at[0])) queue[EC_PATH_DX * RAYS + i] = 1.0f; /* a direction of 0 is none */
+        memcpy(queue + EC_PATH_PRIM * (size_t)RAYS + i, &none, sizeof none);
+    }
+}
+
 /* From the middle of every instance of a closed mesh to its corners, and along its edges. */
 static void aim_from_inside(const ec_scene *s, const set *w, float *queue)
 {
@@ -120,15 +141,17 @@ static void check(const char *name, set mesh, set alone, placing how, bool close
           *hits = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *hits);
     const tracer *none = tracer_of("none"), *twolevel = tracer_of("twolevel");
     if (build(&w, "none", &reference) && build(&s, "twolevel", &two)) {
-        for (int inside = 0; inside <= closed; inside++) {
+        for (int kind = 0; kind < 2 + closed; kind++) {
+            bool inside = kind == 2;
             if (inside) aim_from_inside(&s, &flat, queue);
+            else if (kind) aim_along(&s, &flat, queue);
             else make_rays(&flat, queue, RAYS, EC_PATH_FIELDS, EC_PATH_PRIM, true);
             CHECK(intersect(&flat, none, &reference, RAYS, COUNT, queue, expected) && intersect(&flat, twolevel, &two, RAYS, COUNT, queue, hits));
             uint32_t hit = same_hits(&flat, queue, RAYS, COUNT, hits, expected, "two levels", "written out"), placed = 0;
             for (uint32_t i = 0; i < COUNT; i++) placed += ((uint32_t *)hits)[i] != EC_NO_ID && ((uint32_t *)hits)[i] >= alone.triangles;
             CHECK_MSG(placed > COUNT / 50, "%s: only %u rays hit an instance", name, placed);
             if (inside) lost_inside += COUNT - hit;
-            printf("%-28s %u of %u rays hit, %u of them instances\n", name, hit, COUNT, placed);
+            printf("%-24s %u of %u rays hit, %u of them instances\n", name, hit, COUNT, placed);
         }
         ec_accel_free(&two);
         ec_accel_free(&reference);
@@ -141,6 +164,21 @@ static void check(const char *name, set mesh, set alone, placing how, bool close
     free(alone.vertices);
     free_scene(&s);
     ec_scene_written_free(&w);
+}
+
+/* Triangles that an offset of 1 and more rounds into lines, each of three corners on a grid of 2^-14. They have no normal there, and
+ * nothing may hit them. */
+static set set_lines(uint32_t n)
+{
+    set s = set_make("lines", n, 1.0f);
+    for (uint32_t i = 0; i < n; i++) {
+        float step[3], *v = s.vertices + 9 * i;
+        for (int k = 0; k < 3; k++) step[k] = 0x1p-14f * (float)((int)random_below(9) - 4);
+        for (int k = 0; k < 3; k++) v[k] = 0x1p-14f * (float)((int)random_below(33) - 16);
+        for (int c = 1; c < 3; c++)
+            for (int k = 0; k < 3; k++) v[3 * c + k] = v[k] + (float)c * step[k] + (float)c * 1e-9f * random_float(-1, 1);
+    }
+    return s;
 }
 
 /* A ball of 8 x 4^levels triangles whose neighbours share corners to the last bit. */
@@ -176,6 +214,7 @@ int main(void)
     check("a plane, seen edge-on", set_tilted(300), set_tilted(100), near, false);
     check("axis-aligned", set_blocks(400), set_blocks(100), (placing){{-0.5, 0.3}, 0.0, 10.0}, false);
     check("all sizes", set_mixed(300), set_random("", 100, 1000.0f, 0.1f), (placing){{-1, 1}, 0.5, 1000.0}, false);
+    check("lines", set_lines(400), set_random("", 50, 20.0f, 0.1f), (placing){{2, 3}, 0.5, 30.0}, false);
     check("closed", set_ball(3), set_random("", 50, 20.0f, 0.02f), (placing){{-1, 0}, 0.5, 30.0}, true);
     CHECK_MSG(lost_inside == 0, "%u rays left a closed mesh", lost_inside);
     close_tracers();
