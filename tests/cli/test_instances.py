@@ -2,6 +2,7 @@
 import copy
 import glob
 import json
+import math
 import os
 import random
 import shutil
@@ -53,24 +54,26 @@ class Instances(Case):
         self.assertLess(2 * kept["stored_triangles"], kept["triangles"])
         self.assertIn("instances", kept["effects"])
         self.assertEqual(kept["invalid_samples"], 0)
-        for change in [["--accel", "kdtree"], ["--accel", "bvh8", "--lanes", "4"], ["--lanes", "1"], ["--all-effects"]]:
+        for change in [["--accel", "kdtree", "--lanes", "8"], ["--lanes", "1"], ["--lanes", "4", "--all-effects"]]:
             with self.subTest(change=change):
                 other = self.render("--instancing", "on", *change)
                 self.assertEqual(other["image_sha256"], kept["image_sha256"])
                 self.assertEqual(other["instances"], 0 if "--accel" in change else kept["instances"])
         attributes = read_exr(self.path("kept.exr"))[0]
         self.assertIn(f'{kept["instances"]}', str(attributes["eclat.instances"]))
-        # Rounded otherwise, since corners go to the world in double where meshes are not kept: the mean differs by far less than noise.
+        # Rounded otherwise, and numbered otherwise where meshes are not kept: another sample of the same picture. Four standard errors.
         off = self.render("--instancing", "off")
         self.assertEqual((off["instances"], off["triangles"]), (0, kept["triangles"]))
         self.assertNotEqual(off["image_sha256"], kept["image_sha256"])
-        self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=0.002 * kept["mean_luminance"])
+        error = math.hypot(*(r["error"] * r["mean_luminance"] for r in (off, kept))) / math.sqrt(40 * 30)
+        self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=4 * error)
 
     def test_other_integrators(self):
+        """Without random light the picture is the same but for roundings: 10^-3 is a texel or a pixel at an edge here and there."""
         for integrator in ["whitted", "raster"]:
             with self.subTest(integrator=integrator):
                 kept, off = (self.render("--instancing", how, "--integrator", integrator) for how in ["on", "off"])
-                self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=0.002 * kept["mean_luminance"])
+                self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=0.001 * kept["mean_luminance"])
 
     def test_info_says_what_is_kept(self):
         kept, off = (json.loads(self.assert_ok(eclat("info", "--json", "--instancing", how, self.scene)).stdout) for how in ["on", "off"])
