@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 #include "accel/bvh.h"
-#include "scene/instances.h"
+#include "scene/placed.h"
 
 /* What is built from. positions: 3 floats a vertex; indices: 3 a triangle; both the caller's. */
 typedef struct ec_accel_input {

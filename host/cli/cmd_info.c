@@ -8,6 +8,7 @@
 #include "cli/combinations.h"
 #include "cli/defaults.h"
 #include "cli/options.h"
+#include "cli/scene_choice.h"
 #include "cli/setters.h"
 #include "pipeline/render.h"
 #include "report/names.h"
@@ -15,8 +16,8 @@
 
 typedef struct info_request {
     const char *scene, *accel, *device; /* accel: a name, "all", or NULL for none */
+    ec_scene_choice choice;
     double grid_density; /* 0: the default */
-    ec_scene_options load;
     bool json, quiet;
 } info_request;
 
@@ -25,7 +26,8 @@ typedef struct info_request {
 FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(device, device)
-CHOICE_SETTER(instancing, load.instancing, ec_instancing, ec_instancing_names)
+CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
+SCENE_CHOICE_SETTERS(choice)
 RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
 SETTER(accel)
@@ -46,6 +48,7 @@ static const ec_option options[] = {
     {"instancing", 0, true, set_instancing},
     {"json", 0, false, set_json},
     {"quiet", 'q', false, set_quiet},
+    SCENE_CHOICE_OPTIONS,
 };
 
 static ec_result measure(ec_scene_report *report, char *effects, size_t effects_size, ec_error *err)
@@ -93,7 +96,7 @@ static ec_result tell(const info_request *request, const ec_log *log, ec_error *
     ec_scene_report report = {.path = request->scene, .effects = effects};
     ec_scene *scene = NULL;
     double start = ec_now();
-    EC_TRY(ec_scene_load_with(request->scene, &request->load, &scene, log, err));
+    EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &scene, log, err));
     report.load_seconds = ec_now() - start;
     report.scene = scene;
 

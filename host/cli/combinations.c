@@ -16,6 +16,11 @@ static const struct {
 } owners[] = {
     {"max-depth", ONLY(PATH) | ONLY(WHITTED)},
     {"cutoff", ONLY(WHITTED)},
+    {"filter", ONLY(PATH) | ONLY(WHITTED)},
+    {"filter-width", ONLY(PATH) | ONLY(WHITTED)},
+    {"focus", ONLY(PATH) | ONLY(WHITTED)},
+    {"fstop", ONLY(PATH) | ONLY(WHITTED)},
+    {"light-choice", ONLY(PATH)},
     {"rr", ONLY(PATH)},
     {"sample", ONLY(PATH)},
     {"terminator", ONLY(PATH)},
@@ -56,6 +61,11 @@ ec_result ec_combinations_check(const ec_option *options, int count, const bool 
     if (asked->integrator == EC_INTEGRATOR_WHITTED && asked->max_depth == 0)
         return ec_usage(err, "--max-depth inf belongs to --integrator path; a ray tree needs a number up to %u", EC_WHITTED_DEPTH_MOST);
     EC_TRY(ec_combinations_check_grid((double)asked->grid_density, asked->accel, false, err));
+    if (asked->filter_width > 0 && asked->filter == EC_FILTER_BOX)
+        return ec_usage(err, "--filter-width belongs to --filter blackman-harris; leave it out or choose that");
+    if ((asked->fstop > 0) != (asked->focus > 0))
+        return ec_usage(err, "--fstop and --focus go together: how wide the lens is, and how far away it is sharp; give --%s too",
+                        asked->fstop > 0 ? "focus" : "fstop");
     if (asked->survival == 1 && asked->max_depth == 0)
         return ec_usage(err, "--rr off belongs with a finite --max-depth: nothing else would end a path; give --max-depth N too");
     return EC_OK;

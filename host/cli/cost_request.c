@@ -5,6 +5,7 @@
 
 #include "cli/defaults.h"
 #include "cli/options.h"
+#include "cli/scene_choice.h"
 #include "cli/setters.h"
 
 #define REQUEST ((ec_cost_request *)target)
@@ -13,6 +14,7 @@ FLAG_SETTER(quiet, render.quiet)
 TEXT_SETTER(camera, render.camera)
 TEXT_SETTER(device, render.device)
 TEXT_SETTER(env, render.environment)
+SCENE_CHOICE_SETTERS(render.choice)
 TEXT_SETTER(json, json)
 TEXT_SETTER(reference, reference)
 PARSED_SETTER(budget, ec_parse_seconds, budget)
@@ -45,6 +47,7 @@ static const ec_option options[] = {
     {"reference", 0, true, set_reference},
     {"seed", 0, true, set_seed},
     {"size", 0, true, set_size},
+    SCENE_CHOICE_OPTIONS,
 };
 
 ec_result ec_cost_request_parse(int argc, char **argv, ec_cost_request *request, bool *done, ec_error *err)
@@ -53,6 +56,7 @@ ec_result ec_cost_request_parse(int argc, char **argv, ec_cost_request *request,
     ec_request asked;
     request->budget = EC_DEFAULT_BUDGET;
     request->render.options.cutoff = EC_DEFAULT_CUTOFF;
+    request->render.env_strength = 1;
     EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], request, argc, argv, &first, NULL, &asked, err));
     *done = ec_request_serve(asked, argv[0]);
     if (*done) return EC_OK;

@@ -27,13 +27,21 @@ static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *
     const char *environment = job->request->environment;
     if (environment) {
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
-    } else if (!ec_scene_has_light(job->scene)) {
+    } else if (!ec_scene_has_light(job->scene) && !job->request->adjusts_env) {
         ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");
         environment = "1,1,1";
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
     }
+    if (job->request->adjusts_env) {
+        if (!environment && !job->scene->has_environment)
+            return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --env, or leave them out");
+        ec_scene_adjust_environment(job->scene, job->request->env_degrees, job->request->env_strength, log);
+    }
     if (!environment) environment = job->scene->has_environment ? "the scene's" : "none";
-    snprintf(job->environment_text, sizeof job->environment_text, "%s", environment);
+    int used = snprintf(job->environment_text, sizeof job->environment_text, "%s", environment);
+    if (job->request->adjusts_env && used > 0 && (size_t)used < sizeof job->environment_text)
+        snprintf(job->environment_text + used, sizeof job->environment_text - (size_t)used, ", turned by %g degrees, strength %g",
+                 job->request->env_degrees, job->request->env_strength);
     return EC_OK;
 }
 
@@ -87,7 +95,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
     const ec_log log = ec_console_log(console);
     EC_TRY(ec_device_find(job->request->device, &job->device, &job->device_index, &job->device_why, err));
     double start = ec_now();
-    EC_TRY(ec_scene_load_with(job->request->scene, &job->request->load, &job->scene, &log, err));
+    EC_TRY(ec_scene_load_choice(job->request->scene, &job->request->choice, &job->scene, &log, err));
     EC_TRY(prepare_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));

@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "cli/combinations.h"
 #include "cli/defaults.h"
+#include "cli/scene_choice.h"
 #include "cli/setters.h"
 #include "report/names.h"
 
@@ -25,8 +26,11 @@ FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(camera, camera)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
-CHOICE_SETTER(instancing, load.instancing, ec_instancing, ec_instancing_names)
+CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
+SCENE_CHOICE_SETTERS(choice)
+CHOICE_SETTER(filter, options.filter, ec_pixel_filter, ec_filter_names)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
+CHOICE_SETTER(light_choice, options.light_choice, ec_light_choice, ec_light_choice_names)
 CHOICE_SETTER(sample, options.sample, ec_sample, ec_sample_names)
 CHOICE_SETTER(sampler, options.sampler, ec_sampler_type, ec_sampler_names)
 CHOICE_SETTER(terminator, options.terminator, ec_terminator, ec_terminator_names)
@@ -36,6 +40,19 @@ PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 PARSED_SETTER(time, ec_parse_seconds, options.time_limit)
 RANGE_SETTER(batch, ec_parse_u32, 1, EC_MAX_SPP, options.batch)
 RANGE_SETTER(cutoff, ec_parse_real, 0, 1, options.cutoff)
+SETTER(env_rotate)
+{
+    REQUEST->adjusts_env = true;
+    return ec_parse_real(option, value, -36000, 36000, &REQUEST->env_degrees, err);
+}
+SETTER(env_strength)
+{
+    REQUEST->adjusts_env = true;
+    return ec_parse_real(option, value, 0, 1e30, &REQUEST->env_strength, err);
+}
+RANGE_SETTER(filter_width, ec_parse_real, EC_FILTER_WIDTH_LEAST, EC_FILTER_WIDTH_MOST, options.filter_width)
+RANGE_SETTER(focus, ec_parse_real, EC_FOCUS_LEAST, EC_FOCUS_MOST, options.focus)
+RANGE_SETTER(fstop, ec_parse_real, EC_FSTOP_LEAST, EC_FSTOP_MOST, options.fstop)
 RANGE_SETTER(exposure, ec_parse_real, -100, 100, exposure)
 RANGE_SETTER(seed, ec_parse_whole, 0, UINT64_MAX, options.seed)
 RANGE_SETTER(spp, ec_parse_u32, 1, EC_MAX_SPP, options.spp)
@@ -93,13 +110,20 @@ static const ec_option options[] = {
     {"cutoff", 0, true, set_cutoff},
     {"device", 0, true, set_device},
     {"env", 0, true, set_env},
+    {"env-rotate", 0, true, set_env_rotate},
+    {"env-strength", 0, true, set_env_strength},
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
+    {"filter", 0, true, set_filter},
+    {"filter-width", 0, true, set_filter_width},
+    {"focus", 0, true, set_focus},
+    {"fstop", 0, true, set_fstop},
     {"grid-density", 0, true, set_grid_density},
     {"instancing", 0, true, set_instancing},
     {"integrator", 0, true, set_integrator},
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},
+    {"light-choice", 0, true, set_light_choice},
     {"max-depth", 0, true, set_max_depth},
     {"output", 'o', true, set_output},
     {"quiet", 'q', false, set_quiet},
@@ -113,6 +137,7 @@ static const ec_option options[] = {
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
     {"wave", 0, true, set_wave},
+    SCENE_CHOICE_OPTIONS,
 };
 
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)
@@ -120,6 +145,7 @@ ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *requ
     int first = 0, count = sizeof options / sizeof options[0];
     bool given[EC_OPTIONS_MAX] = {false};
     request->options.cutoff = EC_DEFAULT_CUTOFF;
+    request->env_strength = 1;
     ec_request asked;
     EC_TRY(ec_options_parse(options, count, request, argc, argv, &first, given, &asked, err));
     *done = ec_request_serve(asked, argv[0]);

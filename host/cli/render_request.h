@@ -11,16 +11,18 @@
 
 typedef struct ec_render_request {
     const char *scene;
+    ec_scene_choice choice;
     ec_outputs outputs;
     bool default_outputs;      /* no -o was given */
     ec_render_options options; /* complete but for the camera and, without --size, the size */
-    ec_scene_options load;     /* how the scene is read */
     bool has_size;
     uint32_t default_height;   /* without --size; 0: that of `eclat render` */
     bool endless;              /* --max-depth inf was given */
     bool capped;               /* neither --spp nor the default: the safety cap applies */
     const char *camera;        /* NULL: the scene's default */
     const char *environment;   /* NULL: the scene's own */
+    double env_degrees, env_strength; /* 0 and 1: as it is */
+    bool adjusts_env;          /* one of these was given */
     const char *device;        /* NULL: chosen */
     double exposure;           /* EV */
     ec_tonemap tonemap;

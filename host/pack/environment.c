@@ -1,8 +1,9 @@
 /* The environment map's table: a texel is as likely as the light that bilinear look-up gives it, times its solid angle. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "pack/alias.h"
+#include "pack/distribution.h"
 #include "pack/pack.h"
 
 static double luminance(const float *rgb)
@@ -25,6 +26,32 @@ static double texel_mean(const ec_environment *e, uint32_t x, uint32_t y)
     return sum;
 }
 
+/* Dim texels keep a twentieth of their share by solid angle, so that a hot one cannot starve them. */
+static ec_result build_table(const ec_environment *e, double *weights, double sum, double solid, ec_pack *pack, ec_error *err)
+{
+    const uint32_t width = e->width, height = e->height;
+    double *rows = calloc(height, sizeof *rows), *row_pmf = malloc(height * sizeof *row_pmf), *pmf = malloc(width * sizeof *pmf);
+    ec_distribution_entry *table = pack->environment_table;
+    bool has_memory = rows && row_pmf && pmf;
+    for (size_t i = 0; has_memory && i < (size_t)width * height; i++) {
+        double sine = sin(3.14159265358979323846 * ((double)(i / width) + 0.5) / height);
+        if (weights[i] > 0.0) weights[i] = 0.95 * weights[i] / sum + 0.05 * sine / solid;
+        rows[i / width] += weights[i];
+    }
+    if (has_memory) ec_distribution_build(rows, height, table, row_pmf);
+    for (uint32_t y = 0; has_memory && y < height; y++) {
+        ec_distribution_entry *row = table + height + (size_t)y * width;
+        memset(row, 0, width * sizeof *row); /* of a black row; nobody looks there */
+        if (!(rows[y] > 0.0)) continue;
+        ec_distribution_build(weights + (size_t)y * width, width, row, pmf);
+        for (uint32_t x = 0; x < width; x++) pack->environment_texels[4 * ((size_t)y * width + x) + 3] = (float)(row_pmf[y] * pmf[x]);
+    }
+    free(rows);
+    free(row_pmf);
+    free(pmf);
+    return has_memory ? EC_OK : ec_fail(err, "out of memory for an environment map of %u x %u", width, height);
+}
+
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err)
 {
     const ec_environment *e = &scene->environment;
@@ -38,11 +65,11 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
     size_t count = (size_t)e->width * e->height;
     if (count >= 1u << 26)
         return ec_fail(err, "the environment map has %u x %u pixels; at most 2^26 are handled: shrink it", e->width, e->height);
-    double *weights = malloc(count * sizeof *weights), *pmf = malloc(count * sizeof *pmf);
+    double *weights = malloc(count * sizeof *weights);
     pack->environment_texels = malloc(4 * count * sizeof(float));
-    pack->environment_alias = malloc(count * sizeof *pack->environment_alias);
+    pack->environment_table = malloc((count + e->height) * sizeof *pack->environment_table);
     ec_result result = EC_OK;
-    if (!weights || !pmf || !pack->environment_texels || !pack->environment_alias) {
+    if (!weights || !pack->environment_texels || !pack->environment_table) {
         result = ec_fail(err, "out of memory for an environment map of %u x %u", e->width, e->height);
         goto cleanup;
     }
@@ -50,36 +77,28 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
     for (uint32_t y = 0; y < e->height; y++) {
         double sine = sin(3.14159265358979323846 * (y + 0.5) / e->height);
         for (uint32_t x = 0; x < e->width; x++) {
-            double w = texel_mean(e, x, y) * sine;
-            weights[(size_t)y * e->width + x] = w;
-            for (int k = 0; k < 3; k++) mean[k] += sine * e->rgb[3 * ((size_t)y * e->width + x) + k];
-            sum += w;
+            size_t i = (size_t)y * e->width + x;
+            weights[i] = texel_mean(e, x, y) * sine;
+            for (int k = 0; k < 3; k++) {
+                pack->environment_texels[4 * i + k] = e->rgb[3 * i + k];
+                mean[k] += sine * e->rgb[3 * i + k];
+            }
+            pack->environment_texels[4 * i + 3] = 0.0f;
+            sum += weights[i];
             solid += sine;
         }
     }
     for (int k = 0; k < 3; k++) pack->environment_mean[k] = (float)(mean[k] / solid);
-    if (!(sum > 0.0)) {
-        free(pack->environment_alias);
-        pack->environment_alias = NULL; /* black: looked up, never sampled */
-    } else {
+    pack->environment_width = e->width;
+    pack->environment_height = e->height;
+    if (sum > 0.0) {
         *mean_luminance = sum / solid;
-        /* Dim texels keep a twentieth of their share by solid angle, so that a hot one cannot starve them. */
-        for (size_t i = 0; i < count; i++) {
-            double sine = sin(3.14159265358979323846 * ((double)(i / e->width) + 0.5) / e->height);
-            if (weights[i] > 0.0) weights[i] = 0.95 * weights[i] / sum + 0.05 * sine / solid;
-        }
-        result = ec_alias_build(weights, (uint32_t)count, pack->environment_alias, pmf, err);
-    }
-    if (result == EC_OK) {
-        for (size_t i = 0; i < count; i++) {
-            for (int k = 0; k < 3; k++) pack->environment_texels[4 * i + k] = e->rgb[3 * i + k];
-            pack->environment_texels[4 * i + 3] = sum > 0.0 ? (float)pmf[i] : 0.0f;
-        }
-        pack->environment_width = e->width;
-        pack->environment_height = e->height;
+        result = build_table(e, weights, sum, solid, pack, err);
+    } else {
+        free(pack->environment_table);
+        pack->environment_table = NULL; /* black: looked up, never sampled */
     }
 cleanup:
     free(weights);
-    free(pmf);
     return result;
 }

@@ -29,7 +29,8 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
     float alpha = m->roughness * m->roughness * least * least * 0.99f; /* the kernels' product rounds otherwise */
-    return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / m->ior) < EC_SMOOTH_ALPHA);
+    float ior = fmaxf(m->ior - 0.0151f * m->dispersion * (m->ior - 1.0f), 1.0f); /* red's: dispersed_index */
+    return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / ior) < EC_SMOOTH_ALPHA);
 }
 
 static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
@@ -70,6 +71,34 @@ static uint64_t anisotropy_features(const ec_scene *scene, const ec_material *m)
     return EC_FEATURE_ANISOTROPY | (m->textures[EC_SLOT_ANISOTROPY].texture >= 0 ? EC_FEATURE_ANISOTROPY_TEXTURE : 0);
 }
 
+/* A film of no thickness, or of air, is none. */
+static uint64_t film_features(const ec_scene *scene, const ec_material *m)
+{
+    const ec_texture_use *thickness = &m->textures[EC_SLOT_IRIDESCENCE_THICKNESS];
+    float unused, most, low = 1, high = 1;
+    ec_texture_range(scene, &m->textures[EC_SLOT_IRIDESCENCE], 0, &unused, &most);
+    if (thickness->texture >= 0) ec_texture_range(scene, thickness, 1, &low, &high);
+    bool thick = (m->film_least > 0.0f && low < 1.0f) || (m->film_most > 0.0f && high > 0.0f);
+    if (m->film * most == 0.0f || m->film_ior == 1.0f || !thick) return 0;
+    bool textured = m->textures[EC_SLOT_IRIDESCENCE].texture >= 0 || thickness->texture >= 0;
+    return EC_FEATURE_IRIDESCENCE | (textured ? EC_FEATURE_IRIDESCENCE_TEXTURE : 0);
+}
+
+/* Of no use under metal, nor where all the light passes straight. */
+static uint64_t seeping_features(const ec_scene *scene, const ec_material *m)
+{
+    float least, most, unused;
+    ec_texture_range(scene, &m->textures[EC_SLOT_DIFFUSE_TRANSMISSION], 3, &unused, &most);
+    if (m->seeps * most == 0.0f) return 0;
+    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 2, &least, &unused);
+    if (m->metallic * least == 1.0f) return 0;
+    ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &unused);
+    if (m->transmission * least == 1.0f) return 0;
+    bool textured = m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture >= 0 || m->textures[EC_SLOT_DIFFUSE_TRANSMISSION_COLOR].texture >= 0;
+    return EC_FEATURE_DIFFUSE_TRANSMISSION | (textured ? EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE : 0) |
+           (ec_bounds(m) && max3(m->absorption) > 0.0f ? EC_FEATURE_ABSORPTION : 0);
+}
+
 static uint64_t material_features(const ec_scene *scene, const ec_material *m)
 {
     uint64_t f = 0;
@@ -80,9 +109,11 @@ static uint64_t material_features(const ec_scene *scene, const ec_material *m)
         f |= EC_FEATURE_TRANSMISSION;
         if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
         if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
+        if (ec_refracts(m) && m->ior > 1.0f && m->dispersion > 0.0f) f |= EC_FEATURE_DISPERSION;
     }
-    f |= coat_features(scene, m) | sheen_features(scene, m);
-    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN))) {
+    f |= coat_features(scene, m) | sheen_features(scene, m) | film_features(scene, m) | seeping_features(scene, m);
+    if (m->metallic > 0.0f || (m->specular > 0.0f && max3(m->specular_color) > 0.0f) || 
+        (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION))) {
         f |= EC_FEATURE_SPECULAR;
         if (may_be_smooth(scene, m, (f & EC_FEATURE_TRANSMISSION) && ec_refracts(m))) f |= EC_FEATURE_SMOOTH;
         if (m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture >= 0) f |= EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE;
@@ -145,11 +176,12 @@ uint64_t ec_pack_features(const ec_scene *scene)
         if (!used || used[m]) f |= material_features(scene, &scene->materials[m]);
     free(used);
     if (scene->placed_count) f |= EC_FEATURE_INSTANCES;
-    if (scene->light_count) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        if (max3(scene->lights[i].intensity) > 0.0f) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
     if (scene->has_environment) {
         const ec_environment *e = &scene->environment;
         if (e->rgb)
-            f |= EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP;
+            f |= EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | (e->turned ? EC_FEATURE_ENVIRONMENT_TURN : 0);
         else if (max3(e->constant) > 0.0f)
             f |= EC_FEATURE_ENVIRONMENT;
     }

@@ -119,6 +119,19 @@ static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
     return result;
 }
 
+/* Which light each triangle is. */
+static ec_result note_prims(ec_pack *pack, const light_list *list, const bool *emits, const uint32_t *first, ec_error *err)
+{
+    pack->light_of_prim = malloc((pack->prim_count + 1) * sizeof *pack->light_of_prim);
+    if (!pack->light_of_prim) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
+    for (uint32_t p = 0; p < pack->prim_count; p++) pack->light_of_prim[p] = EC_NO_ID;
+    for (uint32_t i = 0; i < list->count; i++)
+        if (list->lights[i].prim != EC_NO_ID) pack->light_of_prim[list->lights[i].prim] = i;
+    for (uint32_t p = 0; p < pack->prim_count; p++)
+        if (emits[pack->prims[p].material]) pack->light_of_prim[p] = pack->light_of_prim[first[p]];
+    return EC_OK;
+}
+
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     double environment_luminance;
@@ -155,6 +168,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
         result = finish_table(pack, &list, err);
         for (uint32_t p = 0; p < pack->prim_count; p++)
             if (emits[pack->prims[p].material]) pack->prims[p].light_pdf_a = pack->prims[first[p]].light_pdf_a;
+        if (result == EC_OK) result = note_prims(pack, &list, emits, first, err);
     }
     free(first);
     free(mean);

@@ -18,7 +18,7 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
         memcpy(p->v2, scene->positions + 3 * (size_t)i[2], sizeof p->v2);
         p->material = scene->triangle_material[t];
         p->light_pdf_a = 0.0f;
-        p->flags = (m->double_sided || ec_refracts(m) ? 0 : EC_PRIM_SINGLE_SIDED) | (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_PRIM_ALPHA : 0);
+        p->flags = (m->double_sided || ec_refracts(m) || ec_bounds(m) ? 0 : EC_PRIM_SINGLE_SIDED) | (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_PRIM_ALPHA : 0);
     }
     for (int k = 0; k < 3; k++) {
         float extent = fmaxf(fabsf(scene->bounds_min[k]), fabsf(scene->bounds_max[k]));
@@ -61,7 +61,8 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         for (int k = 0; k < 3; k++) d->f0[k] = m->specular_color[k] * head_on_reflectance(m->ior);
         d->flags = (m->double_sided ? EC_MATERIAL_DOUBLE_SIDED : 0) | (emits && !m->unlit ? EC_MATERIAL_EMISSIVE : 0) |
                    (m->unlit ? EC_MATERIAL_UNLIT : 0) | (m->alpha_mode == EC_ALPHA_MASK ? EC_MATERIAL_MASK : 0) |
-                   (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0) | (ec_refracts(m) ? EC_MATERIAL_REFRACTS : 0);
+                   (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0) | (ec_refracts(m) ? EC_MATERIAL_REFRACTS : 0) |
+                   (ec_bounds(m) ? EC_MATERIAL_BOUNDS : 0);
         d->metallic = m->metallic;
         d->roughness = m->roughness;
         d->normal_scale = m->normal_scale;
@@ -69,11 +70,18 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         d->specular = m->specular;
         d->transmission = m->transmission;
         d->ior = m->ior;
+        d->dispersion = m->dispersion;
         memcpy(d->sheen, m->sheen, sizeof d->sheen);
         d->sheen_roughness = m->sheen_roughness;
         d->anisotropy = m->anisotropy;
         d->anisotropy_cosine = cosf(m->anisotropy_rotation);
         d->anisotropy_sine = sinf(m->anisotropy_rotation);
+        memcpy(d->below, m->below, sizeof d->below);
+        d->seeps = m->seeps;
+        d->film = m->film;
+        d->film_ior = m->film_ior;
+        d->film_least = m->film_least;
+        d->film_most = m->film_most;
         d->coat = m->coat;
         d->coat_roughness = m->coat_roughness;
         d->coat_normal_scale = m->coat_normal_scale;
@@ -104,7 +112,9 @@ void ec_pack_free(ec_pack *pack)
     free(pack->places);
     free(pack->lights);
     free(pack->light_alias);
+    free(pack->light_of_prim);
+    free(pack->light_tree);
     free(pack->environment_texels);
-    free(pack->environment_alias);
+    free(pack->environment_table);
     memset(pack, 0, sizeof *pack);
 }

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "scene/scene.h"
 #include "shared/features.h"
+#include "shared/light_tree.h"
 #include "shared/scene_buffers.h"
 
 typedef struct ec_pack {
@@ -25,9 +26,13 @@ typedef struct ec_pack {
     uint32_t light_count;          /* only lights of positive power */
     ec_light_data *lights;
     ec_alias *light_alias;
+    uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */
+    uint32_t light_node_count;     /* 0: lights are chosen by power alone */
+    ec_light_node *light_tree;
+    float light_tree_pmf;          /* chance that light sampling goes to the tree */
     uint32_t environment_width, environment_height;
     float *environment_texels;     /* R, G, B, pmf; NULL where the environment is constant */
-    ec_alias *environment_alias;
+    ec_distribution_entry *environment_table; /* of rows; then of the texels of each row. NULL where it is black */
     float environment_mean[3];     /* radiance over all directions */
     float environment_pmf;         /* chance that light sampling chooses the environment */
     float scene_radius, scene_max;
@@ -43,6 +48,11 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_places(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
+
+/* Lamps a tree would choose from. */
+uint32_t ec_pack_lamp_count(const ec_pack *pack);
+/* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
+ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 
 /* Makes pack->lights those of integrators that sum over lights at their centres: triangles in one plane, edge to edge, as one;
  * small bodies as one point, with their radius in pdf_a; without the environment. Nothing samples them. */

@@ -7,22 +7,6 @@
 #include "base/clock.h"
 #include "cl/workarounds.h"
 
-static void set_camera(const ec_scene *scene, const ec_render_options *o, ec_params *params)
-{
-    const ec_camera *c = &scene->cameras[o->camera];
-    double aspect = (double)o->width / o->height;
-    bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
-    double half_height = is_flat ? c->ymag : tan(0.5 * c->yfov);
-    double half_width = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f ? c->xmag : half_height * aspect;
-    for (int k = 0; k < 3; k++) {
-        params->camera_origin[k] = c->position[k];
-        params->camera_right[k] = (float)(c->right[k] * half_width);
-        params->camera_up[k] = (float)(c->up[k] * half_height);
-        params->camera_forward[k] = c->forward[k];
-    }
-    params->orthographic = is_flat;
-}
-
 /* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
  * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
  * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
@@ -39,6 +23,13 @@ static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char
     EC_TRY(ec_accels_choose(name, scene->triangle_count, p->cl->info.type & CL_DEVICE_TYPE_CPU, &chosen, err));
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) p->accels[a].in_use = chosen >> a & 1;
     return EC_OK;
+}
+
+static ec_result choose_lights(const ec_pipeline *p, const ec_render_options *o, ec_pack *pack, ec_error *err)
+{
+    if (p->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return EC_OK;
+    if (o->light_choice == EC_LIGHTS_AUTO && ec_pack_lamp_count(pack) < EC_LIGHT_TREE_FROM) return EC_OK;
+    return ec_pack_light_tree(pack, err);
 }
 
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err)
@@ -62,6 +53,7 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     p->triangle_count = scene->triangle_count;
     p->integrator = options->integrator;
     p->fast_math = options->fast_math;
+    EC_TRY(ec_pipeline_set_camera(scene, options, &p->params, err));
     EC_TRY(ec_pipeline_lanes(cl, options->lanes, &p->lanes, err));
     if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
 
@@ -78,12 +70,19 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
         ec_pack_free(&pack);
         return result;
     }
+    bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
+    if (joins && (result = choose_lights(p, options, &pack, err)) != EC_OK) {
+        ec_pack_free(&pack);
+        return result;
+    }
     const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
     p->features = options->all_effects ? EC_FEATURE_ALL & ~asked_for : pack.features | options->more_effects;
     if (options->sampler == EC_SAMPLER_SOBOL) p->features |= EC_FEATURE_SOBOL;
     if (options->terminator == EC_TERMINATOR_SMOOTH && (pack.features & EC_FEATURE_SMOOTH_NORMALS)) p->features |= EC_FEATURE_TERMINATOR;
+    if (pack.light_node_count) p->features |= EC_FEATURE_LIGHT_TREE;
+    if (options->filter != EC_FILTER_BOX) p->features |= EC_FEATURE_PIXEL_FILTER;
+    if (options->fstop > 0) p->features |= EC_FEATURE_LENS;
     ec_params *params = &p->params;
-    set_camera(scene, options, params);
     params->width = options->width;
     params->height = options->height;
     params->batch = batch;
@@ -92,18 +91,21 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     params->cutoff = (float)options->cutoff;
     set_roulette(options->survival, params);
     params->sample = options->sample;
-    bool joins = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT || scene->light_count;
     params->light_count = joins ? pack.light_count : 0;
     params->environment_width = pack.environment_width;
     params->environment_height = pack.environment_height;
     params->environment_pmf = pack.environment_pmf;
     for (int k = 0; k < 3; k++)
         params->environment[k] = !scene->has_environment ? 0.0f : scene->environment.rgb ? 1.0f : scene->environment.constant[k];
+    params->environment_turned = scene->has_environment && scene->environment.turned;
+    for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = scene->environment.turn[k];
     memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
+    params->light_tree_pmf = pack.light_tree_pmf;
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;
     result = ec_pipeline_upload(p, scene, &pack, err);
     ec_pack_free(&pack);
+    if (result == EC_OK) result = ec_pipeline_upload_filter(p, options, err);
     if (result == EC_OK) result = ec_pipeline_create_queues(p, options, err);
     stats->pack_seconds = ec_now() - start;
     if (result != EC_OK) return result;

@@ -62,8 +62,11 @@ void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
 /* whitted.c: of the stack of a slot; max_depth as in the options */
 uint64_t ec_whitted_stack_words(uint32_t max_depth);
 
+/* camera.c */
+ec_result ec_pipeline_set_camera(const ec_scene *scene, const ec_render_options *options, ec_params *params, ec_error *err);
 /* upload.c */
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
+ec_result ec_pipeline_upload_filter(ec_pipeline *pipeline, const ec_render_options *options, ec_error *err);
 /* The scene's triangles and instances, as builders take them. */
 ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density);
 /* Builds an accelerator and uploads it; stats may be NULL. */

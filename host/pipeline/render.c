@@ -318,7 +318,7 @@ ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t 
     bytes += (scene->normals ? 12 * vertices : 0) + (scene->tangents ? 16 * vertices : 0) + (scene->colors ? 16 * vertices : 0);
     bytes += (scene->uv[0] ? 8 * vertices : 0) + (scene->uv[1] ? 8 * vertices : 0);
     bytes += pack.texel_words * 4 + (uint64_t)pack.light_count * (sizeof(ec_light_data) + sizeof(ec_alias));
-    bytes += (uint64_t)pack.environment_width * pack.environment_height * 24;
+    bytes += (uint64_t)pack.environment_width * pack.environment_height * (4 * sizeof(float) + sizeof(ec_distribution_entry));
     uint64_t blocks = ref_count / 7, boxes = ref_count > triangles ? blocks : 0; /* leaf blocks seven eighths full */
     bytes += blocks * sizeof(ec_tri8) + boxes * sizeof(ec_box8) + ref_count / 20 * sizeof(ec_bvh8_node);
     if (scene->placed_count) bytes += pack.place_words * 4 + scene->placed_count * (sizeof(ec_instance) + sizeof(ec_bvh8_node) / 4);

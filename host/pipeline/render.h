@@ -16,6 +16,10 @@ typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sam
 /* Where rays leave a facet with vertex normals: kernels/lib/terminator.h. */
 typedef enum ec_terminator { EC_TERMINATOR_GEOMETRIC, EC_TERMINATOR_SMOOTH } ec_terminator;
 
+/* Which light a surface is joined to: by power wherever it is, or by a tree that knows where lights are (kernels/lib/light_tree.h). */
+typedef enum ec_light_choice { EC_LIGHTS_AUTO, EC_LIGHTS_BY_POWER, EC_LIGHTS_BY_TREE } ec_light_choice;
+#define EC_LIGHT_TREE_FROM 64 /* lamps; auto leaves fewer to power */
+
 /* What makes the picture; the words are in report/names.c, the functions in wave.c, the options of each in
  * cli/combinations.c. */
 typedef enum ec_integrator {
@@ -28,9 +32,17 @@ typedef enum ec_integrator {
 #define EC_WHITTED_DEPTH 10     /* segments of Whitted's trees where max_depth is 0 */
 #define EC_WHITTED_DEPTH_MOST 64 /* each takes 48 bytes a path in flight */
 
+/* Rasterising has the box alone: its samples look at the triangles of their pixel's tile. */
+typedef enum ec_pixel_filter { EC_FILTER_BOX, EC_FILTER_BLACKMAN_HARRIS } ec_pixel_filter;
+#define EC_FILTER_WIDTH 1.5 /* as Cycles has it */
+
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
     uint32_t camera;            /* index into the scene's cameras */
+    ec_pixel_filter filter;
+    double filter_width;        /* pixels from the centre to the edge, of other filters than the box; 0 = EC_FILTER_WIDTH */
+    double fstop;               /* of a thin lens; 0 = a pinhole. The aperture's diameter is focal length / fstop */
+    double focus;               /* metres to the plane in focus, along the camera's axis */
     uint32_t spp;               /* stop after so many samples a pixel; 0 = no such limit */
     double time_limit;          /* stop before this many seconds of rendering; 0 = none */
     double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */
@@ -41,6 +53,7 @@ typedef struct ec_render_options {
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
+    ec_light_choice light_choice;
     ec_terminator terminator;   /* smooth: rays start on the smooth surface, not on its facets */
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */

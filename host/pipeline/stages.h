@@ -22,6 +22,7 @@ typedef enum ec_arg {
     EC_ARG_SCALAR_COUNT,
     EC_ARG_PARAMS = EC_ARG_SCALAR_COUNT,
     EC_ARG_PIXEL_LIST, /* of a pass over some of the pixels; else NULL */
+    EC_ARG_PIXEL_FILTER, /* NULL: a box */
     EC_ARG_COUNTERS,
     EC_ARG_INVALID,
     EC_ARG_PATHS,      /* the queue that is read … */
@@ -52,8 +53,10 @@ typedef enum ec_arg {
     EC_ARG_PLACES,
     EC_ARG_LIGHT_TABLE,
     EC_ARG_LIGHT_ALIAS,
+    EC_ARG_LIGHT_TREE,
+    EC_ARG_LIGHT_TRAILS,
     EC_ARG_ENVIRONMENT_TEXELS,
-    EC_ARG_ENVIRONMENT_ALIAS,
+    EC_ARG_ENVIRONMENT_TABLE,
     EC_ARG_COUNT
 } ec_arg;
 

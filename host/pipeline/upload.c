@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "pipeline/pipeline.h"
+#include "pipeline/pixel_filter.h"
 
 static ec_result upload(ec_pipeline *p, ec_arg arg, const char *label, uint64_t bytes, const void *data, ec_error *err)
 {
@@ -56,9 +57,21 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pac
     }
     EC_TRY(upload(p, EC_ARG_LIGHT_TABLE, "lights", (uint64_t)pack->light_count * sizeof *pack->lights, pack->lights, err));
     EC_TRY(upload(p, EC_ARG_LIGHT_ALIAS, "light table", (uint64_t)pack->light_count * sizeof *pack->light_alias, pack->light_alias, err));
+    if (pack->light_node_count) {
+        EC_TRY(upload(p, EC_ARG_LIGHT_TREE, "light tree", (uint64_t)pack->light_node_count * sizeof *pack->light_tree, pack->light_tree, err));
+        EC_TRY(upload(p, EC_ARG_LIGHT_TRAILS, "trails of lamps", 4 * (uint64_t)pack->prim_count, pack->light_of_prim, err));
+    }
     uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
     EC_TRY(upload(p, EC_ARG_ENVIRONMENT_TEXELS, "environment map", texels * 16, pack->environment_texels, err));
-    return upload(p, EC_ARG_ENVIRONMENT_ALIAS, "environment table", texels * sizeof *pack->environment_alias, pack->environment_alias, err);
+    return upload(p, EC_ARG_ENVIRONMENT_TABLE, "environment table", (texels + pack->environment_height) * sizeof *pack->environment_table, pack->environment_table, err);
+}
+
+ec_result ec_pipeline_upload_filter(ec_pipeline *p, const ec_render_options *o, ec_error *err)
+{
+    float table[EC_FILTER_ENTRIES];
+    if (o->filter == EC_FILTER_BOX) return EC_OK;
+    ec_pixel_filter_blackman_harris(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH, table);
+    return upload(p, EC_ARG_PIXEL_FILTER, "pixel filter", sizeof table, table, err);
 }
 
 ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)

@@ -37,7 +37,8 @@ void ec_json_text(cJSON *object, const char *key, const char *value)
 {
     char *clean = value ? strdup(value) : NULL;
     if (!clean) {
-        cJSON_AddNullToObject(object, key);
+        if (cJSON_IsArray(object)) cJSON_AddItemToArray(object, cJSON_CreateNull());
+        else cJSON_AddNullToObject(object, key);
         return;
     }
     for (char *c = clean; *c;) {

@@ -66,6 +66,13 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
         add_made(attributes, "eclat.maxDepth", "%u", options->max_depth);
     else
         add_text(attributes, "eclat.maxDepth", "inf");
+    add_text(attributes, "eclat.lightChoice", ec_light_choice_names[options->light_choice]);
+    add_text(attributes, "eclat.filter", ec_filter_names[options->filter]);
+    if (options->filter_width > 0) add_real(attributes, "eclat.filterWidth", options->filter_width);
+    if (options->fstop > 0) {
+        add_real(attributes, "eclat.fstop", options->fstop);
+        add_real(attributes, "eclat.focus", options->focus);
+    }
     add_real(attributes, "eclat.cutoff", options->cutoff);
     add_text(attributes, "eclat.adaptive", options->adaptive ? "yes" : "no");
     add_real(attributes, "eclat.png.exposure", report->exposure);

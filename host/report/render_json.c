@@ -28,6 +28,13 @@ static void add_setting(cJSON *root, const ec_render_report *report)
     else
         cJSON_AddNullToObject(root, "max_depth");
     cJSON_AddBoolToObject(root, "adaptive", options->adaptive);
+    ec_json_text(root, "light_choice", ec_light_choice_names[options->light_choice]);
+    ec_json_text(root, "filter", ec_filter_names[options->filter]);
+    if (options->filter_width > 0) ec_json_real(root, "filter_width", options->filter_width);
+    if (options->fstop > 0) {
+        ec_json_real(root, "fstop", options->fstop);
+        ec_json_real(root, "focus", options->focus);
+    }
     ec_json_real(root, "cutoff", options->cutoff);
     ec_json_real(root, "exposure", report->exposure);
     ec_json_text(root, "tonemap", ec_tonemap_names[report->tonemap]);

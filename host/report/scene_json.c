@@ -32,6 +32,19 @@ static void add_lights(cJSON *root, const ec_scene_report *report)
     cJSON_AddBoolToObject(lights, "any", report->has_light);
 }
 
+/* Camera to world as a node's matrix has it, by columns: right, up, back, position. */
+static cJSON *camera_matrix(const ec_scene *scene, const ec_camera *camera)
+{
+    double m[16] = {[15] = 1};
+    for (int k = 0; k < 3; k++) {
+        m[k] = camera->right[k];
+        m[4 + k] = camera->up[k];
+        m[8 + k] = 0.0 - camera->forward[k];
+        m[12 + k] = camera->position[k] + scene->center[k];
+    }
+    return cJSON_CreateDoubleArray(m, 16);
+}
+
 static void add_cameras(cJSON *root, const ec_scene *scene)
 {
     cJSON *cameras = cJSON_AddArrayToObject(root, "cameras");
@@ -43,7 +56,12 @@ static void add_cameras(cJSON *root, const ec_scene *scene)
         ec_json_text(object, "name", camera->name);
         ec_json_text(object, "type", perspective ? "perspective" : "orthographic");
         if (perspective) ec_json_real(object, "yfov", camera->yfov);
+        else {
+            ec_json_real(object, "xmag", camera->xmag);
+            ec_json_real(object, "ymag", camera->ymag);
+        }
         ec_json_real(object, "aspect", camera->aspect > 0 ? camera->aspect : INFINITY); /* null: the image's */
+        cJSON_AddItemToObject(object, "matrix", camera_matrix(scene, camera));
         cJSON_AddItemToArray(cameras, object);
     }
     ec_json_whole(root, "default_camera", scene->default_camera);
@@ -53,6 +71,20 @@ static void add_list(cJSON *root, const char *key, char **names, uint32_t count)
 {
     cJSON *array = cJSON_AddArrayToObject(root, key);
     for (uint32_t i = 0; i < count; i++) ec_json_text(array, NULL, names[i]);
+}
+
+static void add_contents(cJSON *root, const ec_scene_contents *contents)
+{
+    add_list(root, "scenes", contents->scenes.names, contents->scenes.count);
+    ec_json_whole(root, "scene_shown", contents->scene);
+    add_list(root, "variants", contents->variants.names, contents->variants.count);
+    cJSON *animations = cJSON_AddArrayToObject(root, "animations");
+    for (uint32_t i = 0; i < contents->animations.count; i++) {
+        cJSON *object = cJSON_CreateObject();
+        ec_json_text(object, "name", contents->animations.names[i]);
+        ec_json_real(object, "seconds", contents->seconds[i]); /* null: the file does not say */
+        cJSON_AddItemToArray(animations, object);
+    }
 }
 
 static void add_bvh(cJSON *root, const ec_bvh_stats *stats)
@@ -103,6 +135,7 @@ ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error
     add_geometry(root, scene);
     add_lights(root, report);
     add_cameras(root, scene);
+    add_contents(root, &scene->contents);
     add_list(root, "extensions_used", scene->extensions_used, scene->extension_count);
     add_list(root, "extensions_unsupported", scene->extensions_ignored, scene->extension_ignored_count);
     ec_json_words(root, "effects", report->effects);

@@ -63,6 +63,29 @@ static void print_list(const char *title, char **names, uint32_t count, FILE *to
     fputc('\n', to);
 }
 
+/* "0 'walk' (1.2 s), 1 'run'" */
+static void print_names(const char *title, const ec_scene_names *list, const double *seconds, FILE *to)
+{
+    if (list->count) fprintf(to, "%s", title);
+    for (uint32_t i = 0; i < list->count; i++) {
+        fprintf(to, "%s%u", i ? ", " : "", i);
+        if (list->names[i]) fprintf(to, " '%.100s'", list->names[i]);
+        if (seconds && seconds[i] >= 0) fprintf(to, " (%.4g s)", seconds[i]);
+    }
+    if (list->count) fputc('\n', to);
+}
+
+/* What there is to choose among, where there is. */
+static void print_contents(const ec_scene_contents *contents, FILE *to)
+{
+    if (contents->scenes.count > 1) {
+        print_names("scenes      ", &contents->scenes, NULL, to);
+        fprintf(to, "            %u is shown\n", contents->scene);
+    }
+    print_names("variants    ", &contents->variants, NULL, to);
+    print_names("animations  ", &contents->animations, contents->seconds, to);
+}
+
 static void print_cost(const ec_scene_report *report, FILE *to)
 {
     const ec_bvh_stats *bvh = &report->bvh;
@@ -117,6 +140,7 @@ void ec_scene_report_text(const ec_scene_report *report, FILE *to)
     print_geometry(scene, to);
     print_lights(report, to);
     print_cameras(scene, to);
+    print_contents(&scene->contents, to);
     print_list("extensions  ", scene->extensions_used, scene->extension_count, to);
     print_list("unsupported ", scene->extensions_ignored, scene->extension_ignored_count, to);
     print_cost(report, to);

@@ -1,9 +1,7 @@
 /* Cameras: the file's, put where their nodes stand, or one that frames the whole scene. */
 #include "scene/flatten.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,7 +89,7 @@ ec_result ec_gltf_cameras_place(ec_gltf *g, const ec_placement_list *placements,
     for (uint32_t i = 0; i < placements->count; i++) {
         const ec_placement *at = &placements->items[i];
         int32_t index = g->nodes[at->node].camera;
-        if (index < 0) continue;
+        if (index < 0 || at->extra) continue;
         ec_camera camera = g->cameras[index];
         if (!place_camera(at, s->center, &camera)) {
             ec_warn(log, "%s: the camera at nodes[%d] stands at infinity; it is left out", g->path, at->node);
@@ -107,34 +105,12 @@ ec_result ec_gltf_cameras_place(ec_gltf *g, const ec_placement_list *placements,
     return EC_OK;
 }
 
-static ec_result fail_listing(const ec_scene *s, const char *wanted, ec_error *err)
-{
-    char list[1024] = "";
-    for (uint32_t i = 0; i < s->camera_count; i++) {
-        char item[160];
-        const char *name = s->cameras[i].name;
-        snprintf(item, sizeof item, name ? "%s%u \"%.100s\"" : "%s%u", i ? ", " : "", i, name);
-        if (strlen(list) + strlen(item) + 5 > sizeof list) {
-            strcat(list, " ...");
-            break;
-        }
-        strcat(list, item);
-    }
-    return ec_fail(err, "there is no camera \"%.200s\"; there are: %s", wanted, list);
-}
-
 ec_result ec_scene_find_camera(const ec_scene *s, const char *name_or_index, uint32_t *camera, ec_error *err)
 {
-    for (uint32_t i = 0; i < s->camera_count; i++) {
-        if (!s->cameras[i].name || strcmp(s->cameras[i].name, name_or_index) != 0) continue;
-        *camera = i;
-        return EC_OK;
-    }
-    char *end;
-    errno = 0;
-    unsigned long index = strtoul(name_or_index, &end, 10);
-    bool is_number = *name_or_index >= '0' && *name_or_index <= '9' && !*end && !errno;
-    if (!is_number || index >= s->camera_count) return fail_listing(s, name_or_index, err);
-    *camera = (uint32_t)index;
-    return EC_OK;
+    ec_scene_names list = {malloc(s->camera_count * sizeof *list.names), s->camera_count};
+    if (!list.names) return ec_fail(err, "out of memory");
+    for (uint32_t i = 0; i < list.count; i++) list.names[i] = s->cameras[i].name;
+    ec_result result = ec_scene_names_find(&list, "camera", name_or_index, camera, err);
+    free(list.names); /* the names themselves are the cameras' */
+    return result;
 }

@@ -2,6 +2,7 @@
  * viewer and three.js; scene.h says it. */
 #include "scene/scene.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,4 +60,35 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
     s->environment = e;
     s->has_environment = true;
     return EC_OK;
+}
+
+/* turn = rotation about +y times turn. */
+static void turn(ec_environment *e, double degrees)
+{
+    static const float upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    double angle = fmod(degrees, 360) * 3.14159265358979323846 / 180, c = cos(angle), s = sin(angle);
+    float before[9];
+    memcpy(before, e->turned ? e->turn : upright, sizeof before);
+    for (int k = 0; k < 3; k++) {
+        e->turn[k] = (float)(c * before[k] + s * before[6 + k]);
+        e->turn[3 + k] = before[3 + k];
+        e->turn[6 + k] = (float)(c * before[6 + k] - s * before[k]);
+    }
+    e->turned = true;
+}
+
+void ec_scene_adjust_environment(ec_scene *s, double degrees, double strength, const ec_log *log)
+{
+    ec_environment *e = &s->environment;
+    if (strength == 0) {
+        free(e->rgb);
+        *e = (ec_environment){0};
+        s->has_environment = false;
+        return;
+    }
+    uint64_t count = e->rgb ? 3 * (uint64_t)e->width * e->height : 3;
+    float *values = e->rgb ? e->rgb : e->constant;
+    for (uint64_t i = 0; strength != 1 && i < count; i++) values[i] = (float)fmin(values[i] * strength, FLT_MAX);
+    if (strength != 1) clean(values, count, "the environment, scaled", log);
+    if (e->rgb && fmod(degrees, 360) != 0) turn(e, degrees);
 }

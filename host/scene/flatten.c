@@ -26,7 +26,7 @@ ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, con
 static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, ec_draw_function function)
 {
     for (uint32_t i = 0; i < list->count; i++) {
-        int32_t mesh = g->nodes[list->items[i].node].mesh;
+        int32_t mesh = list->items[i].mesh;
         if (mesh < 0 || (f->is_kept && f->is_kept[i])) continue;
         EC_TRY(ec_flattener_draw(f, g, mesh, &list->items[i], f->scene->center, function));
     }
@@ -49,10 +49,10 @@ ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
         return ec_fail(f->err, "%s: more than %d triangles or vertices once all instances are counted; simplify the scene",
                        d->g->path, INT32_MAX);
     if (range > f->remap_size) f->remap_size = range;
-    f->has_normals |= d->p->normal >= 0;
-    f->has_tangents |= d->p->tangent >= 0 && d->p->normal >= 0;
-    f->has_colors |= d->p->color >= 0;
-    for (int i = 0; i < 2; i++) f->has_uv[i] |= d->p->uv[i] >= 0;
+    f->has_normals |= d->p->streams.normal >= 0;
+    f->has_tangents |= d->p->streams.tangent >= 0 && d->p->streams.normal >= 0;
+    f->has_colors |= d->p->streams.color >= 0;
+    for (int i = 0; i < 2; i++) f->has_uv[i] |= d->p->streams.uv[i] >= 0;
     return EC_OK;
 }
 
@@ -108,7 +108,7 @@ static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
 {
     float local[3][3];
     double normal[3];
-    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->position], v[i], 3, local[i]);
+    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.position], v[i], 3, local[i]);
     cross_edges(local[0], local[1], local[2], normal);
     return largest_component(normal) == 0;
 }

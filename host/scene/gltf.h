@@ -33,7 +33,7 @@ typedef struct ec_gltf_accessor {
     int32_t view;
     uint64_t offset, count;
     uint32_t component_type;
-    uint32_t components; /* 1..4; 0 for matrices, which no stream of a scene uses */
+    uint32_t components; /* 1..4, 16 for MAT4; 0 for other matrices, which nothing uses */
     bool normalized;
     ec_gltf_sparse sparse; /* count 0: dense */
     /* Set by ec_gltf_accessor_open: */
@@ -43,9 +43,16 @@ typedef struct ec_gltf_accessor {
     uint8_t *owned;      /* sparse: base and replacements merged */
 } ec_gltf_accessor;
 
+/* Accessors of a vertex' attributes, or of what a morph target adds to them. */
+typedef struct ec_gltf_streams {
+    int32_t position, normal, tangent, color, uv[2];
+} ec_gltf_streams;
+
 typedef struct ec_gltf_primitive {
     int32_t mode, material, indices;
-    int32_t position, normal, tangent, color, uv[2]; /* accessors */
+    ec_gltf_streams streams, *targets;
+    int32_t *joints, *weights; /* accessors, four influences in each */
+    uint32_t target_count, influence_sets;
     /* Set by ec_gltf_primitive_prepare and, the material, by ec_gltf_materials_assign: */
     bool prepared, drawn;              /* drawn: makes triangles */
     uint64_t triangle_count;
@@ -56,15 +63,30 @@ typedef struct ec_gltf_primitive {
 typedef struct ec_gltf_mesh {
     char *name;
     ec_gltf_primitive *primitives;
-    uint32_t primitive_count;
+    float *weights; /* of morph targets, unless the node has its own */
+    uint32_t primitive_count, weight_count;
 } ec_gltf_mesh;
+
+typedef struct ec_gltf_skin {
+    int32_t *joints; /* nodes */
+    uint32_t joint_count;
+    int32_t inverse_bind; /* accessor; -1: identities */
+} ec_gltf_skin;
+
+/* EXT_mesh_gpu_instancing: accessors with one element for each place at which the node's mesh stands. */
+typedef struct ec_gltf_instancing {
+    bool used;
+    int32_t translation, rotation, scale;
+} ec_gltf_instancing;
 
 typedef struct ec_gltf_node {
     char *name;
     double local[16]; /* column major, as in the file */
-    int32_t mesh, camera, light;
+    int32_t mesh, skin, camera, light;
     int32_t *children;
-    uint32_t child_count;
+    float *weights;
+    uint32_t child_count, weight_count;
+    ec_gltf_instancing instances;
 } ec_gltf_node;
 
 /* Encoded pixels: a bufferView or a URI, the latter already checked for shape but not yet opened. */
@@ -87,13 +109,14 @@ typedef struct ec_gltf {
     ec_gltf_view *views;
     ec_gltf_accessor *accessors;
     ec_gltf_mesh *meshes;
+    ec_gltf_skin *skins;
     ec_gltf_node *nodes;
     ec_gltf_image *images;
     ec_gltf_texture *textures;
     ec_material *materials; /* their texture uses hold glTF texture indices */
     ec_camera *cameras;     /* unplaced */
     ec_light *lights;       /* unplaced */
-    uint32_t buffer_count, view_count, accessor_count, mesh_count, node_count, image_count, texture_count,
+    uint32_t buffer_count, view_count, accessor_count, mesh_count, skin_count, node_count, image_count, texture_count,
         material_count, camera_count, light_count;
     int32_t *roots;         /* nodes of the scene to show */
     uint32_t root_count;
@@ -101,14 +124,18 @@ typedef struct ec_gltf {
     bool quantized;         /* KHR_mesh_quantization: integer positions, normals, tangents */
     char **extensions_used, **extensions_ignored;
     uint32_t extension_count, extension_ignored_count;
+    ec_scene_contents contents;
 } ec_gltf;
 
 /* gltf_shim.cpp: parses, checks shape and index ranges, loads the buffers. No exception leaves it. */
-ec_result ec_gltf_read(const char *path, ec_gltf **gltf, const ec_log *log, ec_error *err);
+ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **gltf, const ec_log *log, ec_error *err);
 void ec_gltf_free(ec_gltf *gltf); /* NULL is fine */
 
 /* load.c: everything after reading. Takes strings and materials from the document, which stays the caller's. */
 ec_result ec_scene_from_gltf(ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err);
+
+/* gltf_tree.c: translation x rotation x scale, column major. A quaternion of any length will do; zero is no rotation. */
+void ec_gltf_compose(const double translation[3], const double rotation[4], const double scale[3], double matrix[16]);
 
 /* gltf_uri.c */
 ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err); /* leaves the folder? */
@@ -126,6 +153,9 @@ uint32_t ec_gltf_accessor_index(const ec_gltf_accessor *accessor, uint64_t eleme
 /* gltf_primitive.c: checks a primitive's accessors and indices once; afterwards its triangles can be read freely. A
  * primitive without triangles is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
 ec_result ec_gltf_primitive_prepare(ec_gltf *gltf, ec_gltf_primitive *primitive, const char *where, ec_error *err);
+/* The same for what deforms a prepared primitive: one of its morph targets, and its joints and weights. */
+ec_result ec_gltf_target_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, uint32_t target, const char *where, ec_error *err);
+ec_result ec_gltf_influences_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, const char *where, ec_error *err);
 void ec_gltf_primitive_triangle(const ec_gltf *gltf, const ec_gltf_primitive *primitive, uint64_t triangle,
                                 uint32_t vertices[3]);
 

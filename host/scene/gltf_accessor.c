@@ -25,8 +25,8 @@ ec_result ec_gltf_check_views(const ec_gltf *g, ec_error *err)
         const ec_gltf_view *v = &g->views[i];
         uint64_t size = g->buffers[v->buffer].length;
         if (v->offset > size || v->length > size - v->offset)
-            return ec_fail(err, "%s: bufferViews[%u] (offset %llu, length %llu) reaches beyond buffers[%d] of %llu "
-                           "bytes; the file is damaged or truncated", g->path, i, (unsigned long long)v->offset,
+            return ec_fail(err, "bufferViews[%u] (offset %llu, length %llu) reaches beyond buffers[%d] of %llu "
+                           "bytes; the file is damaged or truncated", i, (unsigned long long)v->offset,
                            (unsigned long long)v->length, v->buffer, (unsigned long long)size);
     }
     return EC_OK;

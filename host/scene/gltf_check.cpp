@@ -62,7 +62,7 @@ class checker {
             break;
         case kind::choice: return check_choice(value, f, where);
         case kind::accessor_type: /* an unknown one is wrong only where it is read, as a matrix would be */
-            if (!is_among(value, f.detail)) value = "MAT4";
+            if (!is_among(value, f.detail)) value = "MAT2";
             break;
         case kind::object: check_object(value, *f.members, where); break;
         default: check_array(value, f, where);
@@ -73,7 +73,7 @@ class checker {
     void check_array(json &value, const field &f, const std::string &where)
     {
         if (!value.is_array()) fail(where, "must be an array");
-        if (f.type == kind::numbers && double(value.size()) != f.low)
+        if (f.type == kind::numbers && f.low >= 0 && double(value.size()) != f.low)
             fail(where, "must have " + std::to_string(int(f.low)) + " numbers, not " + std::to_string(value.size()));
         if (double(value.size()) > int_count) fail(where, "has too many elements");
         for (size_t i = 0; i < value.size(); i++) {
@@ -117,8 +117,9 @@ class checker {
     size_t array_size(const std::string &name)
     {
         const json *holder = &root;
-        if (name == "lights") {
-            for (const char *step : {"extensions", "KHR_lights_punctual"}) {
+        const char *extension = name == "lights" ? "KHR_lights_punctual" : name == "variants" ? "KHR_materials_variants" : nullptr;
+        if (extension) {
+            for (const char *step : {"extensions", extension}) {
                 auto found = holder->find(step);
                 if (found == holder->end() || !found->is_object()) return 0;
                 holder = &*found;

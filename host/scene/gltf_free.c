@@ -9,23 +9,35 @@ static void free_strings(char **list, uint32_t count)
     free(list);
 }
 
+static void free_mesh(ec_gltf_mesh *mesh)
+{
+    for (uint32_t i = 0; mesh->primitives && i < mesh->primitive_count; i++) {
+        free(mesh->primitives[i].targets);
+        free(mesh->primitives[i].joints);
+        free(mesh->primitives[i].weights);
+    }
+    free(mesh->name);
+    free(mesh->weights);
+    free(mesh->primitives);
+}
+
 static void free_geometry(ec_gltf *g)
 {
     for (uint32_t i = 0; i < g->buffer_count; i++) free(g->buffers[i].owned);
     for (uint32_t i = 0; i < g->accessor_count; i++) free(g->accessors[i].owned);
-    for (uint32_t i = 0; i < g->mesh_count; i++) {
-        free(g->meshes[i].name);
-        free(g->meshes[i].primitives);
-    }
+    for (uint32_t i = 0; i < g->mesh_count; i++) free_mesh(&g->meshes[i]);
+    for (uint32_t i = 0; i < g->skin_count; i++) free(g->skins[i].joints);
     for (uint32_t i = 0; i < g->node_count; i++) {
         free(g->nodes[i].name);
         free(g->nodes[i].children);
+        free(g->nodes[i].weights);
     }
     free(g->file);
     free(g->buffers);
     free(g->views);
     free(g->accessors);
     free(g->meshes);
+    free(g->skins);
     free(g->nodes);
     free(g->roots);
 }
@@ -47,6 +59,7 @@ void ec_gltf_free(ec_gltf *g)
     free(g->lights);
     free_strings(g->extensions_used, g->extension_count);
     free_strings(g->extensions_ignored, g->extension_ignored_count);
+    ec_scene_contents_free(&g->contents);
     free(g->folder);
     free(g);
 }

@@ -104,12 +104,22 @@ static void set_transmission(ec_material &out, const tinygltf::Material &in, con
 {
     const Value *ior = find_extension(in.extensions, "KHR_materials_ior");
     const Value *transmission = find_extension(in.extensions, "KHR_materials_transmission");
-    const Value *volume = find_extension(in.extensions, "KHR_materials_volume");
+    const Value *dispersion = find_extension(in.extensions, "KHR_materials_dispersion");
+    out.dispersion = dispersion ? float(get_number(*dispersion, "dispersion", 0)) : 0;
     out.ior = ior ? float(get_number(*ior, "ior", 1.5)) : 1.5f;
-    if (!transmission) return; /* without it nothing gets into a volume */
+    if (!transmission) return;
     out.transmission = float(get_number(*transmission, "transmissionFactor", 0));
     out.textures[EC_SLOT_TRANSMISSION] = make_use(*transmission, "transmissionTexture", where, gltf, log);
-    if (volume) set_volume(out, *volume, where, gltf, log);
+}
+
+static void set_diffuse_transmission(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
+{
+    const Value *d = find_extension(in.extensions, "KHR_materials_diffuse_transmission");
+    if (!d) return;
+    out.seeps = float(get_number(*d, "diffuseTransmissionFactor", 0));
+    for (int i = 0; i < 3; i++) out.below[i] = float(get_element(*d, "diffuseTransmissionColorFactor", i, 1));
+    out.textures[EC_SLOT_DIFFUSE_TRANSMISSION] = make_use(*d, "diffuseTransmissionTexture", where, gltf, log);
+    out.textures[EC_SLOT_DIFFUSE_TRANSMISSION_COLOR] = make_use(*d, "diffuseTransmissionColorTexture", where, gltf, log);
 }
 
 static void set_coat(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
@@ -142,6 +152,19 @@ static void set_anisotropy(ec_material &out, const tinygltf::Material &in, const
     out.anisotropy = float(get_number(*a, "anisotropyStrength", 0));
     out.anisotropy_rotation = float(std::remainder(get_number(*a, "anisotropyRotation", 0), 6.283185307179586));
     out.textures[EC_SLOT_ANISOTROPY] = make_use(*a, "anisotropyTexture", where, gltf, log);
+}
+
+static void set_film(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
+{
+    const Value *f = find_extension(in.extensions, "KHR_materials_iridescence");
+    out.film_ior = 1.3f;
+    if (!f) return;
+    out.film = float(get_number(*f, "iridescenceFactor", 0));
+    out.film_ior = float(get_number(*f, "iridescenceIor", 1.3));
+    out.film_least = float(get_number(*f, "iridescenceThicknessMinimum", 100));
+    out.film_most = float(get_number(*f, "iridescenceThicknessMaximum", 400));
+    out.textures[EC_SLOT_IRIDESCENCE] = make_use(*f, "iridescenceTexture", where, gltf, log);
+    out.textures[EC_SLOT_IRIDESCENCE_THICKNESS] = make_use(*f, "iridescenceThicknessTexture", where, gltf, log);
 }
 
 static void set_emission(ec_material &out, const tinygltf::Material &in)
@@ -177,9 +200,14 @@ static void set_material(ec_material &out, const tinygltf::Material &in, const s
     set_emission(out, in);
     set_specular(out, in, where, gltf, log);
     set_transmission(out, in, where, gltf, log);
+    set_diffuse_transmission(out, in, where, gltf, log);
+    const Value *volume = find_extension(in.extensions, "KHR_materials_volume");
+    bool passes = find_extension(in.extensions, "KHR_materials_transmission") || find_extension(in.extensions, "KHR_materials_diffuse_transmission");
+    if (volume && passes) set_volume(out, *volume, where, gltf, log); /* into others nothing gets */
     set_coat(out, in, where, gltf, log);
     set_sheen(out, in, where, gltf, log);
     set_anisotropy(out, in, where, gltf, log);
+    set_film(out, in, where, gltf, log);
     out.name = copy_string(in.name);
 }
 

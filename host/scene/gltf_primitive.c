@@ -23,7 +23,8 @@ typedef struct stream_rule {
     unsigned core, quantized; /* kinds allowed by glTF, and in addition by KHR_mesh_quantization */
 } stream_rule;
 
-static const stream_rule rules[] = {
+enum { STREAMS = 6 };
+static const stream_rule rules[STREAMS] = {
     {"POSITION", {3, 3}, FLOAT, SIGNED | UNSIGNED | SIGNED_NORM | UNSIGNED_NORM},
     {"NORMAL", {3, 3}, FLOAT, SIGNED_NORM},
     {"TANGENT", {4, 4}, FLOAT, SIGNED_NORM},
@@ -31,6 +32,17 @@ static const stream_rule rules[] = {
     {"TEXCOORD_0", {2, 2}, FLOAT | UNSIGNED_NORM, SIGNED | UNSIGNED | SIGNED_NORM},
     {"TEXCOORD_1", {2, 2}, FLOAT | UNSIGNED_NORM, SIGNED | UNSIGNED | SIGNED_NORM},
 };
+
+/* What morph targets add. */
+static const stream_rule target_rules[STREAMS] = {
+    {"POSITION", {3, 3}, FLOAT, SIGNED | SIGNED_NORM},
+    {"NORMAL", {3, 3}, FLOAT, SIGNED_NORM},
+    {"TANGENT", {3, 3}, FLOAT, SIGNED_NORM},
+    {"COLOR_0", {3, 4}, FLOAT | SIGNED_NORM | UNSIGNED_NORM, 0},
+    {"TEXCOORD_0", {2, 2}, FLOAT | SIGNED_NORM | UNSIGNED_NORM, SIGNED},
+    {"TEXCOORD_1", {2, 2}, FLOAT | SIGNED_NORM | UNSIGNED_NORM, SIGNED},
+};
+static const stream_rule joints_rule = {"JOINTS", {4, 4}, UNSIGNED, 0}, weights_rule = {"WEIGHTS", {4, 4}, FLOAT | UNSIGNED_NORM, 0};
 
 static ec_result open_stream(ec_gltf *g, int32_t accessor, const stream_rule *rule, uint64_t vertex_count,
                              const char *where, ec_error *err)
@@ -50,6 +62,14 @@ static ec_result open_stream(ec_gltf *g, int32_t accessor, const stream_rule *ru
     return EC_OK;
 }
 
+static ec_result open_streams(ec_gltf *g, const ec_gltf_streams *s, const stream_rule of[STREAMS], uint64_t vertex_count,
+                              const char *where, ec_error *err)
+{
+    const int32_t accessors[STREAMS] = {s->position, s->normal, s->tangent, s->color, s->uv[0], s->uv[1]};
+    for (int i = 0; i < STREAMS; i++) EC_TRY(open_stream(g, accessors[i], &of[i], vertex_count, where, err));
+    return EC_OK;
+}
+
 static ec_result open_indices(ec_gltf *g, const ec_gltf_primitive *p, const char *where, ec_error *err)
 {
     char what[256];
@@ -66,7 +86,7 @@ static ec_result open_indices(ec_gltf *g, const ec_gltf_primitive *p, const char
 /* Range of the indices; one beyond the vertices is an error. */
 static ec_result scan_indices(const ec_gltf *g, ec_gltf_primitive *p, uint64_t count, const char *where, ec_error *err)
 {
-    uint64_t vertices = g->accessors[p->position].count;
+    uint64_t vertices = g->accessors[p->streams.position].count;
     p->lowest = 0;
     p->highest = (uint32_t)(vertices - 1);
     if (p->indices < 0) return EC_OK;
@@ -88,19 +108,33 @@ ec_result ec_gltf_primitive_prepare(ec_gltf *g, ec_gltf_primitive *p, const char
 {
     if (p->prepared) return EC_OK;
     p->prepared = true;
-    if (p->mode < EC_GLTF_TRIANGLES || p->position < 0) return EC_OK;
-    uint64_t vertices = g->accessors[p->position].count;
+    if (p->mode < EC_GLTF_TRIANGLES || p->streams.position < 0) return EC_OK;
+    uint64_t vertices = g->accessors[p->streams.position].count;
     if (vertices > INT32_MAX)
         return ec_fail(err, "%s: %s claims %llu vertices; at most %d are supported", g->path, where,
                        (unsigned long long)vertices, INT32_MAX);
-    const int32_t streams[] = {p->position, p->normal, p->tangent, p->color, p->uv[0], p->uv[1]};
-    for (int i = 0; i < 6; i++) EC_TRY(open_stream(g, streams[i], &rules[i], vertices, where, err));
+    EC_TRY(open_streams(g, &p->streams, rules, vertices, where, err));
     if (p->indices >= 0) EC_TRY(open_indices(g, p, where, err));
     uint64_t corners = p->indices >= 0 ? g->accessors[p->indices].count : vertices;
     EC_TRY(scan_indices(g, p, corners, where, err));
     if (p->mode == EC_GLTF_TRIANGLES) p->triangle_count = corners / 3;
     else p->triangle_count = corners < 3 ? 0 : corners - 2;
     p->drawn = p->triangle_count > 0;
+    return EC_OK;
+}
+
+ec_result ec_gltf_target_prepare(ec_gltf *g, const ec_gltf_primitive *p, uint32_t target, const char *where, ec_error *err)
+{
+    return open_streams(g, &p->targets[target], target_rules, g->accessors[p->streams.position].count, where, err);
+}
+
+ec_result ec_gltf_influences_prepare(ec_gltf *g, const ec_gltf_primitive *p, const char *where, ec_error *err)
+{
+    uint64_t vertices = g->accessors[p->streams.position].count;
+    for (uint32_t i = 0; i < p->influence_sets; i++) {
+        EC_TRY(open_stream(g, p->joints[i], &joints_rule, vertices, where, err));
+        EC_TRY(open_stream(g, p->weights[i], &weights_rule, vertices, where, err));
+    }
     return EC_OK;
 }
 

@@ -11,9 +11,9 @@ static constexpr field index(const char *name, const char *target, bool needed =
 {
     return {name, kind::index, needed, target, nullptr, 0, 0};
 }
-static constexpr field indices(const char *name, const char *target)
+static constexpr field indices(const char *name, const char *target, bool needed = false)
 {
-    return {name, kind::indices, false, target, nullptr, 0, 0};
+    return {name, kind::indices, needed, target, nullptr, 0, 0};
 }
 static constexpr field count(const char *name, double low = 0, bool needed = false, double high = huge_count)
 {
@@ -23,6 +23,7 @@ static constexpr field number(const char *name, bool needed = false)
 {
     return {name, kind::number, needed, nullptr, nullptr, 0, 0};
 }
+static constexpr double any_length = -1;
 static constexpr field numbers(const char *name, double length)
 {
     return {name, kind::numbers, false, nullptr, nullptr, length, length};
@@ -68,23 +69,50 @@ static const schema view_s(view);
 
 static const field attributes[] = {{"*", kind::dictionary, false, "accessors", nullptr, 0, 0}};
 static const schema attributes_s(attributes);
+static const field mapping[] = {indices("variants", "variants", required), index("material", "materials", required)};
+static const schema mapping_s(mapping);
+static const field mappings[] = {objects("mappings", mapping_s, required)};
+static const schema mappings_s(mappings);
+static const field primitive_extensions[] = {object("KHR_materials_variants", mappings_s)};
+static const schema primitive_extensions_s(primitive_extensions);
 static const field primitive[] = {object("attributes", attributes_s, required), index("indices", "accessors"),
-                                  index("material", "materials"), choice("mode", "0 1 2 3 4 5 6")};
+                                  index("material", "materials"), choice("mode", "0 1 2 3 4 5 6"),
+                                  objects("targets", attributes_s), object("extensions", primitive_extensions_s)};
 static const schema primitive_s(primitive);
-static const field mesh[] = {objects("primitives", primitive_s, required), plain("name", kind::text)};
+static const field mesh[] = {objects("primitives", primitive_s, required), numbers("weights", any_length), plain("name", kind::text)};
 static const schema mesh_s(mesh);
 
 static const field node_light[] = {index("light", "lights", required)};
 static const schema node_light_s(node_light);
-static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s)};
+static const field instancing[] = {object("attributes", attributes_s, required)};
+static const schema instancing_s(instancing);
+static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s), object("EXT_mesh_gpu_instancing", instancing_s)};
 static const schema node_extensions_s(node_extensions);
 static const field node[] = {
-    indices("children", "nodes"), index("mesh", "meshes"), index("camera", "cameras"), numbers("matrix", 16),
+    indices("children", "nodes"), index("mesh", "meshes"), index("skin", "skins"), index("camera", "cameras"), numbers("matrix", 16),
+    numbers("weights", any_length),
     numbers("translation", 3), numbers("rotation", 4), numbers("scale", 3), plain("name", kind::text),
     object("extensions", node_extensions_s)};
 static const schema node_s(node);
-static const field scene[] = {indices("nodes", "nodes")};
+static const field scene[] = {indices("nodes", "nodes"), plain("name", kind::text)};
 static const schema scene_s(scene);
+static const field skin[] = {indices("joints", "nodes", required), index("inverseBindMatrices", "accessors")};
+static const schema skin_s(skin);
+
+static const field pointer[] = {plain("pointer", kind::text, required)};
+static const schema pointer_s(pointer);
+static const field target_extensions[] = {object("KHR_animation_pointer", pointer_s)};
+static const schema target_extensions_s(target_extensions);
+static const field target[] = {index("node", "nodes"), plain("path", kind::text, required), object("extensions", target_extensions_s)};
+static const schema target_s(target);
+static const field channel[] = {count("sampler", 0, required, int_count), object("target", target_s, required)};
+static const schema channel_s(channel);
+static const field keyframes[] = {index("input", "accessors", required), index("output", "accessors", required),
+                                  choice("interpolation", "LINEAR STEP CUBICSPLINE")};
+static const schema keyframes_s(keyframes);
+static const field animation[] = {objects("channels", channel_s, required), objects("samplers", keyframes_s, required),
+                                  plain("name", kind::text)};
+static const schema animation_s(animation);
 
 static const field perspective[] = {number("yfov", required), number("aspectRatio")};
 static const schema perspective_s(perspective);
@@ -137,6 +165,16 @@ static const field sheen[] = {numbers("sheenColorFactor", 3), object("sheenColor
 static const schema sheen_s(sheen);
 static const field anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"), object("anisotropyTexture", texture_info_s)};
 static const schema anisotropy_s(anisotropy);
+static const field iridescence[] = {number("iridescenceFactor"), object("iridescenceTexture", texture_info_s), number("iridescenceIor"),
+                                    number("iridescenceThicknessMinimum"), number("iridescenceThicknessMaximum"),
+                                    object("iridescenceThicknessTexture", texture_info_s)};
+static const schema iridescence_s(iridescence);
+static const field diffuse_transmission[] = {number("diffuseTransmissionFactor"), object("diffuseTransmissionTexture", texture_info_s),
+                                             numbers("diffuseTransmissionColorFactor", 3),
+                                             object("diffuseTransmissionColorTexture", texture_info_s)};
+static const schema diffuse_transmission_s(diffuse_transmission);
+static const field dispersion[] = {number("dispersion")};
+static const schema dispersion_s(dispersion);
 static const field nothing[] = {plain("", kind::flag)};
 static const schema nothing_s(nothing);
 static const field material_extensions[] = {object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
@@ -144,7 +182,10 @@ static const field material_extensions[] = {object("KHR_materials_specular", spe
                                             object("KHR_materials_ior", ior_s), object("KHR_materials_transmission", transmission_s),
                                             object("KHR_materials_volume", volume_s),
                                             object("KHR_materials_clearcoat", clearcoat_s), object("KHR_materials_sheen", sheen_s),
-                                            object("KHR_materials_anisotropy", anisotropy_s)};
+                                            object("KHR_materials_anisotropy", anisotropy_s),
+                                            object("KHR_materials_iridescence", iridescence_s),
+                                            object("KHR_materials_diffuse_transmission", diffuse_transmission_s),
+                                            object("KHR_materials_dispersion", dispersion_s)};
 static const schema material_extensions_s(material_extensions);
 static const field material[] = {
     object("pbrMetallicRoughness", metallic_roughness_s), object("normalTexture", texture_info_s),
@@ -160,7 +201,11 @@ static const field light[] = {choice("type", "point spot directional", required)
 static const schema light_s(light);
 static const field lights[] = {objects("lights", light_s, required)};
 static const schema lights_s(lights);
-static const field root_extensions[] = {object("KHR_lights_punctual", lights_s)};
+static const field variant[] = {plain("name", kind::text, required)};
+static const schema variant_s(variant);
+static const field variants[] = {objects("variants", variant_s, required)};
+static const schema variants_s(variants);
+static const field root_extensions[] = {object("KHR_lights_punctual", lights_s), object("KHR_materials_variants", variants_s)};
 static const schema root_extensions_s(root_extensions);
 
 static const field asset[] = {plain("version", kind::text, required), plain("minVersion", kind::text)};
@@ -169,6 +214,7 @@ static const field document[] = {
     object("asset", asset_s, required), plain("extensionsUsed", kind::texts), plain("extensionsRequired", kind::texts),
     object("extensions", root_extensions_s), objects("buffers", buffer_s), objects("bufferViews", view_s),
     objects("accessors", accessor_s), objects("meshes", mesh_s), objects("nodes", node_s), objects("scenes", scene_s),
+    objects("skins", skin_s), objects("animations", animation_s),
     index("scene", "scenes"), objects("cameras", camera_s), objects("images", image_s), objects("textures", texture_s),
     objects("samplers", sampler_s), objects("materials", material_s)};
 const schema document_schema(document);

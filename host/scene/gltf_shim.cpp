@@ -12,9 +12,24 @@ namespace eclat {
 using nlohmann::json;
 
 static const char *const supported_extensions[] = {
-    "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_volume",
-    "KHR_mesh_quantization", "KHR_texture_transform"};
+    "EXT_mesh_gpu_instancing",
+    "KHR_animation_pointer",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform"};
 
 static bool is_supported(const std::string &name)
 {
@@ -78,16 +93,6 @@ static void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
     gltf->extensions_ignored = copy_strings(ignored, &gltf->extension_ignored_count);
 }
 
-/* The members that hold files are taken out of the tree, so that tinygltf has nothing to open. */
-static json take(json &root, const char *key)
-{
-    auto found = root.find(key);
-    if (found == root.end()) return json::array();
-    json taken = std::move(*found); /* embedded buffers are large: no copies */
-    root.erase(found);
-    return taken;
-}
-
 static void check_uris(const json &list, const char *key)
 {
     ec_error err;
@@ -110,7 +115,7 @@ static void load_buffer(ec_gltf_buffer &out, json &in, const std::string &where,
         if (ec_gltf_uri_load(gltf->folder, where.c_str(), uri.c_str(), &out.owned, &available, &err) != EC_OK)
             throw bad_file(err.text);
         out.data = out.owned;
-        in = json();
+        in.erase("uri"); /* embedded buffers are large */
     } else if (&out == gltf->buffers && file.chunk) {
         out.data = file.chunk;
         available = file.chunk_length;
@@ -136,17 +141,9 @@ static void default_member(json &object, const char *name, const json &value)
     if (!object.contains(name)) object[name] = value;
 }
 
-/* tinygltf refuses index accessors without a bufferView (all zeros or sparse), which glTF allows: they get one that
- * does not exist in the file. It also insists on members that eclat has no use for. */
+/* tinygltf insists on members that eclat has no use for. */
 static void pad_for_tinygltf(json &root)
 {
-    json &views = root["bufferViews"];
-    if (views.is_null()) views = json::array();
-    size_t stand_in = views.size();
-    views.push_back({{"buffer", 0}, {"byteLength", 1}});
-    if (root.contains("accessors"))
-        for (json &accessor : root["accessors"])
-            default_member(accessor, "bufferView", stand_in);
     if (root.contains("extensions") && root["extensions"].contains("KHR_lights_punctual"))
         for (json &light : root["extensions"]["KHR_lights_punctual"]["lights"])
             default_member(light, "spot", json::object());
@@ -157,8 +154,11 @@ static void pad_for_tinygltf(json &root)
                     if (camera.contains(kind)) default_member(camera[kind], member, 1);
 }
 
-static void parse_model(json &root, tinygltf::Model &model)
+/* What is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. */
+static void parse_rest(json &root, tinygltf::Model &model)
 {
+    for (const char *done : {"accessors", "animations", "buffers", "bufferViews", "images", "meshes", "nodes", "scene", "scenes", "skins"})
+        root.erase(done);
     pad_for_tinygltf(root);
     std::string text = root.dump(), error, warning;
     root = json();
@@ -169,18 +169,13 @@ static void parse_model(json &root, tinygltf::Model &model)
     throw bad_file("tinygltf: " + (error.empty() ? "cannot read the document" : error));
 }
 
-static void warn_of_rest_pose(const json &animations, const json &skins, bool morphs, ec_gltf *gltf, const ec_log *log)
+static void check_views(const ec_gltf *gltf)
 {
-    std::set<std::string> what;
-    if (!animations.empty()) what.insert("animations");
-    if (!skins.empty()) what.insert("skins");
-    if (morphs) what.insert("morph targets");
-    if (!what.empty())
-        ec_warn(log, "%s: %s are not supported yet; the meshes are shown as stored", gltf->path,
-                comma_list(what).c_str());
+    ec_error err;
+    if (ec_gltf_check_views(gltf, &err) != EC_OK) throw bad_file(err.text);
 }
 
-static void read_document(ec_gltf *gltf, uint64_t length, const ec_log *log)
+static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice *choice, const ec_log *log)
 {
     container file = parse_container(gltf->file, length);
     json &root = file.root;
@@ -191,33 +186,32 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_log *log)
     check_version(root);
     check_extensions(root, gltf, log);
     check_document(root, gltf->path, log);
-    json animations = take(root, "animations"), skins = take(root, "skins");
-    json images = take(root, "images"), buffers = take(root, "buffers");
-    check_uris(buffers, "buffers");
-    check_uris(images, "images");
-    load_buffers(buffers, file, gltf);
-    convert_images(images, gltf);
-    images = json();
-    size_t view_count = root.contains("bufferViews") ? root["bufferViews"].size() : 0;
+    check_uris(list_of(root, "buffers"), "buffers");
+    check_uris(list_of(root, "images"), "images");
+    if (root.contains("buffers")) load_buffers(root["buffers"], file, gltf);
+    convert_images(list_of(root, "images"), gltf);
+    convert_views(list_of(root, "bufferViews"), gltf);
+    convert_accessors(list_of(root, "accessors"), gltf);
+    check_views(gltf);
+    choose_scene(root, choice, gltf);
+    choose_variant(root, choice, gltf);
+    if (choose_moment(root, choice, gltf, log)) check_document(root, gltf->path, log);
+    convert_meshes(list_of(root, "meshes"), gltf);
+    convert_skins(list_of(root, "skins"), gltf);
+    convert_nodes(list_of(root, "nodes"), gltf);
+    set_roots(root, gltf);
 
     tinygltf::Model model;
-    parse_model(root, model);
-    bool morphs = false;
-    convert_views(model, view_count, gltf);
-    convert_accessors(model, gltf);
-    convert_meshes(model, gltf, morphs);
-    convert_nodes(model, gltf);
-    set_roots(model, gltf);
+    parse_rest(root, model);
     convert_cameras(model, gltf, log);
     convert_lights(model, gltf);
     convert_textures(model, gltf);
     convert_materials(model, gltf, log);
-    warn_of_rest_pose(animations, skins, morphs, gltf, log);
 }
 
 } // namespace eclat
 
-extern "C" ec_result ec_gltf_read(const char *path, ec_gltf **result, const ec_log *log, ec_error *err)
+extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **result, const ec_log *log, ec_error *err)
 {
     using namespace eclat;
     *result = nullptr;
@@ -232,7 +226,7 @@ extern "C" ec_result ec_gltf_read(const char *path, ec_gltf **result, const ec_l
         uint64_t length;
         ec_result loaded = ec_gltf_file_load(path, &gltf->file, &length, err);
         if (loaded != EC_OK) return loaded;
-        read_document(gltf.get(), length, log);
+        read_document(gltf.get(), length, choice, log);
     } catch (const std::bad_alloc &) {
         return ec_fail(err, "%s: out of memory", path);
     } catch (const std::exception &e) {
@@ -240,8 +234,6 @@ extern "C" ec_result ec_gltf_read(const char *path, ec_gltf **result, const ec_l
     } catch (...) {
         return ec_fail(err, "%s: cannot be read", path);
     }
-    ec_result checked = ec_gltf_check_views(gltf.get(), err);
-    if (checked != EC_OK) return checked;
     *result = gltf.release();
     return EC_OK;
 }

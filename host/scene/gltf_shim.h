@@ -30,13 +30,28 @@ container parse_container(const uint8_t *bytes, uint64_t length);
  * warns about (an unknown filter, say). */
 void check_document(nlohmann::json &root, const char *path, const ec_log *log);
 
-/* gltf_convert.cpp; view_count: the views that are the file's own, see pad_for_tinygltf */
+/* gltf_geometry.cpp: lists of the checked tree */
+const nlohmann::json &list_of(const nlohmann::json &object, const char *key); /* empty where there is none */
+const nlohmann::json *find_extension(const nlohmann::json &object, const char *name);
+void convert_views(const nlohmann::json &list, ec_gltf *gltf);
+void convert_accessors(const nlohmann::json &list, ec_gltf *gltf);
+void convert_meshes(const nlohmann::json &list, ec_gltf *gltf);
+void convert_skins(const nlohmann::json &list, ec_gltf *gltf);
+void convert_nodes(const nlohmann::json &list, ec_gltf *gltf);
+void set_roots(const nlohmann::json &root, ec_gltf *gltf);
+
+/* gltf_choice.cpp: what was chosen among scenes and variants is written into the tree, so that what follows sees a file with
+ * nothing to choose. Lists the names too. */
+void list_names(const nlohmann::json &list, ec_scene_names *out);
+uint32_t find_choice(const ec_scene_names *names, const char *what, const char *wanted);
+void choose_scene(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
+void choose_variant(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
+
+/* gltf_animation.cpp: likewise a moment of an animation. true: the tree has changed and is to be checked again. */
+bool choose_moment(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log);
+
+/* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);
-void convert_views(const tinygltf::Model &model, size_t view_count, ec_gltf *gltf);
-void convert_accessors(const tinygltf::Model &model, ec_gltf *gltf);
-void convert_meshes(const tinygltf::Model &model, ec_gltf *gltf, bool &morphs);
-void convert_nodes(const tinygltf::Model &model, ec_gltf *gltf);
-void set_roots(const tinygltf::Model &model, ec_gltf *gltf);
 void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
 void convert_lights(const tinygltf::Model &model, ec_gltf *gltf);
 

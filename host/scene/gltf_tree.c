@@ -49,10 +49,8 @@ static ec_result check_cycles(const ec_gltf *g, const int32_t *parent, uint32_t 
     return EC_OK;
 }
 
-static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec_placement *out)
+void ec_placement_compose(const ec_placement *parent, const double m[16], ec_placement *out)
 {
-    const double *m = g->nodes[node].local;
-    out->node = node;
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++) {
             double sum = 0;
@@ -63,6 +61,12 @@ static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec
         for (int k = 0; k < 3; k++) origin += (parent ? parent->linear[3 * row + k] : row == k) * m[12 + k];
         out->origin[row] = origin;
     }
+}
+
+static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec_placement *out)
+{
+    *out = (ec_placement){.node = node, .mesh = g->nodes[node].mesh};
+    ec_placement_compose(parent, g->nodes[node].local, out);
 }
 
 static ec_result walk(const ec_gltf *g, bool *visited, ec_placement_list *list, ec_error *err)
@@ -94,6 +98,7 @@ ec_result ec_gltf_place_nodes(const ec_gltf *g, ec_placement_list *list, ec_erro
     uint32_t *seen_from = calloc(count, sizeof *seen_from);
     bool *visited = calloc(count, sizeof *visited);
     list->count = 0;
+    list->room = (uint32_t)count;
     list->items = malloc(count * sizeof *list->items);
     if (!parent || !seen_from || !visited || !list->items) {
         ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
@@ -111,6 +116,36 @@ cleanup:
         *list = (ec_placement_list){0};
     }
     return result;
+}
+
+ec_result ec_placement_append(ec_placement_list *list, const ec_placement *placement, ec_error *err)
+{
+    ec_placement copy = *placement; /* may be one of the items */
+    if (list->count == list->room) {
+        size_t room = 2 * (size_t)list->room + 8;
+        ec_placement *grown = room <= INT32_MAX ? realloc(list->items, room * sizeof *grown) : NULL;
+        if (!grown) return ec_fail(err, "out of memory for more than %u instances", list->count);
+        list->items = grown;
+        list->room = (uint32_t)room;
+    }
+    list->items[list->count++] = copy;
+    return EC_OK;
+}
+
+void ec_gltf_compose(const double t[3], const double q[4], const double s[3], double m[16])
+{
+    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    double x = 0, y = 0, z = 0, w = 1;
+    if (length > 0) x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
+    const double r[9] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w),
+                         2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w),
+                         2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
+    memset(m, 0, 16 * sizeof *m);
+    for (int column = 0; column < 3; column++) {
+        for (int row = 0; row < 3; row++) m[4 * column + row] = r[3 * column + row] * s[column];
+        m[12 + column] = t[column];
+    }
+    m[15] = 1;
 }
 
 double ec_gltf_determinant(const double m[9])

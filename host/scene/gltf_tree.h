@@ -7,17 +7,28 @@
 /* A node's place: world = linear x local + origin, in double. */
 typedef struct ec_placement {
     int32_t node;
+    int32_t mesh; /* what stands there: the node's, or a deformed copy; -1: none */
     double linear[9]; /* row major */
     double origin[3];
+    bool extra; /* a mesh that stands elsewhere than its node: no camera, no light */
 } ec_placement;
 
 typedef struct ec_placement_list {
     ec_placement *items;
-    uint32_t count;
+    uint32_t count, room;
 } ec_placement_list;
 
 /* Every node of the default scene, parents before children. A node with two parents or inside a cycle is an error. */
 ec_result ec_gltf_place_nodes(const ec_gltf *gltf, ec_placement_list *placements, ec_error *err);
+
+/* instances.c: where a node has instances, they stand in its place. */
+ec_result ec_gltf_place_instances(ec_gltf *gltf, ec_placement_list *placements, const ec_log *log, ec_error *err);
+
+/* What stands at `local` (column major, as in the file) in the frame of `parent`; NULL: in the world. The rest of *out stays. */
+void ec_placement_compose(const ec_placement *parent, const double local[16], ec_placement *out);
+
+/* One more at the end. Items may move. */
+ec_result ec_placement_append(ec_placement_list *placements, const ec_placement *placement, ec_error *err);
 
 /* The inverse transpose up to a positive factor, also for singular matrices: turns normals. Row major. */
 void ec_gltf_normal_matrix(const double linear[9], double out[9]);

@@ -1,60 +1,64 @@
-/* The arithmetic of kernels/lib/instance.h, one corner at a time. */
-#include "scene/instances.h"
+/* EXT_mesh_gpu_instancing: a node's mesh at many places, each given by translation, rotation and scale in the node's frame. */
+#include <stdio.h>
 
-#include <float.h>
-#include <math.h>
+#include "scene/gltf_tree.h"
 
-static float row(const float *m, const float v[3], float last)
+static ec_result open_attribute(ec_gltf *g, int32_t node, int32_t accessor, const char *name, uint32_t components, uint64_t *count, ec_error *err)
 {
-    return fmaf(m[0], v[0], fmaf(m[1], v[1], fmaf(m[2], v[2], last)));
+    char what[96];
+    if (accessor < 0) return EC_OK;
+    snprintf(what, sizeof what, "nodes[%d] EXT_mesh_gpu_instancing %s", node, name);
+    EC_TRY(ec_gltf_accessor_open(g, accessor, what, err));
+    const ec_gltf_accessor *a = &g->accessors[accessor];
+    if (a->components != components || !(a->component_type == EC_GLTF_FLOAT || a->normalized))
+        return ec_fail(err, "%s: %s: accessors[%d] must hold vectors of %u floats or normalised integers", g->path, what, accessor, components);
+    if (a->view < 0) /* a few bytes could claim any number of them */
+        return ec_fail(err, "%s: %s: accessors[%d] has no bufferView", g->path, what, accessor);
+    if (*count && *count != a->count)
+        return ec_fail(err, "%s: %s: accessors[%d] has %llu elements, another attribute %llu", g->path, what, accessor,
+                       (unsigned long long)a->count, (unsigned long long)*count);
+    *count = a->count;
+    return EC_OK;
 }
 
-void ec_placed_point(const ec_placed *p, const float point[3], float out[3])
+static void read(const ec_gltf *g, int32_t accessor, uint64_t i, uint32_t count, double *out)
 {
-    for (int k = 0; k < 3; k++) out[k] = row(p->place[k], point, p->place[k][3]);
+    float values[4];
+    if (accessor < 0) return;
+    ec_gltf_accessor_floats(&g->accessors[accessor], i, count, values);
+    for (uint32_t k = 0; k < count; k++) out[k] = (double)values[k];
 }
 
-static float direction_row(const float *m, const float v[3])
+static ec_result place(ec_gltf *g, uint32_t index, ec_placement_list *placements, ec_error *err)
 {
-    return fmaf(m[0], v[0], fmaf(m[1], v[1], m[2] * v[2]));
-}
-
-static void normalize(float v[3])
-{
-    float length2 = fmaf(v[0], v[0], fmaf(v[1], v[1], v[2] * v[2]));
-    float scale = length2 > 0.0f ? 1.0f / sqrtf(length2) : 0.0f;
-    for (int k = 0; k < 3; k++) v[k] *= scale;
-}
-
-void ec_placed_normal(const ec_placed *p, const float normal[3], float out[3])
-{
-    for (int k = 0; k < 3; k++) out[k] = direction_row(p->normal[k], normal);
-    normalize(out);
-}
-
-void ec_placed_tangent(const ec_placed *p, const float tangent[4], float out[4])
-{
-    for (int k = 0; k < 3; k++) out[k] = direction_row(p->place[k], tangent);
-    normalize(out);
-    out[3] = p->mirrored ? -tangent[3] : tangent[3];
-}
-
-static float product_difference(float a, float b, float c, float d)
-{
-    float cd = c * d;
-    return fmaf(a, b, -cd) - fmaf(c, d, -cd);
-}
-
-bool ec_placed_is_flat(const float a[3], const float b[3], const float c[3])
-{
-    float u[3], v[3], most = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        u[k] = b[k] - a[k];
-        v[k] = c[k] - a[k];
+    const ec_placement node = placements->items[index];
+    const ec_gltf_instancing *of = &g->nodes[node.node].instances;
+    uint64_t count = 0;
+    EC_TRY(open_attribute(g, node.node, of->translation, "TRANSLATION", 3, &count, err));
+    EC_TRY(open_attribute(g, node.node, of->rotation, "ROTATION", 4, &count, err));
+    EC_TRY(open_attribute(g, node.node, of->scale, "SCALE", 3, &count, err));
+    placements->items[index].mesh = -1;
+    for (uint64_t i = 0; i < count; i++) {
+        double translation[3] = {0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1}, local[16];
+        ec_placement at = {.node = node.node, .mesh = node.mesh, .extra = true};
+        read(g, of->translation, i, 3, translation);
+        read(g, of->rotation, i, 4, rotation);
+        read(g, of->scale, i, 3, scale);
+        ec_gltf_compose(translation, rotation, scale, local);
+        ec_placement_compose(&node, local, &at);
+        EC_TRY(ec_placement_append(placements, &at, err));
     }
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        most = fmaxf(most, fabsf(product_difference(u[i], v[j], u[j], v[i])));
+    return EC_OK;
+}
+
+ec_result ec_gltf_place_instances(ec_gltf *g, ec_placement_list *placements, const ec_log *log, ec_error *err)
+{
+    uint32_t count = placements->count;
+    for (uint32_t i = 0; i < count; i++) {
+        const ec_gltf_node *node = &g->nodes[placements->items[i].node];
+        if (!node->instances.used || node->mesh < 0) continue;
+        if (node->skin >= 0) ec_warn(log, "%s: nodes[%d] has a skin, which stands at one place; its instances are left out", g->path, placements->items[i].node);
+        else EC_TRY(place(g, i, placements, err));
     }
-    return !(most >= FLT_MIN);
+    return EC_OK;
 }

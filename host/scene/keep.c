@@ -37,7 +37,7 @@ static void span_mesh(const ec_gltf *g, ec_kept_mesh *m)
             double corner[3][3];
             ec_gltf_primitive_triangle(g, p, t, v);
             for (int c = 0; c < 3; c++) {
-                ec_gltf_accessor_floats(&g->accessors[p->position], v[c], 3, at);
+                ec_gltf_accessor_floats(&g->accessors[p->streams.position], v[c], 3, at);
                 for (int k = 0; k < 3; k++) corner[c][k] = at[k];
             }
             if (!ec_is_placeable((const double(*)[3])corner)) continue;
@@ -85,7 +85,7 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
         goto cleanup;
     }
     for (uint32_t i = 0; i < k->placements->count; i++) {
-        int32_t mesh = g->nodes[k->placements->items[i].node].mesh;
+        int32_t mesh = k->placements->items[i].mesh;
         if (mesh >= 0) uses[mesh]++;
     }
     for (uint32_t mesh = 0; mesh < g->mesh_count; mesh++) {
@@ -97,7 +97,7 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
         if (m->low[0] <= m->high[0]) index[mesh] = (int32_t)k->mesh_count++;
     }
     for (uint32_t i = 0; i < k->placements->count; i++) {
-        int32_t mesh = g->nodes[k->placements->items[i].node].mesh, c = mesh >= 0 ? index[mesh] : -1;
+        int32_t mesh = k->placements->items[i].mesh, c = mesh >= 0 ? index[mesh] : -1;
         k->candidate[i] = c >= 0 && fits(&k->placements->items[i], &k->meshes[c]) ? c : -1;
         if (k->candidate[i] >= 0) k->meshes[c].places++;
     }
@@ -113,7 +113,7 @@ static bool is_worth_it(const ec_keeping *k)
 {
     uint64_t all = 0, saved = 0;
     for (uint32_t i = 0; i < k->placements->count; i++) {
-        int32_t mesh = k->g->nodes[k->placements->items[i].node].mesh;
+        int32_t mesh = k->placements->items[i].mesh;
         for (uint32_t p = 0; mesh >= 0 && p < k->g->meshes[mesh].primitive_count; p++)
             if (k->g->meshes[mesh].primitives[p].drawn) all += k->g->meshes[mesh].primitives[p].triangle_count;
     }

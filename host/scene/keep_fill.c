@@ -39,7 +39,7 @@ static void gather(const ec_gltf *g, const ec_gltf_primitive *p, bool *seen, poi
         double corner[3][3];
         ec_gltf_primitive_triangle(g, p, t, v);
         for (int c = 0; c < 3; c++) {
-            ec_gltf_accessor_floats(&g->accessors[p->position], v[c], 3, at[c]);
+            ec_gltf_accessor_floats(&g->accessors[p->streams.position], v[c], 3, at[c]);
             for (int i = 0; i < 3; i++) corner[c][i] = at[c][i];
         }
         if (!ec_is_placeable((const double(*)[3])corner)) continue;

@@ -13,13 +13,16 @@ static void take_facts(ec_gltf *g, ec_scene *s)
     s->extension_count = g->extension_count;
     s->extensions_ignored = g->extensions_ignored;
     s->extension_ignored_count = g->extension_ignored_count;
+    s->contents = g->contents;
     g->extensions_used = g->extensions_ignored = NULL;
+    g->contents = (ec_scene_contents){0};
 }
 
-static ec_result build(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
+static ec_result build(ec_gltf *g, ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
     take_facts(g, s);
     EC_TRY(ec_flatten_prepare(g, placements, s, log, err));
+    EC_TRY(ec_gltf_deform(g, placements, err));
     EC_TRY(ec_gltf_materials_assign(g, s, log, err));
     EC_TRY(ec_flatten(g, placements, s, log, err));
     EC_TRY(ec_gltf_textures_load(g, s, log, err));
@@ -39,6 +42,7 @@ ec_result ec_scene_from_gltf(ec_gltf *gltf, ec_scene **scene, const ec_log *log,
     *scene = NULL;
     if (!s) return ec_fail(err, "%s: out of memory", gltf->path);
     EC_TRY_CLEANUP(ec_gltf_place_nodes(gltf, &placements, err));
+    EC_TRY_CLEANUP(ec_gltf_place_instances(gltf, &placements, log, err));
     EC_TRY_CLEANUP(build(gltf, &placements, s, log, err));
     *scene = s;
     s = NULL;
@@ -48,18 +52,18 @@ cleanup:
     return result;
 }
 
-ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err)
-{
-    return ec_scene_load_with(path, &(ec_scene_options){0}, scene, log, err);
-}
-
-ec_result ec_scene_load_with(const char *path, const ec_scene_options *options, ec_scene **scene, const ec_log *log, ec_error *err)
+ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err)
 {
     ec_gltf *gltf = NULL;
     *scene = NULL;
-    ec_result result = ec_gltf_read(path, &gltf, log, err);
-    if (gltf) gltf->instancing = options->instancing;
+    ec_result result = ec_gltf_read(path, choice, &gltf, log, err);
+    if (gltf) gltf->instancing = choice->instancing;
     if (result == EC_OK) result = ec_scene_from_gltf(gltf, scene, log, err);
     ec_gltf_free(gltf);
     return result;
+}
+
+ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err)
+{
+    return ec_scene_load_choice(path, &(ec_scene_choice){0}, scene, log, err);
 }

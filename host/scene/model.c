@@ -72,7 +72,7 @@ void ec_model_place(ec_model *m, const double matrix[16])
 /* A node with `local` (NULL: none of its own) below the place of now. */
 static void add_node(ec_model *m, const double *local, int32_t mesh, int32_t camera, int32_t light)
 {
-    ec_gltf_node node = {.mesh = mesh, .camera = camera, .light = light};
+    ec_gltf_node node = {.mesh = mesh, .skin = -1, .camera = camera, .light = light};
     const double *inner = local ? local : identity;
     for (int column = 0; column < 4; column++)
         for (int row = 0; row < 4; row++)
@@ -108,11 +108,11 @@ static int32_t add_accessor(ec_model *m, const void *data, uint64_t count, uint3
 
 void ec_model_add(ec_model *m, int32_t material, const ec_model_mesh *mesh)
 {
-    ec_gltf_primitive primitive = {.mode = EC_GLTF_TRIANGLES, .material = material, .color = -1, .uv = {-1, -1}};
-    primitive.position = add_accessor(m, mesh->positions, mesh->vertex_count, 3, EC_GLTF_FLOAT);
-    primitive.normal = add_accessor(m, mesh->normals, mesh->vertex_count, 3, EC_GLTF_FLOAT);
-    primitive.tangent = add_accessor(m, mesh->tangents, mesh->vertex_count, 4, EC_GLTF_FLOAT);
-    primitive.uv[0] = add_accessor(m, mesh->uv, mesh->vertex_count, 2, EC_GLTF_FLOAT);
+    ec_gltf_primitive primitive = {.mode = EC_GLTF_TRIANGLES, .material = material, .streams = {.color = -1, .uv = {-1, -1}}};
+    primitive.streams.position = add_accessor(m, mesh->positions, mesh->vertex_count, 3, EC_GLTF_FLOAT);
+    primitive.streams.normal = add_accessor(m, mesh->normals, mesh->vertex_count, 3, EC_GLTF_FLOAT);
+    primitive.streams.tangent = add_accessor(m, mesh->tangents, mesh->vertex_count, 4, EC_GLTF_FLOAT);
+    primitive.streams.uv[0] = add_accessor(m, mesh->uv, mesh->vertex_count, 2, EC_GLTF_FLOAT);
     primitive.indices = add_accessor(m, mesh->indices, mesh->index_count, 1, EC_GLTF_UINT);
     ec_gltf_mesh one = {.primitives = malloc(sizeof primitive), .primitive_count = 1};
     if (!one.primitives || m->failed || !APPEND(m, meshes, mesh, one)) {

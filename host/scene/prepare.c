@@ -17,7 +17,7 @@ static ec_result prepare_mesh(ec_gltf *g, int32_t index, tally *skipped, ec_erro
         else snprintf(where, sizeof where, "meshes[%d].primitives[%u]", index, k);
         EC_TRY(ec_gltf_primitive_prepare(g, p, where, err));
         if (p->mode < EC_GLTF_TRIANGLES) skipped->not_triangles++;
-        else if (p->position < 0) skipped->no_positions++;
+        else if (p->streams.position < 0) skipped->no_positions++;
     }
     return EC_OK;
 }
@@ -27,7 +27,7 @@ ec_result ec_flatten_prepare(ec_gltf *g, const ec_placement_list *placements, ec
 {
     tally skipped = {0};
     for (uint32_t i = 0; i < placements->count; i++) {
-        int32_t mesh = g->nodes[placements->items[i].node].mesh;
+        int32_t mesh = placements->items[i].mesh;
         if (mesh < 0) continue;
         scene->instance_count++;
         EC_TRY(prepare_mesh(g, mesh, &skipped, err));

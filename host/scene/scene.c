@@ -37,6 +37,7 @@ void ec_scene_free(ec_scene *s)
     free(s->environment.rgb);
     free_strings(s->extensions_used, s->extension_count);
     free_strings(s->extensions_ignored, s->extension_ignored_count);
+    ec_scene_contents_free(&s->contents);
     free(s);
 }
 

@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
-#include "scene/instances.h"
+#include "scene/placed.h"
 #include "shared/texture_slots.h"
 
 /* Decoded pixels, row 0 at the top (glTF's v = 0), always four channels. Exactly one of the two is set. */
@@ -47,12 +47,16 @@ typedef struct ec_material {
     float specular;            /* KHR_materials_specular; 1 where absent */
     float specular_color[3];   /* likewise; 1 where absent; may exceed 1 */
     float ior;                 /* KHR_materials_ior; 1.5 where absent; 0: reflects all, as that extension says */
+    float dispersion;          /* KHR_materials_dispersion, 20 / Abbe number; 0 where absent */
     float transmission;        /* KHR_materials_transmission; 0 where absent */
     bool volume;               /* KHR_materials_volume with a thickness: bounds a body that refracts; else thin-walled */
     float absorption[3];       /* 1/m: -ln attenuationColor / attenuationDistance; 0 where nothing is absorbed */
     float coat, coat_roughness; /* KHR_materials_clearcoat; 0 where absent */
     float coat_normal_scale;
     float anisotropy, anisotropy_rotation; /* KHR_materials_anisotropy; 0 where absent; radians from the tangent */
+    float seeps, below[3];     /* KHR_materials_diffuse_transmission: share of diffuse light, 0 where absent; its colour */
+    float film, film_ior;      /* KHR_materials_iridescence; 0 where absent */
+    float film_least, film_most; /* thickness in nanometres where its texture is 0, and where it is 1 */
     float sheen[3], sheen_roughness; /* KHR_materials_sheen; 0 where absent */
     float alpha_cutoff;
     ec_alpha_mode alpha_mode;
@@ -63,6 +67,8 @@ typedef struct ec_material {
 } ec_material;
 /* Does light bend at it? Else it is thin-walled or opaque. */
 static inline bool ec_refracts(const ec_material *m) { return m->transmission > 0 && m->volume && m->ior > 0; }
+/* Is what light seeps into a body, too? */
+static inline bool ec_bounds(const ec_material *m) { return m->seeps > 0 && m->volume; }
 
 /* KHR_lights_punctual, in the scene's recentred frame. 1 cd is taken as 1 W/sr, 1 lx as 1 W/m^2. */
 typedef enum ec_light_type { EC_LIGHT_POINT, EC_LIGHT_SPOT, EC_LIGHT_DIRECTIONAL } ec_light_type;
@@ -94,7 +100,24 @@ typedef struct ec_environment {
     uint32_t width, height;
     float *rgb;           /* 3 * width * height, linear, finite and >= 0, owned */
     float constant[3];
+    bool turned;          /* by turn, row major: directions of the map, as above, to those of the scene */
+    float turn[9];
 } ec_environment;
+
+/* Among what a file lets one choose. All owned; a name may be NULL. */
+typedef struct ec_scene_names {
+    char **names;
+    uint32_t count;
+} ec_scene_names;
+typedef struct ec_scene_contents {
+    ec_scene_names scenes, variants, animations;
+    uint32_t scene;        /* the one that is shown */
+    double *seconds;       /* how long each animation is; NaN: the file does not say */
+} ec_scene_contents;
+void ec_scene_contents_free(ec_scene_contents *contents);
+
+/* Which one is `wanted`: by name, else by index. `what` is for the message, which lists what there is. */
+ec_result ec_scene_names_find(const ec_scene_names *names, const char *what, const char *wanted, uint32_t *index, ec_error *err);
 
 typedef struct ec_scene {
     /* Vertices; optional streams are NULL where no primitive has them. A vertex without a normal or tangent has
@@ -138,17 +161,23 @@ typedef struct ec_scene {
     uint32_t extension_count;
     char **extensions_ignored;     /* used by the file, not supported here; owned strings */
     uint32_t extension_ignored_count;
+    ec_scene_contents contents;
 } ec_scene;
 
-typedef struct ec_scene_options {
-    ec_instancing instancing;
-} ec_scene_options;
+/* What of a file is wanted, where there is a choice. Names or indices; NULL and false: what the file shows by default. */
+typedef struct ec_scene_choice {
+    const char *scene, *variant;
+    const char *animation;     /* also "all"; NULL: the first */
+    double at;                 /* seconds into it */
+    bool animated;             /* false: everything as it is stored */
+    ec_instancing instancing;  /* which meshes are kept once */
+} ec_scene_choice;
 
-/* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. The file's own default
- * scene is taken. Adds a framing camera where there is none (noted in log). Environment and light fall-backs are the
- * caller's (see ec_scene_set_environment, ec_scene_has_light). Owned by the caller: ec_scene_free. */
+/* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. Adds a framing camera where
+ * there is none (noted in log). Environment and light fall-backs are the caller's (see ec_scene_set_environment,
+ * ec_scene_has_light). Owned by the caller: ec_scene_free. */
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
-ec_result ec_scene_load_with(const char *path, const ec_scene_options *options, ec_scene **scene, const ec_log *log, ec_error *err);
+ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
 
 /* Triangles that stand in the world as they are stored: those before the shapes'. */
@@ -171,6 +200,10 @@ bool ec_scene_has_light(const ec_scene *scene);
 /* Replaces the environment. spec is a file (.hdr, .exr; equirectangular) or "R,G,B". Non-finite and negative values
  * are set to 0, those above EC_RADIANCE_MOST to that; a warning counts them. */
 ec_result ec_scene_set_environment(ec_scene *scene, const char *spec, const ec_log *log, ec_error *err);
+
+/* Makes the environment so many times as bright (none at all at 0), and turns it about +y, counter-clockwise seen from above. There
+ * must be one. */
+void ec_scene_adjust_environment(ec_scene *scene, double degrees, double strength, const ec_log *log);
 
 /* Camera by name, else by index; failure lists what there is. */
 ec_result ec_scene_find_camera(const ec_scene *scene, const char *name_or_index, uint32_t *camera, ec_error *err);

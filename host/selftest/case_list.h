@@ -40,8 +40,10 @@
     CASE("lights/many", false, ec_selftest_many_lamps, "tables of lights whose probabilities are not those sampled")               \
     CASE("lights/occlusion", false, ec_selftest_occlusion, "shadow rays that miss a wall (ambient occlusion, closed form)")        \
     CASE("lights/punctual", false, ec_selftest_punctual, "units of glTF's lights")                                                 \
+    CASE("camera/lens", false, ec_selftest_lens, "blur of another width than the thin lens's")                                    \
     CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")             \
     CASE("scatter/fresnel", false, ec_selftest_fresnel, "black or bright rims where total reflection sets in")                     \
+    CASE("scatter/film", false, ec_selftest_film, "rainbows on films of nothing; black or bright rims")                            \
     CASE("scatter/ggx", false, ec_selftest_ggx, "narrow lobes from 1 - cos^2: no digit is left at roughness 0.01 (NUMERICS)")      \
     CASE("scatter/chi-square", false, ec_selftest_chi_square, "sampled otherwise than divided by")                                 \
     CASE("scatter/energy", false, ec_selftest_energy, "materials that glow")                                                       \

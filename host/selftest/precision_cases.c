@@ -42,6 +42,9 @@ const ec_precision_case ec_precision_cases[] = {
     {"ggx_lambda", "ggx_lambda", "ggx.h", ec_inputs_half_vector, 15, BIT(14), 0, 5, {EACH("lambda", 0, 1)}},
     {"coat_over", "coat_over", "coat.h", ec_inputs_opaque, 15, BIT(14), 0, 32, {EACH("f cos", 0, 1), EACH("pdf", 1, 1)}},
     {"sheen_over", "sheen_over", "sheen.h", ec_inputs_opaque, 15, BIT(14), 0, 60, {EACH("f cos", 0, 3), EACH("pdf", 3, 1), EACH("E", 4, 1)}},
+    {"bsdf_eval_seeping", "bsdf_eval_seeping", "bsdf.h", ec_inputs_thin, 15, BIT(14), 0, 24, {SCALED("f cos", 0, 4)}},
+    {"dispersed_index", "dispersed_index", "dispersion.h", ec_inputs_dispersion, 2, 0, 0, 6, {EACH("n_C, n_F", 0, 2)}},
+    {"film_reflectance", "film_reflectance", "iridescence.h", ec_inputs_film, 6, BIT(5), 0, 60, {SCALED("F", 0, 3)}},
     {"bsdf_eval, opaque", "bsdf_eval", "bsdf.h", ec_inputs_opaque, 15, BIT(14), 0, 24, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
     {"bsdf_eval, into glass", "bsdf_eval", "bsdf.h", ec_inputs_into_glass, 15, 0, 0, 40, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
     {"bsdf_eval, off glass", "bsdf_eval", "bsdf.h", ec_inputs_off_glass, 15, 0, 0, 40, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
@@ -71,8 +74,8 @@ const ec_precision_case ec_precision_cases[] = {
     {"light_sample_punctual", "light_sample_punctual", "light.h", ec_inputs_spot, 19, BIT(15) | BIT(16), 0, 16, {VECTOR("wi", 0), EACH("irradiance", 3, 3)}},
     {"environment_uv", "environment_uv", "environment.h", ec_inputs_direction, 3, 0, 0, 12, {SCALED("u", 0, 1), EACH("v", 2, 1)}},
     {"environment_look_up", "environment_look_up", "environment.h", ec_inputs_direction, 3, 0, 0, 32, {VECTOR("radiance", 0), EACH("pdf", 3, 1)}},
-    {"environment_sample", "environment_sample", "environment.h", ec_inputs_sample, 3, BIT(0), BIT(1), 32, {VECTOR("wi", 0), VECTOR("radiance", 3), EACH("pdf", 6, 1)}},
-    {"environment_sample, constant", "environment_sample_constant", "environment.h", ec_inputs_sample, 3, BIT(0), BIT(1), 8, {EACH("wi", 0, 3)}},
+    {"environment_sample", "environment_sample", "environment.h", ec_inputs_sample, 2, BIT(0) | BIT(1), 0, 32, {VECTOR("wi", 0), VECTOR("radiance", 3), EACH("pdf", 6, 1)}},
+    {"environment_sample, constant", "environment_sample_constant", "environment.h", ec_inputs_sample, 2, BIT(0) | BIT(1), 0, 8, {EACH("wi", 0, 3)}},
 
     {"texture_sample", "texture_sample", "texture.h", ec_inputs_texture, 3, BIT(0), 0, 8, {VECTOR("rgb", 0)}},
     {"camera_sample", "camera_sample", "camera.h", ec_inputs_slot, 1, BIT(0), 0, 4, {SCALED("place in the picture", 0, 2)}},
@@ -99,6 +102,14 @@ static void put_material(float *memory, uint32_t id, int32_t normal_map)
     material[EC_MATERIAL_NORMAL_SCALE] = 1;
 }
 
+static void put_even_table(float *entries, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        entries[2 * i] = ec_float_of_bits((uint32_t)(((uint64_t)i << 32) / n));
+        entries[2 * i + 1] = ec_float_of_bits(i);
+    }
+}
+
 void ec_precision_fill(float *memory, ec_params *params)
 {
     uint64_t random = 1;
@@ -106,9 +117,10 @@ void ec_precision_fill(float *memory, ec_params *params)
     for (uint32_t i = 0; i < texels; i++) {
         for (int k = 0; k < 3; k++) memory[EC_PRECISION_MAP + 4 * i + k] = (float)ec_random_between(&random, 1, 2);
         memory[EC_PRECISION_MAP + 4 * i + 3] = 1.0f / (float)texels; /* alike, so that no density jumps between texels */
-        memory[EC_PRECISION_ALIAS + 2 * i] = ec_float_of_bits(0xffffffffu);
-        memory[EC_PRECISION_ALIAS + 2 * i + 1] = ec_float_of_bits(i);
     }
+    put_even_table(memory + EC_PRECISION_TABLE, EC_PRECISION_MAP_HEIGHT);
+    for (uint32_t y = 0; y < EC_PRECISION_MAP_HEIGHT; y++)
+        put_even_table(memory + EC_PRECISION_TABLE + 2 * (EC_PRECISION_MAP_HEIGHT + y * EC_PRECISION_MAP_WIDTH), EC_PRECISION_MAP_WIDTH);
     for (uint32_t id = 0; id < 3; id++) put_texture(memory, id, id);
     for (uint32_t i = 0; i < 4 * EC_PRECISION_TEXTURE_SIZE * EC_PRECISION_TEXTURE_SIZE; i++) {
         double is_z = i % 4 == 2; /* a normal map of moderate slopes */

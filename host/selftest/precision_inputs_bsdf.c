@@ -150,6 +150,25 @@ void ec_inputs_smooth_glass(uint64_t *random, float *x)
     ec_put(x + WO, wo);
 }
 
+/* Films from thinner than light's wavelengths to where no colour is left, on metals and dielectrics, on glass from both sides. */
+void ec_inputs_film(uint64_t *random, float *x)
+{
+    bool refracts = ec_random_unit(random) < 0.5;
+    double eta = refracts ? draw_eta(random, 1e-2) : 1, r = (eta - 1) / (eta + 1);
+    x[0] = (float)(refracts ? draw_refracted(random, eta) : draw_grazing(random));
+    x[1] = (float)eta;
+    x[2] = (float)(ec_random_unit(random) < 0.5 ? ec_random_between(random, 1.2, 2.5) : 1 + ec_draw_log(random, 1e-4, 1));
+    x[3] = (float)ec_draw_log(random, 1e-2, 1e4);
+    x[4] = (float)(refracts ? r * r : ec_random_unit(random));
+    x[5] = refracts;
+}
+
+void ec_inputs_dispersion(uint64_t *random, float *x)
+{
+    x[0] = (float)(1 + ec_draw_log(random, 1e-6, 1.5));
+    x[1] = (float)ec_draw_log(random, 1e-3, 10);
+}
+
 /* A half vector in the place of wo. */
 void ec_inputs_half_vector(uint64_t *random, float *x)
 {

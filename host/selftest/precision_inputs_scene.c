@@ -166,9 +166,7 @@ void ec_inputs_spot(uint64_t *random, float *x)
 /* 32 bits that are no NaN, two numbers. */
 void ec_inputs_sample(uint64_t *random, float *x)
 {
-    x[0] = ec_float_of_bits((uint32_t)(ec_random_unit(random) * 4294967296.0) & 0xbfffffffu);
-    x[1] = ec_draw_unit(random);
-    x[2] = ec_draw_unit(random);
+    for (int k = 0; k < 2; k++) x[k] = ec_float_of_bits((uint32_t)(ec_draw_unit(random) * 0x1p32) & 0xbfffffffu); /* not the bits of NaNs */
 }
 
 void ec_inputs_texture(uint64_t *random, float *x)

@@ -27,12 +27,16 @@ void ec_scatter_close(ec_scatter_run *run)
     *run = (ec_scatter_run){0};
 }
 
-ec_result ec_scatter_go(ec_selftest *t, ec_scatter_run *run, ec_error *err)
+static ec_result run_kernel(ec_selftest *t, ec_scatter_run *run, const char *name, ec_error *err)
 {
     uint32_t n = EC_SCATTER_N;
     const ec_array arrays[] = {EC_SCALAR(n), EC_IN(run->in, (size_t)EC_SCATTER_INS * n), EC_OUT(run->out, (size_t)EC_SCATTER_OUTS * n)};
-    return ec_kernel_call(t->cl, run->program, "ec_scatter", n / t->lanes, 64, arrays, 3, err);
+    return ec_kernel_call(t->cl, run->program, name, n / t->lanes, 64, arrays, 3, err);
 }
+
+ec_result ec_scatter_go(ec_selftest *t, ec_scatter_run *run, ec_error *err) { return run_kernel(t, run, "ec_scatter", err); }
+
+ec_result ec_scatter_films(ec_selftest *t, ec_scatter_run *run, ec_error *err) { return run_kernel(t, run, "ec_films", err); }
 
 ec_scatter_material ec_scatter_metal(double alpha)
 {

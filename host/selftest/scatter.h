@@ -20,6 +20,7 @@ typedef struct ec_scatter_run {
 ec_result ec_scatter_open(ec_selftest *t, ec_scatter_run *run, ec_error *err); /* on failure nothing is left to close */
 void ec_scatter_close(ec_scatter_run *run);
 ec_result ec_scatter_go(ec_selftest *t, ec_scatter_run *run, ec_error *err);
+ec_result ec_scatter_films(ec_selftest *t, ec_scatter_run *run, ec_error *err); /* three results: red, green, blue */
 
 /* What all items of a run share: a grey dielectric coat over a base, of which `transmission` lets light pass. */
 typedef struct ec_scatter_material {

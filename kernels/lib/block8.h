@@ -48,12 +48,13 @@ EC_FN ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz,
     return q;
 }
 
-/* Which of eight triangles the ray passes inside and meets before h->t. */
-EC_FN int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1, const hit8 *h, float8 *t, float8 *inverse)
+/* Which of eight triangles the ray passes inside and meets before h->t. *close: for edges_settle. */
+EC_FN int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1, const hit8 *h, int8 *close, float8 *t, float8 *inverse)
 {
     int8 m = edges_inside(e);
+    *close = m;
     if (!mask_bits8(m)) return m;
-    return m & (id != skip0) & (id != skip1) & edges_distance(&q->r, e, (float8)(h->t), inverse, t);
+    return edges_distance(&q->r, e, m & (id != skip0) & (id != skip1), (float8)(h->t), close, inverse, t);
 }
 
 /* Keeps the best of them, by (t, triangle id), if it is better than *h. lo, hi: the triangles' boxes. any_hit: only whether
@@ -86,11 +87,20 @@ EC_FN v3 tri8_vertex(global const ec_tri8 *b, uint k)
     global const float8 *v = (global const float8 *)b->v[k];
     return v3_make(v[0], v[1], v[2]);
 }
+EC_FN v3 ray8_shear(const ray8 *q, float8 x, float8 y, float8 z)
+{
+    return ray_shear(q->r.shear_x, q->r.shear_y, v3_make(x - q->r.o_permuted.x, y - q->r.o_permuted.y, z - q->r.o_permuted.z));
+}
 EC_FN v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
 {
     global const float8 *v = (global const float8 *)b->v[k];
-    v3 p = v3_make(v[q->axis_x] - q->r.o_permuted.x, v[q->axis_y] - q->r.o_permuted.y, v[q->axis_z] - q->r.o_permuted.z);
-    return ray_shear(q->r.shear_x, q->r.shear_y, p);
+    return ray8_shear(q, v[q->axis_x], v[q->axis_y], v[q->axis_z]);
+}
+/* The same, read again: nothing of it is to be kept in a register by those who seldom need it. */
+EC_FN v3 tri8_sheared_again(const ray8 *q, global const ec_tri8 *b, uint k)
+{
+    volatile global const float8 *v = (volatile global const float8 *)b->v[k];
+    return ray8_shear(q, v[q->axis_x], v[q->axis_y], v[q->axis_z]);
 }
 
 /* Boxes of eight references: their own, or without those (`boxes` NULL) what the vertices span. */
@@ -113,10 +123,15 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
 {
     edges e = edges_make(tri8_sheared(q, b, 0), tri8_sheared(q, b, 1), tri8_sheared(q, b, 2));
     uint8 id = *(global const uint8 *)b->id;
+    int8 close;
     float8 t, inverse;
     TALLY_TESTS(h, popcount(mask_bits8(id != EC_NO_ID)));
-    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &t, &inverse);
+    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &close, &t, &inverse);
     if (!mask_bits8(m)) return;
+    if (mask_bits8(close)) {
+        t = edges_settle(&q->r, &e, tri8_sheared_again(q, b, 0), tri8_sheared_again(q, b, 1), tri8_sheared_again(q, b, 2), close, inverse, t);
+        m = m & (t > 0.0f);
+    }
     v3 lo, hi;
     block8_boxes(b, boxes, &lo, &hi);
     eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);

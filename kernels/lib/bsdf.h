@@ -1,8 +1,10 @@
-/* The metallic-roughness BSDF of glTF 2.0, appendix B, with KHR_materials_specular, _ior, _transmission and _volume:
+/* The metallic-roughness BSDF of glTF 2.0, appendix B, with KHR_materials_specular, _ior, _transmission, _volume and
+ * _diffuse_transmission:
  *
- *   f = metallic F_m D V + (1 - metallic) (F_d D V + (1 - max F_d) base ((1 - transmission) / pi + transmission T))
+ *   f = metallic F_m D V + (1 - metallic) (F_d D V + (1 - max F_d) ((1 - transmission) diffuse / pi + transmission base T))
  *
- * D, V: of GGX microfacets (ggx.h). T passes light on: through a thin wall by the same
+ * diffuse: base on wo's side, on the other the colour of diffuse transmission, in the shares 1 - t and t.
+ * Under a thin film (iridescence.h) both F are the film's. D, V: of GGX microfacets (ggx.h). T passes light on: through a thin wall by the same
  * lobe mirrored, into a body by the microfacet BTDF of Walter et al. 2007, eq. 21, between basic radiances L / n^2 (Nicodemus
  * 1963), so that no factor n^2 comes and goes with each body. A smooth surface has one direction of reflection and one of
  * transmission: bsdf_eval leaves those out, since nothing but bsdf_sample finds them.
@@ -13,6 +15,7 @@
 #include "coat.h"
 #include "fresnel.h"
 #include "ggx.h"
+#include "iridescence.h"
 #include "sheen.h"
 #include "surface.h"
 
@@ -24,6 +27,10 @@ typedef struct bsdf {
     lane_f p_specular;   /* probability of sampling what mirrors or passes, not the diffuse lobe */
     lane_f transmission, eta;
     lane_i refracts;
+    lane_f seeps;        /* share of what is scattered diffusely that comes out on the other side */
+    v3 below;            /* with this colour */
+    lane_f p_below;      /* probability of that side, for the diffuse lobe */
+    thin_film film;
     sheen sheen;
     coat coat;
 } bsdf;
@@ -40,7 +47,16 @@ EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *rest)
     if (HAS(TRANSMISSION)) dielectric = v3_select(b->refracts & (rise == 1.0f), v3_splat(F(1.0f)), dielectric);
     v3 metal = v3_make(fma(1.0f - b->base.x, metal_rise, b->base.x), fma(1.0f - b->base.y, metal_rise, b->base.y),
                        fma(1.0f - b->base.z, metal_rise, b->base.z));
-    *rest = (1.0f - b->metallic) * (1.0f - min(v3_max_component(dielectric), F(1.0f)));
+    lane_f left = 1.0f - min(v3_max_component(dielectric), F(1.0f));
+    if (HAS(IRIDESCENCE) && any_lane(b->film.weight > 0.0f)) {
+        lane_f w = b->film.weight;
+        film_light l = film_light_make(&b->film, cosine, b->eta, b->refracts);
+        v3 over = film_reflectance(&l, b->f0, b->f90), over_metal = film_reflectance(&l, b->base, F(1.0f));
+        left = w > 0.0f ? fma(w, 1.0f - v3_max_component(over), (1.0f - w) * left) : left;
+        dielectric = v3_select(w > 0.0f, v3_fma(over, w, v3_scale(dielectric, 1.0f - w)), dielectric);
+        metal = v3_select(w > 0.0f, v3_fma(over_metal, w, v3_scale(metal, 1.0f - w)), metal);
+    }
+    *rest = (1.0f - b->metallic) * left;
     return v3_fma(v3_sub(metal, dielectric), b->metallic, dielectric);
 }
 
@@ -51,6 +67,13 @@ EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest, lane_f *
     lane_f reflected = luminance(reflectance), passed = rest * b->transmission * luminance(b->base), sum = reflected + passed;
     *p_pass = sum > 0.0f ? passed / sum : F(0.0f);
     return sum > 0.0f ? reflected / sum : F(1.0f);
+}
+
+/* Of what the base gets, the share that it scatters back to this side. */
+EC_FN lane_f bsdf_scatters_back(const bsdf *b)
+{
+    lane_f share = 1.0f - b->transmission;
+    return HAS(DIFFUSE_TRANSMISSION) ? share * (1.0f - b->seeps) : share;
 }
 
 EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
@@ -66,22 +89,34 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     lane_f sum = luminance(b.base);
     b.transmission = HAS(TRANSMISSION) ? s->transmission : F(0.0f);
     b.eta = s->eta;
-    b.refracts = HAS(TRANSMISSION) ? s->refracts : !TRUE_MASK;
+    b.refracts = HAS(TRANSMISSION) ? s->refracts & (s->transmission > 0.0f) : !TRUE_MASK;
+    b.seeps = HAS(DIFFUSE_TRANSMISSION) ? s->seeps : F(0.0f);
+    b.below = s->below;
+    b.p_below = F(0.0f);
+    if (HAS(IRIDESCENCE)) b.film = (thin_film){s->film, s->film_ior, s->film_thickness};
     if (HAS(SPECULAR)) {
         lane_f rest;
         lane_f specular = luminance(bsdf_fresnel(&b, min(max(wo_local.z, F(0.0f)), F(1.0f)), &rest));
-        lane_f base = luminance(b.base), diffuse = rest * base;
-        lane_f most = (1.0f - b.metallic) * (1.0f - min(v3_max_component(b.f0), F(1.0f))) * base; /* diffuse, head-on */
+        lane_f base = luminance(b.base), scattered = base, passed = rest * base;
+        if (HAS(DIFFUSE_TRANSMISSION)) {
+            lane_f under = b.seeps * luminance(b.below), back = (1.0f - b.seeps) * base;
+            scattered = under + back;
+            b.p_below = under > 0.0f ? (back > 0.0f ? min(max(under / scattered, F(0.1f)), F(0.9f)) : F(1.0f)) : F(0.0f);
+        }
+        lane_f diffuse = rest * scattered;
+        lane_f most = (1.0f - b.metallic) * (1.0f - min(v3_max_component(b.f0), F(1.0f))) * scattered; /* diffuse, head-on */
+        lane_i filmed = HAS(IRIDESCENCE) ? b.film.weight > 0.0f : !TRUE_MASK; /* which may reflect all or nothing at any angle */
+        most = filmed ? (1.0f - b.metallic) * scattered : most;
         if (HAS(TRANSMISSION)) {
-            specular = fma(diffuse, b.transmission, specular);
+            specular = fma(passed, b.transmission, specular);
             diffuse = diffuse * (1.0f - b.transmission);
             most = most * (1.0f - b.transmission);
         }
         sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
         /* A lobe that matters at other angles must not starve. What is left for the base goes by the half vector's angle: there may
-         * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing reflects less than head-on. */
-        b.p_specular = ((b.p_specular > 0.0f) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
+         * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing but a film reflects less than head-on. */
+        b.p_specular = (((b.p_specular > 0.0f) | filmed) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
     }
     if (HAS(SHEEN)) {
         b.sheen = sheen_make(s->sheen, s->sheen_roughness, wo_local.z, sum);
@@ -113,6 +148,16 @@ EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
     return v3_select(valid, v3_scale(b->base, f), v3_zero());
 }
 
+/* What is scattered through, for wi below the surface; as if it came to the side of wo, by the same layering. */
+EC_FN v3 bsdf_eval_seeping(const bsdf *b, v3 wi, lane_f *pdf)
+{
+    v3 sum = v3_add(b->wo, v3_make(wi.x, wi.y, -wi.z));
+    lane_f rest, spread = -wi.z * EC_INV_PI;
+    bsdf_fresnel(b, min(sqrt(v3_dot(sum, sum)) * 0.5f, F(1.0f)), &rest);
+    *pdf = (1.0f - b->p_specular) * b->p_below * spread;
+    return v3_scale(b->below, rest * (1.0f - b->transmission) * b->seeps * spread);
+}
+
 /* Of the surface without what lies over it. */
 EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 {
@@ -134,8 +179,8 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
     lane_f specular = d * v_ni;
     /* Visible normals: D G1 / (4 no) without the quotient G1 / no (Heitz 2018). */
     lane_f pdf_specular = d * 0.5f / (no + lambda_o);
+    if (HAS_PASSING) diffuse *= bsdf_scatters_back(b);
     if (HAS(TRANSMISSION)) {
-        diffuse *= 1.0f - b->transmission;
         lane_f p_pass;
         pdf_specular *= bsdf_p_reflect(b, fresnel, rest, &p_pass);
     }
@@ -144,7 +189,8 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
         pdf_specular = b->facets.smooth ? F(0.0f) : pdf_specular;
     }
     v3 f = v3_fma(fresnel, specular, v3_scale(b->base, diffuse));
-    *pdf = above ? fma(b->p_specular, pdf_specular, (1.0f - b->p_specular) * ni * EC_INV_PI) : F(0.0f);
+    lane_f p_back = HAS(DIFFUSE_TRANSMISSION) ? (1.0f - b->p_specular) * (1.0f - b->p_below) : 1.0f - b->p_specular;
+    *pdf = above ? fma(b->p_specular, pdf_specular, p_back * ni * EC_INV_PI) : F(0.0f);
     f = v3_select(above, f, v3_zero());
     if (HAS(TRANSMISSION)) {
         lane_i below = (ni < 0.0f) & (no > 0.0f) & (b->transmission > 0.0f) & !b->facets.smooth;
@@ -153,6 +199,15 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
             v3 f_below = bsdf_eval_below(b, wi, &pdf_below);
             f = v3_select(below, f_below, f);
             *pdf = below ? pdf_below : *pdf;
+        }
+    }
+    if (HAS(DIFFUSE_TRANSMISSION)) {
+        lane_i below = (ni < 0.0f) & (no > 0.0f) & (b->seeps > 0.0f);
+        if (any_lane(below)) {
+            lane_f pdf_below;
+            v3 f_below = bsdf_eval_seeping(b, wi, &pdf_below);
+            f = v3_select(below, v3_add(f, f_below), f);
+            *pdf = below ? *pdf + pdf_below : *pdf;
         }
     }
     return f;
@@ -214,9 +269,10 @@ EC_FN v3 blind_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f *pdf)
 {
     lane_f cosine, sine = sincos_2pi(u1, &cosine), z = u2;
     *pdf = F(0.5f * EC_INV_PI);
-    if (HAS(TRANSMISSION)) {
-        z = b->transmission > 0.0f ? fma(F(2.0f), u2, F(-1.0f)) : z;
-        *pdf = b->transmission > 0.0f ? F(0.25f * EC_INV_PI) : *pdf;
+    if (HAS_PASSING) {
+        lane_i passes = (b->transmission > 0.0f) | (b->seeps > 0.0f);
+        z = passes ? fma(F(2.0f), u2, F(-1.0f)) : z;
+        *pdf = passes ? F(0.25f * EC_INV_PI) : *pdf;
     }
     lane_f r = sqrt(max(fma(-z, z, F(1.0f)), F(0.0f)));
     return v3_make(r * cosine, r * sine, z);
@@ -253,6 +309,10 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
     if (HAS(SPECULAR)) {
         lane_i specular = u < b->p_specular;
         if (HAS(SMOOTH)) single = specular & b->facets.smooth;
+        if (HAS(DIFFUSE_TRANSMISSION) && !blind) {
+            lane_i sinks = !specular & ((u - b->p_specular) < (1.0f - b->p_specular) * b->p_below);
+            r.wi.z = sinks ? -r.wi.z : r.wi.z;
+        }
         if (blind) specular = single;
         if (any_lane(specular)) {
             bsdf_direction s = bsdf_sample_specular(b, cosine, sine, u2, u / b->p_specular);

@@ -3,11 +3,13 @@
 #define EC_LIB_CAMERA_H
 
 #include "film.h"
+#include "pixel_filter.h"
 #include "sampler.h"
 
-/* Pixel (x, y), counted from the top left, and the sample's place in the picture: sx, sy in [-1, 1], sy up. */
-EC_FN void camera_sample(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, lane_u slot, lane_u *x, lane_u *y, lane_f *sx,
-                         lane_f *sy)
+/* Pixel (x, y), counted from the top left, and the sample's place in the picture: sx, sy in [-1, 1], sy up; a filter wider
+ * than a pixel reaches beyond the edges. filter: pixel_filter.h. */
+EC_FN sampler camera_sample(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, global const float *filter,
+                            lane_u slot, lane_u *x, lane_u *y, lane_f *sx, lane_f *sy)
 {
     lane_u pixel, sample;
     slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
@@ -15,8 +17,11 @@ EC_FN void camera_sample(constant ec_params *params, uint seed, uint first_pixel
     sampler random = sampler_make(seed, pixel, sample);
     lane_f jx, jy;
     sample_pair(random, EC_PAIR_PIXEL, &jx, &jy);
+    jx = pixel_filter_place(filter, jx);
+    jy = pixel_filter_place(filter, jy);
     *sx = fma(to_lane_f(*x) + jx, F(2.0f / (float)params->width), F(-1.0f));
     *sy = fma(to_lane_f(*y) + jy, F(-2.0f / (float)params->height), F(1.0f));
+    return random;
 }
 
 #endif

@@ -4,6 +4,7 @@
 #define EC_LIB_LIGHT_H
 
 #include "environment.h"
+#include "light_tree.h"
 #include "spherical_triangle.h"
 #include "surface.h"
 
@@ -13,6 +14,7 @@ typedef struct lights {
     global const float *table; /* ec_light_data by word */
     global const uint *alias;  /* ec_alias by word */
     environment env;
+    global const float *tree;  /* ec_light_node by word; NULL: by power alone */
 } lights;
 
 typedef struct light_sample {
@@ -54,6 +56,17 @@ EC_FN light_record light_load_one(global const float *table, uint id)
     return r;
 }
 
+/* By how much a traversal may misplace, along each axis, the point that a ray meets on a triangle: u of `reach`, the vertices' ways from
+ * the ray's origin, weighted as the point, for each rounding of an edge function and what goes into it, and along the ray those of the
+ * shear, of t and of the ray itself (ray.h). What lies in the plane of a lamp is met no sooner than that before it. */
+EC_FN v3 light_met_error(v3 reach, v3 towards)
+{
+    v3 way = v3_abs(towards);
+    lane_i x = (way.x >= way.y) & (way.x >= way.z), y = !x & (way.y >= way.z);
+    lane_f beyond = (x ? reach.x : y ? reach.y : reach.z) / v3_max_component(way);
+    return v3_fma(way, beyond * EC_GAMMA(13), v3_scale(reach, F(EC_GAMMA(4))));
+}
+
 /* A point of a triangle by its barycentrics, seen from p. Its density is that of uniform points. */
 EC_FN light_sample light_point_of_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f b1, lane_f b2)
 {
@@ -62,9 +75,11 @@ EC_FN light_sample light_point_of_triangle(const light_record *l, const geometry
     lane_f b0 = 1.0f - b1 - b2;
     v3 q = v3_fma(c, b2, v3_fma(b, b1, v3_scale(a, b0)));
     v3 sum = v3_fma(v3_abs(c), b2, v3_fma(v3_abs(b), b1, v3_scale(v3_abs(a), b0)));
-    s.end_error = v3_scale(sum, F(EC_GAMMA(9)));
     s.end_normal = v3_normalize(v3_cross(v3_sub(b, a), v3_sub(c, a)));
     s.towards = v3_sub(q, p);
+    v3 reach = v3_scale(v3_abs(v3_sub(a, p)), b0);
+    reach = v3_fma(v3_abs(v3_sub(c, p)), b2, v3_fma(v3_abs(v3_sub(b, p)), b1, reach));
+    s.end_error = v3_fma(sum, F(EC_GAMMA(9)), light_met_error(reach, s.towards));
     lane_f d2 = v3_dot(s.towards, s.towards);
     s.wi = v3_scale(s.towards, 1.0f / sqrt(d2));
     lane_f cosine = -v3_dot(s.wi, s.end_normal);
@@ -169,10 +184,10 @@ EC_FN light_sample light_sample_punctual(const light_record *l, lane_i m, v3 p, 
     return s;
 }
 
-EC_FN light_sample light_sample_environment(const lights *l, lane_i m, lane_u r, lane_f u1, lane_f u2, float scene_radius)
+EC_FN light_sample light_sample_environment(const lights *l, lane_i m, lane_u r1, lane_u r2, float scene_radius)
 {
     light_sample s;
-    s.wi = environment_sample(&l->env, r, u1, u2, &s.pdf, &s.radiance);
+    s.wi = environment_sample(&l->env, r1, r2, &s.pdf, &s.radiance);
     s.towards = v3_scale(s.wi, F(2.0f * scene_radius));
     s.is_delta = !TRUE_MASK;
     s.is_far = TRUE_MASK;
@@ -198,20 +213,39 @@ EC_FN light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
     return s;
 }
 
-/* One light for a point p. choice: 32 random bits that pick the light, and what is left of them the texel. */
-EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u choice, lane_f u1, lane_f u2)
+/* One light for a point p, picked by choice, and a point or direction on it by r1 and r2: random 32-bit numbers. */
+EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u choice, lane_u r1, lane_u r2)
 {
     constant ec_params *params = l->env.params;
     uint count = params->light_count;
     lane_u column = mul_hi(choice, U(count)), rest = choice * count;
     lane_u threshold = gather_u(l->alias, column * 2u);
     lane_u id = rest < threshold ? column : gather_u(l->alias, column * 2u + 1u);
+    lane_f share = F(1.0f);
+    if (HAS(LIGHT_TREE) && l->tree) {
+        /* The table has said whether it is a lamp. Which one says the tree, by bits of its own. */
+        lane_i far = !TRUE_MASK;
+        if (params->light_tree_pmf < 1.0f) {
+            lane_u kind = as_lane_u(gather_f(l->table, id * EC_LIGHT_WORDS + 12u)) & EC_LIGHT_KIND_MASK;
+            far = (kind == EC_KIND_ENVIRONMENT) | (kind == EC_KIND_DIRECTIONAL);
+        }
+        lane_u bits = params->light_tree_pmf < 1.0f ? hash_u(choice + 0x9e3779b9u) : choice;
+        lane_i m_lamp = m & !far;
+        if (any_lane(m_lamp)) {
+            lane_f pmf;
+            lane_u lamp = light_tree_choose(l->tree, m_lamp, p, bits, &pmf);
+            id = m_lamp ? lamp : id;
+            share = m_lamp ? pmf : share;
+        }
+    }
     light_record one = light_load(l, id);
+    one.pmf *= share;
+    one.pdf_a *= share;
     lane_u type = one.kind & EC_LIGHT_KIND_MASK;
 
     light_sample s;
     s.valid = !TRUE_MASK;
-    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(&one, g, m & (type == EC_KIND_TRIANGLE), p, u1, u2);
+    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(&one, g, m & (type == EC_KIND_TRIANGLE), p, to_unit(r1), to_unit(r2));
     if (HAS(PUNCTUAL_LIGHTS)) {
         lane_i is = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
         light_sample other = light_sample_punctual(&one, m & is, p, params->scene_radius);
@@ -219,7 +253,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     }
     if (HAS(ENVIRONMENT)) {
         lane_i is = type == EC_KIND_ENVIRONMENT;
-        light_sample other = light_sample_environment(l, m & is, hash_u(choice), u1, u2, params->scene_radius);
+        light_sample other = light_sample_environment(l, m & is, r1, r2, params->scene_radius);
         s = HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) ? light_sample_select(is, other, s) : other;
     }
     return s;

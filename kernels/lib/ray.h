@@ -86,6 +86,11 @@ EC_FN v3 ray_shear(lane_f shear_x, lane_f shear_y, v3 v)
     return v3_make(fma(-shear_x, v.z, v.x), fma(-shear_y, v.z, v.y), v.z);
 }
 
+EC_FN v3 ray_vertex(const ray *r, v3 p)
+{
+    return ray_shear(r->shear_x, r->shear_y, v3_sub(ray_permute(r->z_is_x, r->z_is_y, p), r->o_permuted));
+}
+
 /* Which side of the edge from q to p the ray passes. Products are rounded one by one and compared: the sign is never wrong,
  * only sometimes 0, and seen from the other side it is exactly the negative (Woop et al. 2013). */
 EC_FN lane_f ray_edge(v3 p, v3 q) { return p.x * q.y - p.y * q.x; }
@@ -104,15 +109,72 @@ EC_FN edges edges_make(v3 a, v3 b, v3 c)
     return e;
 }
 
-/* Distance of the hit on the triangle's plane and whether it lies in (0, t_max]; inverse = 1 / det. */
-EC_FN lane_i edges_distance(const ray *r, const edges *e, lane_f t_max, lane_f *inverse, lane_f *t)
+/* Below the rounding of the vertices' depths, and with them of a mean of these, the sign of t means nothing: what lies in the plane that
+ * a ray starts on is not met (pbrt-v4, section 6.8.7, delta_t). */
+EC_FN lane_f edges_least(lane_f z0, lane_f z1, lane_f z2) { return max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP); }
+
+/* Which of the lanes m meet their triangle's plane in front of them, at t <= t_max, as far as floats can tell; inverse = 1 / det.
+ * *close: those of them that have to ask edges_settle, whatever their t; reference_clamp looks at t_max. */
+EC_FN lane_i edges_distance(const ray *r, const edges *e, lane_i m, lane_f t_max, lane_i *close, lane_f *inverse, lane_f *t)
 {
     lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z;
     *inverse = 1.0f / e->det;
     *t = fma(e->u, z0, fma(e->v, z1, e->w * z2)) * *inverse;
-    /* Below the rounding of the weighted mean itself the sign of t means nothing (pbrt-v4, section 6.8.7, delta_t). */
-    lane_f least = max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP);
-    return (*t > least) & (*t <= t_max);
+    lane_i is_short = *t <= edges_least(z0, z1, z2);
+    *close = m & is_short & (max(z0, max(z1, z2)) > 0.0f); /* a mean of negative depths is negative */
+    return *close | (m & !is_short & (*t <= t_max));
+}
+
+/* What a sum of two has lost (Knuth's two-sum). */
+EC_FN lane_f sum_error(lane_f a, lane_f b, lane_f sum)
+{
+    lane_f of_b = sum - a;
+    return (a - (sum - of_b)) + (b - of_b);
+}
+
+/* What ray_edge has lost: the errors of its products and of their difference. */
+EC_FN lane_f ray_edge_error(v3 p, v3 q, lane_f edge)
+{
+    lane_f a = p.x * q.y, b = p.y * q.x;
+    return (fma(p.x, q.y, -a) - fma(p.y, q.x, -b)) + sum_error(a, -b, edge);
+}
+
+/* The sum of u z0, v z1 and w z2 with twice a float's digits (Ogita, Rump, Oishi 2005, algorithm 5.3), for u, v, w as they are before
+ * rounding. */
+EC_FN lane_f edges_exact_sum(const edges *e, v3 a, v3 b, v3 c, lane_f z0, lane_f z1, lane_f z2)
+{
+    lane_f p0 = e->u * z0, p1 = e->v * z1, p2 = e->w * z2, first = p0 + p1, sum = first + p2;
+    lane_f lost = sum_error(p0, p1, first) + sum_error(first, p2, sum);
+    lost += fma(e->u, z0, -p0) + fma(e->v, z1, -p1) + fma(e->w, z2, -p2);
+    lost = fma(ray_edge_error(c, b, e->u), z0, lost);
+    lost = fma(ray_edge_error(a, c, e->v), z1, lost);
+    lost = fma(ray_edge_error(b, a, e->w), z2, lost);
+    return sum + lost;
+}
+
+/* t of close triangles, negative where they are not met. The edge functions' rounding hides what is in front of the origin and what
+ * behind it where t is short: each product is at most `most`, so each of the three is off by 4 u most, and their sum with the depths by
+ * three times that and its own roundings, 32 u most deepest in all. Along needles this is any t. Then twice the digits decide: vertices
+ * are rounded the same way for all triangles around them, so a closed mesh stays closed. a, b, c: sheared vertices. */
+EC_FN lane_f edges_settle(const ray *r, const edges *e, v3 a, v3 b, v3 c, lane_i close, lane_f inverse, lane_f t)
+{
+    lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z, least = edges_least(z0, z1, z2);
+    lane_f most = max(fabs(a.x), max(fabs(b.x), fabs(c.x))) * max(fabs(a.y), max(fabs(b.y), fabs(c.y)));
+    lane_i hidden = close & (fabs(t) <= most * least * fabs(inverse) * 4.0f);
+    t = close ? F(-1.0f) : t;
+    if (!any_lane(hidden)) return t;
+    lane_f exact = edges_exact_sum(e, a, b, c, z0, z1, z2) * inverse;
+    return (hidden & (exact > least)) ? exact : t;
+}
+
+/* Does the ray meet the triangle at all, its box left aside? The traversals do the same step by step. */
+EC_FN lane_i ray_meets(const ray *r, v3 v0, v3 v1, v3 v2, edges *e, lane_f *inverse, lane_f *t)
+{
+    v3 a = ray_vertex(r, v0), b = ray_vertex(r, v1), c = ray_vertex(r, v2);
+    *e = edges_make(a, b, c);
+    lane_i inside = edges_inside(e), close, m = edges_distance(r, e, inside, F(EC_HUGE), &close, inverse, t);
+    *t = edges_settle(r, e, a, b, c, close, *inverse, *t);
+    return m & (*t > 0.0f);
 }
 
 /* The distance clamped into the slab of the reference's box; false where that leaves (0, t_max]. */

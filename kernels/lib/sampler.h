@@ -11,11 +11,12 @@
 
 /* Pairs: two for the camera, then four a bounce. */
 #define EC_PAIR_PIXEL 0u
+#define EC_PAIR_LENS 1u
 #define EC_PAIR_BOUNCE(b) (2u + 4u * (b))
 #define EC_PAIR_LIGHT 0u    /* point on the light */
 #define EC_PAIR_BSDF 1u     /* direction */
 #define EC_PAIR_CHOICE 2u   /* which light, which lobe */
-#define EC_PAIR_ROULETTE 3u
+#define EC_PAIR_ROULETTE 3u /* and which colour goes on through glass that parts them */
 
 typedef struct sampler {
     lane_u key;   /* hash of seed, batch and pixel */

@@ -19,11 +19,15 @@ typedef struct surface {
     lane_f f90;    /* and at grazing */
     lane_f transmission; /* share of what a dielectric does not reflect that passes, not scattered back by the base */
     lane_f eta;    /* index of refraction beyond the surface over that on wo's side; 1: passes through a thin wall */
-    lane_i refracts;
+    lane_i refracts;     /* bounds a body: what passes goes on inside, bent if transmission is above 0 */
+    lane_f seeps;        /* KHR_materials_diffuse_transmission: share of diffuse light that comes out on the other side */
+    v3 below;            /* and its colour */
     lane_f coat;       /* weight of a clear coat; with it its width, as alpha_ggx and smooth, and its normal */
     lane_f coat_alpha;
     lane_i coat_smooth;
     v3 coat_ns;
+    lane_f film;       /* weight of a thin film; with it its index and nanometres */
+    lane_f film_ior, film_thickness;
     v3 sheen;          /* colour of fibres over it; 0: none */
     lane_f sheen_roughness;
 } surface;
@@ -198,6 +202,35 @@ EC_FN void surface_sheen(const geometry *g, const hit_point *h, lane_i m, surfac
     s->sheen = v3_select(s->refracts & !s->front, v3_zero(), s->sheen);
 }
 
+/* KHR_materials_diffuse_transmission. */
+EC_FN void surface_seeping(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_SEEPING);
+    lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
+    s->below = v3_make(q.a, q.b, q.c);
+    s->seeps = q.d;
+    if (HAS(DIFFUSE_TRANSMISSION_TEXTURE)) {
+        s->below = v3_mul(s->below, material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, true).rgb);
+        s->seeps *= material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION, false).a;
+    }
+    s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->seeps > 0.0f) & (s->metallic < 1.0f));
+}
+
+/* KHR_materials_iridescence. */
+EC_FN void surface_film(const geometry *g, const hit_point *h, lane_i m, surface *s)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_FILM);
+    s->film = q.a;
+    s->film_ior = q.b;
+    s->film_thickness = q.d;
+    if (HAS(IRIDESCENCE_TEXTURE)) {
+        s->film *= material_texture(g, h, m, EC_SLOT_IRIDESCENCE, false).rgb.x;
+        lane_f t = material_texture(g, h, m, EC_SLOT_IRIDESCENCE_THICKNESS, false).rgb.y; /* 1 where there is none */
+        s->film_thickness = fma(t, q.d, (1.0f - t) * q.c);
+    }
+    s->film = s->film_thickness > 0.0f ? s->film : F(0.0f);
+}
+
 /* Parameters of the metallic-roughness model with KHR_materials_specular, and of what lies over it. */
 EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
@@ -211,6 +244,8 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->eta = F(1.0f);
     s->coat = F(0.0f);
     s->sheen = v3_zero();
+    s->film = s->seeps = F(0.0f);
+    s->below = v3_zero();
     if (!HAS(SPECULAR)) return;
     quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_F0);
     lane_f roughness = factors.b;
@@ -234,8 +269,10 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     /* KHR_materials_specular: f0 = min(color ((ior - 1) / (ior + 1))^2, 1) weight. */
     s->f0 = v3_scale(v3_make(min(color.x, F(1.0f)), min(color.y, F(1.0f)), min(color.z, F(1.0f))), weight);
     s->f90 = weight;
+    if (HAS(DIFFUSE_TRANSMISSION)) surface_seeping(g, h, m, s);
     if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
     if (HAS(SHEEN)) surface_sheen(g, h, m, s);
+    if (HAS(IRIDESCENCE)) surface_film(g, h, m, s);
 }
 
 EC_FN v3 surface_to_local(const surface *s, v3 w)

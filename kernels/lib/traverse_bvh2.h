@@ -31,21 +31,22 @@ EC_FN v3 box_high(global const ec_tri *t, global const ec_box *box)
                    F(max(t->v0[2], max(t->v1[2], t->v2[2]))));
 }
 
-EC_FN v3 packet_vertex(const ray *r, global const float *p)
-{
-    v3 v = v3_sub(ray_permute(r->z_is_x, r->z_is_y, splat_point(p)), r->o_permuted);
-    return ray_shear(r->shear_x, r->shear_y, v);
-}
-
 /* Lanes m pass inside the edges e of triangle tri, or of the one after it where `second`: is it the closest so far, by (t,
  * triangle id)? skip0 and skip1 are triangles a lane ignores. */
 EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
                        lane_i second, const edges *e, lane_i m, lane_u skip0, lane_u skip1, hit *h)
 {
     lane_u id = second ? U(tri[1].id) : U(tri[0].id);
+    lane_i close;
     lane_f t, inverse;
-    m = m & (skip0 != id) & (skip1 != id) & edges_distance(r, e, h->t, &inverse, &t);
+    m = edges_distance(r, e, m & (skip0 != id) & (skip1 != id), h->t, &close, &inverse, &t);
     if (!any_lane(m)) return;
+    if (any_lane(close)) {
+        v3 b = v3_select(second, splat_point(tri[1].v1), splat_point(tri->v1));
+        v3 c = v3_select(second, splat_point(tri[1].v2), splat_point(tri->v2));
+        t = edges_settle(r, e, ray_vertex(r, splat_point(tri->v0)), ray_vertex(r, b), ray_vertex(r, c), close, inverse, t);
+        m = m & (t > 0.0f);
+    }
     global const ec_box *next = box ? box + 1 : 0;
     v3 lo = v3_select(second, box_low(tri + 1, next), box_low(tri, box));
     v3 hi = v3_select(second, box_high(tri + 1, next), box_high(tri, box));
@@ -69,14 +70,14 @@ EC_FN edges edges_select(lane_i m, edges a, edges b)
 EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
                             lane_u skip0, lane_u skip1, hit *h)
 {
-    v3 a = packet_vertex(r, tri->v0), b = packet_vertex(r, tri->v1), c = packet_vertex(r, tri->v2);
+    v3 a = ray_vertex(r, splat_point(tri->v0)), b = ray_vertex(r, splat_point(tri->v1)), c = ray_vertex(r, splat_point(tri->v2));
     edges e = edges_make(a, b, c);
     lane_i m = edges_inside(&e), none = !TRUE_MASK;
     if (!tri->has_pair) {
         if (any_lane(m)) packet_take(r, filter, tri, box, none, &e, m, skip0, skip1, h);
         return 1;
     }
-    v3 d = packet_vertex(r, tri[1].v2);
+    v3 d = ray_vertex(r, splat_point(tri[1].v2));
     edges f = {ray_edge(d, c), ray_edge(a, d), -e.v, F(0.0f), a.z, c.z, d.z};
     lane_i n = edges_inside(&f);
     if (!any_lane(m | n)) return 2;

@@ -66,10 +66,7 @@ EC_FN void grid_axis_start(grid_axis *x, int blocks, float guess, float start)
 #define GRID_ROW(k, axis)                                                                          \
     ((float8)(t0[4 * (k) + (axis)], t1[4 * (k) + (axis)], t2[4 * (k) + (axis)], t3[4 * (k) + (axis)],              \
               t4[4 * (k) + (axis)], t5[4 * (k) + (axis)], t6[4 * (k) + (axis)], t7[4 * (k) + (axis)]))
-#define GRID_SHEARED(k)                                                                            \
-    ray_shear(q->r.shear_x, q->r.shear_y,                                                          \
-              v3_make(GRID_ROW(k, q->axis_x) - q->r.o_permuted.x, GRID_ROW(k, q->axis_y) - q->r.o_permuted.y,  \
-                      GRID_ROW(k, q->axis_z) - q->r.o_permuted.z))
+#define GRID_SHEARED(k) ray8_shear(q, GRID_ROW(k, q->axis_x), GRID_ROW(k, q->axis_y), GRID_ROW(k, q->axis_z))
 #define GRID_SPAN(op, axis) op(GRID_ROW(0, axis), op(GRID_ROW(1, axis), GRID_ROW(2, axis)))
 
 /* The pending ones, gathered from wherever they lie; free places repeat the first. */
@@ -84,9 +81,14 @@ EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, g
 #undef GRID_TRIANGLE
     uint8 id = as_uint8(GRID_ROW(0, 3));
     edges e = edges_make(GRID_SHEARED(0), GRID_SHEARED(1), GRID_SHEARED(2));
+    int8 close;
     float8 t, inverse;
-    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &t, &inverse);
+    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &close, &t, &inverse);
     if (!mask_bits8(m)) return;
+    if (mask_bits8(close)) {
+        t = edges_settle(&q->r, &e, GRID_SHEARED(0), GRID_SHEARED(1), GRID_SHEARED(2), close, inverse, t);
+        m = m & (t > 0.0f);
+    }
     v3 lo = v3_make(GRID_SPAN(min, 0), GRID_SPAN(min, 1), GRID_SPAN(min, 2));
     v3 hi = v3_make(GRID_SPAN(max, 0), GRID_SPAN(max, 1), GRID_SPAN(max, 2));
     if (boxes) {

@@ -3,6 +3,7 @@
 #define EC_SELFTEST_PRECISION_BSDF_H
 
 #include "../lib/blinn_phong.h"
+#include "../lib/dispersion.h"
 #include "precision.h"
 
 /* Words: wo 0, wi 3, base 6, f0 9, f90 10, metallic 11, alpha 12 (0: smooth), transmission 13, eta 14 (1: thin), u 15 to 17. */
@@ -21,6 +22,8 @@ EC_FN surface material_of(global const float *in)
     s.stretch = F(1.0f);
     s.coat = F(0.0f);
     s.sheen = v3_zero();
+    s.film = s.seeps = F(0.0f);
+    s.below = v3_zero();
     return s;
 }
 EC_FN bsdf bsdf_of(global const float *in)
@@ -75,6 +78,31 @@ PRECISION(sheen_over)
     PUT_V(0, f);
     PUT(3, pdf);
     PUT(4, s.own);
+}
+/* White light through base, of its colour. */
+PRECISION(bsdf_eval_seeping)
+{
+    bsdf b = bsdf_of(in);
+    b.seeps = F(1.0f);
+    b.below = b.base;
+    b.p_below = F(0.5f);
+    lane_f pdf;
+    PUT_V(0, bsdf_eval_seeping(&b, V(3), &pdf));
+    PUT(3, pdf);
+    PUT(4, -X(5) * EC_INV_PI);
+}
+PRECISION(dispersed_index)
+{
+    PUT(0, dispersed_index(X(0), X(1), I(0)));
+    PUT(1, dispersed_index(X(0), X(1), I(2)));
+}
+/* Words: cosine, eta, index and nanometres of the film, f0, 0 or 1: refracts. A colour is a difference of what both faces send. */
+PRECISION(film_reflectance)
+{
+    thin_film m = {F(1.0f), X(2), X(3)};
+    film_light l = film_light_make(&m, X(0), X(1), X(5) != 0.0f);
+    PUT_V(0, film_reflectance(&l, v3_splat(X(4)), F(1.0f)));
+    PUT(3, F(1.0f));
 }
 /* A share of the light is worth its error against the whole: what 1 - F rounds off is a part of the light that comes. The scale of
  * a value is therefore the value where nothing is reflected. */

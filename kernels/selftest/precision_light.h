@@ -11,7 +11,7 @@
 #define PRECISION_RECORD 3
 EC_FN light_record light_of(global const float *in)
 {
-    lights l = {in + PRECISION_RECORD, 0, {0, 0, 0}};
+    lights l = {in + PRECISION_RECORD, 0, {0, 0, 0}, 0};
     return light_load(&l, ITEM * (EC_PRECISION_WORDS / EC_LIGHT_WORDS));
 }
 
@@ -53,7 +53,7 @@ PRECISION(light_sample_punctual)
 
 EC_FN environment environment_of(global const float *memory, constant ec_params *params)
 {
-    environment e = {params, memory + EC_PRECISION_MAP, (global const uint *)(memory + EC_PRECISION_ALIAS)};
+    environment e = {params, memory + EC_PRECISION_MAP, (global const uint *)(memory + EC_PRECISION_TABLE)};
     return e;
 }
 PRECISION(environment_uv)
@@ -75,7 +75,7 @@ PRECISION(environment_sample)
 {
     environment e = environment_of(memory, params);
     lane_f pdf;
-    v3 radiance, wi = environment_sample(&e, BITS(0), X(1), X(2), &pdf, &radiance);
+    v3 radiance, wi = environment_sample(&e, BITS(0), BITS(1), &pdf, &radiance);
     PUT_V(0, wi);
     PUT_V(3, radiance);
     PUT(6, pdf);
@@ -84,7 +84,7 @@ PRECISION(environment_sample_constant)
 {
     environment e = {params, 0, 0};
     lane_f pdf;
-    v3 radiance, wi = environment_sample(&e, BITS(0), X(1), X(2), &pdf, &radiance);
+    v3 radiance, wi = environment_sample(&e, BITS(0), BITS(1), &pdf, &radiance);
     PUT(0, wi.x);
     PUT(1, wi.y);
     PUT(2, wi.z);
@@ -100,7 +100,7 @@ PRECISION(camera_sample)
 {
     lane_u x, y;
     lane_f sx, sy;
-    camera_sample(params, 0u, 0u, 0, BITS(0), &x, &y, &sx, &sy);
+    camera_sample(params, 0u, 0u, 0, 0, BITS(0), &x, &y, &sx, &sy);
     PUT(0, sx);
     PUT(1, sy);
     PUT(2, F(1.0f));

@@ -107,12 +107,12 @@ PRECISION(triangle)
 {
     ray r = ray_make(V(0), V(3), 0.0f);
     v3 v[3] = {V(6), V(9), V(12)};
-    for (int k = 0; k < 3; k++)
-        v[k] = ray_shear(r.shear_x, r.shear_y, v3_sub(ray_permute(r.z_is_x, r.z_is_y, v[k]), r.o_permuted));
+    for (int k = 0; k < 3; k++) v[k] = ray_vertex(&r, v[k]);
     edges e = edges_make(v[0], v[1], v[2]);
     lane_f t, inverse, products = F(0.0f), depth = F(0.0f);
+    lane_i close;
     e.det = e.u + e.v + e.w;
-    edges_distance(&r, &e, F(EC_HUGE), &inverse, &t);
+    edges_distance(&r, &e, TRUE_MASK, F(EC_HUGE), &close, &inverse, &t);
     for (int k = 0; k < 3; k++) {
         v3 p = v[k], q = v[k == 2 ? 0 : k + 1];
         products += fabs(p.x * q.y) + fabs(p.y * q.x);

@@ -4,28 +4,13 @@
 #include "../lib/surface.h"
 #include "../shared/selftest_rays.h"
 
-/* Where from, in the ray's frame. */
-EC_FN v3 seen_from(const ray *r, v3 v)
-{
-    return ray_shear(r->shear_x, r->shear_y, v3_sub(ray_permute(r->z_is_x, r->z_is_y, v), r->o_permuted));
-}
-
-/* Does the ray meet this triangle? Only its plane and edges decide: no box, no skipped triangle. */
-EC_FN lane_i meets(const ray *r, const hit_point *h, lane_f *t)
-{
-    edges e = edges_make(seen_from(r, h->p0), seen_from(r, h->p1), seen_from(r, h->p2));
-    lane_f inverse;
-    lane_i inside = edges_inside(&e);
-    return inside & edges_distance(r, &e, F(EC_HUGE), &inverse, t);
-}
-
 /* From hits and the paths' directions: the paths' origins, and EC_LEAVE_FIELDS of where that is. */
 kernel void ec_selftest_leave(uint wave, float scene_max, global const float *prims, global const float *hits, global float *paths,
                               global float *left)
 {
     uint i = get_global_id(0) * LANES;
     if (i >= wave) return;
-    geometry g = {prims, 0, 0, 0, 0, 0, 0, {0, 0, 0}};
+    geometry g = {prims, 0, 0, 0, 0, 0, 0, {0, 0, 0}, 0};
     hit_point h = hit_point_make(&g, queue_load_u(hits, wave, EC_HIT_PRIM, i), queue_load_f(hits, wave, EC_HIT_B1, i),
                                  queue_load_f(hits, wave, EC_HIT_B2, i));
     v3 d = queue_load_v3(paths, wave, EC_PATH_DX, i);
@@ -33,8 +18,9 @@ kernel void ec_selftest_leave(uint wave, float scene_max, global const float *pr
     surface_place(&h, d, &s);
     v3 o = surface_offset(s.p, s.p_error, s.ng, d);
     ray r = ray_make(o, d, scene_max);
-    lane_f t;
-    lane_i again = meets(&r, &h, &t);
+    edges e;
+    lane_f inverse, t;
+    lane_i again = ray_meets(&r, h.p0, h.p1, h.p2, &e, &inverse, &t); /* no box, no skipped triangle */
     queue_store_v3(paths, wave, EC_PATH_OX, i, o);
     queue_store_v3(left, wave, EC_LEAVE_P, i, s.p);
     queue_store_v3(left, wave, EC_LEAVE_ERROR, i, s.p_error);

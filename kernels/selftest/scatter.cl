@@ -36,6 +36,20 @@ kernel void ec_scatter(uint n, global const float *in, global float *out)
     PUT(EC_SCATTER_WEIGHT, d.weight.y);
 }
 
+/* What a thin film reflects: its index and nanometres in w, then the cosine; over f0, refracting where eta is not 1. */
+kernel void ec_films(uint n, global const float *in, global float *out)
+{
+    uint at = get_global_id(0) * LANES;
+    if (at >= n) return;
+    lane_f eta = IN(EC_SCATTER_ETA);
+    thin_film m = {F(1.0f), IN(EC_SCATTER_W), IN(EC_SCATTER_W + 1)};
+    film_light l = film_light_make(&m, IN(EC_SCATTER_W + 2), eta, eta != 1.0f);
+    v3 r = film_reflectance(&l, v3_splat(IN(EC_SCATTER_F0)), F(1.0f));
+    PUT(EC_SCATTER_F, r.x);
+    PUT(EC_SCATTER_F + 1, r.y);
+    PUT(EC_SCATTER_F + 2, r.z);
+}
+
 /* A stream of numbers in [0, 1), the two ends as often as not. */
 typedef struct stream {
     lane_u key;

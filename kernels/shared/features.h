@@ -36,6 +36,15 @@
 #define EC_FEATURE_SHEEN_TEXTURE EC_FEATURE_BIT(27)
 #define EC_FEATURE_ANISOTROPY EC_FEATURE_BIT(28)
 #define EC_FEATURE_ANISOTROPY_TEXTURE EC_FEATURE_BIT(29)
+#define EC_FEATURE_IRIDESCENCE EC_FEATURE_BIT(30)
+#define EC_FEATURE_IRIDESCENCE_TEXTURE EC_FEATURE_BIT(31)
+#define EC_FEATURE_DIFFUSE_TRANSMISSION EC_FEATURE_BIT(32)
+#define EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE EC_FEATURE_BIT(33)
+#define EC_FEATURE_DISPERSION EC_FEATURE_BIT(34)
+#define EC_FEATURE_LENS EC_FEATURE_BIT(40)
+#define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
+#define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
+#define EC_FEATURE_LIGHT_TREE EC_FEATURE_BIT(43)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
 
 /* X(NAME, text for `eclat info`) */
@@ -70,6 +79,15 @@
     X(SHEEN_TEXTURE, "sheen-texture")                                                              \
     X(ANISOTROPY, "anisotropy")                                                                    \
     X(ANISOTROPY_TEXTURE, "anisotropy-texture")                                                    \
+    X(IRIDESCENCE, "iridescence")                                                                  \
+    X(IRIDESCENCE_TEXTURE, "iridescence-texture")                                                  \
+    X(DIFFUSE_TRANSMISSION, "diffuse-transmission")                                                \
+    X(DIFFUSE_TRANSMISSION_TEXTURE, "diffuse-transmission-texture")                                \
+    X(DISPERSION, "dispersion")                                                                    \
+    X(LENS, "depth-of-field")                                                                      \
+    X(PIXEL_FILTER, "pixel-filter")                                                                \
+    X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
+    X(LIGHT_TREE, "light-tree")                                                                    \
     X(INSTANCES, "instances")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
@@ -82,7 +100,8 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
     (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |              \
      EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE |                    \
      EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN_TEXTURE |                       \
-     EC_FEATURE_ANISOTROPY | EC_FEATURE_ANISOTROPY_TEXTURE)
+     EC_FEATURE_ANISOTROPY | EC_FEATURE_ANISOTROPY_TEXTURE | EC_FEATURE_IRIDESCENCE_TEXTURE |                      \
+     EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE)
 /* What bends normals, what has a direction: what wants tangents. */
 #define EC_FEATURES_BENDING (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)
@@ -94,6 +113,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #endif
 #define HAS(name) ((FEATURES & EC_FEATURE_##name) != 0)
 #define HAS_TEXTURES ((FEATURES & EC_FEATURES_TEXTURED) != 0)
+#define HAS_PASSING (HAS(TRANSMISSION) || HAS(DIFFUSE_TRANSMISSION))
 #define HAS_BENDING ((FEATURES & EC_FEATURES_BENDING) != 0)
 #define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)
 #endif

@@ -20,8 +20,11 @@ typedef struct ec_params {
     ec_float camera_right[4];
     ec_float camera_up[4];
     ec_float camera_forward[4];
+    ec_float lens_right[4];       /* the aperture's radius along the camera's axes; 0: a pinhole */
+    ec_float lens_up[4];
     ec_float environment[4];      /* constant radiance, or factor of the map */
     ec_float environment_mean[4]; /* over all directions */
+    ec_float environment_turn[12]; /* three rows of four: directions of the map to those of the scene */
     ec_uint orthographic;
     ec_uint width, height;        /* pixels */
     ec_uint batch;                /* m: samples a pixel in a batch */
@@ -37,9 +40,11 @@ typedef struct ec_params {
     ec_uint first_roulette;       /* path segments that are never cut short */
     ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
     ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
-    ec_float pad[3];
+    ec_float lens_nearness;       /* 1 / distance of the plane in focus */
+    ec_uint environment_turned;   /* 0: environment_turn is not looked at */
+    ec_float light_tree_pmf;      /* probability that light sampling goes to the tree */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 176);
+EC_ASSERT_SIZE(ec_params, 256);
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

@@ -59,14 +59,16 @@ typedef struct ec_material_data {
     ec_float specular;
     ec_float absorption[3];     /* 1/m, inside the body */
     ec_float transmission;
-    ec_float ior, pad[3];
+    ec_float ior, dispersion, pad[2];
     ec_float coat, coat_roughness, coat_normal_scale, coat_pad;
     ec_float sheen[3], sheen_roughness;
     ec_float anisotropy, anisotropy_cosine, anisotropy_sine, anisotropy_pad;
+    ec_float below[3], seeps; /* diffuse transmission: colour, share */
+    ec_float film, film_ior, film_least, film_most; /* nanometres */
     ec_texture_slot slots[EC_SLOT_COUNT];
 } ec_material_data;
-EC_ASSERT_SIZE(ec_material_data, 560);
-#define EC_MATERIAL_WORDS 140
+EC_ASSERT_SIZE(ec_material_data, 720);
+#define EC_MATERIAL_WORDS 180
 #define EC_MATERIAL_BASE_COLOR 0
 #define EC_MATERIAL_EMISSION 4
 #define EC_MATERIAL_FLAGS 7
@@ -80,7 +82,9 @@ EC_ASSERT_SIZE(ec_material_data, 560);
 #define EC_MATERIAL_COAT 24
 #define EC_MATERIAL_SHEEN 28
 #define EC_MATERIAL_ANISOTROPY 32
-#define EC_MATERIAL_SLOTS 36
+#define EC_MATERIAL_SEEPING 36
+#define EC_MATERIAL_FILM 40
+#define EC_MATERIAL_SLOTS 44
 #define EC_MATERIAL_DOUBLE_SIDED 1u
 #define EC_MATERIAL_EMISSIVE 2u
 #define EC_MATERIAL_UNLIT 4u
@@ -88,6 +92,7 @@ EC_ASSERT_SIZE(ec_material_data, 560);
 #define EC_MATERIAL_BLEND 16u
 #define EC_SMOOTH_ALPHA 1e-4f /* GGX of less width is narrower than float directions resolve: a mirror */
 #define EC_MATERIAL_REFRACTS 32u /* a body, not a thin wall */
+#define EC_MATERIAL_BOUNDS 64u   /* likewise, for what is transmitted diffusely */
 
 /* A texture is a view of an image's texels. */
 typedef struct ec_texture_data {
@@ -126,5 +131,13 @@ typedef struct ec_alias {
     ec_uint other;
 } ec_alias;
 EC_ASSERT_SIZE(ec_alias, 8);
+
+/* Entry of a distribution that is sampled by inversion: its share of the 32-bit numbers begins at `first` and ends where the next
+ * entry's begins, the last one's at 2^32. guide: of the numbers r with r * n >> 32 equal to this entry's place the last one's entry. */
+typedef struct ec_distribution_entry {
+    ec_uint first;
+    ec_uint guide;
+} ec_distribution_entry;
+EC_ASSERT_SIZE(ec_distribution_entry, 8);
 
 #endif

@@ -16,7 +16,11 @@
     X(CLEARCOAT_NORMAL, 0)                                                                                             \
     X(SHEEN_COLOR, 1)                                                                                                  \
     X(SHEEN_ROUGHNESS, 0)    /* A */                                                                                   \
-    X(ANISOTROPY, 0)         /* RG direction, B strength */
+    X(ANISOTROPY, 0)         /* RG direction, B strength */                                                            \
+    X(IRIDESCENCE, 0)        /* R */                                                                                   \
+    X(IRIDESCENCE_THICKNESS, 0) /* G */                                                                                \
+    X(DIFFUSE_TRANSMISSION, 0) /* A */                                                                                 \
+    X(DIFFUSE_TRANSMISSION_COLOR, 1)
 
 #define EC_SLOT_ENUM(name, is_srgb) EC_SLOT_##name,
 enum ec_slot { EC_SLOTS(EC_SLOT_ENUM) EC_SLOT_COUNT };

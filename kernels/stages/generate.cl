@@ -1,11 +1,13 @@
 /* Camera rays. Reads: params. Writes: the path queue, one entry a slot, and zeroes the slots' radiance. Next: intersect.
  * Slot s of a wave is sample s % batch of the wave's pixel s / batch. */
 #include "../lib/camera.h"
+#include "../lib/lens.h"
 #include "../lib/queue.h"
 #include "../shared/features.h"
 #include "../shared/params.h"
 
-kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint path_count, global float *paths,
+kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                        global const float *filter, uint path_count, global float *paths,
                         global float *radiance)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
@@ -13,7 +15,7 @@ kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel,
     lane_u slot = LANE_NUMBERS + i;
     lane_u x, y;
     lane_f sx, sy;
-    camera_sample(params, seed, first_pixel, pixel_list, slot, &x, &y, &sx, &sy);
+    sampler random = camera_sample(params, seed, first_pixel, pixel_list, filter, slot, &x, &y, &sx, &sy);
     v3 offset = v3_make(fma(sx, F(params->camera_right[0]), sy * params->camera_up[0]),
                         fma(sx, F(params->camera_right[1]), sy * params->camera_up[1]),
                         fma(sx, F(params->camera_right[2]), sy * params->camera_up[2]));
@@ -22,7 +24,9 @@ kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel,
     if (params->orthographic)
         o = v3_add(o, offset);
     else
-        d = v3_normalize(v3_add(d, offset));
+        d = v3_add(d, offset);
+    if (HAS(LENS) && !params->orthographic) lens_shift(params, random, &o, &d);
+    if (!params->orthographic) d = v3_normalize(d);
 
     queue_store_v3(paths, wave, EC_PATH_OX, i, o);
     queue_store_v3(paths, wave, EC_PATH_DX, i, d);

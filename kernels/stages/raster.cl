@@ -27,7 +27,7 @@ kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, g
     lane_f sx, sy;
     lane_i waiting = slot < path_count;
     slot = waiting ? slot : U(i);
-    camera_sample(params, seed, first_pixel, pixel_list, slot, &x, &y, &sx, &sy);
+    camera_sample(params, seed, first_pixel, pixel_list, 0, slot, &x, &y, &sx, &sy);
     lane_u tile = raster_tile(params, x, y);
     hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places}, U(0), true};
     if (HAS(ALPHA)) {

@@ -2,6 +2,7 @@
  * Reads: path queue and hits. Writes: radiance of the slots, the shadow queue (next: connect), the next path queue (next:
  * intersect), first-hit features at bounce 0 where asked for. Every path either ends here or is pushed once. */
 #include "../lib/bsdf.h"
+#include "../lib/dispersion.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
 #include "../lib/roulette.h"
@@ -35,7 +36,7 @@ EC_FN lane_i same_side(const surface *s, v3 w, v3 w_local, lane_i lifted)
 /* A ray's origin: above the surface, or below where it passes. */
 EC_FN v3 leave(const surface *s, v3 above, v3 w, v3 w_local)
 {
-    if (!HAS(TRANSMISSION)) return above;
+    if (!HAS_PASSING) return above;
     return v3_select(w_local.z < 0.0f, surface_offset(s->p, s->p_error, s->ng, w), above);
 }
 
@@ -53,14 +54,15 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const float *colors, global const float *materials, global const float *texture_table,
                      global const uint *texels, constant float *srgb, global const float *places,
                      global const float *light_table, global const uint *light_alias,
-                     global const float *environment_texels, global const uint *environment_alias)
+                     global const float *environment_texels, global const uint *environment_table,
+                     global const float *light_tree, global const uint *light_trails)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
-    lights light = {light_table, light_alias, {params, environment_texels, environment_alias}};
+    lights light = {light_table, light_alias, {params, environment_texels, environment_table}, light_tree};
 
     lane_i active = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
@@ -103,6 +105,10 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
             v3 way = v3_sub(s.p, o);
+            if (HAS(LIGHT_TREE) && light_tree) {
+                lane_u lamp = HAS(INSTANCES) ? (h.placed ? U(0) : prim) : prim; /* no instance is one, and its id lies behind the trails */
+                h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), o, gather_u(light_trails, lamp));
+            }
             lane_f pdf = light_found_pdf(&h, m, o, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = v3_scale(surface_emission(&g, &h, m, emission), found_weight(params->sample, path_pdf, pdf));
             emitted = v3_select(m, Le, emitted);
@@ -133,6 +139,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     uint pair = EC_PAIR_BOUNCE(bounce);
     lane_u choice, lobe;
     sample_pair_u(random, pair + EC_PAIR_CHOICE, &choice, &lobe);
+    if (HAS(DISPERSION)) {
+        lane_f u_roulette, u_channel;
+        sample_pair(random, pair + EC_PAIR_ROULETTE, &u_roulette, &u_channel);
+        disperse(&g, &h, scatters, u_channel, &s, &beta);
+    }
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
 
     /* Where reflected rays start. Lights are looked for from there, so that a path that meets one finds the same density. */
@@ -142,9 +153,10 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
 
     lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
-        lane_f u1, u2, pdf_bsdf;
-        sample_pair(random, pair + EC_PAIR_LIGHT, &u1, &u2);
-        light_sample l = light_sample_one(&light, &g, joins, above, choice, u1, u2);
+        lane_u r1, r2;
+        lane_f pdf_bsdf;
+        sample_pair_u(random, pair + EC_PAIR_LIGHT, &r1, &r2);
+        light_sample l = light_sample_one(&light, &g, joins, above, choice, r1, r2);
         v3 wi_local = surface_to_local(&s, l.wi);
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);

@@ -13,7 +13,7 @@ def png(*texels):
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
     row = b"\0" + b"".join(bytes(t) for t in texels)
-    return data_uri(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 2, 0, 0, 0)) +
+    return data_uri(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 6 if len(texels[0]) == 4 else 2, 0, 0, 0)) +
                     chunk(b"IDAT", zlib.compress(row)) + chunk(b"IEND", b""))
 
 
@@ -167,6 +167,48 @@ class Info(Case):
             found = self.layers({"KHR_materials_anisotropy": members}, *texels, roughness=0.5)
             self.assertEqual(found & {long, textured}, expected)
 
+    def test_films_call_for_what_they_have(self):
+        film, textured = "iridescence", "iridescence-texture"
+        black, green, white = [(0, 0, 0)], [(0, 255, 0)], [(0, 0, 0), (255, 255, 255)]
+        thickness = {"iridescenceFactor": 1, "iridescenceThicknessTexture": {"index": 0}}
+        self.check_layers("KHR_materials_iridescence", {film, textured}, [
+            (set(), {}),
+            ({film}, {"iridescenceFactor": 0.1}),
+            (set(), {"iridescenceFactor": 1, "iridescenceIor": 1}),
+            (set(), {"iridescenceFactor": 1, "iridescenceThicknessMaximum": 0}),
+            # the weight is in red, thickness in green
+            (set(), {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, green),
+            ({film, textured}, {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, white),
+            ({film, textured}, thickness, black),
+            (set(), {**thickness, "iridescenceThicknessMinimum": 0}, black),
+            (set(), {**thickness, "iridescenceThicknessMaximum": 0}, green),
+            ({film, textured}, {**thickness, "iridescenceThicknessMinimum": 0}, green),
+        ])
+
+    def test_diffuse_transmission_calls_for_what_it_has(self):
+        through, textured, dimmed = "diffuse-transmission", "diffuse-transmission-texture", "absorption"
+        name, half = "KHR_materials_diffuse_transmission", {"diffuseTransmissionFactor": 0.5}
+        clear, open_ = [(255, 255, 255, 0)], [(0, 0, 0, 255)]
+        self.check_layers(name, {through, textured, dimmed}, [
+            (set(), {}),
+            ({through}, half),
+            ({through}, {**half, "diffuseTransmissionColorFactor": [0, 0, 0]}),
+            (set(), {**half, "diffuseTransmissionTexture": {"index": 0}}, clear),
+            ({through, textured}, {**half, "diffuseTransmissionTexture": {"index": 0}}, open_),
+            ({through, textured}, {**half, "diffuseTransmissionColorTexture": {"index": 0}}, clear),
+        ])
+        brown = {"attenuationDistance": 1, "attenuationColor": [1, 0.5, 0.2]}
+        for expected, volume in [({through}, brown), ({through, dimmed}, {**brown, "thicknessFactor": 1})]:
+            self.assertEqual(self.layers({name: half, "KHR_materials_volume": volume}) & {through, textured, dimmed}, expected)
+        self.assertEqual(self.layers({name: half, "KHR_materials_transmission": {"transmissionFactor": 1}}) & {through}, set())
+
+    def test_dispersion_wants_a_body_that_bends(self):
+        glass, body = {"KHR_materials_transmission": {"transmissionFactor": 1}}, {"KHR_materials_volume": {"thicknessFactor": 1}}
+        flat, parts, none = {"KHR_materials_ior": {"ior": 1}}, {"KHR_materials_dispersion": {"dispersion": 1}}, {"KHR_materials_dispersion": {}}
+        for expected, extensions in [({"dispersion"}, {**glass, **body, **parts}), (set(), {**glass, **body, **none}), (set(), {**glass, **parts}),
+                                     (set(), {**glass, **body, **flat, **parts}), (set(), {**body, **parts})]:
+            self.assertEqual(self.layers(extensions) & {"dispersion"}, expected)
+
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))
         for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "effects",
@@ -220,6 +262,19 @@ class Info(Case):
         scene["extensionsRequired"] = ["EXT_of_another_world"]
         line = self.assert_one_error(eclat("info", write_gltf(self.path("required.gltf"), scene)), 1)
         self.assertIn("EXT_of_another_world", line)
+
+    def test_cameras_say_where_they_stand(self):
+        # A quarter turn about y, at (5, 6, 7): a node's matrix, by columns. 5e5 more recentres the scene: it must not show.
+        for x in [5, 5e5]:
+            scene, _ = quad_scene()
+            scene["nodes"][0]["translation"] = [x, 0, 0]
+            scene["nodes"][1] = {"camera": 0, "translation": [x, 6, 7], "rotation": [0, 0.5 ** 0.5, 0, 0.5 ** 0.5]}
+            camera = self.info(write_gltf(self.path("turned.gltf"), scene))["cameras"][0]
+            for got, expected in zip(camera["matrix"], [0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, x, 6, 7, 1], strict=True):
+                self.assertAlmostEqual(got, expected, delta=1e-5)
+        scene["cameras"][0] = {"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 9}}
+        camera = self.info(write_gltf(self.path("orthographic.gltf"), scene))["cameras"][0]
+        self.assertEqual([camera["xmag"], camera["ymag"]], [3, 2])
 
     def test_no_light_and_no_camera_are_told(self):
         scene, _ = quad_scene(material={})

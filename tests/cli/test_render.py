@@ -168,6 +168,14 @@ class Reports(Render):
         _, planes = read_exr(self.path("a.exr"))
         self.assertTrue(math.isclose(planes["G"][0], 2, rel_tol=1e-5))
         self.assertEqual(report["environment"], "2,2,2")
+        report = self.render(*SMALL, "--env", "2,2,2", "--env-strength", "1.5", "-o", "a.exr")
+        _, planes = read_exr(self.path("a.exr"))
+        self.assertTrue(math.isclose(planes["G"][0], 3, rel_tol=1e-5))
+        self.assertEqual(report["environment"], "2,2,2, turned by 0 degrees, strength 1.5")
+
+    def test_an_environment_that_is_not_there_cannot_be_turned(self):
+        line = self.assert_one_error(eclat("render", self.scene, *SMALL, "--env-rotate", "90", cwd=self.folder), 1)
+        self.assertIn("give one with --env", line)
 
     def test_quiet_is_silent(self):
         run = self.assert_ok(eclat("render", self.scene, *SMALL, "--quiet", cwd=self.folder))

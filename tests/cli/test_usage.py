@@ -109,6 +109,13 @@ class WrongOptions(Case):
             "--instancing": ["yes", ""],
             "--grid-density": ["0", "-1", "0.009", "10001", "inf", "nan", "27x", ""],
             "--integrator": ["raytrace", ""],
+            "--env-rotate": ["nan", "inf", "90d", ""],
+            "--env-strength": ["-1", "nan", "inf", "2x", ""],
+            "--light-choice": ["bvh", ""],
+            "--filter": ["gaussian", ""],
+            "--filter-width": ["0", "11", "nan", ""],
+            "--fstop": ["0", "-2", "nan", "f/2", ""],
+            "--focus": ["0", "-1", "nan", "inf", "2m", ""],
             "--cutoff": ["-0.1", "1.5", "nan", "1%", ""],
             "--rr": ["0", "-0.5", "1.5", "on", "nan", "inf", "50%", ""],
         }.items():
@@ -122,12 +129,21 @@ class WrongOptions(Case):
                 self.usage("render", "s.gltf", *end, says="--rr off belongs with a finite --max-depth")
 
     def test_options_of_another_integrator(self):
-        for integrator, option, says in [("raster", ["--rr", "0.5"], "path"), ("raster", ["--sample", "light"], "path"),
+        for integrator, option, says in [("raster", ["--rr", "0.5"], "path"), ("raster", ["--sample", "light"], "path"), ("whitted", ["--light-choice", "tree"], "path"),
                                          ("raster", ["--max-depth", "3"], "path or whitted"), ("raster", ["--accel", "bvh8"], "path or whitted"),
                                          ("whitted", ["--rr", "0.5"], "path"), ("whitted", ["--terminator", "smooth"], "path"), ("whitted", ["--sample", "mis"], "path"),
                                          ("path", ["--cutoff", "0"], "whitted"), ("raster", ["--cutoff", "0"], "whitted")]:
             with self.subTest(integrator=integrator, option=option):
                 self.usage("render", "s.gltf", "--integrator", integrator, *option, says=f"{option[0]} belongs to --integrator {says};")
+
+    def test_a_lens_has_an_opening_and_a_focus(self):
+        self.usage("render", "s.gltf", "--fstop", "2", says="--fstop and --focus go together: how wide the lens is, and how far away it is sharp; give --focus too")
+        self.usage("render", "s.gltf", "--focus", "2", says="give --fstop too")
+        self.usage("render", "s.gltf", "--fstop", "2", "--focus", "1", "--integrator", "raster", says="belongs to --integrator path or whitted;")
+
+    def test_a_box_has_one_width(self):
+        for rest in [[], ["--filter", "box"]]:
+            self.usage("render", "s.gltf", "--filter-width", "2", *rest, says="--filter-width belongs to --filter blackman-harris;")
 
     def test_a_ray_tree_is_finite(self):
         for depth in ["inf", "65"]:

@@ -89,7 +89,7 @@ static void test_defects(void)
         {"5126", "5124", "accessors[0].componentType is 5124"},
         {"5126", "5122", "does not allow"},
         {"'VEC3'", "'VEC2'", "does not allow"},
-        {"'VEC3'", "'MAT4'", "type other than"},
+        {"'VEC3'", "'MAT3'", "type other than"},
         {"'VEC3'", "'VEC5'", "type other than"},
         {"'buffer':0,", "'buffer':1,", "bufferViews[0].buffer is 1 but the file has 1 buffers"},
         {"'buffer':0,'byteLength':36", "'buffer':0,'byteLength':37", "reaches beyond buffers[0]"},

@@ -79,6 +79,9 @@ static inline void keep_message(void *user, ec_severity severity, const char *te
     snprintf(messages + used, sizeof messages - used, "%s%s\n", severity == EC_WARNING ? "W " : "N ", text);
 }
 
+/* What the next loads ask for. */
+static ec_scene_choice wanted;
+
 static inline ec_scene *load_bytes(const void *bytes, size_t size, const char *suffix, ec_error *err)
 {
     ec_log log = {keep_message, NULL};
@@ -87,7 +90,7 @@ static inline ec_scene *load_bytes(const void *bytes, size_t size, const char *s
     write_file(path, bytes, size);
     messages[0] = 0;
     err->text[0] = 0;
-    ec_result result = ec_scene_load(path, &scene, &log, err);
+    ec_result result = ec_scene_load_choice(path, &wanted, &scene, &log, err);
     remove(path);
     CHECK((result == EC_OK) == (scene != NULL));
     CHECK_MSG((result == EC_OK) == (err->text[0] == 0), "message %s", err->text);
@@ -131,6 +134,12 @@ static const float triangle_positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     "'buffers':[{'byteLength':36,'uri':'@pos@'}],'bufferViews':[{'buffer':0,'byteLength':36}],"                        \
     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}]" ROOT "}"
 static const blob triangle_blobs[] = {{"@pos@", triangle_positions, sizeof triangle_positions}, {0}};
+
+/* Corner `corner` of a triangle where the file's units put it. */
+static inline void world_corner(const ec_scene *s, uint32_t triangle, uint32_t corner, double out[3])
+{
+    for (uint32_t k = 0; k < 3; k++) out[k] = (double)s->positions[3 * s->indices[3 * triangle + corner] + k] + s->center[k];
+}
 
 static inline void face_normal(const ec_scene *s, uint32_t triangle, double out[3])
 {

@@ -245,6 +245,55 @@ static void test_anisotropy(void)
     expect_failure(LAYER("KHR_materials_anisotropy", "'anisotropyRotation':[1]"), textured_blobs, "KHR_materials_anisotropy.anisotropyRotation must be a number");
 }
 
+static void test_film(void)
+{
+    ec_scene *s;
+    const ec_material *m = load_layer(LAYER("KHR_materials_iridescence", ""), &s, false);
+    CHECK(m->film == 0 && m->film_ior == 1.3f && m->film_least == 100 && m->film_most == 400 && m->textures[EC_SLOT_IRIDESCENCE].texture < 0);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_iridescence", "'iridescenceFactor':0.5,'iridescenceIor':1.75,'iridescenceThicknessMinimum':30,"
+                         "'iridescenceThicknessMaximum':20,'iridescenceTexture':{'index':1},'iridescenceThicknessTexture':{'index':0}"), &s, false);
+    CHECK(m->film == 0.5f && m->film_ior == 1.75f && m->film_least == 30 && m->film_most == 20);
+    CHECK(m->textures[EC_SLOT_IRIDESCENCE].texture == 0 && m->textures[EC_SLOT_IRIDESCENCE_THICKNESS].texture == 1);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_iridescence", "'iridescenceFactor':2,'iridescenceIor':0.5,'iridescenceThicknessMaximum':-1"), &s, true);
+    CHECK(m->film == 1 && m->film_ior == 1 && m->film_most == 0);
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_iridescence", "'iridescenceIor':'1'"), textured_blobs, "KHR_materials_iridescence.iridescenceIor must be a number");
+}
+
+static void test_diffuse_transmission(void)
+{
+    ec_scene *s;
+    const ec_material *m = load_layer(LAYER("KHR_materials_diffuse_transmission", ""), &s, false);
+    CHECK(m->seeps == 0 && m->below[0] == 1 && m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture < 0);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':0.5,'diffuseTransmissionColorFactor':[0.25,0.5,1],"
+                         "'diffuseTransmissionTexture':{'index':1},'diffuseTransmissionColorTexture':{'index':0}},"
+                         "'KHR_materials_volume':{'thicknessFactor':1,'attenuationDistance':2,'attenuationColor':[1,0.5,1]"), &s, false);
+    CHECK(m->seeps == 0.5f && m->below[0] == 0.25f && m->below[2] == 1 && ec_bounds(m) && !ec_refracts(m));
+    CHECK(m->absorption[0] == 0 && fabsf(m->absorption[1] - 0.34657359f) < 1e-6f);
+    CHECK(m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture == 0 && m->textures[EC_SLOT_DIFFUSE_TRANSMISSION_COLOR].texture == 1);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':2,'diffuseTransmissionColorFactor':[-1,0,3]"), &s, true);
+    CHECK(m->seeps == 1 && m->below[0] == 0 && m->below[2] == 1);
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':[1]"), textured_blobs,
+                   "KHR_materials_diffuse_transmission.diffuseTransmissionFactor must be a number");
+}
+
+static void test_dispersion(void)
+{
+    ec_scene *s;
+    const ec_material *m = load_layer(LAYER("KHR_materials_dispersion", "'dispersion':0.36"), &s, false);
+    CHECK(m->dispersion == 0.36f);
+    ec_scene_free(s);
+    m = load_layer(LAYER("KHR_materials_dispersion", "'dispersion':-1"), &s, true);
+    CHECK(m->dispersion == 0);
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_dispersion", "'dispersion':true"), textured_blobs, "KHR_materials_dispersion.dispersion must be a number");
+}
+
 static void test_images(void)
 {
     ec_scene *s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
@@ -363,6 +412,9 @@ int main(void)
     test_coat();
     test_sheen();
     test_anisotropy();
+    test_film();
+    test_diffuse_transmission();
+    test_dispersion();
     test_images();
     test_transform();
     test_missing_coordinates();

@@ -18,7 +18,9 @@ enum packed_field {
     PACKED_SHEEN_ROUGHNESS = PACKED_SHEEN + 3,
     PACKED_STRETCH, /* less 1 */
     PACKED_TURN,    /* turns of wo's plane from the direction of the stretch, 0 to 1 */
-    PACKED_FIELDS
+    PACKED_FILM,    /* weight, index, nanometres */
+    PACKED_SEEPS = PACKED_FILM + 3, /* share, colour */
+    PACKED_FIELDS = PACKED_SEEPS + 4
 };
 
 #endif

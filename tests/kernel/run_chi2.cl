@@ -4,11 +4,11 @@
 #include "packed_material.h"
 
 /* Numbers of a hash: what is tested is the map from them to directions. */
-static void numbers(lane_u i, uint seed, lane_f *u1, lane_f *u2, lane_u *choice)
+static void numbers(lane_u i, uint seed, lane_u *r1, lane_u *r2, lane_u *choice)
 {
     lane_u h = hash_u(hash_u(i) ^ seed);
-    *u1 = to_unit(h);
-    *u2 = to_unit(hash_u(h ^ 0x9e3779b9u));
+    *r1 = h;
+    *r2 = hash_u(h ^ 0x9e3779b9u);
     *choice = hash_u(h + 0x85ebca6bu);
 }
 
@@ -48,6 +48,11 @@ static bsdf make_bsdf(constant float *m)
     s.stretch = F(1.0f + m[PACKED_STRETCH]);
     s.sheen = v3_make(F(m[PACKED_SHEEN]), F(m[PACKED_SHEEN + 1]), F(m[PACKED_SHEEN + 2]));
     s.sheen_roughness = F(m[PACKED_SHEEN_ROUGHNESS]);
+    s.seeps = F(m[PACKED_SEEPS]);
+    s.below = v3_make(F(m[PACKED_SEEPS + 1]), F(m[PACKED_SEEPS + 2]), F(m[PACKED_SEEPS + 3]));
+    s.film = F(m[PACKED_FILM]);
+    s.film_ior = F(m[PACKED_FILM + 1]);
+    s.film_thickness = F(m[PACKED_FILM + 2]);
     s.coat = F(m[PACKED_COAT]);
     s.coat_alpha = F(m[PACKED_COAT_ALPHA]);
     float tilt = m[PACKED_COAT_TILT], cosine = m[PACKED_COSINE];
@@ -58,11 +63,12 @@ static bsdf make_bsdf(constant float *m)
 /* m: packed_material.h. The fifth array is the weight, green. */
 kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out)
 {
-    lane_f u1, u2, pdf;
+    lane_u r1, r2;
+    lane_f pdf;
     lane_u choice;
-    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &u1, &u2, &choice);
+    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &r1, &r2, &choice);
     bsdf b = make_bsdf(m);
-    bsdf_direction d = bsdf_sample(&b, false, u1, u2, to_unit(choice));
+    bsdf_direction d = bsdf_sample(&b, false, to_unit(r1), to_unit(r2), to_unit(choice));
     bsdf_eval(&b, d.wi, &pdf);
     store(out, n, turned(d.wi, 1.0f - m[PACKED_TURN]), pdf);
     LANE_STORE(d.pdf > 0.0f ? d.weight.y : F(0.0f), out + 4 * n + get_global_id(0) * LANES);
@@ -92,24 +98,23 @@ kernel void bsdf_values(uint n, constant float *m, global const float *wi, globa
 
 /* One light of a table, seen from p. */
 kernel void light_samples(uint n, uint seed, constant ec_params *params, constant float *p, global const float *table,
-                          global const uint *alias, global const float *texels, global const uint *texel_alias, global float *out)
+                          global const uint *alias, global const float *texels, global const uint *texel_table, global float *out)
 {
-    lane_f u1, u2;
-    lane_u choice;
-    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &u1, &u2, &choice);
+    lane_u r1, r2, choice;
+    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &r1, &r2, &choice);
     geometry g = {0, 0, 0, 0, 0, 0, 0, {0, 0, 0}};
-    lights l = {table, alias, {params, texels, texel_alias}};
-    light_sample s = light_sample_one(&l, &g, TRUE_MASK, v3_make(F(p[0]), F(p[1]), F(p[2])), choice, u1, u2);
+    lights l = {table, alias, {params, texels, texel_table}};
+    light_sample s = light_sample_one(&l, &g, TRUE_MASK, v3_make(F(p[0]), F(p[1]), F(p[2])), choice, r1, r2);
     store(out, n, s.wi, s.valid ? s.pdf : F(0.0f));
 }
 
 /* Density and red radiance of the environment in given directions. */
-kernel void environment_densities(uint n, constant ec_params *params, global const float *texels, global const uint *texel_alias,
+kernel void environment_densities(uint n, constant ec_params *params, global const float *texels, global const uint *table,
                                   global const float *wi, global float *pdf)
 {
     uint at = get_global_id(0) * LANES;
     if (at >= n) return;
-    environment e = {params, texels, texel_alias};
+    environment e = {params, texels, table};
     lane_f p;
     v3 radiance = environment_look_up(&e, load_v3(wi + at, n), &p);
     LANE_STORE(p, pdf + at);

@@ -7,7 +7,7 @@
 
 static test_random numbers = {1};
 
-/* What light_sample_one and environment_sample do with a random number. */
+/* What light_sample_one does with a random number. */
 static uint32_t picked(const ec_alias *table, uint32_t n, uint32_t r)
 {
     uint32_t column = (uint32_t)((uint64_t)r * n >> 32), rest = r * n;

@@ -104,6 +104,7 @@ static void check_covered(cl_program *built, int lanes, material m, const char *
                               m.transmission, m.eta};
     memcpy(packed + PACKED_COAT, over + PACKED_COAT, (PACKED_FIELDS - PACKED_COAT) * sizeof *packed);
     frame frames[2] = {frame_above(&m), frame_below(&m)};
+    if (over[PACKED_SEEPS] > 0 && m.transmission == 0) frames[1].width = 0.5;
     for (int side = 0; side < 2; side++) frames[side].width *= sqrt(1 + (double)over[PACKED_STRETCH]);
     double mass[CELLS], expected[2 * CELLS + 1], total = 0;
     uint32_t count[2 * CELLS + 1] = {0}, dark = 0, astray = 0;
@@ -118,7 +119,7 @@ static void check_covered(cl_program *built, int lanes, material m, const char *
     expected[2 * CELLS] = fmax(0, 1 - total) * SAMPLES; /* off a microfacet onto the wrong side */
     for (uint32_t i = 0; i < SAMPLES; i++) {
         double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]}, pdf = out[3 * SAMPLES + i];
-        bool lost = w[2] == 0 || (w[2] < 0 && m.transmission == 0);
+        bool lost = w[2] == 0 || (w[2] < 0 && m.transmission == 0 && over[PACKED_SEEPS] == 0);
         dark += !lost && !(pdf > 0);
         astray += lost ? pdf != 0 : fabs(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1) > 1e-5;
         count[lost ? 2 * CELLS : w[2] > 0 ? cell_of(&frames[0], w) : CELLS + cell_of(&frames[1], w)]++;
@@ -212,19 +213,42 @@ static void check_anisotropy(void)
         }
 }
 
+/* Thin films: they decide how often light is reflected, passes or reaches the base. */
+static void check_film(void)
+{
+    const float over[PACKED_FIELDS] = {[PACKED_FILM] = 1, [PACKED_FILM + 1] = 1.6f, [PACKED_FILM + 2] = 350};
+    check_covered(layered_programs, 0, (material){0, 0.3f, 0.5f, 0.8f, 0, 1}, "film", over);
+    check_covered(layered_programs, 1, (material){0.5f, 0.2f, 0.2f, 1, 0, 1}, "film", over);
+    check_covered(layered_programs, 2, (material){0, 0.3f, 0.7f, 1, 1, 1}, "film on a pane", over);
+    check_covered(layered_programs, 3, (material){0, 0.3f, 0.5f, 1, 1, 1.5f}, "film on glass", over);
+    check_covered(layered_programs, 0, (material){0, 0.2f, 0.6f, 1, 0.5f, 1 / 1.5f}, "film on glass from inside", over);
+}
+
+/* Paper, a leaf that is black on one side, frosted panes and glass whose base lets light seep. */
+static void check_seeping(void)
+{
+    const float over[PACKED_FIELDS] = {[PACKED_SEEPS] = 0.4f, [PACKED_SEEPS + 1] = 0.3f, [PACKED_SEEPS + 2] = 0.9f, [PACKED_SEEPS + 3] = 0.1f};
+    check_covered(layered_programs, 0, (material){0, 0.3f, 0.5f, 0.8f, 0, 1}, "seeping", over);
+    check_covered(layered_programs, 1, (material){0, 0.5f, 0.1f, 0, 0, 1}, "seeping", over);
+    check_covered(layered_programs, 2, (material){0, 0.3f, 0.7f, 0.8f, 0.5f, 1}, "seeping", over);
+    check_covered(layered_programs, 3, (material){0.5f, 0.4f, 0.6f, 0.8f, 0.5f, 1.5f}, "seeping", over);
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
     chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
     chi2_build(glass_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
-    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY)");
+    chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION)");
     if (!test_failures) {
         check_opaque();
         check_glass();
         check_coat();
         check_sheen();
         check_anisotropy();
+        check_film();
+        check_seeping();
         printf("%d chi-square tests\n", tests);
         CHECK(tests <= TESTS - 5); /* the lights' */
     }

@@ -125,7 +125,7 @@ static void check_environment(void)
     double mean;
     ec_error err = {0};
     CHECK_OK(ec_pack_environment(&scene, &pack, &mean, &err), err);
-    if (!pack.environment_alias) return;
+    if (!pack.environment_table) return;
     ec_params params = {.light_count = 1, .environment_width = WIDTH, .environment_height = HEIGHT, .environment_pmf = 1, .scene_radius = 3};
     memcpy(params.environment, factor, sizeof factor);
     const ec_light_data light = {.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID, .pmf = 1};
@@ -134,7 +134,7 @@ static void check_environment(void)
     for (int lanes = 0; lanes < LANE_WIDTHS; lanes += 3) {
         if (!KERNEL_CALL(&cl, programs[lanes], "light_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
                          IN(&params, 1), IN(p, 4), IN(&light, 1), IN(&only, 1), IN(pack.environment_texels, 4 * WIDTH * HEIGHT),
-                         IN(pack.environment_alias, WIDTH * HEIGHT), OUT(out, 4 * SAMPLES)))
+                         IN(pack.environment_table, (WIDTH + 1) * HEIGHT), OUT(out, 4 * SAMPLES)))
             break;
         uint32_t count[WIDTH * HEIGHT] = {0}, dark = 0, wrong = 0;
         double expected[WIDTH * HEIGHT];
@@ -162,7 +162,7 @@ static void check_environment(void)
         for (uint32_t k = 0; k < 3; k++) wi[k * n + i] = (float)w[k];
     }
     if (KERNEL_CALL(&cl, programs[3], "environment_densities", n / 16, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * WIDTH * HEIGHT),
-                    IN(pack.environment_alias, WIDTH * HEIGHT), IN(wi, 3 * n), OUT(look, 2 * n))) {
+                    IN(pack.environment_table, (WIDTH + 1) * HEIGHT), IN(wi, 3 * n), OUT(look, 2 * n))) {
         double total = 0, worst = 0;
         uint32_t at = 0;
         for (uint32_t i = 0; i < n; i++) {
@@ -177,7 +177,7 @@ static void check_environment(void)
         CHECK_MSG(worst < 1e-4, "the environment's bilinear look-up is off by %g at column %u, row %u of %u: %g", worst, at % (WIDTH * 21), at / (WIDTH * 21), HEIGHT * 21, (double)look[n + at]);
     }
     free(pack.environment_texels);
-    free(pack.environment_alias);
+    free(pack.environment_table);
 }
 
 int main(void)

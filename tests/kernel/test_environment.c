@@ -1,5 +1,5 @@
 /* An environment map of 4096 x 2048 whose sun is one texel of 1e6 in a sky of 1, with a hundred black rows (NUMERICS.md A3): the
- * density is the one sampled. In 32 bits a texel by the pole has less than one random number to itself. */
+ * density is the one sampled. In 32 bits a texel by the pole would have less than one random number to itself; a row has some, and its texels all. */
 #include "kernel/kernel_run.h"
 #include "pack/pack.h"
 #include "shared/params.h"
@@ -45,24 +45,28 @@ static bool is_black(uint32_t row)
     return row > BLACK_FIRST && row + 1 < BLACK_END;
 }
 
-/* Every random number counted: how often the table picks each texel is what its density says, and never a black one. */
+/* Numbers of n that each entry has: how many there are from its first to the next one's. */
+static uint64_t share(const ec_distribution_entry *table, uint32_t n, uint32_t i)
+{
+    return (uint32_t)((i + 1 < n ? table[i + 1].first : 0) - table[i].first);
+}
+
+/* How often the tables pick each texel is what its density says, and never a black one. */
 static void check_table(void)
 {
-    uint64_t *count = calloc(TEXELS, sizeof *count), wrong = 0, dark = 0, empty = 0;
-    for (uint32_t c = 0; count && c < TEXELS; c++) {
-        uint64_t first = ((uint64_t)c << 32) / TEXELS, end = ((uint64_t)(c + 1) << 32) / TEXELS; /* exact: a power of two */
-        for (uint64_t r = first; r < end; r++)
-            count[(uint32_t)r * TEXELS < pack.environment_alias[c].threshold ? c : pack.environment_alias[c].other]++;
+    uint64_t wrong = 0, dark = 0, empty = 0;
+    for (uint32_t y = 0; y < HEIGHT; y++) {
+        const ec_distribution_entry *row = pack.environment_table + HEIGHT + (size_t)y * WIDTH;
+        double of_row = (double)share(pack.environment_table, HEIGHT, y) * 0x1p-32;
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            double pmf = of_row > 0 ? of_row * (double)share(row, WIDTH, x) * 0x1p-32 : 0;
+            wrong += pack.environment_texels[4 * (y * WIDTH + x) + 3] != (float)pmf;
+            dark += is_black(y) && pmf > 0;
+            empty += !is_black(y) && !(pmf > 0);
+        }
     }
-    for (uint32_t i = 0; count && i < TEXELS; i++) {
-        bool black = is_black(i / WIDTH);
-        wrong += pack.environment_texels[4 * i + 3] != (float)((double)count[i] * 0x1p-32);
-        dark += black && count[i];
-        empty += !black && !count[i];
-    }
-    CHECK_MSG(count && wrong == 0 && dark == 0 && empty == 0, "%llu texels of another probability, %llu black ones sampled, %llu never",
+    CHECK_MSG(wrong == 0 && dark == 0 && empty == 0, "%llu texels of another probability, %llu black ones sampled, %llu never",
               (unsigned long long)wrong, (unsigned long long)dark, (unsigned long long)empty);
-    free(count);
 }
 
 /* The density that a path finds, at the middle of every texel: its integral is 1. */
@@ -76,7 +80,7 @@ static void check_integral(void)
     }
     uint32_t n = TEXELS;
     if (!KERNEL_CALL(&cl, program, "environment_densities", n / 8, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * TEXELS),
-                     IN(pack.environment_alias, TEXELS), IN(wi, 3 * TEXELS), OUT(look, 2 * TEXELS)))
+                     IN(pack.environment_table, TEXELS + HEIGHT), IN(wi, 3 * TEXELS), OUT(look, 2 * TEXELS)))
         return;
     double total = 0;
     uint32_t dark = 0;
@@ -109,9 +113,9 @@ static void check_samples(void)
     const float p[4] = {0};
     uint32_t n = SAMPLES, seed = 1, dark = 0, other = 0;
     if (!KERNEL_CALL(&cl, program, "light_samples", n / 8, SCALAR(n), SCALAR(seed), IN(&params, 1), IN(p, 4), IN(&light, 1), IN(&only, 1),
-                     IN(pack.environment_texels, 4 * TEXELS), IN(pack.environment_alias, TEXELS), OUT(out, 4 * SAMPLES)) ||
+                     IN(pack.environment_texels, 4 * TEXELS), IN(pack.environment_table, TEXELS + HEIGHT), OUT(out, 4 * SAMPLES)) ||
         !KERNEL_CALL(&cl, program, "environment_densities", n / 8, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * TEXELS),
-                     IN(pack.environment_alias, TEXELS), IN(out, 3 * SAMPLES), OUT(look, 2 * SAMPLES)))
+                     IN(pack.environment_table, TEXELS + HEIGHT), IN(out, 3 * SAMPLES), OUT(look, 2 * SAMPLES)))
         return;
     double sum = 0, squares = 0;
     for (uint32_t i = 0; i < SAMPLES; i++) {
@@ -142,7 +146,7 @@ int main(void)
         check_samples();
     }
     free(pack.environment_texels);
-    free(pack.environment_alias);
+    free(pack.environment_table);
     if (program) clReleaseProgram(program);
     ec_cl_close(&cl);
     TEST_END();

@@ -1,5 +1,6 @@
 /* What lies over a surface against double precision, by the formulas of the extensions' texts; the energy of all of it, at roughness and
  * angles from end to end. One surface a call, N directions. Every lane width must give the same bits. */
+#include "kernel/film_reference.h"
 #include "kernel/kernel_reference.h"
 #include "kernel/packed_material.h"
 #define constant static const
@@ -12,6 +13,7 @@ typedef struct vector {
 } vector;
 
 static double product(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static vector above(vector w) { return (vector){w.x, w.y, fabs(w.z)}; }
 static vector in_frame(vector w, double sine, double cosine) { return (vector){w.x * cosine - w.z * sine, w.y, w.x * sine + w.z * cosine}; }
 static vector half_of(vector a, vector b)
 {
@@ -41,8 +43,9 @@ static vector seen_from(const float *m)
     return (vector){sqrt(1 - cosine * cosine), 0, cosine};
 }
 
-/* Anywhere above, a quarter of them near the horizon; half of all where a lobe of this width, bent by this sine, mirrors v. */
-static void draw_directions(vector v, double alpha, double tilt)
+/* Anywhere above, a quarter of them near the horizon; half of all where a lobe of this width, bent by this sine, mirrors v;
+ * a third of them below where light goes through. */
+static void draw_directions(vector v, double alpha, double tilt, bool through)
 {
     for (uint32_t i = 0; i < N; i++) {
         double z = i % 4 ? test_random_in(1e-3, 1) : pow(10, test_random_in(-4, 0)), angle = test_random_in(-pi, pi), r = sqrt(1 - z * z);
@@ -53,7 +56,7 @@ static void draw_directions(vector v, double alpha, double tilt)
             vector mirrored = {2 * product(v, h) * h.x - v.x, 2 * product(v, h) * h.y - v.y, 2 * product(v, h) * h.z - v.z};
             if (mirrored.z > 1e-3) l = mirrored;
         }
-        wi[i] = (float)l.x, wi[N + i] = (float)l.y, wi[2 * N + i] = (float)l.z;
+        wi[i] = (float)l.x, wi[N + i] = (float)l.y, wi[2 * N + i] = (float)(through && i % 3 == 0 ? -l.z : l.z);
     }
 }
 
@@ -63,18 +66,19 @@ static const float plain[PACKED_FIELDS] = {[PACKED_BASE] = 0.8f, [PACKED_BASE + 
                                            [PACKED_F90] = 1, [PACKED_ALPHA] = 0.3f, [PACKED_ETA] = 1};
 
 /* Runs and compares with want(); relative, as rounding of the half vector turns it by 2 u and a lobe of width alpha changes by that
- * over alpha, twice (as in test_reference.c). */
-static void compare(const char *what, const float *m, double least_alpha, double tilt, double (*want)(const float *m, vector l, vector v))
+ * over alpha, twice (as in test_reference.c); relative to `scale`. */
+typedef double value_of(const float *m, vector l, vector v);
+static void compare(const char *what, const float *m, double least_alpha, double tilt, value_of *want, value_of *scale)
 {
     vector v = seen_from(m);
-    draw_directions(v, least_alpha, tilt);
+    draw_directions(v, least_alpha, tilt, m[PACKED_SEEPS] > 0);
     if (!RUN_ALL("bsdf_values", 3, SCALAR(n), IN(m, PACKED_FIELDS), IN(wi, 3 * N), OUT(f, N), OUT(pdf, N))) return;
     double worst = 0, tolerance = 8e-6 + 16 * U / least_alpha / fmax(0.02, m[PACKED_COSINE]);
     uint32_t at = 0, dark = 0;
     for (uint32_t i = 0; i < N; i++) {
         vector l = direction(i);
-        double expected = want(m, l, v), sum = sqrt(2 + 2 * product(l, v)); /* nearly opposite directions: their half vector is worth less */
-        double error = fabs(f[i] - expected) / (expected + 1e-7) / (1 + 0.1 / sum);
+        double expected = want(m, l, v), sum = sqrt(2 + 2 * product(above(l), v)); /* nearly opposite directions: their half vector is worth less */
+        double error = fabs(f[i] - expected) / (scale(m, l, v) + 1e-7) / (1 + 0.1 / sum);
         if (error > worst) worst = error, at = i;
         dark += !(pdf[i] > 0) && expected > 1e-6;
     }
@@ -172,7 +176,7 @@ static void coats(void)
         memcpy(m, plain, sizeof m);
         m[PACKED_COAT] = cases[i][0], m[PACKED_COAT_ALPHA] = cases[i][1], m[PACKED_COAT_TILT] = cases[i][2], m[PACKED_COSINE] = cases[i][3];
         snprintf(name, sizeof name, "coat %g alpha %g tilt %g", (double)cases[i][0], (double)cases[i][1], (double)cases[i][2]);
-        compare(name, m, fmin(cases[i][1], 0.3), cases[i][2], coated);
+        compare(name, m, fmin(cases[i][1], 0.3), cases[i][2], coated, coated);
     }
     /* Over a mirror of roughness 0.07 whose albedo is 1 but for 1e-3: what is missing is the coat's. */
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_F0] = 1, [PACKED_F90] = 1,
@@ -261,7 +265,7 @@ static void sheens(void)
         snprintf(name, sizeof name, "sheen roughness %g cosine %g", (double)roughness[i / 5], (double)cosines[i % 5]);
         if (i % 5 == 0) check_reciprocity(name, m);
         /* sin^(1 / alpha): the power multiplies the error of the sine, of about 4 u, by 1 / alpha. */
-        compare(name, m, fmin(0.3, (double)roughness[i / 5] * roughness[i / 5]), 0, with_sheen);
+        compare(name, m, fmin(0.3, (double)roughness[i / 5] * roughness[i / 5]), 0, with_sheen, with_sheen);
     }
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_ALPHA] = 1, [PACKED_ETA] = 1,
                                   [PACKED_SHEEN] = 1, [PACKED_SHEEN + 1] = 1, [PACKED_SHEEN + 2] = 1};
@@ -289,12 +293,94 @@ static void anisotropies(void)
         memcpy(m, plain, sizeof m);
         m[PACKED_ALPHA] = cases[i][0], m[PACKED_STRETCH] = cases[i][1], m[PACKED_TURN] = cases[i][2], m[PACKED_COSINE] = cases[i][3];
         snprintf(name, sizeof name, "anisotropy alpha %g stretch %g turn %g", (double)cases[i][0], (double)cases[i][1] + 1, (double)cases[i][2]);
-        compare(name, m, cases[i][0], 0, stretched); /* whose formula does not change when l and v do: reciprocal */
+        compare(name, m, cases[i][0], 0, stretched, stretched); /* whose formula does not change when l and v do: reciprocal */
     }
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_F0] = 1, [PACKED_F90] = 1,
                                   [PACKED_METALLIC] = 1, [PACKED_ETA] = 1, [PACKED_TURN] = 0.1f};
     furnace("white metal of anisotropy 0.5", white, PACKED_ALPHA, 0.5);
     furnace("white metal of anisotropy 1", white, PACKED_ALPHA, 1);
+}
+
+/* ---- KHR_materials_iridescence: both Fresnel terms become the film's ---- */
+
+static double filmed(const float *m, vector l, vector v)
+{
+    double cosine = product(half_of(l, v), v), metallic = m[PACKED_METALLIC], w = m[PACKED_FILM], f0[2][3], over[2][3], reflected[2];
+    for (int k = 0; k < 3; k++) f0[0][k] = m[PACKED_F0], f0[1][k] = m[PACKED_BASE + k];
+    for (int i = 0; i < 2; i++) {
+        film_reference(cosine, m[PACKED_FILM + 1], m[PACKED_FILM + 2], f0[i], over[i]);
+        reflected[i] = (1 - w) * film_schlick(f0[i][1], cosine) + w * over[i][1];
+    }
+    double left = (1 - w) * (1 - film_schlick(f0[0][1], cosine)) + w * (1 - fmax(over[0][0], fmax(over[0][1], over[0][2])));
+    return ((1 - metallic) * reflected[0] + metallic * reflected[1]) * lobe(m[PACKED_ALPHA], l, v) + (1 - metallic) * left * m[PACKED_BASE + 1] / pi * l.z;
+}
+
+/* Colours are differences: a channel's error is one of the light that both faces send, not of what interference leaves of it. */
+static double all_sent(const float *m, vector l, vector v)
+{
+    return filmed(m, l, v) + lobe(m[PACKED_ALPHA], l, v) + m[PACKED_BASE + 1] / pi * l.z;
+}
+
+static double bare(const float *m, vector l, vector v)
+{
+    return (1 - (double)m[PACKED_METALLIC]) * plastic(m, l, v) +
+           m[PACKED_METALLIC] * film_schlick(m[PACKED_BASE + 1], product(half_of(l, v), v)) * lobe(m[PACKED_ALPHA], l, v);
+}
+
+/* Not of the surface's own index: there the inner face has no side, and the text's formula for it no answer that lasts. */
+static void films(void)
+{
+    static const float cases[8][5] = {{1, 1.3f, 400, 0, 0.7f}, {1, 1.33f, 100, 1, 0.3f}, {0.5f, 2.5f, 700, 0.5f, 0.9f}, {1, 1.8f, 1200, 1, 0.05f},
+                                      {1, 1.4f, 0.02f, 0, 0.6f}, {0.7f, 1.3f, 5000, 0.2f, 0.5f}, {1, 1.45f, 250, 0, 0.01f}, {1, 1.0001f, 300, 1, 0.6f}};
+    for (int i = 0; i < 8; i++) {
+        float m[PACKED_FIELDS];
+        char name[96];
+        memcpy(m, plain, sizeof m);
+        memcpy(m + PACKED_FILM, cases[i], 3 * sizeof *m);
+        m[PACKED_METALLIC] = cases[i][3], m[PACKED_COSINE] = cases[i][4];
+        snprintf(name, sizeof name, "film %g index %g thickness %g metallic %g", (double)cases[i][0], (double)cases[i][1], (double)cases[i][2], (double)cases[i][3]);
+        /* A way of t wavelengths to and fro turns by 2 pi t, of which 3 roundings are lost: the tolerance of a lobe of that width less. */
+        double turns = 2 * (double)cases[i][1] * (double)cases[i][2] / 400;
+        compare(name, m, fmin(0.3, 1 / (1 + turns)), 0, filmed, all_sent);
+        if (i < 2) check_reciprocity(name, m);
+        m[PACKED_FILM + i % 2 + 1] = i % 2 == 0 ? 1 : 0; /* of the air's index, or of no thickness: as if it were not there */
+        compare("film of nothing", m, 0.3, 0, bare, all_sent);
+    }
+    float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_F0] = 0.04f, [PACKED_F90] = 1,
+                                  [PACKED_METALLIC] = 1, [PACKED_ETA] = 1, [PACKED_FILM] = 1, [PACKED_FILM + 1] = 1.6f, [PACKED_FILM + 2] = 350};
+    furnace("film over white metal", white, PACKED_ALPHA, 0);
+    white[PACKED_METALLIC] = 0, white[PACKED_TRANSMISSION] = 1;
+    furnace("film on a white pane", white, PACKED_ALPHA, 0);
+    white[PACKED_ETA] = 1.5f;
+    furnace("film on glass", white, PACKED_ALPHA, 0);
+    white[PACKED_ETA] = 1 / 1.5f;
+    furnace("film on glass from inside", white, PACKED_ALPHA, 0);
+}
+
+/* ---- KHR_materials_diffuse_transmission: the base is mix(base / pi on this side, colour / pi on the other, share) ---- */
+
+static double seeping(const float *m, vector l, vector v)
+{
+    double share = m[PACKED_SEEPS], fresnel = film_schlick(m[PACKED_F0], product(half_of(above(l), v), v));
+    if (l.z < 0) return (1 - fresnel) * share * m[PACKED_SEEPS + 2] / pi * -l.z;
+    return fresnel * lobe(m[PACKED_ALPHA], l, v) + (1 - fresnel) * (1 - share) * m[PACKED_BASE + 1] / pi * l.z;
+}
+
+static void seepings(void)
+{
+    static const float cases[4][3] = {{0.25f, 0.3f, 0.7f}, {1, 0.1f, 0.2f}, {0.5f, 1, 0.02f}, {0.9f, 0.02f, 1}};
+    for (int i = 0; i < 4; i++) {
+        float m[PACKED_FIELDS];
+        char name[96];
+        memcpy(m, plain, sizeof m);
+        m[PACKED_SEEPS] = cases[i][0], m[PACKED_SEEPS + 1] = 0.2f, m[PACKED_SEEPS + 2] = 0.9f, m[PACKED_SEEPS + 3] = 0.5f;
+        m[PACKED_ALPHA] = cases[i][1], m[PACKED_COSINE] = cases[i][2];
+        snprintf(name, sizeof name, "diffuse transmission %g alpha %g cosine %g", (double)cases[i][0], (double)cases[i][1], (double)cases[i][2]);
+        compare(name, m, fmin(0.3, cases[i][1]), 0, seeping, seeping); /* the same formula from below: reciprocal */
+    }
+    float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_ETA] = 1, [PACKED_SEEPS] = 0.5f,
+                                  [PACKED_SEEPS + 1] = 1, [PACKED_SEEPS + 2] = 1, [PACKED_SEEPS + 3] = 1};
+    furnace("white paper", white, PACKED_ALPHA, 0);
 }
 
 int main(void)
@@ -304,11 +390,13 @@ int main(void)
     for (int i = 0; i < kernel_widths(&cl); i++)
         programs[i] = kernel_build(&cl, "chi2", lane_widths[i],
                                    "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+"
-                                   "EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY)");
+                                   "EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION)");
     if (!test_failures) {
         coats();
         sheens();
         anisotropies();
+        films();
+        seepings();
     }
     for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);

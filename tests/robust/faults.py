@@ -79,6 +79,10 @@ class FaultCase(Case):
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True)
         return process, folder
 
+    def no_cache(self):
+        """Environment in which no kernel has been compiled yet."""
+        return {"XDG_CACHE_HOME": self.path("nothing-compiled")}
+
     def count_calls(self, *options, **more):
         """How often each call is met in a render without a fault."""
         run, folder = self.run_with("counted", *options, **more)

@@ -58,19 +58,28 @@ static void build(const ec_scene *scene)
     ec_accel_input_free(&input);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+/* How many animations it has; 0 where it is refused. */
+static uint32_t judge(const char *path, const ec_scene_choice *choice)
 {
     ec_scene *scene = NULL;
     ec_error err = {0};
     ec_log log = {keep_one_line, NULL};
-    ec_result result = ec_scene_load(fuzz_file(data, size), &scene, &log, &err);
+    ec_result result = ec_scene_load_choice(path, choice, &scene, &log, &err);
     fuzz_judge_result(result, &err);
     if (result != EC_OK) return 0;
+    uint32_t animations = scene->contents.animations.count;
     PROMISE(ec_scene_validate(scene, &err) == EC_OK, "%s", err.text);
     if (scene->triangle_count <= TRIANGLES_MOST) {
         pack(scene);
         build(scene);
     }
     ec_scene_free(scene);
+    return animations;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    const char *path = fuzz_file(data, size);
+    if (judge(path, &(ec_scene_choice){0})) judge(path, &(ec_scene_choice){.animation = "all", .at = 0.6, .animated = true});
     return 0;
 }

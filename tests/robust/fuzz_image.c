@@ -18,11 +18,13 @@ static void judge_environment(ec_scene *scene)
     PROMISE(isfinite(luminance) && luminance >= 0, "mean luminance %g", luminance);
     double sum = 0;
     size_t count = (size_t)pack.environment_width * pack.environment_height;
-    for (size_t i = 0; pack.environment_alias && i < count; i++) {
-        PROMISE(pack.environment_alias[i].other < count, "alias %u", pack.environment_alias[i].other);
-        sum += pack.environment_texels[4 * i + 3];
-    }
-    PROMISE(!pack.environment_alias || fabs(sum - 1) < 1e-4, "the chances of %zu texels add up to %g", count, sum);
+    for (size_t i = 0; pack.environment_table && i < count; i++) sum += pack.environment_texels[4 * i + 3];
+    for (uint32_t y = 0; pack.environment_table && y < pack.environment_height; y++)
+        PROMISE(pack.environment_table[y].guide < pack.environment_height, "guide %u", pack.environment_table[y].guide);
+    for (size_t i = 0; pack.environment_table && i < count; i++)
+        PROMISE(pack.environment_table[pack.environment_height + i].guide < pack.environment_width, "guide %u",
+                pack.environment_table[pack.environment_height + i].guide);
+    PROMISE(!pack.environment_table || fabs(sum - 1) < 1e-4, "the chances of %zu texels add up to %g", count, sum);
     ec_pack_free(&pack);
 }
 

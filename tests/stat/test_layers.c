@@ -9,6 +9,8 @@ static const char *const tiles[] = {
     "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0.9,0.5,0.2],\"sheenRoughnessFactor\":0.3}",
     "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0.2,0.5,0.9],\"sheenRoughnessFactor\":1},"
     "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1,\"clearcoatRoughnessFactor\":0.2}",
+    "\"KHR_materials_iridescence\":{\"iridescenceFactor\":0.9,\"iridescenceIor\":1.5,\"iridescenceThicknessMaximum\":380}",
+    "\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":0.6,\"diffuseTransmissionColorFactor\":[0.9,0.5,0.1]}",
     "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.7,\"anisotropyRotation\":0.6}",
 };
 enum { TILES = sizeof tiles / sizeof *tiles };

@@ -140,7 +140,7 @@ ec_result bench_device_rays(bench_device *d, bench_kind kind, const bench_rays *
             f[((is_shadow ? EC_SHADOW_LR : EC_PATH_BR) + c) * stride + i] = 1.0f;
         }
         queue[(is_shadow ? EC_SHADOW_SLOT : EC_PATH_SLOT) * stride + i] = i;
-        queue[(is_shadow ? EC_SHADOW_PRIM : EC_PATH_PRIM) * stride + i] = EC_NO_ID;
+        queue[(is_shadow ? EC_SHADOW_PRIM : EC_PATH_PRIM) * stride + i] = r->leaves;
         if (is_shadow) queue[EC_SHADOW_TARGET * stride + i] = EC_NO_ID;
     }
     ec_result result = ec_buffer_create(&d->cl, "rays", fields * stride * 4, queue, &d->queues[kind], err);

@@ -71,6 +71,7 @@ bench_rays bench_camera_rays(const bench_mesh *mesh, uint32_t size)
         normalize(ray->d);
         for (int k = 0; k < 3; k++) ray->o[k] = 0.5f * (lo[k] + hi[k]) + place[k] * (hi[k] - lo[k]);
         ray->t_max = 3.0e38f;
+        ray->leaves = UINT32_MAX;
     }
     return r;
 }
@@ -108,6 +109,7 @@ bench_rays bench_bounce_rays(const bench_mesh *mesh, const bench_rays *camera, c
         normalize(ray->d);
         for (int k = 0; k < 3; k++) ray->o[k] = from->o[k] + from->d[k] * hits[i].t + n[k] * offset;
         ray->t_max = 3.0e38f;
+        ray->leaves = hits[i].prim;
     }
     return r;
 }

@@ -9,6 +9,7 @@
 typedef struct bench_ray {
     float o[3], d[3]; /* d need not be unit */
     float t_max;      /* in lengths of d */
+    uint32_t leaves;  /* the triangle it comes from, which eclat's rays ignore; UINT32_MAX: none */
 } bench_ray;
 
 typedef struct bench_hit {

@@ -95,9 +95,10 @@ class Gltf:
 
     def material(self, name, base=(0.8, 0.8, 0.8), alpha=1.0, metallic=0.0, roughness=1.0, emission=None, lambert=False,
                  specular=None, double_sided=False, alpha_mode=None, cutoff=None, unlit=False, base_texture=None,
-                 metallic_roughness_texture=None, normal_texture=None, normal_scale=None, emission_texture=None, transmission=None, ior=None, body=False, attenuation=None):
+                 metallic_roughness_texture=None, normal_texture=None, normal_scale=None, emission_texture=None, transmission=None, ior=None, body=False, attenuation=None, extensions=None):
         """emission is radiance. lambert: no dielectric reflection at all (specularFactor 0). *_texture: texture_use().
-        body: light is refracted; attenuation: (colour, metres) of what is left of white light there."""
+        body: light is refracted; attenuation: (colour, metres) of what is left of white light there.
+        extensions: others, by name."""
         pbr = {"baseColorFactor": [clean(c) for c in base] + [alpha], "metallicFactor": clean(metallic),
                "roughnessFactor": clean(roughness)}
         if base_texture:
@@ -105,7 +106,7 @@ class Gltf:
         if metallic_roughness_texture:
             pbr["metallicRoughnessTexture"] = metallic_roughness_texture
         item = {"name": name, "pbrMetallicRoughness": pbr}
-        extensions = {}
+        extensions = dict(extensions or {})
         if lambert:
             specular = 0.0
         if specular is not None:

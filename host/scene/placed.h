@@ -1,8 +1,8 @@
 /* Meshes that are kept once and stand in many places. Their triangles lie behind all others in the scene's arrays, in a space of
  * their own; what is placed is counted as if it were written out: a triangle's id is its instance's first id plus its number in
  * the mesh, so hits, ties and random decisions know one number only. */
-#ifndef EC_SCENE_INSTANCES_H
-#define EC_SCENE_INSTANCES_H
+#ifndef EC_SCENE_PLACED_H
+#define EC_SCENE_PLACED_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,0 +1,110 @@
+#include "pack/light_bounds.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void take_point(ec_light_bounds *b, const float p[3])
+{
+    for (int k = 0; k < 3; k++) {
+        b->low[k] = fmin(b->low[k], (double)p[k]);
+        b->high[k] = fmax(b->high[k], (double)p[k]);
+    }
+}
+
+static void set_axis(ec_light_bounds *b, const double axis[3], double cos_spread)
+{
+    double length = sqrt(dot(axis, axis));
+    bool usable = length > 0 && isfinite(length);
+    for (int k = 0; k < 3; k++) b->axis[k] = usable ? axis[k] / length : k == 2;
+    b->cos_spread = usable ? cos_spread : -1;
+}
+
+ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power)
+{
+    ec_light_bounds b = {.power = power};
+    uint32_t kind = light->kind & EC_LIGHT_KIND_MASK;
+    for (int k = 0; k < 3; k++) b.low[k] = b.high[k] = light->a[k];
+    set_axis(&b, (double[3]){0, 0, 1}, -1);
+    if (kind == EC_KIND_SPOT) set_axis(&b, (double[3]){light->b[0], light->b[1], light->b[2]}, light->c[1]); /* outer cone */
+    if (kind != EC_KIND_TRIANGLE) return b;
+    double e[3], f[3];
+    take_point(&b, light->b);
+    take_point(&b, light->c);
+    for (int k = 0; k < 3; k++) e[k] = (double)light->b[k] - light->a[k], f[k] = (double)light->c[k] - light->a[k];
+    set_axis(&b, (double[3]){e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]}, 1);
+    b.two_sided = light->kind & EC_LIGHT_TWO_SIDED;
+    return b;
+}
+
+/* The narrowest cone around two. */
+static void join_cones(ec_light_bounds *a, const ec_light_bounds *b)
+{
+    double angle = acos(fmin(fmax(dot(a->axis, b->axis), -1), 1)), sa = acos(a->cos_spread), sb = acos(b->cos_spread);
+    if (fmin(angle + sb, PI) <= sa) return;
+    if (fmin(angle + sa, PI) <= sb) {
+        memcpy(a->axis, b->axis, sizeof a->axis);
+        a->cos_spread = b->cos_spread;
+        return;
+    }
+    double spread = 0.5 * (sa + angle + sb), part = angle > 0 ? (spread - sa) / angle : 0, sine = sin(angle), axis[3];
+    if (spread >= PI || !(sine > 1e-9)) {
+        set_axis(a, a->axis, angle < 1 && spread < PI ? cos(spread) : -1);
+        return;
+    }
+    for (int k = 0; k < 3; k++) axis[k] = sin((1 - part) * angle) / sine * a->axis[k] + sin(part * angle) / sine * b->axis[k];
+    set_axis(a, axis, cos(spread));
+}
+
+void ec_light_bounds_add(ec_light_bounds *to, const ec_light_bounds *other)
+{
+    if (!(other->power > 0)) return;
+    if (!(to->power > 0)) {
+        *to = *other;
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        to->low[k] = fmin(to->low[k], other->low[k]);
+        to->high[k] = fmax(to->high[k], other->high[k]);
+    }
+    join_cones(to, other);
+    to->power += other->power;
+    to->two_sided |= other->two_sided;
+}
+
+static double size2(const ec_light_bounds *b)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += (b->high[k] - b->low[k]) * (b->high[k] - b->low[k]);
+    return sum;
+}
+
+/* The squared diagonal in place of the box's surface: lamps in a row or a point apart have size too. */
+double ec_light_bounds_cost(const ec_light_bounds *b)
+{
+    if (!(b->power > 0)) return 0;
+    double o = acos(b->cos_spread), w = fmin(o + 0.5 * PI, PI), so = sin(o), co = b->cos_spread;
+    double spread = 2 * PI * (1 - co) + 0.5 * PI * (2 * w * so - cos(o - 2 * w) - 2 * o * so + co);
+    return b->power * spread * size2(b);
+}
+
+ec_light_node ec_light_bounds_node(const ec_light_bounds *b, double most_power)
+{
+    ec_light_node node = {.power = (float)fmax(b->power / most_power, 1e-30), .two_sided = b->two_sided};
+    double radius2 = 0, co = fmax(b->cos_spread - 1e-6, -1);
+    for (int k = 0; k < 3; k++) {
+        node.centre[k] = (float)(0.5 * (b->low[k] + b->high[k]));
+        double reach = fmax(b->high[k] - node.centre[k], node.centre[k] - b->low[k]);
+        radius2 += reach * reach;
+        node.axis[k] = (float)b->axis[k];
+    }
+    /* Beyond a right angle the other sides of two-sided lamps are in the cone as well. */
+    if (b->two_sided && co < 0) co = -1;
+    node.radius2 = (float)(radius2 * (1 + 1e-6));
+    node.cos_spread = (float)co;
+    node.sin_spread = (float)sqrt(fmax(1 - co * co, 0));
+    return node;
+}

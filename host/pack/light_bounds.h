@@ -1,0 +1,26 @@
+/* Where lamps are and where they shine. Inside host/pack only. */
+#ifndef EC_PACK_LIGHT_BOUNDS_H
+#define EC_PACK_LIGHT_BOUNDS_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+#include "shared/light_tree.h"
+#include "shared/scene_buffers.h"
+
+/* A box, and a cone that holds the normals: directions about which a lamp shines by the cosine, or less. */
+typedef struct ec_light_bounds {
+    double low[3], high[3];
+    double axis[3], cos_spread; /* -1: all ways */
+    double power;               /* 0: of nothing */
+    bool two_sided;             /* some shine against their normals too */
+} ec_light_bounds;
+
+ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power); /* a triangle, point or spot */
+void ec_light_bounds_add(ec_light_bounds *to, const ec_light_bounds *other);
+/* What the lamps are likely to cost apart from others: power, size and spread (Conty Estevez and Kulla 2018, equation 1). */
+double ec_light_bounds_cost(const ec_light_bounds *bounds);
+/* Everything but the link; never smaller than the bounds, in float. */
+ec_light_node ec_light_bounds_node(const ec_light_bounds *bounds, double most_power);
+
+#endif

@@ -1,0 +1,126 @@
+/* From the top down by binned cost, as a BVH (Conty Estevez and Kulla 2018). */
+#include "pack/light_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define BINS 12
+
+typedef struct builder {
+    const ec_light_bounds *bounds;
+    const uint32_t *ids;
+    uint32_t *order; /* indices of bounds: a node's stand together */
+    ec_light_node *nodes;
+    uint32_t *trails;
+    double most_power;
+    uint32_t used;
+} builder;
+
+typedef struct task {
+    uint32_t node, first, end, depth, trail;
+} task;
+
+static double middle(const ec_light_bounds *b, int axis) { return 0.5 * (b->low[axis] + b->high[axis]); }
+
+static uint32_t bin_of(const ec_light_bounds *b, int axis, double low, double high)
+{
+    double place = BINS * ((middle(b, axis) - low) / (high - low));
+    return place < BINS - 1 ? (uint32_t)fmax(place, 0) : BINS - 1;
+}
+
+typedef struct plane {
+    int axis; /* -1: none */
+    uint32_t bin;
+    double low, high, cost;
+} plane;
+
+static ec_light_bounds around(const builder *b, uint32_t first, uint32_t end)
+{
+    ec_light_bounds all = {.power = 0};
+    for (uint32_t i = first; i < end; i++) ec_light_bounds_add(&all, &b->bounds[b->order[i]]);
+    return all;
+}
+
+static void try_axis(const builder *b, const task *t, int axis, double stretch, plane *best)
+{
+    double low = INFINITY, high = -INFINITY, above[BINS];
+    for (uint32_t i = t->first; i < t->end; i++) {
+        double m = middle(&b->bounds[b->order[i]], axis);
+        low = fmin(low, m), high = fmax(high, m);
+    }
+    if (!(high > low)) return;
+    ec_light_bounds bins[BINS] = {{.power = 0}}, sum = {.power = 0};
+    for (uint32_t i = t->first; i < t->end; i++) {
+        const ec_light_bounds *one = &b->bounds[b->order[i]];
+        ec_light_bounds_add(&bins[bin_of(one, axis, low, high)], one);
+    }
+    for (int k = BINS - 1; k > 0; k--) {
+        ec_light_bounds_add(&sum, &bins[k]);
+        above[k] = ec_light_bounds_cost(&sum);
+    }
+    sum = (ec_light_bounds){.power = 0};
+    for (uint32_t k = 0; k < BINS - 1; k++) {
+        ec_light_bounds_add(&sum, &bins[k]);
+        double cost = stretch * (ec_light_bounds_cost(&sum) + above[k + 1]);
+        if (best->axis < 0 || cost < best->cost) *best = (plane){axis, k, low, high, cost};
+    }
+}
+
+/* Where the second child's lamps begin; its lamps come to stand there. Long boxes are rather cut across (the paper's regulariser). */
+static uint32_t split(builder *b, const task *t, const ec_light_bounds *all)
+{
+    uint32_t half = t->first + (t->end - t->first) / 2, levels = 0;
+    while (((uint64_t)1 << levels) < t->end - t->first) levels++;
+    if (t->depth + levels >= EC_LIGHT_DEPTH_MOST) return half; /* in halves it just fits the trail */
+    plane best = {.axis = -1};
+    double longest = 0;
+    for (int k = 0; k < 3; k++) longest = fmax(longest, all->high[k] - all->low[k]);
+    for (int k = 0; k < 3; k++)
+        if (all->high[k] > all->low[k]) try_axis(b, t, k, longest / (all->high[k] - all->low[k]), &best);
+    if (best.axis < 0) return half;
+    uint32_t at = t->first;
+    for (uint32_t i = t->first; i < t->end; i++) {
+        uint32_t one = b->order[i];
+        if (bin_of(&b->bounds[one], best.axis, best.low, best.high) > best.bin) continue;
+        b->order[i] = b->order[at];
+        b->order[at++] = one;
+    }
+    return at > t->first && at < t->end ? at : half;
+}
+
+static void grow(builder *b, task *stack)
+{
+    uint32_t waiting = 1;
+    while (waiting) {
+        task t = stack[--waiting];
+        ec_light_bounds all = around(b, t.first, t.end);
+        ec_light_node *node = &b->nodes[t.node];
+        *node = ec_light_bounds_node(&all, b->most_power);
+        if (t.end - t.first == 1) {
+            uint32_t lamp = b->order[t.first];
+            node->link = EC_LIGHT_LEAF | b->ids[lamp];
+            b->trails[lamp] = t.trail;
+            continue;
+        }
+        uint32_t at = split(b, &t, &all), child = b->used;
+        node->link = child;
+        b->used += 2;
+        stack[waiting++] = (task){child + 1, at, t.end, t.depth + 1, t.trail | 1u << t.depth};
+        stack[waiting++] = (task){child, t.first, at, t.depth + 1, t.trail};
+    }
+}
+
+ec_result ec_light_tree_build(const ec_light_bounds *bounds, const uint32_t *ids, uint32_t count, ec_light_node *nodes, uint32_t *trails,
+                              ec_error *err)
+{
+    task stack[EC_LIGHT_DEPTH_MOST + 2] = {{0, 0, count, 0, 0}};
+    builder b = {bounds, ids, malloc((size_t)count * sizeof *b.order), nodes, trails, 0, 1};
+    if (!b.order) return ec_fail(err, "out of memory for a tree of %u lamps", count);
+    for (uint32_t i = 0; i < count; i++) {
+        b.order[i] = i;
+        b.most_power = fmax(b.most_power, bounds[i].power);
+    }
+    grow(&b, stack);
+    free(b.order);
+    return EC_OK;
+}

@@ -1,0 +1,42 @@
+/* The camera's part of the kernels' parameters. */
+#include <math.h>
+
+#include "pipeline/pipeline.h"
+
+/* glTF says nothing of lenses. This one stands before a sensor 24 mm high, that of small-picture film, so that its focal length
+ * follows from the field of view; it is that of focus at infinity whatever is in focus, and the field of view stays: a lens that is
+ * focused nearer would show a little less. */
+#define EC_SENSOR_HEIGHT 0.024
+
+static ec_result set_lens(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)
+{
+    if (o->fstop == 0) return EC_OK;
+    if (c->type == EC_CAMERA_ORTHOGRAPHIC)
+        return ec_fail(err, "camera %u is orthographic, its rays do not meet in a lens: choose a perspective one, or leave out --fstop and --focus",
+                       o->camera);
+    if (!(o->fstop > 0 && o->focus > 0)) return ec_fail(err, "a lens needs a positive fstop and a positive focus");
+    double focal_length = EC_SENSOR_HEIGHT / (2 * tan(0.5 * c->yfov)), radius = focal_length / (2 * o->fstop);
+    for (int k = 0; k < 3; k++) {
+        params->lens_right[k] = (float)(c->right[k] * radius);
+        params->lens_up[k] = (float)(c->up[k] * radius);
+    }
+    params->lens_nearness = (float)(1 / o->focus);
+    return EC_OK;
+}
+
+ec_result ec_pipeline_set_camera(const ec_scene *scene, const ec_render_options *o, ec_params *params, ec_error *err)
+{
+    const ec_camera *c = &scene->cameras[o->camera];
+    double aspect = (double)o->width / o->height;
+    bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
+    double half_height = is_flat ? c->ymag : tan(0.5 * c->yfov);
+    double half_width = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f ? c->xmag : half_height * aspect;
+    for (int k = 0; k < 3; k++) {
+        params->camera_origin[k] = c->position[k];
+        params->camera_right[k] = (float)(c->right[k] * half_width);
+        params->camera_up[k] = (float)(c->up[k] * half_height);
+        params->camera_forward[k] = c->forward[k];
+    }
+    params->orthographic = is_flat;
+    return set_lens(c, o, params, err);
+}

@@ -1,0 +1,147 @@
+/* A moment of an animation is a change to the document: what each channel says at that time is written where it points, before
+ * nodes, meshes, materials, lights and cameras are read. So KHR_animation_pointer costs nothing more than its pointers. */
+#include "scene/gltf_shim.h"
+
+#include <cmath>
+#include <memory>
+
+extern "C" {
+#include "scene/gltf_keyframes.h"
+}
+
+namespace eclat {
+
+using nlohmann::json;
+using path = std::vector<std::string>;
+
+/* A JSON pointer's parts; ~1 stands for a slash and ~0 for a tilde. */
+static path split(const std::string &pointer)
+{
+    path parts;
+    for (size_t i = 0; i < pointer.size(); i++) {
+        char c = pointer[i];
+        if (c == '/') {
+            parts.emplace_back();
+            continue;
+        }
+        if (parts.empty()) return {};
+        if (c == '~' && i + 1 < pointer.size()) c = pointer[++i] == '1' ? '/' : '~';
+        parts.back() += c;
+    }
+    return parts;
+}
+
+/* Only what is read after this; the rest of the tree already stands in arrays. */
+static bool may_move(const path &to)
+{
+    if (to.size() < 3) return false;
+    if (to[0] == "extensions") return to.size() >= 5 && to[1] == "KHR_lights_punctual" && to[2] == "lights";
+    return to[0] == "nodes" || to[0] == "materials" || to[0] == "cameras" || (to[0] == "meshes" && to[2] == "weights");
+}
+
+/* A member, or an element by its number; an object that has only defaults so far need not be in the file. */
+static json *step(json &from, const std::string &name, bool make)
+{
+    if (from.is_array()) {
+        bool number = !name.empty() && name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
+        size_t i = number ? std::stoul(name) : from.size();
+        return i < from.size() ? &from[i] : nullptr;
+    }
+    if (!from.is_object()) return nullptr;
+    auto found = from.find(name);
+    if (found != from.end()) return &*found;
+    return make ? &(from[name] = json::object()) : nullptr;
+}
+
+static bool write(json &root, const path &to, const json &value)
+{
+    json *at = &root;
+    for (size_t i = 0; i + 1 < to.size(); i++) {
+        bool make = i >= 2 && to[i] != "extensions" && to[i - 1] != "extensions";
+        at = step(*at, to[i], make);
+        if (!at) return false;
+    }
+    const std::string &last = to.back();
+    if (!at->is_object()) return false;
+    if (to[0] == "nodes" && (last == "translation" || last == "rotation" || last == "scale")) at->erase("matrix");
+    (*at)[last] = value;
+    return true;
+}
+
+static ec_gltf_keyframes convert_keyframes(const json &sampler)
+{
+    std::string interpolation = sampler.value("interpolation", "LINEAR");
+    return {sampler["input"], sampler["output"],
+            interpolation == "STEP" ? EC_STEP : interpolation == "CUBICSPLINE" ? EC_CUBICSPLINE : EC_LINEAR};
+}
+
+static json sample(ec_gltf *gltf, const json &sampler, const path &to, double at, const std::string &where)
+{
+    ec_error err;
+    ec_gltf_numbers numbers = {nullptr, 0};
+    ec_gltf_keyframes keyframes = convert_keyframes(sampler);
+    ec_result result = ec_gltf_keyframes_sample(gltf, &keyframes, to[0] == "nodes" && to.back() == "rotation", at, where.c_str(), &numbers, &err);
+    std::unique_ptr<double, void (*)(void *)> owned(numbers.values, free);
+    if (result != EC_OK) throw bad_file(err.text);
+    if (numbers.count == 1 && to.back() != "weights") return numbers.values[0];
+    return std::vector<double>(numbers.values, numbers.values + numbers.count);
+}
+
+/* Where a channel points; empty: at nothing, which glTF lets it. */
+static std::string pointer_of(const json &target)
+{
+    const json *extension = find_extension(target, "KHR_animation_pointer");
+    if (extension) return (*extension)["pointer"];
+    if (!target.contains("node")) return "";
+    return "/nodes/" + std::to_string(target["node"].get<int>()) + "/" + target["path"].get<std::string>();
+}
+
+static void apply(json &root, const json &animation, const std::string &name, double at, ec_gltf *gltf, const ec_log *log)
+{
+    const json &channels = animation["channels"], &samplers = animation["samplers"];
+    for (size_t i = 0; i < channels.size(); i++) {
+        std::string where = name + ".channels[" + std::to_string(i) + "]", pointer = pointer_of(channels[i]["target"]);
+        size_t sampler = channels[i]["sampler"];
+        if (pointer.empty()) continue;
+        if (sampler >= samplers.size()) throw bad_file(where + ".sampler is " + std::to_string(sampler) + " but there are " + std::to_string(samplers.size()));
+        path to = split(pointer);
+        if (!may_move(to) || !write(root, to, sample(gltf, samplers[sampler], to, at, where)))
+            ec_warn(log, "%s: %s moves %.200s, which eclat does not; it is left out", gltf->path, where.c_str(), printable(pointer).c_str());
+    }
+}
+
+static void list_animations(const json &root, ec_scene_contents &contents)
+{
+    const json &animations = list_of(root, "animations"), &accessors = list_of(root, "accessors");
+    list_names(animations, &contents.animations);
+    contents.seconds = make_array<double>(animations.size());
+    for (size_t i = 0; i < animations.size(); i++) {
+        double &seconds = contents.seconds[i] = 0;
+        for (const json &sampler : animations[i]["samplers"]) {
+            const json &most = list_of(accessors[sampler["input"].get<size_t>()], "max");
+            bool known = most.is_array() && most.size() == 1 && most[0].is_number();
+            seconds = known ? std::fmax(seconds, most[0].get<double>()) : std::nan("");
+            if (!known) break;
+        }
+    }
+}
+
+bool choose_moment(json &root, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log)
+{
+    ec_scene_names &names = gltf->contents.animations;
+    list_animations(root, gltf->contents);
+    if (!choice->animated) {
+        if (names.count)
+            ec_note(log, "%s: %u animation%s: shown as stored, --at SECONDS takes a moment", gltf->path, names.count, names.count > 1 ? "s" : "");
+        return false;
+    }
+    if (!names.count) throw bad_file("there is no animation in it; leave out --at and --animation");
+    bool all = choice->animation && std::string(choice->animation) == "all";
+    uint32_t one = choice->animation && !all ? find_choice(&names, "animation", choice->animation) : 0;
+    const json &animations = root["animations"]; /* stays where it is: what is written is elsewhere */
+    for (uint32_t i = 0; i < names.count; i++)
+        if (all || i == one) apply(root, animations[i], "animations[" + std::to_string(i) + "]", choice->at, gltf, log);
+    return true;
+}
+
+} // namespace eclat

@@ -1,0 +1,41 @@
+/* Glass that parts colours (KHR_materials_dispersion). Red, green and blue have an index each, by the first two terms of Cauchy's formula
+ * at the lines C, d and F (656.3, 587.6, 486.1 nm), where n_F - n_C = (n_d - 1) / V and the Abbe number V is 20 / dispersion. A path that
+ * meets such glass goes on in one of them, chosen by its share of what the path carries, and stands for their sum from then on. */
+#ifndef EC_LIB_DISPERSION_H
+#define EC_LIB_DISPERSION_H
+
+#include "surface.h"
+
+/* channel: 0, 1, 2. (1 / l^2 - 1 / l_d^2) / (1 / l_F^2 - 1 / l_C^2) says where between the lines. */
+EC_FN lane_f dispersed_index(lane_f ior, lane_f dispersion, lane_i channel)
+{
+    lane_f place = channel == 0 ? F(-0.300782194f) : (channel == 1 ? F(0.0f) : F(0.699217806f));
+    return max(fma((ior - 1.0f) * 0.05f * dispersion, place, ior), F(1.0f));
+}
+
+/* One channel of beta, with the weight of all. Never one that is 0. */
+EC_FN lane_i dispersion_choose(v3 beta, lane_f u, v3 *left)
+{
+    lane_f sum = beta.x + beta.y + beta.z, at = u * sum;
+    lane_i red = (at < beta.x) | (beta.y + beta.z == 0.0f), green = (!red) & ((at < beta.x + beta.y) | (beta.z == 0.0f));
+    green = green & (beta.y > 0.0f);
+    *left = v3_make(red ? sum : F(0.0f), green ? sum : F(0.0f), (red | green) ? F(0.0f) : sum);
+    return red ? I(0) : (green ? I(1) : I(2));
+}
+
+/* Gives the surface the index of one channel, and beta only that. */
+EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f u, surface *s, v3 *beta)
+{
+    quad q = material_quad(g, h, EC_MATERIAL_IOR);
+    m = m & s->refracts & (s->transmission > 0.0f) & (q.b > 0.0f) & (q.a > 1.0f) & (v3_max_component(*beta) > 0.0f);
+    if (!any_lane(m)) return;
+    v3 left;
+    lane_f ior = dispersed_index(q.a, q.b, dispersion_choose(*beta, u, &left));
+    lane_f r = (ior - 1.0f) * (q.a + 1.0f) / ((ior + 1.0f) * (q.a - 1.0f));
+    *beta = v3_select(m, left, *beta);
+    s->eta = m ? (s->front ? ior : 1.0f / ior) : s->eta;
+    s->f0 = v3_select(m, v3_scale(s->f0, r * r), s->f0);
+    if (HAS(SMOOTH)) s->smooth = s->smooth | (m & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA));
+}
+
+#endif

@@ -1,0 +1,23 @@
+/* A thin lens in the pinhole's place: depth of field. The camera's axis and its field of view stay those of the pinhole. */
+#ifndef EC_LIB_LENS_H
+#define EC_LIB_LENS_H
+
+#include "../shared/params.h"
+#include "sampler.h"
+
+/* From a ray through the pinhole, d having 1 along the axis, to one that meets it in the plane of focus and starts at a uniform
+ * point of the round aperture. Lengths of d change, so that rays stay those of the pinhole, bit for bit, where there is no aperture. */
+EC_FN void lens_shift(constant ec_params *params, sampler random, v3 *o, v3 *d)
+{
+    lane_f u1, u2, cosine;
+    sample_pair(random, EC_PAIR_LENS, &u1, &u2);
+    lane_f radius = sqrt(u1), sine = sincos_2pi(u2, &cosine);
+    lane_f x = radius * cosine, y = radius * sine;
+    v3 at = v3_make(fma(x, F(params->lens_right[0]), y * params->lens_up[0]),
+                    fma(x, F(params->lens_right[1]), y * params->lens_up[1]),
+                    fma(x, F(params->lens_right[2]), y * params->lens_up[2]));
+    *o = v3_add(*o, at);
+    *d = v3_fma(at, F(-params->lens_nearness), *d);
+}
+
+#endif

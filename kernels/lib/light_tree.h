@@ -1,0 +1,94 @@
+/* One of many lamps, chosen by what it may send to a point (Conty Estevez and Kulla 2018): from the root of a tree to a leaf, at each
+ * node by the power of its two children over their squared distance, times the cosine that the best of their normals could have.
+ *
+ * Probabilities are shares of 2^31 random numbers that are handed down as whole numbers, so that the one divided by is the one
+ * sampled, and those of all lamps add up to 1. The point's own normal is left out: a path that meets a lamp knows where it
+ * comes from, not how the surface there lay. */
+#ifndef EC_LIB_LIGHT_TREE_H
+#define EC_LIB_LIGHT_TREE_H
+
+#include "../shared/light_tree.h"
+#include "sampler.h"
+
+#define EC_TREE_ALL 0x80000000u /* random numbers there are */
+#define EC_TREE_FEW 0x10000u    /* fewer are too coarse to share out: then there are fresh ones */
+/* Sines made of cosines near 1 are good to sqrt(2 u) = 3.5e-4, and two angles are taken off: what a cosine under -EC_TREE_DARK says
+ * to be dark is dark. What is not keeps that share at least. */
+#define EC_TREE_DARK 0.004f
+
+/* Power times the largest cosine that one of a node's lamps may have towards p; d2: squared distance, no less than the node's size. */
+EC_FN lane_f light_node_weight(quad place, quad cone, quad rest, v3 p, lane_f *d2)
+{
+    v3 way = v3_sub(p, v3_make(place.a, place.b, place.c));
+    lane_f distance2 = v3_dot(way, way), radius2 = place.d, cos_spread = cone.d, sin_spread = rest.b;
+    *d2 = max(distance2, radius2);
+    lane_f cosine = v3_dot(way, v3_make(cone.a, cone.b, cone.c)) / sqrt(distance2);
+    cosine = as_lane_u(rest.d) != 0u ? fabs(cosine) : cosine;
+    lane_f sine = sqrt(max(fma(-cosine, cosine, F(1.0f)), F(0.0f)));
+    lane_i within = cosine >= cos_spread; /* the cone of normals */
+    lane_f c = within ? F(1.0f) : fma(cosine, cos_spread, sine * sin_spread);
+    lane_f s = within ? F(0.0f) : fma(sine, cos_spread, -(cosine * sin_spread));
+    lane_f sine2 = radius2 / distance2; /* of the angle that the node's sphere takes */
+    lane_f cos_size = sqrt(max(1.0f - sine2, F(0.0f)));
+    c = c >= cos_size ? F(1.0f) : fma(c, cos_size, s * sqrt(sine2));
+    c = distance2 > radius2 ? c : F(1.0f);
+    return c < -EC_TREE_DARK ? F(0.0f) : rest.a * max(c, F(EC_TREE_DARK));
+}
+
+/* How many of `all` numbers the first of two children gets, and where both lead. */
+EC_FN lane_u light_tree_share(global const float *tree, lane_u child, v3 p, lane_u all, lane_u *first, lane_u *second)
+{
+    lane_u at = child * EC_LIGHT_NODE_WORDS;
+    lane_f da, db;
+    quad a = gather_quad(tree, at + 8u), b = gather_quad(tree, at + 20u);
+    lane_f wa = light_node_weight(gather_quad(tree, at), gather_quad(tree, at + 4u), a, p, &da);
+    lane_f wb = light_node_weight(gather_quad(tree, at + 12u), gather_quad(tree, at + 16u), b, p, &db);
+    *first = as_lane_u(a.c);
+    *second = as_lane_u(b.c);
+    lane_f ia = wa * db, ib = wb * da, sum = ia + ib;
+    lane_i good = (sum > 0.0f) & is_finite_bits(sum), dark = (wa == 0.0f) & (wb == 0.0f);
+    lane_f share = good ? ia / sum : F(0.5f);
+    lane_u n = int_to_lane_u(to_lane_i(to_lane_f(all >> 1) * share)) << 1;
+    n = wb > 0.0f ? min(max(n, wa > 0.0f ? U(1u) : U(0u)), all - 1u) : all;
+    return dark ? all >> 1 : n; /* dark both: it does not matter, but probabilities add up */
+}
+
+/* A lamp for p, and its probability. r: 32 random bits. */
+EC_FN lane_u light_tree_choose(global const float *tree, lane_i m, v3 p, lane_u r, lane_f *pmf)
+{
+    lane_u link = U(1u), all = U(EC_TREE_ALL), rest = r >> 1;
+    *pmf = F(1.0f);
+    for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
+        lane_u first, second, share = light_tree_share(tree, going ? link : U(1u), p, all, &first, &second);
+        lane_i is_first = rest < share;
+        rest = (going & !is_first) ? rest - share : rest;
+        all = going ? (is_first ? share : all - share) : all;
+        link = going ? (is_first ? first : second) : link;
+        lane_i few = going & (all < EC_TREE_FEW);
+        *pmf = few ? *pmf * (to_lane_f(all) * (1.0f / 2147483648.0f)) : *pmf;
+        rest = few ? hash_u(r + link) >> 1 : rest;
+        all = few ? U(EC_TREE_ALL) : all;
+    }
+    *pmf *= to_lane_f(all) * (1.0f / 2147483648.0f);
+    return m ? link & ~EC_LIGHT_LEAF : U(0u);
+}
+
+/* The probability with which that comes to the lamp at the end of a trail. */
+EC_FN lane_f light_tree_pmf(global const float *tree, lane_i m, v3 p, lane_u trail)
+{
+    lane_u link = U(1u), all = U(EC_TREE_ALL);
+    lane_f pmf = F(1.0f);
+    for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
+        lane_u first, second, share = light_tree_share(tree, going ? link : U(1u), p, all, &first, &second);
+        lane_i is_first = (trail & 1u) == 0u;
+        trail >>= 1;
+        all = going ? (is_first ? share : all - share) : all;
+        link = going ? (is_first ? first : second) : link;
+        lane_i few = going & (all < EC_TREE_FEW);
+        pmf = few ? pmf * (to_lane_f(all) * (1.0f / 2147483648.0f)) : pmf;
+        all = few ? U(EC_TREE_ALL) : all;
+    }
+    return pmf * (to_lane_f(all) * (1.0f / 2147483648.0f));
+}
+
+#endif

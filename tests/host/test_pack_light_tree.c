@@ -1,0 +1,109 @@
+/* The light tree as the host builds it: every lamp at the end of its trail, within every node above it; the same bytes again; depth
+ * and time bounded. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/random.h"
+#include "pack/light_tree.h"
+#include "support/test.h"
+
+typedef struct forest {
+    uint32_t count;
+    ec_light_data *lamps;
+    ec_light_bounds *bounds;
+    uint32_t *ids, *trails;
+    ec_light_node *nodes;
+} forest;
+
+enum { SCATTERED, IN_A_ROW, ON_A_POINT, GROWING };
+
+static forest make(uint32_t count, int shape)
+{
+    forest f = {count, calloc(count, sizeof *f.lamps), calloc(count, sizeof *f.bounds), calloc(count, 4), calloc(count, 4),
+                calloc(2 * (size_t)count - 1, sizeof *f.nodes)};
+    uint64_t state = 5;
+    if (!f.lamps || !f.bounds || !f.ids || !f.trails || !f.nodes) exit(1);
+    for (uint32_t i = 0; i < count; i++) {
+        ec_light_data *l = &f.lamps[i];
+        double at[3] = {0, 0, 0}, size = shape == ON_A_POINT ? 1 : 0.1;
+        for (int k = 0; k < 3; k++) {
+            if (shape == SCATTERED) at[k] = ec_random_unit(&state);
+            if (shape == IN_A_ROW && k == 0) at[k] = i;
+            if (shape == GROWING) at[k] = pow(1.05, fmin(i, 1500)) * ec_random_unit(&state); /* each bin holds nearly all */
+        }
+        for (int k = 0; k < 3; k++) {
+            l->a[k] = (float)at[k];
+            l->b[k] = (float)(at[k] + size * (shape == ON_A_POINT ? k == 0 : ec_random_unit(&state)));
+            l->c[k] = (float)(at[k] + size * (shape == ON_A_POINT ? k == 1 : ec_random_unit(&state)));
+        }
+        l->kind = EC_KIND_TRIANGLE | (i % 5 == 0 ? EC_LIGHT_TWO_SIDED : 0);
+        f.bounds[i] = ec_light_bounds_of(l, 1 + i % 10);
+        f.ids[i] = 3 * i;
+    }
+    return f;
+}
+
+static void drop(forest *f)
+{
+    free(f->lamps), free(f->bounds), free(f->ids), free(f->trails), free(f->nodes);
+}
+
+static double angle_between(const double a[3], const float b[3])
+{
+    double d = 0, e = 0;
+    for (int k = 0; k < 3; k++) d += a[k] * b[k], e += (double)b[k] * b[k];
+    return acos(fmin(fmax(d / sqrt(e), -1), 1));
+}
+
+/* Does a node hold the lamp: its corners in the sphere, its normal in the cone (or that turned round)? */
+static bool holds(const ec_light_node *n, const ec_light_data *l, const ec_light_bounds *b)
+{
+    const float *corners[3] = {l->a, l->b, l->c};
+    for (int c = 0; c < 3; c++) {
+        double d2 = 0;
+        for (int k = 0; k < 3; k++) d2 += pow((double)corners[c][k] - n->centre[k], 2);
+        if (d2 > (double)n->radius2) return false;
+    }
+    double angle = angle_between(b->axis, n->axis), spread = acos((double)n->cos_spread);
+    return angle <= spread + 1e-6 && (!b->two_sided || n->two_sided);
+}
+
+static void check(uint32_t count, int shape)
+{
+    ec_error err = {0};
+    forest f = make(count, shape), again = make(count, shape);
+    clock_t start = clock();
+    CHECK_OK(ec_light_tree_build(f.bounds, f.ids, count, f.nodes, f.trails, &err), err);
+    double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
+    CHECK_OK(ec_light_tree_build(again.bounds, again.ids, count, again.nodes, again.trails, &err), err);
+    CHECK(!memcmp(f.nodes, again.nodes, (2 * (size_t)count - 1) * sizeof *f.nodes) && !memcmp(f.trails, again.trails, 4 * (size_t)count));
+    uint32_t lost = 0, outside = 0, deepest = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t node = 0, depth = 0;
+        for (; depth <= EC_LIGHT_DEPTH_MOST && !(f.nodes[node].link & EC_LIGHT_LEAF); depth++) {
+            outside += !holds(&f.nodes[node], &f.lamps[i], &f.bounds[i]);
+            node = f.nodes[node].link + (depth < 32 ? f.trails[i] >> depth & 1 : 0);
+            if (node >= 2 * count - 1) break;
+        }
+        lost += node >= 2 * count - 1 || f.nodes[node].link != (EC_LIGHT_LEAF | f.ids[i]);
+        deepest = depth > deepest ? depth : deepest;
+    }
+    printf("%u lamps, shape %d: depth %u, %.2f s of processor time under the sanitizers\n", count, shape, deepest, seconds);
+    CHECK_MSG(!lost && !outside && deepest <= EC_LIGHT_DEPTH_MOST, "%u lamps, shape %d: %u trails lead elsewhere, %u nodes do not hold their lamps",
+              count, shape, lost, outside);
+    drop(&f);
+    drop(&again);
+}
+
+int main(void)
+{
+    for (int shape = SCATTERED; shape <= GROWING; shape++) {
+        check(2, shape);
+        check(3, shape);
+        check(5000, shape);
+    }
+    check(100000, SCATTERED);
+    TEST_END();
+}

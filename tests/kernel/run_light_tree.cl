@@ -1,0 +1,26 @@
+/* Lamps that the light tree chooses, and their probabilities, for test_light_tree.c. */
+#include "lib/light_tree.h"
+
+static v3 point(global const float *points, uint which) { return v3_make(F(points[3 * which]), F(points[3 * which + 1]), F(points[3 * which + 2])); }
+
+/* Of each trail, seen from a point. */
+kernel void probabilities(uint n, global const float *tree, global const uint *trails, global const float *points, uint which, global float *out)
+{
+    uint at = get_global_id(0) * LANES;
+    if (at >= n) return;
+    LANE_STORE(light_tree_pmf(tree, TRUE_MASK, point(points, which), LANE_LOAD(trails + at)), out + at);
+}
+
+/* By hashed numbers: the lamp, its probability, and that of its trail. */
+kernel void choices(uint n, uint seed, global const float *tree, global const uint *trails, global const float *points, uint which,
+                    global uint *lamps, global float *out)
+{
+    uint at = get_global_id(0) * LANES;
+    if (at >= n) return;
+    v3 p = point(points, which);
+    lane_f pmf;
+    lane_u lamp = light_tree_choose(tree, TRUE_MASK, p, hash_u(hash_u(LANE_NUMBERS + at) ^ seed), &pmf);
+    LANE_STORE(lamp, lamps + at);
+    LANE_STORE(pmf, out + at);
+    LANE_STORE(light_tree_pmf(tree, TRUE_MASK, p, gather_u(trails, lamp)), out + n + at);
+}
