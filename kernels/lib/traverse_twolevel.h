@@ -65,23 +65,24 @@ EC_FN v3 visit_corner(global const ec_instance *n, global const ec_tri8 *b, uint
     return v3_make(place_row(m0, p), place_row(m1, p), place_row(m2, p));
 }
 
-EC_FN v3 visit_shear(const ray8 *q, v3 p)
-{
-    return ray_shear(q->r.shear_x, q->r.shear_y, v3_sub(ray_permute(q->r.z_is_x, q->r.z_is_y, p), q->r.o_permuted));
-}
-
 /* block8_triangles, of triangles that are taken to the world first. Unused slots are points there too. */
 EC_FN void visit_block(const ray8 *q, const hit_filter *filter, global const ec_instance *n, global const ec_tri8 *b, uint skip0, uint skip1,
                        bool any_hit, hit8 *h)
 {
     v3 p0 = visit_corner(n, b, 0), p1 = visit_corner(n, b, 1), p2 = visit_corner(n, b, 2);
-    edges e = edges_make(visit_shear(q, p0), visit_shear(q, p1), visit_shear(q, p2));
+    v3 s0 = ray_vertex(&q->r, p0), s1 = ray_vertex(&q->r, p1), s2 = ray_vertex(&q->r, p2);
+    edges e = edges_make(s0, s1, s2);
     uint8 id = *(global const uint8 *)b->id;
     TALLY_TESTS(h, popcount(mask_bits8(id != EC_NO_ID)));
     id += n->id;
+    int8 close;
     float8 t, inverse;
-    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &t, &inverse);
+    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &close, &t, &inverse);
     if (!mask_bits8(m)) return;
+    if (mask_bits8(close)) {
+        t = edges_settle(&q->r, &e, s0, s1, s2, close, inverse, t);
+        m = m & (t > 0.0f);
+    }
     m = m & !place_leaves_flat(p0, p1, p2);
     v3 lo = v3_make(min(p0.x, min(p1.x, p2.x)), min(p0.y, min(p1.y, p2.y)), min(p0.z, min(p1.z, p2.z)));
     v3 hi = v3_make(max(p0.x, max(p1.x, p2.x)), max(p0.y, max(p1.y, p2.y)), max(p0.z, max(p1.z, p2.z)));
