@@ -1,6 +1,7 @@
 /* OpenEXR in: the first part's full-resolution image, scan lines or tiles, any compression, to float planes. */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "image/exr_context.h"
 #include "image/exr_read_rgba.h"
@@ -8,6 +9,9 @@
 
 enum { SIDE_MAX = 1 << 17 };                       /* pixels; beyond it a header is taken for damaged */
 static const uint64_t value_max = 1ull << 32;      /* width * height * channels: 16 GiB of planes */
+/* No compression packs more pixels into a byte, nor a few hundred bytes gigabytes: the largest blocks, 256 lines, have 16 bytes of table
+ * and header each, and their colours come on top. */
+enum { PIXELS_A_BYTE_MAX = 1 << 17 };
 
 typedef struct exr_source {
     exr_context_t context;
@@ -46,6 +50,10 @@ static ec_result read_size(exr_source *source, ec_exr *exr, ec_error *err)
     if (width < 1 || height < 1 || width > SIDE_MAX || height > SIDE_MAX)
         return ec_fail(err, "cannot read '%s': %lld x %lld pixels is not a usable size (1 to %d a side)", source->path,
                        (long long)width, (long long)height, SIDE_MAX);
+    struct stat file;
+    if (stat(source->path, &file) == 0 && (uint64_t)(width * height) / PIXELS_A_BYTE_MAX > (uint64_t)file.st_size)
+        return ec_fail(err, "cannot read '%s': %lld x %lld pixels in %lld bytes; the file is damaged or cut short, replace it", source->path,
+                       (long long)width, (long long)height, (long long)file.st_size);
     source->origin_x = window.min.x;
     source->origin_y = window.min.y;
     exr->width = (uint32_t)width;

@@ -43,6 +43,8 @@ ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power)
 /* The narrowest cone around two. */
 static void join_cones(ec_light_bounds *a, const ec_light_bounds *b)
 {
+    if (a->cos_spread <= -1) return; /* all ways already, as large clusters are */
+    if (b->cos_spread >= 1 && dot(a->axis, b->axis) >= a->cos_spread) return; /* one lamp within: no angle is asked for */
     double angle = acos(fmin(fmax(dot(a->axis, b->axis), -1), 1)), sa = acos(a->cos_spread), sb = acos(b->cos_spread);
     if (fmin(angle + sb, PI) <= sa) return;
     if (fmin(angle + sa, PI) <= sb) {

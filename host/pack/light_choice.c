@@ -1,5 +1,6 @@
 /* What the light tree needs beside the table of lights. Lamps are triangles, points and spots: what is infinitely far away keeps its
  * probability, and what the lamps have together goes to the tree. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "pack/light_tree.h"
@@ -11,11 +12,26 @@ static bool is_lamp(const ec_light_data *light)
     return kind == EC_KIND_TRIANGLE || kind == EC_KIND_POINT || kind == EC_KIND_SPOT;
 }
 
-uint32_t ec_pack_lamp_count(const ec_pack *pack)
+static uint32_t lamp_count(const ec_pack *pack)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < pack->light_count; i++) count += is_lamp(&pack->lights[i]);
     return count;
+}
+
+/* A tree takes its time at every surface (a quarter to three quarters of a sample's). That is well spent where there are many lamps and
+ * they are in different places; of a bulb of many triangles all are as near, and power alone is as good. */
+bool ec_pack_wants_light_tree(const ec_pack *pack)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size2 = 0;
+    if (lamp_count(pack) < EC_LIGHT_TREE_FROM) return false;
+    for (uint32_t i = 0; i < pack->light_count; i++)
+        for (int k = 0; k < 3 && is_lamp(&pack->lights[i]); k++) {
+            low[k] = fmin(low[k], (double)pack->lights[i].a[k]);
+            high[k] = fmax(high[k], (double)pack->lights[i].a[k]);
+        }
+    for (int k = 0; k < 3; k++) size2 += (high[k] - low[k]) * (high[k] - low[k]);
+    return size2 > EC_LIGHT_TREE_SPREAD * EC_LIGHT_TREE_SPREAD * (double)pack->scene_radius * (double)pack->scene_radius;
 }
 
 /* Densities of the table are those of the lamp chosen already: the tree's probability comes on top of them. */
@@ -34,7 +50,7 @@ static void share_out(ec_pack *pack)
 
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
 {
-    uint32_t lamps = ec_pack_lamp_count(pack), n = 0;
+    uint32_t lamps = lamp_count(pack), n = 0;
     if (lamps < 2) return EC_OK;
     ec_light_bounds *bounds = malloc(lamps * sizeof *bounds);
     uint32_t *ids = malloc(lamps * sizeof *ids), *trails = malloc(lamps * sizeof *trails);

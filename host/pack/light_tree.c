@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #define BINS 12
+#define MANY 4096 /* lamps: of so many only the longest axis is tried */
 
 typedef struct builder {
     const ec_light_bounds *bounds;
@@ -54,12 +55,13 @@ static void try_axis(const builder *b, const task *t, int axis, double stretch, 
         const ec_light_bounds *one = &b->bounds[b->order[i]];
         ec_light_bounds_add(&bins[bin_of(one, axis, low, high)], one);
     }
-    for (int k = BINS - 1; k > 0; k--) {
+    for (int k = BINS - 1; k > 0; k--) { /* beside an empty bin a plane parts what the one before it does */
         ec_light_bounds_add(&sum, &bins[k]);
-        above[k] = ec_light_bounds_cost(&sum);
+        above[k] = bins[k].power > 0 || k == BINS - 1 ? ec_light_bounds_cost(&sum) : above[k + 1];
     }
     sum = (ec_light_bounds){.power = 0};
     for (uint32_t k = 0; k < BINS - 1; k++) {
+        if (!(bins[k].power > 0)) continue;
         ec_light_bounds_add(&sum, &bins[k]);
         double cost = stretch * (ec_light_bounds_cost(&sum) + above[k + 1]);
         if (best->axis < 0 || cost < best->cost) *best = (plane){axis, k, low, high, cost};
@@ -72,11 +74,13 @@ static uint32_t split(builder *b, const task *t, const ec_light_bounds *all)
     uint32_t half = t->first + (t->end - t->first) / 2, levels = 0;
     while (((uint64_t)1 << levels) < t->end - t->first) levels++;
     if (t->depth + levels >= EC_LIGHT_DEPTH_MOST) return half; /* in halves it just fits the trail */
+    if (t->end - t->first == 2) return half;
     plane best = {.axis = -1};
     double longest = 0;
     for (int k = 0; k < 3; k++) longest = fmax(longest, all->high[k] - all->low[k]);
     for (int k = 0; k < 3; k++)
-        if (all->high[k] > all->low[k]) try_axis(b, t, k, longest / (all->high[k] - all->low[k]), &best);
+        if (all->high[k] > all->low[k] && (t->end - t->first < MANY || all->high[k] - all->low[k] == longest))
+            try_axis(b, t, k, longest / (all->high[k] - all->low[k]), &best);
     if (best.axis < 0) return half;
     uint32_t at = t->first;
     for (uint32_t i = t->first; i < t->end; i++) {

@@ -2,6 +2,7 @@
 #ifndef EC_PACK_PACK_H
 #define EC_PACK_PACK_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -49,8 +50,10 @@ ec_result ec_pack_places(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
 
-/* Lamps a tree would choose from. */
-uint32_t ec_pack_lamp_count(const ec_pack *pack);
+/* Is a tree worth its time: are there so many lamps, so far apart? */
+#define EC_LIGHT_TREE_FROM 64
+#define EC_LIGHT_TREE_SPREAD 0.2 /* diagonal of the box around them, over the scene's radius */
+bool ec_pack_wants_light_tree(const ec_pack *pack);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 

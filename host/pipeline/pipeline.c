@@ -28,7 +28,7 @@ static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char
 static ec_result choose_lights(const ec_pipeline *p, const ec_render_options *o, ec_pack *pack, ec_error *err)
 {
     if (p->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return EC_OK;
-    if (o->light_choice == EC_LIGHTS_AUTO && ec_pack_lamp_count(pack) < EC_LIGHT_TREE_FROM) return EC_OK;
+    if (o->light_choice == EC_LIGHTS_AUTO && !ec_pack_wants_light_tree(pack)) return EC_OK;
     return ec_pack_light_tree(pack, err);
 }
 

@@ -18,7 +18,6 @@ typedef enum ec_terminator { EC_TERMINATOR_GEOMETRIC, EC_TERMINATOR_SMOOTH } ec_
 
 /* Which light a surface is joined to: by power wherever it is, or by a tree that knows where lights are (kernels/lib/light_tree.h). */
 typedef enum ec_light_choice { EC_LIGHTS_AUTO, EC_LIGHTS_BY_POWER, EC_LIGHTS_BY_TREE } ec_light_choice;
-#define EC_LIGHT_TREE_FROM 64 /* lamps; auto leaves fewer to power */
 
 /* What makes the picture; the words are in report/names.c, the functions in wave.c, the options of each in
  * cli/combinations.c. */

@@ -69,6 +69,7 @@ static ec_result copy_mesh(deformer *d, int32_t index)
     for (uint32_t k = 0; k < from->primitive_count; k++) {
         primitives[k] = from->primitives[k];
         primitives[k].targets = NULL;
+        primitives[k].draco = NULL;
         primitives[k].joints = primitives[k].weights = NULL;
         primitives[k].target_count = primitives[k].influence_sets = 0;
     }
@@ -96,7 +97,8 @@ static ec_result deform_mesh(deformer *d, const ec_pose *pose, int32_t index)
 static ec_result stand_in_world(deformer *d, uint32_t index, const ec_pose *pose)
 {
     ec_placement *at = &d->placements->items[index];
-    ec_placement world = {.node = at->node, .mesh = at->mesh, .linear = {pose->mirrored ? -1 : 1, 0, 0, 0, 1, 0, 0, 0, 1}, .extra = true};
+    ec_placement world = {.node = at->node, .mesh = at->mesh, .linear = {pose->mirrored ? -1 : 1, 0, 0, 0, 1, 0, 0, 0, 1},
+                          .extra = true};
     memcpy(world.origin, pose->origin, sizeof world.origin);
     at->mesh = -1;
     return ec_placement_append(d->placements, &world, d->err);

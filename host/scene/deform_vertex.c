@@ -52,8 +52,8 @@ static void skin(const ec_pose *pose, const ec_joint *blend, int stream, double 
     if (pose->mirrored) v[0] = -v[0];
 }
 
-static ec_result move_vertex(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose, const moved streams[STREAMS], uint32_t vertex,
-                             const char *where, ec_error *err)
+static ec_result move_vertex(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose,
+                             const moved streams[STREAMS], uint32_t vertex, const char *where, ec_error *err)
 {
     ec_joint blend;
     if (pose->joints) EC_TRY(ec_pose_blend(g, p, pose, vertex, &blend, where, err));
@@ -106,7 +106,9 @@ ec_result ec_pose_primitive(ec_gltf *g, const ec_pose *pose, ec_gltf_primitive *
         if (!is_moved(p, pose, i, members[i])) continue;
         const ec_gltf_accessor *base = &g->accessors[stream_of(&p->streams, members[i])];
         streams[i] = (moved){base, calloc(count, base->components * sizeof(float)), base->components, members[i]};
-        if (!streams[i].out) result = ec_fail(err, "%s: %s: out of memory for %llu deformed vertices", g->path, where, (unsigned long long)count);
+        if (!streams[i].out)
+            result = ec_fail(err, "%s: %s: out of memory for %llu deformed vertices", g->path, where,
+                             (unsigned long long)count);
     }
     for (uint32_t v = p->lowest; v <= p->highest && result == EC_OK; v++) result = move_vertex(g, p, pose, streams, v, where, err);
     for (int i = 0; i < STREAMS; i++) {

@@ -16,10 +16,23 @@ typedef struct ec_gltf_buffer {
     uint8_t *owned;      /* NULL where data lies in the .glb's own bytes */
 } ec_gltf_buffer;
 
+/* EXT_meshopt_compression: where a view's bytes come from. */
+typedef enum ec_meshopt_mode { EC_MESHOPT_NONE, EC_MESHOPT_ATTRIBUTES, EC_MESHOPT_TRIANGLES, EC_MESHOPT_INDICES } ec_meshopt_mode;
+typedef enum ec_meshopt_filter { EC_MESHOPT_NO_FILTER, EC_MESHOPT_OCTAHEDRAL, EC_MESHOPT_QUATERNION, EC_MESHOPT_EXPONENTIAL } ec_meshopt_filter;
+typedef struct ec_gltf_meshopt {
+    ec_meshopt_mode mode; /* EC_MESHOPT_NONE: not compressed */
+    ec_meshopt_filter filter;
+    int32_t buffer;
+    uint64_t offset, length, count;
+    uint32_t stride;
+} ec_gltf_meshopt;
+
 typedef struct ec_gltf_view {
     int32_t buffer;
     uint64_t offset, length;
     uint32_t stride; /* 0 = packed */
+    ec_gltf_meshopt packed;
+    uint8_t *owned;  /* unpacked, once it has been read */
 } ec_gltf_view;
 
 typedef struct ec_gltf_sparse {
@@ -48,11 +61,19 @@ typedef struct ec_gltf_streams {
     int32_t position, normal, tangent, color, uv[2];
 } ec_gltf_streams;
 
+typedef struct ec_gltf_draco {
+    int32_t accessor;
+    uint32_t id; /* of the attribute in the compressed data */
+} ec_gltf_draco;
+
 typedef struct ec_gltf_primitive {
     int32_t mode, material, indices;
     ec_gltf_streams streams, *targets;
     int32_t *joints, *weights; /* accessors, four influences in each */
     uint32_t target_count, influence_sets;
+    int32_t draco_view; /* KHR_draco_mesh_compression; -1: none */
+    ec_gltf_draco *draco;
+    uint32_t draco_count;
     /* Set by ec_gltf_primitive_prepare and, the material, by ec_gltf_materials_assign: */
     bool prepared, drawn;              /* drawn: makes triangles */
     uint64_t triangle_count;
@@ -99,6 +120,8 @@ typedef struct ec_gltf_texture {
     int32_t image; /* -1: none, or only one in a format of an unsupported extension */
     ec_wrap wrap_s, wrap_t;
     bool nearest;
+    bool is_gloss;    /* KHR_materials_pbrSpecularGlossiness: its alpha is glossiness; roughness is made of it */
+    float glossiness; /* the factor that goes with it */
 } ec_gltf_texture;
 
 typedef struct ec_gltf {

@@ -1,5 +1,5 @@
 /* Typed reading of buffers. Every range is checked once, when an accessor is opened; reading is then plain. */
-#include "scene/gltf.h"
+#include "scene/codecs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,13 +32,46 @@ ec_result ec_gltf_check_views(const ec_gltf *g, ec_error *err)
     return EC_OK;
 }
 
+/* Sizes that the decoder may be called with, and no more output than its input can stand for: a byte may be a triangle of 12 bytes, or
+ * 16 equal vertices of 256. */
+static bool is_plausible(const ec_gltf_meshopt *p, uint64_t room)
+{
+    bool attributes = p->mode == EC_MESHOPT_ATTRIBUTES;
+    bool stride = attributes ? p->stride >= 4 && p->stride <= 256 && p->stride % 4 == 0 : p->stride == 2 || p->stride == 4;
+    bool filter = !p->filter || (attributes && (p->filter == EC_MESHOPT_OCTAHEDRAL   ? p->stride == 4 || p->stride == 8
+                                                : p->filter == EC_MESHOPT_QUATERNION ? p->stride == 8
+                                                                                     : true));
+    return stride && filter && p->count <= INT32_MAX && p->count * p->stride <= room && p->count * p->stride / 4096 <= p->length &&
+           (p->mode != EC_MESHOPT_TRIANGLES || p->count % 3 == 0);
+}
+
+static ec_result unpack(ec_gltf *g, int32_t view, ec_error *err)
+{
+    ec_gltf_view *v = &g->views[view];
+    const ec_gltf_meshopt *p = &v->packed;
+    const ec_gltf_buffer *b = &g->buffers[p->buffer];
+    if (v->owned) return EC_OK;
+    if (!b->data || p->offset > b->length || p->length > b->length - p->offset)
+        return ec_fail(err, "%s: bufferViews[%d] EXT_meshopt_compression reaches beyond buffers[%d]; the file is damaged or truncated", g->path,
+                       view, p->buffer);
+    if (!is_plausible(p, v->length))
+        return ec_fail(err, "%s: bufferViews[%d] EXT_meshopt_compression: %llu elements of %u bytes do not go with its mode, filter or length",
+                       g->path, view, (unsigned long long)p->count, p->stride);
+    v->length = p->count * p->stride;
+    v->owned = calloc(v->length + 256, 1); /* its filters work on blocks */
+    if (!v->owned) return ec_fail(err, "%s: out of memory for bufferViews[%d]", g->path, view);
+    if (ec_meshopt_decode(p, b->data + p->offset, v->owned)) return EC_OK;
+    return ec_fail(err, "%s: bufferViews[%d] EXT_meshopt_compression: its data are broken", g->path, view);
+}
+
 /* Finds `count` elements of `size` bytes in a view; *data is the first. */
-static ec_result locate(const ec_gltf *g, int32_t view, uint64_t offset, uint64_t count, uint64_t size, uint64_t stride,
+static ec_result locate(ec_gltf *g, int32_t view, uint64_t offset, uint64_t count, uint64_t size, uint64_t stride,
                         const uint8_t **data, const char *where, ec_error *err)
 {
-    const ec_gltf_view *v = &g->views[view];
+    ec_gltf_view *v = &g->views[view];
     const ec_gltf_buffer *b = &g->buffers[v->buffer];
-    if (!b->data)
+    if (v->packed.mode && ec_has_meshopt) EC_TRY(unpack(g, view, err));
+    if (!b->data && !v->owned)
         return ec_fail(err, "%s: %s reads buffers[%d], which has neither uri nor binary chunk", g->path, where,
                        v->buffer);
     bool fits = offset <= v->length && size <= v->length - offset &&
@@ -48,7 +81,7 @@ static ec_result locate(const ec_gltf *g, int32_t view, uint64_t offset, uint64_
                        "bufferViews[%d]; the file is damaged or its count is wrong", g->path, where,
                        (unsigned long long)count, (unsigned long long)size, (unsigned long long)offset,
                        (unsigned long long)v->length, view);
-    *data = b->data + v->offset + offset;
+    *data = (v->owned ? v->owned : b->data + v->offset) + offset;
     return EC_OK;
 }
 
@@ -60,7 +93,7 @@ static uint32_t load_index(const uint8_t *p, uint32_t type)
 }
 
 /* Writes the sparse replacements over `dense` (count x size bytes). */
-static ec_result apply_sparse(const ec_gltf *g, const ec_gltf_accessor *a, uint64_t size, uint8_t *dense,
+static ec_result apply_sparse(ec_gltf *g, const ec_gltf_accessor *a, uint64_t size, uint8_t *dense,
                               const char *where, ec_error *err)
 {
     const ec_gltf_sparse *s = &a->sparse;
@@ -78,7 +111,7 @@ static ec_result apply_sparse(const ec_gltf *g, const ec_gltf_accessor *a, uint6
     return EC_OK;
 }
 
-static ec_result merge_sparse(const ec_gltf *g, ec_gltf_accessor *a, uint64_t size, const char *where, ec_error *err)
+static ec_result merge_sparse(ec_gltf *g, ec_gltf_accessor *a, uint64_t size, const char *where, ec_error *err)
 {
     uint8_t *dense = calloc(a->count, size);
     if (!dense) return ec_fail(err, "%s: %s: out of memory", g->path, where);

@@ -80,7 +80,8 @@ static json sample(ec_gltf *gltf, const json &sampler, const path &to, double at
     ec_error err;
     ec_gltf_numbers numbers = {nullptr, 0};
     ec_gltf_keyframes keyframes = convert_keyframes(sampler);
-    ec_result result = ec_gltf_keyframes_sample(gltf, &keyframes, to[0] == "nodes" && to.back() == "rotation", at, where.c_str(), &numbers, &err);
+    bool rotation = to[0] == "nodes" && to.back() == "rotation";
+    ec_result result = ec_gltf_keyframes_sample(gltf, &keyframes, rotation, at, where.c_str(), &numbers, &err);
     std::unique_ptr<double, void (*)(void *)> owned(numbers.values, free);
     if (result != EC_OK) throw bad_file(err.text);
     if (numbers.count == 1 && to.back() != "weights") return numbers.values[0];
@@ -96,17 +97,21 @@ static std::string pointer_of(const json &target)
     return "/nodes/" + std::to_string(target["node"].get<int>()) + "/" + target["path"].get<std::string>();
 }
 
-static void apply(json &root, const json &animation, const std::string &name, double at, ec_gltf *gltf, const ec_log *log)
+static void apply(json &root, const json &animation, const std::string &name, double at, ec_gltf *gltf,
+                  const ec_log *log)
 {
     const json &channels = animation["channels"], &samplers = animation["samplers"];
     for (size_t i = 0; i < channels.size(); i++) {
         std::string where = name + ".channels[" + std::to_string(i) + "]", pointer = pointer_of(channels[i]["target"]);
         size_t sampler = channels[i]["sampler"];
         if (pointer.empty()) continue;
-        if (sampler >= samplers.size()) throw bad_file(where + ".sampler is " + std::to_string(sampler) + " but there are " + std::to_string(samplers.size()));
+        if (sampler >= samplers.size())
+            throw bad_file(where + ".sampler is " + std::to_string(sampler) + " but there are " +
+                           std::to_string(samplers.size()));
         path to = split(pointer);
         if (!may_move(to) || !write(root, to, sample(gltf, samplers[sampler], to, at, where)))
-            ec_warn(log, "%s: %s moves %.200s, which eclat does not; it is left out", gltf->path, where.c_str(), printable(pointer).c_str());
+            ec_warn(log, "%s: %s moves %.200s, which eclat does not; it is left out", gltf->path, where.c_str(),
+                    printable(pointer).c_str());
     }
 }
 
@@ -132,7 +137,8 @@ bool choose_moment(json &root, const ec_scene_choice *choice, ec_gltf *gltf, con
     list_animations(root, gltf->contents);
     if (!choice->animated) {
         if (names.count)
-            ec_note(log, "%s: %u animation%s: shown as stored, --at SECONDS takes a moment", gltf->path, names.count, names.count > 1 ? "s" : "");
+            ec_note(log, "%s: %u animation%s: shown as stored, --at SECONDS takes a moment", gltf->path, names.count,
+                    names.count > 1 ? "s" : "");
         return false;
     }
     if (!names.count) throw bad_file("there is no animation in it; leave out --at and --animation");

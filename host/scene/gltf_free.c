@@ -15,6 +15,7 @@ static void free_mesh(ec_gltf_mesh *mesh)
         free(mesh->primitives[i].targets);
         free(mesh->primitives[i].joints);
         free(mesh->primitives[i].weights);
+        free(mesh->primitives[i].draco);
     }
     free(mesh->name);
     free(mesh->weights);
@@ -24,6 +25,7 @@ static void free_mesh(ec_gltf_mesh *mesh)
 static void free_geometry(ec_gltf *g)
 {
     for (uint32_t i = 0; i < g->buffer_count; i++) free(g->buffers[i].owned);
+    for (uint32_t i = 0; i < g->view_count; i++) free(g->views[i].owned);
     for (uint32_t i = 0; i < g->accessor_count; i++) free(g->accessors[i].owned);
     for (uint32_t i = 0; i < g->mesh_count; i++) free_mesh(&g->meshes[i]);
     for (uint32_t i = 0; i < g->skin_count; i++) free(g->skins[i].joints);

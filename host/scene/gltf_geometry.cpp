@@ -22,11 +22,34 @@ const json *find_extension(const json &object, const char *name)
     return found == extensions->end() ? nullptr : &*found;
 }
 
+static ec_gltf_meshopt convert_meshopt(const json &in)
+{
+    std::string mode = in["mode"], filter = in.value("filter", "NONE");
+    ec_gltf_meshopt out = {};
+    out.mode = mode == "ATTRIBUTES" ? EC_MESHOPT_ATTRIBUTES : mode == "TRIANGLES" ? EC_MESHOPT_TRIANGLES : EC_MESHOPT_INDICES;
+    out.filter = filter == "OCTAHEDRAL"    ? EC_MESHOPT_OCTAHEDRAL
+                 : filter == "QUATERNION"  ? EC_MESHOPT_QUATERNION
+                 : filter == "EXPONENTIAL" ? EC_MESHOPT_EXPONENTIAL
+                                           : EC_MESHOPT_NO_FILTER;
+    out.buffer = in["buffer"];
+    out.offset = in.value("byteOffset", uint64_t(0));
+    out.length = in["byteLength"];
+    out.count = in["count"];
+    out.stride = in["byteStride"];
+    return out;
+}
+
 void convert_views(const json &list, ec_gltf *gltf)
 {
     gltf->views = make_array<ec_gltf_view>(list.size());
-    for (const json &in : list)
-        gltf->views[gltf->view_count++] = {in["buffer"], in.value("byteOffset", uint64_t(0)), in["byteLength"], in.value("byteStride", 0u)};
+    for (const json &in : list) {
+        ec_gltf_view &out = gltf->views[gltf->view_count++];
+        out.buffer = in["buffer"];
+        out.offset = in.value("byteOffset", uint64_t(0));
+        out.length = in["byteLength"];
+        out.stride = in.value("byteStride", 0u);
+        if (const json *packed = find_extension(in, "EXT_meshopt_compression")) out.packed = convert_meshopt(*packed);
+    }
 }
 
 /* Components of an element; 0: a matrix that nothing here reads. */
@@ -74,6 +97,20 @@ static void convert_influences(const json &attributes, ec_gltf_primitive &out)
     }
 }
 
+static void convert_draco(const json &in, ec_gltf_primitive &out)
+{
+    const json *draco = find_extension(in, "KHR_draco_mesh_compression");
+    out.draco_view = draco ? (*draco)["bufferView"].get<int32_t>() : -1;
+    if (!draco) return;
+    const json &ids = (*draco)["attributes"];
+    out.draco = make_array<ec_gltf_draco>(ids.size());
+    for (auto &id : ids.items()) {
+        if (!id.value().is_number_unsigned())
+            throw bad_file("KHR_draco_mesh_compression.attributes." + id.key() + " must be a non-negative integer");
+        if (in["attributes"].contains(id.key())) out.draco[out.draco_count++] = {in["attributes"][id.key()], id.value()};
+    }
+}
+
 static void convert_primitive(const json &in, ec_gltf_primitive &out)
 {
     out.mode = in.value("mode", int(EC_GLTF_TRIANGLES));
@@ -81,6 +118,7 @@ static void convert_primitive(const json &in, ec_gltf_primitive &out)
     out.indices = in.value("indices", -1);
     out.streams = convert_streams(in["attributes"]);
     convert_influences(in["attributes"], out);
+    convert_draco(in, out);
     const json &targets = list_of(in, "targets");
     out.targets = make_array<ec_gltf_streams>(targets.size());
     for (const json &target : targets) out.targets[out.target_count++] = convert_streams(target);

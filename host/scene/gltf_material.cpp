@@ -3,6 +3,10 @@
 
 #include <cmath>
 
+extern "C" {
+#include "scene/codecs.h"
+}
+
 namespace eclat {
 
 using tinygltf::Value;
@@ -167,6 +171,38 @@ static void set_film(ec_material &out, const tinygltf::Material &in, const std::
     out.textures[EC_SLOT_IRIDESCENCE_THICKNESS] = make_use(*f, "iridescenceThicknessTexture", where, gltf, log);
 }
 
+/* One more texture: roughness from the glossiness in another's alpha. */
+static int32_t append_gloss(ec_gltf *gltf, int32_t texture, double factor)
+{
+    auto *grown = static_cast<ec_gltf_texture *>(realloc(gltf->textures, (size_t(gltf->texture_count) + 1) * sizeof *gltf->textures));
+    if (!grown) throw std::bad_alloc();
+    gltf->textures = grown;
+    grown[gltf->texture_count] = grown[texture];
+    grown[gltf->texture_count].is_gloss = true;
+    grown[gltf->texture_count].glossiness = float(std::fmin(std::fmax(factor, 0), 1));
+    return int32_t(gltf->texture_count++);
+}
+
+/* KHR_materials_pbrSpecularGlossiness, archived. Its specular colour is the reflectance seen head-on, without metals: what
+ * KHR_materials_ior has the index 0 for. Diffuse is weighed by 1 - max(F) there, by 1 - max(F0) here, so grazing views are darker. */
+static void set_specular_glossiness(ec_material &out, const tinygltf::Material &in, const std::string &where, ec_gltf *gltf, const ec_log *log)
+{
+    const Value *s = find_extension(in.extensions, "KHR_materials_pbrSpecularGlossiness");
+    if (!s || find_extension(in.extensions, "KHR_materials_specular")) return; /* a file that has both says it better there */
+    double glossiness = get_number(*s, "glossinessFactor", 1);
+    for (int i = 0; i < 4; i++) out.base_color[i] = float(get_element(*s, "diffuseFactor", i, 1));
+    for (int i = 0; i < 3; i++) out.specular_color[i] = float(get_element(*s, "specularFactor", i, 1));
+    out.ior = out.metallic = 0;
+    out.specular = 1;
+    out.roughness = float(1 - glossiness);
+    out.textures[EC_SLOT_BASE_COLOR] = make_use(*s, "diffuseTexture", where, gltf, log);
+    out.textures[EC_SLOT_SPECULAR_COLOR] = make_use(*s, "specularGlossinessTexture", where, gltf, log);
+    ec_texture_use &roughness = out.textures[EC_SLOT_METALLIC_ROUGHNESS] = out.textures[EC_SLOT_SPECULAR_COLOR];
+    if (roughness.texture < 0) return;
+    roughness.texture = append_gloss(gltf, roughness.texture, glossiness);
+    out.roughness = 1;
+}
+
 static void set_emission(ec_material &out, const tinygltf::Material &in)
 {
     const Value *strength = find_extension(in.extensions, "KHR_materials_emissive_strength");
@@ -175,7 +211,7 @@ static void set_emission(ec_material &out, const tinygltf::Material &in)
         out.emission[i] = float(in.emissiveFactor[i] * factor);
 }
 
-static void set_material(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf,
+static void set_material(ec_material &out, const tinygltf::Material &in, const std::string &where, ec_gltf *gltf,
                          const ec_log *log)
 {
     auto use = [&](const auto &info, const char *name) {
@@ -208,6 +244,7 @@ static void set_material(ec_material &out, const tinygltf::Material &in, const s
     set_sheen(out, in, where, gltf, log);
     set_anisotropy(out, in, where, gltf, log);
     set_film(out, in, where, gltf, log);
+    set_specular_glossiness(out, in, where, gltf, log);
     out.name = copy_string(in.name);
 }
 
@@ -233,7 +270,9 @@ void convert_textures(const tinygltf::Model &model, ec_gltf *gltf)
     gltf->textures = make_array<ec_gltf_texture>(model.textures.size());
     for (const tinygltf::Texture &in : model.textures) {
         ec_gltf_texture &out = gltf->textures[gltf->texture_count++];
-        out = {in.source, EC_WRAP_REPEAT, EC_WRAP_REPEAT, false};
+        out = {in.source, EC_WRAP_REPEAT, EC_WRAP_REPEAT, false, false, 0};
+        const Value *webp = find_extension(in.extensions, "EXT_texture_webp");
+        if (webp && ec_has_webp) out.image = webp->Get("source").GetNumberAsInt();
         if (in.sampler < 0) continue;
         const tinygltf::Sampler &sampler = model.samplers[size_t(in.sampler)];
         out.wrap_s = convert_wrap(sampler.wrapS);

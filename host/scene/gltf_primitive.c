@@ -1,5 +1,5 @@
 /* A primitive's vertices and triangles: types, counts and indices checked once, then read as plain triangles. */
-#include "scene/gltf.h"
+#include "scene/codecs.h"
 
 #include <stdio.h>
 
@@ -104,11 +104,20 @@ static ec_result scan_indices(const ec_gltf *g, ec_gltf_primitive *p, uint64_t c
     return EC_OK;
 }
 
+static ec_result unpack(ec_gltf *g, ec_gltf_primitive *p, const char *where, ec_error *err)
+{
+    const ec_gltf_view *v = &g->views[p->draco_view];
+    const ec_gltf_buffer *b = &g->buffers[v->buffer];
+    if (!b->data) return ec_fail(err, "%s: %s reads buffers[%d], which has no data", g->path, where, v->buffer);
+    return ec_draco_decode(g, p, b->data + v->offset, v->length, where, err);
+}
+
 ec_result ec_gltf_primitive_prepare(ec_gltf *g, ec_gltf_primitive *p, const char *where, ec_error *err)
 {
     if (p->prepared) return EC_OK;
     p->prepared = true;
     if (p->mode < EC_GLTF_TRIANGLES || p->streams.position < 0) return EC_OK;
+    if (p->draco_view >= 0 && ec_has_draco) EC_TRY(unpack(g, p, where, err));
     uint64_t vertices = g->accessors[p->streams.position].count;
     if (vertices > INT32_MAX)
         return ec_fail(err, "%s: %s claims %llu vertices; at most %d are supported", g->path, where,

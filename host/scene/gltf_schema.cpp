@@ -63,7 +63,15 @@ static const schema accessor_s(accessor);
 
 static const field buffer[] = {count("byteLength", 1, required), plain("uri", kind::text)};
 static const schema buffer_s(buffer);
-static const field view[] = {index("buffer", "buffers", required), count("byteOffset"), count("byteLength", 1, required),
+static const field meshopt[] = {index("buffer", "buffers", required), count("byteOffset"), count("byteLength", 1, required),
+                                count("byteStride", 1, required, 256), count("count", 1, required),
+                                choice("mode", "ATTRIBUTES TRIANGLES INDICES", required),
+                                choice("filter", "NONE OCTAHEDRAL QUATERNION EXPONENTIAL")};
+static const schema meshopt_s(meshopt);
+static const field view_extensions[] = {object("EXT_meshopt_compression", meshopt_s)};
+static const schema view_extensions_s(view_extensions);
+static const field view[] = {object("extensions", view_extensions_s),
+                             index("buffer", "buffers", required), count("byteOffset"), count("byteLength", 1, required),
                              count("byteStride", 4, false, 252)};
 static const schema view_s(view);
 
@@ -73,20 +81,27 @@ static const field mapping[] = {indices("variants", "variants", required), index
 static const schema mapping_s(mapping);
 static const field mappings[] = {objects("mappings", mapping_s, required)};
 static const schema mappings_s(mappings);
-static const field primitive_extensions[] = {object("KHR_materials_variants", mappings_s)};
+static const field nothing[] = {plain("", kind::flag)};
+static const schema nothing_s(nothing);
+static const field draco[] = {index("bufferView", "bufferViews", required), object("attributes", nothing_s, required)};
+static const schema draco_s(draco);
+static const field primitive_extensions[] = {object("KHR_draco_mesh_compression", draco_s),
+                                             object("KHR_materials_variants", mappings_s)};
 static const schema primitive_extensions_s(primitive_extensions);
 static const field primitive[] = {object("attributes", attributes_s, required), index("indices", "accessors"),
                                   index("material", "materials"), choice("mode", "0 1 2 3 4 5 6"),
                                   objects("targets", attributes_s), object("extensions", primitive_extensions_s)};
 static const schema primitive_s(primitive);
-static const field mesh[] = {objects("primitives", primitive_s, required), numbers("weights", any_length), plain("name", kind::text)};
+static const field mesh[] = {objects("primitives", primitive_s, required), numbers("weights", any_length),
+                             plain("name", kind::text)};
 static const schema mesh_s(mesh);
 
 static const field node_light[] = {index("light", "lights", required)};
 static const schema node_light_s(node_light);
 static const field instancing[] = {object("attributes", attributes_s, required)};
 static const schema instancing_s(instancing);
-static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s), object("EXT_mesh_gpu_instancing", instancing_s)};
+static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s),
+                                        object("EXT_mesh_gpu_instancing", instancing_s)};
 static const schema node_extensions_s(node_extensions);
 static const field node[] = {
     indices("children", "nodes"), index("mesh", "meshes"), index("skin", "skins"), index("camera", "cameras"), numbers("matrix", 16),
@@ -103,7 +118,8 @@ static const field pointer[] = {plain("pointer", kind::text, required)};
 static const schema pointer_s(pointer);
 static const field target_extensions[] = {object("KHR_animation_pointer", pointer_s)};
 static const schema target_extensions_s(target_extensions);
-static const field target[] = {index("node", "nodes"), plain("path", kind::text, required), object("extensions", target_extensions_s)};
+static const field target[] = {index("node", "nodes"), plain("path", kind::text, required),
+                               object("extensions", target_extensions_s)};
 static const schema target_s(target);
 static const field channel[] = {count("sampler", 0, required, int_count), object("target", target_s, required)};
 static const schema channel_s(channel);
@@ -124,7 +140,11 @@ static const schema camera_s(camera);
 
 static const field image[] = {plain("uri", kind::text), index("bufferView", "bufferViews"), plain("name", kind::text)};
 static const schema image_s(image);
-static const field texture[] = {index("source", "images"), index("sampler", "samplers")};
+static const field webp[] = {index("source", "images", required)};
+static const schema webp_s(webp);
+static const field texture_extensions[] = {object("EXT_texture_webp", webp_s)};
+static const schema texture_extensions_s(texture_extensions);
+static const field texture[] = {index("source", "images"), index("sampler", "samplers"), object("extensions", texture_extensions_s)};
 static const schema texture_s(texture);
 static const field sampler[] = {choice("magFilter", "9728 9729"),
                                 choice("minFilter", "9728 9729 9984 9985 9986 9987"),
@@ -175,9 +195,12 @@ static const field diffuse_transmission[] = {number("diffuseTransmissionFactor")
 static const schema diffuse_transmission_s(diffuse_transmission);
 static const field dispersion[] = {number("dispersion")};
 static const schema dispersion_s(dispersion);
-static const field nothing[] = {plain("", kind::flag)};
-static const schema nothing_s(nothing);
-static const field material_extensions[] = {object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
+static const field specular_glossiness[] = {
+    numbers("diffuseFactor", 4), object("diffuseTexture", texture_info_s), numbers("specularFactor", 3), number("glossinessFactor"),
+    object("specularGlossinessTexture", texture_info_s)};
+static const schema specular_glossiness_s(specular_glossiness);
+static const field material_extensions[] = {object("KHR_materials_pbrSpecularGlossiness", specular_glossiness_s),
+                                            object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
                                             object("KHR_materials_emissive_strength", emissive_strength_s),
                                             object("KHR_materials_ior", ior_s), object("KHR_materials_transmission", transmission_s),
                                             object("KHR_materials_volume", volume_s),
@@ -205,7 +228,8 @@ static const field variant[] = {plain("name", kind::text, required)};
 static const schema variant_s(variant);
 static const field variants[] = {objects("variants", variant_s, required)};
 static const schema variants_s(variants);
-static const field root_extensions[] = {object("KHR_lights_punctual", lights_s), object("KHR_materials_variants", variants_s)};
+static const field root_extensions[] = {object("KHR_lights_punctual", lights_s),
+                                        object("KHR_materials_variants", variants_s)};
 static const schema root_extensions_s(root_extensions);
 
 static const field asset[] = {plain("version", kind::text, required), plain("minVersion", kind::text)};

@@ -7,6 +7,10 @@
 #include <memory>
 #include <set>
 
+extern "C" {
+#include "scene/codecs.h"
+}
+
 namespace eclat {
 
 using nlohmann::json;
@@ -22,6 +26,7 @@ static const char *const supported_extensions[] = {
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_transmission",
@@ -31,8 +36,26 @@ static const char *const supported_extensions[] = {
     "KHR_mesh_quantization",
     "KHR_texture_transform"};
 
+/* Those that take a library which this build may lack. */
+static const struct {
+    const char *name, *package;
+    const bool &built;
+} optional_extensions[] = {{"EXT_meshopt_compression", "libmeshoptimizer-dev", ec_has_meshopt},
+                           {"EXT_texture_webp", "libwebp-dev", ec_has_webp},
+                           {"KHR_draco_mesh_compression", "libdraco-dev", ec_has_draco}};
+
+static void refuse_unbuilt(const std::string &name)
+{
+    for (auto &optional : optional_extensions)
+        if (name == optional.name && !optional.built)
+            throw bad_file("the file requires " + name + ", which this eclat was built without; install " + optional.package +
+                           " and build again, or export it without");
+}
+
 static bool is_supported(const std::string &name)
 {
+    for (auto &optional : optional_extensions)
+        if (name == optional.name) return optional.built;
     return std::find(std::begin(supported_extensions), std::end(supported_extensions), name) !=
            std::end(supported_extensions);
 }
@@ -83,7 +106,10 @@ static void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
     for (const std::string &name : used)
         if (!is_supported(name)) ignored.insert(name);
     for (const std::string &name : needed)
-        if (!is_supported(name)) missing.insert(name);
+        if (!is_supported(name)) {
+            refuse_unbuilt(name);
+            missing.insert(name);
+        }
     if (!missing.empty())
         throw bad_file("the file requires " + comma_list(missing) + ", which eclat does not support; export it without");
     if (!ignored.empty())
@@ -157,7 +183,8 @@ static void pad_for_tinygltf(json &root)
 /* What is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. */
 static void parse_rest(json &root, tinygltf::Model &model)
 {
-    for (const char *done : {"accessors", "animations", "buffers", "bufferViews", "images", "meshes", "nodes", "scene", "scenes", "skins"})
+    for (const char *done : {"accessors", "animations", "buffers", "bufferViews", "images", "meshes", "nodes", "scene",
+                             "scenes", "skins"})
         root.erase(done);
     pad_for_tinygltf(root);
     std::string text = root.dump(), error, warning;
@@ -211,7 +238,8 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice 
 
 } // namespace eclat
 
-extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **result, const ec_log *log, ec_error *err)
+extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **result, const ec_log *log,
+                                  ec_error *err)
 {
     using namespace eclat;
     *result = nullptr;

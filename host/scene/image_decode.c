@@ -1,5 +1,5 @@
 /* Which format is it, and may it be so large? */
-#include "scene/image_decode.h"
+#include "scene/codecs.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -30,5 +30,7 @@ bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_
         return ec_image_decode_png(bytes, (size_t)length, image, err);
     if (length >= sizeof jpeg && !memcmp(bytes, jpeg, sizeof jpeg))
         return ec_image_decode_jpeg(bytes, (size_t)length, image, err);
-    return ec_decode_fail(err, "it is neither PNG nor JPEG");
+    if (length >= 12 && !memcmp(bytes, "RIFF", 4) && !memcmp(bytes + 8, "WEBP", 4))
+        return ec_image_decode_webp(bytes, (size_t)length, image, err);
+    return ec_decode_fail(err, "it is none of PNG, JPEG and WebP");
 }

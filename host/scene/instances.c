@@ -3,7 +3,8 @@
 
 #include "scene/gltf_tree.h"
 
-static ec_result open_attribute(ec_gltf *g, int32_t node, int32_t accessor, const char *name, uint32_t components, uint64_t *count, ec_error *err)
+static ec_result open_attribute(ec_gltf *g, int32_t node, int32_t accessor, const char *name, uint32_t components,
+                                uint64_t *count, ec_error *err)
 {
     char what[96];
     if (accessor < 0) return EC_OK;
@@ -11,7 +12,8 @@ static ec_result open_attribute(ec_gltf *g, int32_t node, int32_t accessor, cons
     EC_TRY(ec_gltf_accessor_open(g, accessor, what, err));
     const ec_gltf_accessor *a = &g->accessors[accessor];
     if (a->components != components || !(a->component_type == EC_GLTF_FLOAT || a->normalized))
-        return ec_fail(err, "%s: %s: accessors[%d] must hold vectors of %u floats or normalised integers", g->path, what, accessor, components);
+        return ec_fail(err, "%s: %s: accessors[%d] must hold vectors of %u floats or normalised integers", g->path, what,
+                       accessor, components);
     if (a->view < 0) /* a few bytes could claim any number of them */
         return ec_fail(err, "%s: %s: accessors[%d] has no bufferView", g->path, what, accessor);
     if (*count && *count != a->count)
@@ -57,8 +59,9 @@ ec_result ec_gltf_place_instances(ec_gltf *g, ec_placement_list *placements, con
     for (uint32_t i = 0; i < count; i++) {
         const ec_gltf_node *node = &g->nodes[placements->items[i].node];
         if (!node->instances.used || node->mesh < 0) continue;
-        if (node->skin >= 0) ec_warn(log, "%s: nodes[%d] has a skin, which stands at one place; its instances are left out", g->path, placements->items[i].node);
-        else EC_TRY(place(g, i, placements, err));
+        if (node->skin < 0) EC_TRY(place(g, i, placements, err));
+        else ec_warn(log, "%s: nodes[%d] has a skin, which stands at one place; its instances are left out", g->path,
+                     placements->items[i].node);
     }
     return EC_OK;
 }

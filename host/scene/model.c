@@ -108,7 +108,7 @@ static int32_t add_accessor(ec_model *m, const void *data, uint64_t count, uint3
 
 void ec_model_add(ec_model *m, int32_t material, const ec_model_mesh *mesh)
 {
-    ec_gltf_primitive primitive = {.mode = EC_GLTF_TRIANGLES, .material = material, .streams = {.color = -1, .uv = {-1, -1}}};
+    ec_gltf_primitive primitive = {.mode = EC_GLTF_TRIANGLES, .material = material, .draco_view = -1, .streams = {.color = -1, .uv = {-1, -1}}};
     primitive.streams.position = add_accessor(m, mesh->positions, mesh->vertex_count, 3, EC_GLTF_FLOAT);
     primitive.streams.normal = add_accessor(m, mesh->normals, mesh->vertex_count, 3, EC_GLTF_FLOAT);
     primitive.streams.tangent = add_accessor(m, mesh->tangents, mesh->vertex_count, 4, EC_GLTF_FLOAT);

@@ -70,13 +70,31 @@ static int64_t map_image(table *t, int32_t index)
     return t->image[index];
 }
 
+/* Metallic-roughness of a picture whose alpha is glossiness: green 1 - factor x alpha, no metal. */
+static int64_t make_roughness(table *t, const ec_gltf_texture *in)
+{
+    ec_image *out = &t->s->images[t->s->image_count];
+    if (in->image < 0) return UNUSABLE;
+    if (!decode(t, (uint32_t)in->image, out)) {
+        free(out->name);
+        *out = (ec_image){0};
+        return UNUSABLE;
+    }
+    for (size_t i = 0; i < 4 * (size_t)out->width * out->height; i += 4) {
+        double gloss = (double)in->glossiness * (out->rgba8 ? out->rgba8[i + 3] / 255.0 : out->rgba16[i + 3] / 65535.0);
+        if (out->rgba8) out->rgba8[i + 1] = (uint8_t)(255 * (1 - gloss) + 0.5), out->rgba8[i + 2] = 0;
+        else out->rgba16[i + 1] = (uint16_t)(65535 * (1 - gloss) + 0.5), out->rgba16[i + 2] = 0;
+    }
+    return t->s->image_count++;
+}
+
 static int64_t map_texture(table *t, int32_t index)
 {
     if (t->texture[index] != UNSEEN) return t->texture[index];
     const ec_gltf_texture *in = &t->g->textures[index];
     if (in->image < 0)
-        ec_warn(t->log, "%s: textures[%d] has no image in PNG or JPEG; taken as white", t->g->path, index);
-    int64_t image = map_image(t, in->image);
+        ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; taken as white", t->g->path, index);
+    int64_t image = in->is_gloss ? make_roughness(t, in) : map_image(t, in->image);
     if (image < 0) return t->texture[index] = UNUSABLE;
     t->s->textures[t->s->texture_count] = (ec_texture){(uint32_t)image, in->wrap_s, in->wrap_t, in->nearest};
     return t->texture[index] = t->s->texture_count++;
@@ -105,7 +123,7 @@ ec_result ec_gltf_textures_load(ec_gltf *g, ec_scene *s, const ec_log *log, ec_e
     table t = {.g = g, .s = s, .log = log};
     t.image = malloc(((size_t)g->image_count + 1) * sizeof *t.image);
     t.texture = malloc(((size_t)g->texture_count + 1) * sizeof *t.texture);
-    s->images = calloc((size_t)g->image_count + 1, sizeof *s->images);
+    s->images = calloc((size_t)g->image_count + g->texture_count + 1, sizeof *s->images); /* and roughness made of glossiness */
     s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
     bool *drawn = calloc(s->material_count, sizeof *drawn);
     bool ok = t.image && t.texture && s->images && s->textures && drawn;

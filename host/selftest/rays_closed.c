@@ -69,7 +69,7 @@ static const shape shapes[] = {
 /* NUMERICS A1: Moeller and Trumbore's test misses 9 % of rays aimed at vertices of a closed mesh, 11 % of those at edges. */
 ec_result ec_selftest_watertight(ec_selftest *t, ec_error *err)
 {
-    enum { COUNT = sizeof shapes / sizeof shapes[0], LONG_RUNS = 85 }; /* 10^8 rays in all */
+    enum { COUNT = sizeof shapes / sizeof shapes[0], LONG_RUNS = 96 }; /* 10^8 rays in all */
     uint64_t random = 2;
     ec_tracer *r;
     EC_TRY(ec_tracer_of(t, &r, err));

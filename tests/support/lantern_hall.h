@@ -7,7 +7,7 @@
 #include "support/render_case.h"
 
 /* side x side chambers of 2 m, 1.5 m high, open to each other by half of each wall; `each` lanterns in a chamber, octahedra of eight
- * triangles, every third one a two-sided sheet of two. The camera looks in from above: there is no roof. */
+ * triangles, every third one a two-sided sheet of two. The camera stands in a chamber in the middle; there is no roof. */
 static inline ec_scene *lantern_hall(int side, int each)
 {
     ec_error err = {0};
@@ -37,7 +37,8 @@ static inline ec_scene *lantern_hall(int side, int each)
         if (i % 3) ec_model_sphere(m, lamps[kind], at, r, 0, false);
         else ec_model_quad(m, lamps[3 + kind], at, (double[3]){r, 0, 0}, (double[3]){0, r, 2 * r * ec_random_unit(&state) - r});
     }
-    ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0, 1.6 * side, 1.9 * side}, (double[3]){0, 0, 0}, 0.9);
+    double x = 1 - half + 2 * (side / 2);
+    ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){x + 0.8, 1.4, x + 0.8}, (double[3]){x - 0.7, 0.2, x - 0.5}, 1.1);
     if (ec_model_scene(m, &scene, &err) != EC_OK) case_end("lantern hall", &err);
     return scene;
 }
