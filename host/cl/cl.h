@@ -121,7 +121,7 @@ typedef struct ec_array {
 #define EC_OUT(pointer, count) {(void *)(pointer), (size_t)(count) * sizeof *(pointer), EC_ARRAY_OUT}
 #define EC_SCALAR(variable) {(void *)&(variable), sizeof(variable), EC_ARRAY_SCALAR}
 enum {
-    EC_CALL_ARRAYS = 24, /* at most */
+    EC_CALL_ARRAYS = 32, /* at most */
     EC_CALL_SLACK = 64   /* bytes past an array's end that lane-wide loads may read */
 };
 /* Runs kernel `name` once over `items` work-items and waits for it. */

@@ -92,7 +92,7 @@ static ec_result probe(const info_request *request, ec_scene_report *report, ec_
 
 static ec_result tell(const info_request *request, const ec_log *log, ec_error *err)
 {
-    char effects[512] = "";
+    char effects[1024] = "";
     ec_scene_report report = {.path = request->scene, .effects = effects};
     ec_scene *scene = NULL;
     double start = ec_now();

@@ -33,6 +33,26 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / ior) < EC_SMOOTH_ALPHA);
 }
 
+bool ec_pack_is_pane(const ec_scene *scene, const ec_material *m)
+{
+    return !m->unlit && !ec_refracts(m) && transmits(scene, m) && may_be_smooth(scene, m, false);
+}
+
+bool ec_pack_is_body(const ec_scene *scene, const ec_material *m)
+{
+    return !m->unlit && (ec_bounds(m) || (ec_refracts(m) && transmits(scene, m)));
+}
+
+void ec_pack_find_bodies(const ec_scene *scene, ec_bodies *bodies)
+{
+    *bodies = (ec_bodies){0};
+    bool *is_body = calloc(scene->material_count, sizeof *is_body);
+    if (!is_body) return;
+    for (uint32_t m = 0; m < scene->material_count; m++) is_body[m] = ec_pack_is_body(scene, &scene->materials[m]);
+    ec_bodies_find(scene, is_body, bodies);
+    free(is_body);
+}
+
 static uint64_t coat_features(const ec_scene *scene, const ec_material *m)
 {
     float least, most;
@@ -109,6 +129,7 @@ static uint64_t material_features(const ec_scene *scene, const ec_material *m)
         f |= EC_FEATURE_TRANSMISSION;
         if (m->textures[EC_SLOT_TRANSMISSION].texture >= 0) f |= EC_FEATURE_TRANSMISSION_TEXTURE;
         if (ec_refracts(m) && max3(m->absorption) > 0.0f) f |= EC_FEATURE_ABSORPTION;
+        if (ec_pack_is_pane(scene, m)) f |= EC_FEATURE_PANES;
         if (ec_refracts(m) && m->ior > 1.0f && m->dispersion > 0.0f) f |= EC_FEATURE_DISPERSION;
     }
     f |= coat_features(scene, m) | sheen_features(scene, m) | film_features(scene, m) | seeping_features(scene, m);
@@ -176,6 +197,12 @@ uint64_t ec_pack_features(const ec_scene *scene)
         if (!used || used[m]) f |= material_features(scene, &scene->materials[m]);
     free(used);
     if (scene->placed_count) f |= EC_FEATURE_INSTANCES;
+    if (f & (EC_FEATURE_TRANSMISSION | EC_FEATURE_DIFFUSE_TRANSMISSION)) {
+        ec_bodies bodies;
+        ec_pack_find_bodies(scene, &bodies);
+        /* Walls that are not there have one direction, in which all passes. */
+        if (bodies.count) f |= EC_FEATURE_NESTED | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION;
+    }
     for (uint32_t i = 0; i < scene->light_count; i++)
         if (max3(scene->lights[i].intensity) > 0.0f) f |= EC_FEATURE_PUNCTUAL_LIGHTS;
     if (scene->has_environment) {

@@ -8,7 +8,12 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     pack->prim_count = scene->triangle_count;
     pack->prims = malloc((size_t)(pack->prim_count ? pack->prim_count : 1) * sizeof *pack->prims);
-    if (!pack->prims) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
+    bool *is_pane = calloc(scene->material_count, sizeof *is_pane);
+    if (!pack->prims || !is_pane) {
+        free(is_pane);
+        return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
+    }
+    for (uint32_t m = 0; m < scene->material_count; m++) is_pane[m] = ec_pack_is_pane(scene, &scene->materials[m]);
     for (uint32_t t = 0; t < pack->prim_count; t++) {
         const uint32_t *i = scene->indices + 3 * (size_t)t;
         const ec_material *m = &scene->materials[scene->triangle_material[t]];
@@ -18,8 +23,10 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
         memcpy(p->v2, scene->positions + 3 * (size_t)i[2], sizeof p->v2);
         p->material = scene->triangle_material[t];
         p->light_pdf_a = 0.0f;
-        p->flags = (m->double_sided || ec_refracts(m) || ec_bounds(m) ? 0 : EC_PRIM_SINGLE_SIDED) | (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_PRIM_ALPHA : 0);
+        p->flags = (m->double_sided || ec_refracts(m) || ec_bounds(m) ? 0 : EC_PRIM_SINGLE_SIDED) |
+                   (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_PRIM_ALPHA : 0) | (is_pane[p->material] ? EC_PRIM_PANE : 0);
     }
+    free(is_pane);
     for (int k = 0; k < 3; k++) {
         float extent = fmaxf(fabsf(scene->bounds_min[k]), fabsf(scene->bounds_max[k]));
         pack->scene_max = fmaxf(pack->scene_max, extent);
@@ -44,6 +51,19 @@ static float head_on_reflectance(float ior)
 {
     float r = ior == 0.0f ? 1.0f : (ior - 1.0f) / (ior + 1.0f);
     return r * r;
+}
+
+/* Between bodies reflectance depends on both sides: the kernels multiply by it. */
+static void pack_bodies(const ec_scene *scene, ec_pack *pack)
+{
+    for (uint32_t rank = 0; rank < pack->bodies.count; rank++) {
+        uint32_t material = pack->bodies.material[rank];
+        ec_material_data *d = &pack->materials[material];
+        d->flags |= EC_MATERIAL_NESTED;
+        d->body = 1u << rank;
+        if (ec_refracts(&scene->materials[material])) memcpy(d->f0, scene->materials[material].specular_color, sizeof d->f0);
+        pack->materials[rank].body_of_rank = material * EC_MATERIAL_WORDS;
+    }
 }
 
 static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *err)
@@ -98,6 +118,9 @@ ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err)
     if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
     if (result == EC_OK) result = pack_materials(scene, pack, err);
     if (result == EC_OK) result = ec_pack_places(scene, pack, err);
+    ec_pack_find_bodies(scene, &pack->bodies);
+    if (result == EC_OK) result = ec_bodies_rank(scene, &pack->bodies, err);
+    if (result == EC_OK) pack_bodies(scene, pack);
     if (result == EC_OK) result = ec_pack_lights(scene, pack, err);
     if (result != EC_OK) ec_pack_free(pack);
     return result;

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "pack/bodies.h"
 #include "scene/scene.h"
 #include "shared/features.h"
 #include "shared/light_tree.h"
@@ -16,6 +17,7 @@ typedef struct ec_pack {
     uint64_t features;             /* ec_feature bits that the scene calls for (the sampler's bit is the caller's) */
     uint32_t prim_count;
     ec_prim *prims;
+    ec_bodies bodies;              /* in order; none unless some may be nested */
     uint32_t material_count;
     ec_material_data *materials;
     uint32_t texture_count;
@@ -45,6 +47,12 @@ void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 
 /* The steps, in order; each fills its part of pack. */
 uint64_t ec_pack_features(const ec_scene *scene);
+/* May light go straight on through it, somewhere: thin-walled and smooth? */
+bool ec_pack_is_pane(const ec_scene *scene, const ec_material *m);
+/* Does it bend light, somewhere? */
+bool ec_pack_is_body(const ec_scene *scene, const ec_material *m);
+/* Bodies that may lie in one another, in no order. */
+void ec_pack_find_bodies(const ec_scene *scene, ec_bodies *bodies);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_places(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);

@@ -16,13 +16,14 @@ void ec_feature_names(uint64_t features, char *text, size_t size)
 #undef ADD_NAME
 }
 
-/* Alpha decides by base colour; without it the traversal does not look at colour at all. */
+/* Alpha decides by base colour, panes by all of the surface; without them the traversal does not look at it. */
 static uint64_t canonical(const ec_stage_entry *stage, uint64_t features)
 {
     uint64_t f = features & stage->features;
     const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
-    if ((stage->features & EC_FEATURE_ALPHA) && !(f & EC_FEATURE_ALPHA)) f &= ~of_alpha;
-    return f;
+    if (!(stage->features & EC_FEATURE_ALPHA) || (f & EC_FEATURE_PANES)) return f;
+    uint64_t looks_at = EC_FEATURE_CULLING | EC_FEATURE_SOBOL | (f & EC_FEATURE_ALPHA ? EC_FEATURE_ALPHA | of_alpha : 0);
+    return f & looks_at;
 }
 
 static bool is_needed(const ec_pipeline *p, ec_stage_id id)

@@ -7,6 +7,18 @@
 #include "base/clock.h"
 #include "cl/workarounds.h"
 
+/* What the camera is inside of, as paths keep it. An orthographic one is all over its plane: outside. */
+static uint32_t camera_medium(const ec_scene *scene, const ec_camera *camera, const ec_pack *pack)
+{
+    uint32_t medium = pack->bodies.count ? 0 : EC_NO_ID;
+    if (!(pack->features & EC_FEATURES_MEDIUM) || camera->type == EC_CAMERA_ORTHOGRAPHIC) return medium;
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        if (!ec_pack_is_body(scene, &scene->materials[m]) || !ec_bodies_contain(scene, m, camera->position)) continue;
+        medium = pack->bodies.count ? medium | pack->materials[m].body : m * EC_MATERIAL_WORDS;
+    }
+    return medium;
+}
+
 /* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
  * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
  * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
@@ -89,6 +101,7 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     const uint32_t unlimited = p->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
     params->max_depth = options->max_depth ? options->max_depth : unlimited;
     params->cutoff = (float)options->cutoff;
+    params->panes_count = p->integrator == EC_INTEGRATOR_PATH;
     set_roulette(options->survival, params);
     params->sample = options->sample;
     params->light_count = joins ? pack.light_count : 0;
@@ -100,6 +113,9 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     params->environment_turned = scene->has_environment && scene->environment.turned;
     for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = scene->environment.turn[k];
     memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
+    params->nested = pack.bodies.count > 0;
+    params->camera_medium = camera_medium(scene, &scene->cameras[options->camera], &pack);
+    p->bodies_too_many = pack.bodies.too_many;
     params->light_tree_pmf = pack.light_tree_pmf;
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;

@@ -20,6 +20,7 @@ typedef struct ec_pipeline {
     uint64_t features;
     uint32_t lanes, wave, triangle_count;
     uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
+    uint32_t bodies_too_many;     /* materials of bodies, more than can be told apart; else 0 */
     bool fast_math;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];

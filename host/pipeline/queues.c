@@ -44,7 +44,8 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
 {
     /* Lane-wide loads may read a packet past the last entry. */
     const uint64_t field = (uint64_t)p->wave * 4, slack = 64;
-    const uint64_t path_fields = p->features & EC_FEATURE_ABSORPTION ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
+    const uint64_t path_fields = p->features & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS
+                                 : p->features & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
     for (int i = 0; i < 2; i++) EC_TRY(create(p, "path queue", field * path_fields + slack, &p->path_queues[i], err));
     EC_TRY(create(p, "hits", field * EC_HIT_FIELDS + slack, &p->buffers[EC_ARG_HITS], err));
     EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));

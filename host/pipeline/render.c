@@ -294,6 +294,9 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
     ec_result result = ec_film_create(film, options->width, options->height, batch, err);
     if (result == EC_OK) result = ec_pipeline_create(cl, scene, options, batch, &r.pipeline, stats, err);
+    if (result == EC_OK && r.pipeline.bodies_too_many)
+        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
+                r.pipeline.bodies_too_many, EC_BODIES_MOST);
     if (result == EC_OK && r.pipeline.wave < r.pipeline.first_wave)
         ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", r.pipeline.wave, r.pipeline.first_wave);
     if (result == EC_OK) {

@@ -103,7 +103,7 @@ typedef struct ec_render_stats {
     uint32_t instances;           /* of meshes that are kept once; 0: none, or they were written out */
     uint64_t triangles, stored_triangles; /* that rays can meet, and that take memory */
     uint64_t device_bytes;        /* peak of all buffers */
-    char effects[512];            /* names of the effects built in, blank separated */
+    char effects[1024];            /* names of the effects built in, blank separated */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */
     uint32_t cache_hits, cache_misses;
 } ec_render_stats;

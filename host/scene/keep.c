@@ -1,4 +1,5 @@
-/* Which meshes are kept once. Not those that emit: lights are sampled in the world. Not where a matrix is singular or nearly so: its
+/* Which meshes are kept once. Not those that emit, since lights are sampled in the world, nor those that light
+ * passes: which body lies in which is found out there too. Not where a matrix is singular or nearly so: its
  * inverse, by which rays reach the mesh, would be noise. */
 #include "scene/keep.h"
 
@@ -10,12 +11,12 @@
 #define SMALL_MESH 64u     /* triangles: keeping fewer once saves little more than their instances take */
 #define WORTH_TRIANGLES (1u << 20)
 
-static bool emits(const ec_gltf *g, int32_t mesh, const ec_scene *scene)
+static bool emits_or_transmits(const ec_gltf *g, int32_t mesh, const ec_scene *scene)
 {
     for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
         const ec_gltf_primitive *p = &g->meshes[mesh].primitives[k];
         const float *e = scene->materials[p->scene_material].emission;
-        if (p->drawn && (e[0] > 0 || e[1] > 0 || e[2] > 0)) return true;
+        if (p->drawn && (e[0] > 0 || e[1] > 0 || e[2] > 0 || scene->materials[p->scene_material].transmission > 0)) return true;
     }
     return false;
 }
@@ -90,7 +91,7 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
     }
     for (uint32_t mesh = 0; mesh < g->mesh_count; mesh++) {
         index[mesh] = -1;
-        if (uses[mesh] < 2 || emits(g, (int32_t)mesh, scene)) continue;
+        if (uses[mesh] < 2 || emits_or_transmits(g, (int32_t)mesh, scene)) continue;
         ec_kept_mesh *m = &k->meshes[k->mesh_count];
         *m = (ec_kept_mesh){.mesh = (int32_t)mesh};
         span_mesh(g, m);

@@ -40,6 +40,7 @@
     CASE("lights/many", false, ec_selftest_many_lamps, "tables of lights whose probabilities are not those sampled")               \
     CASE("lights/occlusion", false, ec_selftest_occlusion, "shadow rays that miss a wall (ambient occlusion, closed form)")        \
     CASE("lights/punctual", false, ec_selftest_punctual, "units of glTF's lights")                                                 \
+    CASE("lights/panes", true, ec_selftest_panes, "points and suns that light nothing behind a window")                            \
     CASE("camera/lens", false, ec_selftest_lens, "blur of another width than the thin lens's")                                    \
     CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")             \
     CASE("scatter/fresnel", false, ec_selftest_fresnel, "black or bright rims where total reflection sets in")                     \
@@ -50,6 +51,7 @@
     CASE("scatter/reciprocity", false, ec_selftest_reciprocity, "a picture that depends on the side paths start from")             \
     CASE("scatter/fuzz", false, ec_selftest_fuzz, "NaN and fireflies")                                                             \
     CASE("scatter/slab", false, ec_selftest_slabs, "glass that darkens or brightens what is behind it")                            \
+    CASE("scatter/slab in slab", false, ec_selftest_slab_in_slab, "liquid in glass that refracts as if in air (Schmidt and Budge 2002)") \
     CASE("scatter/nested glass", false, ec_selftest_nested_glass, "black glass: paths lost at faces or by depth")                  \
     CASE("scatter/continuity", false, ec_selftest_continuity, "a jump in brightness where roughness gets to 0")                    \
     CASE("numbers/arithmetic", false, ec_selftest_arithmetic, "cracks between triangles: products contracted (NUMERICS: half of all)") \

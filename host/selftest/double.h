@@ -72,6 +72,12 @@ static inline int32_t most_int(int32_t a, int32_t b) { return a < b ? b : a; }
 static inline uint32_t most_uint(uint32_t a, uint32_t b) { return a < b ? b : a; }
 #define min(a, b) _Generic((a) + (b), double: least_double, int32_t: least_int, uint32_t: least_uint)(a, b)
 #define max(a, b) _Generic((a) + (b), double: most_double, int32_t: most_int, uint32_t: most_uint)(a, b)
+static inline uint32_t clz(uint32_t x)
+{
+    uint32_t n = 0;
+    for (uint32_t bit = 0x80000000u; bit && !(x & bit); bit >>= 1) n++;
+    return n;
+}
 static inline uint32_t mul_hi(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
 
 #define EC_PI 3.14159265358979323846

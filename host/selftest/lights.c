@@ -6,6 +6,7 @@
 #include "report/names.h"
 #include "scene/model.h"
 #include "selftest/shot.h"
+#include "shared/features.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -208,6 +209,42 @@ ec_result ec_selftest_punctual(ec_selftest *t, ec_error *err)
         /* 3 W/sr at distance 2, or 3 W/m^2, at cos 0.8; some twenty operations, and the camera sees 1e-6 around. */
         double expected = 3 * 0.8 / pi / (i == EC_LIGHT_DIRECTIONAL ? 1 : 4);
         result = ec_selftest_value(t, names[i], expected, shot.mean, shot.noise, expected * (20 * 0x1p-24 + 2e-6), err);
+        ec_shot_free(&shot);
+        EC_TRY(result);
+    }
+    return EC_OK;
+}
+
+/* A point light behind panes: each takes Schlick's F = 0.04 + 0.96 (1 - c)^5, with a dozen roundings. */
+ec_result ec_selftest_panes(ec_selftest *t, ec_error *err)
+{
+    static const int counts[2] = {1, 64};
+    for (int i = 0; i < 2; i++) {
+        ec_light light = {.type = EC_LIGHT_POINT, .intensity = {3, 3, 3}};
+        ec_material pane = ec_material_default();
+        ec_model *m = floor_model(1);
+        ec_scene *scene;
+        char what[32];
+        pane.metallic = pane.roughness = 0;
+        pane.transmission = 1;
+        if (m) {
+            int32_t material = ec_model_material(m, &pane);
+            for (int k = 0; k < counts[i]; k++)
+                ec_model_quad(m, material, (double[3]){-30, 0.6 + 0.9 * k / counts[i], 30}, (double[3]){60, 0, 0}, (double[3]){0, 0, -60});
+            ec_model_light(m, &light, (double[3]){1.2, 1.6, 0}, (double[3]){0, 0, 0});
+            look_down(m, 0.5, 1e-6);
+        }
+        EC_TRY(ec_model_scene(m, &scene, err));
+        ec_render_options o = ec_shot_options(t, 4, 16);
+        ec_shot shot;
+        o.max_depth = 2 + (uint32_t)counts[i]; /* nothing by way of reflections */
+        o.more_effects |= EC_FEATURE_PANES;
+        ec_result result = ec_shot_take(t, scene, &o, &shot, err);
+        ec_scene_free(scene);
+        EC_TRY(result);
+        double expected = 3 * 0.8 / 4 / pi * pow(0.96 * (1 - pow(0.2, 5)), counts[i]);
+        snprintf(what, sizeof what, "%d before a point", counts[i]);
+        result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, expected * ((20 + 12 * counts[i]) * 0x1p-24 + 2e-6), err);
         ec_shot_free(&shot);
         EC_TRY(result);
     }

@@ -57,6 +57,30 @@ ec_result ec_selftest_slabs(ec_selftest *t, ec_error *err)
     return slab(t, "index 1 + 1e-6, passes", glass(1 + 1e-6, 0, 0), true, 1, err);
 }
 
+/* A slab of another index within one of 1.5: four faces. Of a clear stack, R / (1 - R) is the sum of the faces' F / (1 - F). */
+ec_result ec_selftest_slab_in_slab(ec_selftest *t, ec_error *err)
+{
+    static const double inner[4] = {1.33, 1, 1.5, 1.5 * (1 + 1e-6)};
+    for (int i = 0; i < 4; i++) {
+        ec_model *m = ec_model_new();
+        ec_scene *scene;
+        char what[48];
+        ec_material outside = glass(1.5, 0, 0), inside = glass(inner[i], 0, 0);
+        double r = (1.5 - inner[i]) / (1.5 + inner[i]), sum = 2 * 0.04 / 0.96 + 2 * r * r / (1 - r * r);
+        if (m) {
+            ec_model_box(m, ec_model_material(m, &outside), (double[3]){-90, -90, -0.6}, (double[3]){90, 90, 0}, false);
+            ec_model_box(m, ec_model_material(m, &inside), (double[3]){-80, -80, -0.4}, (double[3]){80, 80, -0.2}, false);
+            sheet(m, -1, true);
+            ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 20}, (double[3]){0, 0, 0}, 1e-5);
+        }
+        EC_TRY(ec_model_scene(m, &scene, err));
+        ec_render_options o = ec_shot_options(t, 16, 256);
+        snprintf(what, sizeof what, "%.8g in 1.5, passes", inner[i]);
+        EC_TRY(ec_shot_only_row(t, what, scene, &o, 1 / (1 + sum), err));
+    }
+    return EC_OK;
+}
+
 /* Whatever clear glass does with white light from everywhere, each path brings 1. Without roulette there is no noise: what is missing
  * is lost, or in there for a thousand segments. */
 ec_result ec_selftest_nested_glass(ec_selftest *t, ec_error *err)

@@ -244,6 +244,7 @@ EC_FN bsdf_direction bsdf_sample_specular(const bsdf *b, lane_f cosine, lane_f s
     v3 m = ggx_sample(&b->facets, b->wo, cosine, sine, u2);
     lane_f om = v3_dot(b->wo, m);
     r.wi = v3_fma(m, 2.0f * om, v3_negate(b->wo));
+    if (HAS(DIFFUSE_TRANSMISSION)) r.wi.z = max(r.wi.z, F(0.0f)); /* mirrored onto the other side: not what seeps there */
     r.pdf = F(1.0f);
     r.weight = v3_zero();
     bool any_smooth = HAS(SMOOTH) && any_lane(b->facets.smooth);

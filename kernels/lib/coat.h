@@ -63,7 +63,7 @@ EC_FN v3 coat_sample(const coat *c, lane_f cosine, lane_f sine, lane_f u2)
 {
     v3 m = ggx_sample(&c->facets, c->wo, cosine, sine, u2), wi = v3_fma(m, 2.0f * v3_dot(c->wo, m), v3_negate(c->wo));
     v3 local_wi = v3_fma(c->n, wi.z, v3_fma(c->t, wi.y, v3_scale(c->s, wi.x)));
-    local_wi.z = wi.z > 0.0f ? local_wi.z : F(0.0f); /* onto the wrong side: no direction */
+    local_wi.z = wi.z > 0.0f ? max(local_wi.z, F(0.0f)) : F(0.0f); /* onto the wrong side of either: no direction */
     return local_wi;
 }
 

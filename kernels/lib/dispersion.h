@@ -27,13 +27,22 @@ EC_FN lane_i dispersion_choose(v3 beta, lane_f u, v3 *left)
 EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f u, surface *s, v3 *beta)
 {
     quad q = material_quad(g, h, EC_MATERIAL_IOR);
-    m = m & s->refracts & (s->transmission > 0.0f) & (q.b > 0.0f) & (q.a > 1.0f) & (v3_max_component(*beta) > 0.0f);
+    m = m & s->refracts & !s->displaced & (s->transmission > 0.0f) & (q.b > 0.0f) & (q.a > 1.0f) & (v3_max_component(*beta) > 0.0f);
     if (!any_lane(m)) return;
     v3 left;
     lane_f ior = dispersed_index(q.a, q.b, dispersion_choose(*beta, u, &left));
-    lane_f r = (ior - 1.0f) * (q.a + 1.0f) / ((ior + 1.0f) * (q.a - 1.0f));
+    lane_f r = (ior - 1.0f) * (q.a + 1.0f) / ((ior + 1.0f) * (q.a - 1.0f)), eta = s->front ? ior : 1.0f / ior;
+    if (HAS(NESTED)) { /* against what is on the other side, whose index is that of all colours */
+        lane_i nested = s->head_on < 1.0f;
+        lane_f between = s->eta * (s->front ? ior / q.a : q.a / ior), r_between = (between - 1.0f) / (between + 1.0f);
+        lane_f r_all = (s->eta - 1.0f) / (s->eta + 1.0f);
+        lane_i alike = nested & (r_all == 0.0f);
+        s->f0 = v3_select(m & alike, v3_splat(s->f90), s->f0);
+        r = nested ? (alike ? r_between : r_between / r_all) : r;
+        eta = nested ? between : eta;
+    }
     *beta = v3_select(m, left, *beta);
-    s->eta = m ? (s->front ? ior : 1.0f / ior) : s->eta;
+    s->eta = m ? eta : s->eta;
     s->f0 = v3_select(m, v3_scale(s->f0, r * r), s->f0);
     if (HAS(SMOOTH)) s->smooth = s->smooth | (m & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA));
 }

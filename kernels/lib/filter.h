@@ -10,6 +10,7 @@ typedef struct hit_filter {
     geometry g;
     lane_u key;      /* random key of this ray */
     bool cull_backs; /* camera rays */
+    lane_i *panes;   /* where not NULL, what may be a pane does not count and is noted here (lib/pane.h) */
 } hit_filter;
 
 /* What a kernel must be given for it: alpha is a matter of textures. */
@@ -29,10 +30,16 @@ EC_FN lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, boo
 EC_FN lane_i filter_hits(const hit_filter *f, lane_i m, lane_u prim, lane_f b1, lane_f b2, lane_i front)
 {
     bool culls = HAS(CULLING) ? f->cull_backs : false;
-    if (!HAS(ALPHA) & !culls) return m;
+    bool opens = HAS(PANES) ? f->panes != 0 : false;
+    if (!HAS(ALPHA) & !culls & !opens) return m;
     lane_u id = m ? prim : U(0);
     lane_u flags = as_lane_u(gather_f(f->g.prims, geometry_prim(&f->g, id) * EC_PRIM_WORDS + 11u));
     if (culls) m = m & (front | ((flags & EC_PRIM_SINGLE_SIDED) == 0u));
+    if (opens) {
+        lane_i pane = m & ((flags & EC_PRIM_PANE) != 0u);
+        *f->panes = *f->panes | pane;
+        m = m & !pane;
+    }
     if (HAS(ALPHA)) {
         lane_i look = m & ((flags & EC_PRIM_ALPHA) != 0u);
         if (any_lane(look)) {

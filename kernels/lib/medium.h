@@ -1,29 +1,40 @@
-/* What a body absorbs of the light that crosses it. */
+/* What a ray is inside of, and what that absorbs. A path keeps one word for it: the first word of the body's material, or EC_NO_ID;
+ * where bodies may be nested, the set of them (bodies.h). */
 #ifndef EC_LIB_MEDIUM_H
 #define EC_LIB_MEDIUM_H
 
 #include "surface.h"
 
-/* The material (its first word, or EC_NO_ID) whose inside a ray came through: that of the body whose back it meets, where it
- * entered unseen (a camera inside) or left another one inside; else the one it entered last. */
-EC_FN lane_u medium_of(const hit_point *h, const surface *s, lane_i found, lane_u entered)
+#define MEDIA_NESTED(params) (HAS(NESTED) ? (params)->nested != 0u : false)
+
+/* Whose inside a ray came through: that of the body whose back it meets, where it entered unseen (a mesh that is open) or left
+ * another one inside; else the one it entered last. */
+EC_FN lane_u medium_of(const hit_point *h, const surface *s, lane_i found, lane_u entered, bool nested)
 {
     lane_u medium = (s->refracts & !s->front) ? h->material : entered;
+    if (nested) return found ? s->bodies : U(0);
     return found ? medium : U(EC_NO_ID);
 }
 
 /* Likewise for a ray that leaves the surface: beyond it if light is refracted, else where it came from. wi_z: against ns. */
-EC_FN lane_u medium_towards(const hit_point *h, const surface *s, lane_u medium, lane_f wi_z)
+EC_FN lane_u medium_towards(const hit_point *h, const surface *s, lane_u medium, lane_f wi_z, bool nested)
 {
-    return (s->refracts & (wi_z < 0.0f)) ? (s->front ? h->material : U(EC_NO_ID)) : medium;
+    lane_u beyond = nested ? s->beyond : s->front ? h->material : U(EC_NO_ID);
+    return (s->refracts & (wi_z < 0.0f)) ? beyond : medium;
 }
 
-/* Beer-Lambert over `distance` metres. */
-EC_FN v3 medium_transmittance(const geometry *g, lane_u medium, lane_f distance)
+/* First word of its material. */
+EC_FN lane_u medium_material(const geometry *g, lane_u medium, bool nested)
 {
-    lane_i inside = medium != EC_NO_ID;
+    return nested ? bodies_material(g, medium) : medium;
+}
+
+/* Beer-Lambert over `distance` metres of a material. */
+EC_FN v3 medium_transmittance(const geometry *g, lane_u material, lane_f distance)
+{
+    lane_i inside = material != EC_NO_ID;
     if (!any_lane(inside)) return v3_splat(F(1.0f));
-    quad a = gather_quad(g->materials, (inside ? medium : U(0)) + EC_MATERIAL_ABSORPTION);
+    quad a = gather_quad(g->materials, (inside ? material : U(0)) + EC_MATERIAL_ABSORPTION);
     v3 t = v3_make(exp_negative(-a.a * distance), exp_negative(-a.b * distance), exp_negative(-a.c * distance));
     return v3_select(inside, t, v3_splat(F(1.0f)));
 }

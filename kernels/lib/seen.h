@@ -19,12 +19,14 @@ EC_FN v3 seen_background(const environment *env, lane_i missed, v3 d)
     return v3_select(missed, environment_look_up(env, d, &unused), v3_zero());
 }
 
-EC_FN seen seen_surface(const geometry *g, lane_i found, lane_u prim, lane_f b1, lane_f b2, v3 wo)
+/* bodies: those that the ray was in, as far as is known (bodies.h). */
+EC_FN seen seen_surface(const geometry *g, lane_i found, lane_u prim, lane_f b1, lane_f b2, v3 wo, lane_u bodies)
 {
     seen e;
     e.h = hit_point_make(g, found ? prim : U(0), b1, b2);
     surface_place(&e.h, wo, &e.s);
     surface_frame(g, &e.h, found, wo, &e.s);
+    e.s.bodies = bodies;
     surface_material(g, &e.h, found, &e.s);
     e.glow = v3_zero();
     e.lit = found;

@@ -8,10 +8,11 @@
 
 /* What the body that the shadow ray starts in leaves of the light; wi_z: against ns. Infinitely far no body reaches: what path
  * tracing misses is not dimmed either. */
-EC_FN v3 shadow_transmittance(const geometry *g, const hit_point *h, const surface *s, const light_sample *l, lane_u medium, lane_f wi_z)
+EC_FN v3 shadow_transmittance(const geometry *g, const hit_point *h, const surface *s, const light_sample *l, lane_u medium,
+                              lane_f wi_z, bool nested)
 {
-    lane_u between = l->is_far ? U(EC_NO_ID) : medium_towards(h, s, medium, wi_z);
-    return medium_transmittance(g, between, sqrt(v3_dot(l->towards, l->towards)));
+    lane_u between = medium_material(g, medium_towards(h, s, medium, wi_z, nested), nested);
+    return medium_transmittance(g, l->is_far ? U(EC_NO_ID) : between, sqrt(v3_dot(l->towards, l->towards)));
 }
 
 /* Appends a ray from `from` to the light that was sampled for p to i's part of the queue, which counts counts; what is not finite is

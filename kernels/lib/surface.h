@@ -2,7 +2,7 @@
 #ifndef EC_LIB_SURFACE_H
 #define EC_LIB_SURFACE_H
 
-#include "geometry.h"
+#include "bodies.h"
 
 typedef struct surface {
     v3 p;          /* hit point, recentred frame */
@@ -20,6 +20,9 @@ typedef struct surface {
     lane_f transmission; /* share of what a dielectric does not reflect that passes, not scattered back by the base */
     lane_f eta;    /* index of refraction beyond the surface over that on wo's side; 1: passes through a thin wall */
     lane_i refracts;     /* bounds a body: what passes goes on inside, bent if transmission is above 0 */
+    lane_u bodies, beyond; /* with NESTED: those on wo's side, those behind (bodies.h) */
+    lane_i displaced;      /* the same body fills both sides */
+    lane_f head_on;        /* reflectance to multiply f0 by, where that depends on what is on both sides */
     lane_f seeps;        /* KHR_materials_diffuse_transmission: share of diffuse light that comes out on the other side */
     v3 below;            /* and its colour */
     lane_f coat;       /* weight of a clear coat; with it its width, as alpha_ggx and smooth, and its normal */
@@ -43,6 +46,7 @@ EC_FN void surface_place(const hit_point *h, v3 wo, surface *s)
     v3 n = v3_normalize(v3_cross(v3_sub(v1, v0), v3_sub(v2, v0)));
     s->front = v3_dot(n, wo) > 0.0f;
     s->ng = v3_select(s->front, n, v3_negate(n));
+    s->bodies = s->beyond = U(0);
 }
 
 /* A ray's origin just off the surface on the side of `towards`: outside the error box around p (pbrt-v4, eq. 6.31). */
@@ -128,15 +132,55 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
     v3_frame(s->ns, &s->s, &s->t);
 }
 
-/* KHR_materials_transmission, _ior and _volume. A body is entered through its front, whatever surrounds it: air. */
+/* A wall of bodies is crossed. That one is met from behind tells that it was entered, seen or not; from the front, that it was not. */
+EC_FN void surface_cross(const geometry *g, quad index, lane_i nested, surface *s, lane_u *here, lane_u *there)
+{
+    lane_u own = as_lane_u(index.c), bodies = s->front ? s->bodies & ~own : s->bodies | own;
+    s->bodies = nested ? bodies : s->bodies;
+    s->beyond = nested ? bodies ^ own : s->beyond;
+    *here = bodies_material(g, nested ? s->bodies : U(0));
+    *there = bodies_material(g, nested ? s->beyond : U(0));
+    s->displaced = s->displaced | (nested & (*here == *there));
+}
+
+/* And light is bent between what is on its two sides. f0 of such materials is a colour to be multiplied by the reflectance head-on. */
+EC_FN void surface_between(const geometry *g, quad index, lane_i nested, surface *s)
+{
+    lane_u here, there;
+    lane_i bends = nested & s->refracts;
+    surface_cross(g, index, bends, s, &here, &there);
+    s->eta = bends ? bodies_index(g, there) / bodies_index(g, here) : s->eta;
+    lane_f eta = bends ? s->eta : index.a, r = (eta - 1.0f) / (eta + 1.0f);
+    s->head_on = nested ? r * r : F(1.0f);
+}
+
+/* What is not there lets all pass in the one direction it has. */
+EC_FN void surface_displace(surface *s)
+{
+    lane_i gone = s->displaced;
+    s->base = v3_select(gone, v3_splat(F(1.0f)), s->base);
+    s->f0 = v3_select(gone, v3_zero(), s->f0);
+    s->f90 = gone ? F(0.0f) : s->f90;
+    s->metallic = gone ? F(0.0f) : s->metallic;
+    s->transmission = gone ? F(1.0f) : s->transmission;
+    s->smooth = s->smooth | gone;
+    s->coat = gone ? F(0.0f) : s->coat;
+    s->sheen = v3_select(gone, v3_zero(), s->sheen);
+    s->seeps = gone ? F(0.0f) : s->seeps;
+    s->film = gone ? F(0.0f) : s->film;
+    s->eta = gone ? F(1.0f) : s->eta;
+}
+
+/* KHR_materials_transmission, _ior and _volume. A body is entered through its front. Around it is air, where no bodies are nested. */
 EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
     lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
-    lane_f ior = material_quad(g, h, EC_MATERIAL_IOR).a;
+    quad index = material_quad(g, h, EC_MATERIAL_IOR);
     s->transmission = material_quad(g, h, EC_MATERIAL_ABSORPTION).d;
     if (HAS(TRANSMISSION_TEXTURE)) s->transmission *= material_texture(g, h, m, EC_SLOT_TRANSMISSION, false).rgb.x;
     s->refracts = ((flags & EC_MATERIAL_REFRACTS) != 0u) & (s->transmission > 0.0f) & (s->metallic < 1.0f);
-    s->eta = s->refracts ? (s->front ? ior : 1.0f / ior) : F(1.0f);
+    s->eta = s->refracts ? (s->front ? index.a : 1.0f / index.a) : F(1.0f);
+    if (HAS(NESTED)) surface_between(g, index, ((flags & EC_MATERIAL_NESTED) != 0u) & ((flags & EC_MATERIAL_REFRACTS) != 0u), s);
     /* The lobe's width is about alpha |eta - 1|, and float half vectors have no more digits than that. */
     if (HAS(SMOOTH)) s->smooth = s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);
 }
@@ -213,7 +257,13 @@ EC_FN void surface_seeping(const geometry *g, const hit_point *h, lane_i m, surf
         s->below = v3_mul(s->below, material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, true).rgb);
         s->seeps *= material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION, false).a;
     }
-    s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->seeps > 0.0f) & (s->metallic < 1.0f));
+    s->seeps = s->metallic < 1.0f ? s->seeps : F(0.0f);
+    lane_i bends = s->refracts;
+    s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->seeps > 0.0f));
+    if (HAS(NESTED)) {
+        lane_u here, there;
+        surface_cross(g, material_quad(g, h, EC_MATERIAL_IOR), s->refracts & !bends & ((flags & EC_MATERIAL_NESTED) != 0u), s, &here, &there);
+    }
 }
 
 /* KHR_materials_iridescence. */
@@ -228,7 +278,7 @@ EC_FN void surface_film(const geometry *g, const hit_point *h, lane_i m, surface
         lane_f t = material_texture(g, h, m, EC_SLOT_IRIDESCENCE_THICKNESS, false).rgb.y; /* 1 where there is none */
         s->film_thickness = fma(t, q.d, (1.0f - t) * q.c);
     }
-    s->film = s->film_thickness > 0.0f ? s->film : F(0.0f);
+    s->film = ((s->film_thickness > 0.0f) & (s->film_ior > 1.0f)) ? s->film : F(0.0f);
 }
 
 /* Parameters of the metallic-roughness model with KHR_materials_specular, and of what lies over it. */
@@ -241,7 +291,8 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->f90 = F(0.0f);
     s->smooth = s->refracts = !TRUE_MASK;
     s->transmission = F(0.0f);
-    s->eta = F(1.0f);
+    s->eta = s->head_on = F(1.0f);
+    s->displaced = !TRUE_MASK;
     s->coat = F(0.0f);
     s->sheen = v3_zero();
     s->film = s->seeps = F(0.0f);
@@ -266,6 +317,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
         weight *= material_texture(g, h, m, EC_SLOT_SPECULAR, false).a;
         color = v3_mul(color, material_texture(g, h, m, EC_SLOT_SPECULAR_COLOR, true).rgb);
     }
+    if (HAS(NESTED)) color = v3_scale(color, s->head_on);
     /* KHR_materials_specular: f0 = min(color ((ior - 1) / (ior + 1))^2, 1) weight. */
     s->f0 = v3_scale(v3_make(min(color.x, F(1.0f)), min(color.y, F(1.0f)), min(color.z, F(1.0f))), weight);
     s->f90 = weight;
@@ -273,6 +325,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
     if (HAS(SHEEN)) surface_sheen(g, h, m, s);
     if (HAS(IRIDESCENCE)) surface_film(g, h, m, s);
+    if (HAS(NESTED)) surface_displace(s);
 }
 
 EC_FN v3 surface_to_local(const surface *s, v3 w)

@@ -4,6 +4,7 @@
  *
  * h->t comes in as the largest t of interest (negative: lane off), h->prim as EC_NO_ID. */
 #include "film.h"
+#include "pane.h"
 #include "queue.h"
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
@@ -17,7 +18,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
     if (!left) return;
     lane_i active = LANE_NUMBERS < left;
     ray r = ray_make(queue_load_v3(paths, wave, EC_PATH_OX, i), queue_load_v3(paths, wave, EC_PATH_DX, i), params->scene_max);
-    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0};
+    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
     if (HAS(ALPHA)) {
         lane_u pixel, sample, slot = queue_load_u(paths, wave, EC_PATH_SLOT, i);
         slot_to_pixel(params, first_pixel, pixel_list, active ? slot : U(0), &pixel, &sample);
@@ -40,7 +41,8 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
 kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
                                        global const ec_counters *counters, volatile global uint *invalid,
-                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS)
+                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS,
+                                       global const float *normals, global const float *tangents)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -51,7 +53,8 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                      params->scene_max);
     lane_u slot = queue_load_u(shadows, wave, EC_SHADOW_SLOT, i);
     slot = active ? slot : U(0);
-    hit_filter filter = {FILTER_GEOMETRY, U(0), false};
+    lane_i panes = !TRUE_MASK;
+    hit_filter filter = {FILTER_GEOMETRY, U(0), false, HAS(PANES) ? &panes : 0};
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
@@ -59,9 +62,28 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     }
     const accel a = ACCEL_ARGUMENTS;
     hit h = {active ? F(1.0f) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
-    EC_CAT(ACCEL, _trace)(&a, &r, &filter, queue_load_u(shadows, wave, EC_SHADOW_PRIM, i),
-                          queue_load_u(shadows, wave, EC_SHADOW_TARGET, i), true, &h);
+    lane_u skip = queue_load_u(shadows, wave, EC_SHADOW_PRIM, i), target = queue_load_u(shadows, wave, EC_SHADOW_TARGET, i);
+    EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, true, &h);
     lane_i open = active & (h.prim == EC_NO_ID);
-    if (any_lane(open))
-        radiance_add(radiance, wave, slot, queue_load_v3(shadows, wave, EC_SHADOW_LR, i), open, invalid + EC_STAGE_CONNECT);
+    if (!any_lane(open)) return;
+    v3 light = queue_load_v3(shadows, wave, EC_SHADOW_LR, i);
+    if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
+        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
+        v3 o = r.o, end = v3_add(o, r.d);
+        lane_i walks = open & panes;
+        filter.panes = 0;
+        for (uint left = panes_most(params, bounce); any_lane(walks); left--) {
+            h.t = walks ? F(1.0f) : F(-1.0f);
+            h.prim = U(EC_NO_ID);
+            EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, false, &h);
+            walks = walks & (h.prim != EC_NO_ID);
+            if (!any_lane(walks)) break;
+            light = v3_select(walks, v3_mul(light, pane_pass(&g, walks, h.prim, h.b1, h.b2, r.d, &o)), light);
+            if (!left) light = v3_select(walks, v3_zero(), light);
+            walks = walks & (v3_max_component(light) > 0.0f);
+            r = ray_make(o, v3_sub(end, o), params->scene_max);
+            skip = walks ? h.prim : skip;
+        }
+    }
+    radiance_add(radiance, wave, slot, light, open, invalid + EC_STAGE_CONNECT);
 }

@@ -5,6 +5,7 @@
  *
  * h->t comes in as the largest t of interest, h->prim as EC_NO_ID. Triangles skip0 and skip1 are passed through. */
 #include "film.h"
+#include "pane.h"
 #include "queue.h"
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
@@ -17,7 +18,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
     global const float *p = paths + i;
     ray8 q = ray8_make(p[EC_PATH_OX * wave], p[EC_PATH_OY * wave], p[EC_PATH_OZ * wave], p[EC_PATH_DX * wave],
                        p[EC_PATH_DY * wave], p[EC_PATH_DZ * wave], params->scene_max);
-    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0};
+    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, pixel_list, U(as_uint(p[EC_PATH_SLOT * wave])), &pixel, &sample);
@@ -39,7 +40,8 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
 kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
                                        global const ec_counters *counters, volatile global uint *invalid,
-                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS)
+                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS,
+                                       global const float *normals, global const float *tangents)
 {
     uint i = get_global_id(0), wave = params->wave;
     if (i >= wave || !queue_left(counters->shadows[step], params->part, i)) return;
@@ -47,7 +49,8 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     ray8 q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
                        p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
     uint slot = as_uint(p[EC_SHADOW_SLOT * wave]);
-    hit_filter filter = {FILTER_GEOMETRY, U(0), false};
+    lane_i panes = !TRUE_MASK;
+    hit_filter filter = {FILTER_GEOMETRY, U(0), false, HAS(PANES) ? &panes : 0};
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, pixel_list, U(slot), &pixel, &sample);
@@ -55,9 +58,26 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     }
     const accel a = ACCEL_ARGUMENTS;
     hit8 h = {1.0f, EC_NO_ID, 0.0f, 0.0f};
-    if (EC_CAT(ACCEL, _any)(&a, &q, &filter, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), &h)) return;
-    for (uint c = 0; c < 3; c++) {
-        float light = p[(EC_SHADOW_LR + c) * wave];
-        radiance[c * wave + slot] += light;
+    uint skip = as_uint(p[EC_SHADOW_PRIM * wave]), target = as_uint(p[EC_SHADOW_TARGET * wave]);
+    if (EC_CAT(ACCEL, _any)(&a, &q, &filter, skip, target, &h)) return;
+    v3 light = v3_make(F(p[EC_SHADOW_LR * wave]), F(p[EC_SHADOW_LG * wave]), F(p[EC_SHADOW_LB * wave]));
+    if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
+        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
+        v3 o = q.r.o, end = v3_add(o, q.r.d);
+        filter.panes = 0;
+        for (uint left = panes_most(params, bounce);; left--) {
+            EC_CAT(ACCEL, _closest)(&a, &q, &filter, skip, target, &h);
+            if (h.prim == EC_NO_ID) break;
+            light = v3_mul(light, pane_pass(&g, TRUE_MASK, U(h.prim), F(h.b1), F(h.b2), q.r.d, &o));
+            if (!left || !any_lane(v3_max_component(light) > 0.0f)) return;
+            v3 d = v3_sub(end, o);
+            q = ray8_make(o.x.s0, o.y.s0, o.z.s0, d.x.s0, d.y.s0, d.z.s0, params->scene_max);
+            skip = h.prim;
+            h.t = 1.0f;
+            h.prim = EC_NO_ID;
+        }
     }
+    radiance[slot] += light.x.s0;
+    radiance[wave + slot] += light.y.s0;
+    radiance[2 * wave + slot] += light.z.s0;
 }

@@ -46,6 +46,8 @@
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
 #define EC_FEATURE_LIGHT_TREE EC_FEATURE_BIT(43)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
+#define EC_FEATURE_PANES EC_FEATURE_BIT(52)
+#define EC_FEATURE_NESTED EC_FEATURE_BIT(53)
 
 /* X(NAME, text for `eclat info`) */
 #define EC_FEATURES(X)                                                                             \
@@ -88,7 +90,9 @@
     X(PIXEL_FILTER, "pixel-filter")                                                                \
     X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
     X(LIGHT_TREE, "light-tree")                                                                    \
-    X(INSTANCES, "instances")
+    X(INSTANCES, "instances")                                                                      \
+    X(PANES, "transparent-shadows")                                                                \
+    X(NESTED, "nested-bodies")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
 #define EC_FEATURE_SUM_(name, text) +EC_FEATURE_##name
@@ -105,6 +109,8 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 /* What bends normals, what has a direction: what wants tangents. */
 #define EC_FEATURES_BENDING (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)
+/* What asks which body a ray is in. */
+#define EC_FEATURES_MEDIUM (EC_FEATURE_ABSORPTION | EC_FEATURE_NESTED)
 #define EC_FEATURES_ATTRIBUTES (EC_FEATURES_TEXTURED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
 
 #ifdef EC_DEVICE_CODE
@@ -115,6 +121,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #define HAS_TEXTURES ((FEATURES & EC_FEATURES_TEXTURED) != 0)
 #define HAS_PASSING (HAS(TRANSMISSION) || HAS(DIFFUSE_TRANSMISSION))
 #define HAS_BENDING ((FEATURES & EC_FEATURES_BENDING) != 0)
+#define HAS_MEDIUM ((FEATURES & EC_FEATURES_MEDIUM) != 0)
 #define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)
 #endif
 

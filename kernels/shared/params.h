@@ -43,8 +43,12 @@ typedef struct ec_params {
     ec_float lens_nearness;       /* 1 / distance of the plane in focus */
     ec_uint environment_turned;   /* 0: environment_turn is not looked at */
     ec_float light_tree_pmf;      /* probability that light sampling goes to the tree */
+    ec_uint panes_count;          /* is a pane that a shadow ray passes a vertex, as max_depth counts them? Not in Whitted's */
+    ec_uint nested;               /* bodies may lie in one another: media are sets (lib/medium.h) */
+    ec_uint camera_medium;        /* what the camera is inside of */
+    ec_uint pad;
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 256);
+EC_ASSERT_SIZE(ec_params, 272);
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

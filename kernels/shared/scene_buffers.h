@@ -20,6 +20,7 @@ EC_ASSERT_SIZE(ec_prim, 48);
 #define EC_PRIM_WORDS 12
 #define EC_PRIM_SINGLE_SIDED 1u /* camera rays pass through its back */
 #define EC_PRIM_ALPHA 2u        /* coverage must be looked up */
+#define EC_PRIM_PANE 4u         /* may let light straight on (lib/pane.h) */
 
 /* Where instances stand, for shading: a header, an ec_place each, and behind them their first ids once more, side by side, to be
  * searched. */
@@ -59,7 +60,9 @@ typedef struct ec_material_data {
     ec_float specular;
     ec_float absorption[3];     /* 1/m, inside the body */
     ec_float transmission;
-    ec_float ior, dispersion, pad[2];
+    ec_float ior, dispersion;
+    ec_uint body;               /* with NESTED: bit of this material in sets of bodies */
+    ec_uint body_of_rank;       /* of material k: first word of that of the body of rank k */
     ec_float coat, coat_roughness, coat_normal_scale, coat_pad;
     ec_float sheen[3], sheen_roughness;
     ec_float anisotropy, anisotropy_cosine, anisotropy_sine, anisotropy_pad;
@@ -79,6 +82,7 @@ EC_ASSERT_SIZE(ec_material_data, 720);
 #define EC_MATERIAL_F0 12
 #define EC_MATERIAL_ABSORPTION 16
 #define EC_MATERIAL_IOR 20
+#define EC_MATERIAL_BODY_OF_RANK 23
 #define EC_MATERIAL_COAT 24
 #define EC_MATERIAL_SHEEN 28
 #define EC_MATERIAL_ANISOTROPY 32
@@ -93,6 +97,8 @@ EC_ASSERT_SIZE(ec_material_data, 720);
 #define EC_SMOOTH_ALPHA 1e-4f /* GGX of less width is narrower than float directions resolve: a mirror */
 #define EC_MATERIAL_REFRACTS 32u /* a body, not a thin wall */
 #define EC_MATERIAL_BOUNDS 64u   /* likewise, for what is transmitted diffusely */
+#define EC_MATERIAL_NESTED 128u  /* a body that may lie in another; if light is bent, its f0 is the specular colour alone */
+#define EC_BODIES_MOST 32u       /* materials of such bodies */
 
 /* A texture is a view of an image's texels. */
 typedef struct ec_texture_data {

@@ -29,7 +29,7 @@ kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, g
     slot = waiting ? slot : U(i);
     camera_sample(params, seed, first_pixel, pixel_list, 0, slot, &x, &y, &sx, &sy);
     lane_u tile = raster_tile(params, x, y);
-    hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places}, U(0), true};
+    hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places}, U(0), true, 0};
     if (HAS(ALPHA)) {
         slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
         filter.key = filter_key(seed, pixel, sample, 0, false);

@@ -91,25 +91,29 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     surface s;
     surface_place(&h, wo, &s);
     surface_frame(&g, &h, found, wo, &s);
+    bool nested = MEDIA_NESTED(params);
+    if (nested) s.bodies = found ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
     surface_material(&g, &h, found, &s);
     quad emission = material_quad(&g, &h, EC_MATERIAL_EMISSION);
     lane_u flags = as_lane_u(emission.d), medium = U(EC_NO_ID);
+    if (HAS_MEDIUM) medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
     if (HAS(ABSORPTION)) {
-        medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
         v3 way = v3_sub(s.p, o);
-        beta = v3_mul(beta, medium_transmittance(&g, medium, sqrt(v3_dot(way, way))));
+        beta = v3_mul(beta, medium_transmittance(&g, medium_material(&g, medium, nested), sqrt(v3_dot(way, way))));
     }
 
+    v3 source = o; /* where light was last looked for */
+    if (HAS(PANES) && bounce) source = queue_load_v3(paths, wave, EC_PATH_SX, i);
     if (HAS(EMISSION)) {
         lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
-            v3 way = v3_sub(s.p, o);
+            v3 way = v3_sub(s.p, source);
             if (HAS(LIGHT_TREE) && light_tree) {
                 lane_u lamp = HAS(INSTANCES) ? (h.placed ? U(0) : prim) : prim; /* no instance is one, and its id lies behind the trails */
-                h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), o, gather_u(light_trails, lamp));
+                h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source, gather_u(light_trails, lamp));
             }
-            lane_f pdf = light_found_pdf(&h, m, o, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
+            lane_f pdf = light_found_pdf(&h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = v3_scale(surface_emission(&g, &h, m, emission), found_weight(params->sample, path_pdf, pdf));
             emitted = v3_select(m, Le, emitted);
             emits = emits | m;
@@ -161,7 +165,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
-        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z));
+        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
         lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local, lifted);
         shadow_push(params, shadows, counters->shadows[step], i, above, leave(&s, above, l.wi, wi_local), &l, arriving, slot,
                     left_behind(&s, l.wi, lifted, prim), m, invalid + EC_STAGE_SHADE);
@@ -187,12 +191,18 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     uint bits = mask_bits(alive);
     if (!bits) return;
     uint at = queue_reserve(counters->rays[step + 1], params->part, i, popcount(bits));
-    queue_push_v3(next, wave, EC_PATH_OX, at, leave(&s, above, wi, next_way.wi), bits);
+    v3 origin = leave(&s, above, wi, next_way.wi);
+    queue_push_v3(next, wave, EC_PATH_OX, at, origin, bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);
     queue_push_v3(next, wave, EC_PATH_BR, at, beta, bits);
+    if (HAS(PANES)) {
+        lane_i straight = (next_way.pdf < 0.0f) & (next_way.wi.z < 0.0f) & !b.refracts;
+        next_way.pdf = straight ? path_pdf : next_way.pdf;
+        queue_push_v3(next, wave, EC_PATH_SX, at, v3_select(straight, source, origin), bits);
+    }
     queue_push_f(next, wave, EC_PATH_PDF, at, next_way.pdf, bits);
     queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
     queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(left_behind(&s, wi, lifted, prim)), bits);
-    if (HAS(ABSORPTION))
-        queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium_towards(&h, &s, medium, next_way.wi.z)), bits);
+    if (HAS_MEDIUM)
+        queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium_towards(&h, &s, medium, next_way.wi.z, nested)), bits);
 }

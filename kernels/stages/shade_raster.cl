@@ -26,7 +26,7 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
     lane_u prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
     lane_i found = active & (prim != EC_NO_ID);
 
-    seen e = seen_surface(&g, found, prim, queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i), wo);
+    seen e = seen_surface(&g, found, prim, queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i), wo, U(0));
     surface s = e.s;
     s.alpha_ggx = max(s.alpha_ggx, F(LEAST_ALPHA));
     s.smooth = !TRUE_MASK;

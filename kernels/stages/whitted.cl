@@ -31,7 +31,7 @@ EC_FN void branch_push(global float *stacks, uint wave, lane_u slot, lane_u leve
     scatter_f(stacks, at + EC_BRANCH_BB * wave, b->beta.z, bits);
     scatter_f(stacks, at + EC_BRANCH_DEPTH * wave, b->depth, bits);
     scatter_f(stacks, at + EC_BRANCH_PRIM * wave, as_lane_f(b->prim), bits);
-    if (HAS(ABSORPTION)) scatter_f(stacks, at + EC_BRANCH_MEDIUM * wave, as_lane_f(b->medium), bits);
+    if (HAS_MEDIUM) scatter_f(stacks, at + EC_BRANCH_MEDIUM * wave, as_lane_f(b->medium), bits);
 }
 
 EC_FN v3 branch_load_v3(global const float *stacks, uint wave, lane_u at, uint field)
@@ -50,7 +50,7 @@ EC_FN branch branch_load(global const float *stacks, uint wave, lane_u slot, lan
     b.beta = branch_load_v3(stacks, wave, at, EC_BRANCH_BR);
     b.depth = gather_f(stacks, at + EC_BRANCH_DEPTH * wave);
     b.prim = as_lane_u(gather_f(stacks, at + EC_BRANCH_PRIM * wave));
-    b.medium = HAS(ABSORPTION) ? as_lane_u(gather_f(stacks, at + EC_BRANCH_MEDIUM * wave)) : U(EC_NO_ID);
+    b.medium = HAS_MEDIUM ? as_lane_u(gather_f(stacks, at + EC_BRANCH_MEDIUM * wave)) : U(EC_NO_ID);
     return b;
 }
 
@@ -88,14 +88,18 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
     lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i), prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
     slot = active ? slot : U(0);
     lane_i found = active & (prim != EC_NO_ID);
-    seen e = seen_surface(&g, found, prim, queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i), wo);
+    bool nested = MEDIA_NESTED(params);
+    lane_u bodies = U(0);
+    if (nested) bodies = found ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
+    seen e = seen_surface(&g, found, prim, queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i), wo,
+                          bodies);
     const surface *s = &e.s;
     v3 way = v3_sub(s->p, o);
     lane_f distance = sqrt(v3_dot(way, way));
     lane_u medium = U(EC_NO_ID);
+    if (HAS_MEDIUM) medium = medium_of(&e.h, s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
     if (HAS(ABSORPTION)) {
-        medium = medium_of(&e.h, s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
-        beta = v3_mul(beta, medium_transmittance(&g, medium, distance));
+        beta = v3_mul(beta, medium_transmittance(&g, medium_material(&g, medium, nested), distance));
         queue_store_v3(paths, wave, EC_PATH_BR, i, beta);
     }
     if (aov && bounce == 0)
@@ -125,8 +129,7 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
             v3 pass_local = v3_select(b.refracts, refract(b.wo, normal, b.eta), v3_negate(b.wo));
             v3 pass_wi = surface_to_world(s, pass_local);
             v3 pass_beta = v3_mul(v3_mul(beta, b.base), v3_splat(rest * b.transmission));
-            lane_u beyond = s->front ? e.h.material : U(EC_NO_ID);
-            branch pass = branch_make(s, pass_wi, pass_beta, depth + 1.0f, prim, b.refracts ? beyond : medium);
+            branch pass = branch_make(s, pass_wi, pass_beta, depth + 1.0f, prim, medium_towards(&e.h, s, medium, F(-1.0f), nested));
             lane_i p = goes_on & (v3_max_component(pass_beta) > params->cutoff) & (v3_dot(pass_wi, s->ng) < 0.0f);
             /* The mirrored branch, which is mostly the shorter, first. */
             branch_push(branches, wave, slot, waiting, &pass, mask_bits(p & m));
@@ -151,5 +154,5 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
     queue_push_f(next, wave, EC_PATH_DEPTH, at, go.depth, bits);
     queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
     queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(go.prim), bits);
-    if (HAS(ABSORPTION)) queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(go.medium), bits);
+    if (HAS_MEDIUM) queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(go.medium), bits);
 }

@@ -28,14 +28,16 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
     lit = lit & l.valid & (v3_dot(s.ng, l.wi) > 0.0f);
     if (!any_lane(lit)) return;
     surface_frame(&g, &h, lit, wo, &s);
+    bool nested = MEDIA_NESTED(params);
+    if (nested) s.bodies = lit ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
     surface_material(&g, &h, lit, &s);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
     v3 wi_local = surface_to_local(&s, l.wi);
     v3 f = blinn_phong_eval(&b, whitted_mirrors(&s), wi_local);
     v3 arriving = v3_mul(v3_mul(beta, f), l.radiance);
     if (HAS(ABSORPTION)) {
-        lane_u medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i));
-        arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z));
+        lane_u medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
+        arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
     }
     v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
     shadow_push(params, shadows, counters->shadows[step], i, s.p, from, &l, arriving, slot, prim, lit, invalid + EC_STAGE_SHADE);

@@ -63,11 +63,12 @@ class Info(Case):
             scene["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC2"})
             scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
         found = set(self.info(write_gltf(self.path("glass.gltf"), scene))["effects"])
-        return found & {"smooth-surfaces", "transmission", "transmission-texture", "absorption"}
+        return found & {"smooth-surfaces", "transmission", "transmission-texture", "absorption", "transparent-shadows"}
 
     def test_glass_calls_for_what_it_has(self):
         body, brown = {"thicknessFactor": 1}, {"attenuationDistance": 1, "attenuationColor": [1, 1, 0.9]}
         smooth, passes, textured, absorbs = "smooth-surfaces", "transmission", "transmission-texture", "absorption"
+        pane = "transparent-shadows"
         black, grey, white = (0, 0, 0), (128, 128, 128), (255, 255, 255)
         cases = [
             (set(), {}),
@@ -80,7 +81,13 @@ class Info(Case):
             (set(), {"roughness": 0.5, "rough_texture": [white, grey]}),
             (set(), {"transmission": 0}),
             ({passes}, {"transmission": 0.1}),
-            ({passes, smooth}, {"transmission": 1, "roughness": 0}),
+            # smooth and without a volume: shadow rays pass
+            ({passes, smooth, pane}, {"transmission": 1, "roughness": 0}),
+            ({passes, smooth, pane}, {"transmission": 1, "roughness": 0.5, "rough_texture": [white, black]}),
+            ({passes, smooth, pane}, {"transmission": 1, "roughness": 0, "volume": brown}),
+            ({passes, smooth, pane}, {"transmission": 1, "roughness": 0, "volume": body, "ior": 0}),
+            ({passes, smooth}, {"transmission": 1, "roughness": 0, "volume": body}),
+            ({smooth}, {"transmission": 1, "roughness": 0, "texture": [black]}),
             ({passes, textured}, {"transmission": 1, "texture": [black, grey]}),
             # transmission is in red
             (set(), {"transmission": 1, "texture": [black, (0, 255, 255)]}),
@@ -108,6 +115,23 @@ class Info(Case):
         for expected, material in cases:
             with self.subTest(material=material):
                 self.assertEqual(self.effects(**material), expected)
+
+    def test_bodies_call_for_nesting_where_they_may_be_nested(self):
+        def nested(apart, same=False, thin=False):
+            scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {
+                "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}}})
+            other = json.loads(json.dumps(scene["materials"][0]))
+            other["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0 if thin else 1
+            scene["materials"].append(other)
+            primitive = dict(scene["meshes"][0]["primitives"][0], material=0 if same else 1)
+            scene["meshes"].append({"primitives": [primitive]})
+            scene["nodes"].append({"mesh": len(scene["meshes"]) - 1, "translation": [0, 0, apart]})
+            scene["scenes"][0]["nodes"].append(len(scene["nodes"]) - 1)
+            return "nested-bodies" in self.info(write_gltf(self.path("nested.gltf"), scene))["effects"]
+        self.assertTrue(nested(0))
+        self.assertFalse(nested(0.1))
+        self.assertFalse(nested(0, same=True))
+        self.assertFalse(nested(0, thin=True))
 
     def layers(self, extension, *texels, roughness=1.0, unlit=False):
         """Effects that a quad calls for by an extension; textures by index."""

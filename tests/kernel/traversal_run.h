@@ -113,7 +113,8 @@ static inline bool connect(const set *s, const tracer *t, const ec_accel *a, uin
     memset(radiance, 0, 3 * (size_t)wave * sizeof *radiance);
     snprintf(name, sizeof name, "ec_connect_%s", ec_accels[t->accel].name);
     bool good = KERNEL_CALL(&cl, t->program, name, (count + t->lanes - 1) / t->lanes, WAVE, OUT(invalid, EC_STAGE_COUNT),
-                            IN(shadows, EC_SHADOW_FIELDS * (size_t)wave), OUT(radiance, 3 * (size_t)wave), BUFFERS, NO_ATTRIBUTES);
+                            IN(shadows, EC_SHADOW_FIELDS * (size_t)wave), OUT(radiance, 3 * (size_t)wave), BUFFERS, NO_ATTRIBUTES,
+                            IN(nothing, 16), IN(nothing, 16));
     for (int i = 0; i < EC_STAGE_COUNT; i++) CHECK(invalid[i] == 0);
     return good;
 }

@@ -1,47 +1,39 @@
-"""A dispersive prism's caustic: light of a bright slit goes through a prism of strongly dispersive glass onto a screen, where its
-colours lie apart. It is found only by paths from the screen that happen to meet the slit through the prism."""
+"""A prism of strongly dispersive glass, and lamps like tubes around it: seen through the glass, each tube is three, one a colour."""
 import math
 
-from scenes.gltf import Gltf
-from scenes.mesh import Mesh, box, polygon, quad
+from scenes.gltf import Gltf, axis_angle
+from scenes.mesh import Mesh, polygon, quad
 from scenes.showcase import panel
 
-APEX, INDEX, DISPERSION = math.radians(60), 1.6, 4.0
+SIDE, HEIGHT = 0.8, 0.75
+TUBES, ROUND = 16, 2.6  # how many, on a circle of this radius
 
 
-def prism(side, length):
-    """Its edges along z, a corner up; outwards."""
-    h = side * math.cos(APEX / 2)
-    a, b, c = (-side / 2, 0.0), (side / 2, 0.0), (0.0, h)
+def prism():
+    """Standing: three faces, foot and top; outwards."""
+    corners = [(SIDE / math.sqrt(3) * math.sin(2 * math.pi * k / 3), SIDE / math.sqrt(3) * math.cos(2 * math.pi * k / 3)) for k in range(3)]
     out = Mesh()
-    for p, q in ((a, b), (b, c), (c, a)):
-        out.append(polygon((*q, -length), (*p, -length), (*p, length), (*q, length)))
-    out.append(polygon((*a, length), (*b, length), (*c, length)))
-    out.append(polygon((*b, -length), (*a, -length), (*c, -length)))
+    for k in range(3):
+        (ax, az), (bx, bz) = corners[k], corners[(k + 1) % 3]
+        out.append(polygon((ax, 0.0, az), (bx, 0.0, bz), (bx, HEIGHT, bz), (ax, HEIGHT, az)))
+    out.append(polygon(*((x, HEIGHT, z) for x, z in corners)))
+    out.append(polygon(*((x, 0.0, z) for x, z in reversed(corners))))
     out.uvs = []
     return out
 
 
 def make(folder):
     g = Gltf()
-    rise = math.asin(INDEX * math.sin(APEX / 2)) - APEX / 2  # of light that crosses level, over the horizon
-    middle = (0.0, 0.85)                                    # of the way through, x and y
-    glass = g.material("flint", (1.0, 1.0, 1.0), roughness=0.0, transmission=1.0, ior=INDEX, body=True,
-                       extensions={"KHR_materials_dispersion": {"dispersion": DISPERSION}})
-    g.add("prism", prism(0.6, 0.45), glass, translation=(0.0, middle[1] - 0.22, 0.0))
-    block = box((-0.2, 0.0, -0.3), (0.2, middle[1] - 0.24, 0.3))
-    block.uvs = []
-    g.add("block", block, g.material("block", (0.12, 0.12, 0.13), roughness=0.6))
-    sheet = quad((0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (0.0, 0.0, -2.0))
+    sheet = quad((0.0, 0.0, 0.0), (3.5, 0.0, 0.0), (0.0, 0.0, -3.5))
     sheet.uvs = []
-    paper = g.material("paper", (0.75, 0.75, 0.73), lambert=True)
-    g.add("table", sheet, paper)
-    wall = quad((0.0, 1.5, -2.0), (4.0, 0.0, 0.0), (0.0, 1.5, 0.0))
-    wall.uvs = []
-    g.add("wall", wall, g.material("wall", (0.25, 0.25, 0.27), lambert=True))
-    way = 2.2
-    slit = (middle[0] - 0.15 - way * math.cos(rise), middle[1] - way * math.sin(rise), 0.0)
-    panel(g, "slit", slit, (middle[0] - 0.15, middle[1], 0.0), 0.08, 0.4, (1.0, 1.0, 1.0), 120.0)
-    panel(g, "fill", (1.0, 3.2, 2.5), (0.0, 0.4, 0.0), 0.8, 0.8, (1.0, 0.97, 0.92), 3.0)
-    g.perspective("camera", (1.5, 2.2, 3.9), (1.15, 0.3, 0.0), 33.0, 1.5)
+    g.add("table", sheet, g.material("table", (0.3, 0.3, 0.31), lambert=True))
+    glass = g.material("flint", (1.0, 1.0, 1.0), roughness=0.0, transmission=1.0, ior=1.6, body=True,
+                       extensions={"KHR_materials_dispersion": {"dispersion": 2.5}})
+    g.add("prism", prism(), glass, translation=(0.0, 0.002, 0.0), rotation=axis_angle((0, 1, 0), 12))
+    for k in range(TUBES):
+        a = 2 * math.pi * (k + 0.5) / TUBES
+        if math.cos(a) < 0.75:  # not where the camera is
+            at = (ROUND * math.sin(a), 0.62, ROUND * math.cos(a))
+            panel(g, f"tube-{k}", at, (0.0, 0.62, 0.0), 0.6, 0.05, (1.0, 1.0, 1.0), 6.0)
+    g.perspective("camera", (0.0, 1.0, 4.0), (0.0, 0.36, 0.0), 20.0, 1.5)
     g.write(folder, "prism")

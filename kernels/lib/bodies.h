@@ -1,0 +1,28 @@
+/* Bodies in bodies: a liquid in a glass, ice in it, bubbles of air. Of those that a point is in, one displaces the others, and a wall
+ * bends light by the indices of what is on its two sides: nested dielectrics (Schmidt and Budge 2002, "Simple nested dielectrics in
+ * ray traced images"). glTF has no priorities, so that of less volume wins: what is put in displaces what holds it
+ * (host/pack/bodies.h). A wall within a body that displaces its own is not there.
+ *
+ * A set of bodies is a word with a bit for each material, that of the least volume lowest. */
+#ifndef EC_LIB_BODIES_H
+#define EC_LIB_BODIES_H
+
+#include "geometry.h"
+
+/* First word of the material that fills the place, EC_NO_ID for air. */
+EC_FN lane_u bodies_material(const geometry *g, lane_u bodies)
+{
+    lane_i inside = bodies != 0u;
+    lane_u rank = 31u - clz(bodies & (~bodies + 1u));
+    lane_u material = as_lane_u(gather_f(g->materials, (inside ? rank : U(0)) * EC_MATERIAL_WORDS + EC_MATERIAL_BODY_OF_RANK));
+    return inside ? material : U(EC_NO_ID);
+}
+
+EC_FN lane_f bodies_index(const geometry *g, lane_u material)
+{
+    lane_i inside = material != EC_NO_ID;
+    lane_f index = gather_f(g->materials, (inside ? material : U(0)) + EC_MATERIAL_IOR);
+    return inside ? index : F(1.0f);
+}
+
+#endif
