@@ -7,12 +7,17 @@
 #include <stdbool.h>
 
 #include "accel/bvh.h"
+#include "scene/placed.h"
 
 /* What is built from. positions: 3 floats a vertex; indices: 3 a triangle; both the caller's. */
 typedef struct ec_accel_input {
     const float *positions;
     const uint32_t *indices;
     uint32_t triangle_count;
+    bool whole;                 /* no triangle may be cut */
+    uint32_t shape_count, placed_count; /* instances; twolevel alone knows them, and takes them whole */
+    const ec_shape *shapes;     /* their triangles lie in indices too, behind those that are counted here */
+    const ec_placed *placed;
     uint32_t threads;           /* 0 = all; the result is the same for any number */
     float grid_density;         /* cells a reference, within what grid.c allows; 0 = EC_GRID_DENSITY */
     ec_bvh bvh;                 /* built when first asked for, and shared: see ec_accel_bvh */
@@ -55,7 +60,8 @@ typedef struct ec_accel_kind {
     X(bvh8, 8, "8-wide BVH, one ray against eight boxes")                                          \
     X(grid, 8, "uniform grid, one ray against 64 cells")                                           \
     X(kdtree, 8, "kd-tree, one ray against seven planes")                                          \
-    X(none, 8, "every triangle with every ray")
+    X(none, 8, "every triangle with every ray")                                                    \
+    X(twolevel, 8, "8-wide BVHs, one a mesh under one of instances")
 
 #define EC_ACCEL_ONE(name, lanes, summary) +1
 enum { EC_ACCEL_COUNT = EC_ACCELS(EC_ACCEL_ONE) };

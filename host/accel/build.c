@@ -1,6 +1,7 @@
 /* The binary tree: large ranges are split by all cores together, and triangles cut where that pays; small ranges become
  * subtrees that one core builds alone; the pieces are then joined in their order. */
 #include <omp.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -144,11 +145,11 @@ static void build_all(ec_builder *builder, uint32_t count, uint32_t capacity, ec
     build_subtrees(builder, *tree);
 }
 
-static ec_branch *build_pieces(ec_builder *builder, uint32_t count, int team, uint32_t *ref_count)
+static ec_branch *build_pieces(ec_builder *builder, uint32_t count, bool cut, int team, uint32_t *ref_count)
 {
     ec_branch *tree = NULL;
     /* Memory for parts that nobody cuts is never touched. */
-    uint32_t spare = count < REFS_MAX ? REFS_MAX - count : 0, share = (uint32_t)(count * PARTS_SHARE);
+    uint32_t spare = cut && count < REFS_MAX ? REFS_MAX - count : 0, share = (uint32_t)(count * PARTS_SHARE);
     uint32_t capacity = count + (share < spare ? share : spare);
     for (int i = 0; i < 2; i++) builder->prims[i] = ec_allocate_lines(capacity, sizeof(ec_prim));
     if (builder->prims[0] && builder->prims[1]) {
@@ -162,7 +163,7 @@ static ec_branch *build_pieces(ec_builder *builder, uint32_t count, int team, ui
     return tree;
 }
 
-ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
+static ec_result build(const float *positions, const uint32_t *indices, uint32_t triangle_count, bool cut, uint32_t threads,
                        ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
 {
     double start = ec_now();
@@ -170,7 +171,7 @@ ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t
     memset(bvh, 0, sizeof *bvh);
     if (triangle_count > INT32_MAX) return ec_fail(err, "%u triangles are more than a BVH can hold", triangle_count);
     ec_builder builder = {.positions = positions, .indices = indices};
-    ec_branch *tree = build_pieces(&builder, triangle_count, team, &bvh->ref_count);
+    ec_branch *tree = build_pieces(&builder, triangle_count, cut, team, &bvh->ref_count);
     if (!builder.failed) {
         bvh->node_count = 1;
         ec_branch_number(tree, 0, &bvh->node_count);
@@ -189,6 +190,18 @@ ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t
     }
     ec_branch_free(tree);
     return bvh->nodes ? EC_OK : ec_fail(err, "out of memory for the BVH of %u triangles", triangle_count);
+}
+
+ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
+                       ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
+{
+    return build(positions, indices, triangle_count, true, threads, bvh, stats, err);
+}
+
+ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
+                             ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
+{
+    return build(positions, indices, triangle_count, false, threads, bvh, stats, err);
 }
 
 void ec_bvh_free(ec_bvh *bvh)

@@ -38,6 +38,9 @@ typedef struct ec_bvh_stats {
  * deeper than 64 + log2 n, no quadratic time). */
 ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                        ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
+/* The same without cutting any. */
+ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
+                             ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
 void ec_bvh_free(ec_bvh *bvh);
 
 /* Every triangle once, or in parts whose boxes reach as far as its own; children inside parents; depth within the kernels'

@@ -4,6 +4,7 @@
 ec_result ec_accel_bvh(ec_accel_input *in, ec_error *err)
 {
     if (in->bvh.nodes) return EC_OK;
+    if (in->whole) return ec_bvh_build_whole(in->positions, in->indices, in->triangle_count, in->threads, &in->bvh, &in->bvh_stats, err);
     return ec_bvh_build(in->positions, in->indices, in->triangle_count, in->threads, &in->bvh, &in->bvh_stats, err);
 }
 

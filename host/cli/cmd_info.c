@@ -11,6 +11,7 @@
 #include "cli/scene_choice.h"
 #include "cli/setters.h"
 #include "pipeline/render.h"
+#include "report/names.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
@@ -25,6 +26,7 @@ typedef struct info_request {
 FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(device, device)
+CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
 SCENE_CHOICE_SETTERS(choice)
 RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
@@ -43,6 +45,7 @@ static const ec_option options[] = {
     {"accel", 0, true, set_accel},
     {"device", 0, true, set_device},
     {"grid-density", 0, true, set_grid_density},
+    {"instancing", 0, true, set_instancing},
     {"json", 0, false, set_json},
     {"quiet", 'q', false, set_quiet},
     SCENE_CHOICE_OPTIONS,
@@ -53,14 +56,14 @@ static ec_result measure(ec_scene_report *report, ec_error *err)
     const ec_scene *scene = report->scene;
     ec_bvh bvh = {0};
     ec_scene_report_count(report);
-    EC_TRY(ec_bvh_build(scene->positions, scene->indices, scene->triangle_count, 0, &bvh, &report->bvh, err));
+    EC_TRY(ec_bvh_build(scene->positions, scene->indices, ec_scene_flat_count(scene), 0, &bvh, &report->bvh, err));
     ec_bvh_free(&bvh);
     ec_scene lit = *scene;
     if (!report->has_light) { /* what a render does then */
         lit.has_environment = true;
         for (int k = 0; k < 3; k++) lit.environment.constant[k] = 1.0f;
     }
-    EC_TRY(ec_scene_estimate(&lit, report->bvh.ref_count, &report->device_bytes, &report->effects, err));
+    EC_TRY(ec_scene_estimate(&lit, report->bvh.ref_count + scene->triangle_count - ec_scene_flat_count(scene), &report->device_bytes, &report->effects, err));
     report->peak_memory_bytes = ec_peak_memory_bytes();
     return EC_OK;
 }

@@ -27,6 +27,7 @@ FLAG_SETTER(verbose, verbose)
 TEXT_SETTER(camera, camera)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
+CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
 SCENE_CHOICE_SETTERS(choice)
 CHOICE_SETTER(filter, options.filter, ec_pixel_filter, ec_filter_names)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
@@ -141,6 +142,7 @@ static const ec_option options[] = {
     {"focus", 0, true, set_focus},
     {"fstop", 0, true, set_fstop},
     {"grid-density", 0, true, set_grid_density},
+    {"instancing", 0, true, set_instancing},
     {"integrator", 0, true, set_integrator},
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},

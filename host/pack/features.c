@@ -279,6 +279,7 @@ void ec_pack_effects(const ec_scene *scene, ec_effects *effects)
 {
     *effects = (ec_effects){0};
     scan_materials(scene, effects);
+    if (scene->placed_count) ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once stand in %u places", scene->placed_count);
     scan_bodies(scene, effects);
     scan_lights(scene, effects);
     scan_normals(scene, effects);

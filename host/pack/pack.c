@@ -119,6 +119,7 @@ ec_result ec_pack_scene(const ec_scene *all, ec_pack *pack, ec_error *err)
     ec_result result = pack_prims(scene, pack, err);
     if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
     if (result == EC_OK) result = pack_materials(scene, pack, err);
+    if (result == EC_OK) result = ec_pack_places(scene, pack, err);
     ec_pack_find_bodies(scene, &pack->bodies);
     if (result == EC_OK) result = ec_bodies_rank(scene, &pack->bodies, err);
     if (result == EC_OK) pack_bodies(scene, pack);
@@ -134,6 +135,7 @@ void ec_pack_free(ec_pack *pack)
     free(pack->materials);
     free(pack->textures);
     free(pack->texels);
+    free(pack->places);
     free(pack->lights);
     free(pack->light_alias);
     free(pack->light_of_prim);

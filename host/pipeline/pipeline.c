@@ -31,6 +31,7 @@ static void set_roulette(double survival, ec_params *params)
 static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char *name, ec_error *err)
 {
     uint32_t chosen;
+    if (scene->placed_count) name = "twolevel"; /* the others would have had them written out */
     EC_TRY(ec_accels_choose(name, scene->triangle_count, p->cl->info.type & CL_DEVICE_TYPE_CPU, &chosen, err));
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) p->accels[a].in_use = chosen >> a & 1;
     return EC_OK;
@@ -55,7 +56,8 @@ ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, e
     return EC_OK;
 }
 
-static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
+/* called_for: the scene itself, or that of which it is what is written out. */
+static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *options, uint32_t batch,
                         ec_pipeline *p, ec_render_stats *stats, ec_error *err)
 {
     memset(p, 0, sizeof *p);
@@ -75,6 +77,12 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_render_option
     start = ec_now();
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));
+    /* Rounding may not change effects. */
+    if (called_for != scene && (result = ec_scene_calls(called_for, &pack.effects, err)) != EC_OK) {
+        ec_pack_free(&pack);
+        return result;
+    }
+    if (called_for != scene) pack.effects.bits &= ~EC_FEATURE_INSTANCES;
     if (p->integrator != EC_INTEGRATOR_PATH && (result = ec_pack_light_centres(&pack.plain.scene, &pack, err)) != EC_OK) {
         ec_pack_free(&pack);
         return result;
@@ -123,18 +131,36 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_render_option
     stats->lanes = p->lanes;
     stats->wave = p->wave;
     stats->batch = batch;
+    stats->instances = scene->placed_count;
+    stats->triangles = ec_scene_met_count(scene);
+    stats->stored_triangles = scene->triangle_count;
     stats->effects = p->effects;
+    return result;
+}
+
+/* Meshes that are kept once are written out where an accelerator or an integrator knows one level only. */
+static ec_result create_in_form(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
+                             ec_pipeline *p, ec_render_stats *stats, ec_error *err)
+{
+    const char *accel = options->accel;
+    bool keeps = options->integrator != EC_INTEGRATOR_RASTER && (!accel || !strcmp(accel, "auto") || !strcmp(accel, "twolevel"));
+    if (!scene->placed_count || keeps) return create(cl, scene, scene, options, batch, p, stats, err);
+    ec_scene written;
+    memset(p, 0, sizeof *p);
+    EC_TRY(ec_scene_write_out(scene, &written, err));
+    ec_result result = create(cl, &written, scene, options, batch, p, stats, err);
+    ec_scene_written_free(&written);
     return result;
 }
 
 ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
                              ec_pipeline *p, ec_render_stats *stats, ec_error *err)
 {
-    if (!options->without) return create(cl, scene, options, batch, p, stats, err);
+    if (!options->without) return create_in_form(cl, scene, options, batch, p, stats, err);
     ec_scene_view view;
     memset(p, 0, sizeof *p);
     EC_TRY(ec_scene_view_without(scene, options->without, (int64_t)options->without_of - 1, &view, err));
-    ec_result result = create(cl, &view.scene, options, batch, p, stats, err);
+    ec_result result = create_in_form(cl, &view.scene, options, batch, p, stats, err);
     ec_scene_view_free(&view);
     return result;
 }

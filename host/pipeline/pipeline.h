@@ -75,6 +75,8 @@ typedef struct ec_upload {
 uint32_t ec_upload_plan(const ec_scene *scene, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects);
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
 ec_result ec_pipeline_upload_filter(ec_pipeline *pipeline, const ec_render_options *options, ec_error *err);
+/* The scene's triangles and instances, as builders take them. */
+ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density);
 /* Builds an accelerator and uploads it; stats may be NULL. */
 ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
 /* Those that are in use. */

@@ -125,12 +125,13 @@ static ec_result measure(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, 
     return EC_OK;
 }
 
-ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float grid_density, ec_accel_probe *probe, ec_error *err)
+/* scene: where rays start; built: what the accelerator is built of. */
+static ec_result probe_one(ec_cl *cl, const ec_scene *scene, const ec_scene *built, uint32_t which, float grid_density, ec_accel_probe *probe,
+                           ec_error *err)
 {
     ec_pipeline p = {.cl = cl};
     EC_TRY(ec_pipeline_lanes(cl, 0, &p.lanes, err));
-    ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count,
-                            .grid_density = grid_density};
+    ec_accel_input input = ec_accel_input_of(built, grid_density);
     memset(probe, 0, sizeof *probe);
     ec_result result = ec_pipeline_upload_accel(&p, which, &input, &probe->build, err);
     ec_accel_input_free(&input);
@@ -140,5 +141,16 @@ ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float
         if (result == EC_OK) result = measure(&p, which, probe, err);
     }
     ec_pipeline_destroy(&p);
+    return result;
+}
+
+/* Rays start on surfaces, which of instances are only there once they are written out. */
+ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float grid_density, ec_accel_probe *probe, ec_error *err)
+{
+    if (!scene->placed_count) return probe_one(cl, scene, scene, which, grid_density, probe, err);
+    ec_scene written;
+    EC_TRY(ec_scene_write_out(scene, &written, err));
+    ec_result result = probe_one(cl, &written, which == ec_accel_find("twolevel") ? scene : &written, which, grid_density, probe, err);
+    ec_scene_written_free(&written);
     return result;
 }

@@ -337,6 +337,7 @@ ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t 
     for (uint32_t i = 0; i < count; i++) bytes += plan[i].buffer.bytes;
     uint64_t blocks = ref_count / 7, boxes = ref_count > triangles ? blocks : 0; /* leaf blocks seven eighths full */
     bytes += blocks * sizeof(ec_tri8) + boxes * sizeof(ec_box8) + ref_count / 20 * sizeof(ec_bvh8_node);
+    if (scene->placed_count) bytes += scene->placed_count * (sizeof(ec_instance) + sizeof(ec_bvh8_node) / 4);
     *device_bytes = bytes;
     ec_pack_free(&pack);
     return EC_OK;

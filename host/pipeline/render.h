@@ -103,6 +103,8 @@ typedef struct ec_render_stats {
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
     uint32_t lanes, wave, batch;
+    uint32_t instances;           /* of meshes that are kept once; 0: none, or they were written out */
+    uint64_t triangles, stored_triangles; /* that rays can meet, and that take memory */
     uint64_t device_bytes;        /* peak of all buffers */
     ec_render_effects effects;    /* which were called for, why, and what came of it */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */

@@ -5,11 +5,11 @@
 
 #define FILTER_ARGS                                                                                \
     EC_ARG_PRIMS, EC_ARG_INDICES, EC_ARG_UVS, EC_ARG_COLORS, EC_ARG_MATERIALS,         \
-        EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS, EC_ARG_SRGB
+        EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS, EC_ARG_SRGB, EC_ARG_PLACES
 #define ACCEL_ARGS EC_ARG_ACCEL, EC_ARG_ACCEL + 1, EC_ARG_ACCEL + 2, EC_ARG_ACCEL + 3, EC_ARG_ACCEL + 4
 #define SURFACE_ARGS                                                                               \
     EC_ARG_PRIMS, EC_ARG_INDICES, EC_ARG_NORMALS, EC_ARG_TANGENTS, EC_ARG_UVS, EC_ARG_COLORS, EC_ARG_MATERIALS,        \
-        EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS, EC_ARG_SRGB
+        EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS, EC_ARG_SRGB, EC_ARG_PLACES
 #define WAVE_ARGS EC_ARG_PARAMS, EC_ARG_SEED, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_BOUNCE, EC_ARG_STEP, EC_ARG_COUNTERS
 
 static const ec_arg generate[] = {EC_ARG_PARAMS,     EC_ARG_SEED,  EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_PIXEL_FILTER,
@@ -45,11 +45,11 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_AR
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE,
                      EC_FEATURE_SOBOL | EC_FEATURES_MEDIUM | CAMERA_FEATURES, ARGS(generate)},
-    [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, EC_FEATURE_CULLING | ALPHA_FEATURES,
+    [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, EC_FEATURE_CULLING | EC_FEATURE_INSTANCES | ALPHA_FEATURES,
                       ARGS(intersect)},
     [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE, SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_PANES,
                   ARGS(shade)},
-    [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, SHADOW_FEATURES, ARGS(connect)},
+    [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, EC_FEATURE_INSTANCES | SHADOW_FEATURES, ARGS(connect)},
     [EC_RASTER_SETUP] = {"raster_setup", "set up triangles", EC_OF(RASTER), 1, 0, ARGS(raster_setup)},
     [EC_RASTER_FILL] = {"raster_fill", "fill tiles", EC_OF(RASTER), 1, 0, ARGS(raster_fill)},
     [EC_RASTER] = {"raster", "rasterise", EC_OF(RASTER), EC_LANES_OF_PIPELINE, EC_FEATURE_SOBOL | EC_FEATURE_CULLING | ALPHA_FEATURES,

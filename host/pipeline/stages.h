@@ -50,6 +50,7 @@ typedef enum ec_arg {
     EC_ARG_TEXTURE_TABLE,
     EC_ARG_TEXELS,
     EC_ARG_SRGB,
+    EC_ARG_PLACES,
     EC_ARG_LIGHT_TABLE,
     EC_ARG_LIGHT_ALIAS,
     EC_ARG_LIGHT_TREE,

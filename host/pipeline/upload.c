@@ -29,6 +29,7 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
     const ec_upload all[] = {
         {EC_ARG_PRIMS, pack->prims, 0, {"triangles", 0, pack->prim_count * sizeof *pack->prims}},
         {EC_ARG_MATERIALS, pack->materials, 0, {"materials", 0, pack->material_count * sizeof *pack->materials}},
+        {EC_ARG_PLACES, pack->places, 0, {"places of instances", EC_FEATURE_INSTANCES, pack->place_words * 4ull}},
         {EC_ARG_SRGB, pack->srgb, 0, {"sRGB table", 0, sizeof pack->srgb}},
         {EC_ARG_INDICES, s->indices, 16, {"indices", EC_FEATURES_ATTRIBUTES, 12 * triangles}},
         {EC_ARG_NORMALS, s->normals, 16, {"normals", EC_FEATURE_SMOOTH_NORMALS, s->normals ? 12 * vertices : 0}},
@@ -97,10 +98,16 @@ ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_inpu
     return result;
 }
 
+ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density)
+{
+    return (ec_accel_input){.positions = scene->positions, .indices = scene->indices, .triangle_count = ec_scene_flat_count(scene),
+                            .whole = scene->whole, .shape_count = scene->shape_count, .shapes = scene->shapes,
+                            .placed_count = scene->placed_count, .placed = scene->placed, .grid_density = grid_density};
+}
+
 ec_result ec_pipeline_upload_accels(ec_pipeline *p, const ec_scene *scene, float grid_density, ec_error *err)
 {
-    ec_accel_input input = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count,
-                            .grid_density = grid_density};
+    ec_accel_input input = ec_accel_input_of(scene, grid_density);
     ec_result result = EC_OK;
     for (uint32_t a = 0; result == EC_OK && a < EC_ACCEL_COUNT; a++)
         if (p->accels[a].in_use) result = ec_pipeline_upload_accel(p, a, &input, NULL, err);

@@ -104,6 +104,9 @@ static void add_result(ec_report_attributes *attributes, const ec_render_report 
     add_whole(attributes, "eclat.batch", stats->batch);
     add_whole(attributes, "eclat.batches", report->batches);
     add_whole(attributes, "eclat.lanes", stats->lanes);
+    add_whole(attributes, "eclat.instances", stats->instances);
+    add_whole(attributes, "eclat.triangles", stats->triangles);
+    add_whole(attributes, "eclat.storedTriangles", stats->stored_triangles);
     add_whole(attributes, "eclat.wave", stats->wave);
     add_effects(attributes, &stats->effects);
     add_real(attributes, "eclat.seconds", stats->seconds);

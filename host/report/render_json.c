@@ -113,6 +113,9 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     ec_json_real(root, "allotment_gain", report->stats->allotment_gain);
     add_cost(root, report);
     ec_json_whole(root, "lanes", report->stats->lanes);
+    ec_json_whole(root, "instances", report->stats->instances);
+    ec_json_whole(root, "triangles", report->stats->triangles);
+    ec_json_whole(root, "stored_triangles", report->stats->stored_triangles);
     ec_json_whole(root, "wave", report->stats->wave);
     ec_json_whole(root, "batch", report->stats->batch);
     ec_json_whole(root, "batches", report->batches);

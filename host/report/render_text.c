@@ -64,6 +64,9 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
         ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);
         fprintf(to, "forecast %s; said after %" PRIu64 " samples\n", forecast, stats->forecast.pilot_samples);
     }
+    if (stats->instances)
+        fprintf(to, "geometry %" PRIu64 " triangles in %u instances, %" PRIu64 " of them stored\n", stats->triangles, stats->instances,
+                stats->stored_triangles);
     print_heavy(report, to);
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
     fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);

@@ -8,7 +8,10 @@ static void add_geometry(cJSON *root, const ec_scene *scene)
     ec_json_whole(root, "meshes", scene->mesh_count);
     ec_json_whole(root, "instances", scene->instance_count);
     ec_json_whole(root, "nodes", scene->node_count);
-    ec_json_whole(root, "triangles", scene->triangle_count);
+    ec_json_whole(root, "triangles", ec_scene_met_count(scene));
+    ec_json_whole(root, "stored_triangles", scene->triangle_count);
+    ec_json_whole(root, "kept_meshes", scene->shape_count);
+    ec_json_whole(root, "kept_instances", scene->placed_count);
     ec_json_whole(root, "vertices", scene->vertex_count);
     ec_json_whole(root, "dropped_degenerate", scene->dropped_degenerate);
     ec_json_whole(root, "dropped_nonfinite", scene->dropped_nonfinite);

@@ -23,6 +23,9 @@ static void print_geometry(const ec_scene *scene, FILE *to)
     fprintf(to, "geometry    %u meshes in %u instances, %u nodes\n", scene->mesh_count, scene->instance_count,
             scene->node_count);
     fprintf(to, "triangles   %u, with %u vertices\n", scene->triangle_count, scene->vertex_count);
+    if (scene->placed_count)
+        fprintf(to, "kept once   %u meshes at %u places: %llu triangles in all\n", scene->shape_count, scene->placed_count,
+                (unsigned long long)ec_scene_met_count(scene));
     if (scene->dropped_degenerate || scene->dropped_nonfinite)
         fprintf(to, "dropped     %u degenerate and %u non-finite triangles\n", scene->dropped_degenerate,
                 scene->dropped_nonfinite);
@@ -96,7 +99,7 @@ static void print_cost(const ec_scene_report *report, FILE *to)
     fprintf(to, "memory      %s on the device for the scene, without the film; %s on the host at peak\n", device, host);
     fprintf(to, "BVH         %u nodes, %u leaves, depth %u, SAH cost %.4g, leaf blocks %.0f %% full\n", bvh->node_count,
             bvh->leaf_count, bvh->max_depth, bvh->sah_cost, 100 * bvh->leaf_fill);
-    uint32_t triangles = report->scene->triangle_count;
+    uint32_t triangles = ec_scene_flat_count(report->scene); /* of the rest there is one for each mesh that is kept once */
     if (bvh->ref_count > triangles)
         fprintf(to, "            %u references: triangles cut into %.1f %% more parts\n", bvh->ref_count,
                 100.0 * (bvh->ref_count - triangles) / triangles);

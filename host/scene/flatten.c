@@ -1,5 +1,5 @@
 /* Flattens placed meshes into one triangle soup: positions go through double, are recentred and only then rounded. */
-#include "scene/flatten_vertex.h"
+#include "scene/keep.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,36 +8,39 @@
 #include <unistd.h>
 
 #define NO_VERTEX UINT32_MAX
-/* Beyond this squares of distances no longer fit a float; such a position counts as infinite. */
-#define MAX_COORDINATE 1e18
 
-typedef ec_result (*draw_function)(ec_flattener *f, const ec_draw *d);
-
-static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, draw_function function)
+ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, const ec_placement *at, const double *center,
+                            ec_draw_function function)
 {
-    for (uint32_t i = 0; i < list->count; i++) {
-        int32_t mesh = list->items[i].mesh;
-        if (mesh < 0) continue;
-        ec_draw d = {.g = g, .at = &list->items[i]};
-        ec_gltf_normal_matrix(d.at->linear, d.normal_matrix);
-        d.mirrored = ec_gltf_determinant(d.at->linear) < 0;
-        for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
-            d.p = &g->meshes[mesh].primitives[k];
-            if (d.p->drawn) EC_TRY(function(f, &d));
-        }
+    ec_draw d = {.g = g, .at = at, .center = center};
+    ec_gltf_normal_matrix(at->linear, d.normal_matrix);
+    d.mirrored = ec_gltf_determinant(at->linear) < 0;
+    for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
+        d.p = &g->meshes[mesh].primitives[k];
+        if (d.p->drawn) EC_TRY(function(f, &d));
     }
     return EC_OK;
 }
 
-static bool is_finite3(const double v[3])
+/* But for those of meshes that are kept once. */
+static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, ec_draw_function function)
 {
-    for (int i = 0; i < 3; i++)
-        if (!(fabs(v[i]) < MAX_COORDINATE)) return false;
+    for (uint32_t i = 0; i < list->count; i++) {
+        int32_t mesh = list->items[i].mesh;
+        if (mesh < 0 || (f->is_kept && f->is_kept[i])) continue;
+        EC_TRY(ec_flattener_draw(f, g, mesh, &list->items[i], f->scene->center, function));
+    }
+    return EC_OK;
+}
+
+bool ec_is_placeable(const double world[3][3])
+{
+    for (int i = 0; i < 9; i++)
+        if (!(fabs(world[i / 3][i % 3]) < EC_MAX_COORDINATE)) return false;
     return true;
 }
 
-/* How much there can be at most. */
-static ec_result count_draw(ec_flattener *f, const ec_draw *d)
+ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
 {
     uint64_t range = (uint64_t)d->p->highest - d->p->lowest + 1, corners = 3 * d->p->triangle_count;
     f->triangle_bound += d->p->triangle_count;
@@ -74,7 +77,7 @@ static ec_result measure_draw(ec_flattener *f, const ec_draw *d)
         double world[3][3];
         ec_gltf_primitive_triangle(d->g, d->p, t, v);
         for (int i = 0; i < 3; i++) ec_draw_world_position(d, v[i], world[i]);
-        if (!is_finite3(world[0]) || !is_finite3(world[1]) || !is_finite3(world[2])) continue;
+        if (!ec_is_placeable((const double(*)[3])world)) continue;
         for (int i = 0; i < 9; i++) {
             f->low[i % 3] = fmin(f->low[i % 3], world[i / 3][i % 3]);
             f->high[i % 3] = fmax(f->high[i % 3], world[i / 3][i % 3]);
@@ -117,7 +120,7 @@ static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], 
     cross_edges(position[0], position[1], position[2], normal);
     double size = largest_component(normal);
     bool finite = isfinite((float)size);
-    for (int i = 0; i < 9; i++) finite = finite && fabs((double)position[i / 3][i % 3]) < MAX_COORDINATE;
+    for (int i = 0; i < 9; i++) finite = finite && fabs((double)position[i / 3][i % 3]) < EC_MAX_COORDINATE;
     if (!finite) {
         f->scene->dropped_nonfinite++;
         return false;
@@ -130,7 +133,7 @@ static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], 
 }
 
 /* Second pass. */
-static ec_result fill_draw(ec_flattener *f, const ec_draw *d)
+ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
 {
     ec_scene *s = f->scene;
     memset(f->remap, 0xff, ((uint64_t)d->p->highest - d->p->lowest + 1) * sizeof *f->remap);
@@ -141,7 +144,7 @@ static ec_result fill_draw(ec_flattener *f, const ec_draw *d)
         for (int i = 0; i < 3; i++) {
             double world[3];
             ec_draw_world_position(d, v[i], world);
-            for (int k = 0; k < 3; k++) position[i][k] = (float)(world[k] - s->center[k]);
+            for (int k = 0; k < 3; k++) position[i][k] = (float)(world[k] - d->center[k]);
         }
         if (!is_drawable(f, d, v, position)) continue;
         size_t n = s->triangle_count++;
@@ -192,38 +195,52 @@ static void trim(ec_scene *s)
     s->triangle_material = shrink(s->triangle_material, t);
 }
 
-static void set_bounds(ec_scene *s)
+static void set_bounds(ec_scene *s, uint32_t flat_vertices)
 {
     for (int k = 0; k < 3; k++) {
         s->bounds_min[k] = FLT_MAX;
         s->bounds_max[k] = -FLT_MAX;
     }
-    for (size_t i = 0; i < 3 * (size_t)s->vertex_count; i++) {
+    for (size_t i = 0; i < 3 * (size_t)flat_vertices; i++) {
         s->bounds_min[i % 3] = fminf(s->bounds_min[i % 3], s->positions[i]);
         s->bounds_max[i % 3] = fmaxf(s->bounds_max[i % 3], s->positions[i]);
     }
+}
+
+static ec_result flatten(ec_flattener *f, const ec_gltf *g, const ec_placement_list *placements, ec_keeping *keeping)
+{
+    ec_scene *s = f->scene;
+    EC_TRY(for_each_draw(f, g, placements, ec_flattener_count));
+    EC_TRY(ec_keep_count(keeping, f));
+    if (!f->triangle_bound)
+        return ec_fail(f->err, "%s: nothing to render: the scene has no triangles", g->path);
+    EC_TRY(check_memory(f, g->path));
+    EC_TRY(for_each_draw(f, g, placements, measure_draw));
+    EC_TRY(ec_keep_measure(keeping, f));
+    bool any_finite = f->low[0] <= f->high[0];
+    for (int k = 0; k < 3; k++) s->center[k] = any_finite ? 0.5 * (f->low[k] + f->high[k]) : 0;
+    EC_TRY(allocate(f, g->path));
+    EC_TRY(for_each_draw(f, g, placements, ec_flattener_fill));
+    set_bounds(s, s->vertex_count);
+    EC_TRY(ec_keep_fill(keeping, f));
+    if (!s->triangle_count)
+        return ec_fail(f->err, "%s: nothing to render: of %llu triangles %u have no area and %u have NaN or infinite positions",
+                       g->path, (unsigned long long)f->triangle_bound, s->dropped_degenerate, s->dropped_nonfinite);
+    trim(s);
+    return EC_OK;
 }
 
 ec_result ec_flatten(const ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
     ec_flattener f = {.scene = s, .log = log, .err = err, .low = {INFINITY, INFINITY, INFINITY},
                    .high = {-INFINITY, -INFINITY, -INFINITY}};
-    EC_TRY(for_each_draw(&f, g, placements, count_draw));
-    if (!f.triangle_bound)
-        return ec_fail(err, "%s: nothing to render: the scene has no triangles", g->path);
-    EC_TRY(check_memory(&f, g->path));
-    EC_TRY(for_each_draw(&f, g, placements, measure_draw));
-    bool any_finite = f.low[0] <= f.high[0];
-    for (int k = 0; k < 3; k++) s->center[k] = any_finite ? 0.5 * (f.low[k] + f.high[k]) : 0;
-    ec_result result = allocate(&f, g->path);
-    if (result == EC_OK) result = for_each_draw(&f, g, placements, fill_draw);
+    ec_keeping keeping;
+    ec_result result = ec_keep_choose(g, placements, s, &keeping, err);
+    f.is_kept = keeping.is_kept;
+    if (result == EC_OK) result = flatten(&f, g, placements, &keeping);
     free(f.remap);
+    ec_keep_free(&keeping);
     EC_TRY(result);
-    if (!s->triangle_count)
-        return ec_fail(err, "%s: nothing to render: of %llu triangles %u have no area and %u have NaN or infinite positions",
-                       g->path, (unsigned long long)f.triangle_bound, s->dropped_degenerate, s->dropped_nonfinite);
-    trim(s);
-    set_bounds(s);
     if (s->dropped_nonfinite)
         ec_warn(log, "%s: %u triangles with NaN or infinite positions are left out", g->path, s->dropped_nonfinite);
     if (s->dropped_degenerate)

@@ -1,4 +1,4 @@
-/* What the two halves of flattening share. Only flatten.c and flatten_vertex.c include this. */
+/* What the parts of flattening share. Only flatten.c, flatten_vertex.c and keep.c include this. */
 #ifndef EC_SCENE_FLATTEN_VERTEX_H
 #define EC_SCENE_FLATTEN_VERTEX_H
 
@@ -9,6 +9,7 @@ typedef struct ec_draw {
     const ec_gltf *g;
     const ec_gltf_primitive *p;
     const ec_placement *at;
+    const double *center;    /* subtracted from where a vertex lies */
     double normal_matrix[9];
     bool mirrored;
 } ec_draw;
@@ -22,7 +23,20 @@ typedef struct ec_flattener {
     uint32_t *remap; /* primitive's vertex - lowest -> scene's vertex */
     uint64_t remap_size;
     bool has_normals, has_tangents, has_uv[2], has_colors;
+    const bool *is_kept; /* by placement: an instance of a mesh that is kept once; NULL: none is */
 } ec_flattener;
+
+typedef ec_result (*ec_draw_function)(ec_flattener *f, const ec_draw *d);
+/* flatten.c: all primitives of a mesh at one place. */
+ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, const ec_placement *at, const double *center,
+                            ec_draw_function function);
+ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d); /* how much there can be at most */
+ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d);  /* appends its triangles */
+
+/* Are all three places numbers that a scene can hold? */
+bool ec_is_placeable(const double world[3][3]);
+/* Beyond this squares of distances no longer fit a float; such a position counts as infinite. */
+#define EC_MAX_COORDINATE 1e18
 
 /* Where a vertex lies in the world. */
 void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3]);

@@ -143,6 +143,7 @@ typedef struct ec_gltf {
         material_count, camera_count, light_count;
     int32_t *roots;         /* nodes of the scene to show */
     uint32_t root_count;
+    ec_instancing instancing; /* the caller's wish */
     bool quantized;         /* KHR_mesh_quantization: integer positions, normals, tangents */
     char **extensions_used, **extensions_ignored;
     uint32_t extension_count, extension_ignored_count;

@@ -57,6 +57,7 @@ ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, 
     ec_gltf *gltf = NULL;
     *scene = NULL;
     ec_result result = ec_gltf_read(path, choice, &gltf, log, err);
+    if (gltf) gltf->instancing = choice->instancing;
     if (result == EC_OK) result = ec_scene_from_gltf(gltf, scene, log, err);
     ec_gltf_free(gltf);
     return result;

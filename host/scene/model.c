@@ -124,6 +124,16 @@ void ec_model_add(ec_model *m, int32_t material, const ec_model_mesh *mesh)
     add_node(m, NULL, (int32_t)m->gltf->mesh_count - 1, -1, -1);
 }
 
+void ec_model_repeat(ec_model *m)
+{
+    if (!m->failed && m->gltf->mesh_count) add_node(m, NULL, (int32_t)m->gltf->mesh_count - 1, -1, -1);
+}
+
+void ec_model_instancing(ec_model *m, ec_instancing instancing)
+{
+    if (!m->failed) m->gltf->instancing = instancing;
+}
+
 /* A node that looks along its -z, y up as far as it can be. */
 static void looking(const double at[3], const double target[3], double local[16])
 {

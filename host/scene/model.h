@@ -29,6 +29,11 @@ typedef struct ec_model_mesh {
 } ec_model_mesh;
 void ec_model_add(ec_model *model, int32_t material, const ec_model_mesh *mesh);
 
+/* The mesh that was added last once more, where the place is now. */
+void ec_model_repeat(ec_model *model);
+/* Which meshes are kept once; auto where nothing is said. */
+void ec_model_instancing(ec_model *model, ec_instancing instancing);
+
 /* Front: where u x v points. */
 void ec_model_quad(ec_model *model, int32_t material, const double at[3], const double u[3], const double v[3]);
 /* Six quads that look outwards, or inwards. */

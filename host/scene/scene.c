@@ -28,6 +28,8 @@ void ec_scene_free(ec_scene *s)
     free(s->colors);
     free(s->indices);
     free(s->triangle_material);
+    free(s->shapes);
+    free(s->placed);
     free(s->materials);
     free(s->textures);
     free(s->images);

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "scene/placed.h"
 #include "shared/texture_slots.h"
 
 /* Decoded pixels, row 0 at the top (glTF's v = 0), always four channels. Exactly one of the two is set. */
@@ -133,6 +134,11 @@ typedef struct ec_scene {
     uint32_t triangle_count;
     uint32_t *indices;            /* 3 per triangle */
     uint32_t *triangle_material;  /* per triangle */
+    /* Meshes kept once: the triangles from shapes[0].first on, in spaces of their own. Nothing among them emits. */
+    uint32_t shape_count, placed_count;
+    ec_shape *shapes;
+    ec_placed *placed;            /* in the order of their ids, the first of which is shapes[0].first */
+    bool whole;                   /* no structure may cut triangles, so that all have the same bits with and without instances */
     uint32_t material_count;
     ec_material *materials;       /* at least one (glTF's default) */
     uint32_t texture_count;
@@ -165,6 +171,7 @@ typedef struct ec_scene_choice {
     const char *animation;     /* also "all"; NULL: the first */
     double at;                 /* seconds into it */
     bool animated;             /* false: everything as it is stored */
+    ec_instancing instancing;  /* which meshes are kept once */
 } ec_scene_choice;
 
 /* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. Adds a framing camera where
@@ -173,6 +180,20 @@ typedef struct ec_scene_choice {
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
 ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
+
+/* Triangles that stand in the world as they are stored: those before the shapes'. */
+static inline uint32_t ec_scene_flat_count(const ec_scene *s) { return s->shape_count ? s->shapes[0].first : s->triangle_count; }
+/* Triangles that a ray can meet. */
+static inline uint64_t ec_scene_met_count(const ec_scene *s)
+{
+    const ec_placed *last = s->placed_count ? &s->placed[s->placed_count - 1] : NULL;
+    return last ? (uint64_t)last->id + s->shapes[last->shape].count : s->triangle_count;
+}
+
+/* The same scene with every instance written out, to the last bit: for what knows triangles only. What it shares with `scene` stays
+ * that one's: ec_scene_written_free. Fails where this machine has no memory for it. */
+ec_result ec_scene_write_out(const ec_scene *scene, ec_scene *written, ec_error *err);
+void ec_scene_written_free(ec_scene *written);
 
 /* Does anything in the scene give light: an emissive or unlit triangle, a punctual light, an environment? */
 bool ec_scene_has_light(const ec_scene *scene);

@@ -30,6 +30,7 @@
     CASE("rays/frame", false, ec_selftest_frame, "a frame that is singular at -z (Frisvad 2012; Duff et al. 2017)")                \
     CASE("rays/lane widths", true, ec_selftest_lane_widths, "pictures that depend on the width of a vector")                       \
     CASE("rays/accelerators", true, ec_selftest_accelerators, "pictures that depend on the acceleration structure")                \
+    CASE("rays/instances", true, ec_selftest_instances, "meshes kept once that shade otherwise than written out")                  \
     CASE("lights/near lamp", false, ec_selftest_near_lamp, "1/d^2 explodes next to a lamp (Arvo 1995; pbrt's 3e-4 sr)")            \
     CASE("lights/tiny lamp", false, ec_selftest_tiny_lamp, "1 - cos of a small angle is 0: small lamps go out")                    \
     CASE("lights/facing squares", false, ec_selftest_facing_squares, "form factors (Siegel and Howell, C-11)")                     \

@@ -17,8 +17,8 @@ typedef struct hit_filter {
 #define FILTER_PARAMETERS                                                                          \
     global const float *prims, global const float *indices, global const float *uvs,               \
         global const float *colors, global const float *materials,                                 \
-        global const float *texture_table, global const uint *texels, constant float *srgb
-#define FILTER_GEOMETRY {prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}
+        global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places
+#define FILTER_GEOMETRY {prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places}
 
 /* Random key of a ray: bounce counts the vertices before it, shadow rays differ from path rays. */
 EC_FN lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, bool is_shadow)
@@ -33,7 +33,7 @@ EC_FN lane_i filter_hits(const hit_filter *f, lane_i m, lane_u prim, lane_f b1, 
     bool opens = HAS(PANES) ? f->panes != 0 : false;
     if (!HAS(ALPHA) & !culls & !opens) return m;
     lane_u id = m ? prim : U(0);
-    lane_u flags = as_lane_u(gather_f(f->g.prims, id * EC_PRIM_WORDS + 11u));
+    lane_u flags = as_lane_u(gather_f(f->g.prims, geometry_prim(&f->g, id) * EC_PRIM_WORDS + 11u));
     if (culls) m = m & (front | ((flags & EC_PRIM_SINGLE_SIDED) == 0u));
     if (opens) {
         lane_i pane = m & ((flags & EC_PRIM_PANE) != 0u);

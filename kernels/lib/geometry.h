@@ -3,6 +3,7 @@
 #ifndef EC_LIB_GEOMETRY_H
 #define EC_LIB_GEOMETRY_H
 
+#include "instance.h"
 #include "texture.h"
 
 typedef struct geometry {
@@ -14,6 +15,7 @@ typedef struct geometry {
     global const float *colors;    /* 4 a vertex, or 0 */
     global const float *materials; /* ec_material_data by word */
     textures tex;
+    global const float *places;    /* of instances, or 0 */
 } geometry;
 
 /* What the surface look-ups share: which triangle, where on it, what it is made of. Off lanes hold triangle 0. */
@@ -24,6 +26,9 @@ typedef struct hit_point {
     quad uv, uv0, uv1, uv2; /* both uv sets: at the hit, at the vertices */
     lane_u material;     /* first word of its material */
     lane_f light_pdf_a;
+    lane_i placed;       /* with INSTANCES: on one of them, … */
+    lane_u place;        /* … whose ec_place is at this word */
+    lane_i turned;       /* … which is mirrored */
 } hit_point;
 
 EC_FN lane_f interpolate(const hit_point *h, lane_f v0, lane_f v1, lane_f v2)
@@ -45,9 +50,34 @@ EC_FN quad interpolate_stream(global const float *stream, uint width, const hit_
                             gather_quad(stream, h->i2 * width));
 }
 
+/* The ec_prim of a triangle. */
+EC_FN lane_u geometry_prim(const geometry *g, lane_u prim)
+{
+    lane_i placed, turned;
+    lane_u place;
+    return HAS(INSTANCES) && g->places ? instance_find(g->places, prim, &placed, &place, &turned) : prim;
+}
+
+/* A vertex' direction, taken to the world. word: as of instance_direction. */
+EC_FN v3 hit_direction(const geometry *g, const hit_point *h, uint word, v3 d)
+{
+    if (!HAS(INSTANCES) || !g->places || !any_lane(h->placed)) return d;
+    return v3_select(h->placed, instance_direction(g->places, h->place, word, d), d);
+}
+
+EC_FN void exchange(lane_i m, lane_u *a, lane_u *b)
+{
+    lane_u first = *a;
+    *a = m ? *b : first;
+    *b = m ? first : *b;
+}
+
 EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f b2)
 {
     hit_point h;
+    h.placed = h.turned = !TRUE_MASK;
+    h.place = U(0);
+    if (HAS(INSTANCES) && g->places) prim = instance_find(g->places, prim, &h.placed, &h.place, &h.turned);
     quad v0 = gather_quad(g->prims, prim * EC_PRIM_WORDS), v1 = gather_quad(g->prims, prim * EC_PRIM_WORDS + 4u),
          v2 = gather_quad(g->prims, prim * EC_PRIM_WORDS + 8u);
     h.p0 = v3_make(v0.a, v0.b, v0.c);
@@ -55,6 +85,12 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
     h.p2 = v3_make(v2.a, v2.b, v2.c);
     h.material = as_lane_u(v0.d) * EC_MATERIAL_WORDS;
     h.light_pdf_a = v1.d;
+    if (HAS(INSTANCES) && any_lane(h.placed)) {
+        v3 p1 = v3_select(h.turned, h.p2, h.p1), p2 = v3_select(h.turned, h.p1, h.p2);
+        h.p0 = v3_select(h.placed, instance_point(g->places, h.place, h.p0), h.p0);
+        h.p1 = v3_select(h.placed, instance_point(g->places, h.place, p1), p1);
+        h.p2 = v3_select(h.placed, instance_point(g->places, h.place, p2), p2);
+    }
     h.b0 = 1.0f - b1 - b2;
     h.b1 = b1;
     h.b2 = b2;
@@ -66,6 +102,7 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
         h.i0 = as_lane_u(i.a);
         h.i1 = as_lane_u(i.b);
         h.i2 = as_lane_u(i.c);
+        if (HAS(INSTANCES)) exchange(h.turned, &h.i1, &h.i2);
     }
     if (HAS_TEXTURES && g->uvs) {
         h.uv0 = gather_quad(g->uvs, h.i0 * 4u);
@@ -74,6 +111,32 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
         h.uv = interpolate_quad(&h, h.uv0, h.uv1, h.uv2);
     }
     return h;
+}
+
+EC_FN v3 vertex_normal(const geometry *g, const hit_point *h, lane_u vertex)
+{
+    quad q = gather_quad(g->normals, vertex * 3u);
+    return hit_direction(g, h, EC_PLACE_NORMAL, v3_make(q.a, q.b, q.c));
+}
+
+EC_FN v3 interpolate_v3(const hit_point *h, v3 v0, v3 v1, v3 v2)
+{
+    return v3_make(interpolate(h, v0.x, v1.x, v2.x), interpolate(h, v0.y, v1.y, v2.y), interpolate(h, v0.z, v1.z, v2.z));
+}
+
+EC_FN v3 interpolate_normal(const geometry *g, const hit_point *h)
+{
+    return interpolate_v3(h, vertex_normal(g, h, h->i0), vertex_normal(g, h, h->i1), vertex_normal(g, h, h->i2));
+}
+
+/* hand: the sign says which way the bitangent goes; a mirrored mesh's is mirrored, n x t is not. */
+EC_FN v3 interpolate_tangent(const geometry *g, const hit_point *h, lane_f *hand)
+{
+    quad t0 = gather_quad(g->tangents, h->i0 * 4u), t1 = gather_quad(g->tangents, h->i1 * 4u), t2 = gather_quad(g->tangents, h->i2 * 4u);
+    *hand = interpolate(h, t0.d, t1.d, t2.d);
+    if (HAS(INSTANCES)) *hand = h->turned ? -*hand : *hand;
+    return interpolate_v3(h, hit_direction(g, h, 0u, v3_make(t0.a, t0.b, t0.c)), hit_direction(g, h, 0u, v3_make(t1.a, t1.b, t1.c)),
+                          hit_direction(g, h, 0u, v3_make(t2.a, t2.b, t2.c)));
 }
 
 EC_FN quad material_quad(const geometry *g, const hit_point *h, uint word)

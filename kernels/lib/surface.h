@@ -64,9 +64,9 @@ EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, l
     v3 tangent = v3_zero();
     *handedness = F(1.0f);
     if (g->tangents) {
-        quad t = interpolate_stream(g->tangents, 4, h);
-        tangent = v3_make(t.a, t.b, t.c);
-        *handedness = t.d < 0.0f ? F(-1.0f) : F(1.0f);
+        lane_f hand;
+        tangent = interpolate_tangent(g, h, &hand);
+        *handedness = hand < 0.0f ? F(-1.0f) : F(1.0f);
     }
     lane_i missing = v3_dot(tangent, tangent) == 0.0f;
     if (!any_lane(missing)) return tangent;
@@ -119,8 +119,7 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
     if (HAS(SMOOTH_NORMALS) || HAS(NORMAL_TEXTURE) || HAS(CLEARCOAT_NORMAL_TEXTURE)) {
         v3 n = v3_select(s->front, s->ng, v3_negate(s->ng));
         if (HAS(SMOOTH_NORMALS) && g->normals) {
-            quad q = interpolate_stream(g->normals, 3, h);
-            v3 smooth = v3_make(q.a, q.b, q.c);
+            v3 smooth = interpolate_normal(g, h);
             lane_f length2 = v3_dot(smooth, smooth);
             n = v3_select(length2 > 0.0f, v3_scale(smooth, 1.0f / sqrt(length2)), n);
         }

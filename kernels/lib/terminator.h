@@ -10,10 +10,9 @@
 #include "surface.h"
 
 /* The hit as seen from one corner: how far it must rise to the corner's tangent plane, along its normal. */
-EC_FN v3 terminator_rise(const geometry *g, const surface *s, lane_u vertex, v3 corner)
+EC_FN v3 terminator_rise(const geometry *g, const hit_point *h, const surface *s, lane_u vertex, v3 corner)
 {
-    quad q = gather_quad(g->normals, vertex * 3u);
-    v3 n = v3_make(q.a, q.b, q.c);
+    v3 n = vertex_normal(g, h, vertex);
     n = v3_select(v3_dot(n, s->ng) < 0.0f, v3_negate(n), n);
     lane_f depth = v3_dot(v3_sub(corner, s->p), n), length2 = v3_dot(n, n);
     return v3_scale(n, ((depth > 0.0f) & (length2 > 0.0f)) ? depth / length2 : F(0.0f));
@@ -22,9 +21,9 @@ EC_FN v3 terminator_rise(const geometry *g, const surface *s, lane_u vertex, v3 
 /* Where reflected rays and shadow rays start. lifted: is that above the facet, by more than the rounding of the hit? */
 EC_FN v3 terminator_origin(const geometry *g, const hit_point *h, const surface *s, lane_i *lifted)
 {
-    v3 rise = v3_scale(terminator_rise(g, s, h->i0, h->p0), h->b0);
-    rise = v3_fma(terminator_rise(g, s, h->i1, h->p1), h->b1, rise);
-    rise = v3_fma(terminator_rise(g, s, h->i2, h->p2), h->b2, rise);
+    v3 rise = v3_scale(terminator_rise(g, h, s, h->i0, h->p0), h->b0);
+    rise = v3_fma(terminator_rise(g, h, s, h->i1, h->p1), h->b1, rise);
+    rise = v3_fma(terminator_rise(g, h, s, h->i2, h->p2), h->b2, rise);
     *lifted = v3_dot(rise, s->ng) > v3_dot(v3_abs(s->ng), s->p_error);
     return v3_select(*lifted, v3_add(s->p, rise), s->p);
 }

@@ -68,7 +68,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     if (!any_lane(open)) return;
     v3 light = queue_load_v3(shadows, wave, EC_SHADOW_LR, i);
     if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
-        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
+        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
         v3 o = r.o, end = v3_add(o, r.d);
         lane_i walks = open & panes;
         filter.panes = 0;

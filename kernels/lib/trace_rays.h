@@ -62,7 +62,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     if (EC_CAT(ACCEL, _any)(&a, &q, &filter, skip, target, &h)) return;
     v3 light = v3_make(F(p[EC_SHADOW_LR * wave]), F(p[EC_SHADOW_LG * wave]), F(p[EC_SHADOW_LB * wave]));
     if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
-        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
+        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
         v3 o = q.r.o, end = v3_add(o, q.r.d);
         filter.panes = 0;
         for (uint left = panes_most(params, bounce);; left--) {

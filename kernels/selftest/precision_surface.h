@@ -30,12 +30,14 @@ EC_FN hit_point hit_of(global const float *in)
     h.uv2.b = X(16);
     h.material = U(0);
     h.light_pdf_a = F(0.0f);
+    h.placed = h.turned = !TRUE_MASK;
+    h.place = U(0);
     return h;
 }
 EC_FN geometry geometry_of(global const float *in, global const float *memory)
 {
     geometry g = {0, 0, in + 18, 0, 0, 0, memory + EC_PRECISION_MATERIALS,
-                  {memory + EC_PRECISION_TEXTURES, (global const uint *)(memory + EC_PRECISION_TEXELS), 0}};
+                  {memory + EC_PRECISION_TEXTURES, (global const uint *)(memory + EC_PRECISION_TEXELS), 0}, 0};
     return g;
 }
 
@@ -87,7 +89,7 @@ PRECISION(surface_to_local)
 }
 PRECISION(medium_transmittance)
 {
-    geometry g = {0, 0, 0, 0, 0, 0, in, {0, 0, 0}};
+    geometry g = {0, 0, 0, 0, 0, 0, in, {0, 0, 0}, 0};
     PUT_V(0, medium_transmittance(&g, ITEM * EC_PRECISION_WORDS, X(0)));
 }
 

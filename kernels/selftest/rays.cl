@@ -10,7 +10,7 @@ kernel void ec_selftest_leave(uint wave, float scene_max, global const float *pr
 {
     uint i = get_global_id(0) * LANES;
     if (i >= wave) return;
-    geometry g = {prims, 0, 0, 0, 0, 0, 0, {0, 0, 0}};
+    geometry g = {prims, 0, 0, 0, 0, 0, 0, {0, 0, 0}, 0};
     hit_point h = hit_point_make(&g, queue_load_u(hits, wave, EC_HIT_PRIM, i), queue_load_f(hits, wave, EC_HIT_B1, i),
                                  queue_load_f(hits, wave, EC_HIT_B2, i));
     v3 d = queue_load_v3(paths, wave, EC_PATH_DX, i);

@@ -51,6 +51,23 @@ typedef struct ec_tri8 {
 } ec_tri8;
 EC_ASSERT_SIZE(ec_tri8, 320);
 
+/* Two levels: nodes[0] is the root of what stands in the world. Leaves of the upper tree are instances: EC_LEAF_BIT |
+ * EC_INSTANCE_BIT | index of an ec_instance, whose mesh has a tree and blocks in its own space, with ids that count from 0. The first
+ * ec_instance stands for none of them: its root is that of the upper tree. */
+#define EC_INSTANCE_BIT 0x40000000u
+#define EC_TWOLEVEL_STACK (2 * EC_BVH8_STACK)
+typedef struct ec_instance {
+    ec_float place[3][4];   /* rows: world = place x (point, 1) */
+    ec_float inverse[3][4]; /* rows of the 3 x 3 inverse; the fourth is how far a ray taken there may be off, over its reach */
+    ec_uint id;             /* of the mesh's first triangle here */
+    ec_uint root;
+    ec_uint turned;         /* 1: corners 1 and 2 change places */
+    ec_float longest;       /* edge of a triangle's box in the world */
+    ec_float reach;         /* no coordinate of the scene is larger */
+    ec_uint pad[3];
+} ec_instance;
+EC_ASSERT_SIZE(ec_instance, 128);
+
 /* Uniform grid, in blocks of 4 x 4 x 4 cells. Behind the header stand the planes between the cells, 4 blocks[0] + 1 along x, then
  * y, then z, ascending: the host says where a cell ends and the kernels only compare. Block (x, y, z) is x + blocks[0] *
  * (y + blocks[1] * z); bit x + 4 y + 16 z of occupied stands for a cell of it. The n-th cell of the block that is occupied

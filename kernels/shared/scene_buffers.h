@@ -7,7 +7,7 @@
 #include "texture_slots.h"
 #include "types.h"
 
-/* One triangle, in scene order: the hit's id is the index. */
+/* One triangle, in scene order: the hit's id is the index, but on an instance. */
 typedef struct ec_prim {
     ec_float v0[3];
     ec_uint material;
@@ -21,6 +21,28 @@ EC_ASSERT_SIZE(ec_prim, 48);
 #define EC_PRIM_SINGLE_SIDED 1u /* camera rays pass through its back */
 #define EC_PRIM_ALPHA 2u        /* coverage must be looked up */
 #define EC_PRIM_PANE 4u         /* may let light straight on (lib/pane.h) */
+
+/* Where instances stand, for shading: a header, an ec_place each, and behind them their first ids once more, side by side, to be
+ * searched. */
+typedef struct ec_place_header {
+    ec_uint count;
+    ec_uint first_id;   /* of the first instance: triangles before it stand in the world as they are */
+    ec_uint ids;        /* word where the first ids begin */
+    ec_uint step;       /* largest power of two below count, or 0 */
+} ec_place_header;
+EC_ASSERT_SIZE(ec_place_header, 16);
+typedef struct ec_place {
+    ec_float place[3][4];  /* rows: world = place x (point, 1) */
+    ec_float normal[3][4]; /* rows: turns normals; the fourth is 0 */
+    ec_uint id;            /* of its first triangle, as hits have it */
+    ec_uint first;         /* the same one's ec_prim */
+    ec_uint turned;        /* 1: mirrored; corners 1 and 2 change places */
+    ec_uint pad;
+} ec_place;
+EC_ASSERT_SIZE(ec_place, 112);
+#define EC_PLACE_WORDS 28
+#define EC_PLACE_NORMAL 12
+#define EC_PLACE_ID 24
 
 typedef struct ec_texture_slot {
     ec_int texture;      /* -1: none */

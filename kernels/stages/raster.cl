@@ -19,7 +19,7 @@ kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, g
                       global const ec_raster_tri *tris, global const uint *starts, global const uint *ends,
                       global const uint *list, global const float *prims, global const float *indices,
                       global const float *uvs, global const float *colors, global const float *materials,
-                      global const float *texture_table, global const uint *texels, constant float *srgb)
+                      global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= path_count) return;
@@ -29,7 +29,7 @@ kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, g
     slot = waiting ? slot : U(i);
     camera_sample(params, seed, first_pixel, pixel_list, 0, slot, &x, &y, &sx, &sy);
     lane_u tile = raster_tile(params, x, y);
-    hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}}, U(0), true, 0};
+    hit_filter filter = {{prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places}, U(0), true, 0};
     if (HAS(ALPHA)) {
         slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
         filter.key = filter_key(seed, pixel, sample, 0, false);

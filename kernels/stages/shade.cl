@@ -52,7 +52,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global float *aov, global const float *prims, global const float *indices,
                      global const float *normals, global const float *tangents, global const float *uvs,
                      global const float *colors, global const float *materials, global const float *texture_table,
-                     global const uint *texels, constant float *srgb,
+                     global const uint *texels, constant float *srgb, global const float *places,
                      global const float *light_table, global const uint *light_alias,
                      global const float *environment_texels, global const uint *environment_table,
                      global const float *light_tree, global const uint *light_trails)
@@ -61,7 +61,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;
-    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
     lights light = {light_table, light_alias, {params, environment_texels, environment_table}, light_tree};
 
     lane_i active = LANE_NUMBERS < left;
@@ -109,8 +109,10 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
             v3 way = v3_sub(s.p, source);
-            if (HAS(LIGHT_TREE) && light_tree)
-                h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source, gather_u(light_trails, prim));
+            if (HAS(LIGHT_TREE) && light_tree) {
+                lane_u lamp = HAS(INSTANCES) ? (h.placed ? U(0) : prim) : prim; /* no instance is one, and its id lies behind the trails */
+                h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source, gather_u(light_trails, lamp));
+            }
             lane_f pdf = light_found_pdf(&h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = v3_scale(surface_emission(&g, &h, m, emission), found_weight(params->sample, path_pdf, pdf));
             emitted = v3_select(m, Le, emitted);

@@ -14,11 +14,11 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
                             global const float *prims, global const float *indices, global const float *normals,
                             global const float *tangents, global const float *uvs, global const float *colors,
                             global const float *materials, global const float *texture_table, global const uint *texels,
-                            constant float *srgb, global const float *light_table, global const float *environment_texels)
+                            constant float *srgb, global const float *places, global const float *light_table, global const float *environment_texels)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= path_count) return;
-    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
     environment env = {params, environment_texels, 0};
     lane_u slot = LANE_NUMBERS + i;
     lane_i active = slot < path_count;

@@ -73,13 +73,13 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
                        global float *aov, global const float *prims, global const float *indices,
                        global const float *normals, global const float *tangents, global const float *uvs,
                        global const float *colors, global const float *materials, global const float *texture_table,
-                       global const uint *texels, constant float *srgb, global const float *environment_texels)
+                       global const uint *texels, constant float *srgb, global const float *places, global const float *environment_texels)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;
-    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
     environment env = {params, environment_texels, 0};
     lane_i active = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i), wo = v3_negate(d);

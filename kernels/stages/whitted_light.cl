@@ -9,13 +9,13 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
                              global float *shadows, global const float *prims, global const float *indices,
                              global const float *normals, global const float *tangents, global const float *uvs,
                              global const float *colors, global const float *materials, global const float *texture_table,
-                             global const uint *texels, constant float *srgb, global const float *light_table)
+                             global const uint *texels, constant float *srgb, global const float *places, global const float *light_table)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[0], params->part, i);
     if (!left) return;
-    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}};
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
     lane_u prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
     lane_i lit = (LANE_NUMBERS < left) & (prim != EC_NO_ID);
     if (!any_lane(lit)) return;

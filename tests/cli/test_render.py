@@ -262,7 +262,8 @@ class SameBits(Render):
         first = self.render(*options, scene=CORNELL)["image_sha256"]
         for change in [[], ["--lanes", "1"], ["--lanes", "4"], ["--lanes", "8"], ["--lanes", "16"], ["--wave", "1000"],
                        ["--wave", "100000"], ["--effects", "all"], ["--accel", "bvh2"], ["--accel", "bvh8"],
-                       ["--accel", "grid"], ["--accel", "kdtree"], ["--accel", "none"]]:
+                       ["--accel", "grid"], ["--accel", "kdtree"], ["--accel", "none"],
+                       ["--accel", "twolevel"], ["--instancing", "on"]]:
             with self.subTest(change=change):
                 self.assertEqual(self.render(*options, *change, scene=CORNELL)["image_sha256"], first)
         with self.subTest("density"):

@@ -106,6 +106,7 @@ class WrongOptions(Case):
             "--terminator": ["soft", ""],
             "--sample": ["all", "nee", ""],
             "--accel": ["octree"],
+            "--instancing": ["yes", ""],
             "--grid-density": ["0", "-1", "0.009", "10001", "inf", "nan", "27x", ""],
             "--integrator": ["raytrace", ""],
             "--env-rotate": ["nan", "inf", "90d", ""],

@@ -9,6 +9,9 @@
     S(ec_bvh8_node) F(ec_bvh8_node, bound) F(ec_bvh8_node, bound[5][7]) F(ec_bvh8_node, child) F(ec_bvh8_node, child[7]) \
     S(ec_tri8) F(ec_tri8, v) F(ec_tri8, v[1]) F(ec_tri8, v[2][2][7]) F(ec_tri8, id)                \
     S(ec_box) F(ec_box, lo) F(ec_box, hi[2]) S(ec_box8) F(ec_box8, lo[1]) F(ec_box8, hi[2][7])     \
+    S(ec_instance) F(ec_instance, inverse) F(ec_instance, id) F(ec_instance, root) F(ec_instance, turned) F(ec_instance, longest) F(ec_instance, reach) \
+    S(ec_place_header) F(ec_place_header, first_id) F(ec_place_header, ids) F(ec_place_header, step)                      \
+    S(ec_place) F(ec_place, normal) F(ec_place, id) F(ec_place, first) F(ec_place, turned)         \
     S(ec_params) F(ec_params, camera_origin) F(ec_params, camera_right) F(ec_params, camera_up) F(ec_params, camera_forward) \
     F(ec_params, environment) F(ec_params, environment_mean) F(ec_params, orthographic) F(ec_params, width) F(ec_params, height) F(ec_params, batch) \
     F(ec_params, wave) F(ec_params, part) F(ec_params, max_depth) F(ec_params, sample) F(ec_params, light_count)    \

@@ -1,0 +1,233 @@
+/* A tree of instances over one tree for each mesh, beside that of what stands in the world by itself: nodes and blocks of all of
+ * them in one buffer each. Memory goes by the meshes, not by how often they stand somewhere. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accel/accel_internal.h"
+#include "accel/build_internal.h"
+#include "accel/top.h"
+
+#define OFF_BOUND 40.0 /* u |M^-1| (|o| + reach): derived in kernels/lib/traverse_twolevel.h */
+#define UNIT 0x1p-24
+
+/* Of one mesh, in its own space. */
+typedef struct shape_facts {
+    uint32_t root;
+    double half[3];    /* largest |coordinate| */
+    double edge[3];    /* longest edges of a triangle's box */
+    ec_box parts[8];   /* the boxes below the root: together they hold it, and hug it closer than its own */
+    uint32_t part_count;
+} shape_facts;
+
+typedef struct twolevel {
+    ec_bvh8_node *nodes;
+    ec_tri8 *blocks;
+    ec_box8 *boxes;
+    ec_instance *instances;
+    uint32_t node_count, block_count, node_room, block_room;
+    shape_facts *shapes;
+} twolevel;
+
+static void free_all(twolevel *t)
+{
+    free(t->nodes);
+    free(t->blocks);
+    free(t->boxes);
+    free(t->instances);
+    free(t->shapes);
+}
+
+static bool reserve(void *array, uint32_t *room, uint32_t used, uint64_t wanted, size_t size)
+{
+    void *old, *larger;
+    if (wanted <= *room) return true;
+    uint64_t count = wanted > 2 * (uint64_t)*room ? wanted : 2 * (uint64_t)*room;
+    memcpy(&old, array, sizeof old); /* `array` is the address of a pointer of some type */
+    larger = ec_allocate_lines(count, size);
+    if (!larger) return false;
+    if (used) memcpy(larger, old, used * size);
+    free(old);
+    memcpy(array, &larger, sizeof larger);
+    *room = (uint32_t)count;
+    return true;
+}
+
+/* Appends a tree; its references to itself move with it. */
+static ec_result append(twolevel *t, const ec_bvh8_node *nodes, uint32_t node_count, const ec_tri8 *blocks, uint32_t block_count, ec_error *err)
+{
+    uint64_t all_nodes = (uint64_t)t->node_count + node_count, all_blocks = (uint64_t)t->block_count + block_count;
+    if (all_nodes >= EC_INSTANCE_BIT || all_blocks >= EC_INSTANCE_BIT) return ec_fail(err, "more meshes than two levels of trees can number");
+    if (!reserve(&t->nodes, &t->node_room, t->node_count, all_nodes, sizeof *nodes) ||
+        !reserve(&t->blocks, &t->block_room, t->block_count, all_blocks, sizeof *blocks))
+        return ec_fail(err, "out of memory for the trees of meshes");
+    memcpy(t->nodes + t->node_count, nodes, node_count * sizeof *nodes);
+    if (block_count) memcpy(t->blocks + t->block_count, blocks, block_count * sizeof *blocks);
+    for (uint32_t i = 0; i < node_count; i++)
+        for (int k = 0; k < 8; k++) {
+            uint32_t *child = &t->nodes[t->node_count + i].child[k];
+            if (!(*child & EC_LEAF_BIT)) *child += t->node_count;
+            else if (!(*child & EC_INSTANCE_BIT)) *child += t->block_count; /* an instance, and none, stay what they are */
+        }
+    t->node_count = (uint32_t)all_nodes;
+    t->block_count = (uint32_t)all_blocks;
+    return EC_OK;
+}
+
+static void measure(const ec_accel_input *in, const ec_shape *shape, shape_facts *f)
+{
+    for (uint32_t i = 0; i < shape->count; i++)
+        for (int k = 0; k < 3; k++) {
+            float lo = FLT_MAX, hi = -FLT_MAX;
+            for (int c = 0; c < 3; c++) {
+                float x = in->positions[3 * (size_t)in->indices[3 * ((size_t)shape->first + i) + (uint32_t)c] + (uint32_t)k];
+                lo = fminf(lo, x);
+                hi = fmaxf(hi, x);
+            }
+            f->half[k] = fmax(f->half[k], fmax(fabs(lo), fabs(hi)));
+            f->edge[k] = fmax(f->edge[k], (double)hi - lo);
+        }
+}
+
+static ec_result append_shape(const ec_accel_input *in, uint32_t index, twolevel *t, ec_error *err)
+{
+    const ec_shape *shape = &in->shapes[index];
+    const uint32_t *indices = in->indices + 3 * (size_t)shape->first;
+    shape_facts *f = &t->shapes[index];
+    ec_bvh bvh;
+    ec_bvh8_node *nodes;
+    ec_tri8 *blocks;
+    ec_box8 *boxes;
+    uint32_t node_count, block_count;
+    EC_TRY(ec_bvh_build_whole(in->positions, indices, shape->count, in->threads, &bvh, NULL, err));
+    ec_result result = ec_bvh8_layout(&bvh, in->positions, indices, &nodes, &node_count, &blocks, &boxes, &block_count, err);
+    ec_bvh_free(&bvh);
+    EC_TRY(result);
+    measure(in, shape, f);
+    f->root = t->node_count;
+    for (int k = 0; k < 8; k++) {
+        if (nodes[0].child[k] == EC_NO_CHILD) continue;
+        ec_box *part = &f->parts[f->part_count++];
+        for (int axis = 0; axis < 3; axis++) {
+            part->lo[axis] = nodes[0].bound[2 * axis][k];
+            part->hi[axis] = nodes[0].bound[2 * axis + 1][k];
+        }
+    }
+    result = append(t, nodes, node_count, blocks, block_count, err);
+    free(nodes);
+    free(blocks);
+    return result;
+}
+
+/* The largest sum that rounding a corner of it goes through, along an axis. */
+static double reach_of(const ec_placed *p, const shape_facts *f, int row)
+{
+    double sum = fabs(p->place[row][3]);
+    for (int k = 0; k < 3; k++) sum += fabs(p->place[row][k]) * f->half[k];
+    return sum;
+}
+
+static ec_box box_of(const ec_placed *p, const shape_facts *f)
+{
+    ec_box box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
+    for (uint32_t i = 0; i < f->part_count; i++)
+        for (int row = 0; row < 3; row++) {
+            double middle = p->place[row][3], half = 8 * UNIT * reach_of(p, f, row);
+            for (int k = 0; k < 3; k++) {
+                middle += p->place[row][k] * (0.5 * f->parts[i].lo[k] + 0.5 * f->parts[i].hi[k]);
+                half += fabs(p->place[row][k]) * (0.5 * f->parts[i].hi[k] - 0.5 * f->parts[i].lo[k]);
+            }
+            box.lo[row] = fminf(box.lo[row], (float)(middle - half));
+            box.hi[row] = fmaxf(box.hi[row], (float)(middle + half));
+        }
+    return box;
+}
+
+/* reach: no coordinate of the scene is larger. */
+static ec_instance instance_of(const ec_placed *p, const shape_facts *f, double reach)
+{
+    ec_instance n = {.id = p->id, .root = f->root, .turned = p->mirrored, .reach = (float)(reach * 1.000001)};
+    double m[3][3], longest = 0;
+    for (int row = 0; row < 3; row++) {
+        double edge = 0;
+        memcpy(n.place[row], p->place[row], sizeof n.place[row]);
+        for (int k = 0; k < 3; k++) {
+            m[row][k] = p->place[row][k];
+            edge += fabs(m[row][k]) * f->edge[k];
+        }
+        longest = fmax(longest, edge);
+    }
+    n.longest = (float)((longest + 16 * UNIT * reach) * 1.000001);
+    double inverse[3][3], determinant = 0;
+    for (int row = 0; row < 3; row++)
+        for (int k = 0; k < 3; k++) {
+            int a = (k + 1) % 3, b = (k + 2) % 3, c = (row + 1) % 3, d = (row + 2) % 3;
+            inverse[row][k] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
+        }
+    for (int k = 0; k < 3; k++) determinant += m[0][k] * inverse[k][0];
+    for (int row = 0; row < 3; row++) {
+        double sum = 0;
+        for (int k = 0; k < 3; k++) {
+            n.inverse[row][k] = (float)(inverse[row][k] / determinant);
+            sum += fabs(inverse[row][k] / determinant);
+        }
+        n.inverse[row][3] = (float)(OFF_BOUND * UNIT * sum);
+    }
+    return n;
+}
+
+static ec_result add_instances(const ec_accel_input *in, twolevel *t, ec_error *err)
+{
+    double reach = 0;
+    for (size_t i = 0; i < 3 * (size_t)in->triangle_count; i++)
+        for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(in->positions[3 * (size_t)in->indices[i] + (uint32_t)k]));
+    for (uint32_t i = 0; i < in->placed_count; i++)
+        for (int row = 0; row < 3; row++) reach = fmax(reach, reach_of(&in->placed[i], &t->shapes[in->placed[i].shape], row));
+    ec_box *boxes = malloc(in->placed_count * sizeof *boxes);
+    ec_bvh8_node *top = ec_allocate_lines(in->placed_count + (size_t)1, sizeof *top);
+    uint32_t used = 0, root = t->node_count;
+    t->instances = ec_allocate_lines(in->placed_count + (size_t)1, sizeof *t->instances);
+    ec_result result = boxes && top && t->instances ? EC_OK : ec_fail(err, "out of memory for %u instances", in->placed_count);
+    for (uint32_t i = 0; result == EC_OK && i < in->placed_count; i++) {
+        boxes[i] = box_of(&in->placed[i], &t->shapes[in->placed[i].shape]);
+        t->instances[i + 1] = instance_of(&in->placed[i], &t->shapes[in->placed[i].shape], reach);
+    }
+    if (result == EC_OK && !ec_top_build(boxes, in->placed_count, top, &used)) result = ec_fail(err, "out of memory for %u instances", in->placed_count);
+    if (result == EC_OK) result = append(t, top, used, NULL, 0, err);
+    if (result == EC_OK) t->instances[0] = (ec_instance){.root = root};
+    free(boxes);
+    free(top);
+    return result;
+}
+
+ec_result ec_twolevel_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
+{
+    twolevel t = {.shapes = calloc(in->shape_count + (size_t)1, sizeof *t.shapes)};
+    uint64_t references;
+    EC_TRY(ec_accel_bvh(in, err));
+    ec_result result = t.shapes ? EC_OK : ec_fail(err, "out of memory for %u meshes", in->shape_count);
+    if (result == EC_OK)
+        result = ec_bvh8_layout(&in->bvh, in->positions, in->indices, &t.nodes, &t.node_count, &t.blocks, &t.boxes, &t.block_count, err);
+    references = in->bvh.ref_count;
+    const uint64_t box_bytes = t.boxes ? t.block_count * (uint64_t)sizeof *t.boxes : 0; /* where triangles were cut: there are no instances then */
+    t.node_room = t.node_count;
+    t.block_room = t.block_count;
+    for (uint32_t i = 0; result == EC_OK && i < in->shape_count; i++) {
+        result = append_shape(in, i, &t, err);
+        references += in->shapes[i].count;
+    }
+    if (result == EC_OK && in->placed_count) result = add_instances(in, &t, err);
+    if (result != EC_OK) {
+        free_all(&t);
+        return result;
+    }
+    free(t.shapes);
+    accel->buffers[0] = (ec_accel_buffer){"nodes", t.nodes, (uint64_t)t.node_count * sizeof *t.nodes};
+    accel->buffers[1] = (ec_accel_buffer){"triangle blocks", t.blocks, (uint64_t)t.block_count * sizeof *t.blocks};
+    if (t.boxes) accel->buffers[2] = (ec_accel_buffer){"boxes", t.boxes, box_bytes};
+    if (t.instances) accel->buffers[3] = (ec_accel_buffer){"instances", t.instances, (in->placed_count + (uint64_t)1) * sizeof *t.instances};
+    accel->stats = (ec_accel_stats){.nodes = t.node_count, .leaves = t.block_count, .references = references,
+                                    .sah_cost = in->placed_count ? 0.0 : in->bvh_stats.sah_cost};
+    return EC_OK;
+}

@@ -1,0 +1,103 @@
+/* An instanced scene as triangles alone, corner for corner what rays meet in it. */
+#include "scene/scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static void write_vertices(const ec_scene *s, const ec_placed *p, ec_scene *w)
+{
+    const ec_shape *shape = &s->shapes[p->shape];
+    const size_t from = shape->first_vertex, to = w->vertex_count, n = shape->vertex_count;
+    for (size_t i = 0; i < n; i++) {
+        ec_placed_point(p, s->positions + 3 * (from + i), w->positions + 3 * (to + i));
+        if (s->normals) ec_placed_normal(p, s->normals + 3 * (from + i), w->normals + 3 * (to + i));
+        if (s->tangents) ec_placed_tangent(p, s->tangents + 4 * (from + i), w->tangents + 4 * (to + i));
+    }
+    if (s->colors) memcpy(w->colors + 4 * to, s->colors + 4 * from, 4 * n * sizeof(float));
+    for (int k = 0; k < 2; k++)
+        if (s->uv[k]) memcpy(w->uv[k] + 2 * to, s->uv[k] + 2 * from, 2 * n * sizeof(float));
+}
+
+static void write_triangles(const ec_scene *s, const ec_placed *p, ec_scene *w)
+{
+    const ec_shape *shape = &s->shapes[p->shape];
+    for (uint32_t t = 0; t < shape->count; t++) {
+        const uint32_t *from = s->indices + 3 * ((size_t)shape->first + t);
+        uint32_t *to = w->indices + 3 * ((size_t)w->triangle_count + t);
+        for (int k = 0; k < 3; k++) to[k] = from[p->mirrored && k ? 3 - k : k] - shape->first_vertex + w->vertex_count;
+        const float *a = w->positions + 3 * (size_t)to[0], *b = w->positions + 3 * (size_t)to[1], *c = w->positions + 3 * (size_t)to[2];
+        if (ec_placed_is_flat(a, b, c)) to[1] = to[2] = to[0]; /* a point: no ray meets it */
+        w->triangle_material[w->triangle_count + t] = s->triangle_material[shape->first + t];
+    }
+}
+
+static bool allocate(const ec_scene *s, size_t vertices, size_t triangles, ec_scene *w)
+{
+    w->positions = malloc(vertices * 12);
+    w->indices = malloc(triangles * 12);
+    w->triangle_material = malloc(triangles * 4);
+    bool ok = w->positions && w->indices && w->triangle_material;
+    if (s->normals) ok = (w->normals = malloc(vertices * 12)) && ok;
+    if (s->tangents) ok = (w->tangents = malloc(vertices * 16)) && ok;
+    if (s->colors) ok = (w->colors = malloc(vertices * 16)) && ok;
+    for (int k = 0; k < 2; k++)
+        if (s->uv[k]) ok = (w->uv[k] = malloc(vertices * 8)) && ok;
+    return ok;
+}
+
+static void copy_flat(const ec_scene *s, uint32_t triangles, uint32_t vertices, ec_scene *w)
+{
+    memcpy(w->positions, s->positions, (size_t)vertices * 12);
+    memcpy(w->indices, s->indices, (size_t)triangles * 12);
+    memcpy(w->triangle_material, s->triangle_material, (size_t)triangles * 4);
+    if (s->normals) memcpy(w->normals, s->normals, (size_t)vertices * 12);
+    if (s->tangents) memcpy(w->tangents, s->tangents, (size_t)vertices * 16);
+    if (s->colors) memcpy(w->colors, s->colors, (size_t)vertices * 16);
+    for (int k = 0; k < 2; k++)
+        if (s->uv[k]) memcpy(w->uv[k], s->uv[k], (size_t)vertices * 8);
+    w->triangle_count = triangles;
+    w->vertex_count = vertices;
+}
+
+ec_result ec_scene_write_out(const ec_scene *s, ec_scene *w, ec_error *err)
+{
+    uint32_t flat_vertices = s->shape_count ? s->shapes[0].first_vertex : s->vertex_count;
+    uint64_t triangles = ec_scene_met_count(s), vertices = flat_vertices;
+    for (uint32_t i = 0; i < s->placed_count; i++) vertices += s->shapes[s->placed[i].shape].vertex_count;
+    *w = *s;
+    w->positions = w->normals = w->tangents = w->colors = w->uv[0] = w->uv[1] = NULL;
+    w->indices = w->triangle_material = NULL;
+    w->shapes = NULL;
+    w->placed = NULL;
+    w->shape_count = w->placed_count = 0;
+    /* What an accelerator adds is more than the soup itself: 200 bytes a triangle are little. */
+    uint64_t memory = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE), needed = triangles * 200;
+    if (triangles > INT32_MAX || vertices > INT32_MAX || needed > memory || !allocate(s, vertices + 1, triangles + 1, w)) {
+        ec_scene_written_free(w);
+        return ec_fail(err, "%llu triangles of %u instances written out need %llu MB, and this machine has %llu MB; leave --accel out or take "
+                       "twolevel, which keeps meshes once", (unsigned long long)triangles, s->placed_count,
+                       (unsigned long long)(needed >> 20), (unsigned long long)(memory >> 20));
+    }
+    copy_flat(s, ec_scene_flat_count(s), flat_vertices, w);
+    for (uint32_t i = 0; i < s->placed_count; i++) {
+        write_vertices(s, &s->placed[i], w);
+        write_triangles(s, &s->placed[i], w);
+        w->vertex_count += s->shapes[s->placed[i].shape].vertex_count;
+        w->triangle_count += s->shapes[s->placed[i].shape].count;
+    }
+    return EC_OK;
+}
+
+void ec_scene_written_free(ec_scene *w)
+{
+    free(w->positions);
+    free(w->normals);
+    free(w->tangents);
+    free(w->colors);
+    free(w->uv[0]);
+    free(w->uv[1]);
+    free(w->indices);
+    free(w->triangle_material);
+    *w = (ec_scene){0};
+}

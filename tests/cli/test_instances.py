@@ -1,0 +1,90 @@
+"""Meshes that are kept once, from end to end: the same picture as written out, and what is said of them."""
+import copy
+import glob
+import json
+import math
+import os
+import random
+import shutil
+import unittest
+
+from support import SOURCE, Case, eclat, read_exr
+
+LAMPS = os.path.join(SOURCE, "scenes", "lamps")  # every effect of core glTF: textures, normal maps, alpha, vertex colours
+
+
+def multiplied(document, times):
+    """The scene with every mesh at `times` more places: turned, mirrored, sheared, flattened, small."""
+    draw = random.Random(7)
+    document = copy.deepcopy(document)
+    nodes, roots = document["nodes"], document["scenes"][document.get("scene", 0)]["nodes"]
+    for mesh in range(len(document["meshes"])):
+        for k in range(times):
+            a = [[(0.7 if row == column else 0) + draw.uniform(-0.3, 0.3) for column in range(3)] for row in range(3)]
+            if k == 1:
+                a[0] = [-x for x in a[0]]
+            at = [draw.uniform(-0.6, 0.6) for _ in range(3)]
+            columns = [[a[row][column] for row in range(3)] + [0] for column in range(3)]
+            nodes.append({"mesh": mesh, "matrix": columns[0] + columns[1] + columns[2] + at + [1]})
+            roots.append(len(nodes) - 1)
+    nodes.append({"mesh": 0, "scale": [1, 0, 1]})
+    roots.append(len(nodes) - 1)
+    return document
+
+
+class Instances(Case):
+    def setUp(self):
+        super().setUp()
+        for file in glob.glob(os.path.join(LAMPS, "*")):
+            shutil.copy(file, self.folder)
+        with open(os.path.join(LAMPS, "lamps.gltf"), encoding="utf-8") as file:
+            document = multiplied(json.load(file), 2)
+        self.scene = self.path("many.gltf")
+        with open(self.scene, "w", encoding="utf-8") as file:
+            json.dump(document, file)
+
+    def render(self, *options):
+        run = self.assert_ok(eclat("render", self.scene, "--json", "--quiet", "--size", "40x30", "--spp", "8", "--env", "0.3,0.4,0.5", *options,
+                                   cwd=self.folder))
+        return json.loads(run.stdout)
+
+    def test_the_picture_is_that_of_what_is_written_out(self):
+        kept = self.render("--instancing", "on", "-o", "kept.exr")
+        self.assertGreater(kept["instances"], 20)
+        self.assertLess(2 * kept["stored_triangles"], kept["triangles"])
+        self.assertIn("instances", kept["effects"])
+        self.assertEqual(kept["invalid_samples"], 0)
+        for change in [["--accel", "kdtree", "--lanes", "8"], ["--lanes", "1"], ["--lanes", "4", "--effects", "all"]]:
+            with self.subTest(change=change):
+                other = self.render("--instancing", "on", *change)
+                self.assertEqual(other["image_sha256"], kept["image_sha256"])
+                self.assertEqual(other["instances"], 0 if "--accel" in change else kept["instances"])
+        attributes = read_exr(self.path("kept.exr"))[0]
+        self.assertIn(f'{kept["instances"]}', str(attributes["eclat.instances"]))
+        # Rounded otherwise, and numbered otherwise where meshes are not kept: another sample of the same picture. Four standard errors.
+        off = self.render("--instancing", "off")
+        self.assertEqual((off["instances"], off["triangles"]), (0, kept["triangles"]))
+        self.assertNotEqual(off["image_sha256"], kept["image_sha256"])
+        error = math.hypot(*(r["error"] * r["mean_luminance"] for r in (off, kept))) / math.sqrt(40 * 30)
+        self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=4 * error)
+
+    def test_other_integrators(self):
+        """Without random light the picture is the same but for roundings: 10^-3 is a texel or a pixel at an edge here and there."""
+        for integrator in ["whitted", "raster"]:
+            with self.subTest(integrator=integrator):
+                kept, off = (self.render("--instancing", how, "--integrator", integrator) for how in ["on", "off"])
+                self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=0.001 * kept["mean_luminance"])
+
+    def test_info_says_what_is_kept(self):
+        kept, off = (json.loads(self.assert_ok(eclat("info", "--json", "--instancing", how, self.scene)).stdout) for how in ["on", "off"])
+        self.assertEqual(kept["triangles"], off["triangles"])
+        self.assertEqual(off["stored_triangles"], off["triangles"])
+        self.assertLess(2 * kept["stored_triangles"], kept["triangles"])
+        self.assertEqual(off["kept_instances"], 0)
+        self.assertLess(kept["device_bytes"], off["device_bytes"])
+        self.assertRegex(self.assert_ok(eclat("info", "--instancing", "on", self.scene)).stdout,
+                         rf'(?m)^kept once   {kept["kept_meshes"]} meshes at {kept["kept_instances"]} places: {kept["triangles"]} triangles in all$')
+
+
+if __name__ == "__main__":
+    unittest.main()
