@@ -16,7 +16,7 @@ typedef struct ec_option {
     ec_option_set set;
 } ec_option;
 
-enum { EC_OPTIONS_MAX = 40 };
+enum { EC_OPTIONS_MAX = 64 };
 
 typedef enum ec_request { EC_REQUEST_RUN, EC_REQUEST_HELP, EC_REQUEST_VERSION } ec_request;
 

@@ -164,6 +164,7 @@ static const ec_option options[] = {
     {"without", 0, true, set_without},
     SCENE_CHOICE_OPTIONS,
 };
+_Static_assert(sizeof options / sizeof options[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
 
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)
 {
