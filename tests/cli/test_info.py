@@ -268,14 +268,16 @@ class Info(Case):
     def test_diffuse_transmission_calls_for_what_it_has(self):
         through, textured, dimmed = "diffuse-transmission", "diffuse-transmission-texture", "absorption"
         name, half = "KHR_materials_diffuse_transmission", {"diffuseTransmissionFactor": 0.5}
-        clear, open_ = [(255, 255, 255, 0)], [(0, 0, 0, 255)]
+        clear, open_, both = [(255, 255, 255, 0)], [(0, 0, 0, 255)], [(255, 255, 255, 0), (0, 0, 0, 255)]
         self.check_layers(name, {through, textured, dimmed}, [
             (set(), {}),
             ({through}, half),
             ({through}, {**half, "diffuseTransmissionColorFactor": [0, 0, 0]}),
             (set(), {**half, "diffuseTransmissionTexture": {"index": 0}}, clear),
-            ({through, textured}, {**half, "diffuseTransmissionTexture": {"index": 0}}, open_),
-            ({through, textured}, {**half, "diffuseTransmissionColorTexture": {"index": 0}}, clear),
+            ({through}, {**half, "diffuseTransmissionTexture": {"index": 0}}, open_),  # one value is a factor
+            ({through}, {**half, "diffuseTransmissionColorTexture": {"index": 0}}, clear),
+            ({through, textured}, {**half, "diffuseTransmissionTexture": {"index": 0}}, both),
+            ({through, textured}, {**half, "diffuseTransmissionColorTexture": {"index": 0}}, both),
         ])
         brown = {"attenuationDistance": 1, "attenuationColor": [1, 0.5, 0.2]}
         for expected, volume in [({through}, brown), ({through, dimmed}, {**brown, "thicknessFactor": 1})]:
@@ -298,7 +300,7 @@ class Info(Case):
     def test_accelerators_are_measured(self):
         report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", "all", CORNELL)).stdout)
         rows = {row["name"]: row for row in report["accels"]}
-        self.assertEqual(set(rows), {"bvh2", "bvh8", "grid", "kdtree", "none"})
+        self.assertEqual(set(rows), {"bvh2", "bvh8", "grid", "kdtree", "none", "twolevel"})
         triangles = report["triangles"]
         self.assertEqual((rows["none"]["nodes_per_ray"], rows["none"]["triangles_per_ray"]), (0, triangles))
         self.assertIsNone(rows["grid"]["sah_cost"])
