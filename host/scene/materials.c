@@ -10,7 +10,7 @@
 ec_material ec_material_default(void)
 {
     ec_material m = {.base_color = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .normal_scale = 1, .specular = 1,
-                     .specular_color = {1, 1, 1}, .ior = 1.5f, .coat_normal_scale = 1, .alpha_cutoff = 0.5f};
+                     .specular_color = {1, 1, 1}, .ior = 1.5f, .coat_normal_scale = 1, .film_ior = 1.3f, .alpha_cutoff = 0.5f};
     for (int i = 0; i < EC_SLOT_COUNT; i++) m.textures[i] = (ec_texture_use){.texture = -1, .transform = {1, 0, 0, 0, 1, 0}};
     return m;
 }

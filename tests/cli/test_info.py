@@ -345,6 +345,11 @@ class Info(Case):
         line = self.assert_one_error(eclat("info", write_gltf(self.path("required.gltf"), scene)), 1)
         self.assertIn("EXT_of_another_world", line)
 
+    def test_a_mesh_without_a_material_is_in_order(self):
+        scene, _ = quad_scene()
+        del scene["materials"], scene["meshes"][0]["primitives"][0]["material"]
+        self.assertEqual(self.assert_ok(eclat("info", "--quiet", write_gltf(self.path("bare.gltf"), scene))).stderr, "")
+
     def test_cameras_say_where_they_stand(self):
         # A quarter turn about y, at (5, 6, 7): a node's matrix, by columns. 5e5 more recentres the scene: it must not show.
         for x in [5, 5e5]:
