@@ -97,8 +97,6 @@ int ec_cli_main(int argc, char **argv)
         fputs(EC_HELP_SHORT, stderr);
         return EC_USAGE;
     }
-    /* As one write where they fit: of one that fails on the way stdio does not keep the reason. */
-    if (!isatty(STDOUT_FILENO)) setvbuf(stdout, NULL, _IOFBF, 1 << 18);
     ec_error err = {0};
     cli.line = ec_command_line(argc, argv);
     ec_result result = cli.line ? run(&cli, &err) : ec_fail(&err, "out of memory");

@@ -1,7 +1,9 @@
 #include "report/json.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,7 +73,9 @@ ec_result ec_json_print(cJSON *object, FILE *to, ec_error *err)
     char *text = cJSON_PrintUnformatted(object);
     cJSON_Delete(object);
     if (!text) return ec_fail(err, "out of memory while writing the JSON report");
-    fprintf(to, "%s\n", text);
+    errno = 0;
+    bool lost = fprintf(to, "%s\n", text) < 0; /* of an earlier failure stdio does not keep the reason */
+    int why = errno;
     cJSON_free(text);
-    return EC_OK;
+    return lost ? ec_fail(err, "cannot write the result%s: %s", to == stdout ? " to standard output" : "", strerror(why)) : EC_OK;
 }
