@@ -24,7 +24,7 @@ static uint32_t lamp_count(const ec_pack *pack)
 bool ec_pack_wants_light_tree(const ec_pack *pack)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size2 = 0;
-    if (lamp_count(pack) < EC_LIGHT_TREE_FROM) return false;
+    if (lamp_count(pack) < EC_LIGHT_TREE_FROM || pack->lamp_share < EC_LIGHT_TREE_LEAST) return false;
     for (uint32_t i = 0; i < pack->light_count; i++)
         for (int k = 0; k < 3 && is_lamp(&pack->lights[i]); k++) {
             low[k] = fmin(low[k], (double)pack->lights[i].a[k]);

@@ -99,17 +99,18 @@ static bool is_far(const ec_light_data *light)
 /* The power of a sky or a sun goes with the size of the scene and says nothing of what reaches a corner that a lamp lights:
  * by power alone that lamp would be chosen so seldom that its light is fireflies. Halving costs the other side at most
  * twice the variance. */
-static void balance(light_list *list)
+static void balance(light_list *list, ec_pack *pack)
 {
     double sum[2] = {0.0, 0.0};
     for (uint32_t i = 0; i < list->count; i++) sum[is_far(&list->lights[i])] += list->power[i];
+    pack->lamp_share = (float)(sum[0] > 0.0 ? sum[0] / (sum[0] + sum[1]) : 0.0);
     if (!(sum[0] > 0.0 && sum[1] > 0.0)) return;
     for (uint32_t i = 0; i < list->count; i++) list->power[i] /= sum[is_far(&list->lights[i])];
 }
 
 static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
 {
-    balance(list);
+    balance(list, pack);
     double *pmf = malloc((list->count + 1) * sizeof *pmf);
     pack->light_alias = malloc((list->count + 1) * sizeof *pack->light_alias);
     ec_result result = pmf && pack->light_alias ? EC_OK : ec_fail(err, "out of memory for %u lights", list->count);

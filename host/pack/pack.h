@@ -35,6 +35,7 @@ typedef struct ec_pack {
     uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */
     uint32_t light_node_count;     /* 0: lights are chosen by power alone */
     ec_light_node *light_tree;
+    float lamp_share;              /* lamps' part of all lights' power */
     float light_tree_pmf;          /* chance that light sampling goes to the tree */
     uint32_t environment_width, environment_height;
     float *environment_texels;     /* R, G, B, pmf; NULL where the environment is constant */
@@ -66,6 +67,7 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
 /* Is a tree worth its time: are there so many lamps, so far apart? */
 #define EC_LIGHT_TREE_FROM 64
 #define EC_LIGHT_TREE_SPREAD 0.2 /* diagonal of the box around them, over the scene's radius */
+#define EC_LIGHT_TREE_LEAST 0.002f /* of all power: beside what shines from far away less makes little noise */
 bool ec_pack_wants_light_tree(const ec_pack *pack);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);

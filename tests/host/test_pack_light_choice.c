@@ -1,0 +1,40 @@
+/* When --light-choice auto takes the tree: many lamps, far apart, that give a part of the light worth its time. */
+#include "pack/pack.h"
+#include "scene/model.h"
+#include "support/test.h"
+
+enum { SIDE = 8 };
+
+/* SIDE^2 lamps of radiance 1 over a floor, in a sky. */
+static bool wants_tree(double gap, double sky)
+{
+    ec_error err = {0};
+    ec_scene *scene;
+    ec_pack pack;
+    ec_model *m = ec_model_new();
+    if (!m) exit(1);
+    ec_material floor = ec_material_lambert(0.5, 0), lamp = ec_material_lambert(0, 1);
+    uint32_t of_floor = ec_model_material(m, &floor), of_lamp = ec_model_material(m, &lamp);
+    ec_model_quad(m, of_floor, (double[3]){-5, -5, 0}, (double[3]){10, 0, 0}, (double[3]){0, 10, 0});
+    for (int i = 0; i < SIDE * SIDE; i++)
+        ec_model_quad(m, of_lamp, (double[3]){gap * (i % SIDE), gap * (i / SIDE), 1}, (double[3]){0, 0.01, 0}, (double[3]){0.01, 0, 0});
+    ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 3}, (double[3]){0, 0, 0}, 0.5);
+    if (ec_model_scene(m, &scene, &err) != EC_OK) exit(1);
+    scene->has_environment = sky > 0;
+    for (int k = 0; k < 3; k++) scene->environment.constant[k] = (float)sky;
+    CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
+    bool wants = ec_pack_wants_light_tree(&pack);
+    ec_pack_free(&pack);
+    ec_scene_free(scene);
+    return wants;
+}
+
+int main(void)
+{
+    CHECK(wants_tree(0.5, 0));
+    CHECK(!wants_tree(0.02, 0)); /* a cluster */
+    /* Lamps send pi 64 1e-4, the sky 4 pi^2 r^2 with a radius r of some 7: equal at a sky of 1e-5. */
+    CHECK(wants_tree(0.5, 1e-5));
+    CHECK(!wants_tree(0.5, 1));
+    TEST_END();
+}
