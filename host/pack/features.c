@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "pack/pack.h"
-#include "pack/texture_mean.h"
+#include "scene/texture_range.h"
 
 static float max3(const float v[3])
 {

@@ -5,7 +5,7 @@
 
 #include "pack/fold.h"
 #include "pack/pack.h"
-#include "pack/texture_mean.h"
+#include "scene/texture_range.h"
 
 /* What the triangles of a material have. */
 typedef struct shown {
@@ -87,10 +87,10 @@ static void plain_alpha(const ec_scene *scene, ec_material *m, const shown *s)
     const bool textured = m->textures[EC_SLOT_BASE_COLOR].texture >= 0;
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_BASE_COLOR], 3, &least, &most);
-    const float low = m->base_color[3] * least * s->least_alpha, high = m->base_color[3] * most * s->most_alpha;
-    const float slack = textured || s->least_alpha != s->most_alpha ? 4e-7f : 0.0f;
-    const bool mask = m->alpha_mode == EC_ALPHA_MASK;
-    const bool hidden = mask ? high * (1.0f + slack) < m->alpha_cutoff : high == 0.0f;
+    const float low = m->base_color[3] * least * s->least_alpha;
+    const bool mask = m->alpha_mode == EC_ALPHA_MASK, varies = s->least_alpha != s->most_alpha;
+    const float slack = textured || varies ? EC_TEXTURE_SLACK : 0.0f;
+    const bool hidden = ec_alpha_hides(scene, m, s->most_alpha, varies);
     if (mask ? low * (1.0f - slack) >= m->alpha_cutoff : low >= 1.0f) m->alpha_mode = EC_ALPHA_OPAQUE;
     if (hidden) plain_bare(m);
 }

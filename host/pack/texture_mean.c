@@ -53,19 +53,3 @@ void ec_texture_triangle_mean(const ec_scene *scene, const ec_texture_use *use, 
         for (int k = 0; k < 3; k++) rgb[k] += texel(image, (size_t)y * image->width + x, k) / 64.0;
     }
 }
-
-void ec_texture_range(const ec_scene *scene, const ec_texture_use *use, int channel, float *least, float *most)
-{
-    *least = *most = 1.0f;
-    if (use->texture < 0) return;
-    const ec_image *image = &scene->images[scene->textures[use->texture].image];
-    size_t count = (size_t)image->width * image->height;
-    uint32_t low = UINT32_MAX, high = 0, white = image->rgba16 ? 65535 : 255;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t v = image->rgba16 ? image->rgba16[4 * i + channel] : image->rgba8[4 * i + channel];
-        low = v < low ? v : low;
-        high = v > high ? v : high;
-    }
-    *least = (float)low / (float)white;
-    *most = (float)high / (float)white;
-}

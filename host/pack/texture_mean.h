@@ -1,5 +1,4 @@
-/* How bright is a texture, whole and on one triangle (only sampling probabilities depend on it, never an image's mean), and
- * between which values does it lie? */
+/* How bright is a texture, whole and on one triangle? Only sampling probabilities depend on it, never an image's mean. */
 #ifndef EC_PACK_TEXTURE_MEAN_H
 #define EC_PACK_TEXTURE_MEAN_H
 
@@ -14,8 +13,5 @@ ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_us
 
 /* Over triangle `prim`, from 64 nearest texels at stratified points. */
 void ec_texture_triangle_mean(const ec_scene *scene, const ec_texture_use *use, uint32_t prim, double rgb[3]);
-
-/* Least and largest value of a channel of a linear texture; 1 without a texture. */
-void ec_texture_range(const ec_scene *scene, const ec_texture_use *use, int channel, float *least, float *most);
 
 #endif

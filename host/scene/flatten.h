@@ -20,7 +20,10 @@ ec_result ec_flatten(const ec_gltf *gltf, const ec_placement_list *placements, e
 ec_result ec_gltf_materials_assign(ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
 
 /* textures.c: decodes the images that drawn materials use; a texture whose image is unusable is left out. */
-ec_result ec_gltf_textures_load(ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
+ec_result ec_gltf_textures_load(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log, ec_error *err);
+
+/* hide.c: primitives that alpha hides everywhere are not drawn, unless nothing else is. */
+ec_result ec_gltf_hide(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log, ec_error *err);
 
 /* camera.c */
 ec_result ec_gltf_cameras_place(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,

@@ -108,6 +108,7 @@ typedef struct ec_gltf_node {
     float *weights;
     uint32_t child_count, weight_count;
     ec_gltf_instancing instances;
+    bool hidden; /* KHR_node_visibility: nor is what hangs below it seen */
 } ec_gltf_node;
 
 /* Encoded pixels: a bufferView or a URI, the latter already checked for shape but not yet opened. */

@@ -84,6 +84,7 @@ static json sample(ec_gltf *gltf, const json &sampler, const path &to, double at
     ec_result result = ec_gltf_keyframes_sample(gltf, &keyframes, rotation, at, where.c_str(), &numbers, &err);
     std::unique_ptr<double, void (*)(void *)> owned(numbers.values, free);
     if (result != EC_OK) throw bad_file(err.text);
+    if (numbers.count == 1 && to.back() == "visible") return numbers.values[0] != 0;
     if (numbers.count == 1 && to.back() != "weights") return numbers.values[0];
     return std::vector<double>(numbers.values, numbers.values + numbers.count);
 }

@@ -182,6 +182,8 @@ void convert_nodes(const json &list, ec_gltf *gltf)
         out.mesh = in.value("mesh", -1);
         out.skin = in.value("skin", -1);
         out.camera = in.value("camera", -1);
+        const json *visibility = find_extension(in, "KHR_node_visibility");
+        out.hidden = visibility && !visibility->value("visible", true);
         const json *light = find_extension(in, "KHR_lights_punctual");
         out.light = light ? (*light)["light"].get<int32_t>() : -1;
         out.weights = copy_numbers(list_of(in, "weights"), &out.weight_count);

@@ -100,7 +100,9 @@ static const field node_light[] = {index("light", "lights", required)};
 static const schema node_light_s(node_light);
 static const field instancing[] = {object("attributes", attributes_s, required)};
 static const schema instancing_s(instancing);
-static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s),
+static const field visibility[] = {plain("visible", kind::flag)};
+static const schema visibility_s(visibility);
+static const field node_extensions[] = {object("KHR_lights_punctual", node_light_s), object("KHR_node_visibility", visibility_s),
                                         object("EXT_mesh_gpu_instancing", instancing_s)};
 static const schema node_extensions_s(node_extensions);
 static const field node[] = {

@@ -34,6 +34,7 @@ static const char *const supported_extensions[] = {
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform"};
 
 /* Those that take a library which this build may lack. */

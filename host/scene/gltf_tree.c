@@ -65,7 +65,8 @@ void ec_placement_compose(const ec_placement *parent, const double m[16], ec_pla
 
 static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec_placement *out)
 {
-    *out = (ec_placement){.node = node, .mesh = g->nodes[node].mesh};
+    bool hidden = g->nodes[node].hidden || (parent && parent->hidden);
+    *out = (ec_placement){.node = node, .mesh = hidden ? -1 : g->nodes[node].mesh, .hidden = hidden};
     ec_placement_compose(parent, g->nodes[node].local, out);
 }
 

@@ -7,10 +7,11 @@
 /* A node's place: world = linear x local + origin, in double. */
 typedef struct ec_placement {
     int32_t node;
-    int32_t mesh; /* what stands there: the node's, or a deformed copy; -1: none */
+    int32_t mesh; /* what stands there: the node's, or a deformed copy; -1: none, or none that is seen */
     double linear[9]; /* row major */
     double origin[3];
     bool extra; /* a mesh that stands elsewhere than its node: no camera, no light */
+    bool hidden; /* by its node or one above: no mesh, no light */
 } ec_placement;
 
 typedef struct ec_placement_list {

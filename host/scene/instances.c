@@ -58,7 +58,7 @@ ec_result ec_gltf_place_instances(ec_gltf *g, ec_placement_list *placements, con
     uint32_t count = placements->count;
     for (uint32_t i = 0; i < count; i++) {
         const ec_gltf_node *node = &g->nodes[placements->items[i].node];
-        if (!node->instances.used || node->mesh < 0) continue;
+        if (!node->instances.used || placements->items[i].mesh < 0) continue;
         if (node->skin < 0) EC_TRY(place(g, i, placements, err));
         else ec_warn(log, "%s: nodes[%d] has a skin, which stands at one place; its instances are left out", g->path,
                      placements->items[i].node);

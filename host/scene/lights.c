@@ -22,7 +22,7 @@ ec_result ec_gltf_lights_place(const ec_gltf *g, const ec_placement_list *placem
     for (uint32_t i = 0; i < placements->count; i++) {
         const ec_placement *at = &placements->items[i];
         int32_t index = g->nodes[at->node].light;
-        if (index < 0 || at->extra) continue;
+        if (index < 0 || at->extra || at->hidden) continue;
         ec_light light = g->lights[index];
         bool finite = true;
         aim(at->linear, light.direction);

@@ -24,8 +24,9 @@ static ec_result build(ec_gltf *g, ec_placement_list *placements, ec_scene *s, c
     EC_TRY(ec_flatten_prepare(g, placements, s, log, err));
     EC_TRY(ec_gltf_deform(g, placements, err));
     EC_TRY(ec_gltf_materials_assign(g, s, log, err));
+    EC_TRY(ec_gltf_textures_load(g, placements, s, log, err));
+    EC_TRY(ec_gltf_hide(g, placements, s, log, err));
     EC_TRY(ec_flatten(g, placements, s, log, err));
-    EC_TRY(ec_gltf_textures_load(g, s, log, err));
     EC_TRY(ec_gltf_cameras_place(g, placements, s, log, err));
     EC_TRY(ec_gltf_lights_place(g, placements, s, log, err));
     ec_scene_clamp_materials(s, g->path, log);

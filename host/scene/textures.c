@@ -118,19 +118,31 @@ static void map_materials(table *t, const bool *drawn)
     }
 }
 
-ec_result ec_gltf_textures_load(ec_gltf *g, ec_scene *s, const ec_log *log, ec_error *err)
+/* By material: does a primitive that stands somewhere have it? */
+static void mark_drawn(const ec_gltf *g, const ec_placement_list *placements, bool *drawn)
+{
+    for (uint32_t i = 0; i < placements->count; i++) {
+        int32_t mesh = placements->items[i].mesh;
+        for (uint32_t k = 0; mesh >= 0 && k < g->meshes[mesh].primitive_count; k++) {
+            const ec_gltf_primitive *p = &g->meshes[mesh].primitives[k];
+            if (p->drawn) drawn[p->scene_material] = true;
+        }
+    }
+}
+
+ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
     table t = {.g = g, .s = s, .log = log};
     t.image = malloc(((size_t)g->image_count + 1) * sizeof *t.image);
     t.texture = malloc(((size_t)g->texture_count + 1) * sizeof *t.texture);
     s->images = calloc((size_t)g->image_count + g->texture_count + 1, sizeof *s->images); /* and roughness made of glossiness */
     s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
-    bool *drawn = calloc(s->material_count, sizeof *drawn);
+    bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
     bool ok = t.image && t.texture && s->images && s->textures && drawn;
     if (ok) {
         for (uint32_t i = 0; i < g->image_count; i++) t.image[i] = UNSEEN;
         for (uint32_t i = 0; i < g->texture_count; i++) t.texture[i] = UNSEEN;
-        for (uint32_t i = 0; i < s->triangle_count; i++) drawn[s->triangle_material[i]] = true;
+        mark_drawn(g, placements, drawn);
         map_materials(&t, drawn);
     }
     free(t.image);

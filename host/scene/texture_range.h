@@ -1,0 +1,19 @@
+/* Between which values does a texture lie, and what does that make of a material? */
+#ifndef EC_SCENE_TEXTURE_RANGE_H
+#define EC_SCENE_TEXTURE_RANGE_H
+
+#include "scene/scene.h"
+
+/* Least and largest value of a channel as it is stored, 0 to 1; 1 without a texture. */
+void ec_texture_range(const ec_scene *scene, const ec_texture_use *use, int channel, float *least, float *most);
+
+/* What a bilinear look-up and a product may be off by, relatively. */
+#define EC_TEXTURE_SLACK 4e-7f
+
+/* Does alpha hide all of a material, whose vertex colours have an alpha of most_alpha or less? varies: not the same everywhere. */
+bool ec_alpha_hides(const ec_scene *scene, const ec_material *material, float most_alpha, bool varies);
+
+/* Does it emit, its texture looked at? */
+bool ec_emits(const ec_scene *scene, const ec_material *material);
+
+#endif
