@@ -37,7 +37,12 @@ float *ec_bvh_promises(const ec_bvh *bvh)
 {
     outlook *below = malloc(bvh->node_count * sizeof *below);
     float *promises = malloc(bvh->node_count * sizeof *promises);
-    for (uint32_t i = bvh->node_count; below && promises && i-- > 0;) { /* children lie behind their parents */
+    if (!below || !promises) {
+        free(below);
+        free(promises);
+        return NULL;
+    }
+    for (uint32_t i = bvh->node_count; i-- > 0;) { /* children lie behind their parents */
         const ec_bvh_build_node *node = &bvh->nodes[i];
         below[i] = node->left ? look_into(bvh, below, node) : (outlook){LEAF_CHANCE, 1.0f};
         promises[i] = below[i].chance / below[i].cost;

@@ -9,7 +9,7 @@ typedef enum ec_result {
 } ec_result;
 
 /* What a caller may want to act on: less memory may do; what was computed before may be worth keeping. */
-typedef enum ec_error_kind { EC_ERROR_OTHER, EC_ERROR_DEVICE_MEMORY, EC_ERROR_DEVICE } ec_error_kind;
+typedef enum ec_error_kind { EC_ERROR_OTHER, EC_ERROR_HOST_MEMORY, EC_ERROR_DEVICE_MEMORY, EC_ERROR_DEVICE } ec_error_kind;
 
 /* One line: what went wrong, where, and how to mend it. No trailing newline. */
 typedef struct ec_error {

@@ -8,6 +8,15 @@
 
 #define EC_TEXT_COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */
 
+/* Of each command that renders (scene_choice.h). */
+#define EC_HELP_SCENE_CHOICE \
+    "Scene: what of the file is shown\n" \
+    "      --animation NAME|INDEX which animation --at is in, or all (default: the first)\n" \
+    "      --at SECONDS           this moment of it; before its first and after its last key it stands still (default: the\n" \
+    "                             scene as stored)\n" \
+    "      --scene NAME|INDEX     this scene (default: the file's own choice)\n" \
+    "      --variant NAME|INDEX   with the materials of this variant (KHR_materials_variants)\n"
+
 const char EC_HELP_SHORT[] =
     "Usage: eclat render SCENE [options]   render a glTF scene to EXR and PNG\n"
     "       eclat cost SCENE [options]     measure what buys accuracy cheapest on it\n"
@@ -47,12 +56,7 @@ static const char help_render[] =
     "\n"
     "Renders a glTF 2.0 scene (.gltf or .glb) and states the image's error.\n"
     "\n"
-    "Scene: what of the file is shown\n"
-    "      --animation NAME|INDEX which animation --at is in, or all (default: the first)\n"
-    "      --at SECONDS           this moment of it; before its first and after its last key it stands still (default: the\n"
-    "                             scene as stored)\n"
-    "      --scene NAME|INDEX     this scene (default: the file's own choice)\n"
-    "      --variant NAME|INDEX   with the materials of this variant (KHR_materials_variants)\n"
+    EC_HELP_SCENE_CHOICE
     "\n"
     "Picture\n"
     "      --camera NAME|INDEX    look through this camera (default: the scene's first; without any, one that frames it)\n"
@@ -141,12 +145,7 @@ static const char help_cost[] =
     "      --seed N               another N, another independent study (default: 0)\n"
     "      Ctrl-C                 stops cleanly and reports what is known so far (exit code 0); a second one aborts\n"
     "\n"
-    "Scene: what of the file is shown\n"
-    "      --animation NAME|INDEX which animation --at is in, or all (default: the first)\n"
-    "      --at SECONDS           this moment of it; before its first and after its last key it stands still (default: the\n"
-    "                             scene as stored)\n"
-    "      --scene NAME|INDEX     this scene (default: the file's own choice)\n"
-    "      --variant NAME|INDEX   with the materials of this variant (KHR_materials_variants)\n"
+    EC_HELP_SCENE_CHOICE
     "\n"
     "Picture\n"
     "      --camera NAME|INDEX    look through this camera (default: the scene's first; without any, one that frames it)\n"

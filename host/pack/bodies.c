@@ -30,14 +30,14 @@ static const float *corner(const ec_scene *scene, uint32_t triangle, int k)
     return scene->positions + 3 * (size_t)scene->indices[3 * (size_t)triangle + k];
 }
 
-void ec_bodies_find(const ec_scene *scene, const bool *refracts, ec_bodies *bodies)
+ec_result ec_bodies_find(const ec_scene *scene, const bool *is_body, ec_bodies *bodies, ec_error *err)
 {
     *bodies = (ec_bodies){0};
     box *boxes = malloc(scene->material_count * sizeof *boxes);
-    if (!boxes) return;
+    if (!boxes) return ec_fail(err, "out of memory for %u materials", scene->material_count);
     for (uint32_t m = 0; m < scene->material_count; m++) boxes[m] = nothing;
     for (uint32_t t = 0; t < scene->triangle_count; t++)
-        for (int k = 0; k < 3 && refracts[scene->triangle_material[t]]; k++) extend(&boxes[scene->triangle_material[t]], corner(scene, t, k));
+        for (int k = 0; k < 3 && is_body[scene->triangle_material[t]]; k++) extend(&boxes[scene->triangle_material[t]], corner(scene, t, k));
     bool nested = false;
     uint32_t count = 0;
     for (uint32_t m = 0; m < scene->material_count; m++) {
@@ -49,6 +49,7 @@ void ec_bodies_find(const ec_scene *scene, const bool *refracts, ec_bodies *bodi
     free(boxes);
     if (count > EC_BODIES_MOST) bodies->too_many = count;
     else bodies->count = nested ? count : 0;
+    return EC_OK;
 }
 
 /* A corner of a material's triangles, so sorted that those at one point stand together. */

@@ -14,8 +14,8 @@ typedef struct ec_bodies {
     uint32_t too_many;                 /* that many: none is told apart, each refracts as in air */
 } ec_bodies;
 
-/* Bodies that overlap, by the boxes of their materials: an upper bound. */
-void ec_bodies_find(const ec_scene *scene, const bool *refracts, ec_bodies *bodies);
+/* Bodies that overlap, by the boxes of their materials: an upper bound. is_body: of each material. */
+ec_result ec_bodies_find(const ec_scene *scene, const bool *is_body, ec_bodies *bodies, ec_error *err);
 /* Brings them into order. */
 ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err);
 /* Is a point in a closed body of the material? (Its winding number is over one half.) */

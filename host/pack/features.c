@@ -35,14 +35,15 @@ bool ec_pack_is_body(const ec_material *m)
     return !m->unlit && (ec_bounds(m) || (ec_refracts(m) && m->transmission > 0.0f));
 }
 
-void ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies)
+ec_result ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies, ec_error *err)
 {
     *bodies = (ec_bodies){0};
-    bool *is_body = calloc(plain->material_count, sizeof *is_body);
-    if (!is_body) return;
-    for (uint32_t m = 0; m < plain->material_count; m++) is_body[m] = ec_pack_is_body(&plain->materials[m]);
-    ec_bodies_find(plain, is_body, bodies);
+    bool *is_body = calloc(plain->material_count, sizeof *is_body), any = false;
+    if (!is_body) return ec_fail(err, "out of memory for %u materials", plain->material_count);
+    for (uint32_t m = 0; m < plain->material_count; m++) any |= is_body[m] = ec_pack_is_body(&plain->materials[m]);
+    ec_result result = any ? ec_bodies_find(plain, is_body, bodies, err) : EC_OK;
     free(is_body);
+    return result;
 }
 
 /* A material, and what it calls for. */
@@ -186,12 +187,13 @@ static void scan_images(scan *s)
             call(s, EC_FEATURE_FLOAT_TEXTURE, "has a texture of more than 8 bits");
 }
 
-static void scan_materials(const ec_scene *scene, ec_effects *effects)
+static ec_result scan_materials(const ec_scene *scene, ec_effects *effects, ec_error *err)
 {
     bool *used = calloc(scene->material_count, sizeof *used);
-    for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
+    if (!used) return ec_fail(err, "out of memory for %u materials", scene->material_count);
+    for (uint32_t t = 0; t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
     for (uint32_t m = 0; m < scene->material_count; m++) {
-        if (used && !used[m]) continue;
+        if (!used[m]) continue;
         scan s = {.scene = scene, .m = &scene->materials[m]};
         name_material(scene, m, s.name, sizeof s.name);
         scan_material(&s);
@@ -199,6 +201,7 @@ static void scan_materials(const ec_scene *scene, ec_effects *effects)
         ec_effects_add(effects, &s.found);
     }
     free(used);
+    return EC_OK;
 }
 
 /* Does any vertex normal differ from its triangle's? Otherwise interpolating them would change nothing. */
@@ -265,23 +268,21 @@ static void scan_lights(const ec_scene *scene, ec_effects *effects)
 }
 
 /* A wall that another body displaces has one direction, in which all passes. */
-static void scan_bodies(const ec_scene *scene, ec_effects *effects)
+static void scan_bodies(const ec_bodies *bodies, ec_effects *effects)
 {
     static const uint64_t of_walls[] = {EC_FEATURE_NESTED, EC_FEATURE_SPECULAR, EC_FEATURE_SMOOTH, EC_FEATURE_TRANSMISSION};
-    ec_bodies bodies;
-    if (!(effects->bits & (EC_FEATURE_TRANSMISSION | EC_FEATURE_DIFFUSE_TRANSMISSION))) return;
-    ec_pack_find_bodies(scene, &bodies);
-    for (int i = 0; bodies.count && i < 4; i++)
-        ec_effects_call(effects, of_walls[i], "bodies of %u materials may lie in one another", bodies.count);
+    for (int i = 0; bodies->count && i < 4; i++)
+        ec_effects_call(effects, of_walls[i], "bodies of %u materials may lie in one another", bodies->count);
 }
 
-void ec_pack_effects(const ec_scene *scene, ec_effects *effects)
+ec_result ec_pack_effects(const ec_scene *scene, const ec_bodies *bodies, ec_effects *effects, ec_error *err)
 {
     *effects = (ec_effects){0};
-    scan_materials(scene, effects);
+    EC_TRY(scan_materials(scene, effects, err));
     if (scene->placed_count) ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once stand in %u places", scene->placed_count);
-    scan_bodies(scene, effects);
+    scan_bodies(bodies, effects);
     scan_lights(scene, effects);
     scan_normals(scene, effects);
     scan_colors(scene, effects);
+    return EC_OK;
 }

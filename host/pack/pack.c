@@ -115,12 +115,12 @@ ec_result ec_pack_scene(const ec_scene *all, ec_pack *pack, ec_error *err)
     memset(pack, 0, sizeof *pack);
     EC_TRY(ec_scene_view_plain(all, &pack->plain, err));
     const ec_scene *scene = &pack->plain.scene;
-    ec_pack_effects(scene, &pack->effects);
-    ec_result result = pack_prims(scene, pack, err);
+    ec_result result = ec_pack_find_bodies(scene, &pack->bodies, err);
+    if (result == EC_OK) result = ec_pack_effects(scene, &pack->bodies, &pack->effects, err);
+    if (result == EC_OK) result = pack_prims(scene, pack, err);
     if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
     if (result == EC_OK) result = pack_materials(scene, pack, err);
     if (result == EC_OK) result = ec_pack_places(scene, pack, err);
-    ec_pack_find_bodies(scene, &pack->bodies);
     if (result == EC_OK) result = ec_bodies_rank(scene, &pack->bodies, err);
     if (result == EC_OK) pack_bodies(scene, pack);
     if (result == EC_OK) result = ec_pack_lights(scene, pack, err);

@@ -50,15 +50,15 @@ ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err);
 void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 
 /* The steps, in order; each fills its part of pack. */
-void ec_pack_effects(const ec_scene *plain, ec_effects *effects);
+/* Bodies that may lie in one another, in no order. */
+ec_result ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies, ec_error *err);
+ec_result ec_pack_effects(const ec_scene *plain, const ec_bodies *bodies, ec_effects *effects, ec_error *err);
 /* The scan alone. */
 ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *err);
 /* Of a plain scene: may light go straight on through it, somewhere: thin-walled and smooth? */
 bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m);
 /* Is there a body behind it? */
 bool ec_pack_is_body(const ec_material *m);
-/* Bodies that may lie in one another, in no order. */
-void ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_places(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);

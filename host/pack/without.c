@@ -75,8 +75,10 @@ ec_result ec_scene_view_without(const ec_scene *scene, uint64_t off, int64_t mat
 ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *err)
 {
     ec_scene_view plain;
+    ec_bodies bodies;
     EC_TRY(ec_scene_view_plain(scene, &plain, err));
-    ec_pack_effects(&plain.scene, effects);
+    ec_result result = ec_pack_find_bodies(&plain.scene, &bodies, err);
+    if (result == EC_OK) result = ec_pack_effects(&plain.scene, &bodies, effects, err);
     ec_scene_view_free(&plain);
-    return EC_OK;
+    return result;
 }

@@ -74,12 +74,20 @@ static bool is_data_uri(const char *uri)
     return !strncasecmp(uri, "data:", 5);
 }
 
+/* Of what a scene may do without, this machine's lack is not the file's fault. */
+static ec_result out_of_memory(const char *where, uint64_t bytes, ec_error *err)
+{
+    ec_fail(err, "%s: out of memory for %llu bytes", where, (unsigned long long)bytes);
+    err->kind = EC_ERROR_HOST_MEMORY;
+    return EC_FAILED;
+}
+
 /* The file a URI names, relative to the scene's folder; malloc'ed. */
 static ec_result decode_file_uri(const char *where, const char *uri, char **path, ec_error *err)
 {
     size_t length = strlen(uri);
     char *decoded = malloc(length + 1);
-    if (!decoded) return ec_fail(err, "%s: out of memory", where);
+    if (!decoded) return out_of_memory(where, length, err);
     memcpy(decoded, uri, length + 1);
     length = percent_decode(decoded, length);
     const char *reason = length ? escape_reason(uri, decoded, length) : "it is empty";
@@ -144,7 +152,7 @@ static ec_result load_data_uri(const char *where, const char *uri, uint8_t **byt
     bool is_base64 = (size_t)(comma - uri) >= tail && !strncasecmp(comma - tail, base64, tail);
     size_t text_length = strlen(comma + 1);
     char *text = malloc(text_length + 1);
-    if (!text) return ec_fail(err, "%s: out of memory for a data URI of %zu bytes", where, text_length);
+    if (!text) return out_of_memory(where, text_length, err);
     memcpy(text, comma + 1, text_length + 1);
     if (!is_base64 || strchr(text, '%')) text_length = percent_decode(text, text_length);
     *length = text_length;
@@ -164,7 +172,7 @@ static ec_result read_all(int file, const char *name, uint8_t **bytes, uint64_t 
         return ec_fail(err, "%s: not a regular file", name); /* a pipe or device could block for ever */
     uint64_t size = (uint64_t)info.st_size;
     uint8_t *data = malloc(size + 1);
-    if (!data) return ec_fail(err, "%s: out of memory for its %llu bytes", name, (unsigned long long)size);
+    if (!data) return out_of_memory(name, size, err);
     uint64_t done = 0;
     while (done < size) {
         ssize_t got = read(file, data + done, size - done);
@@ -202,13 +210,16 @@ ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *ur
     char *full = malloc(size);
     if (!full) {
         free(name);
-        return ec_fail(err, "%s: out of memory", where);
+        return out_of_memory(where, size, err);
     }
     strcpy(full, folder);
     strcat(full, name);
     ec_error inner;
     ec_result result = ec_gltf_file_load(full, bytes, length, &inner);
-    if (result != EC_OK) ec_fail(err, "%s: %.1200s", where, inner.text);
+    if (result != EC_OK) {
+        ec_fail(err, "%s: %.1200s", where, inner.text);
+        err->kind = inner.kind;
+    }
     free(name);
     free(full);
     return result;

@@ -11,6 +11,14 @@ bool ec_decode_fail(ec_decode_error *err, const char *reason)
     snprintf(err->text, sizeof err->text, "%s", reason);
     for (char *c = err->text; *c; c++)
         if ((unsigned char)*c < 32 || *c == 127) *c = '?';
+    err->out_of_memory = false;
+    return false;
+}
+
+bool ec_decode_out_of_memory(ec_decode_error *err)
+{
+    ec_decode_fail(err, "out of memory");
+    err->out_of_memory = true;
     return false;
 }
 

@@ -5,7 +5,8 @@
 #include "scene/scene.h"
 
 typedef struct ec_decode_error {
-    char text[160]; /* why, without control characters */
+    char text[160];     /* why, without control characters */
+    bool out_of_memory; /* the picture may be whole */
 } ec_decode_error;
 
 /* PNG or JPEG, by content. Sets size and pixels of *image, which must be zero before. */
@@ -20,5 +21,6 @@ const char *ec_image_check_size(uint64_t width, uint64_t height, size_t length, 
 
 /* false, with the text in err, control characters replaced. */
 bool ec_decode_fail(ec_decode_error *err, const char *reason);
+bool ec_decode_out_of_memory(ec_decode_error *err);
 
 #endif

@@ -71,7 +71,11 @@ static void read_picture(reader *r, const uint8_t *bytes, size_t length)
     jpeg_start_decompress(jpeg);
     size_t row_size = 4 * (size_t)jpeg->output_width;
     r->pixels = malloc(row_size * jpeg->output_height);
-    if (!r->pixels || jpeg->output_components != 4) fail(r, "out of memory");
+    if (jpeg->output_components != 4) fail(r, "it has an unexpected layout");
+    if (!r->pixels) {
+        ec_decode_out_of_memory(r->err);
+        longjmp(r->escape, 1);
+    }
     while (jpeg->output_scanline < jpeg->output_height) {
         JSAMPROW row = r->pixels + jpeg->output_scanline * row_size;
         jpeg_read_scanlines(jpeg, &row, 1);
@@ -82,7 +86,7 @@ static void read_picture(reader *r, const uint8_t *bytes, size_t length)
 bool ec_image_decode_jpeg(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
 {
     reader *r = calloc(1, sizeof *r); /* on the heap, as locals may be lost over a longjmp */
-    if (!r) return ec_decode_fail(err, "out of memory");
+    if (!r) return ec_decode_out_of_memory(err);
     r->err = err;
     r->jpeg.err = jpeg_std_error(&r->errors);
     r->jpeg.client_data = r;

@@ -63,7 +63,10 @@ static void read_picture(png_structp png, png_infop info, reader *r, ec_image *i
     if (png_get_rowbytes(png, info) != row_size) png_error(png, "it has an unexpected layout");
     r->pixels = malloc(row_size * height);
     r->rows = malloc(height * sizeof *r->rows);
-    if (!r->pixels || !r->rows) png_error(png, "out of memory");
+    if (!r->pixels || !r->rows) {
+        ec_decode_out_of_memory(r->err);
+        png_longjmp(png, 1);
+    }
     for (uint32_t y = 0; y < height; y++) r->rows[y] = r->pixels + y * row_size;
     png_read_image(png, r->rows);
     image->width = width;
@@ -76,11 +79,11 @@ static void read_picture(png_structp png, png_infop info, reader *r, ec_image *i
 bool ec_image_decode_png(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
 {
     reader *r = calloc(1, sizeof *r); /* on the heap, as locals may be lost over a longjmp */
-    if (!r) return ec_decode_fail(err, "out of memory");
+    if (!r) return ec_decode_out_of_memory(err);
     *r = (reader){.bytes = bytes, .length = length, .err = err};
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, r, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
-    ec_decode_fail(err, "out of memory");
+    ec_decode_out_of_memory(err);
     if (info && !setjmp(png_jmpbuf(png))) {
         png_set_read_fn(png, r, on_read);
         png_set_chunk_malloc_max(png, 16 << 20);

@@ -12,6 +12,8 @@ typedef struct table {
     const ec_log *log;
     int64_t *image;   /* glTF image -> scene image; UNSEEN or UNUSABLE */
     int64_t *texture; /* likewise */
+    ec_result result;
+    ec_error *err;
 } table;
 
 enum { UNSEEN = -1, UNUSABLE = -2 };
@@ -32,26 +34,37 @@ static ec_result get_bytes(const ec_gltf *g, const ec_gltf_image *in, const char
     return EC_OK;
 }
 
-/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. */
-static bool decode(const table *t, uint32_t index, ec_image *out)
+static bool out_of_memory(table *t, const char *where)
+{
+    t->result = ec_fail(t->err, "%s: %s: out of memory", t->g->path, where);
+    return false;
+}
+
+/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. One that there is no
+ * memory for does. */
+static bool decode(table *t, uint32_t index, ec_image *out)
 {
     const ec_gltf_image *in = &t->g->images[index];
     char where[160];
     snprintf(where, sizeof where, in->name ? "images[%u] \"%.80s\"" : "images[%u]", index, in->name);
+    out->name = in->name ? strdup(in->name) : NULL;
+    if (in->name && !out->name) return out_of_memory(t, where);
     const uint8_t *bytes = NULL;
     uint8_t *owned = NULL;
     uint64_t length = 0;
     ec_error err;
-    ec_decode_error reason;
+    ec_decode_error reason = {0};
     bool ok = get_bytes(t->g, in, where, &bytes, &length, &owned, &err) == EC_OK;
-    if (!ok) {
+    if (!ok && err.kind == EC_ERROR_HOST_MEMORY) {
+        out_of_memory(t, where);
+    } else if (!ok) {
         ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
     } else if (!ec_image_decode(bytes, length, out, &reason)) {
         ok = false;
-        ec_warn(t->log, "%s: %s cannot be decoded: %s; taken as white", t->g->path, where, reason.text);
+        if (reason.out_of_memory) out_of_memory(t, where);
+        else ec_warn(t->log, "%s: %s cannot be decoded: %s; taken as white", t->g->path, where, reason.text);
     }
     free(owned);
-    out->name = in->name ? strdup(in->name) : NULL;
     return ok;
 }
 
@@ -132,7 +145,7 @@ static void mark_drawn(const ec_gltf *g, const ec_placement_list *placements, bo
 
 ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
-    table t = {.g = g, .s = s, .log = log};
+    table t = {.g = g, .s = s, .log = log, .err = err};
     t.image = malloc(((size_t)g->image_count + 1) * sizeof *t.image);
     t.texture = malloc(((size_t)g->texture_count + 1) * sizeof *t.texture);
     s->images = calloc((size_t)g->image_count + g->texture_count + 1, sizeof *s->images); /* and roughness made of glossiness */
@@ -148,5 +161,5 @@ ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements,
     free(t.image);
     free(t.texture);
     free(drawn);
-    return ok ? EC_OK : ec_fail(err, "%s: out of memory for textures", g->path);
+    return ok ? t.result : ec_fail(err, "%s: out of memory for textures", g->path);
 }

@@ -45,6 +45,16 @@ EC_FN uint8 pack8(uint8 v, uint mask)
 #endif
 }
 
+/* Stacks the children that the ray meets before t_max, in no order; writes 8, returns how many count. */
+EC_FN uint node8_push(const ray8 *q, global const ec_bvh8_node *n, float t_max, uint *stack)
+{
+    uint mask;
+    uint8 child = *(global const uint8 *)n->child;
+    node8_near(q, (global const float8 *)n->bound, t_max, &mask);
+    vstore8(pack8(child, mask), 0, stack);
+    return popcount(mask);
+}
+
 /* A child to visit: the bits of its distance (no -0), which order as it does, above its index. */
 EC_FN ulong8 entries8(float8 near, uint8 child) { return convert_ulong8(as_uint8(near + 0.0f)) << 32 | convert_ulong8(child); }
 

@@ -64,13 +64,8 @@ EC_FN bool bvh8_any(const accel *a, const ray8 *q, const hit_filter *filter, uin
             leaf8(a, q, filter, current, skip0, skip1, true, h);
             if (h->prim != EC_NO_ID) return true;
         } else {
-            global const ec_bvh8_node *n = nodes + current;
             TALLY_NODE(h);
-            uint mask;
-            uint8 child = *(global const uint8 *)n->child;
-            node8_near(q, (global const float8 *)n->bound, h->t, &mask);
-            vstore8(pack8(child, mask), 0, stack + depth);
-            depth += popcount(mask);
+            depth += node8_push(q, nodes + current, h->t, stack + depth);
         }
         if (depth == 0) return false;
         current = stack[--depth];

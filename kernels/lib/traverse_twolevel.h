@@ -23,6 +23,7 @@ typedef struct visit {
     global const ec_instance *at; /* 0: in the world */
     ray8 q;                       /* there; its slabs only */
     float late;                   /* by so much boxes may be entered after the hits they hold */
+    uint base;                    /* what the stack holds of the world's tree */
 } visit;
 
 EC_FN float visit_row(global const float *m, float x, float y, float z) { return fma(m[0], x, fma(m[1], y, m[2] * z)); }
@@ -97,25 +98,37 @@ EC_FN void twolevel_leaf(const accel *a, const ray8 *q, const visit *v, const hi
     else leaf8(a, q, filter, child, skip0, skip1, any_hit, h);
 }
 
-EC_FN bool is_instance(const visit *v, uint child) { return !v->at && (child & (EC_LEAF_BIT | EC_INSTANCE_BIT)) == (EC_LEAF_BIT | EC_INSTANCE_BIT); }
+/* What is to be looked at in place of `child`: an instance's root, which the ray is in from here on, where `child` is an instance. */
+EC_FN uint visit_begin(visit *v, const accel *a, const ray8 *q, uint child, uint depth)
+{
+    const uint instance = EC_LEAF_BIT | EC_INSTANCE_BIT;
+    global const ec_instance *instances = a->at[3];
+    if (v->at || (child & instance) != instance) return child;
+    visit_enter(v, instances + (child & ~instance), q);
+    v->base = depth;
+    return v->at->root;
+}
+
+/* Back to the world once all of the instance's tree is done. */
+EC_FN void visit_end(visit *v, uint depth)
+{
+    if (!v->at || depth != v->base) return;
+    v->at = 0;
+    v->late = 0.0f;
+}
 
 EC_FN void twolevel_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
     global const ec_bvh8_node *nodes = a->at[0];
     global const ec_instance *instances = a->at[3];
     ulong stack[EC_TWOLEVEL_STACK];
-    uint depth = 0, base = 0, current = 0;
+    uint depth = 0, current = 0;
     visit v;
     v.at = 0;
     v.late = 0.0f;
     if (instances) stack[depth++] = instances->root; /* after what stands in the world */
     for (;;) {
-        if (is_instance(&v, current)) {
-            visit_enter(&v, instances + (current & ~(EC_LEAF_BIT | EC_INSTANCE_BIT)), q);
-            base = depth;
-            current = v.at->root;
-            continue;
-        }
+        current = visit_begin(&v, a, q, current, depth);
         if (current & EC_LEAF_BIT) {
             twolevel_leaf(a, q, &v, filter, current, skip0, skip1, false, h);
         } else {
@@ -140,10 +153,7 @@ EC_FN void twolevel_closest(const accel *a, const ray8 *q, const hit_filter *fil
             }
         }
         do {
-            if (v.at && depth == base) {
-                v.at = 0;
-                v.late = 0.0f;
-            }
+            visit_end(&v, depth);
             if (depth == 0) return;
             depth--;
         } while ((uint)(stack[depth] >> 32) > as_uint(h->t + v.late));
@@ -156,34 +166,21 @@ EC_FN bool twolevel_any(const accel *a, const ray8 *q, const hit_filter *filter,
     global const ec_bvh8_node *nodes = a->at[0];
     global const ec_instance *instances = a->at[3];
     uint stack[EC_TWOLEVEL_STACK];
-    uint depth = 0, base = 0, current = 0;
+    uint depth = 0, current = 0;
     visit v;
     v.at = 0;
     v.late = 0.0f;
     if (instances) stack[depth++] = instances->root;
     for (;;) {
-        if (is_instance(&v, current)) {
-            visit_enter(&v, instances + (current & ~(EC_LEAF_BIT | EC_INSTANCE_BIT)), q);
-            base = depth;
-            current = v.at->root;
-            continue;
-        }
+        current = visit_begin(&v, a, q, current, depth);
         if (current & EC_LEAF_BIT) {
             twolevel_leaf(a, q, &v, filter, current, skip0, skip1, true, h);
             if (h->prim != EC_NO_ID) return true;
         } else {
-            global const ec_bvh8_node *n = nodes + current;
             TALLY_NODE(h);
-            uint mask;
-            uint8 child = *(global const uint8 *)n->child;
-            node8_near(v.at ? &v.q : q, (global const float8 *)n->bound, h->t + v.late, &mask);
-            vstore8(pack8(child, mask), 0, stack + depth);
-            depth += popcount(mask);
+            depth += node8_push(v.at ? &v.q : q, nodes + current, h->t + v.late, stack + depth);
         }
-        if (v.at && depth == base) {
-            v.at = 0;
-            v.late = 0.0f;
-        }
+        visit_end(&v, depth);
         if (depth == 0) return false;
         current = stack[--depth];
     }

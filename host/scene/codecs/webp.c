@@ -17,7 +17,7 @@ bool ec_image_decode_webp(const uint8_t *bytes, size_t length, ec_image *image, 
     if (reason) return ec_decode_fail(err, reason);
     size_t row = 4 * (size_t)width, size = row * (size_t)height;
     uint8_t *pixels = malloc(size);
-    if (!pixels) return ec_decode_fail(err, "out of memory");
+    if (!pixels) return ec_decode_out_of_memory(err);
     if (!WebPDecodeRGBAInto(bytes, length, pixels, size, (int)row)) {
         free(pixels);
         return ec_decode_fail(err, "its WebP data are broken or truncated");
