@@ -82,6 +82,4 @@ int32_t ec_pack_texture_index(const ec_scene *scene, const ec_texture_use *use, 
 /* Radiant flux, luminance-weighted; of a directional light into a sphere of that radius. */
 double ec_pack_punctual_power(const ec_light *light, double scene_radius);
 
-double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1 */
-
 #endif

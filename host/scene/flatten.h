@@ -19,8 +19,14 @@ ec_result ec_flatten(const ec_gltf *gltf, const ec_placement_list *placements, e
  * doubled where some meshes lack a texture coordinate set that it uses. */
 ec_result ec_gltf_materials_assign(ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
 
-/* textures.c: decodes the images that drawn materials use; a texture whose image is unusable is left out. */
+/* textures.c: decodes the images that drawn materials use; a texture whose image is unusable is left out.
+ * And one image: false, with err saying which and why; *image is then empty. */
 ec_result ec_gltf_textures_load(ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
+
+bool ec_gltf_image_load(const ec_gltf *gltf, uint32_t index, ec_image *image, ec_error *err);
+
+/* image_light.c: the cube of EXT_lights_image_based as the scene's environment, where the file has one. */
+ec_result ec_gltf_image_light_load(const ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
 
 /* camera.c */
 ec_result ec_gltf_cameras_place(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,

@@ -32,26 +32,32 @@ static ec_result get_bytes(const ec_gltf *g, const ec_gltf_image *in, const char
     return EC_OK;
 }
 
-/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. */
-static bool decode(const table *t, uint32_t index, ec_image *out)
+bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_error *err)
 {
-    const ec_gltf_image *in = &t->g->images[index];
+    const ec_gltf_image *in = &g->images[index];
     char where[160];
     snprintf(where, sizeof where, in->name ? "images[%u] \"%.80s\"" : "images[%u]", index, in->name);
     const uint8_t *bytes = NULL;
     uint8_t *owned = NULL;
     uint64_t length = 0;
-    ec_error err;
     ec_decode_error reason;
-    bool ok = get_bytes(t->g, in, where, &bytes, &length, &owned, &err) == EC_OK;
-    if (!ok) {
-        ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
-    } else if (!ec_image_decode(bytes, length, out, &reason)) {
+    bool ok = get_bytes(g, in, where, &bytes, &length, &owned, err) == EC_OK;
+    if (ok && !ec_image_decode(bytes, length, out, &reason)) {
         ok = false;
-        ec_warn(t->log, "%s: %s cannot be decoded: %s; taken as white", t->g->path, where, reason.text);
+        *out = (ec_image){0};
+        ec_fail(err, "%s cannot be decoded: %s", where, reason.text);
     }
     free(owned);
-    out->name = in->name ? strdup(in->name) : NULL;
+    if (ok && in->name) out->name = strdup(in->name);
+    return ok;
+}
+
+/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. */
+static bool decode(const table *t, uint32_t index, ec_image *out)
+{
+    ec_error err;
+    bool ok = ec_gltf_image_load(t->g, index, out, &err);
+    if (!ok) ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
     return ok;
 }
 
@@ -63,8 +69,6 @@ static int64_t map_image(table *t, int32_t index)
     if (decode(t, (uint32_t)index, out)) {
         t->image[index] = t->s->image_count++;
     } else {
-        free(out->name);
-        *out = (ec_image){0};
         t->image[index] = UNUSABLE;
     }
     return t->image[index];
@@ -74,12 +78,7 @@ static int64_t map_image(table *t, int32_t index)
 static int64_t make_roughness(table *t, const ec_gltf_texture *in)
 {
     ec_image *out = &t->s->images[t->s->image_count];
-    if (in->image < 0) return UNUSABLE;
-    if (!decode(t, (uint32_t)in->image, out)) {
-        free(out->name);
-        *out = (ec_image){0};
-        return UNUSABLE;
-    }
+    if (in->image < 0 || !decode(t, (uint32_t)in->image, out)) return UNUSABLE;
     for (size_t i = 0; i < 4 * (size_t)out->width * out->height; i += 4) {
         double gloss = (double)in->glossiness * (out->rgba8 ? out->rgba8[i + 3] / 255.0 : out->rgba16[i + 3] / 65535.0);
         if (out->rgba8) out->rgba8[i + 1] = (uint8_t)(255 * (1 - gloss) + 0.5), out->rgba8[i + 2] = 0;
