@@ -121,7 +121,7 @@ static const char help_render[] =
     "                             half of all; on, every one that stands in two; off (default: auto)\n"
     "      --wave N               paths in flight; the image is the same (default: fitted to the device)\n"
     "      --without EFFECT       leave an effect out that the scene calls for, by its name in eclat info: lights go out,\n"
-    "                             textures become their mean, layers go; may be repeated\n"
+    "                             textures and maps become their mean, layers go; may be repeated\n"
     "\n"
     "Messages\n"
     "  -h, --help                 show this\n"

@@ -26,6 +26,7 @@ static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *
 {
     const char *environment = job->request->environment;
     if (environment) {
+        if (job->scene->has_environment) ec_note(log, "--env takes the place of the image-based light that the scene has");
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
     } else if (!ec_scene_has_light(job->scene) && !job->request->adjusts_env) {
         ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");

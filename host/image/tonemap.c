@@ -1,4 +1,4 @@
-/* Linear radiance to 8-bit sRGB. */
+/* Linear radiance to 8-bit sRGB, and sRGB to linear. */
 #include <math.h>
 
 #include "image/image.h"
@@ -22,6 +22,11 @@ static void pbr_neutral(double rgb[3])
 static double srgb_encode(double linear)
 {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}
+
+double ec_srgb_to_linear(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 /* Non-finite to 0 and negative to 0; the upper limit keeps infinity out when the exposure is absurd. */

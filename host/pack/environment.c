@@ -11,6 +11,12 @@ static double luminance(const float *rgb)
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
+/* Its texels' solid angle goes by it. */
+static double sine_of_row(const ec_environment *e, uint32_t y)
+{
+    return sin(3.14159265358979323846 * (y + 0.5) / e->height);
+}
+
 /* Mean of the bilinear interpolant over a texel: [1 6 1] / 8 along each axis. Positive wherever the map is. */
 static double texel_mean(const ec_environment *e, uint32_t x, uint32_t y)
 {
@@ -34,7 +40,7 @@ static ec_result build_table(const ec_environment *e, double *weights, double su
     ec_distribution_entry *table = pack->environment_table;
     bool has_memory = rows && row_pmf && pmf;
     for (size_t i = 0; has_memory && i < (size_t)width * height; i++) {
-        double sine = sin(3.14159265358979323846 * ((double)(i / width) + 0.5) / height);
+        double sine = sine_of_row(e, (uint32_t)(i / width));
         if (weights[i] > 0.0) weights[i] = 0.95 * weights[i] / sum + 0.05 * sine / solid;
         rows[i / width] += weights[i];
     }
@@ -50,6 +56,17 @@ static ec_result build_table(const ec_environment *e, double *weights, double su
     free(row_pmf);
     free(pmf);
     return has_memory ? EC_OK : ec_fail(err, "out of memory for an environment map of %u x %u", width, height);
+}
+
+void ec_environment_mean(const ec_environment *e, float mean[3])
+{
+    double sum[3] = {0.0}, solid = 0.0;
+    for (size_t i = 0; i < (size_t)e->width * e->height; i++) {
+        double sine = sine_of_row(e, (uint32_t)(i / e->width));
+        for (int k = 0; k < 3; k++) sum[k] += sine * e->rgb[3 * i + k];
+        solid += sine;
+    }
+    for (int k = 0; k < 3; k++) mean[k] = (float)(sum[k] / solid);
 }
 
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err)
@@ -73,22 +90,19 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
         result = ec_fail(err, "out of memory for an environment map of %u x %u", e->width, e->height);
         goto cleanup;
     }
-    double sum = 0.0, solid = 0.0, mean[3] = {0.0};
+    double sum = 0.0, solid = 0.0;
     for (uint32_t y = 0; y < e->height; y++) {
-        double sine = sin(3.14159265358979323846 * (y + 0.5) / e->height);
+        double sine = sine_of_row(e, y);
         for (uint32_t x = 0; x < e->width; x++) {
             size_t i = (size_t)y * e->width + x;
             weights[i] = texel_mean(e, x, y) * sine;
-            for (int k = 0; k < 3; k++) {
-                pack->environment_texels[4 * i + k] = e->rgb[3 * i + k];
-                mean[k] += sine * e->rgb[3 * i + k];
-            }
+            for (int k = 0; k < 3; k++) pack->environment_texels[4 * i + k] = e->rgb[3 * i + k];
             pack->environment_texels[4 * i + 3] = 0.0f;
             sum += weights[i];
             solid += sine;
         }
     }
-    for (int k = 0; k < 3; k++) pack->environment_mean[k] = (float)(mean[k] / solid);
+    ec_environment_mean(e, pack->environment_mean);
     pack->environment_width = e->width;
     pack->environment_height = e->height;
     if (sum > 0.0) {

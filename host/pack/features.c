@@ -27,7 +27,7 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
 
 bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m)
 {
-    return !ec_refracts(m) && m->transmission > 0.0f && may_be_smooth(plain, m, false);
+    return !plain->solid_shadows && !ec_refracts(m) && m->transmission > 0.0f && may_be_smooth(plain, m, false);
 }
 
 bool ec_pack_is_body(const ec_material *m)
@@ -38,6 +38,7 @@ bool ec_pack_is_body(const ec_material *m)
 ec_result ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies, ec_error *err)
 {
     *bodies = (ec_bodies){0};
+    if (plain->bodies_apart) return EC_OK;
     bool *is_body = calloc(plain->material_count, sizeof *is_body), any = false;
     if (!is_body) return ec_fail(err, "out of memory for %u materials", plain->material_count);
     for (uint32_t m = 0; m < plain->material_count; m++) any |= is_body[m] = ec_pack_is_body(&plain->materials[m]);

@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+#include "image/image.h"
 #include "pack/pack.h"
 
 /* Which factor a texture's channel multiplies: R, G, B, A. A slot without a row stays as it is. */

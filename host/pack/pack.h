@@ -79,9 +79,10 @@ ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *
 /* Index into pack->textures of a texture in one encoding; -1 for none. Valid after ec_pack_textures. */
 int32_t ec_pack_texture_index(const ec_scene *scene, const ec_texture_use *use, int is_srgb);
 
+/* Mean radiance of a map over all directions. */
+void ec_environment_mean(const ec_environment *map, float mean[3]);
+
 /* Radiant flux, luminance-weighted; of a directional light into a sphere of that radius. */
 double ec_pack_punctual_power(const ec_light *light, double scene_radius);
-
-double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1 */
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "image/image.h"
 #include "pack/pack.h"
 
 static double texel(const ec_image *image, size_t index, int channel)

@@ -1,15 +1,10 @@
 /* All images in one buffer of texels: bytes as they are (one word a texel, decoded in the kernel), deeper images as linear
  * floats (four words). A texture has one entry for each encoding it is read in: 2 * texture + is_srgb. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/image.h"
 #include "pack/pack.h"
-
-double ec_srgb_to_linear(double encoded)
-{
-    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 int32_t ec_pack_texture_index(const ec_scene *scene, const ec_texture_use *use, int is_srgb)
 {

@@ -11,7 +11,8 @@ const uint64_t ec_effects_optional =
     EC_FEATURE_TRANSMISSION_TEXTURE | EC_FEATURE_ABSORPTION | EC_FEATURE_CLEARCOAT | EC_FEATURE_CLEARCOAT_TEXTURE |
     EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN | EC_FEATURE_SHEEN_TEXTURE | EC_FEATURE_ANISOTROPY |
     EC_FEATURE_ANISOTROPY_TEXTURE | EC_FEATURE_IRIDESCENCE | EC_FEATURE_IRIDESCENCE_TEXTURE | EC_FEATURE_DIFFUSE_TRANSMISSION |
-    EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE | EC_FEATURE_DISPERSION;
+    EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE | EC_FEATURE_DISPERSION | EC_FEATURE_ENVIRONMENT_MAP | EC_FEATURE_ENVIRONMENT_TURN |
+    EC_FEATURE_CULLING | EC_FEATURE_UNLIT | EC_FEATURE_PANES | EC_FEATURE_NESTED;
 
 /* Textures by their means: slots that an effect reads. */
 static const struct {
@@ -44,6 +45,8 @@ static void without(const ec_scene *scene, uint64_t off, ec_material *m)
         bool covers = textured[i].slot == EC_SLOT_BASE_COLOR && m->alpha_mode != EC_ALPHA_OPAQUE; /* coverage is in it: it stays */
         if ((off & textured[i].effect) && !covers) ec_texture_flatten(scene, m, textured[i].slot);
     }
+    if (off & EC_FEATURE_CULLING) m->double_sided = true;
+    if (off & EC_FEATURE_UNLIT) m->unlit = false;
     if (off & EC_FEATURE_EMISSION) memset(m->emission, 0, sizeof m->emission);
     if (off & EC_FEATURE_SPECULAR) m->metallic = m->specular = 0.0f;
     if (off & EC_FEATURE_TRANSMISSION) m->transmission = 0.0f;
@@ -65,6 +68,14 @@ ec_result ec_scene_view_without(const ec_scene *scene, uint64_t off, int64_t mat
     if (off & EC_FEATURE_PUNCTUAL_LIGHTS) s->light_count = 0;
     if (off & EC_FEATURE_SMOOTH_NORMALS) s->normals = NULL;
     if (off & EC_FEATURE_VERTEX_COLORS) s->colors = NULL;
+    if (off & EC_FEATURE_PANES) s->solid_shadows = true;
+    if (off & EC_FEATURE_NESTED) s->bodies_apart = true;
+    if (off & EC_FEATURE_ENVIRONMENT_TURN) s->environment.turned = false;
+    if ((off & EC_FEATURE_ENVIRONMENT_MAP) && s->environment.rgb) {
+        float mean[3];
+        ec_environment_mean(&scene->environment, mean);
+        s->environment = (ec_environment){.constant = {mean[0], mean[1], mean[2]}};
+    }
     if (off & EC_FEATURE_ENVIRONMENT) {
         s->has_environment = false;
         s->environment = (ec_environment){0};

@@ -18,6 +18,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
     effects->built = called->bits | (options->all_effects ? EC_FEATURE_ALL & ~asked_for : options->more_effects);
+    effects->built &= ~(effects->without & EC_FEATURE_PANES); /* paths through panes count on shadow rays to pass them too */
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
         if (ec_stages[id].integrators >> options->integrator & 1) effects->launched |= 1u << id;
     if (!ec_pipeline_joins(options, pack)) effects->launched &= ~(1u << EC_CONNECT | 1u << EC_WHITTED_LIGHT);

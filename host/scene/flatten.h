@@ -22,8 +22,14 @@ ec_result ec_gltf_materials_assign(ec_gltf *gltf, ec_scene *scene, const ec_log 
 /* textures.c: decodes the images that drawn materials use; a texture whose image is unusable is left out. */
 ec_result ec_gltf_textures_load(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log, ec_error *err);
 
+/* One image, into one that is zero; false, with err saying which and why: it stays so. */
+bool ec_gltf_image_load(const ec_gltf *gltf, uint32_t index, ec_image *image, ec_error *err);
+
 /* hide.c: primitives that alpha hides everywhere are not drawn, unless nothing else is. */
 ec_result ec_gltf_hide(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log, ec_error *err);
+
+/* image_light.c: the cube of EXT_lights_image_based as the scene's environment, where the file has one. */
+ec_result ec_gltf_image_light_load(const ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
 
 /* camera.c */
 ec_result ec_gltf_cameras_place(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,

@@ -125,6 +125,16 @@ typedef struct ec_gltf_texture {
     float glossiness; /* the factor that goes with it */
 } ec_gltf_texture;
 
+/* EXT_lights_image_based: what lights the shown scene. Its other mips and irradiance coefficients are this picture's, blurred. */
+typedef struct ec_gltf_image_light {
+    bool used;
+    int32_t index;         /* in the file, for messages */
+    int32_t faces[6];      /* images of the sharpest mip: +x, -x, +y, -y, +z, -z */
+    uint32_t size;         /* pixels a side, as the file says */
+    double rotation[4];    /* quaternion: directions of the cube to the scene's */
+    double intensity;      /* >= 0 */
+} ec_gltf_image_light;
+
 typedef struct ec_gltf {
     const char *path;  /* for messages; the caller's */
     char *folder;      /* where URIs start, "" or with a trailing slash */
@@ -142,6 +152,7 @@ typedef struct ec_gltf {
     ec_light *lights;       /* unplaced */
     uint32_t buffer_count, view_count, accessor_count, mesh_count, skin_count, node_count, image_count, texture_count,
         material_count, camera_count, light_count;
+    ec_gltf_image_light image_light;
     int32_t *roots;         /* nodes of the scene to show */
     uint32_t root_count;
     ec_instancing instancing; /* the caller's wish */

@@ -75,14 +75,36 @@ class checker {
         if (!value.is_array()) fail(where, "must be an array");
         if (f.type == kind::numbers && f.low >= 0 && double(value.size()) != f.low)
             fail(where, "must have " + std::to_string(int(f.low)) + " numbers, not " + std::to_string(value.size()));
+        if (f.type == kind::index_rows || f.type == kind::number_rows) check_row_count(value, f, where);
         if (double(value.size()) > int_count) fail(where, "has too many elements");
         for (size_t i = 0; i < value.size(); i++) {
             switch (f.type) {
             case kind::indices: check_index(value[i], f.detail, item(where, i)); break;
             case kind::numbers: check_number(value[i], item(where, i)); break;
             case kind::texts: check_text(value[i], item(where, i)); break;
+            case kind::index_rows:
+            case kind::number_rows: check_row(value[i], f, item(where, i)); break;
             default: check_object(value[i], *f.members, item(where, i));
             }
+        }
+    }
+
+    static void check_row_count(const json &value, const field &f, const std::string &where)
+    {
+        if (f.high > 0 && double(value.size()) != f.high)
+            fail(where, "must have " + std::to_string(int(f.high)) + " arrays, not " + std::to_string(value.size()));
+        if (value.empty()) fail(where, "is empty");
+    }
+
+    void check_row(json &row, const field &f, const std::string &where)
+    {
+        bool of_indices = f.type == kind::index_rows;
+        if (!row.is_array()) fail(where, "must be an array");
+        if (double(row.size()) != f.low)
+            fail(where, "must have " + std::to_string(int(f.low)) + (of_indices ? " indices" : " numbers") + ", not " + std::to_string(row.size()));
+        for (size_t i = 0; i < row.size(); i++) {
+            if (of_indices) check_index(row[i], f.detail, item(where, i));
+            else check_number(row[i], item(where, i));
         }
     }
 
@@ -116,16 +138,23 @@ class checker {
 
     size_t array_size(const std::string &name)
     {
+        static const struct {
+            const char *name, *extension, *member;
+        } inside[] = {{"lights", "KHR_lights_punctual", "lights"},
+                      {"image-based lights", "EXT_lights_image_based", "lights"},
+                      {"variants", "KHR_materials_variants", "variants"}};
         const json *holder = &root;
-        const char *extension = name == "lights" ? "KHR_lights_punctual" : name == "variants" ? "KHR_materials_variants" : nullptr;
-        if (extension) {
-            for (const char *step : {"extensions", extension}) {
+        std::string member = name;
+        for (auto &place : inside) {
+            if (name != place.name) continue;
+            for (const char *step : {"extensions", place.extension}) {
                 auto found = holder->find(step);
                 if (found == holder->end() || !found->is_object()) return 0;
                 holder = &*found;
             }
+            member = place.member;
         }
-        auto found = holder->find(name);
+        auto found = holder->find(member);
         return found != holder->end() && found->is_array() ? found->size() : 0;
     }
 

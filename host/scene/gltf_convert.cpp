@@ -19,6 +19,22 @@ void convert_images(const json &list, ec_gltf *gltf)
     }
 }
 
+void convert_image_light(const json &root, ec_gltf *gltf)
+{
+    const json &scenes = list_of(root, "scenes");
+    const json *chosen = gltf->contents.scene < scenes.size() ? find_extension(scenes[gltf->contents.scene], "EXT_lights_image_based") : nullptr;
+    if (!chosen) return;
+    ec_gltf_image_light &out = gltf->image_light;
+    out.index = (*chosen)["light"];
+    const json &in = (*find_extension(root, "EXT_lights_image_based"))["lights"][size_t(out.index)];
+    const json &sharpest = in["specularImages"][0];
+    for (size_t i = 0; i < 6; i++) out.faces[i] = sharpest[i];
+    for (size_t i = 0; i < 4; i++) out.rotation[i] = in.contains("rotation") ? in["rotation"][i].get<double>() : i == 3;
+    out.size = in["specularImageSize"];
+    out.intensity = std::max(in.value("intensity", 1.0), 0.0);
+    out.used = true;
+}
+
 static const float widest_yfov = 3.0f; /* glTF only advises to stay below pi, where a picture has no plane */
 
 void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log)

@@ -28,6 +28,15 @@ static constexpr field numbers(const char *name, double length)
 {
     return {name, kind::numbers, false, nullptr, nullptr, length, length};
 }
+/* Arrays of arrays, of `length` elements each; rows 0: any number of them, but not none. */
+static constexpr field index_rows(const char *name, const char *target, double length, double rows, bool needed)
+{
+    return {name, kind::index_rows, needed, target, nullptr, length, rows};
+}
+static constexpr field number_rows(const char *name, double length, double rows)
+{
+    return {name, kind::number_rows, false, nullptr, nullptr, length, rows};
+}
 static constexpr field plain(const char *name, kind type, bool needed = false)
 {
     return {name, type, needed, nullptr, nullptr, 0, 0};
@@ -111,7 +120,11 @@ static const field node[] = {
     numbers("translation", 3), numbers("rotation", 4), numbers("scale", 3), plain("name", kind::text),
     object("extensions", node_extensions_s)};
 static const schema node_s(node);
-static const field scene[] = {indices("nodes", "nodes"), plain("name", kind::text)};
+static const field scene_light[] = {index("light", "image-based lights", required)};
+static const schema scene_light_s(scene_light);
+static const field scene_extensions[] = {object("EXT_lights_image_based", scene_light_s)};
+static const schema scene_extensions_s(scene_extensions);
+static const field scene[] = {indices("nodes", "nodes"), plain("name", kind::text), object("extensions", scene_extensions_s)};
 static const schema scene_s(scene);
 static const field skin[] = {indices("joints", "nodes", required), index("inverseBindMatrices", "accessors")};
 static const schema skin_s(skin);
@@ -226,11 +239,17 @@ static const field light[] = {choice("type", "point spot directional", required)
 static const schema light_s(light);
 static const field lights[] = {objects("lights", light_s, required)};
 static const schema lights_s(lights);
+static const field image_light[] = {
+    numbers("rotation", 4), number("intensity"), index_rows("specularImages", "images", 6, 0, required),
+    number_rows("irradianceCoefficients", 3, 9), count("specularImageSize", 1, required, int_count), plain("name", kind::text)};
+static const schema image_light_s(image_light);
+static const field image_lights[] = {objects("lights", image_light_s, required)};
+static const schema image_lights_s(image_lights);
 static const field variant[] = {plain("name", kind::text, required)};
 static const schema variant_s(variant);
 static const field variants[] = {objects("variants", variant_s, required)};
 static const schema variants_s(variants);
-static const field root_extensions[] = {object("KHR_lights_punctual", lights_s),
+static const field root_extensions[] = {object("EXT_lights_image_based", image_lights_s), object("KHR_lights_punctual", lights_s),
                                         object("KHR_materials_variants", variants_s)};
 static const schema root_extensions_s(root_extensions);
 

@@ -7,7 +7,7 @@
 namespace eclat {
 
 enum class kind {
-    index, indices, count, number, numbers, text, texts, flag, choice, accessor_type, object, objects, dictionary
+    index, indices, count, number, numbers, index_rows, number_rows, text, texts, flag, choice, accessor_type, object, objects, dictionary
 };
 
 struct schema;
@@ -15,9 +15,9 @@ struct field {
     const char *name;
     kind type;
     bool required;
-    const char *detail;    /* index: the array pointed into; choice: what is allowed */
+    const char *detail;    /* index: the array pointed into (rows: each element); choice: what is allowed */
     const schema *members; /* object(s) */
-    double low, high;      /* count; numbers: how many */
+    double low, high;      /* count; numbers: how many; rows: how long each is, how many (0: some) */
 };
 struct schema {
     const field *fields;

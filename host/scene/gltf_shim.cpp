@@ -16,6 +16,7 @@ namespace eclat {
 using nlohmann::json;
 
 static const char *const supported_extensions[] = {
+    "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "KHR_animation_pointer",
     "KHR_lights_punctual",
@@ -228,6 +229,7 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice 
     convert_skins(list_of(root, "skins"), gltf);
     convert_nodes(list_of(root, "nodes"), gltf);
     set_roots(root, gltf);
+    convert_image_light(root, gltf);
 
     tinygltf::Model model;
     parse_rest(root, model);

@@ -52,6 +52,7 @@ bool choose_moment(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf 
 
 /* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);
+void convert_image_light(const nlohmann::json &root, ec_gltf *gltf); /* the shown scene's */
 void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
 void convert_lights(const tinygltf::Model &model, ec_gltf *gltf);
 

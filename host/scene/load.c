@@ -29,6 +29,7 @@ static ec_result build(ec_gltf *g, ec_placement_list *placements, ec_scene *s, c
     EC_TRY(ec_flatten(g, placements, s, log, err));
     EC_TRY(ec_gltf_cameras_place(g, placements, s, log, err));
     EC_TRY(ec_gltf_lights_place(g, placements, s, log, err));
+    EC_TRY(ec_gltf_image_light_load(g, s, log, err));
     ec_scene_clamp_materials(s, g->path, log);
     EC_TRY(ec_scene_validate(s, err));
     ec_scene_join_quads(s);

@@ -152,6 +152,8 @@ typedef struct ec_scene {
     uint32_t default_camera;
     ec_environment environment;
     bool has_environment;         /* false: black outside */
+    /* Of views that leave effects out (pack/without.c): shadow rays end at panes; bodies know nothing of each other. */
+    bool solid_shadows, bodies_apart;
     double center[3];             /* what was subtracted from world coordinates */
     float bounds_min[3], bounds_max[3]; /* recentred */
     /* What `eclat info` tells. */

@@ -34,38 +34,46 @@ static ec_result get_bytes(const ec_gltf *g, const ec_gltf_image *in, const char
     return EC_OK;
 }
 
-static bool out_of_memory(table *t, const char *where)
+static bool no_memory(const char *where, ec_error *err)
 {
-    t->result = ec_fail(t->err, "%s: %s: out of memory", t->g->path, where);
+    ec_fail(err, "%s: out of memory", where);
+    err->kind = EC_ERROR_HOST_MEMORY;
     return false;
+}
+
+bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_error *err)
+{
+    const ec_gltf_image *in = &g->images[index];
+    char where[160];
+    snprintf(where, sizeof where, in->name ? "images[%u] \"%.80s\"" : "images[%u]", index, in->name);
+    const uint8_t *bytes = NULL;
+    uint8_t *owned = NULL;
+    uint64_t length = 0;
+    ec_decode_error reason = {0};
+    bool ok = get_bytes(g, in, where, &bytes, &length, &owned, err) == EC_OK;
+    if (ok && !ec_image_decode(bytes, length, out, &reason)) {
+        ok = false;
+        *out = (ec_image){0};
+        if (reason.out_of_memory) no_memory(where, err);
+        else ec_fail(err, "%s cannot be decoded: %s", where, reason.text);
+    }
+    free(owned);
+    if (!ok || !in->name || (out->name = strdup(in->name))) return ok;
+    free(out->rgba8);
+    free(out->rgba16);
+    *out = (ec_image){0};
+    return no_memory(where, err);
 }
 
 /* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. One that there is no
  * memory for does. */
 static bool decode(table *t, uint32_t index, ec_image *out)
 {
-    const ec_gltf_image *in = &t->g->images[index];
-    char where[160];
-    snprintf(where, sizeof where, in->name ? "images[%u] \"%.80s\"" : "images[%u]", index, in->name);
-    out->name = in->name ? strdup(in->name) : NULL;
-    if (in->name && !out->name) return out_of_memory(t, where);
-    const uint8_t *bytes = NULL;
-    uint8_t *owned = NULL;
-    uint64_t length = 0;
     ec_error err;
-    ec_decode_error reason = {0};
-    bool ok = get_bytes(t->g, in, where, &bytes, &length, &owned, &err) == EC_OK;
-    if (!ok && err.kind == EC_ERROR_HOST_MEMORY) {
-        out_of_memory(t, where);
-    } else if (!ok) {
-        ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
-    } else if (!ec_image_decode(bytes, length, out, &reason)) {
-        ok = false;
-        if (reason.out_of_memory) out_of_memory(t, where);
-        else ec_warn(t->log, "%s: %s cannot be decoded: %s; taken as white", t->g->path, where, reason.text);
-    }
-    free(owned);
-    return ok;
+    if (ec_gltf_image_load(t->g, index, out, &err)) return true;
+    if (err.kind == EC_ERROR_HOST_MEMORY) t->result = ec_fail(t->err, "%s: %.1200s", t->g->path, err.text);
+    else ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
+    return false;
 }
 
 static int64_t map_image(table *t, int32_t index)
@@ -76,8 +84,6 @@ static int64_t map_image(table *t, int32_t index)
     if (decode(t, (uint32_t)index, out)) {
         t->image[index] = t->s->image_count++;
     } else {
-        free(out->name);
-        *out = (ec_image){0};
         t->image[index] = UNUSABLE;
     }
     return t->image[index];
@@ -87,12 +93,7 @@ static int64_t map_image(table *t, int32_t index)
 static int64_t make_roughness(table *t, const ec_gltf_texture *in)
 {
     ec_image *out = &t->s->images[t->s->image_count];
-    if (in->image < 0) return UNUSABLE;
-    if (!decode(t, (uint32_t)in->image, out)) {
-        free(out->name);
-        *out = (ec_image){0};
-        return UNUSABLE;
-    }
+    if (in->image < 0 || !decode(t, (uint32_t)in->image, out)) return UNUSABLE;
     for (size_t i = 0; i < 4 * (size_t)out->width * out->height; i += 4) {
         double gloss = (double)in->glossiness * (out->rgba8 ? out->rgba8[i + 3] / 255.0 : out->rgba16[i + 3] / 65535.0);
         if (out->rgba8) out->rgba8[i + 1] = (uint8_t)(255 * (1 - gloss) + 0.5), out->rgba8[i + 2] = 0;

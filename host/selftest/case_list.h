@@ -54,6 +54,9 @@
     CASE("scatter/slab in slab", false, ec_selftest_slab_in_slab, "liquid in glass that refracts as if in air (Schmidt and Budge 2002)") \
     CASE("scatter/nested glass", false, ec_selftest_nested_glass, "black glass: paths lost at faces or by depth")                  \
     CASE("scatter/continuity", false, ec_selftest_continuity, "a jump in brightness where roughness gets to 0")                    \
+    CASE("scatter/sheen", true, ec_selftest_sheen, "velvet that glows or goes black at its rim")                                   \
+    CASE("scatter/diffuse transmission", true, ec_selftest_seeping, "leaves that lose light or shine on both sides")               \
+    CASE("scatter/dispersion", true, ec_selftest_dispersion, "colours whose sum is not white (Cauchy's index by colour)")          \
     CASE("numbers/arithmetic", false, ec_selftest_arithmetic, "cracks between triangles: products contracted (NUMERICS: half of all)") \
     CASE("numbers/functions", false, ec_selftest_functions, "directions off the sphere")                                           \
     CASE("numbers/not finite", false, ec_selftest_not_finite, "tests for NaN folded away: black pixels that nobody counts")        \

@@ -67,7 +67,7 @@ class Files(Render):
     def test_what_is_no_effect_is_refused_with_the_names_of_all(self):
         for name in ("shee", "sobol-sampler"):
             line = self.assert_one_error(eclat("render", CORNELL, "--without", name, cwd=self.folder), 2)
-            self.assertIn(f"--without: '{name}' is not one of the effects that can be left out: emission punctual-lights environment specular", line)
+            self.assertIn(f"--without: '{name}' is not one of the effects that can be left out: emission punctual-lights environment environment-map specular", line)
             self.assertIn(" sheen ", line)
         self.assertIn("needed, all", self.assert_one_error(eclat("render", CORNELL, "--effects", "every", cwd=self.folder), 2))
 

@@ -227,45 +227,12 @@ static void test_vertices(void)
 }
 
 /* Of a scene that calls for all that can be left out: without one effect, that one is not called for. */
-static effect_model everything(void)
-{
-    effect_model e = em_new();
-    ec_material list[10];
-    for (int i = 0; i < 10; i++) {
-        list[i] = em_plain();
-        list[i].metallic = 0.5f;
-        list[i].roughness = 0.5f;
-        for (int slot = 0; slot < EC_SLOT_COUNT; slot++) em_use(&list[i], slot, EM_MIXED);
-    }
-    list[0].emission[0] = 1;
-    list[1].specular = 1;
-    list[2].transmission = list[3].transmission = 1;
-    list[3].volume = true;
-    list[3].absorption[0] = 1;
-    list[4].coat = list[4].coat_roughness = 1;
-    list[5].sheen[0] = list[5].sheen_roughness = 1;
-    list[6].anisotropy = 1;
-    list[3].dispersion = 1;
-    list[8].film = 1, list[8].film_ior = 1.3f, list[8].film_most = 400;
-    list[9].seeps = 1;
-    list[7].alpha_mode = EC_ALPHA_BLEND;
-    list[7].base_color[3] = 0.5f;
-    static const float bent[12] = {0.6f, 0, 0.8f, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-    for (int i = 0; i < 10; i++) em_quad(&e, em_material(&e, &list[i]), bent);
-    ec_model_light(e.model, &(ec_light){.intensity = {1, 1, 1}}, (double[]){0, 0, 2}, (double[]){0, 0, 0});
-    return e;
-}
-
 static void test_without(void)
 {
-    effect_model e = everything();
-    ec_scene *scene = em_scene(&e);
+    ec_scene *scene = em_everything();
     ec_scene_view view;
     ec_error err = {0};
-    scene->has_environment = true;
-    scene->environment.constant[0] = 1;
-    scene->colors = calloc(4 * (size_t)scene->vertex_count, sizeof *scene->colors);
-    CHECK((scan(scene) & ec_effects_optional) == ec_effects_optional);
+    CHECK_MSG((scan(scene) & ec_effects_optional) == ec_effects_optional, "not called for: %llx", (unsigned long long)(ec_effects_optional & ~scan(scene)));
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         uint64_t bit = ec_features[i].bit, off = bit;
         if (!(ec_effects_optional & bit)) continue;
@@ -276,6 +243,11 @@ static void test_without(void)
         ec_scene_view_free(&view);
     }
     /* Half of the texels are 1 and half 0; sRGB's 0 and 1 are 0 and 1. Of one material alone: the others stay. */
+    CHECK_OK(ec_scene_view_without(scene, EC_FEATURE_ENVIRONMENT_MAP, EC_ALL_MATERIALS, &view, &err), err);
+    CHECK(scene->environment.rgb && !view.scene.environment.rgb);
+    CHECK_NEAR(view.scene.environment.constant[0], 0.45, 1e-7);
+    CHECK_NEAR(view.scene.environment.constant[2], 0.65, 1e-7);
+    ec_scene_view_free(&view);
     uint64_t textures = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE;
     CHECK_OK(ec_scene_view_without(scene, textures, 1, &view, &err), err);
     const ec_material *m = &view.scene.materials[1];

@@ -147,6 +147,9 @@ static const char textured[] =
     "'buffers':[{'byteLength':36,'uri':'@tri@'}],'bufferViews':[{'buffer':0,'byteLength':36}],"
     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':0,'componentType':5126,'count':3,'type':'VEC2'}]}";
 
+/* A grey pixel. */
+static const char plain_png[] = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaGgAAAMEAYFL09IQAAAAAElFTkSuQmCC";
+
 static ec_scene *load_material(const char *material, size_t webp_bytes)
 {
     const blob with[] = {{"@webp@", webp_two, webp_bytes}, {"@tri@", triangle_positions, sizeof triangle_positions}, {0}};
@@ -173,6 +176,53 @@ static void test_webp(void)
         s = load_material("'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}", length);
         CHECK_MSG(s && (s->image_count == 1 || strstr(messages, "cannot be decoded")), "%zu bytes: %s", length, messages);
         ec_scene_free(s);
+    }
+}
+
+/* A texture in a format that may not be read: the plain image beside it is taken, without one a warning says that the texture is left
+ * out, and a file that insists is refused. Pictures that lie are found out too. */
+static void test_fallbacks(void)
+{
+    static const unsigned char ktx2[12] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
+    const blob with[] = {{"@webp@", webp_two, sizeof webp_two}, {"@ktx2@", ktx2, sizeof ktx2}, {"@tri@", triangle_positions, sizeof triangle_positions}, {0}};
+    static const struct {
+        const char *texture, *used, *required;
+        int32_t side; /* of the picture that is taken; 0: none */
+        const char *says;
+    } cases[] = {
+        {"'source':1,'extensions':{'KHR_texture_basisu':{'source':2}}", "KHR_texture_basisu", NULL, 1, "not supported, what it describes is left out: KHR_texture_basisu"},
+        {"'extensions':{'KHR_texture_basisu':{'source':2}}", "KHR_texture_basisu", NULL, 0, "textures[0] has no image in a format that is read; taken as white"},
+        {"'source':1,'extensions':{'KHR_texture_basisu':{'source':2}}", "KHR_texture_basisu", "KHR_texture_basisu", 0, "the file requires KHR_texture_basisu, which eclat does not support; export it without"},
+        {"'source':2", "KHR_texture_transform", NULL, 0, "images[2] cannot be decoded: it is KTX2"},
+        {"'source':1,'extensions':{'EXT_texture_webp':{'source':0}}", "EXT_texture_webp", NULL, 2, NULL},
+        {"'source':1,'extensions':{'EXT_texture_webp':{'source':0}}", "EXT_texture_webp", "EXT_texture_webp", 2, NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char extensions[256];
+        int used = snprintf(extensions, sizeof extensions, "{'extensionsUsed':['%s'],'asset'", cases[i].used);
+        if (cases[i].required) snprintf(extensions + used - 7, sizeof extensions - (size_t)used, "'extensionsRequired':['%s'],'asset'", cases[i].required);
+        char *json[4] = {replace(textured, "'extensions':{'EXT_texture_webp':{'source':0}}", cases[i].texture)};
+        json[1] = replace(json[0], "{'uri':'@webp@'}", "{'uri':'@webp@'},{'uri':'@png@'},{'uri':'@ktx2@'}");
+        json[2] = replace(json[1], "{'asset'", extensions);
+        json[3] = replace(json[2], "@material@", "'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}");
+        char *json4 = replace(json[3], "@png@", plain_png);
+        ec_error err;
+        ec_scene *s = load_text(json4, with, &err);
+        bool unbuilt = !ec_has_webp && strstr(cases[i].texture, "webp");
+        const char *said = s ? messages : err.text;
+        if (!unbuilt) {
+            CHECK_MSG(!s == (cases[i].required && !strstr(cases[i].required, "webp")), "case %zu: %s", i, err.text);
+            CHECK_MSG(!cases[i].says || strstr(said, cases[i].says), "case %zu says \"%s\"", i, said);
+            CHECK_MSG(cases[i].says || !strstr(messages, "W "), "case %zu says \"%s\"", i, messages);
+            if (s) CHECK_MSG(s->image_count == (cases[i].side > 0) && (!s->image_count || (int32_t)s->images[0].width == cases[i].side), "case %zu", i);
+        } else if (cases[i].required) {
+            CHECK_MSG(!s && strstr(err.text, "built without"), "case %zu: %s", i, err.text);
+        } else {
+            CHECK_MSG(s && s->image_count == 1 && s->images[0].width == 1, "case %zu: %s", i, said);
+        }
+        ec_scene_free(s);
+        for (int k = 0; k < 4; k++) free(json[k]);
+        free(json4);
     }
 }
 
@@ -230,6 +280,7 @@ int main(void)
     test_meshopt();
     test_draco();
     test_webp();
+    test_fallbacks();
     test_specular_glossiness();
     TEST_END();
 }

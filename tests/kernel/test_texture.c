@@ -1,5 +1,6 @@
 /* Texture look-ups against double precision: wrap modes, nearest and bilinear, sRGB, float texels, uv transforms. */
 #include "kernel/kernel_reference.h"
+#include "image/image.h"
 #include "pack/pack.h"
 
 typedef struct image {

@@ -26,6 +26,14 @@ static void judge_lights(const ec_pack *pack)
     PROMISE(!pack->light_count || fabs(sum - 1) < 1e-5, "the chances of %u lights add up to %g", pack->light_count, sum);
 }
 
+static void judge_environment(const ec_environment *e)
+{
+    uint64_t count = e->rgb ? 3 * (uint64_t)e->width * e->height : 3;
+    const float *values = e->rgb ? e->rgb : e->constant;
+    for (uint64_t i = 0; i < count; i++) PROMISE(values[i] >= 0 && values[i] <= EC_RADIANCE_MOST, "environment: %g", values[i]);
+    for (int i = 0; e->turned && i < 9; i++) PROMISE(fabsf(e->turn[i]) < 1.0001f, "environment turned by %g", e->turn[i]);
+}
+
 static void pack(const ec_scene *scene)
 {
     ec_pack packed;
@@ -35,6 +43,7 @@ static void pack(const ec_scene *scene)
     if (result != EC_OK) return;
     PROMISE(isfinite(packed.scene_radius) && isfinite(packed.scene_max), "radius %g", packed.scene_radius);
     judge_lights(&packed);
+    judge_environment(&scene->environment);
     ec_pack_light_centres(scene, &packed, &err);
     fuzz_judge_result(EC_OK, &err);
     ec_pack_free(&packed);

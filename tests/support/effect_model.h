@@ -88,4 +88,60 @@ static inline ec_scene *em_scene(effect_model *e)
     return scene;
 }
 
+/* A scene that calls for every effect that --without can leave out, each in a place of its own before a floor, so that the picture is
+ * another one without it: 16 squares, 4 in a row, the last with a body in a body. */
+static inline ec_scene *em_everything(void)
+{
+    enum { SQUARES = 15 };
+    static const float bent[12] = {0.6f, 0, 0.8f, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    effect_model e = em_new();
+    ec_material list[SQUARES], glass = em_plain(), liquid, floor = em_plain();
+    for (int i = 0; i < SQUARES; i++) {
+        list[i] = em_plain();
+        list[i].metallic = list[i].roughness = 0.5f;
+        for (int slot = 0; slot < EC_SLOT_COUNT; slot++) em_use(&list[i], slot, EM_MIXED);
+    }
+    list[0].emission[0] = 1;
+    list[1].specular = 1;
+    list[2].transmission = list[3].transmission = list[12].transmission = 1;
+    list[3].volume = list[12].volume = true;
+    list[3].absorption[0] = list[3].dispersion = 1;
+    list[4].coat = list[4].coat_roughness = 1;
+    list[5].sheen[0] = list[5].sheen_roughness = 1;
+    list[6].anisotropy = 1;
+    list[7].alpha_mode = EC_ALPHA_BLEND;
+    list[7].base_color[3] = 0.5f;
+    list[8].film = 1, list[8].film_ior = 1.3f, list[8].film_most = 400;
+    list[9].seeps = 1;
+    list[10].unlit = true;
+    list[11].double_sided = false; /* and its back to the camera */
+    for (int slot = 0; slot < EC_SLOT_COUNT; slot++) list[13].textures[slot].texture = -1;
+    list[13].metallic = list[13].roughness = 0, list[13].transmission = list[13].specular = 1; /* a clear pane */
+    glass.metallic = glass.roughness = 0;
+    glass.specular = glass.transmission = 1;
+    glass.volume = true;
+    glass.ior = 1.5f;
+    liquid = glass;
+    liquid.ior = 1.33f;
+    for (int i = 0; i < SQUARES; i++) {
+        double turn = i == 11 ? -1 : 1, place[16] = {turn, 0, 0, 0, 0, 1, 0, 0, 0, 0, turn, 0, 2.5 * (i % 4), 2.5 * (i / 4), 0, 1};
+        ec_model_place(e.model, place);
+        em_quad(&e, em_material(&e, &list[i]), bent);
+    }
+    ec_model_place(e.model, NULL);
+    ec_model_box(e.model, em_material(&e, &glass), (double[]){6.5, 6.5, -0.5}, (double[]){8.5, 8.5, 0.5}, false);
+    ec_model_box(e.model, em_material(&e, &liquid), (double[]){7, 7, -0.3}, (double[]){8, 8, 0.3}, false);
+    ec_model_quad(e.model, em_material(&e, &floor), (double[]){-3, -3, -1}, (double[]){14, 0, 0}, (double[]){0, 14, 0});
+    ec_model_light(e.model, &(ec_light){.intensity = {40, 30, 20}}, (double[]){3, 3, 4}, (double[]){3, 3, 0});
+    ec_model_camera(e.model, EC_CAMERA_ORTHOGRAPHIC, (double[]){3.75, 3.75, 9}, (double[]){3.75, 3.75, 0}, 5);
+    ec_scene *scene = em_scene(&e);
+    scene->colors = malloc(4 * (size_t)scene->vertex_count * sizeof *scene->colors);
+    for (size_t i = 0; scene->colors && i < 4 * (size_t)scene->vertex_count; i++) scene->colors[i] = i % 4 == 3 ? 1 : 0.8f;
+    scene->has_environment = true;
+    scene->environment = (ec_environment){.width = 2, .height = 2, .rgb = calloc(12, sizeof(float)), .turned = true,
+                                          .turn = {1, 0, 0, 0, 0, -1, 0, 1, 0}};
+    for (int i = 0; scene->environment.rgb && i < 12; i++) scene->environment.rgb[i] = 0.1f * (float)i;
+    return scene;
+}
+
 #endif

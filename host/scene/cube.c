@@ -1,0 +1,91 @@
+#include "scene/cube.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A face's middle, and where its columns and rows run to. */
+static const struct {
+    double middle[3], right[3], down[3];
+} frames[6] = {{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+               {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}};
+
+void ec_cube_free(ec_cube *cube)
+{
+    for (int f = 0; f < 6; f++) free(cube->face[f]);
+    *cube = (ec_cube){0};
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The face that direction d (of any length) meets, and where on it, from -1 to 1. */
+static int meet(const double d[3], double *right, double *down)
+{
+    int axis = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
+    if (fabs(d[2]) > fabs(d[axis])) axis = 2;
+    int f = 2 * axis + (d[axis] < 0);
+    *right = dot(d, frames[f].right) / fabs(d[axis]);
+    *down = dot(d, frames[f].down) / fabs(d[axis]);
+    return f;
+}
+
+static int64_t nearest(double at, int64_t size)
+{
+    int64_t i = (int64_t)floor((at + 1) / 2 * (double)size);
+    return i < 0 ? 0 : i >= size ? size - 1 : i;
+}
+
+/* Pixel (x, y) of a face, either of which may lie one beyond its edge: that is the neighbour's. At a corner, where only three pixels
+ * meet, their mean stands for the fourth, so that all three faces interpolate to the same there. */
+static void texel(const ec_cube *cube, int f, int64_t x, int64_t y, double rgb[3])
+{
+    int64_t size = cube->size, in_x = x < 0 ? 0 : x >= size ? size - 1 : x, in_y = y < 0 ? 0 : y >= size ? size - 1 : y;
+    if (in_x != x && in_y != y) {
+        double own[3], beside[3], below[3];
+        texel(cube, f, in_x, in_y, own);
+        texel(cube, f, x, in_y, beside);
+        texel(cube, f, in_x, y, below);
+        for (int k = 0; k < 3; k++) rgb[k] = (own[k] + beside[k] + below[k]) / 3;
+        return;
+    }
+    if (in_x != x || in_y != y) { /* a quarter of a pixel beyond the edge the neighbour's pixels still lie beside this one's */
+        double right = (2 * (double)in_x + 1) / (double)size - 1, down = (2 * (double)in_y + 1) / (double)size - 1, d[3];
+        if (in_x != x) right = copysign(1 + 0.5 / (double)size, right + (x < 0 ? -1 : 1));
+        if (in_y != y) down = copysign(1 + 0.5 / (double)size, down + (y < 0 ? -1 : 1));
+        for (int k = 0; k < 3; k++) d[k] = frames[f].middle[k] + right * frames[f].right[k] + down * frames[f].down[k];
+        f = meet(d, &right, &down);
+        in_x = nearest(right, size);
+        in_y = nearest(down, size);
+    }
+    const float *at = cube->face[f] + 3 * (in_y * size + in_x);
+    for (int k = 0; k < 3; k++) rgb[k] = at[k];
+}
+
+static void add_bilinear(const ec_cube *cube, const double d[3], double sum[3])
+{
+    double right, down, four[4][3];
+    int f = meet(d, &right, &down);
+    double x = (right + 1) / 2 * cube->size - 0.5, y = (down + 1) / 2 * cube->size - 0.5, fx = x - floor(x), fy = y - floor(y);
+    for (int i = 0; i < 4; i++) texel(cube, f, (int64_t)floor(x) + i % 2, (int64_t)floor(y) + i / 2, four[i]);
+    for (int k = 0; k < 3; k++)
+        sum[k] += (1 - fy) * ((1 - fx) * four[0][k] + fx * four[1][k]) + fy * ((1 - fx) * four[2][k] + fx * four[3][k]);
+}
+
+void ec_cube_unroll(const ec_cube *cube, uint32_t width, uint32_t height, uint32_t samples, float *rgb)
+{
+    const double pi = 3.14159265358979323846;
+#pragma omp parallel for schedule(dynamic, 16)
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            double sum[3] = {0};
+            for (uint32_t i = 0; i < samples * samples; i++) {
+                double u = (x + (i % samples + 0.5) / samples) / width, v = (y + (i / samples + 0.5) / samples) / height;
+                double phi = 2 * pi * (u - 0.5), theta = pi * v;
+                double d[3] = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
+                add_bilinear(cube, d, sum);
+            }
+            for (int k = 0; k < 3; k++) rgb[3 * ((size_t)y * width + x) + (size_t)k] = (float)(sum[k] / (samples * samples));
+        }
+}
