@@ -162,7 +162,7 @@ static ec_result add_batch(render_state *r, float *host, uint32_t count, bool co
     EC_TRY(ec_pipeline_read_invalid(p, r->invalid, err));
     if (!complete) EC_TRY(mark_unsampled(r, host, count, err));
     if (r->allotment.weight) EC_TRY(ec_film_add_some(r->film, host, r->allotment.places, count, err));
-    else ec_film_add_batch(r->film, host);
+    else EC_TRY(ec_film_add_batch(r->film, host, err));
     r->samples += r->under_way;
     r->error = ec_film_estimate_error(r->film);
     return EC_OK;
@@ -306,6 +306,7 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     uint32_t batch = choose_batch(options);
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
     ec_result result = ec_film_create(film, options->width, options->height, batch, err);
+    film->shows_late = true;
     if (result == EC_OK) result = ec_pipeline_create(cl, scene, options, batch, &r.pipeline, stats, err);
     if (result == EC_OK && r.pipeline.bodies_too_many)
         ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
@@ -319,6 +320,7 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
         if (result != EC_OK && err) *err = why;
         finish_stats(&r);
     }
+    ec_film_show(film);
     ec_allotment_free(&r.allotment);
     ec_pipeline_destroy(&r.pipeline);
     return result;
