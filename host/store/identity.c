@@ -58,13 +58,30 @@ const char *ec_identity_value(const ec_identity *identity, const char *name)
     return NULL;
 }
 
+static bool is_scene(const char *name)
+{
+    for (int i = 0; i < EC_CONTENT_COUNT; i++)
+        if (i != EC_CONTENT_SETTINGS && i != EC_CONTENT_KERNELS && !strcmp(name, contents[i])) return true;
+    return false;
+}
+
+/* "the scene's camera and geometry": all that differ. */
+static void describe_scene(const ec_identity *there, const ec_identity *here, char *text, size_t size)
+{
+    snprintf(text, size, "not the same are the scene's");
+    for (uint32_t i = 0, found = 0; i < here->count; i++) {
+        const ec_trait *own = &here->traits[i];
+        const char *other = ec_identity_value(there, own->name);
+        size_t used = strlen(text);
+        if (!is_scene(own->name) || (other && !strcmp(other, own->value))) continue;
+        snprintf(text + used, size - used, "%s%s", found++ ? ", " : " ", own->name);
+    }
+}
+
 static void describe(const char *name, const char *there, const char *here, char *text, size_t size)
 {
-    bool is_digest = false;
-    for (int i = 0; i < EC_CONTENT_COUNT; i++) is_digest |= !strcmp(name, contents[i]);
     if (!strcmp(name, "kernels")) snprintf(text, size, "it is of another version of eclat, whose kernels are not the same");
-    else if (!strcmp(name, "settings")) snprintf(text, size, "the settings of the render are others");
-    else if (is_digest) snprintf(text, size, "the scene's %s %s", name, strcmp(name, "camera") && strcmp(name, "geometry") && strcmp(name, "environment") ? "are others" : "is another");
+    else if (!strcmp(name, "settings")) snprintf(text, size, "the settings of the render are not the same");
     else snprintf(text, size, "%s is %s there and %s here", name, there ? there : "not known", here ? here : "not known");
 }
 
@@ -74,7 +91,8 @@ bool ec_identity_differs(const ec_identity *there, const ec_identity *here, char
         const ec_trait *own = &here->traits[i];
         const char *other = ec_identity_value(there, own->name);
         if (other && !strcmp(other, own->value)) continue;
-        describe(own->name, other, own->value, text, size);
+        if (is_scene(own->name)) describe_scene(there, here, text, size);
+        else describe(own->name, other, own->value, text, size);
         return true;
     }
     for (uint32_t i = 0; i < there->count; i++) {

@@ -25,6 +25,8 @@ static void add_job(cJSON *state, const ec_job *job)
     cJSON_AddStringToObject(state, "folder", job->folder);
     cJSON_AddStringToObject(state, "device", job->device);
     cJSON_AddNumberToObject(state, "spp", job->spp);
+    cJSON_AddNumberToObject(state, "errorTarget", job->error_target);
+    cJSON_AddNumberToObject(state, "timeLimit", job->time_limit);
     cJSON_AddNumberToObject(state, "first", job->first);
     cJSON_AddNumberToObject(state, "end", job->end);
 }
@@ -136,6 +138,8 @@ static void read_job(reader *r, ec_job *job)
     job->folder = copy(r, cJSON_GetObjectItemCaseSensitive(r->state, "folder"));
     job->device = copy(r, cJSON_GetObjectItemCaseSensitive(r->state, "device"));
     job->spp = whole(r, "spp");
+    job->error_target = number(r, "errorTarget", 1e12);
+    job->time_limit = number(r, "timeLimit", 1e12);
     job->first = whole(r, "first");
     job->end = whole(r, "end");
 }

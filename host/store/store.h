@@ -15,6 +15,7 @@ typedef struct ec_job {
     const char *folder;   /* where it was given */
     const char *device;   /* in words: on another, samples may differ in their last bits */
     uint32_t spp;         /* samples a pixel of the whole job; 0: not limited by them */
+    double error_target, time_limit; /* other limits; 0: none */
     uint32_t first, end;  /* batches of the slice; end 0: none was asked for */
 } ec_job;
 
