@@ -54,6 +54,7 @@ static ec_result take_slices(const merge_request *request, ec_merge *merge, cons
 {
     char missing[512];
     for (int i = 0; i < request->count; i++) EC_TRY(ec_merge_take(merge, request->paths[i], log, err));
+    ec_film_show(&merge->all.film);
     if (!ec_merge_missing(merge, missing, sizeof missing)) return EC_OK;
     if (!request->partial) return ec_fail(err, "samples %s are missing; render them with --samples, or write what there is with --partial", missing);
     ec_warn(log, "samples %s are missing: the picture is of the others", missing);

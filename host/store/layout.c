@@ -21,7 +21,7 @@ static void add_halves(ec_channel *to, const char *const names[2], const double 
     to[1] = (ec_channel){names[1], words + 1 - low, 2 * stride, true};
 }
 
-uint32_t ec_sum_channels(const ec_moments *m, const uint32_t *counts, const float *weights, ec_channel channels[EC_SUM_CHANNELS])
+uint32_t ec_sum_channels(const ec_moments *m, const uint32_t *counts, ec_channel channels[EC_SUM_CHANNELS])
 {
     uint32_t n = 0;
     for (int c = 0; c < 3; c++, n += 2) add_halves(channels + n, doubles[c], m->mean + c, 3);
@@ -30,7 +30,6 @@ uint32_t ec_sum_channels(const ec_moments *m, const uint32_t *counts, const floa
     channels[n++] = (ec_channel){"m4.Y", m->m34 + 1, 2, false};
     channels[n++] = (ec_channel){"largest.Y", m->largest, 1, false};
     if (counts) channels[n++] = (ec_channel){"count", (const float *)counts, 1, true};
-    if (weights) channels[n++] = (ec_channel){"weight", weights, 1, false};
     return n;
 }
 

@@ -2,7 +2,7 @@
  *
  * Part "picture": what viewers show; first-hit features are read from its channels A, albedo, normal and depth. Its attribute eclat.state
  * is a JSON object: state.c. Part "sums N" for each part of the film: mean, m2 (doubles, as two integers each), m3, m4 and largest; or for a
- * single batch R, G and B. Pixels with counts of their own have "count" there, and "weight" of the allotment. */
+ * single batch R, G and B. Pixels with counts of their own have "count" there. Part "allotment": "weight", by pixel number. */
 #ifndef EC_STORE_LAYOUT_H
 #define EC_STORE_LAYOUT_H
 
@@ -21,9 +21,9 @@ typedef struct ec_state_film {
 } ec_state_film;
 ec_result ec_state_read(const char *text, const char *path, ec_stored *stored, ec_state_film *film, ec_error *err);
 
-enum { EC_SUM_CHANNELS = 19 };
-/* Channels of sums, and of counts and weights where they are not NULL. */
-uint32_t ec_sum_channels(const ec_moments *sums, const uint32_t *counts, const float *weights, ec_channel channels[EC_SUM_CHANNELS]);
+enum { EC_SUM_CHANNELS = 18 };
+/* Channels of sums, and of counts where they are not NULL. */
+uint32_t ec_sum_channels(const ec_moments *sums, const uint32_t *counts, ec_channel channels[EC_SUM_CHANNELS]);
 uint32_t ec_batch_channels(const float *batch, ec_channel channels[3]);
 /* Of features, 8 floats a pixel: names and order of those in the picture. */
 enum { EC_FEATURE_CHANNELS = 8 };

@@ -29,7 +29,7 @@ static ec_result read_part(ec_exr_file *file, const char *path, uint32_t index, 
         EC_TRY(fill(file, name, channels, ec_batch_channels(part->batch, channels), err));
     } else {
         if (!ec_moments_create(&part->sums, pixels)) return no_memory(path, err);
-        EC_TRY(fill(file, name, channels, ec_sum_channels(&part->sums, NULL, NULL, channels), err));
+        EC_TRY(fill(file, name, channels, ec_sum_channels(&part->sums, NULL, channels), err));
     }
     return ec_film_insert(film, part, err);
 }
@@ -46,18 +46,23 @@ static ec_result read_parts(ec_exr_file *file, const char *path, const ec_state_
     return EC_OK;
 }
 
-static ec_result read_counted(ec_exr_file *file, const char *path, const ec_state_film *state, ec_stored *s, ec_error *err)
+static ec_result read_weights(ec_exr_file *file, const char *path, ec_stored *s, ec_error *err)
 {
-    ec_film *film = &s->film;
+    float *weight = s->past.allotment.weight = calloc((uint64_t)s->film.width * s->film.height, sizeof *weight);
+    if (!weight) return no_memory(path, err);
+    return ec_exr_fill(file, "allotment", &(ec_exr_room){"weight", weight, 1}, 1, err);
+}
+
+static ec_result read_counted(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
+{
     uint64_t pixels = (uint64_t)film->width * film->height;
     char name[24];
     ec_channel channels[CHANNELS_MOST];
     film->counts = calloc(pixels, sizeof *film->counts);
-    if (state->has_weights) s->past.allotment.weight = calloc(pixels, sizeof *s->past.allotment.weight);
-    if (!film->counts || (state->has_weights && !s->past.allotment.weight)) return no_memory(path, err);
+    if (!film->counts) return no_memory(path, err);
     const ec_moments shown = {film->mean, film->m2, film->m34, film->largest};
     ec_sum_part_name(0, name);
-    EC_TRY(fill(file, name, channels, ec_sum_channels(&shown, film->counts, s->past.allotment.weight, channels), err));
+    EC_TRY(fill(file, name, channels, ec_sum_channels(&shown, film->counts, channels), err));
     film->batch_count = state->batch_count;
     for (uint64_t p = 0; p < pixels; p++)
         if (film->counts[p] < film->batch_count) return ec_fail(err, "cannot read '%s': pixels have fewer batches than all of them; take an older file", path);
@@ -86,7 +91,8 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     if (!text) result = ec_fail(err, "cannot read '%s': it is no checkpoint or slice of eclat's; give the file that --checkpoint or --samples wrote", path);
     else result = ec_state_read(text, path, s, &state, err);
     if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.samples_per_batch, err);
-    if (result == EC_OK) result = state.has_counts ? read_counted(file, path, &state, s, err) : read_parts(file, path, &state, &s->film, err);
+    if (result == EC_OK) result = state.has_counts ? read_counted(file, path, &state, &s->film, err) : read_parts(file, path, &state, &s->film, err);
+    if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK) s->film.invalid_count = state.invalid_count;
     if (result == EC_OK) result = read_features(file, path, &s->film, err);
     free(state.parts);
