@@ -22,6 +22,7 @@ ec_result ec_cmd_compare(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_cost(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err);
+ec_result ec_cmd_merge(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err);
 

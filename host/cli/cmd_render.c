@@ -1,5 +1,10 @@
 /* eclat render SCENE: check, load, render, write, tell. */
 
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
 #include "base/clock.h"
 #include "cli/cli.h"
 #include "cli/hash.h"
@@ -32,19 +37,37 @@ static ec_render_report make_report(const ec_render_job *job, const char **outpu
     };
 }
 
+/* What a slice says of itself, beside its sums. */
+static ec_past past_of(const ec_render_job *job)
+{
+    const ec_render_stats *s = &job->stats;
+    return (ec_past){.next = ec_film_end(&job->film),
+                     .samples = s->samples,
+                     .rays = s->rays,
+                     .seconds = s->seconds,
+                     .invalid = {[EC_STAGE_GENERATE] = s->invalid_generate,
+                                 [EC_STAGE_INTERSECT] = s->invalid_intersect,
+                                 [EC_STAGE_SHADE] = s->invalid_shade,
+                                 [EC_STAGE_CONNECT] = s->invalid_connect,
+                                 [EC_STAGE_ACCUMULATE] = s->invalid_accumulate - job->film.invalid_count},
+                     .allotment.gain = 1};
+}
+
 static ec_result write_pictures(ec_render_job *job, ec_render_report *report, ec_error *err)
 {
     ec_picture picture = {0};
     ec_report_attributes attributes;
     ec_result result = EC_OK;
-    EC_TRY_CLEANUP(ec_picture_resolve(&job->film, &picture, err));
+    EC_TRY_CLEANUP(ec_picture_resolve(&job->film, true, &picture, err));
     report->heavy_pixels = picture.heavy_count;
     ec_hash_rgb(picture.rgb, (uint64_t)picture.width * picture.height, job->image_sha256);
     ec_render_report_attributes(report, &attributes);
-    const ec_picture_style style = {.exposure = (float)job->request->exposure,
-                                    .tonemap = job->request->tonemap,
-                                    .attributes = attributes.list,
-                                    .attribute_count = attributes.count};
+    ec_picture_style style = {.exposure = (float)job->request->exposure,
+                              .tonemap = job->request->tonemap,
+                              .attributes = attributes.list,
+                              .attribute_count = attributes.count};
+    const ec_past past = past_of(job);
+    if (job->request->has_slice) style.job = &job->job, style.film = &job->film, style.past = &past;
     EC_TRY_CLEANUP(ec_outputs_write(&job->request->outputs, &picture, &style, err));
 cleanup:
     ec_picture_free(&picture);
@@ -84,8 +107,11 @@ static ec_result deliver(ec_console *console, ec_render_job *job, double start, 
 static ec_result render(ec_console *console, ec_render_job *job, double start, ec_error *err)
 {
     ec_error why = {0};
-    if (ec_render_job_run(job, console, &why) == EC_OK) return deliver(console, job, start, err);
-    if (job->film.batch_count == 0) return ec_fail(err, "%s", why.text);
+    if (ec_render_job_run(job, console, &why) == EC_OK) {
+        EC_TRY(deliver(console, job, start, err));
+        return *job->keep_error.text ? ec_fail(err, "%s; the picture is written", job->keep_error.text) : EC_OK;
+    }
+    if (job->film.batch_count == 0 || job->stats.samples == 0) return ec_fail(err, "%s", why.text); /* samples: of a checkpoint that does not fit, none */
     ec_fail(err, "the render failed after %llu samples a pixel: %s", (unsigned long long)job->stats.samples_per_pixel, why.text);
     ec_error unwritten = {0};
     if (deliver(console, job, start, &unwritten) == EC_OK) ec_fail_more(err, "; the picture so far is written");
@@ -98,15 +124,20 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
     double start = ec_now();
     ec_render_request request = {0};
     bool done = false;
-    EC_TRY(ec_render_request_parse(argc, argv, &request, &done, err));
-    if (done) return EC_OK;
-    cli->console.quiet = request.quiet;
-
-    ec_render_job job = {.request = &request, .command = cli->line};
+    char folder[PATH_MAX] = "", **as_given = malloc(((size_t)argc + 1) * sizeof *as_given); /* getopt changes their order */
+    if (!as_given) return ec_fail(err, "out of memory");
+    memcpy(as_given, argv, ((size_t)argc + 1) * sizeof *as_given);
+    if (!getcwd(folder, sizeof folder)) folder[0] = 0;
+    ec_render_job job = {.request = &request, .command = cli->line, .job = {.argc = argc, .argv = as_given, .folder = folder}};
     ec_result result = EC_OK;
+    EC_TRY_CLEANUP(ec_render_request_parse(argc, argv, &request, &done, err));
+    if (done) goto cleanup;
+    if (request.resume) EC_TRY_CLEANUP(ec_render_job_take_up(&job, argc, argv, err));
+    cli->console.quiet = request.quiet;
     EC_TRY_CLEANUP(ec_render_job_prepare(&job, &cli->console, err));
     EC_TRY_CLEANUP(render(&cli->console, &job, start, err));
 cleanup:
     ec_render_job_free(&job);
+    free(as_given);
     return result;
 }

@@ -23,6 +23,7 @@ static const command commands[] = {
     {"cost", ec_cmd_cost},
     {"info", ec_cmd_info},
     {"compare", ec_cmd_compare},
+    {"merge", ec_cmd_merge},
     {"devices", ec_cmd_devices},
     {"selftest", ec_cmd_selftest},
     {"help", cmd_help},

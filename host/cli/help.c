@@ -22,6 +22,7 @@ const char EC_HELP_SHORT[] =
     "       eclat cost SCENE [options]     measure what buys accuracy cheapest on it\n"
     "       eclat info SCENE               say what is in it\n"
     "       eclat compare A.exr B.exr      say whether two images differ by more than noise\n"
+    "       eclat merge A.exr B.exr …      make one picture of slices rendered apart\n"
     "       eclat devices                  list the OpenCL devices\n"
     "       eclat selftest                 try a device with hard cases of known answers\n"
     "       eclat --help                   say more\n";
@@ -37,6 +38,7 @@ static const char help_main[] =
     "  devices            list every OpenCL device and say which is the default\n"
     "  help [COMMAND]     show this, or the help of a command\n"
     "  info SCENE         say what a scene holds and what rendering it takes\n"
+    "  merge A B …        make one picture of slices that were rendered apart\n"
     "  render SCENE       render a scene to EXR and PNG\n"
     "  selftest           try a device and its driver with hard cases whose answers are known\n"
     "\n"
@@ -82,6 +84,14 @@ static const char help_render[] =
     "      --spp N                after N samples a pixel (without it, --time and --error give up after " EC_TEXT(EC_SAFETY_SPP) ")\n"
     "      --time S               before S seconds of rendering; also 30s, 2m, 1h\n"
     "      Ctrl-C                 stops cleanly and writes the image so far (exit code 0); a second one aborts\n"
+    "\n"
+    "Going on and sharing out: every sample is the same whoever takes it when\n"
+    "      --checkpoint FILE      write FILE.exr on the way, whole or not at all: a picture, and what --resume needs\n"
+    "      --every S              so often (default: " EC_TEXT(EC_DEFAULT_EVERY) " seconds), and at the end, also after Ctrl-C\n"
+    "      --resume FILE          go on from a checkpoint as if there had been no break; scene, options and limits are its own,\n"
+    "                             but --spp, --time, --error (in all) and -o may be given anew. SCENE may be left out\n"
+    "      --samples A:B          render these of the samples that --spp N takes in each pixel, from A up to but not including\n"
+    "                             B: a slice, an .exr for eclat merge. A and B are whole batches (default -o: NAME.A-B.exr)\n"
     "\n"
     "Light transport\n"
     "      --cutoff W             whitted: leave out branches that would add less than W of their light, 0 to 1\n"
@@ -218,6 +228,22 @@ static const char help_compare[] =
     "                     could not be compared: then there is an error message, and nothing on standard output\n"
     "  2                  the command line is wrong\n";
 
+static const char help_merge[] =
+    "Usage: eclat merge A.exr [B.exr …] -o ALL.exr [options]\n"
+    "\n"
+    "Makes one picture of slices that eclat render --samples wrote, or of checkpoints: in any order the same bits as one render\n"
+    "of all their samples. Slices of other scenes, options or versions, and such that have samples in common, are refused.\n"
+    "\n"
+    "Options\n"
+    "      --exposure EV, --tonemap CURVE\n"
+    "                     for the PNG, as for eclat render\n"
+    "  -h, --help         show this\n"
+    "      --json         print one JSON object instead of text\n"
+    "  -o, --output FILE  write FILE, an .exr (all data, and sums: it may be merged again) or a .png; may be repeated\n"
+    "      --partial      write the picture even where samples are missing\n"
+    "  -q, --quiet        only warnings and errors\n"
+    "      --version      show the version\n";
+
 static const char help_devices[] =
     "Usage: eclat devices [options]\n"
     "\n"
@@ -267,6 +293,7 @@ void ec_print_help(const char *command)
     if (!strcmp(command, "render")) text = help_render;
     if (!strcmp(command, "info")) text = help_info;
     if (!strcmp(command, "compare")) text = help_compare;
+    if (!strcmp(command, "merge")) text = help_merge;
     if (!strcmp(command, "devices")) text = help_devices;
     if (!strcmp(command, "selftest")) text = help_selftest;
     fputs(text, stdout);

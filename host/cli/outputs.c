@@ -37,21 +37,30 @@ ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err)
+/* The scene's base name, with this behind it. */
+static ec_result add_named(ec_outputs *outputs, const char *scene, const char *ending, ec_error *err)
 {
-    static const char *const extensions[] = {".exr", ".png"};
+    char path[PATH_MAX];
     const char *slash = strrchr(scene, '/');
     const char *name = slash ? slash + 1 : scene;
     const char *dot = strrchr(name, '.');
     int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
-    for (int i = 0; i < 2; i++) {
-        char path[PATH_MAX];
-        int size = snprintf(path, sizeof path, "%.*s%s", stem, name, extensions[i]);
-        if (stem == 0 || size >= (int)sizeof path)
-            return ec_usage(err, "'%s' gives the picture no name: add -o FILE", scene);
-        EC_TRY(ec_outputs_add(outputs, path, err));
-    }
-    return EC_OK;
+    int size = snprintf(path, sizeof path, "%.*s%s", stem, name, ending);
+    if (stem == 0 || size >= (int)sizeof path) return ec_usage(err, "'%s' gives the picture no name: add -o FILE", scene);
+    return ec_outputs_add(outputs, path, err);
+}
+
+ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err)
+{
+    EC_TRY(add_named(outputs, scene, ".exr", err));
+    return add_named(outputs, scene, ".png", err);
+}
+
+ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t first, uint32_t end, ec_error *err)
+{
+    char ending[40];
+    snprintf(ending, sizeof ending, ".%u-%u.exr", first, end);
+    return add_named(outputs, scene, ending, err);
 }
 
 bool ec_same_file(const char *a, const char *b)

@@ -1,6 +1,7 @@
 #include "cli/render_job.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -13,12 +14,37 @@
 #include "report/format.h"
 #include "report/scene_report.h"
 
+/* A slice is its sums: a PNG alone would throw them away. */
+static ec_result check_slice_output(const ec_render_request *request, ec_error *err)
+{
+    bool has_exr = !request->has_slice;
+    for (int i = 0; i < request->outputs.count; i++) has_exr |= request->outputs.file[i].kind == EC_OUTPUT_EXR;
+    return has_exr ? EC_OK : ec_usage(err, "--samples: a slice is an .exr, which eclat merge adds to others; give -o NAME.exr");
+}
+
+static ec_result check_checkpoint(const ec_render_request *request, ec_error *err)
+{
+    const char *path = request->checkpoint, *inputs[] = {request->scene, request->environment};
+    if (!path) return EC_OK;
+    for (int i = 0; i < 2; i++)
+        if (inputs[i] && ec_same_file(path, inputs[i])) return ec_fail(err, "'%s' is an input of this render; give --checkpoint another name", path);
+    for (int i = 0; i < request->outputs.count; i++)
+        if (!strcmp(path, request->outputs.file[i].path) || ec_same_file(path, request->outputs.file[i].path))
+            return ec_usage(err, "'%s' is both the checkpoint and the picture; give one of them another name", path);
+    return ec_image_check_writable(path, err);
+}
+
 static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
 {
     ec_outputs *outputs = &request->outputs;
     const char *inputs[] = {request->scene, request->environment};
     request->default_outputs = outputs->count == 0;
-    if (request->default_outputs) EC_TRY(ec_outputs_add_default(outputs, request->scene, err));
+    if (request->default_outputs && request->has_slice)
+        EC_TRY(ec_outputs_add_slice(outputs, request->scene, request->slice_first, request->slice_end, err));
+    else if (request->default_outputs)
+        EC_TRY(ec_outputs_add_default(outputs, request->scene, err));
+    EC_TRY(check_slice_output(request, err));
+    EC_TRY(check_checkpoint(request, err));
     return ec_outputs_check(outputs, inputs, 2, err);
 }
 
@@ -70,7 +96,8 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 /* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. */
 static ec_result check_memory(const ec_render_options *options, ec_error *err)
 {
-    const uint64_t bytes_per_pixel = 164; /* film 68, first-hit features 32, planes for the files 64 */
+    uint64_t batches = options->spp ? (options->spp + ec_render_batch(options) - 1ull) / ec_render_batch(options) : 1;
+    const uint64_t bytes_per_pixel = 96 + EC_MOMENTS_BYTES * ec_film_copies(batches); /* first-hit features 32, planes for the files 64 */
     uint64_t needed = (uint64_t)options->width * options->height * bytes_per_pixel;
     uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
     char needed_text[32], present_text[32];
@@ -106,7 +133,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
 static void announce(const ec_render_job *job, ec_console *console)
 {
     const ec_render_options *options = &job->request->options;
-    char limits[160] = "";
+    char limits[160] = "", range[64] = "";
     int used = 0;
     if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
     if (options->time_limit > 0)
@@ -117,8 +144,79 @@ static void announce(const ec_render_job *job, ec_console *console)
     if (job->request->default_outputs)
         ec_console_say(console, "note: no -o given: the picture goes to %s and %s in the current directory",
                        job->request->outputs.file[0].path, job->request->outputs.file[1].path);
-    ec_console_say(console, "rendering %ux%u pixels on %s until %s", options->width, options->height, job->device.name,
-                   limits);
+    if (job->request->has_slice)
+        snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
+    if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
+                                             (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
+    ec_console_say(console, "rendering %s%ux%u pixels on %s until %s", range, options->width, options->height, job->device.name, limits);
+}
+
+ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err)
+{
+    const char *path = job->request->resume;
+    EC_TRY(ec_store_read(path, &job->stored, err));
+    EC_TRY(ec_render_request_resume(&job->stored.job, argc, argv, job->request, err));
+    job->job.argc = job->stored.job.argc;
+    job->job.argv = job->stored.job.argv;
+    job->job.folder = job->stored.job.folder;
+    const ec_render_request *r = job->request;
+    uint32_t batch = job->stored.film.samples_per_batch, first = r->has_slice ? r->slice_first / batch : 0, end = r->has_slice ? r->slice_end / batch : 0;
+    if (first != job->stored.job.first || end != job->stored.job.end)
+        return ec_fail(err, "cannot go on from '%s': it is of other samples than --samples %u:%u; leave that out", path, r->slice_first, r->slice_end);
+    return EC_OK;
+}
+
+/* What is rendered is known: is it what was rendered before? */
+static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
+{
+    ec_render_job *job = user;
+    const ec_log log = ec_console_log(job->console);
+    char difference[1200];
+    ec_identity_of(&job->request->options, &stats->content, &job->job.identity);
+    if (!job->request->resume) return EC_OK;
+    if (ec_identity_differs(&job->stored.job.identity, &job->job.identity, difference, sizeof difference))
+        return ec_fail(err, "cannot go on from '%s': %s; use the scene, options and version that it was made with, or start anew", job->request->resume, difference);
+    if (strcmp(job->stored.job.device, job->device_text))
+        ec_warn(&log, "'%s' was rendered on %s: where that rounds otherwise than %s, the last bits are not those of one run", job->request->resume,
+                job->stored.job.device, job->device_text);
+    return EC_OK;
+}
+
+static bool keep(void *user, const ec_film *film, const ec_past *past)
+{
+    ec_render_job *job = user;
+    const ec_log log = ec_console_log(job->console);
+    ec_picture picture = {0};
+    const ec_attribute attributes[] = {{.name = "eclat.command", .type = EC_ATTR_STRING, .string = job->command},
+                                       {.name = "eclat.version", .type = EC_ATTR_STRING, .string = ECLAT_VERSION}};
+    const ec_picture_style style = {.attributes = attributes, .attribute_count = 2, .job = &job->job, .film = film, .past = past};
+    job->keep_error.text[0] = 0;
+    ec_result result = ec_picture_resolve(film, false, &picture, &job->keep_error);
+    if (result == EC_OK) result = ec_picture_write_exr(job->request->checkpoint, &picture, &style, &job->keep_error);
+    ec_picture_free(&picture);
+    if (result != EC_OK) ec_warn(&log, "%s; the render goes on, and the checkpoint will be tried again", job->keep_error.text);
+    return result == EC_OK;
+}
+
+/* Takes the stored film over. */
+static ec_course make_course(ec_render_job *job, ec_console *console)
+{
+    ec_render_request *request = job->request;
+    uint32_t batch = ec_render_batch(&request->options);
+    job->console = console;
+    snprintf(job->device_text, sizeof job->device_text, "%s (%s)", job->device.name, job->device.driver);
+    job->job.device = job->device_text;
+    job->job.spp = request->slice_of_any ? 0 : request->options.spp;
+    job->job.error_target = request->options.error_target;
+    job->job.time_limit = request->options.time_limit;
+    request->options.identify = request->has_slice || request->checkpoint;
+    ec_course course = {.admit = request->options.identify ? admit : NULL, .keep = request->checkpoint ? keep : NULL, .every = request->every, .user = job};
+    if (request->has_slice) course.first = job->job.first = request->slice_first / batch, course.end = job->job.end = request->slice_end / batch;
+    if (!request->resume) return course;
+    course.past = &job->stored.past;
+    job->film = job->stored.film;
+    job->stored.film = (ec_film){0};
+    return course;
 }
 
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
@@ -126,12 +224,13 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     const ec_log log = ec_console_log(console);
     ec_progress_view view = {.console = console, .options = &job->request->options,
                              .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
+    const ec_course course = make_course(job, console);
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(&job->device, &cl, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     announce(job, console);
-    ec_result result = ec_render(&cl, job->scene, &job->request->options, ec_progress_show, &view, &job->film,
-                                 &job->stats, &log, err);
+    ec_result result = ec_render_course(&cl, job->scene, &job->request->options, &course, ec_progress_show, &view, &job->film,
+                                        &job->stats, &log, err);
     ec_console_erase(console);
     ec_cl_close(&cl);
     if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
@@ -146,4 +245,5 @@ void ec_render_job_free(ec_render_job *job)
 {
     ec_scene_free(job->scene);
     ec_film_destroy(&job->film);
+    ec_stored_free(&job->stored);
 }

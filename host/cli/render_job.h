@@ -23,6 +23,11 @@ typedef struct ec_render_job {
     char camera_text[256];
     char environment_text[256];
     char image_sha256[EC_HASH_SIZE];
+    ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
+    ec_stored stored;            /* what is gone on from. Owned */
+    char device_text[256];
+    ec_console *console;
+    ec_error keep_error;         /* why the last checkpoint is not there; empty: it is, or none was wanted */
 } ec_render_job;
 
 /* All that can fail early does so here: outputs, device, scene, environment, camera. */
@@ -30,6 +35,9 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_erro
 
 /* The same without the outputs: device, scene, environment, camera, size. */
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err);
+
+/* With --resume, first of all: reads the checkpoint and completes the request by it. */
+ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err);
 
 /* Renders into job->film, with progress; Ctrl-C ends it early and well. On failure too there may be batches in the film. */
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err);

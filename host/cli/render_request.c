@@ -1,6 +1,9 @@
 #include "cli/render_request.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "accel/accel.h"
 #include "cli/combinations.h"
@@ -25,6 +28,7 @@ FLAG_SETTER(json, json)
 FLAG_SETTER(quiet, quiet)
 FLAG_SETTER(verbose, verbose)
 TEXT_SETTER(camera, camera)
+TEXT_SETTER(resume, resume)
 TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
 CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
@@ -38,6 +42,7 @@ CHOICE_SETTER(terminator, options.terminator, ec_terminator, ec_terminator_names
 CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
 PARSED_SETTER(error, ec_parse_percent, options.error_target)
 PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
+PARSED_SETTER(every, ec_parse_seconds, every)
 PARSED_SETTER(time, ec_parse_seconds, options.time_limit)
 RANGE_SETTER(batch, ec_parse_u32, 1, EC_MAX_SPP, options.batch)
 RANGE_SETTER(cutoff, ec_parse_real, 0, 1, options.cutoff)
@@ -118,6 +123,30 @@ SETTER(without)
     return ec_usage(err, "--%s: '%s' is not one of the effects that can be left out: %s", option, value, names);
 }
 
+/* A checkpoint is an EXR, and named so, since viewers go by that. */
+SETTER(checkpoint)
+{
+    size_t size = strlen(value);
+    if (size <= 4 || value[size - 5] == '/' || strcasecmp(value + size - 4, ".exr"))
+        return ec_usage(err, "--%s: '%s' must be named NAME.exr", option, value);
+    REQUEST->checkpoint = value;
+    return EC_OK;
+}
+
+SETTER(samples)
+{
+    char first[24];
+    const char *colon = strchr(value, ':');
+    REQUEST->has_slice = true;
+    if (!colon || colon == value || (size_t)(colon - value) >= sizeof first || !colon[1])
+        return ec_usage(err, "--%s: '%s' is not A:B, two numbers of samples a pixel as in 128:256", option, value);
+    snprintf(first, sizeof first, "%.*s", (int)(colon - value), value);
+    EC_TRY(ec_parse_u32(option, first, 0, EC_MAX_SPP, &REQUEST->slice_first, err));
+    EC_TRY(ec_parse_u32(option, colon + 1, 1, EC_MAX_SPP, &REQUEST->slice_end, err));
+    if (REQUEST->slice_first < REQUEST->slice_end) return EC_OK;
+    return ec_usage(err, "--%s: %s holds no samples; the second number must be the larger", option, value);
+}
+
 SETTER(size)
 {
     REQUEST->has_size = true;
@@ -129,6 +158,7 @@ static const ec_option options[] = {
     {"adaptive", 0, false, set_adaptive},
     {"batch", 0, true, set_batch},
     {"camera", 0, true, set_camera},
+    {"checkpoint", 0, true, set_checkpoint},
     {"cutoff", 0, true, set_cutoff},
     {"device", 0, true, set_device},
     {"effects", 0, true, set_effects},
@@ -136,6 +166,7 @@ static const ec_option options[] = {
     {"env-rotate", 0, true, set_env_rotate},
     {"env-strength", 0, true, set_env_strength},
     {"error", 0, true, set_error},
+    {"every", 0, true, set_every},
     {"exposure", 0, true, set_exposure},
     {"filter", 0, true, set_filter},
     {"filter-width", 0, true, set_filter_width},
@@ -150,9 +181,11 @@ static const ec_option options[] = {
     {"max-depth", 0, true, set_max_depth},
     {"output", 'o', true, set_output},
     {"quiet", 'q', false, set_quiet},
+    {"resume", 0, true, set_resume},
     {"rr", 0, true, set_rr},
     {"sample", 0, true, set_sample},
     {"sampler", 0, true, set_sampler},
+    {"samples", 0, true, set_samples},
     {"seed", 0, true, set_seed},
     {"size", 0, true, set_size},
     {"spp", 0, true, set_spp},
@@ -166,24 +199,87 @@ static const ec_option options[] = {
 };
 _Static_assert(sizeof options / sizeof options[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
 
+enum { OPTION_COUNT = sizeof options / sizeof options[0] };
+
+/* The batch must not depend on the slice, nor on a limit of time. */
+static ec_result settle_slice(ec_render_request *request, ec_error *err)
+{
+    ec_render_options *o = &request->options;
+    if (!request->has_slice) return EC_OK;
+    if (o->adaptive) return ec_usage(err, "--samples and --adaptive: what a pixel is due there depends on the samples before; leave one out");
+    if (o->error_target > 0) return ec_usage(err, "--samples and --error: a slice does not know the error of the whole; leave one out");
+    if (o->spp == 0 && o->batch) request->slice_of_any = true, o->spp = request->slice_end;
+    if (o->spp == 0) o->spp = EC_DEFAULT_SPP;
+    uint32_t batch = ec_render_batch(o), a = request->slice_first, b = request->slice_end;
+    uint64_t all = (uint64_t)(o->spp + batch - 1) / batch * batch;
+    if (a % batch || b % batch)
+        return ec_usage(err, "--samples %u:%u: slices begin and end with a batch, here every %u samples, as %u:%u; --batch sets that", a, b, batch,
+                        a / batch * batch, (b + batch - 1) / batch * batch);
+    if (b > all) return ec_usage(err, "--samples %u:%u reaches beyond the job's %llu samples a pixel; give the whole job's --spp", a, b, (unsigned long long)all);
+    return EC_OK;
+}
+
+static bool has_limit(const ec_render_options *o) { return o->spp || o->time_limit > 0 || o->error_target > 0; }
+
+/* What follows from all options together. */
+static ec_result settle(ec_render_request *request, const bool *given, ec_error *err)
+{
+    ec_render_options *limits = &request->options;
+    if (limits->integrator == EC_INTEGRATOR_WHITTED && !limits->max_depth && !request->endless) limits->max_depth = EC_WHITTED_DEPTH;
+    EC_TRY(ec_combinations_check(options, OPTION_COUNT, given, limits, err));
+    if (request->every > 0 && !request->checkpoint) return ec_usage(err, "--every belongs to --checkpoint; leave it out or give that too");
+    if (request->every == 0) request->every = EC_DEFAULT_EVERY;
+    EC_TRY(settle_slice(request, err));
+    request->capped = limits->spp == 0 && has_limit(limits);
+    if (!has_limit(limits)) limits->spp = EC_DEFAULT_SPP;
+    return EC_OK;
+}
+
+static void begin(ec_render_request *request)
+{
+    *request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF};
+}
+
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)
 {
-    int first = 0, count = sizeof options / sizeof options[0];
+    int first = 0;
     bool given[EC_OPTIONS_MAX] = {false};
-    request->options.cutoff = EC_DEFAULT_CUTOFF;
-    request->env_strength = 1;
+    begin(request);
     ec_request asked;
-    EC_TRY(ec_options_parse(options, count, request, argc, argv, &first, given, &asked, err));
+    EC_TRY(ec_options_parse(options, OPTION_COUNT, request, argc, argv, &first, given, &asked, err));
     *done = ec_request_serve(asked, argv[0]);
-    if (*done) return EC_OK;
+    if (*done || (request->resume && first == argc)) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &request->scene, err));
-    if (request->options.integrator == EC_INTEGRATOR_WHITTED && !request->options.max_depth && !request->endless)
-        request->options.max_depth = EC_WHITTED_DEPTH;
-    EC_TRY(ec_combinations_check(options, count, given, &request->options, err));
+    return request->resume ? EC_OK : settle(request, given, err);
+}
 
-    ec_render_options *limits = &request->options;
-    bool limited = limits->time_limit > 0 || limits->error_target > 0;
-    request->capped = limits->spp == 0 && limited;
-    if (limits->spp == 0 && !limited) limits->spp = EC_DEFAULT_SPP;
-    return EC_OK;
+ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_render_request *request, ec_error *err)
+{
+    int first = 0;
+    bool given[EC_OPTIONS_MAX] = {false};
+    const ec_render_request now = *request;
+    ec_request asked;
+    char **before = malloc(((size_t)job->argc + 1) * sizeof *before); /* getopt changes their order */
+    if (!before) return ec_fail(err, "out of memory");
+    memcpy(before, job->argv, (size_t)job->argc * sizeof *before);
+    before[job->argc] = NULL;
+    begin(request);
+    ec_result result = ec_options_parse(options, OPTION_COUNT, request, job->argc, before, &first, given, &asked, err);
+    if (result == EC_OK) result = ec_options_scene(job->argc, before, first, &request->scene, err);
+    free(before);
+    if (result != EC_OK) return ec_fail(err, "'%s' holds a command that this version does not understand; use the version that wrote it", now.resume);
+    ec_render_options *o = &request->options;
+    request->quiet = request->verbose = request->json = false;
+    request->checkpoint = NULL;
+    request->every = 0;
+    if (now.outputs.count) request->outputs.count = 0;
+    o->spp = has_limit(&now.options) ? 0 : job->spp;
+    o->time_limit = has_limit(&now.options) ? 0 : job->time_limit;
+    o->error_target = has_limit(&now.options) ? 0 : job->error_target;
+    EC_TRY(ec_options_parse(options, OPTION_COUNT, request, argc, argv, &first, given, &asked, err));
+    if (now.scene) request->scene = now.scene;
+    const char *batch = ec_identity_value(&job->identity, "--batch");
+    if (!now.options.batch && batch) o->batch = (uint32_t)strtoul(batch, NULL, 10);
+    if (!request->checkpoint) request->checkpoint = request->resume;
+    return settle(request, given, err);
 }

@@ -8,6 +8,7 @@
 #include "cli/outputs.h"
 #include "image/image.h"
 #include "pipeline/render.h"
+#include "store/store.h"
 
 typedef struct ec_render_request {
     const char *scene;
@@ -25,11 +26,21 @@ typedef struct ec_render_request {
     bool adjusts_env;          /* one of these was given */
     const char *device;        /* NULL: chosen */
     double exposure;           /* EV */
+    bool has_slice;            /* --samples A:B: */
+    uint32_t slice_first, slice_end; /* samples a pixel, whole batches */
+    bool slice_of_any;         /* of a job without an end: --batch, but no --spp */
+    const char *checkpoint;    /* NULL: none */
+    double every;              /* seconds between two of them */
+    const char *resume;        /* a checkpoint to go on from; NULL: from the start */
     ec_tonemap tonemap;
     bool quiet, verbose, json;
 } ec_render_request;
 
 /* Reads the arguments of `render`. *done: --help or --version was served and nothing is left to do. */
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err);
+
+/* After --resume: the request that began the job, its limits as they were last, and these arguments over it: an output or a limit
+ * replaces all that there were. */
+ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_render_request *request, ec_error *err);
 
 #endif

@@ -23,7 +23,7 @@ static ec_result resolve_error(const ec_film *film, ec_picture *picture)
     return EC_OK;
 }
 
-ec_result ec_picture_resolve(const ec_film *film, ec_picture *picture, ec_error *err)
+ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err)
 {
     size_t pixel_count = (size_t)film->width * film->height;
     picture->width = film->width;
@@ -31,7 +31,7 @@ ec_result ec_picture_resolve(const ec_film *film, ec_picture *picture, ec_error 
     picture->aov = film->aov;
     picture->rgb = malloc(pixel_count * 3 * sizeof(float));
     picture->constants = malloc(pixel_count * 2 * sizeof(float));
-    if (!picture->rgb || !picture->constants || (film->batch_count >= 2 && resolve_error(film, picture) != EC_OK))
+    if (!picture->rgb || !picture->constants || (with_error && film->batch_count >= 2 && resolve_error(film, picture) != EC_OK))
         return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", film->width, film->height);
     ec_film_resolve(film, picture->rgb, NULL);
     for (size_t i = 0; i < pixel_count; i++) {
@@ -94,10 +94,13 @@ static void list_channels(const ec_picture *picture, channel_list *channels)
     add_channels(channels, aov + AOV_DEPTH, AOV_STRIDE, 1, depth);
 }
 
-static ec_result write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
+ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
 {
     channel_list channels = {.count = 0};
     list_channels(picture, &channels);
+    const ec_exr_part part = {.channels = channels.list, .channel_count = channels.count, .attributes = style->attributes,
+                              .attribute_count = style->attribute_count};
+    if (style->job) return ec_store_write(path, style->job, style->film, style->past, &part, err);
     return ec_exr_write(path, picture->width, picture->height, channels.list, channels.count, style->attributes,
                         style->attribute_count, err);
 }
@@ -120,7 +123,7 @@ ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const
         ec_output *output = &outputs->file[i];
         ec_error *first = result == EC_OK ? err : NULL; /* the first failure is told */
         ec_result written = output->kind == EC_OUTPUT_PNG ? write_png(output->path, picture, style, first)
-                                                          : write_exr(output->path, picture, style, first);
+                                                          : ec_picture_write_exr(output->path, picture, style, first);
         if (written != EC_OK) {
             result = written;
             continue;

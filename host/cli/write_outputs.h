@@ -5,6 +5,7 @@
 #include "cli/outputs.h"
 #include "film/film.h"
 #include "image/image.h"
+#include "store/store.h"
 
 /* Float planes of a film, ready to be written and hashed. */
 typedef struct ec_picture {
@@ -20,7 +21,8 @@ typedef struct ec_picture {
     const float *aov;  /* the film's: 8 per pixel, or NULL */
 } ec_picture;
 
-ec_result ec_picture_resolve(const ec_film *film, ec_picture *picture, ec_error *err);
+/* with_error false: what is known of the error stays NULL in any case. */
+ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
 void ec_picture_free(ec_picture *picture); /* zero-initialised ones are fine */
 
 typedef struct ec_picture_style {
@@ -28,7 +30,14 @@ typedef struct ec_picture_style {
     ec_tonemap tonemap;
     const ec_attribute *attributes; /* EXR only */
     uint32_t attribute_count;
+    /* EXR only: with sums, to go on from or to merge; all NULL: a picture alone */
+    const ec_job *job;
+    const ec_film *film;
+    const ec_past *past;
 } ec_picture_style;
+
+/* One EXR, as ec_outputs_write does it. */
+ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err);
 
 /* Writes every output and makes its path absolute. One that fails does not keep the others from being written. */
 ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const ec_picture_style *style, ec_error *err);

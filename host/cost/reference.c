@@ -44,7 +44,7 @@ static ec_result take_batches(ec_cost_runner *runner, ec_film *film, double dead
     for (uint32_t i = 0; ec_cost_go_on(runner->study); i++) {
         EC_TRY(ec_cost_runner_take(runner, ec_session_seed(runner->study->options.seed, EC_COST_STREAM_REFERENCE, i), batch, &seconds, err));
         if (runner->stopped) break;
-        ec_film_add_batch(film, runner->mean);
+        EC_TRY(ec_film_add_batch(film, runner->mean, err));
         if (film->batch_count >= 4 && ec_now() + 0.5 * seconds > deadline) break;
     }
     return EC_OK;

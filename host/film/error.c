@@ -47,24 +47,31 @@ static double squared_variance(double n, double m2, double m4)
     return isfinite(value) ? value : k2 * k2; /* m4 left the range of float (deviations beyond 1e9): the wider choice */
 }
 
+static void add_pixel(const ec_moments *m, uint64_t p, double n, variance_sums *sums)
+{
+    double m2 = m->m2[4 * p + 3], s2 = m2 / (n * (n - 1)), s4 = s2 * s2;
+    double v2 = n >= 4 ? squared_variance(n, m2, m->m34[2 * p + 1]) / (n * n) : s4;
+    sums->ratio += s4 * n / (n - 1);
+    sums->luminance += ec_luminance(m->mean + 3 * p);
+    sums->s2 += s2;
+    sums->s4 += s4;
+    sums->v4 += v2;
+    sums->v8 += v2 * v2;
+    for (int c = 0; c < 3; c++) {
+        double x = fabs(m->mean[3 * p + c]) + EC_RELMSE_FLOOR;
+        sums->relative += m->m2[4 * p + c] / (n * (n - 1) * x * x);
+    }
+}
+
 static variance_sums sum_up(const ec_film *film)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
     variance_sums sums = {0};
-    for (uint64_t p = 0; p < pixels; p++) {
-        double n = ec_film_batches(film, p);
-        double m2 = film->m2[4 * p + 3], s2 = m2 / (n * (n - 1)), s4 = s2 * s2;
-        double v2 = n >= 4 ? squared_variance(n, m2, film->m34[2 * p + 1]) / (n * n) : s4;
-        sums.ratio += s4 * n / (n - 1);
-        sums.luminance += ec_luminance(film->mean + 3 * p);
-        sums.s2 += s2;
-        sums.s4 += s4;
-        sums.v4 += v2;
-        sums.v8 += v2 * v2;
-        for (int c = 0; c < 3; c++) {
-            double x = fabs(film->mean[3 * p + c]) + EC_RELMSE_FLOOR;
-            sums.relative += film->m2[4 * p + c] / (n * (n - 1) * x * x);
-        }
+    ec_film_glass glass;
+    for (uint64_t first = 0; first < pixels; first += EC_FILM_GLASS) {
+        uint64_t count = pixels - first < EC_FILM_GLASS ? pixels - first : EC_FILM_GLASS;
+        const ec_moments m = ec_film_look(film, first, count, &glass);
+        for (uint64_t p = 0; p < count; p++) add_pixel(&m, p, ec_film_batches(film, first + p), &sums);
     }
     return sums;
 }

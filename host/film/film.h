@@ -1,5 +1,5 @@
 /* The image as it grows: per-pixel mean and standard error from independent batches, in double precision.
- * 68 bytes a pixel.
+ * 68 bytes a pixel up to 16 batches; beyond that a sum of batches in an order that does not depend on who adds them: film/parts.h.
  *
  * Image error (the manual's definition). With B batches, pixel p's luminance has standard error SE_p = s_p / sqrt(B), and
  *     error = sqrt(mean_p SE_p^2) / mean luminance
@@ -8,9 +8,12 @@
 #ifndef EC_FILM_FILM_H
 #define EC_FILM_FILM_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/error.h"
+#include "film/parts.h"
 
 /* Relative luminance of linear Rec.709 colour (IEC 61966-2-1); the weights sum to 1. */
 static inline double ec_luminance(const double rgb[3])
@@ -33,13 +36,52 @@ typedef struct ec_film {
     float *aov;                   /* 8 per pixel */
     /* Set only where the render was stopped within its first batch: 1 for pixels that have no sample. malloc'ed. */
     uint8_t *unsampled;
+    /* What mean, m2, m34 and largest are joined from, by `first`, no two with batches in common. None where pixels have counts. Owned;
+     * a single sum is mean, m2, m34 and largest itself. */
+    ec_film_part *parts;
+    uint32_t part_count;
+    bool shows_late;              /* ask for it, and mean, m2, m34 and largest follow only where ec_film_show is called */
+    bool is_behind;               /* they have not followed yet */
 } ec_film;
 
 ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_t samples_per_batch, ec_error *err);
 void ec_film_destroy(ec_film *film); /* zero-initialised or destroyed films are fine */
 
-/* Adds one batch: 3 floats a pixel, each the mean over samples_per_batch samples. */
-void ec_film_add_batch(ec_film *film, const float *batch_mean);
+/* Adds the next batch: 3 floats a pixel, each the mean over samples_per_batch samples. What is not finite counts as 0. */
+ec_result ec_film_add_batch(ec_film *film, const float *batch_mean, ec_error *err);
+
+/* The same of any batch that is not there yet: the order in which they come makes no difference. Not where pixels have counts. */
+ec_result ec_film_add_at(ec_film *film, uint32_t index, const float *batch_mean, ec_error *err);
+
+/* Adds a part, whose memory the film takes on success. */
+ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err);
+
+/* Adds all parts of another film of the same size, and its first-hit features where there are none; `from` is then fit to be destroyed
+ * only. Fails where both have a batch, and then has changed nothing but for lack of memory. */
+ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err);
+
+/* Brings mean, m2, m34 and largest up to date where shows_late keeps them from it. */
+void ec_film_show(ec_film *film);
+
+/* The same sums of a few pixels, from `first` on; `glass` is room for them if need be. */
+enum { EC_FILM_GLASS = 512 }; /* pixels at most */
+typedef struct ec_film_glass {
+    double mean[3 * EC_FILM_GLASS], m2[4 * EC_FILM_GLASS];
+    float m34[2 * EC_FILM_GLASS], largest[EC_FILM_GLASS];
+} ec_film_glass;
+ec_moments ec_film_look(const ec_film *film, uint64_t first, uint64_t pixels, ec_film_glass *glass);
+
+void ec_film_part_free(ec_film_part *part);
+
+/* What is shown stays; it can no longer be joined with other batches' sums. */
+void ec_film_drop_parts(ec_film *film);
+
+/* The number of the next batch. */
+static inline uint32_t ec_film_end(const ec_film *film)
+{
+    const ec_film_part *last = film->part_count ? &film->parts[film->part_count - 1] : NULL;
+    return last ? last->first + last->count : 0;
+}
 
 /* The same of some pixels only: of places[i], in row order, 3 floats at 3 i; a pixel may take part more than once. From now on pixels
  * have counts of their own. */

@@ -2,16 +2,18 @@
 #ifndef EC_IMAGE_IMAGE_H
 #define EC_IMAGE_IMAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include "base/error.h"
 
-/* One EXR channel, 32-bit float (or unsigned int for `samples`, given as float data all the same: counts < 2^24 exact). */
+/* One EXR channel, 32-bit float; counts under 2^24 are exact in it. */
 typedef struct ec_channel {
     const char *name;   /* e.g. "R", "stderr.R", "depth.Z" */
     const float *data;  /* first value; pixel (x, y) is data[stride * (y * width + x)] */
     uint32_t stride;    /* in floats */
+    bool is_words;      /* 32-bit unsigned integers, and so in the file */
 } ec_channel;
 
 typedef enum ec_attribute_type { EC_ATTR_STRING, EC_ATTR_INT, EC_ATTR_FLOAT, EC_ATTR_DOUBLE } ec_attribute_type;
@@ -25,6 +27,17 @@ typedef struct ec_attribute {
 /* Single-part scan-line EXR, ZIP compressed, 32-bit float channels (any order here; sorted in the file). */
 ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const ec_channel *channels,
                        uint32_t channel_count, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err);
+
+/* The same of several parts of one size, each with a name of its own. The first is what viewers show. The file is sealed: see seal.h. */
+typedef struct ec_exr_part {
+    const char *name;
+    const ec_channel *channels;
+    uint32_t channel_count;
+    const ec_attribute *attributes;
+    uint32_t attribute_count;
+    bool is_plain;      /* not compressed: for what hardly gets smaller */
+} ec_exr_part;
+ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts, uint32_t part_count, ec_error *err);
 
 /* All channels of an EXR file's first part as float planes, half and uint converted. Tiled (first level) and scan-line,
  * every compression; of DWAA and DWAB files only R, G, B and A. Deep and subsampled images are refused. */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "film/neighbourhood.h"
 
@@ -61,9 +62,9 @@ static double foretold_gain(const ec_allotment *a, const ec_film *film)
     return uniform > 0 ? weighted / uniform : 1;
 }
 
-ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *a, ec_error *err)
+static ec_result allocate(ec_allotment *a, const ec_params *params, ec_error *err)
 {
-    *a = (ec_allotment){.pixels = film->width * film->height, .level = film->batch_count, .gain = 1};
+    a->pixels = params->width * params->height;
     size_t bytes = (size_t)a->pixels * sizeof(uint32_t);
     a->weight = malloc(bytes);
     a->place = malloc(bytes);
@@ -71,9 +72,24 @@ ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *a
     a->places = malloc(bytes);
     if (!a->weight || !a->place || !a->list || !a->places) {
         ec_allotment_free(a);
-        return ec_fail(err, "out of memory for the allotment of samples to %u pixels; leave out --adaptive", film->width * film->height);
+        return ec_fail(err, "out of memory for the allotment of samples to %u pixels; leave out --adaptive", params->width * params->height);
     }
     number_pixels(params, a->place);
+    return EC_OK;
+}
+
+ec_result ec_allotment_again(const ec_allotment *made, const ec_params *params, ec_allotment *a, ec_error *err)
+{
+    *a = (ec_allotment){.level = made->level, .gain = made->gain};
+    EC_TRY(allocate(a, params, err));
+    memcpy(a->weight, made->weight, (size_t)a->pixels * sizeof *a->weight);
+    return EC_OK;
+}
+
+ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *a, ec_error *err)
+{
+    *a = (ec_allotment){.level = film->batch_count, .gain = 1};
+    EC_TRY(allocate(a, params, err));
     double mean = 0;
     for (uint32_t i = 0; i < a->pixels; i++) {
         a->weight[i] = (float)deviation_around(film, a->place[i]);

@@ -22,6 +22,9 @@ typedef struct ec_allotment {
 /* From a film whose pixels all have the pilot's batches. Where less than 5 % is to be gained, gain is 1 and there are no weights. */
 ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *allotment, ec_error *err);
 
+/* One that was made before: weights, gain and level are copied. */
+ec_result ec_allotment_again(const ec_allotment *made, const ec_params *params, ec_allotment *allotment, ec_error *err);
+
 /* The next pass: list and places of the pixels that are due another batch, as often as they are; 1 to as many as the image has
  * pixels. Returns how many. */
 uint32_t ec_allotment_pass(ec_allotment *allotment, const ec_film *film);

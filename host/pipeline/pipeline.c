@@ -118,6 +118,7 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     params->light_tree_pmf = pack.light_tree_pmf;
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;
+    if (options->identify) ec_pipeline_content(p, scene, &pack, &stats->content);
     result = ec_pipeline_upload(p, scene, &pack, err);
     ec_pack_free(&pack);
     if (result == EC_OK) result = ec_pipeline_upload_filter(p, options, err);

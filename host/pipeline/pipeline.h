@@ -96,4 +96,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
 uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features);
 bool ec_pipeline_joins(const ec_render_options *options, const ec_pack *pack);
 
+/* content.c: what is rendered; params must be complete. */
+void ec_pipeline_content(const ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_content *content);
+
 #endif

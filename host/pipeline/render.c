@@ -7,28 +7,33 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/random.h"
 #include "pipeline/adaptive.h"
+#include "pipeline/batch_source.h"
+#include "pipeline/course.h"
 #include "pipeline/forecast.h"
-#include "pipeline/pipeline.h"
 
 typedef struct render_state {
-    ec_pipeline pipeline;
+    ec_batch_source source;
     const ec_render_options *options;
+    const ec_course *course;
     ec_progress_fn progress;
     void *user;
     ec_film *film;
     ec_render_stats *stats;
     double start, render_start, last_report;
-    double batch_end;          /* of the last one; and the sums of their times, the first left out */
-    double first_seconds, sum, squares;
+    double batch_end;          /* of the last one; and the sums of so many times, the first left out */
+    double first_seconds, sum, squares, timed;
     ec_forecast forecast;      /* of now; the pilot's is in stats */
     uint32_t batches_wanted;   /* by --spp; 0 = no limit */
     ec_film_error error;
-    ec_allotment allotment;    /* with weights from the end of an adaptive render's pilot on */
+    ec_past past;              /* samples: in the film */
+    uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
+    uint32_t pass_pixels;      /* of the batch under way */
+    double batches_before_it;
+    uint64_t under_way;        /* samples of the batch that is not there yet */
+    double kept_at;
+    uint32_t kept_next;
     const char *stopped_by;
-    uint64_t samples, under_way; /* in the film; of the batch that is not there yet */
-    uint32_t invalid[EC_STAGE_COUNT]; /* dropped by the kernels so far */
 } render_state;
 
 /* Largest divisor of the sample count that still leaves 16 batches: whole batches, and enough of them for an error. */
@@ -39,16 +44,10 @@ static uint32_t batch_of_spp(uint32_t spp)
     return most;
 }
 
-static uint32_t choose_batch(const ec_render_options *o)
+uint32_t ec_render_batch(const ec_render_options *o)
 {
     if (o->batch) return o->batch;
     return o->spp ? batch_of_spp(o->spp) : 8;
-}
-
-/* Seeds of batches must differ in every bit. */
-static uint32_t batch_seed(uint64_t seed, uint32_t batch)
-{
-    return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + batch + 1) >> 16);
 }
 
 static double fraction_done(const render_state *r, double batches, double seconds)
@@ -71,7 +70,7 @@ static bool report(render_state *r, double batches)
     double now = ec_now(), seconds = now - r->render_start;
     r->last_report = now;
     if (!r->progress) return true;
-    ec_pipeline *p = &r->pipeline;
+    ec_pipeline *p = &r->source.pipeline;
     double samples = batches * p->params.batch * p->params.width * p->params.height;
     double f = fraction_done(r, batches, seconds);
     ec_progress progress = {
@@ -92,101 +91,90 @@ static bool report(render_state *r, double batches)
 /* Batches a pixel, in the mean. */
 static double batches_done(const render_state *r)
 {
-    const ec_params *params = &r->pipeline.params;
-    return (double)r->samples / params->batch / ((double)params->width * params->height);
+    const ec_params *params = &r->source.pipeline.params;
+    return (double)r->past.samples / params->batch / ((double)params->width * params->height);
 }
 
-/* The pixels that the next batch is for: all, or the allotment's. */
-static ec_result choose_pixels(render_state *r, uint32_t *count, ec_error *err)
+/* Between waves: goes on unless a limit or the caller ends the batch early. */
+static bool goes_on(void *user, uint32_t done)
 {
-    ec_pipeline *p = &r->pipeline;
-    ec_allotment *a = &r->allotment;
-    *count = p->params.width * p->params.height;
-    if (!a->weight) return EC_OK;
-    cl_mem *list = &p->buffers[EC_ARG_PIXEL_LIST];
-    const uint64_t slack = 64; /* lanes past the last sample look too */
-    if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", ((uint64_t)*count + slack) * 4, NULL, list, err));
-    *count = ec_allotment_pass(a, r->film);
-    return ec_buffer_write(p->cl, *list, 0, (uint64_t)*count * 4, a->list, err);
-}
-
-/* All waves of one batch. *complete is false where a limit or the user ended it early. */
-static ec_result run_batch(render_state *r, uint32_t batch, uint32_t pixels, bool *complete, ec_error *err)
-{
-    ec_pipeline *p = &r->pipeline;
-    uint32_t per_wave = p->wave / p->params.batch;
-    double before = batches_done(r), share = pixels / ((double)p->params.width * p->params.height);
-    uint32_t seed = batch_seed(r->options->seed, batch);
-    *complete = true;
-    r->under_way = 0;
-    for (uint32_t first = 0; first < pixels; first += per_wave) {
-        uint32_t count = pixels - first < per_wave ? pixels - first : per_wave;
-        EC_TRY(ec_pipeline_run_wave(p, seed, first, count, batch == 0, err));
-        r->under_way += (uint64_t)count * p->params.batch;
-        if (batch == 0 && first == 0) {
-            EC_TRY(ec_cl_finish(p->cl, err));
-            r->stats->first_pixel_seconds = ec_now() - r->start;
-        }
-        if (first + count >= pixels) break;
-        double now = ec_now();
-        bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
-        bool go_on = now - r->last_report < 0.1 || report(r, before + share * (first + count) / pixels);
-        if (out_of_time || !go_on) {
-            r->stopped_by = go_on ? "time" : "user";
-            *complete = false;
-            return EC_OK;
-        }
+    render_state *r = user;
+    const ec_params *params = &r->source.pipeline.params;
+    r->under_way = (uint64_t)done * params->batch;
+    if (r->stats->first_pixel_seconds == 0.0) {
+        (void)ec_cl_finish(r->source.pipeline.cl, NULL); /* what it has to say the next call says too */
+        r->stats->first_pixel_seconds = ec_now() - r->start;
     }
-    return EC_OK;
+    if (done >= r->pass_pixels) return true;
+    double now = ec_now(), share = done / ((double)params->width * params->height);
+    bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
+    bool go_on = now - r->last_report < 0.1 || report(r, r->batches_before_it + share);
+    if (!out_of_time && go_on) return true;
+    r->stopped_by = go_on ? "time" : "user";
+    return false;
 }
 
-/* Radiance is never negative: what still holds this has not been reached. */
-#define NOT_REACHED (-1.0f)
-
-static ec_result mark_unsampled(render_state *r, float *host, uint64_t pixels, ec_error *err)
+/* The pixels that the next batch is for: all, or the allotment's; and waves until they are done or *complete is false. */
+static ec_result run_batch(render_state *r, bool *complete, ec_error *err)
 {
+    const ec_params *params = &r->source.pipeline.params;
+    ec_allotment *a = &r->past.allotment;
+    ec_batch_order order = {.index = r->past.next, .count = params->width * params->height, .with_features = r->past.next == 0,
+                            .go_on = goes_on, .user = r};
+    if (a->weight) order.count = ec_allotment_pass(a, r->film), order.list = a->list;
+    r->pass_pixels = order.count;
+    r->batches_before_it = batches_done(r);
+    r->under_way = 0;
+    return ec_batch_source_take(&r->source, &order, complete, err);
+}
+
+static ec_result mark_unsampled(render_state *r, ec_error *err)
+{
+    uint64_t pixels = (uint64_t)r->film->width * r->film->height;
+    float *mean = r->source.mean;
     r->film->unsampled = calloc(pixels, 1);
     if (!r->film->unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
     for (uint64_t i = 0; i < pixels; i++) {
-        if (host[3 * i] != NOT_REACHED) continue;
+        if (mean[3 * i] != EC_NOT_REACHED) continue;
         r->film->unsampled[i] = 1;
-        host[3 * i] = host[3 * i + 1] = host[3 * i + 2] = 0.0f;
+        mean[3 * i] = mean[3 * i + 1] = mean[3 * i + 2] = 0.0f;
     }
     return EC_OK;
 }
 
-static ec_result add_batch(render_state *r, float *host, uint32_t count, bool complete, ec_error *err)
+static ec_result add_batch(render_state *r, bool complete, ec_error *err)
 {
-    ec_pipeline *p = &r->pipeline;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)count * 12, host, err));
-    EC_TRY(ec_pipeline_read_invalid(p, r->invalid, err));
-    if (!complete) EC_TRY(mark_unsampled(r, host, count, err));
-    if (r->allotment.weight) EC_TRY(ec_film_add_some(r->film, host, r->allotment.places, count, err));
-    else ec_film_add_batch(r->film, host);
-    r->samples += r->under_way;
+    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source.invalid[i];
+    if (!complete) EC_TRY(mark_unsampled(r, err));
+    ec_allotment *a = &r->past.allotment;
+    if (a->weight) EC_TRY(ec_film_add_some(r->film, r->source.mean, a->places, r->pass_pixels, err));
+    else EC_TRY(ec_film_add_at(r->film, r->past.next, r->source.mean, err));
+    if (r->past.next == 0) EC_TRY(ec_batch_source_features(&r->source, &r->film->aov, err));
+    r->past.samples += r->under_way;
+    r->past.rays = r->rays_before + r->source.pipeline.rays;
+    r->past.next++;
     r->error = ec_film_estimate_error(r->film);
     return EC_OK;
 }
 
-static void look_ahead(render_state *r)
+static void look_ahead(render_state *r, bool at_pilot)
 {
-    double done = batches_done(r), now = ec_now(), took = now - r->batch_end, timed = r->film->batch_count - 1.0;
+    double done = batches_done(r), now = ec_now(), took = now - r->batch_end;
     r->batch_end = now;
-    if (r->film->batch_count == 1) r->first_seconds = now - r->render_start;
-    else if (!r->allotment.weight) r->sum += took, r->squares += took * took;
-    if (!ec_pilot_is_over(r->film->batch_count)) return;
-    double mean = r->sum / timed, variance = fmax(r->squares / timed - mean * mean, 0.0);
-    ec_pace pace = {now - r->render_start, r->first_seconds, timed > 1.0 ? sqrt(variance / (timed - 1.0)) / mean : 0.0};
-    bool is_pilot = !r->stats->forecast.pilot_samples;
-    r->forecast = ec_forecast_make(r->film, &r->error, r->options, &pace, done, is_pilot ? r->allotment.gain : 1.0);
-    if (is_pilot) r->stats->forecast = r->forecast;
+    if (r->first_seconds == 0.0) r->first_seconds = now - r->render_start;
+    else if (at_pilot || !r->past.allotment.weight) r->sum += took, r->squares += took * took, r->timed++;
+    if (!ec_pilot_is_over(r->film->batch_count) || r->timed == 0.0) return;
+    double mean = r->sum / r->timed, variance = fmax(r->squares / r->timed - mean * mean, 0.0);
+    ec_pace pace = {now - r->render_start, r->first_seconds, r->timed > 1.0 ? sqrt(variance / (r->timed - 1.0)) / mean : 0.0};
+    r->forecast = ec_forecast_make(r->film, &r->error, r->options, &pace, done, at_pilot ? r->past.allotment.gain : 1.0);
+    if (!r->stats->forecast.pilot_samples) r->stats->forecast = r->forecast;
 }
 
-static bool is_done(render_state *r)
+static bool is_done(render_state *r, bool at_pilot)
 {
     const ec_render_options *o = r->options;
     double done = batches_done(r), seconds = ec_now() - r->render_start;
-    look_ahead(r);
+    look_ahead(r, at_pilot);
     if (r->batches_wanted && done >= r->batches_wanted)
         r->stopped_by = "spp";
     else if (o->error_target > 0.0 && done >= 4 && r->error.error_bound <= o->error_target)
@@ -198,51 +186,43 @@ static bool is_done(render_state *r)
     return r->stopped_by != NULL;
 }
 
-static ec_result read_features(render_state *r, ec_error *err)
+static void keep(render_state *r)
 {
-    ec_pipeline *p = &r->pipeline;
-    uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    float *aov = malloc(pixels * EC_AOV_FIELDS * sizeof(float));
-    if (!aov) return ec_fail(err, "out of memory for the first-hit features");
-    ec_result result = ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, pixels * EC_AOV_FIELDS * 4, aov, err);
-    if (result == EC_OK) r->film->aov = aov;
-    else free(aov);
-    return result;
-}
-
-/* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
-static ec_result allot(render_state *r, ec_error *err)
-{
-    return r->stats->forecast.pilot_samples ? EC_OK : ec_allot(r->film, &r->pipeline.params, &r->allotment, err);
+    if (!r->course->keep || r->past.next == r->kept_next || r->film->unsampled) return;
+    r->past.seconds = ec_now() - r->render_start;
+    ec_film_show(r->film);
+    if (r->course->keep(r->course->user, r->film, &r->past)) r->kept_next = r->past.next;
+    r->kept_at = ec_now();
 }
 
 /* One more for the film, or none; the batches before it stand, whatever happens. */
-static ec_result take_batch(render_state *r, uint32_t batch, float *host, const ec_log *log, ec_error *err)
+static ec_result take_batch(render_state *r, const ec_log *log, ec_error *err)
 {
     bool complete;
-    uint32_t count;
-    EC_TRY(choose_pixels(r, &count, err));
-    EC_TRY(run_batch(r, batch, count, &complete, err));
-    if (!complete && batch > 0) return EC_OK;
+    EC_TRY(run_batch(r, &complete, err));
+    if (!complete && (r->past.next > 0 || r->course->end)) return EC_OK; /* part of a batch is of no use to a slice */
     if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
-    EC_TRY(add_batch(r, host, count, complete, err));
-    if (batch == 0) EC_TRY(read_features(r, err));
-    if (r->options->adaptive && ec_pilot_is_over(batch + 1)) EC_TRY(allot(r, err));
-    if (complete) is_done(r);
+    EC_TRY(add_batch(r, complete, err));
+    /* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
+    bool at_pilot = r->options->adaptive && !r->past.allotted && ec_pilot_is_over(r->film->batch_count);
+    if (at_pilot) EC_TRY(ec_allot(r->film, &r->source.pipeline.params, &r->past.allotment, err));
+    r->past.allotted |= at_pilot;
+    if (complete && !is_done(r, at_pilot) && ec_now() - r->kept_at >= r->course->every) keep(r);
     return EC_OK;
 }
 
 static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
 {
-    ec_pipeline *p = &r->pipeline;
-    uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    float *host = malloc(pixels * 12);
-    if (!host) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
-    for (uint64_t i = 0; i < 3 * pixels; i++) host[i] = NOT_REACHED;
-    ec_result result = ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, host, err);
-    r->render_start = r->last_report = r->batch_end = ec_now();
-    for (uint32_t batch = 0; result == EC_OK && !r->stopped_by; batch++) result = take_batch(r, batch, host, log, err);
-    free(host);
+    ec_result result = EC_OK;
+    r->last_report = r->batch_end = r->kept_at = ec_now();
+    r->render_start = ec_now() - r->past.seconds;
+    if (r->past.samples) {
+        r->error = ec_film_estimate_error(r->film);
+        r->first_seconds = r->past.seconds / batches_done(r);
+        (void)is_done(r, false); /* perhaps all was done before */
+    }
+    while (result == EC_OK && !r->stopped_by) result = take_batch(r, log, err);
+    keep(r);
     return result;
 }
 
@@ -250,8 +230,8 @@ static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
 static void finish_stats(render_state *r)
 {
     ec_render_stats *s = r->stats;
-    const ec_pipeline *p = &r->pipeline;
-    const uint32_t *invalid = r->invalid;
+    const ec_pipeline *p = &r->source.pipeline;
+    const uint64_t *invalid = r->past.invalid;
     s->seconds = ec_now() - r->render_start;
     s->invalid_generate = invalid[EC_STAGE_GENERATE];
     s->invalid_intersect = invalid[EC_STAGE_INTERSECT];
@@ -260,9 +240,9 @@ static void finish_stats(render_state *r)
     s->invalid_accumulate = invalid[EC_STAGE_ACCUMULATE] + r->film->invalid_count; /* finite samples whose sum is not */
     s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
     s->samples_per_pixel = (uint64_t)(batches_done(r) * p->params.batch + 1e-6);
-    s->allotment_gain = r->allotment.gain;
-    s->samples = r->samples;
-    s->rays = p->rays;
+    s->allotment_gain = r->past.allotment.gain;
+    s->samples = r->past.samples;
+    s->rays = r->rays_before + p->rays;
     s->samples_per_second = s->seconds > 0.0 ? (double)s->samples / s->seconds : 0.0;
     s->rays_per_second = s->seconds > 0.0 ? (double)s->rays / s->seconds : 0.0;
     s->error = r->error.error;
@@ -294,24 +274,50 @@ static ec_result note_unneeded(const ec_scene *scene, uint64_t without, const ec
     return EC_OK;
 }
 
-ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
-                    void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
+/* Film and figures of the course's past, or of none. */
+static ec_result take_up(render_state *r, const ec_past *past, uint32_t batch, ec_error *err)
+{
+    const ec_render_options *o = r->options;
+    r->past.allotment.gain = 1.0;
+    r->past.next = r->kept_next = r->course->first;
+    if (!past) return ec_film_create(r->film, o->width, o->height, batch, err);
+    r->past = *past;
+    r->past.allotment.weight = NULL;
+    r->rays_before = past->rays;
+    memcpy(r->invalid_before, past->invalid, sizeof r->invalid_before);
+    r->kept_next = past->next;
+    return EC_OK;
+}
+
+static ec_result set_up(render_state *r, ec_cl *cl, const ec_scene *scene, uint32_t batch, const ec_log *log, ec_error *err)
+{
+    const ec_past *past = r->course->past;
+    const ec_pipeline *p = &r->source.pipeline;
+    EC_TRY(take_up(r, past, batch, err));
+    r->film->shows_late = true;
+    EC_TRY(ec_batch_source_open(cl, scene, r->options, batch, &r->source, r->stats, err));
+    if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
+    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &p->params, &r->past.allotment, err));
+    if (p->bodies_too_many)
+        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
+                p->bodies_too_many, EC_BODIES_MOST);
+    if (p->wave < p->first_wave)
+        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", p->wave, p->first_wave);
+    return EC_OK;
+}
+
+ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, const ec_course *course, ec_progress_fn progress,
+                           void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     memset(stats, 0, sizeof *stats);
     EC_TRY(check_ends(options, err));
     EC_TRY(note_unneeded(scene, options->without, log, err));
-    render_state r = {.options = options, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
+    render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
-    r.allotment.gain = 1.0;
-    uint32_t batch = choose_batch(options);
+    uint32_t batch = ec_render_batch(options);
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
-    ec_result result = ec_film_create(film, options->width, options->height, batch, err);
-    if (result == EC_OK) result = ec_pipeline_create(cl, scene, options, batch, &r.pipeline, stats, err);
-    if (result == EC_OK && r.pipeline.bodies_too_many)
-        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
-                r.pipeline.bodies_too_many, EC_BODIES_MOST);
-    if (result == EC_OK && r.pipeline.wave < r.pipeline.first_wave)
-        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", r.pipeline.wave, r.pipeline.first_wave);
+    if (course->end) r.batches_wanted = course->end - course->first;
+    ec_result result = set_up(&r, cl, scene, batch, log, err);
     if (result == EC_OK) {
         ec_error why = {0};
         result = render_loop(&r, log, &why);
@@ -319,9 +325,17 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
         if (result != EC_OK && err) *err = why;
         finish_stats(&r);
     }
-    ec_allotment_free(&r.allotment);
-    ec_pipeline_destroy(&r.pipeline);
+    ec_film_show(film);
+    ec_allotment_free(&r.past.allotment);
+    ec_batch_source_close(&r.source);
     return result;
+}
+
+ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
+                    void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
+{
+    const ec_course whole = {0};
+    return ec_render_course(cl, scene, options, &whole, progress, user, film, stats, log, err);
 }
 
 ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, ec_render_effects *effects, ec_error *err)

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cl/cl.h"
 #include "film/film.h"
+#include "pipeline/content.h"
 #include "pipeline/effects.h"
 #include "scene/scene.h"
 #include "shared/params.h"
@@ -65,6 +66,7 @@ typedef struct ec_render_options {
     uint64_t more_effects;      /* EC_FEATURE_*, built in though the scene may not call for them: so that scenes share kernels */
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
     float grid_density;         /* cells a reference, where that is a grid; 0 = EC_GRID_DENSITY */
+    bool identify;              /* say in the stats what is rendered: content */
     bool fast_math;             /* kernels by -cl-fast-relaxed-math: for `eclat cost` alone, to see what exact arithmetic costs */
 } ec_render_options;
 
@@ -107,6 +109,7 @@ typedef struct ec_render_stats {
     uint64_t triangles, stored_triangles; /* that rays can meet, and that take memory */
     uint64_t device_bytes;        /* peak of all buffers */
     ec_render_effects effects;    /* which were called for, why, and what came of it */
+    ec_content content;           /* with options.identify */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */
     uint32_t cache_hits, cache_misses;
 } ec_render_stats;
@@ -115,6 +118,9 @@ typedef struct ec_render_stats {
  * complete, and stats tells of them: film->batch_count says whether there is a picture. */
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err);
+
+/* Samples a pixel in one batch: that of the options, or the one chosen from their limits. */
+uint32_t ec_render_batch(const ec_render_options *options);
 
 /* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);

@@ -82,12 +82,14 @@ ec_result ec_selftest_variance(ec_selftest *t, ec_error *err)
     float error[3];
     uint32_t batches = 1000;
     EC_TRY(ec_film_create(&film, 1, 1, 1, err));
-    for (uint32_t i = 0; i < batches; i++) {
+    ec_result result = EC_OK;
+    for (uint32_t i = 0; i < batches && result == EC_OK; i++) {
         float x = i % 2 ? 100.1f : 99.9f;
-        ec_film_add_batch(&film, (float[3]){x, x, x});
+        result = ec_film_add_batch(&film, (float[3]){x, x, x}, err);
     }
     ec_film_resolve(&film, NULL, error);
     ec_film_destroy(&film);
+    if (result != EC_OK) return result;
     return ec_selftest_value(t, "mean 100, deviation 0.1", 0.1 / sqrt(batches - 1.0), (double)error[1], 0, 1e-4 * 0.1 / sqrt(batches), err);
 }
 

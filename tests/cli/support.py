@@ -106,19 +106,27 @@ def write_glb(path, scene, buffer):
 # EXR ----------------------------------------------------------------------------------------------------------------
 
 def read_exr(path):
-    """(attributes, {channel: list of float}) of a single-part scan-line file with 32-bit channels, ZIP or ZIPS."""
+    """(attributes, {channel: list of float}) of a scan-line file with 32-bit channels, ZIP or ZIPS; of several parts the first."""
     with open(path, "rb") as file:
         data = file.read()
     assert data[:4] == b"\x76\x2f\x31\x01", "not an EXR file"
-    at, attributes = 8, {}
+    attributes, at = read_header(data, 8)
+    many_parts = data[5] & 0x10
+    while many_parts and data[at]:
+        at = read_header(data, at)[1]
+    x0, y0, x1, y1 = attributes["dataWindow"]
+    return attributes, read_chunks(data, at + bool(many_parts), x1 - x0 + 1, y1 - y0 + 1, y0, attributes, 4 if many_parts else 0)
+
+
+def read_header(data, at):
+    attributes = {}
     while data[at]:
         name, at = text_at(data, at)
         kind, at = text_at(data, at)
         size, = struct.unpack_from("<i", data, at)
         attributes[name] = decode(kind, data[at + 4:at + 4 + size])
         at += 4 + size
-    x0, y0, x1, y1 = attributes["dataWindow"]
-    return attributes, read_chunks(data, at + 1, x1 - x0 + 1, y1 - y0 + 1, y0, attributes)
+    return attributes, at + 1
 
 
 def text_at(data, at):
@@ -143,12 +151,14 @@ def decode(kind, value):
     return numbers if kind == "box2i" else numbers[0]
 
 
-def read_chunks(data, at, width, height, y0, attributes):
+def read_chunks(data, at, width, height, y0, attributes, skip):
+    """skip: bytes before each block, the number of its part."""
     compression = attributes["compression"][0]
     rows = {0: 1, 2: 1, 3: 16}[compression]
     count = -(-height // rows)
     planes = {name: [0.0] * (width * height) for name, _ in attributes["channels"]}
     for offset in struct.unpack_from(f"<{count}Q", data, at):
+        offset += skip
         y, size = struct.unpack_from("<ii", data, offset)
         lines = min(rows, height - (y - y0))
         block = data[offset + 8:offset + 8 + size]

@@ -18,7 +18,7 @@ static ec_film filled(int batches, float (*f)(int, int, int))
     for (int b = 0; b < batches; b++) {
         float batch[3 * P];
         for (int i = 0; i < 3 * P; i++) batch[i] = f(b, i / 3, i % 3);
-        ec_film_add_batch(&film, batch);
+        CHECK_OK(ec_film_add_batch(&film, batch, &err), err);
     }
     return film;
 }

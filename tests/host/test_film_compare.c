@@ -31,7 +31,7 @@ static void render(picture *out, int batches, double (*noise)(double), double br
             double truth = p % W < W - 4 ? 0.1 + 0.02 * (p % W) : 0, x = truth > 0 ? brightness * noise(truth) : 0;
             for (int c = 0; c < 3; c++) batch[3 * p + c] = (float)(x * (1 + 0.2 * c));
         }
-        ec_film_add_batch(&film, batch);
+        CHECK_OK(ec_film_add_batch(&film, batch, &err), err);
     }
     ec_film_resolve(&film, out->rgb, out->se);
     ec_film_destroy(&film);

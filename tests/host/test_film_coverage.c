@@ -95,7 +95,7 @@ static int lies_under_bound(const workload *work, uint32_t side, int batches, do
     for (int b = 0; b < batches; b++) {
         for (uint32_t p = 0; p < side * side; p++)
             batch[3 * p] = batch[3 * p + 1] = batch[3 * p + 2] = work->draw(next_random(), p);
-        ec_film_add_batch(&film, batch);
+        CHECK_OK(ec_film_add_batch(&film, batch, &err), err);
     }
     ec_film_error error = ec_film_estimate_error(&film);
     CHECK(!isnan(error.error_bound));

@@ -20,7 +20,7 @@ static ec_film filled(int batches, draw_fn draw, uint64_t seed)
             float x = (float)draw(&random, p, b);
             for (int c = 0; c < 3; c++) batch[3 * p + (uint32_t)c] = x * (float)(c + 1);
         }
-        ec_film_add_batch(&film, batch);
+        CHECK_OK(ec_film_add_batch(&film, batch, &err), err);
     }
     return film;
 }

@@ -22,7 +22,7 @@ static ztest_picture render(int batches, double noise, double left)
         static float batch[VALUES];
         for (int i = 0; i < VALUES; i++)
             batch[i] = (float)(truth(i) * (i / 3 % W < W / 2 ? left : 1) * (1 + noise * normal()));
-        ec_film_add_batch(&film, batch);
+        CHECK_OK(ec_film_add_batch(&film, batch, &err), err);
     }
     ec_film_resolve(&film, picture.rgb, picture.se);
     ec_film_destroy(&film);

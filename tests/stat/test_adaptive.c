@@ -37,7 +37,7 @@ static void check_bias(void)
         ec_film film = {0};
         ec_allotment a;
         CHECK_OK(ec_film_create(&film, WIDTH, HEIGHT, 8, &err), err);
-        for (int i = 0; i < 4; i++) ec_film_add_batch(&film, draw_batch(NULL, PIXELS));
+        for (int i = 0; i < 4; i++) CHECK_OK(ec_film_add_batch(&film, draw_batch(NULL, PIXELS), &err), err);
         CHECK_OK(ec_allot(&film, &params, &a, &err), err);
         allotted += a.weight && a.gain < 0.95;
         for (double batches = 4; a.weight && batches < 12;) {

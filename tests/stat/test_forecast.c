@@ -23,7 +23,8 @@ static void add_batch(ec_film *film, double (*draw)(uint32_t))
 {
     static float batch[3 * PIXELS];
     for (uint32_t i = 0; i < PIXELS; i++) batch[3 * i] = batch[3 * i + 1] = batch[3 * i + 2] = (float)draw(i);
-    ec_film_add_batch(film, batch);
+    ec_error err;
+    CHECK_OK(ec_film_add_batch(film, batch, &err), err);
 }
 
 static ec_forecast forecast_of(const ec_film *film, const ec_render_options *limits, const ec_pace *pace, double done, double gain)
@@ -90,7 +91,7 @@ static void other_limits(void)
 
     static float black[3 * PIXELS];
     CHECK_OK(ec_film_create(&film, WIDTH, HEIGHT, 8, &err), err);
-    for (int i = 0; i < PILOT; i++) ec_film_add_batch(&film, black);
+    for (int i = 0; i < PILOT; i++) CHECK_OK(ec_film_add_batch(&film, black, &err), err);
     ec_render_options error = {.error_target = 0.01};
     f = forecast_of(&film, &error, &pace, PILOT, 1); /* nothing is known of the dark */
     CHECK(isinf(f.samples) && isinf(f.seconds) && isinf(f.error_bound));

@@ -64,7 +64,8 @@ static inline ec_film case_film_of(const case_batches *b, uint32_t first, uint32
     ec_error err = {0};
     ec_film film;
     if (ec_film_create(&film, b->width, b->height, b->samples, &err) != EC_OK) case_end("film", &err);
-    for (uint32_t i = first; i < first + n; i++) ec_film_add_batch(&film, b->data + (i % b->count) * b->values);
+    for (uint32_t i = first; i < first + n; i++)
+        if (ec_film_add_batch(&film, b->data + (i % b->count) * b->values, &err) != EC_OK) case_end("film", &err);
     return film;
 }
 

@@ -1,0 +1,73 @@
+#include "image/seal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <sha2.h>
+
+static const char mark[] = "eclat: sealed by SHA-256\n";
+enum { MARK_SIZE = sizeof mark - 1, SEAL_SIZE = MARK_SIZE + SHA256_DIGEST_LENGTH, AT_ONCE = 1 << 20 };
+
+/* Of the first `size` bytes; 0 or an errno value. */
+static int digest_of(int fd, off_t size, uint8_t digest[SHA256_DIGEST_LENGTH])
+{
+    uint8_t *bytes = malloc(AT_ONCE);
+    SHA2_CTX context;
+    int failed = bytes ? 0 : ENOMEM;
+    SHA256Init(&context);
+    for (off_t done = 0; !failed && done < size;) {
+        size_t wanted = size - done < AT_ONCE ? (size_t)(size - done) : AT_ONCE;
+        ssize_t got = pread(fd, bytes, wanted, done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) failed = got < 0 ? errno : EIO;
+        else SHA256Update(&context, bytes, (size_t)got);
+        done += got;
+    }
+    free(bytes);
+    SHA256Final(digest, &context);
+    return failed;
+}
+
+int ec_seal(int fd)
+{
+    uint8_t seal[SEAL_SIZE];
+    off_t size = lseek(fd, 0, SEEK_END);
+    if (size < 0) return errno;
+    memcpy(seal, mark, MARK_SIZE);
+    int failed = digest_of(fd, size, seal + MARK_SIZE);
+    for (size_t done = 0; !failed && done < SEAL_SIZE;) {
+        ssize_t put = pwrite(fd, seal + done, SEAL_SIZE - done, size + (off_t)done);
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) failed = put < 0 ? errno : ENOSPC;
+        done += put > 0 ? (size_t)put : 0;
+    }
+    return failed;
+}
+
+static ec_result check(int fd, const char *path, ec_error *err)
+{
+    uint8_t seal[SEAL_SIZE], digest[SHA256_DIGEST_LENGTH];
+    off_t size = lseek(fd, 0, SEEK_END);
+    int is_sealed = size > SEAL_SIZE && pread(fd, seal, SEAL_SIZE, size - SEAL_SIZE) == SEAL_SIZE && !memcmp(seal, mark, MARK_SIZE);
+    if (!is_sealed)
+        return ec_fail(err, "cannot read '%s': it is no checkpoint or slice of eclat's, or was cut short; give the file that --checkpoint or --samples wrote", path);
+    int failed = digest_of(fd, size - SEAL_SIZE, digest);
+    if (failed) return ec_fail(err, "cannot read '%s': %s", path, strerror(failed));
+    if (!memcmp(digest, seal + MARK_SIZE, sizeof digest)) return EC_OK;
+    return ec_fail(err, "cannot read '%s': it is not as it was written, its check sum is another; take an older one or render it again", path);
+}
+
+ec_result ec_seal_check(const char *path, ec_error *err)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0) return ec_fail(err, "cannot open '%s': %s; check the path and its permissions", path, strerror(errno));
+    ec_result result = check(fd, path, err);
+    close(fd);
+    return result;
+}

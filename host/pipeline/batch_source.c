@@ -1,0 +1,69 @@
+#include "pipeline/batch_source.h"
+
+#include <stdlib.h>
+
+#include "base/random.h"
+
+/* Seeds of batches must differ in every bit. */
+static uint32_t seed_of(uint64_t seed, uint32_t batch)
+{
+    return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + batch + 1) >> 16);
+}
+
+static uint64_t pixels_of(const ec_batch_source *s) { return (uint64_t)s->pipeline.params.width * s->pipeline.params.height; }
+
+ec_result ec_batch_source_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch, ec_batch_source *s,
+                               ec_render_stats *stats, ec_error *err)
+{
+    *s = (ec_batch_source){.seed = options->seed};
+    EC_TRY(ec_pipeline_create(cl, scene, options, batch, &s->pipeline, stats, err));
+    uint64_t pixels = pixels_of(s);
+    s->mean = malloc(pixels * 12);
+    if (!s->mean) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
+    for (uint64_t i = 0; i < 3 * pixels; i++) s->mean[i] = EC_NOT_REACHED;
+    return ec_buffer_write(cl, s->pipeline.buffers[EC_ARG_BATCH_FILM], 0, pixels * 12, s->mean, err);
+}
+
+void ec_batch_source_close(ec_batch_source *s)
+{
+    ec_pipeline_destroy(&s->pipeline);
+    free(s->mean);
+    s->mean = NULL;
+}
+
+static ec_result upload_list(ec_batch_source *s, const ec_batch_order *order, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    cl_mem *list = &p->buffers[EC_ARG_PIXEL_LIST];
+    const uint64_t slack = 64; /* lanes past the last sample look too */
+    if (!order->list) return EC_OK;
+    if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", (pixels_of(s) + slack) * 4, NULL, list, err));
+    return ec_buffer_write(p->cl, *list, 0, (uint64_t)order->count * 4, order->list, err);
+}
+
+ec_result ec_batch_source_take(ec_batch_source *s, const ec_batch_order *order, bool *complete, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    uint32_t per_wave = p->wave / p->params.batch, seed = seed_of(s->seed, order->index);
+    *complete = true;
+    EC_TRY(upload_list(s, order, err));
+    for (uint32_t first = 0; first < order->count && *complete; first += per_wave) {
+        uint32_t count = order->count - first < per_wave ? order->count - first : per_wave;
+        EC_TRY(ec_pipeline_run_wave(p, seed, first, count, order->with_features, err));
+        *complete = order->go_on(order->user, first + count) || first + count >= order->count;
+    }
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)order->count * 12, s->mean, err));
+    return ec_pipeline_read_invalid(p, s->invalid, err);
+}
+
+ec_result ec_batch_source_features(ec_batch_source *s, float **aov, ec_error *err)
+{
+    uint64_t pixels = pixels_of(s);
+    *aov = malloc(pixels * EC_AOV_FIELDS * sizeof(float));
+    if (!*aov) return ec_fail(err, "out of memory for the first-hit features");
+    ec_result result = ec_buffer_read(s->pipeline.cl, s->pipeline.buffers[EC_ARG_FEATURE_FILM], 0, pixels * EC_AOV_FIELDS * 4, *aov, err);
+    if (result == EC_OK) return EC_OK;
+    free(*aov);
+    *aov = NULL;
+    return result;
+}

@@ -1,0 +1,38 @@
+/* Where batches come from: one device that renders one batch at a time. It knows no film, no limits and no other source; a batch's
+ * numbers depend on its index alone, so that any source may take any batch. */
+#ifndef EC_PIPELINE_BATCH_SOURCE_H
+#define EC_PIPELINE_BATCH_SOURCE_H
+
+#include "pipeline/pipeline.h"
+
+typedef struct ec_batch_source {
+    ec_pipeline pipeline;
+    uint64_t seed;
+    float *mean;                      /* 3 a pixel: of the batch taken last. Owned */
+    uint32_t invalid[EC_STAGE_COUNT]; /* samples dropped so far, by ec_stage */
+} ec_batch_source;
+
+typedef struct ec_batch_order {
+    uint32_t index;                   /* of the batch, in the whole job */
+    const uint32_t *list;             /* pixel numbers, those of one pass of an adaptive render; NULL: all pixels */
+    uint32_t count;                   /* of these */
+    bool with_features;               /* first-hit features too, for ec_batch_source_features */
+    /* Asked between waves, with the pixels that are done; false gives the batch up. */
+    bool (*go_on)(void *user, uint32_t done);
+    void *user;
+} ec_batch_order;
+
+/* What mean[3 i] holds of a pixel that a batch which was given up has not reached: radiance is never negative. */
+#define EC_NOT_REACHED (-1.0f)
+
+ec_result ec_batch_source_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch, ec_batch_source *source,
+                               ec_render_stats *stats, ec_error *err);
+void ec_batch_source_close(ec_batch_source *source); /* zero-initialised is fine */
+
+/* *complete: false where go_on said no; pixels not reached then hold what was there before, in a first batch EC_NOT_REACHED. */
+ec_result ec_batch_source_take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err);
+
+/* Of the batch taken last, 8 floats a pixel, malloc'ed: ec_film's aov. */
+ec_result ec_batch_source_features(ec_batch_source *source, float **aov, ec_error *err);
+
+#endif

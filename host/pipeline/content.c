@@ -1,0 +1,94 @@
+/* Digests of the buffers as they are planned, so that a new one is in without a line here. Not of acceleration structures, lanes and
+ * waves: they make no difference to a sample. */
+#include "pipeline/content.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/types.h>
+
+#include <sha2.h>
+
+#include "pipeline/pipeline.h"
+
+static void add(SHA2_CTX *digests, ec_content_id id, const void *bytes, uint64_t size)
+{
+    SHA256Update(&digests[id], (const uint8_t *)&size, sizeof size);
+    if (size) SHA256Update(&digests[id], bytes, (size_t)size);
+}
+
+static ec_content_id group_of(ec_arg arg)
+{
+    switch (arg) {
+    case EC_ARG_MATERIALS: return EC_CONTENT_MATERIALS;
+    case EC_ARG_TEXTURE_TABLE:
+    case EC_ARG_TEXELS:
+    case EC_ARG_SRGB: return EC_CONTENT_TEXTURES;
+    case EC_ARG_LIGHT_TABLE:
+    case EC_ARG_LIGHT_ALIAS:
+    case EC_ARG_LIGHT_TREE:
+    case EC_ARG_LIGHT_TRAILS: return EC_CONTENT_LIGHTS;
+    case EC_ARG_ENVIRONMENT_TEXELS:
+    case EC_ARG_ENVIRONMENT_TABLE: return EC_CONTENT_ENVIRONMENT;
+    default: return EC_CONTENT_GEOMETRY;
+    }
+}
+
+static void add_buffers(SHA2_CTX *digests, const ec_scene *scene, const ec_pack *pack, ec_render_effects effects)
+{
+    ec_upload plan[EC_SCENE_BUFFERS];
+    uint32_t count = ec_upload_plan(scene, pack, plan, &effects);
+    for (uint32_t i = 0; i < count; i++) {
+        const ec_upload *u = &plan[i];
+        ec_content_id id = group_of(u->arg);
+        SHA256Update(&digests[id], (const uint8_t *)u->buffer.label, strlen(u->buffer.label));
+        if (u->data) add(digests, id, u->data, u->buffer.bytes ? u->buffer.bytes - u->slack : 0);
+        for (int set = 0; !u->data && u->buffer.bytes && set < 2; set++)
+            add(digests, id, scene->uv[set], scene->uv[set] ? 8ull * scene->vertex_count : 0);
+    }
+}
+
+#define TAKE(id, field) (add(digests, id, &p.field, sizeof p.field), memset(&p.field, 0, sizeof p.field))
+
+/* Field by field what is the camera's and the environment's; what is left is settings. */
+static void add_params(SHA2_CTX *digests, ec_params p)
+{
+    p.batch = p.wave = p.part = 0;
+    TAKE(EC_CONTENT_CAMERA, camera_origin);
+    TAKE(EC_CONTENT_CAMERA, camera_right);
+    TAKE(EC_CONTENT_CAMERA, camera_up);
+    TAKE(EC_CONTENT_CAMERA, camera_forward);
+    TAKE(EC_CONTENT_CAMERA, lens_right);
+    TAKE(EC_CONTENT_CAMERA, lens_up);
+    TAKE(EC_CONTENT_CAMERA, lens_nearness);
+    TAKE(EC_CONTENT_CAMERA, orthographic);
+    TAKE(EC_CONTENT_CAMERA, camera_medium);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_mean);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_turn);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_turned);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_width);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_height);
+    TAKE(EC_CONTENT_LIGHTS, environment_pmf);
+    TAKE(EC_CONTENT_LIGHTS, light_count);
+    TAKE(EC_CONTENT_LIGHTS, light_tree_pmf);
+    TAKE(EC_CONTENT_GEOMETRY, scene_radius);
+    TAKE(EC_CONTENT_GEOMETRY, scene_max);
+    add(digests, EC_CONTENT_SETTINGS, &p, sizeof p);
+}
+
+void ec_pipeline_content(const ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_content *content)
+{
+    SHA2_CTX digests[EC_CONTENT_COUNT];
+    for (int i = 0; i < EC_CONTENT_COUNT; i++) SHA256Init(&digests[i]);
+    add_buffers(digests, scene, pack, pipeline->effects);
+    add_params(digests, pipeline->params);
+    uint64_t called = pipeline->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
+    add(digests, EC_CONTENT_SETTINGS, &called, sizeof called);
+    for (const char *const *name = ec_kernel_source_names(); *name; name++)
+        add(digests, EC_CONTENT_KERNELS, ec_kernel_source(*name), strlen(ec_kernel_source(*name)));
+    for (int i = 0; i < EC_CONTENT_COUNT; i++) {
+        uint8_t digest[SHA256_DIGEST_LENGTH];
+        SHA256Final(digest, &digests[i]);
+        for (int k = 0; k < 16; k++) snprintf(content->digest[i] + 2 * k, 3, "%02x", digest[k]);
+    }
+}

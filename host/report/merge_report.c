@@ -1,0 +1,37 @@
+#include "report/merge_report.h"
+
+#include <math.h>
+
+#include "report/format.h"
+#include "report/json.h"
+
+void ec_merge_report_text(const ec_merge_report *r, FILE *to)
+{
+    char error[32], bound[32];
+    fprintf(to, "%d %s, %llu samples a pixel in %llu batches\n", r->files, r->files == 1 ? "file" : "files", (unsigned long long)r->samples_per_pixel,
+            (unsigned long long)r->batches);
+    if (isfinite(r->error.error)) {
+        ec_format_percent(r->error.error, error, sizeof error);
+        ec_format_percent(r->error.error_bound, bound, sizeof bound);
+        fprintf(to, "error %s of the mean luminance a pixel, with 95 %% confidence under %s\n", error, bound);
+    }
+    for (int i = 0; i < r->output_count; i++) fprintf(to, "%s\n", r->outputs[i]);
+}
+
+ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err)
+{
+    cJSON *object = cJSON_CreateObject(), *outputs;
+    ec_json_text(object, "version", ECLAT_VERSION);
+    ec_json_whole(object, "files", (uint64_t)r->files);
+    ec_json_whole(object, "samples_per_pixel", r->samples_per_pixel);
+    ec_json_whole(object, "batches", r->batches);
+    ec_json_real(object, "error", r->error.error);
+    ec_json_real(object, "error_bound", r->error.error_bound);
+    ec_json_real(object, "relmse", r->error.relmse);
+    ec_json_real(object, "mean_luminance", r->error.mean_luminance);
+    ec_json_whole(object, "heavy_pixels", r->heavy_pixels);
+    ec_json_text(object, "image_sha256", r->image_sha256);
+    outputs = cJSON_AddArrayToObject(object, "outputs");
+    for (int i = 0; i < r->output_count; i++) ec_json_text(outputs, NULL, r->outputs[i]);
+    return ec_json_print(object, to, err);
+}

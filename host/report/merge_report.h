@@ -1,0 +1,22 @@
+/* What came of merging slices. */
+#ifndef EC_REPORT_MERGE_REPORT_H
+#define EC_REPORT_MERGE_REPORT_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "base/error.h"
+#include "film/film.h"
+
+typedef struct ec_merge_report {
+    int files;
+    uint64_t samples_per_pixel, batches, heavy_pixels;
+    ec_film_error error;
+    const char *image_sha256;
+    const char **outputs;
+    int output_count;
+} ec_merge_report;
+void ec_merge_report_text(const ec_merge_report *report, FILE *to);
+ec_result ec_merge_report_json(const ec_merge_report *report, FILE *to, ec_error *err);
+
+#endif

@@ -1,0 +1,30 @@
+/* What makes a job the same job: all that its samples depend on, in words. */
+#ifndef EC_STORE_IDENTITY_H
+#define EC_STORE_IDENTITY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "pipeline/render.h"
+
+typedef struct ec_trait {
+    char name[32], value[512];
+} ec_trait;
+
+enum { EC_TRAITS_MAX = 40 };
+
+typedef struct ec_identity {
+    ec_trait traits[EC_TRAITS_MAX];
+    uint32_t count;
+} ec_identity;
+
+/* content may be NULL: then what only the device's data tell is left out. */
+void ec_identity_of(const ec_render_options *options, const ec_content *content, ec_identity *identity);
+
+/* The value of a trait, or NULL. */
+const char *ec_identity_value(const ec_identity *identity, const char *name);
+
+/* The first difference that matters, such as "--seed is 1 there and 0 here"; false where there is none. */
+bool ec_identity_differs(const ec_identity *there, const ec_identity *here, char *text, size_t size);
+
+#endif

@@ -1,0 +1,115 @@
+#include "store/merge.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ec_result check_same_job(const ec_merge *merge, const ec_stored *next, const char *path, const ec_log *log, ec_error *err)
+{
+    const ec_job *here = &merge->all.job, *there = &next->job;
+    char difference[1200];
+    if (ec_identity_differs(&here->identity, &there->identity, difference, sizeof difference))
+        return ec_fail(err, "'%s' is not of the same job as '%s': %s; merge slices of one scene, with the same options and version", path, merge->first_path,
+                       difference);
+    if (next->film.counts || merge->all.film.counts)
+        return ec_fail(err, "'%s': pixels of an adaptive render have samples of their own number, and cannot be merged; give it alone", path);
+    if (strcmp(here->device, there->device))
+        ec_warn(log, "'%s' was rendered on %s, '%s' on %s: where they round otherwise the last bits are not those of one run", merge->first_path,
+                here->device, path, there->device);
+    return EC_OK;
+}
+
+/* From the first to the last batch that it has in common with one other file. */
+static ec_result check_ranges(const ec_merge *merge, const ec_film *film, const char *path, ec_error *err)
+{
+    uint64_t from = UINT64_MAX, to = 0;
+    const char *other = NULL;
+    for (uint32_t k = 0; k < merge->range_count; k++)
+        for (uint32_t i = 0; i < film->part_count; i++) {
+            const ec_merge_range *r = &merge->ranges[k];
+            const ec_film_part *p = &film->parts[i];
+            uint64_t r_end = (uint64_t)r->first + r->count, p_end = (uint64_t)p->first + p->count;
+            uint64_t first = r->first > p->first ? r->first : p->first, end = r_end < p_end ? r_end : p_end;
+            if (first >= end || (other && other != r->path)) continue;
+            other = r->path;
+            if (first < from) from = first;
+            if (end > to) to = end;
+        }
+    if (!other) return EC_OK;
+    return ec_fail(err, "'%s' and '%s' both have samples %llu:%llu; leave one of them out", other, path,
+                   (unsigned long long)from * film->samples_per_batch, (unsigned long long)to * film->samples_per_batch);
+}
+
+static ec_result note_ranges(ec_merge *merge, const ec_film *film, const char *path, ec_error *err)
+{
+    ec_merge_range *ranges = realloc(merge->ranges, (merge->range_count + film->part_count + 1) * sizeof *ranges);
+    if (!ranges) return ec_fail(err, "out of memory");
+    merge->ranges = ranges;
+    for (uint32_t i = 0; i < film->part_count; i++) ranges[merge->range_count++] = (ec_merge_range){path, film->parts[i].first, film->parts[i].count};
+    return EC_OK;
+}
+
+static void add_past(ec_stored *all, const ec_stored *next)
+{
+    all->past.samples += next->past.samples;
+    all->past.rays += next->past.rays;
+    all->past.seconds += next->past.seconds;
+    for (int i = 0; i < EC_STAGE_COUNT; i++) all->past.invalid[i] += next->past.invalid[i];
+    if (all->past.next < next->past.next) all->past.next = next->past.next;
+    if (all->job.spp < next->job.spp) all->job.spp = next->job.spp;
+}
+
+ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec_error *err)
+{
+    ec_stored next;
+    ec_result result;
+    EC_TRY(ec_store_read(path, &next, err));
+    if (!merge->first_path) {
+        result = note_ranges(merge, &next.film, path, err);
+        if (result != EC_OK) goto cleanup;
+        merge->first_path = path;
+        merge->all = next;
+        merge->all.film.shows_late = true;
+        return EC_OK;
+    }
+    EC_TRY_CLEANUP(check_same_job(merge, &next, path, log, err));
+    EC_TRY_CLEANUP(check_ranges(merge, &next.film, path, err));
+    EC_TRY_CLEANUP(note_ranges(merge, &next.film, path, err));
+    add_past(&merge->all, &next);
+    EC_TRY_CLEANUP(ec_film_take_parts(&merge->all.film, &next.film, err));
+cleanup:
+    ec_stored_free(&next);
+    return result;
+}
+
+__attribute__((format(printf, 3, 4))) static void append(char *text, size_t size, const char *format, ...)
+{
+    size_t used = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + used, size - used, format, args);
+    va_end(args);
+}
+
+bool ec_merge_missing(const ec_merge *merge, char *text, size_t size)
+{
+    const ec_film *film = &merge->all.film;
+    uint64_t batch = film->samples_per_batch, at = 0, end = (merge->all.job.spp + batch - 1) / batch;
+    text[0] = 0;
+    if (film->counts) return false;
+    for (uint32_t i = 0; i <= film->part_count; i++) {
+        bool is_last = i == film->part_count;
+        uint64_t next = is_last ? end : film->parts[i].first;
+        if (next > at) append(text, size, "%s%llu:%llu", *text ? ", " : "", (unsigned long long)(at * batch), (unsigned long long)(next * batch));
+        if (!is_last) at = (uint64_t)film->parts[i].first + film->parts[i].count;
+    }
+    return *text != 0;
+}
+
+void ec_merge_free(ec_merge *merge)
+{
+    ec_stored_free(&merge->all);
+    free(merge->ranges);
+    *merge = (ec_merge){0};
+}

@@ -1,0 +1,28 @@
+/* Slices of one job come together: in any order, to the same bits as one render. */
+#ifndef EC_STORE_MERGE_H
+#define EC_STORE_MERGE_H
+
+#include "store/store.h"
+
+/* Which file has which batches: to say so where two have the same. */
+typedef struct ec_merge_range {
+    const char *path;
+    uint32_t first, count;
+} ec_merge_range;
+
+typedef struct ec_merge {
+    ec_stored all;          /* the first file's job, and all films; its film shows late */
+    const char *first_path;
+    ec_merge_range *ranges; /* owned */
+    uint32_t range_count;
+} ec_merge;
+
+/* Adds a file's film. Refuses one of another job, of batches that are there already, and adaptive ones beside others. path must last. */
+ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec_error *err);
+
+/* "0:64 and 128:192": samples between 0 and the end of the job, as far as that is known, that no file has. False where none are missing. */
+bool ec_merge_missing(const ec_merge *merge, char *text, size_t size);
+
+void ec_merge_free(ec_merge *merge); /* zero-initialised is fine */
+
+#endif

@@ -1,0 +1,196 @@
+/* The JSON object beside the sums. 64-bit counts are texts: JSON's numbers are doubles. */
+#include <cjson/cJSON.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "store/layout.h"
+
+enum { FORMAT = 1 };
+
+static void add_count(cJSON *object, const char *name, uint64_t value)
+{
+    char digits[24];
+    snprintf(digits, sizeof digits, "%" PRIu64, value);
+    cJSON_AddStringToObject(object, name, digits);
+}
+
+static void add_job(cJSON *state, const ec_job *job)
+{
+    cJSON *identity = cJSON_AddObjectToObject(state, "identity"), *argv = cJSON_AddArrayToObject(state, "command");
+    for (uint32_t i = 0; i < job->identity.count; i++) cJSON_AddStringToObject(identity, job->identity.traits[i].name, job->identity.traits[i].value);
+    for (int i = 0; i < job->argc; i++) cJSON_AddItemToArray(argv, cJSON_CreateString(job->argv[i]));
+    cJSON_AddStringToObject(state, "folder", job->folder);
+    cJSON_AddStringToObject(state, "device", job->device);
+    cJSON_AddNumberToObject(state, "spp", job->spp);
+    cJSON_AddNumberToObject(state, "errorTarget", job->error_target);
+    cJSON_AddNumberToObject(state, "timeLimit", job->time_limit);
+    cJSON_AddNumberToObject(state, "first", job->first);
+    cJSON_AddNumberToObject(state, "end", job->end);
+}
+
+static void add_past(cJSON *state, const ec_past *past)
+{
+    cJSON *invalid = cJSON_AddArrayToObject(state, "invalid");
+    for (int i = 0; i < EC_STAGE_COUNT; i++) cJSON_AddItemToArray(invalid, cJSON_CreateNumber((double)past->invalid[i]));
+    cJSON_AddNumberToObject(state, "next", past->next);
+    add_count(state, "samples", past->samples);
+    add_count(state, "rays", past->rays);
+    cJSON_AddNumberToObject(state, "seconds", past->seconds);
+    cJSON_AddBoolToObject(state, "allotted", past->allotted);
+    cJSON_AddBoolToObject(state, "hasWeights", past->allotment.weight != NULL);
+    cJSON_AddNumberToObject(state, "gain", past->allotment.gain);
+    cJSON_AddNumberToObject(state, "level", past->allotment.level);
+}
+
+static void add_film(cJSON *state, const ec_film *film)
+{
+    cJSON *parts = cJSON_AddArrayToObject(state, "parts");
+    for (uint32_t i = 0; i < film->part_count; i++) {
+        const int range[2] = {(int)film->parts[i].first, (int)film->parts[i].count};
+        cJSON_AddItemToArray(parts, cJSON_CreateIntArray(range, 2));
+    }
+    cJSON_AddNumberToObject(state, "batch", film->samples_per_batch);
+    cJSON_AddNumberToObject(state, "batches", film->batch_count);
+    cJSON_AddBoolToObject(state, "hasCounts", film->counts != NULL);
+    add_count(state, "invalidValues", film->invalid_count);
+}
+
+char *ec_state_write(const ec_job *job, const ec_film *film, const ec_past *past)
+{
+    cJSON *state = cJSON_CreateObject();
+    cJSON_AddNumberToObject(state, "format", FORMAT);
+    add_job(state, job);
+    add_past(state, past);
+    add_film(state, film);
+    char *text = cJSON_PrintUnformatted(state);
+    cJSON_Delete(state);
+    return text;
+}
+
+/* Reading: whatever is missing or of the wrong kind is noted, and reading goes on. */
+typedef struct reader {
+    const cJSON *state;
+    bool is_wrong;
+} reader;
+
+static double number_of(reader *r, const cJSON *item, double most)
+{
+    bool fits = cJSON_IsNumber(item) && item->valuedouble >= 0 && item->valuedouble <= most;
+    r->is_wrong |= !fits;
+    return fits ? item->valuedouble : 0;
+}
+
+static double number(reader *r, const char *name, double most)
+{
+    return number_of(r, cJSON_GetObjectItemCaseSensitive(r->state, name), most);
+}
+
+static uint32_t whole(reader *r, const char *name)
+{
+    double value = number(r, name, INT32_MAX);
+    r->is_wrong |= value != floor(value);
+    return (uint32_t)value;
+}
+
+static const char *text_of(reader *r, const cJSON *item)
+{
+    r->is_wrong |= !cJSON_IsString(item);
+    return cJSON_IsString(item) ? item->valuestring : "";
+}
+
+static uint64_t count(reader *r, const char *name)
+{
+    const char *digits = text_of(r, cJSON_GetObjectItemCaseSensitive(r->state, name));
+    r->is_wrong |= !*digits || digits[strspn(digits, "0123456789")] || strlen(digits) > 19;
+    return r->is_wrong ? 0 : strtoull(digits, NULL, 10);
+}
+
+static bool flag(reader *r, const char *name)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(r->state, name);
+    r->is_wrong |= !cJSON_IsBool(item);
+    return cJSON_IsTrue(item);
+}
+
+static char *copy(reader *r, const cJSON *item)
+{
+    char *own = strdup(text_of(r, item));
+    r->is_wrong |= !own;
+    return own;
+}
+
+static void read_job(reader *r, ec_job *job)
+{
+    const cJSON *item, *identity = cJSON_GetObjectItemCaseSensitive(r->state, "identity"), *argv = cJSON_GetObjectItemCaseSensitive(r->state, "command");
+    cJSON_ArrayForEach(item, identity) {
+        if (job->identity.count == EC_TRAITS_MAX || !item->string) break;
+        ec_trait *trait = &job->identity.traits[job->identity.count++];
+        snprintf(trait->name, sizeof trait->name, "%s", item->string);
+        snprintf(trait->value, sizeof trait->value, "%s", text_of(r, item));
+    }
+    r->is_wrong |= !cJSON_IsArray(argv) || cJSON_GetArraySize(argv) < 1;
+    job->argv = r->is_wrong ? NULL : calloc((size_t)cJSON_GetArraySize(argv) + 1, sizeof *job->argv);
+    r->is_wrong |= !job->argv;
+    if (!r->is_wrong) cJSON_ArrayForEach(item, argv) job->argv[job->argc++] = copy(r, item);
+    job->folder = copy(r, cJSON_GetObjectItemCaseSensitive(r->state, "folder"));
+    job->device = copy(r, cJSON_GetObjectItemCaseSensitive(r->state, "device"));
+    job->spp = whole(r, "spp");
+    job->error_target = number(r, "errorTarget", 1e12);
+    job->time_limit = number(r, "timeLimit", 1e12);
+    job->first = whole(r, "first");
+    job->end = whole(r, "end");
+}
+
+static void read_past(reader *r, ec_past *past)
+{
+    const cJSON *invalid = cJSON_GetObjectItemCaseSensitive(r->state, "invalid");
+    for (int i = 0; i < EC_STAGE_COUNT; i++) past->invalid[i] = (uint64_t)number_of(r, cJSON_GetArrayItem(invalid, i), 1e15);
+    past->next = whole(r, "next");
+    past->samples = count(r, "samples");
+    past->rays = count(r, "rays");
+    past->seconds = number(r, "seconds", 1e12);
+    past->allotted = flag(r, "allotted");
+    past->allotment.gain = number(r, "gain", 1);
+    past->allotment.level = number(r, "level", 1e12);
+}
+
+static void read_film(reader *r, ec_state_film *film)
+{
+    const cJSON *item, *parts = cJSON_GetObjectItemCaseSensitive(r->state, "parts");
+    film->samples_per_batch = whole(r, "batch");
+    film->batch_count = whole(r, "batches");
+    film->has_counts = flag(r, "hasCounts");
+    film->has_weights = flag(r, "hasWeights");
+    film->invalid_count = count(r, "invalidValues");
+    int most = cJSON_GetArraySize(parts);
+    film->parts = calloc((size_t)most + 1, sizeof *film->parts);
+    r->is_wrong |= !film->parts || film->samples_per_batch == 0 || film->batch_count == 0 || (most == 0) != film->has_counts;
+    if (r->is_wrong) return;
+    cJSON_ArrayForEach(item, parts) {
+        ec_film_part *part = &film->parts[film->part_count++];
+        part->first = (uint32_t)number_of(r, cJSON_GetArrayItem(item, 0), INT32_MAX);
+        part->count = (uint32_t)number_of(r, cJSON_GetArrayItem(item, 1), INT32_MAX);
+        r->is_wrong |= !ec_film_part_is_sound(part->first, part->count);
+    }
+}
+
+ec_result ec_state_read(const char *text, const char *path, ec_stored *s, ec_state_film *film, ec_error *err)
+{
+    cJSON *state = cJSON_Parse(text);
+    reader r = {.state = state};
+    double format = cJSON_GetNumberValue(cJSON_GetObjectItemCaseSensitive(state, "format"));
+    ec_result result = EC_OK;
+    if (format != FORMAT) {
+        result = ec_fail(err, "cannot read '%s': it was written by another version of eclat (format %g, this one reads %d); use that version", path, format, FORMAT);
+    } else {
+        read_job(&r, &s->job);
+        read_past(&r, &s->past);
+        read_film(&r, film);
+        if (r.is_wrong) result = ec_fail(err, "cannot read '%s': what it says of its sums makes no sense; take an older file or render it again", path);
+    }
+    cJSON_Delete(state);
+    return result;
+}

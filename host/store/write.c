@@ -1,0 +1,53 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "store/layout.h"
+
+typedef struct sum_part {
+    char name[24];
+    ec_channel channels[EC_SUM_CHANNELS];
+} sum_part;
+
+/* Sums hardly get smaller by compression, which would cost more time than the disk. */
+static ec_exr_part make_part(sum_part *room, uint32_t index, const ec_film *film)
+{
+    uint32_t count;
+    ec_sum_part_name(index, room->name);
+    if (film->counts) {
+        const ec_moments shown = {film->mean, film->m2, film->m34, film->largest};
+        count = ec_sum_channels(&shown, film->counts, room->channels);
+    } else if (film->parts[index].batch) {
+        count = ec_batch_channels(film->parts[index].batch, room->channels);
+    } else {
+        count = ec_sum_channels(&film->parts[index].sums, NULL, room->channels);
+    }
+    return (ec_exr_part){.name = room->name, .channels = room->channels, .channel_count = count, .is_plain = true};
+}
+
+ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past, const ec_exr_part *picture, ec_error *err)
+{
+    uint32_t sums = film->counts ? 1 : film->part_count, count = 1 + sums;
+    const ec_channel weight = {"weight", past->allotment.weight, 1, false};
+    ec_exr_part *parts = calloc(sums + 2, sizeof *parts);
+    sum_part *rooms = calloc(sums, sizeof *rooms);
+    ec_attribute *attributes = calloc(picture->attribute_count + 1, sizeof *attributes);
+    char *state = ec_state_write(job, film, past);
+    ec_result result = EC_OK;
+    if (!parts || !rooms || !attributes || !state) {
+        result = ec_fail(err, "out of memory for '%s'", path);
+    } else {
+        parts[0] = *picture;
+        parts[0].name = "picture";
+        parts[0].attributes = attributes;
+        if (picture->attribute_count) memcpy(attributes, picture->attributes, picture->attribute_count * sizeof *attributes);
+        attributes[parts[0].attribute_count++] = (ec_attribute){.name = "eclat.state", .type = EC_ATTR_STRING, .string = state};
+        for (uint32_t i = 0; i < sums; i++) parts[i + 1] = make_part(&rooms[i], i, film);
+        if (weight.data) parts[count++] = (ec_exr_part){.name = "allotment", .channels = &weight, .channel_count = 1};
+        result = ec_exr_write_parts(path, film->width, film->height, parts, count, err);
+    }
+    free(parts);
+    free(rooms);
+    free(attributes);
+    free(state);
+    return result;
+}

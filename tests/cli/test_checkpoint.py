@@ -1,0 +1,144 @@
+"""A render that stops and goes on is the render that never stopped, bit for bit; checkpoints of anything else are refused."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, read_exr
+
+SIZE = ["--size", "20x18"]
+RESULT = ["image_sha256", "samples", "rays", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "batches"]
+
+
+class Checkpoint(Case):
+    def setUp(self):
+        super().setUp()
+        self.kept = self.path("kept.exr")
+
+    def render(self, *options, name="a.exr"):
+        return json.loads(self.assert_ok(eclat("render", *options, "--json", "-q", "-o", self.path(name))).stdout)
+
+    def assert_same(self, first, job, limits):
+        """A render that ends early and is gone on with to the job's limits, and the job without a break."""
+        whole = self.render(CORNELL, *SIZE, *job)
+        planes = read_exr(self.path("a.exr"))[1]
+        begun = self.render(CORNELL, *SIZE, *first, "--checkpoint", self.kept)
+        self.assertLess(begun["samples"], whole["samples"])
+        again = self.render("--resume", self.kept, *limits)
+        self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
+        self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
+
+    def test_paths(self):
+        job = ["--batch", "2"]
+        for first, all_of_it in [(2, 8), (32, 34), (34, 80)]:
+            self.assert_same([*job, "--spp", str(first)], [*job, "--spp", str(all_of_it)], ["--spp", str(all_of_it)])
+
+    def test_other_integrators(self):
+        for integrator in ["whitted", "raster"]:
+            job = ["--integrator", integrator, "--batch", "1"]
+            self.assert_same([*job, "--spp", "5"], [*job, "--spp", "21"], ["--spp", "21"])
+
+    def test_adaptive(self):
+        """Within the pilot, at its end, and with pixels of different counts."""
+        for first in [4, 8, 10, 30]:
+            job = ["--adaptive", "--batch", "2"]
+            self.assert_same([*job, "--spp", str(first)], [*job, "--spp", "64"], ["--spp", "64"])
+
+    def test_until_an_error(self):
+        job = ["--batch", "2"]
+        self.assert_same([*job, "--spp", "12"], [*job, "--error", "60%"], ["--error", "60%"])
+
+    def test_a_slice(self):
+        job = [CORNELL, *SIZE, "--spp", "80", "--batch", "2", "--samples", "10:80"]
+        whole = self.render(*job)
+        process = self.start(*job, "--checkpoint", self.kept, "--every", "0.001s", "-o", self.path("b.exr"))
+        self.stop(process, signal.SIGINT)
+        again = self.render("--resume", self.kept, name="b.exr")
+        self.assertEqual(whole["image_sha256"], again["image_sha256"])
+        self.assert_ok(eclat("merge", self.path("b.exr"), "--partial", "-q", "-o", self.path("m.exr")))
+
+    def start(self, *options):
+        return subprocess.Popen([ECLAT, "render", *options], env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, encoding="utf-8")
+
+    def stop(self, process, number):
+        deadline = time.monotonic() + 60
+        while not os.path.exists(self.kept) and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        process.send_signal(number)
+        return process.communicate(timeout=60)
+
+    def test_asked_to_stop(self):
+        """A last checkpoint is written, of all that the picture shows."""
+        for number in [signal.SIGINT, signal.SIGTERM]:
+            process = self.start(CORNELL, "--size", "40x40", "--batch", "1", "--spp", "100000", "--checkpoint", self.kept, "--every", "0.05s",
+                                 "-o", self.path("a.exr"))
+            _, error = self.stop(process, number)
+            self.assertEqual(process.returncode, 0, error)
+            attributes, planes = read_exr(self.path("a.exr"))
+            self.assertEqual(attributes["eclat.stoppedBy"], "user")
+            _, kept = read_exr(self.kept)
+            for name in kept:
+                self.assertEqual(kept[name], planes[name], name)
+            os.remove(self.kept)
+
+    def test_the_limits_and_outputs_are_those_of_before(self):
+        self.assert_ok(eclat("render", CORNELL, *SIZE, "--spp", "16", "--checkpoint", "kept.exr", "-q", "-o", "x.exr", cwd=self.folder))
+        first = read_exr(self.path("x.exr"))
+        os.remove(self.path("x.exr"))
+        self.assert_ok(eclat("render", "--resume", "kept.exr", "-q", cwd=self.folder))
+        self.assertEqual(first[1], read_exr(self.path("x.exr"))[1])
+        self.assert_ok(eclat("render", "--resume", "kept.exr", "--spp", "20", "-q", cwd=self.folder))
+        self.assertEqual(read_exr(self.path("x.exr"))[0]["eclat.samplesPerPixel"], 20)
+        self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {20.0})
+
+    def test_time_counts_on(self):
+        self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
+        again = self.render("--resume", self.kept, "--time", "0.001s")
+        self.assertEqual((again["samples_per_pixel"], again["stopped_by"]), (16, "time"))
+
+    def test_what_does_not_fit_is_refused(self):
+        self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
+        for options, says in [(["--seed", "2"], "--seed is 0 there and 2 here"), (["--size", "20x17"], "--size is 20x18 there and 20x17 here"),
+                              (["--batch", "2"], "--batch is 1 there and 2 here"), (["--adaptive"], "--adaptive is off there and on here"),
+                              (["--integrator", "raster"], "--integrator is path there and raster here"), (["--rr", "0.5"], "--rr is"),
+                              (["--camera", "0", "--filter", "blackman-harris"], "--filter is box there"), ([RING], "not the same are the scene's camera, geometry")]:
+            run = eclat("render", "--resume", self.kept, *options, "--spp", "32", "-q", "-o", self.path("b.exr"))
+            error = self.assert_one_error(run, 1)
+            self.assertIn(f"cannot go on from '{self.kept}': ", error)
+            self.assertIn(says, error)
+            self.assertFalse(os.path.exists(self.path("b.exr")))
+
+    def test_a_scene_that_was_changed_or_moved(self):
+        folder = os.path.dirname(CORNELL)
+        for name in os.listdir(folder):
+            if name.endswith((".bin", ".gltf")):
+                shutil.copy(os.path.join(folder, name), self.path(name))
+        scene = self.path("cornell-box.gltf")
+        self.render(scene, *SIZE, "--spp", "8", "--checkpoint", self.kept)
+        with open(scene, encoding="utf-8") as file:
+            text = json.load(file)
+        text["cameras"][0]["perspective"]["yfov"] += 1e-6
+        with open(scene, "w", encoding="utf-8") as file:
+            json.dump(text, file)
+        run = eclat("render", "--resume", self.kept, "--spp", "32", "-q")
+        self.assertIn("not the same are the scene's camera; ", self.assert_one_error(run, 1))
+        os.remove(scene)
+        run = eclat("render", "--resume", self.kept, "--spp", "32", "-q")
+        self.assertIn("cornell-box.gltf", self.assert_one_error(run, 1))
+
+    def test_the_command_line(self):
+        def refuse(says, *options, code=2):
+            self.assertIn(says, self.assert_one_error(eclat("render", *options), code))
+        refuse("--every belongs to --checkpoint", CORNELL, "--every", "5s")
+        refuse("must be named NAME.exr", CORNELL, "--checkpoint", "kept")
+        refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", "a.exr", "-o", "a.exr")
+        refuse("cannot open", "--resume", self.path("none.exr"), code=1)
+        refuse("No such file or directory", CORNELL, "--checkpoint", self.path("none", "kept.exr"), "-o", self.path("a.exr"), code=1)
+
+
+if __name__ == "__main__":
+    unittest.main()
