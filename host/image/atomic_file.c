@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,6 +113,7 @@ ec_result ec_atomic_open(ec_atomic_file *file, const char *path, ec_error *err)
     if (path[strlen(path) - 1] == '/')
         return ec_fail(err, "cannot write '%s': it names a folder; give a file name", path);
     EC_TRY(check_replaceable(path, err));
+    signal(SIGXFSZ, SIG_IGN); /* a driver's compiler may have taken it since the program began: `ulimit -f` is to be an error like others */
 
     file->target = realpath(path, NULL); /* so that a symbolic link stays one; fails when there is nothing yet */
     if (!file->target) file->target = strdup(path);
