@@ -143,6 +143,17 @@ static void scan_anisotropy(scan *s)
     if (has_texture(s, EC_SLOT_ANISOTROPY)) call(s, EC_FEATURE_ANISOTROPY_TEXTURE, "has an anisotropy texture");
 }
 
+/* Unless all of its facets lie flat. Whether what they lose is given back is an option, which the caller knows. */
+static void scan_rough(scan *s)
+{
+    float least, most;
+    ec_texture_range(s->scene, &s->m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
+    float roughness = s->m->roughness * most;
+    const char *what = s->m->metallic > 0.0f ? "metal" : "glass";
+    if ((s->m->metallic > 0.0f || s->m->transmission > 0.0f) && roughness * roughness > EC_SMOOTH_ALPHA)
+        call(s, EC_FEATURE_MULTISCATTER, "is %s of roughness %g", what, (double)roughness);
+}
+
 static void scan_specular(scan *s)
 {
     const ec_material *m = s->m;
@@ -156,6 +167,7 @@ static void scan_specular(scan *s)
         call(s, EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE, "has a metallic-roughness texture");
     if (has_texture(s, EC_SLOT_SPECULAR) || has_texture(s, EC_SLOT_SPECULAR_COLOR))
         call(s, EC_FEATURE_SPECULAR_TEXTURE, "has a specular texture");
+    scan_rough(s);
     scan_anisotropy(s);
 }
 
