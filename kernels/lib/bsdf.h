@@ -81,12 +81,14 @@ EC_FN lane_f bsdf_scatters_back(const bsdf *b)
 /* A film, and a reflectance under its index's own, may lose less than glass does as such: it is given its part of that. */
 EC_FN multiscatter bsdf_scatter_again(const bsdf *b, lane_f albedo)
 {
-    lane_f cosine = min(max(b->wo.z, F(0.0f)), F(1.0f)), metallic = b->facets.smooth ? F(0.0f) : b->metallic, glass = F(0.0f);
+    lane_i none = b->facets.smooth; /* stretched lobes lose otherwise, by the azimuth too, and scatter once */
+    if (HAS(ANISOTROPY)) none = none | (b->facets.stretch != 1.0f);
+    lane_f cosine = min(max(b->wo.z, F(0.0f)), F(1.0f)), metallic = none ? F(0.0f) : b->metallic, glass = F(0.0f);
     if (HAS(TRANSMISSION)) {
         lane_f r = (b->eta - 1.0f) / (b->eta + 1.0f), own = r * r, least = min(b->f0.x, min(b->f0.y, b->f0.z));
         lane_f usual = min(b->f90, (b->refracts & (least < own)) ? max(least, F(0.0f)) / own : F(1.0f));
         if (HAS(IRIDESCENCE)) usual *= 1.0f - b->film.weight;
-        glass = b->facets.smooth ? F(0.0f) : (1.0f - b->metallic) * b->transmission * usual;
+        glass = none ? F(0.0f) : (1.0f - b->metallic) * b->transmission * usual;
     }
     multiscatter m = multiscatter_make(b->facets.alpha, cosine, b->base, metallic, glass, b->eta, b->refracts);
     multiscatter_weigh(&m, albedo);
