@@ -27,12 +27,6 @@ void ec_effects_call(ec_effects *effects, uint64_t feature, const char *why, ...
     effects->bits |= feature;
 }
 
-void ec_effects_drop(ec_effects *effects, uint64_t feature)
-{
-    memset(&effects->calls[place_of(feature)], 0, sizeof *effects->calls);
-    effects->bits &= ~feature;
-}
-
 void ec_effects_add(ec_effects *effects, const ec_effects *one)
 {
     for (int k = 0; k < EC_EFFECT_BITS; k++) {

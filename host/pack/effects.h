@@ -23,8 +23,6 @@ typedef struct ec_effects {
 
 /* One bit; the first reason stays. */
 void ec_effects_call(ec_effects *effects, uint64_t feature, const char *why, ...) __attribute__((format(printf, 3, 4)));
-/* It is not called for after all. */
-void ec_effects_drop(ec_effects *effects, uint64_t feature);
 /* What one more caller calls for. */
 void ec_effects_add(ec_effects *effects, const ec_effects *one);
 /* "material 2 "Light" emits, and 3 others"; empty where nobody calls for it. */

@@ -143,17 +143,6 @@ static void scan_anisotropy(scan *s)
     if (has_texture(s, EC_SLOT_ANISOTROPY)) call(s, EC_FEATURE_ANISOTROPY_TEXTURE, "has an anisotropy texture");
 }
 
-/* Unless all of its facets lie flat. Whether what they lose is given back is an option, which the caller knows. */
-static void scan_rough(scan *s)
-{
-    float least, most;
-    ec_texture_range(s->scene, &s->m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
-    float roughness = s->m->roughness * most;
-    const char *what = s->m->metallic > 0.0f ? "metal" : "glass";
-    if ((s->m->metallic > 0.0f || s->m->transmission > 0.0f) && roughness * roughness > EC_SMOOTH_ALPHA)
-        call(s, EC_FEATURE_MULTISCATTER, "is %s of roughness %g", what, (double)roughness);
-}
-
 static void scan_specular(scan *s)
 {
     const ec_material *m = s->m;
@@ -167,7 +156,6 @@ static void scan_specular(scan *s)
         call(s, EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE, "has a metallic-roughness texture");
     if (has_texture(s, EC_SLOT_SPECULAR) || has_texture(s, EC_SLOT_SPECULAR_COLOR))
         call(s, EC_FEATURE_SPECULAR_TEXTURE, "has a specular texture");
-    scan_rough(s);
     scan_anisotropy(s);
 }
 
@@ -198,7 +186,21 @@ static void scan_images(scan *s)
             call(s, EC_FEATURE_FLOAT_TEXTURE, "has a texture of more than 8 bits");
 }
 
-static void scan_materials(const ec_scene *scene, ec_effects *effects)
+/* Unless all of its facets lie flat. */
+static void scan_rough(scan *s)
+{
+    const ec_material *m = s->m;
+    float least, most;
+    ec_texture_range(s->scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
+    float roughness = m->roughness * most;
+    if (m->unlit || (m->metallic == 0.0f && m->transmission == 0.0f) || roughness * roughness <= EC_SMOOTH_ALPHA) return;
+    call(s, EC_FEATURE_MULTISCATTER, "is %s of roughness %g", m->metallic > 0.0f ? "metal" : "glass", (double)roughness);
+}
+
+typedef void scan_fn(scan *s);
+
+/* Of what shows. */
+static void scan_materials(const ec_scene *scene, scan_fn *look, ec_effects *effects)
 {
     bool *used = calloc(scene->material_count, sizeof *used);
     for (uint32_t t = 0; used && t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
@@ -206,8 +208,7 @@ static void scan_materials(const ec_scene *scene, ec_effects *effects)
         if (used && !used[m]) continue;
         scan s = {.scene = scene, .m = &scene->materials[m]};
         name_material(scene, m, s.name, sizeof s.name);
-        scan_material(&s);
-        scan_images(&s);
+        look(&s);
         ec_effects_add(effects, &s.found);
     }
     free(used);
@@ -290,10 +291,13 @@ static void scan_bodies(const ec_scene *scene, ec_effects *effects)
 void ec_pack_effects(const ec_scene *scene, ec_effects *effects)
 {
     *effects = (ec_effects){0};
-    scan_materials(scene, effects);
+    scan_materials(scene, scan_material, effects);
+    scan_materials(scene, scan_images, effects);
     if (scene->placed_count) ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once stand in %u places", scene->placed_count);
     scan_bodies(scene, effects);
     scan_lights(scene, effects);
     scan_normals(scene, effects);
     scan_colors(scene, effects);
 }
+
+void ec_pack_rough(const ec_scene *plain, ec_effects *effects) { scan_materials(plain, scan_rough, effects); }

@@ -51,6 +51,8 @@ void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 
 /* The steps, in order; each fills its part of pack. */
 void ec_pack_effects(const ec_scene *plain, ec_effects *effects);
+/* What multiple scattering calls for, if a caller wants it: rough metal and glass. */
+void ec_pack_rough(const ec_scene *plain, ec_effects *effects);
 /* The scan alone. */
 ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *err);
 /* Of a plain scene: may light go straight on through it, somewhere: thin-walled and smooth? */

@@ -310,6 +310,8 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
     if (result == EC_OK && r.pipeline.bodies_too_many)
         ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
                 r.pipeline.bodies_too_many, EC_BODIES_MOST);
+    if (result == EC_OK && options->scattering == EC_SCATTERING_MULTIPLE && !(r.pipeline.effects.called.bits & EC_FEATURE_MULTISCATTER))
+        ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
     if (result == EC_OK && r.pipeline.wave < r.pipeline.first_wave)
         ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", r.pipeline.wave, r.pipeline.first_wave);
     if (result == EC_OK) {
