@@ -23,6 +23,7 @@ static const struct {
     {"light-choice", ONLY(PATH)},
     {"rr", ONLY(PATH)},
     {"sample", ONLY(PATH)},
+    {"scattering", ONLY(PATH)},
     {"terminator", ONLY(PATH)},
     {"accel", ONLY(PATH) | ONLY(WHITTED)},
     {"grid-density", ONLY(PATH) | ONLY(WHITTED)},

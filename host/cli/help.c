@@ -108,6 +108,8 @@ static const char help_render[] =
     "      --sample NAME          what directions are sampled by: hemisphere (uniformly), bsdf, light, or mis for both of\n"
     "                             these; the image is the same, its noise is not (default: mis)\n"
     "      --sampler NAME         sobol (Owen-scrambled) or independent (default: sobol)\n"
+    "      --scattering NAME      rough metal and glass: single, as glTF has it, which loses light; multiple, which gives\n"
+    "                             back what facets reflect or pass on to one another (default: single)\n"
     "      --seed N               another N, another independent image (default: 0)\n"
     "      --terminator NAME      where light grazes facets with vertex normals: geometric, they shade themselves; smooth,\n"
     "                             rays start on the smooth surface that is meant (default: geometric)\n"

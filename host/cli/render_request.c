@@ -38,6 +38,7 @@ CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names
 CHOICE_SETTER(light_choice, options.light_choice, ec_light_choice, ec_light_choice_names)
 CHOICE_SETTER(sample, options.sample, ec_sample, ec_sample_names)
 CHOICE_SETTER(sampler, options.sampler, ec_sampler_type, ec_sampler_names)
+CHOICE_SETTER(scattering, options.scattering, ec_scattering, ec_scattering_names)
 CHOICE_SETTER(terminator, options.terminator, ec_terminator, ec_terminator_names)
 CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
 PARSED_SETTER(error, ec_parse_percent, options.error_target)
@@ -186,6 +187,7 @@ static const ec_option options[] = {
     {"sample", 0, true, set_sample},
     {"sampler", 0, true, set_sampler},
     {"samples", 0, true, set_samples},
+    {"scattering", 0, true, set_scattering},
     {"seed", 0, true, set_seed},
     {"size", 0, true, set_size},
     {"spp", 0, true, set_spp},

@@ -188,19 +188,35 @@ static void scan_images(scan *s)
             call(s, EC_FEATURE_FLOAT_TEXTURE, "has a texture of more than 8 bits");
 }
 
-static ec_result scan_materials(const ec_scene *scene, ec_effects *effects, ec_error *err)
+/* Unless all of its facets lie flat. */
+static void scan_rough(scan *s)
+{
+    const ec_material *m = s->m;
+    float least, most;
+    ec_texture_range(s->scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
+    float roughness = m->roughness * most;
+    if (m->unlit || (m->metallic == 0.0f && m->transmission == 0.0f) || roughness * roughness <= EC_SMOOTH_ALPHA) return;
+    call(s, EC_FEATURE_MULTISCATTER, "is %s of roughness %g", m->metallic > 0.0f ? "metal" : "glass", (double)roughness);
+}
+
+typedef void scan_fn(scan *s);
+
+static void look_at_material(const ec_scene *scene, uint32_t m, scan_fn *look, ec_effects *effects)
+{
+    scan s = {.scene = scene, .m = &scene->materials[m]};
+    name_material(scene, m, s.name, sizeof s.name);
+    look(&s);
+    ec_effects_add(effects, &s.found);
+}
+
+/* Of what shows. */
+static ec_result scan_materials(const ec_scene *scene, scan_fn *look, ec_effects *effects, ec_error *err)
 {
     bool *used = calloc(scene->material_count, sizeof *used);
     if (!used) return ec_fail(err, "out of memory for %u materials", scene->material_count);
     for (uint32_t t = 0; t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
-    for (uint32_t m = 0; m < scene->material_count; m++) {
-        if (!used[m]) continue;
-        scan s = {.scene = scene, .m = &scene->materials[m]};
-        name_material(scene, m, s.name, sizeof s.name);
-        scan_material(&s);
-        scan_images(&s);
-        ec_effects_add(effects, &s.found);
-    }
+    for (uint32_t m = 0; m < scene->material_count; m++)
+        if (used[m]) look_at_material(scene, m, look, effects);
     free(used);
     return EC_OK;
 }
@@ -279,11 +295,17 @@ static void scan_bodies(const ec_bodies *bodies, ec_effects *effects)
 ec_result ec_pack_effects(const ec_scene *scene, const ec_bodies *bodies, ec_effects *effects, ec_error *err)
 {
     *effects = (ec_effects){0};
-    EC_TRY(scan_materials(scene, effects, err));
+    EC_TRY(scan_materials(scene, scan_material, effects, err));
+    EC_TRY(scan_materials(scene, scan_images, effects, err));
     if (scene->placed_count) ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once stand in %u places", scene->placed_count);
     scan_bodies(bodies, effects);
     scan_lights(scene, effects);
     scan_normals(scene, effects);
     scan_colors(scene, effects);
     return EC_OK;
+}
+
+void ec_pack_rough(const ec_scene *plain, ec_effects *effects)
+{
+    for (uint32_t m = 0; m < plain->material_count; m++) look_at_material(plain, m, scan_rough, effects);
 }

@@ -7,9 +7,10 @@
 
 void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects)
 {
-    const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR; /* and not called for by a scene */
+    const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER; /* and not called for by a scene */
     ec_effects *called = &effects->called;
     *called = pack->effects;
+    if (options->scattering == EC_SCATTERING_MULTIPLE) ec_pack_rough(&pack->plain.scene, called);
     effects->without = options->without_of ? 0 : options->without;
     if (options->sampler == EC_SAMPLER_SOBOL) ec_effects_call(called, EC_FEATURE_SOBOL, "--sampler sobol");
     if (options->terminator == EC_TERMINATOR_SMOOTH && (called->bits & EC_FEATURE_SMOOTH_NORMALS))

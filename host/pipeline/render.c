@@ -301,6 +301,8 @@ static ec_result set_up(render_state *r, ec_cl *cl, const ec_scene *scene, uint3
     if (p->bodies_too_many)
         ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
                 p->bodies_too_many, EC_BODIES_MOST);
+    if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(p->effects.called.bits & EC_FEATURE_MULTISCATTER))
+        ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
     if (p->wave < p->first_wave)
         ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", p->wave, p->first_wave);
     return EC_OK;

@@ -16,6 +16,7 @@
 typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
 
 /* Where rays leave a facet with vertex normals: kernels/lib/terminator.h. */
+typedef enum ec_scattering { EC_SCATTERING_SINGLE, EC_SCATTERING_MULTIPLE } ec_scattering; /* by rough facets: kernels/lib/multiscatter.h */
 typedef enum ec_terminator { EC_TERMINATOR_GEOMETRIC, EC_TERMINATOR_SMOOTH } ec_terminator;
 
 /* Which light a surface is joined to: by power wherever it is, or by a tree that knows where lights are (kernels/lib/light_tree.h). */
@@ -55,6 +56,7 @@ typedef struct ec_render_options {
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
     ec_light_choice light_choice;
+    ec_scattering scattering;
     ec_terminator terminator;   /* smooth: rays start on the smooth surface, not on its facets */
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */

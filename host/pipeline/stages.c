@@ -38,7 +38,8 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_AR
 
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
 #define SHADING_FEATURES                                                                           \
-    (EC_FEATURE_ALL & ~(EC_FEATURE_ALPHA | EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_PANES | CAMERA_FEATURES))
+    (EC_FEATURE_ALL & ~(EC_FEATURE_ALPHA | EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | \
+                        EC_FEATURE_PANES | CAMERA_FEATURES))
 /* Shadow rays look at surfaces where there are panes, else at no more than alpha: see ec_stage_features. */
 #define SHADOW_FEATURES (SHADING_FEATURES | EC_FEATURE_ALPHA | EC_FEATURE_PANES)
 
@@ -47,7 +48,7 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
                      EC_FEATURE_SOBOL | EC_FEATURES_MEDIUM | CAMERA_FEATURES, ARGS(generate)},
     [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, EC_FEATURE_CULLING | EC_FEATURE_INSTANCES | ALPHA_FEATURES,
                       ARGS(intersect)},
-    [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE, SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_PANES,
+    [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE, SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | EC_FEATURE_PANES,
                   ARGS(shade)},
     [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, EC_FEATURE_INSTANCES | SHADOW_FEATURES, ARGS(connect)},
     [EC_RASTER_SETUP] = {"raster_setup", "set up triangles", EC_OF(RASTER), 1, 0, ARGS(raster_setup)},

@@ -16,6 +16,9 @@ const char *const ec_sample_names[] = {
     [EC_SAMPLE_MIS] = "mis", [EC_SAMPLE_LIGHT] = "light", [EC_SAMPLE_BSDF] = "bsdf", [EC_SAMPLE_HEMISPHERE] = "hemisphere", NULL};
 const char *const ec_sampler_names[] = {
     [EC_SAMPLER_SOBOL] = "sobol", [EC_SAMPLER_INDEPENDENT] = "independent", NULL};
+const char *const ec_scattering_names[] = {
+    [EC_SCATTERING_SINGLE] = "single", [EC_SCATTERING_MULTIPLE] = "multiple", NULL};
+
 const char *const ec_terminator_names[] = {
     [EC_TERMINATOR_GEOMETRIC] = "geometric", [EC_TERMINATOR_SMOOTH] = "smooth", NULL};
 const char *const ec_tonemap_names[] = {

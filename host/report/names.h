@@ -8,6 +8,7 @@ extern const char *const ec_light_choice_names[]; /* ec_light_choice */
 extern const char *const ec_integrator_names[]; /* ec_integrator */
 extern const char *const ec_sample_names[];     /* ec_sample */
 extern const char *const ec_sampler_names[];    /* ec_sampler_type */
+extern const char *const ec_scattering_names[]; /* ec_scattering */
 extern const char *const ec_terminator_names[]; /* ec_terminator */
 extern const char *const ec_tonemap_names[];    /* ec_tonemap */
 

@@ -60,6 +60,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_made(attributes, "eclat.rr", "%s", roulette);
     add_text(attributes, "eclat.sample", ec_sample_names[options->sample]);
     add_text(attributes, "eclat.sampler", ec_sampler_names[options->sampler]);
+    add_text(attributes, "eclat.scattering", ec_scattering_names[options->scattering]);
     add_text(attributes, "eclat.terminator", ec_terminator_names[options->terminator]);
     add_text(attributes, "eclat.accel", options->accel ? options->accel : "auto");
     if (options->max_depth)

@@ -21,6 +21,7 @@ static void add_setting(cJSON *root, const ec_render_report *report)
     ec_json_text(root, "rr", roulette);
     ec_json_text(root, "sample", ec_sample_names[options->sample]);
     ec_json_text(root, "sampler", ec_sampler_names[options->sampler]);
+    ec_json_text(root, "scattering", ec_scattering_names[options->scattering]);
     ec_json_text(root, "terminator", ec_terminator_names[options->terminator]);
     ec_json_text(root, "accel", options->accel ? options->accel : "auto");
     ec_json_whole(root, "seed", options->seed);

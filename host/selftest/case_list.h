@@ -48,6 +48,7 @@
     CASE("scatter/ggx", false, ec_selftest_ggx, "narrow lobes from 1 - cos^2: no digit is left at roughness 0.01 (NUMERICS)")      \
     CASE("scatter/chi-square", false, ec_selftest_chi_square, "sampled otherwise than divided by")                                 \
     CASE("scatter/energy", false, ec_selftest_energy, "materials that glow")                                                       \
+    CASE("scatter/multiple", true, ec_selftest_multiple, "rough metal and glass that darken, or glow")                            \
     CASE("scatter/reciprocity", false, ec_selftest_reciprocity, "a picture that depends on the side paths start from")             \
     CASE("scatter/fuzz", false, ec_selftest_fuzz, "NaN and fireflies")                                                             \
     CASE("scatter/slab", false, ec_selftest_slabs, "glass that darkens or brightens what is behind it")                            \

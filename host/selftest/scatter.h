@@ -18,6 +18,7 @@ typedef struct ec_scatter_run {
 } ec_scatter_run;
 
 ec_result ec_scatter_open(ec_selftest *t, ec_scatter_run *run, ec_error *err); /* on failure nothing is left to close */
+ec_result ec_scatter_open_multiple(ec_selftest *t, bool multiple, ec_scatter_run *run, ec_error *err); /* with what facets scatter again */
 void ec_scatter_close(ec_scatter_run *run);
 ec_result ec_scatter_go(ec_selftest *t, ec_scatter_run *run, ec_error *err);
 ec_result ec_scatter_films(ec_selftest *t, ec_scatter_run *run, ec_error *err); /* three results: red, green, blue */

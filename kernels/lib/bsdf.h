@@ -16,6 +16,7 @@
 #include "fresnel.h"
 #include "ggx.h"
 #include "iridescence.h"
+#include "multiscatter.h"
 #include "sheen.h"
 #include "surface.h"
 
@@ -31,6 +32,7 @@ typedef struct bsdf {
     v3 below;            /* with this colour */
     lane_f p_below;      /* probability of that side, for the diffuse lobe */
     thin_film film;
+    multiscatter again;  /* what facets scatter more than once */
     sheen sheen;
     coat coat;
 } bsdf;
@@ -76,6 +78,23 @@ EC_FN lane_f bsdf_scatters_back(const bsdf *b)
     return HAS(DIFFUSE_TRANSMISSION) ? share * (1.0f - b->seeps) : share;
 }
 
+/* A film, and a reflectance under its index's own, may lose less than glass does as such: it is given its part of that. */
+EC_FN multiscatter bsdf_scatter_again(const bsdf *b, lane_f albedo)
+{
+    lane_i none = b->facets.smooth; /* stretched lobes lose otherwise, by the azimuth too, and scatter once */
+    if (HAS(ANISOTROPY)) none = none | (b->facets.stretch != 1.0f);
+    lane_f cosine = min(max(b->wo.z, F(0.0f)), F(1.0f)), metallic = none ? F(0.0f) : b->metallic, glass = F(0.0f);
+    if (HAS(TRANSMISSION)) {
+        lane_f r = (b->eta - 1.0f) / (b->eta + 1.0f), own = r * r, least = min(b->f0.x, min(b->f0.y, b->f0.z));
+        lane_f usual = min(b->f90, (b->refracts & (least < own)) ? max(least, F(0.0f)) / own : F(1.0f));
+        if (HAS(IRIDESCENCE)) usual *= 1.0f - b->film.weight;
+        glass = none ? F(0.0f) : (1.0f - b->metallic) * b->transmission * usual;
+    }
+    multiscatter m = multiscatter_make(b->facets.alpha, cosine, b->base, metallic, glass, b->eta, b->refracts);
+    multiscatter_weigh(&m, albedo);
+    return m;
+}
+
 EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
 {
     bsdf b;
@@ -117,6 +136,10 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
         /* A lobe that matters at other angles must not starve. What is left for the base goes by the half vector's angle: there may
          * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing but a film reflects less than head-on. */
         b.p_specular = (((b.p_specular > 0.0f) | filmed) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
+        if (HAS(MULTISCATTER)) {
+            b.again = bsdf_scatter_again(&b, sum);
+            sum += b.again.albedo;
+        }
     }
     if (HAS(SHEEN)) {
         b.sheen = sheen_make(s->sheen, s->sheen_roughness, wo_local.z, sum);
@@ -217,6 +240,7 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 {
     v3 f = bsdf_eval_base(b, wi, pdf);
+    if (HAS(MULTISCATTER) && HAS(SPECULAR)) multiscatter_over(&b->again, b->wo, wi, &f, pdf);
     if (HAS(SHEEN)) sheen_over(&b->sheen, b->wo, wi, &f, pdf);
     if (HAS(CLEARCOAT)) coat_over(&b->coat, wi, &f, pdf);
     return f;
@@ -307,6 +331,13 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
         by_sheen = u < b->sheen.p;
         u = min((u - b->sheen.p) / (1.0f - b->sheen.p), F(0.99999994f));
     }
+    lane_i again = !TRUE_MASK;
+    lane_f u_again = F(0.0f);
+    if (HAS(MULTISCATTER) && HAS(SPECULAR)) {
+        again = u < b->again.p;
+        u_again = u / b->again.p;
+        u = min((u - b->again.p) / (1.0f - b->again.p), F(0.99999994f));
+    }
     if (HAS(SPECULAR)) {
         lane_i specular = u < b->p_specular;
         if (HAS(SMOOTH)) single = specular & b->facets.smooth;
@@ -320,6 +351,10 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
             r.wi = v3_select(specular, s.wi, r.wi);
             single_weight = s.weight;
         }
+    }
+    if (HAS(MULTISCATTER) && HAS(SPECULAR)) { /* of smooth surfaces its p is 0 */
+        v3 wi = multiscatter_sample(&b->again, cosine, sine, u2, u_again);
+        r.wi = v3_select(blind ? !TRUE_MASK : again, wi, r.wi);
     }
     if (HAS(SHEEN)) {
         lane_f r_uniform = sqrt(max(fma(-u2, u2, F(1.0f)), F(0.0f)));

@@ -69,6 +69,16 @@ PRECISION(coat_over)
     PUT(1, pdf);
 }
 /* Over black; colour in base, roughness in alpha's place. */
+PRECISION(multiscatter_over)
+{
+    multiscatter m = multiscatter_make(X(12), X(2), V(6), X(11), (1.0f - X(11)) * X(13), X(14), X(14) != 1.0f);
+    multiscatter_weigh(&m, F(0.5f));
+    v3 f = v3_zero();
+    lane_f pdf = F(0.0f);
+    multiscatter_over(&m, V(0), V(3), &f, &pdf);
+    PUT_V(0, f);
+    PUT(3, pdf);
+}
 PRECISION(sheen_over)
 {
     sheen s = sheen_make(V(6), X(12), X(2), F(0.5f));

@@ -41,6 +41,7 @@
 #define EC_FEATURE_DIFFUSE_TRANSMISSION EC_FEATURE_BIT(32)
 #define EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE EC_FEATURE_BIT(33)
 #define EC_FEATURE_DISPERSION EC_FEATURE_BIT(34)
+#define EC_FEATURE_MULTISCATTER EC_FEATURE_BIT(35)
 #define EC_FEATURE_LENS EC_FEATURE_BIT(40)
 #define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
@@ -86,6 +87,7 @@
     X(DIFFUSE_TRANSMISSION, "diffuse-transmission")                                                \
     X(DIFFUSE_TRANSMISSION_TEXTURE, "diffuse-transmission-texture")                                \
     X(DISPERSION, "dispersion")                                                                    \
+    X(MULTISCATTER, "multiple-scattering")                                                         \
     X(LENS, "depth-of-field")                                                                      \
     X(PIXEL_FILTER, "pixel-filter")                                                                \
     X(ENVIRONMENT_TURN, "environment-rotation")                                                    \

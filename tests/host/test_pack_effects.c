@@ -258,6 +258,43 @@ static void test_without(void)
     ec_scene_free(scene);
 }
 
+/* Asked for by an option: of what shows, rough metal and glass. */
+static void check_rough(const ec_material *m, bool expected, int line)
+{
+    effect_model e = em_new();
+    em_quad(&e, em_material(&e, m), NULL);
+    ec_scene *scene = em_scene(&e);
+    ec_pack pack;
+    ec_effects found = {0};
+    ec_error err = {0};
+    CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
+    CHECK_MSG(!(pack.effects.bits & EC_FEATURE_MULTISCATTER), "line %d: called for without the option", line);
+    ec_pack_rough(&pack.plain.scene, &found);
+    CHECK_MSG(found.bits == (expected ? EC_FEATURE_MULTISCATTER : 0), "line %d: %llx", line, (unsigned long long)found.bits);
+    ec_pack_free(&pack);
+    ec_scene_free(scene);
+}
+
+static void test_rough(void)
+{
+    ec_material one = em_plain(), *m = &one;
+    check_rough(m, false, __LINE__);
+    m->metallic = 1, m->roughness = 0.5f;
+    check_rough(m, true, __LINE__);
+    m->roughness = 0.005f;
+    check_rough(m, false, __LINE__);
+    m->roughness = 1, USE(METALLIC_ROUGHNESS, BLACK);
+    check_rough(m, false, __LINE__);
+    *m = em_plain(), m->roughness = 0.5f, m->transmission = 0.2f;
+    check_rough(m, true, __LINE__);
+    USE(TRANSMISSION, BLACK);
+    check_rough(m, false, __LINE__);
+    *m = em_plain(), m->metallic = 1, m->roughness = 0.5f, m->unlit = true;
+    check_rough(m, false, __LINE__);
+    *m = em_plain(), m->specular = 1, m->roughness = 1; /* of plastic next to nothing is lost */
+    check_rough(m, false, __LINE__);
+}
+
 int main(void)
 {
     const ec_material nothing = em_plain();
@@ -270,5 +307,6 @@ int main(void)
     test_unused();
     test_vertices();
     test_without();
+    test_rough();
     TEST_END();
 }

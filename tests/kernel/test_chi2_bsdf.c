@@ -4,7 +4,7 @@
 #include "kernel/packed_material.h"
 
 /* Without and with transmission; with all that lies over a surface. */
-static cl_program programs[LANE_WIDTHS], glass_programs[LANE_WIDTHS], layered_programs[LANE_WIDTHS];
+static cl_program programs[LANE_WIDTHS], glass_programs[LANE_WIDTHS], layered_programs[LANE_WIDTHS], multi_programs[LANE_WIDTHS];
 
 #define RINGS 20
 #define SECTORS 24
@@ -234,6 +234,17 @@ static void check_seeping(void)
     check_covered(layered_programs, 3, (material){0.5f, 0.4f, 0.6f, 0.8f, 0.5f, 1.5f}, "seeping", over);
 }
 
+/* What facets scatter more than once, on either side. */
+static void check_multiscatter(void)
+{
+    check_bsdf(multi_programs, 0, (material){1, 0.25f, 0.5f, 1, 0, 1});
+    check_bsdf(multi_programs, 1, (material){1, 1, 0.05f, 1, 0, 1});
+    check_bsdf(multi_programs, 2, (material){0.5f, 0.5f, 0.7f, 0.8f, 0, 1});
+    check_bsdf(multi_programs, 3, (material){0, 0.5f, 0.3f, 1, 1, 1});
+    check_bsdf(multi_programs, 0, (material){0, 0.3f, 0.5f, 1, 1, 1.5f});
+    check_bsdf(multi_programs, 1, (material){0.3f, 1, 0.6f, 0.8f, 0.5f, 1 / 1.5f});
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
@@ -241,6 +252,7 @@ int main(void)
     chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
     chi2_build(glass_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
     chi2_build(layered_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION)");
+    chi2_build(multi_programs, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_MULTISCATTER)");
     if (!test_failures) {
         check_opaque();
         check_glass();
@@ -249,12 +261,14 @@ int main(void)
         check_anisotropy();
         check_film();
         check_seeping();
+        check_multiscatter();
         printf("%d chi-square tests\n", tests);
         CHECK(tests <= TESTS - 5); /* the lights' */
     }
     chi2_release(programs);
     chi2_release(glass_programs);
     chi2_release(layered_programs);
+    chi2_release(multi_programs);
     ec_cl_close(&cl);
     TEST_END();
 }

@@ -2,11 +2,13 @@
 """Pictures beside Blender's Cycles, which reads the same glTF by its own importer: where do the two mean something else?
 
 For each scene both render from eclat's camera under one environment map. Printed are the ratio of the means, and how far averages
-of 8 x 8 pixels lie apart, as parts of the picture's mean: in the mean, and 95 % of them less. Scenes with punctual lights are
-left out, since Blender measures them in other units. Needs PyPI's bpy (4.5 for Python 3.11), numpy, OpenEXR and pillow:
+of 8 x 8 pixels lie apart, as parts of the picture's mean: in the mean, and 95 % of them less; how much of the mean eclat's own noise
+makes is beside it. Punctual lights are left
+out of both, since Blender measures them in other units. Needs PyPI's bpy (4.5 for Python 3.11), numpy, OpenEXR and pillow:
 CYCLES_PYTHON names the interpreter that has them."""
 import argparse
 import json
+import math
 import os
 import subprocess
 import sys
@@ -63,7 +65,7 @@ def blender_render(job):
     for material in bpy.data.materials:
         for node in material.node_tree.nodes if material.use_nodes else ():
             if node.type == "BSDF_PRINCIPLED":
-                node.distribution = "GGX"  # single scattering, as the glTF specification has it
+                node.distribution = "MULTI_GGX" if job["scattering"] == "multiple" else "GGX"
     blender_camera(bpy, job["camera"])
     blender_world(bpy, job["environment"])
     scene.render.engine = "CYCLES"
@@ -83,15 +85,14 @@ def blender_render(job):
     bpy.ops.render.render(write_still=True)
 
 
-def read_rgb(path):
+def read_rgb(path, layer=None):
     import numpy
     import OpenEXR
     channels = OpenEXR.File(path).channels()
-    if "RGB" in channels:
-        return channels["RGB"].pixels[..., :3]
-    if "RGBA" in channels:
-        return channels["RGBA"].pixels[..., :3]
-    return numpy.stack([channels[name].pixels for name in "RGB"], axis=-1)
+    for name in [layer] if layer else ["RGB", "RGBA"]:
+        if name in channels:
+            return channels[name].pixels[..., :3]
+    return numpy.stack([channels[f"{layer}.{name}" if layer else name].pixels for name in "RGB"], axis=-1)
 
 
 def to_png(numpy, rgb, scale):
@@ -107,6 +108,8 @@ def compare(job):
     rows, columns = ours.shape[0] // BLOCK, ours.shape[1] // BLOCK
     blocks = [x[:rows * BLOCK, :columns * BLOCK].reshape(rows, BLOCK, columns, BLOCK, 3).mean((1, 3)) for x in (ours, theirs)]
     apart = numpy.abs(blocks[0] - blocks[1]).mean(-1) / theirs.mean()
+    noise = read_rgb(job["ours"], "stderr")[:rows * BLOCK, :columns * BLOCK].astype(float).reshape(rows, BLOCK, columns, BLOCK, 3)
+    noise = numpy.sqrt((noise ** 2).sum((1, 3))) / BLOCK ** 2 * math.sqrt(2 / math.pi) / theirs.mean()  # mean |error|
     if job["png"]:
         scale = 0.7 / numpy.percentile(theirs, 90)
         from PIL import Image
@@ -114,7 +117,7 @@ def compare(job):
         for i, picture in enumerate([ours, theirs, numpy.abs(ours - theirs)]):
             strip.paste(to_png(numpy, picture, scale), (i * ours.shape[1], 0))
         strip.save(job["png"])
-    return {"mean_ratio": (ours.mean((0, 1)) / theirs.mean((0, 1))).tolist(), "apart": float(apart.mean()),
+    return {"mean_ratio": (ours.mean((0, 1)) / theirs.mean((0, 1))).tolist(), "apart": float(apart.mean()), "noise": float(noise.mean()),
             "apart_95": float(numpy.percentile(apart, 95))}
 
 
@@ -156,14 +159,15 @@ def one(eclat, cycles, scene, options, folder):
     if info.returncode:
         return {"error": info.stderr.strip()}
     info = json.loads(info.stdout)
-    if info["lights"]["point"] or info["lights"]["spot"] or info["lights"]["directional"]:
-        return {"error": "has punctual lights"}
+    punctual = any(info["lights"][kind] for kind in ("point", "spot", "directional"))
     camera = info["cameras"][info["default_camera"]]
     width = height = options.size
     ours, theirs = os.path.join(folder, "eclat.exr"), os.path.join(folder, "cycles.exr")
-    common.run_eclat(eclat, [scene, "--env", options.env, "--size", f"{width}x{height}", "--spp", str(options.spp), "-o", ours])
+    common.run_eclat(eclat, [scene, "--env", options.env, "--size", f"{width}x{height}", "--spp", str(options.spp), "--scattering", options.scattering,
+                             "-o", ours]
+                     + (["--without", "punctual-lights"] if punctual else []))
     answer = cycles.ask(do="render", scene=scene, camera=camera, environment=options.env, width=width,
-                        height=height, spp=options.spp, output=theirs)
+                        height=height, spp=options.spp, scattering=options.scattering, output=theirs)
     if "error" in answer:
         return answer
     png = options.pictures and os.path.join(options.pictures, os.path.splitext(os.path.basename(scene))[0] + ".png")
@@ -179,20 +183,21 @@ def main():
     parser.add_argument("--env", help="an equirectangular .hdr (default: ../shared's studio.hdr)")
     parser.add_argument("--size", type=int, default=256, help="pixels a side (default: 256)")
     parser.add_argument("--spp", type=int, default=64, help="samples a pixel (default: 64)")
+    parser.add_argument("--scattering", choices=["single", "multiple"], default="single", help="of rough facets, in both (default: single)")
     parser.add_argument("--pictures", metavar="DIR", help="write eclat's, Cycles' and their difference side by side there")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options = parser.parse_args()
     options.env = options.env or common.shared("assets", "env", "pmndrs-assets", "studio.hdr") or common.fail("no ../shared here: name a map by --env")
     eclat, cycles, found = common.eclat_path(options.eclat), Cycles(), {}
     if not options.json:
-        print(f"{'scene':<34} {'mean R':>7} {'G':>7} {'B':>7} {'apart':>8} {'95 %':>8}   (means: eclat / Cycles)")
+        print(f"{'scene':<34} {'mean R':>7} {'G':>7} {'B':>7} {'apart':>8} {'noise':>8} {'95 %':>8}   (means: eclat / Cycles)")
     for scene in options.scenes:
         with tempfile.TemporaryDirectory() as folder:
             answer = found[scene] = one(eclat, cycles, os.path.abspath(scene), options, folder)
         if not options.json:
             name = os.path.basename(scene)
             print(f"{name:<34} " + (answer["error"] if "error" in answer else
-                  " ".join(f"{x:7.4f}" for x in answer["mean_ratio"]) + f" {100 * answer['apart']:7.2f}% {100 * answer['apart_95']:7.2f}%"), flush=True)
+                  " ".join(f"{x:7.4f}" for x in answer["mean_ratio"]) + f" {100 * answer['apart']:7.2f}% {100 * answer['noise']:7.2f}% {100 * answer['apart_95']:7.2f}%"), flush=True)
     if options.json:
         print(json.dumps(found))
 
