@@ -1,7 +1,6 @@
 #include "pack/fold.h"
 
 #include <stddef.h>
-#include <stdlib.h>
 
 #include "image/image.h"
 #include "pack/pack.h"
@@ -81,16 +80,12 @@ void ec_texture_fold(const ec_scene *scene, ec_material *m, int slot)
 static double mean_of(const ec_image *image, int slot, int channel)
 {
     const size_t count = (size_t)image->width * image->height, values = image->rgba16 ? 65536 : 256;
-    size_t *times = calloc(values, sizeof *times);
+    uint32_t times[65536] = {0}; /* a picture has 2^28 texels at most */
     double sum = 0.0;
-    if (!times || !count) {
-        free(times);
-        return 1.0;
-    }
+    if (!count) return 1.0;
     for (size_t i = 0; i < count; i++) times[texel(image, 4 * i + (size_t)channel)]++;
     for (size_t v = 0; v < values; v++)
         if (times[v]) sum += (double)times[v] * decoded(image, slot, channel, (uint32_t)v);
-    free(times);
     return sum / (double)count;
 }
 

@@ -1,4 +1,5 @@
-/* When --light-choice auto takes the tree: many lamps, far apart, that give a part of the light worth its time. */
+/* When --light-choice auto takes the tree: many lamps, far apart, that give a part of the light worth its time. And what a tree leaves
+ * to the sky. */
 #include "pack/pack.h"
 #include "scene/model.h"
 #include "support/test.h"
@@ -6,11 +7,10 @@
 enum { SIDE = 8 };
 
 /* SIDE^2 lamps of radiance 1 over a floor, in a sky. */
-static bool wants_tree(double gap, double sky)
+static ec_scene *lamps(double gap, double sky)
 {
     ec_error err = {0};
     ec_scene *scene;
-    ec_pack pack;
     ec_model *m = ec_model_new();
     if (!m) exit(1);
     ec_material floor = ec_material_lambert(0.5, 0), lamp = ec_material_lambert(0, 1);
@@ -22,11 +22,43 @@ static bool wants_tree(double gap, double sky)
     if (ec_model_scene(m, &scene, &err) != EC_OK) exit(1);
     scene->has_environment = sky > 0;
     for (int k = 0; k < 3; k++) scene->environment.constant[k] = (float)sky;
+    return scene;
+}
+
+static bool wants_tree(double gap, double sky)
+{
+    ec_error err = {0};
+    ec_scene *scene = lamps(gap, sky);
+    ec_pack pack;
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
     bool wants = ec_pack_wants_light_tree(&pack);
     ec_pack_free(&pack);
     ec_scene_free(scene);
     return wants;
+}
+
+/* Half of all samples go to the sky, as by power (lights.c); densities of lamps are those of the one that the tree will have chosen. */
+static void the_sky_keeps_its_half(void)
+{
+    ec_error err = {0};
+    ec_scene *scene = lamps(0.5, 1e-3);
+    ec_pack pack;
+    CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
+    CHECK_OK(ec_pack_light_tree(&pack, &err), err);
+    CHECK_NEAR(pack.environment_pmf, 0.5, 1e-6);
+    CHECK_NEAR(pack.light_tree_pmf, 0.5, 1e-6);
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < pack.light_count; i++) {
+        const ec_light_data *l = &pack.lights[i];
+        if ((l->kind & EC_LIGHT_KIND_MASK) != EC_KIND_TRIANGLE) continue;
+        CHECK_NEAR(l->pmf, 0.5, 1e-6);
+        CHECK_NEAR(l->pdf_a, 0.5 / 0.5e-4, 0.1); /* edges of 0.01, at 4 their floats are good to 5e-5 of themselves */
+        CHECK(pack.prims[l->prim].light_pdf_a == l->pdf_a);
+        found++;
+    }
+    CHECK(found == 2 * SIDE * SIDE);
+    ec_pack_free(&pack);
+    ec_scene_free(scene);
 }
 
 int main(void)
@@ -35,6 +67,8 @@ int main(void)
     CHECK(!wants_tree(0.02, 0)); /* a cluster */
     /* Lamps send pi 64 1e-4, the sky 4 pi^2 r^2 with a radius r of some 7: equal at a sky of 1e-5. */
     CHECK(wants_tree(0.5, 1e-5));
-    CHECK(!wants_tree(0.5, 1));
+    CHECK(wants_tree(0.5, 2.5e-3)); /* 0.4 % */
+    CHECK(!wants_tree(0.5, 1e-2));  /* 0.1 % */
+    the_sky_keeps_its_half();
     TEST_END();
 }

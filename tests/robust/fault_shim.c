@@ -1,4 +1,5 @@
-/* LD_PRELOADed into eclat: lets one OpenCL or file call fail, and counts them. By environment variables:
+/* LD_PRELOADed into eclat: lets one OpenCL or file call, or one allocation of eclat's own, fail, and counts them. By environment
+ * variables:
  *   FAULT_CALL=clCreateBuffer   which call; FAULT_AT=3: the third one (1 if not given)
  *   FAULT_CODE=-5               what it answers: an OpenCL code, or an errno for calls on files; default CL_OUT_OF_RESOURCES, ENOSPC
  *   FAULT_SIGNAL=9              instead: the process is sent this signal there, and the call goes on
@@ -17,12 +18,14 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <link.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/auxv.h>
 #include <unistd.h>
 
 #define CALLS(X)                                                                                                                   \
@@ -30,7 +33,8 @@
     X(clCreateBuffer) X(clCreateProgramWithSource) X(clCreateProgramWithBinary) X(clBuildProgram) X(clGetProgramBuildInfo)         \
     X(clGetProgramInfo) X(clCreateKernel) X(clSetKernelArg) X(clEnqueueNDRangeKernel) X(clEnqueueReadBuffer)                       \
     X(clEnqueueWriteBuffer) X(clEnqueueFillBuffer) X(clFinish) X(clWaitForEvents) X(clGetEventInfo)                                \
-    X(write) X(pwrite) X(fsync) X(linkat) X(rename) X(open) X(close)
+    X(write) X(pwrite) X(fsync) X(linkat) X(rename) X(open) X(close)                                                               \
+    X(malloc) /* and its like */
 enum call {
 #define NAME(name) CALL_##name,
     CALLS(NAME)
@@ -237,3 +241,32 @@ int open(const char *path, int flags, ...)
     }
     return file_fault(is_below(path), CALL_open) ? -1 : REAL(open)(path, flags, mode);
 }
+
+/* Memory that the program asks for itself; libraries are not ours to judge. */
+static const char *program, *program_end;
+
+__attribute__((constructor)) static void find_program(void)
+{
+    const ElfW(Phdr) *header = (const ElfW(Phdr) *)getauxval(AT_PHDR);
+    const char *base = NULL;
+    for (unsigned long i = 0; i < getauxval(AT_PHNUM); i++) {
+        if (header[i].p_type == PT_PHDR) base = (const char *)header - header[i].p_vaddr;
+        if (!base || header[i].p_type != PT_LOAD || !(header[i].p_flags & PF_X)) continue;
+        program = base + header[i].p_vaddr;
+        program_end = program + header[i].p_memsz;
+    }
+}
+
+static bool memory_fault(const void *caller)
+{
+    if ((const char *)caller < program || (const char *)caller >= program_end || !is_due(CALL_malloc)) return false;
+    errno = ENOMEM;
+    return true;
+}
+
+#define ALLOCATES(name, parameters, arguments)                                                                                     \
+    void *__libc_##name parameters;                                                                                                \
+    void *name parameters { return memory_fault(__builtin_return_address(0)) ? NULL : __libc_##name arguments; }
+ALLOCATES(malloc, (size_t size), (size))
+ALLOCATES(calloc, (size_t count, size_t size), (count, size))
+ALLOCATES(realloc, (void *old, size_t size), (old, size))

@@ -1,0 +1,34 @@
+"""Every allocation of eclat's own fails once: a clear line and no damaged file, or the picture after all."""
+import os
+import unittest
+
+from faults import FaultCase, at_once, spread
+
+
+class Memory(FaultCase):
+    most = 60
+
+    def test_any_allocation_fails(self):
+        count = self.count_calls()["malloc"]
+        self.assertGreater(count, 50)
+        with open(self.path("counted", "a.png"), "rb") as file:
+            self.picture = file.read()
+        ends = at_once(self.fail_once, [(n,) for n in spread(count, self.most)])
+        self.assertGreater(ends.count("error"), 0.7 * len(ends))  # what it can do without is little: kernels that were kept
+
+    def fail_once(self, n):
+        run, folder = self.run_with(f"malloc{n}", call="malloc", at=n)
+        with self.subTest(n=n):
+            files = self.check_files(folder)
+            if run.returncode == 0:
+                self.assertEqual(files, {"a.exr": "new", "a.png": "new"}, run.stderr)
+                with open(os.path.join(folder, "a.png"), "rb") as file:
+                    self.assertEqual(file.read(), self.picture, run.stderr)
+                return "done"
+            self.assertEqual(run.returncode, 1, run.stderr)
+            self.assertRegex(run.stderr, r"\Aeclat: error: [^\n]*(memory|allocate)[^\n]*\n\Z")
+            return "error"
+
+
+if __name__ == "__main__":
+    unittest.main()
