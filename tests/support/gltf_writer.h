@@ -24,7 +24,7 @@ typedef struct gltf_list {
 } gltf_list;
 
 typedef struct gltf_writer {
-    gltf_list nodes, meshes, accessors, views, materials, cameras, lights, textures;
+    gltf_list nodes, meshes, accessors, views, materials, cameras, lights, textures, samplers;
     uint8_t data[1 << 20];
     size_t data_used;
     char path[512];
@@ -227,6 +227,7 @@ static inline const char *gltf_write(gltf_writer *w, const char *name)
     gltf_put_list(file, "bufferViews", &w->views);
     gltf_put_list(file, "materials", &w->materials);
     gltf_put_list(file, "cameras", &w->cameras);
+    gltf_put_list(file, "samplers", &w->samplers);
     gltf_put_list(file, "textures", &w->textures);
     if (w->textures.count) { /* image i is the file NAME-i.png beside the scene */
         fprintf(file, ",\n\"images\":[");
