@@ -155,6 +155,7 @@ ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_er
 {
     const char *path = job->request->resume;
     EC_TRY(ec_store_read(path, &job->stored, err));
+    if (job->stored.job.merged) return ec_fail(err, "cannot go on from '%s': it was merged; render what is missing with --samples, and merge that", path);
     EC_TRY(ec_render_request_resume(&job->stored.job, argc, argv, job->request, err));
     job->job.argc = job->stored.job.argc;
     job->job.argv = job->stored.job.argv;

@@ -41,19 +41,25 @@ static ec_result upload_list(ec_batch_source *s, const ec_batch_order *order, ec
     return ec_buffer_write(p->cl, *list, 0, (uint64_t)order->count * 4, order->list, err);
 }
 
+ec_result ec_batch_source_look(ec_batch_source *s, const ec_batch_order *order, ec_error *err)
+{
+    EC_TRY(ec_buffer_read(s->pipeline.cl, s->pipeline.buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)order->count * 12, s->mean, err));
+    return ec_pipeline_read_invalid(&s->pipeline, s->invalid, err);
+}
+
 ec_result ec_batch_source_take(ec_batch_source *s, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
     uint32_t per_wave = p->wave / p->params.batch, seed = seed_of(s->seed, order->index);
     *complete = true;
     EC_TRY(upload_list(s, order, err));
-    for (uint32_t first = 0; first < order->count && *complete; first += per_wave) {
+    if (order->done) EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)order->count * 12, s->mean, err));
+    for (uint32_t first = order->done; first < order->count && *complete; first += per_wave) {
         uint32_t count = order->count - first < per_wave ? order->count - first : per_wave;
         EC_TRY(ec_pipeline_run_wave(p, seed, first, count, order->with_features, err));
         *complete = order->go_on(order->user, first + count) || first + count >= order->count;
     }
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)order->count * 12, s->mean, err));
-    return ec_pipeline_read_invalid(p, s->invalid, err);
+    return ec_batch_source_look(s, order, err);
 }
 
 ec_result ec_batch_source_features(ec_batch_source *s, float **aov, ec_error *err)

@@ -16,6 +16,7 @@ typedef struct ec_batch_order {
     uint32_t index;                   /* of the batch, in the whole job */
     const uint32_t *list;             /* pixel numbers, those of one pass of an adaptive render; NULL: all pixels */
     uint32_t count;                   /* of these */
+    uint32_t done;                    /* so many of them are done before: mean holds what they came to */
     bool with_features;               /* first-hit features too, for ec_batch_source_features */
     /* Asked between waves, with the pixels that are done; false gives the batch up. */
     bool (*go_on)(void *user, uint32_t done);
@@ -31,6 +32,9 @@ void ec_batch_source_close(ec_batch_source *source); /* zero-initialised is fine
 
 /* *complete: false where go_on said no; pixels not reached then hold what was there before, in a first batch EC_NOT_REACHED. */
 ec_result ec_batch_source_take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err);
+
+/* Between two waves: mean becomes what the batch under way has come to so far, and invalid too. */
+ec_result ec_batch_source_look(ec_batch_source *source, const ec_batch_order *order, ec_error *err);
 
 /* Of the batch taken last, 8 floats a pixel, malloc'ed: ec_film's aov. */
 ec_result ec_batch_source_features(ec_batch_source *source, float **aov, ec_error *err);

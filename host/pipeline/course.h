@@ -5,22 +5,24 @@
 #include "pipeline/adaptive.h"
 #include "pipeline/render.h"
 
-/* What a render knows between two batches, beside its film: with both another goes on as if there had been no break. */
+/* What a render knows between two waves, beside its film: with both another goes on as if there had been no break. */
 typedef struct ec_past {
     uint32_t next;                    /* the index of the next batch, or pass of an adaptive render */
     uint64_t samples, rays;           /* done */
     double seconds;                   /* of rendering */
     uint64_t invalid[EC_STAGE_COUNT]; /* dropped by the kernels, by ec_stage */
+    uint32_t under_way;               /* pixels of batch `next`, in the order of its pass, that are done … */
+    const float *batch;               /* … and what they came to, 3 floats a pixel of the image; NULL: none are */
     bool allotted;                    /* the pilot of an adaptive render is over, and its allotment is made */
     ec_allotment allotment;           /* weight, gain and level count; without weights sampling stays uniform */
 } ec_past;
 
 typedef struct ec_course {
     uint32_t first, end;              /* batches [first, end) of the job; end 0: whatever the limits say */
-    const ec_past *past;              /* of the film that ec_render_course is given; NULL: a new one. Only allotment.weight is its memory */
+    const ec_past *past;              /* of the film that ec_render_course is given; NULL: a new one. Memory is its owner's */
     /* Once the scene is on the device, stats->content is known and before the first sample. Its failure ends the render. NULL: no matter. */
     ec_result (*admit)(void *user, const ec_render_stats *stats, ec_error *err);
-    /* Between two batches, every so many seconds, and at the end if the film has whole batches. False where it
+    /* Between two waves, every so many seconds, and at the end; once the film has a batch. False where it
      * could not: the render goes on, and tries again. NULL: never. */
     bool (*keep)(void *user, const ec_film *film, const ec_past *past);
     double every;

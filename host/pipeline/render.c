@@ -28,11 +28,11 @@ typedef struct render_state {
     ec_film_error error;
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
-    uint32_t pass_pixels;      /* of the batch under way */
+    ec_batch_order order;      /* the batch under way */
     double batches_before_it;
     uint64_t under_way;        /* samples of the batch that is not there yet */
     double kept_at;
-    uint32_t kept_next;
+    uint32_t kept_next, kept_under_way;
     const char *stopped_by;
 } render_state;
 
@@ -95,6 +95,24 @@ static double batches_done(const render_state *r)
     return (double)r->past.samples / params->batch / ((double)params->width * params->height);
 }
 
+/* Hands over what there is. A batch that is under way goes with it: on large pictures one takes minutes. */
+static void keep(render_state *r, uint32_t under_way)
+{
+    bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way;
+    if (!r->course->keep || !is_new || !r->film->batch_count || r->film->unsampled) return;
+    ec_past now = r->past;
+    now.seconds = ec_now() - r->render_start;
+    if (under_way) {
+        now.under_way = under_way;
+        now.batch = r->source.mean;
+        now.rays = r->rays_before + r->source.pipeline.rays;
+        for (int i = 0; i < EC_STAGE_COUNT; i++) now.invalid[i] = r->invalid_before[i] + r->source.invalid[i];
+    }
+    ec_film_show(r->film);
+    if (r->course->keep(r->course->user, r->film, &now)) r->kept_next = now.next, r->kept_under_way = under_way;
+    r->kept_at = ec_now();
+}
+
 /* Between waves: goes on unless a limit or the caller ends the batch early. */
 static bool goes_on(void *user, uint32_t done)
 {
@@ -105,7 +123,9 @@ static bool goes_on(void *user, uint32_t done)
         (void)ec_cl_finish(r->source.pipeline.cl, NULL); /* what it has to say the next call says too */
         r->stats->first_pixel_seconds = ec_now() - r->start;
     }
-    if (done >= r->pass_pixels) return true;
+    if (done >= r->order.count) return true;
+    bool is_due = r->course->keep && r->film->batch_count && ec_now() - r->kept_at >= r->course->every;
+    if (is_due && ec_batch_source_look(&r->source, &r->order, NULL) == EC_OK) keep(r, done); /* what failed fails again, and is told then */
     double now = ec_now(), share = done / ((double)params->width * params->height);
     bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
     bool go_on = now - r->last_report < 0.1 || report(r, r->batches_before_it + share);
@@ -119,13 +139,16 @@ static ec_result run_batch(render_state *r, bool *complete, ec_error *err)
 {
     const ec_params *params = &r->source.pipeline.params;
     ec_allotment *a = &r->past.allotment;
-    ec_batch_order order = {.index = r->past.next, .count = params->width * params->height, .with_features = r->past.next == 0,
-                            .go_on = goes_on, .user = r};
-    if (a->weight) order.count = ec_allotment_pass(a, r->film), order.list = a->list;
-    r->pass_pixels = order.count;
+    r->order = (ec_batch_order){.index = r->past.next, .count = params->width * params->height, .with_features = r->past.next == 0,
+                                .go_on = goes_on, .user = r};
+    if (a->weight) r->order.count = ec_allotment_pass(a, r->film), r->order.list = a->list;
+    if (r->past.under_way < r->order.count) r->order.done = r->past.under_way;
+    if (r->order.done) memcpy(r->source.mean, r->past.batch, (uint64_t)r->order.count * 12);
+    r->past.under_way = 0;
+    r->past.batch = NULL;
     r->batches_before_it = batches_done(r);
     r->under_way = 0;
-    return ec_batch_source_take(&r->source, &order, complete, err);
+    return ec_batch_source_take(&r->source, &r->order, complete, err);
 }
 
 static ec_result mark_unsampled(render_state *r, ec_error *err)
@@ -147,7 +170,7 @@ static ec_result add_batch(render_state *r, bool complete, ec_error *err)
     for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source.invalid[i];
     if (!complete) EC_TRY(mark_unsampled(r, err));
     ec_allotment *a = &r->past.allotment;
-    if (a->weight) EC_TRY(ec_film_add_some(r->film, r->source.mean, a->places, r->pass_pixels, err));
+    if (a->weight) EC_TRY(ec_film_add_some(r->film, r->source.mean, a->places, r->order.count, err));
     else EC_TRY(ec_film_add_at(r->film, r->past.next, r->source.mean, err));
     if (r->past.next == 0) EC_TRY(ec_batch_source_features(&r->source, &r->film->aov, err));
     r->past.samples += r->under_way;
@@ -186,28 +209,22 @@ static bool is_done(render_state *r, bool at_pilot)
     return r->stopped_by != NULL;
 }
 
-static void keep(render_state *r)
-{
-    if (!r->course->keep || r->past.next == r->kept_next || r->film->unsampled) return;
-    r->past.seconds = ec_now() - r->render_start;
-    ec_film_show(r->film);
-    if (r->course->keep(r->course->user, r->film, &r->past)) r->kept_next = r->past.next;
-    r->kept_at = ec_now();
-}
-
 /* One more for the film, or none; the batches before it stand, whatever happens. */
 static ec_result take_batch(render_state *r, const ec_log *log, ec_error *err)
 {
     bool complete;
     EC_TRY(run_batch(r, &complete, err));
-    if (!complete && (r->past.next > 0 || r->course->end)) return EC_OK; /* part of a batch is of no use to a slice */
+    if (!complete && (r->past.next > 0 || r->course->end)) { /* part of a batch is of no use to a picture */
+        keep(r, (uint32_t)(r->under_way / r->source.pipeline.params.batch));
+        return EC_OK;
+    }
     if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
     EC_TRY(add_batch(r, complete, err));
     /* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
     bool at_pilot = r->options->adaptive && !r->past.allotted && ec_pilot_is_over(r->film->batch_count);
     if (at_pilot) EC_TRY(ec_allot(r->film, &r->source.pipeline.params, &r->past.allotment, err));
     r->past.allotted |= at_pilot;
-    if (complete && !is_done(r, at_pilot) && ec_now() - r->kept_at >= r->course->every) keep(r);
+    if (complete && !is_done(r, at_pilot) && ec_now() - r->kept_at >= r->course->every) keep(r, 0);
     return EC_OK;
 }
 
@@ -222,7 +239,7 @@ static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
         (void)is_done(r, false); /* perhaps all was done before */
     }
     while (result == EC_OK && !r->stopped_by) result = take_batch(r, log, err);
-    keep(r);
+    keep(r, 0);
     return result;
 }
 
@@ -286,6 +303,7 @@ static ec_result take_up(render_state *r, const ec_past *past, uint32_t batch, e
     r->rays_before = past->rays;
     memcpy(r->invalid_before, past->invalid, sizeof r->invalid_before);
     r->kept_next = past->next;
+    r->kept_under_way = past->under_way;
     return EC_OK;
 }
 

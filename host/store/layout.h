@@ -2,7 +2,8 @@
  *
  * Part "picture": what viewers show; first-hit features are read from its channels A, albedo, normal and depth. Its attribute eclat.state
  * is a JSON object: state.c. Part "sums N" for each part of the film: mean, m2 (doubles, as two integers each), m3, m4 and largest; or for a
- * single batch R, G and B. Pixels with counts of their own have "count" there. Part "allotment": "weight", by pixel number. */
+ * single batch R, G and B. Pixels with counts of their own have "count" there. Part "allotment": "weight", by pixel number. Part
+ * "under way": R, G and B of the batch that is not complete. */
 #ifndef EC_STORE_LAYOUT_H
 #define EC_STORE_LAYOUT_H
 

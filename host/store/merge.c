@@ -69,6 +69,7 @@ ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec
         result = note_ranges(merge, &next.film, path, err);
         if (result != EC_OK) goto cleanup;
         merge->first_path = path;
+        next.past.under_way = 0; /* no part of the picture */
         merge->all = next;
         merge->all.film.shows_late = true;
         return EC_OK;
@@ -77,6 +78,7 @@ ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec
     EC_TRY_CLEANUP(check_ranges(merge, &next.film, path, err));
     EC_TRY_CLEANUP(note_ranges(merge, &next.film, path, err));
     add_past(&merge->all, &next);
+    merge->all.job.merged = true;
     EC_TRY_CLEANUP(ec_film_take_parts(&merge->all.film, &next.film, err));
 cleanup:
     ec_stored_free(&next);

@@ -17,6 +17,14 @@ static ec_result no_memory(const char *path, ec_error *err)
     return ec_fail(err, "cannot read '%s': its film does not fit into memory", path);
 }
 
+static ec_result read_batch(ec_exr_file *file, const char *path, const char *part, uint64_t pixels, float **batch, ec_error *err)
+{
+    ec_channel channels[3];
+    *batch = malloc(pixels * 3 * sizeof(float));
+    if (!*batch) return no_memory(path, err);
+    return fill(file, part, channels, ec_batch_channels(*batch, channels), err);
+}
+
 static ec_result read_part(ec_exr_file *file, const char *path, uint32_t index, ec_film_part *part, ec_film *film, ec_error *err)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
@@ -24,9 +32,7 @@ static ec_result read_part(ec_exr_file *file, const char *path, uint32_t index, 
     ec_channel channels[CHANNELS_MOST];
     ec_sum_part_name(index, name);
     if (ec_film_part_is_batch(part->first, part->count)) {
-        part->batch = malloc(pixels * 3 * sizeof(float));
-        if (!part->batch) return no_memory(path, err);
-        EC_TRY(fill(file, name, channels, ec_batch_channels(part->batch, channels), err));
+        EC_TRY(read_batch(file, path, name, pixels, &part->batch, err));
     } else {
         if (!ec_moments_create(&part->sums, pixels)) return no_memory(path, err);
         EC_TRY(fill(file, name, channels, ec_sum_channels(&part->sums, NULL, channels), err));
@@ -51,6 +57,14 @@ static ec_result read_weights(ec_exr_file *file, const char *path, ec_stored *s,
     float *weight = s->past.allotment.weight = calloc((uint64_t)s->film.width * s->film.height, sizeof *weight);
     if (!weight) return no_memory(path, err);
     return ec_exr_fill(file, "allotment", &(ec_exr_room){"weight", weight, 1}, 1, err);
+}
+
+static ec_result read_under_way(ec_exr_file *file, const char *path, ec_stored *s, ec_error *err)
+{
+    float *batch;
+    ec_result result = read_batch(file, path, "under way", (uint64_t)s->film.width * s->film.height, &batch, err);
+    s->past.batch = batch;
+    return result;
 }
 
 static ec_result read_counted(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
@@ -93,6 +107,7 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.samples_per_batch, err);
     if (result == EC_OK) result = state.has_counts ? read_counted(file, path, &state, &s->film, err) : read_parts(file, path, &state, &s->film, err);
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
+    if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);
     if (result == EC_OK) s->film.invalid_count = state.invalid_count;
     if (result == EC_OK) result = read_features(file, path, &s->film, err);
     free(state.parts);
@@ -108,6 +123,7 @@ void ec_stored_free(ec_stored *s)
     free((char *)(uintptr_t)s->job.folder);
     free((char *)(uintptr_t)s->job.device);
     free(s->past.allotment.weight);
+    free((float *)(uintptr_t)s->past.batch);
     ec_film_destroy(&s->film);
     *s = (ec_stored){0};
 }

@@ -29,6 +29,7 @@ static void add_job(cJSON *state, const ec_job *job)
     cJSON_AddNumberToObject(state, "timeLimit", job->time_limit);
     cJSON_AddNumberToObject(state, "first", job->first);
     cJSON_AddNumberToObject(state, "end", job->end);
+    cJSON_AddBoolToObject(state, "merged", job->merged);
 }
 
 static void add_past(cJSON *state, const ec_past *past)
@@ -36,6 +37,7 @@ static void add_past(cJSON *state, const ec_past *past)
     cJSON *invalid = cJSON_AddArrayToObject(state, "invalid");
     for (int i = 0; i < EC_STAGE_COUNT; i++) cJSON_AddItemToArray(invalid, cJSON_CreateNumber((double)past->invalid[i]));
     cJSON_AddNumberToObject(state, "next", past->next);
+    cJSON_AddNumberToObject(state, "underWay", past->under_way);
     add_count(state, "samples", past->samples);
     add_count(state, "rays", past->rays);
     cJSON_AddNumberToObject(state, "seconds", past->seconds);
@@ -142,6 +144,7 @@ static void read_job(reader *r, ec_job *job)
     job->time_limit = number(r, "timeLimit", 1e12);
     job->first = whole(r, "first");
     job->end = whole(r, "end");
+    job->merged = flag(r, "merged");
 }
 
 static void read_past(reader *r, ec_past *past)
@@ -149,6 +152,7 @@ static void read_past(reader *r, ec_past *past)
     const cJSON *invalid = cJSON_GetObjectItemCaseSensitive(r->state, "invalid");
     for (int i = 0; i < EC_STAGE_COUNT; i++) past->invalid[i] = (uint64_t)number_of(r, cJSON_GetArrayItem(invalid, i), 1e15);
     past->next = whole(r, "next");
+    past->under_way = whole(r, "underWay");
     past->samples = count(r, "samples");
     past->rays = count(r, "rays");
     past->seconds = number(r, "seconds", 1e12);

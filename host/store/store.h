@@ -17,12 +17,13 @@ typedef struct ec_job {
     uint32_t spp;         /* samples a pixel of the whole job; 0: not limited by them */
     double error_target, time_limit; /* other limits; 0: none */
     uint32_t first, end;  /* batches of the slice; end 0: none was asked for */
+    bool merged;          /* of several files: not to be gone on with */
 } ec_job;
 
 typedef struct ec_stored {
     ec_job job;           /* argv, folder and device are owned */
     ec_film film;
-    ec_past past;         /* allotment.weight is owned */
+    ec_past past;         /* allotment.weight and batch are owned */
 } ec_stored;
 
 /* picture: the first part. Its attributes are told along; names beginning with "eclat.state" are the file's own. */

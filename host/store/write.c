@@ -28,7 +28,8 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
 {
     uint32_t sums = film->counts ? 1 : film->part_count, count = 1 + sums;
     const ec_channel weight = {"weight", past->allotment.weight, 1, false};
-    ec_exr_part *parts = calloc(sums + 2, sizeof *parts);
+    ec_channel batch[3];
+    ec_exr_part *parts = calloc(sums + 3, sizeof *parts);
     sum_part *rooms = calloc(sums, sizeof *rooms);
     ec_attribute *attributes = calloc(picture->attribute_count + 1, sizeof *attributes);
     char *state = ec_state_write(job, film, past);
@@ -43,6 +44,8 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
         attributes[parts[0].attribute_count++] = (ec_attribute){.name = "eclat.state", .type = EC_ATTR_STRING, .string = state};
         for (uint32_t i = 0; i < sums; i++) parts[i + 1] = make_part(&rooms[i], i, film);
         if (weight.data) parts[count++] = (ec_exr_part){.name = "allotment", .channels = &weight, .channel_count = 1};
+        if (past->under_way)
+            parts[count++] = (ec_exr_part){.name = "under way", .channels = batch, .channel_count = ec_batch_channels(past->batch, batch), .is_plain = true};
         result = ec_exr_write_parts(path, film->width, film->height, parts, count, err);
     }
     free(parts);

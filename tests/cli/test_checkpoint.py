@@ -47,6 +47,27 @@ class Checkpoint(Case):
             job = ["--adaptive", "--batch", "2"]
             self.assert_same([*job, "--spp", str(first)], [*job, "--spp", "64"], ["--spp", "64"])
 
+    def test_in_the_middle_of_a_batch(self):
+        """A wave of 256 paths is 1 of 100 and more of a batch: nearly every stop is within one."""
+        for options in [["--spp", "96", "--batch", "32"], ["--spp", "96", "--batch", "8", "--adaptive"], ["--spp", "128", "--batch", "32", "--samples", "32:128"]]:
+            job = [CORNELL, "--size", "40x36", "--wave", "256", *options]
+            whole = self.render(*job)
+            planes = read_exr(self.path("a.exr"))[1]
+            first, stops, cut = True, 0, 0
+            while first or stops < 3:
+                now = ["--resume", self.kept] if not first else job
+                process = self.start(*now, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("a.exr"))
+                time.sleep(0.1)
+                self.stop(process, [signal.SIGINT, signal.SIGKILL][stops % 2])
+                first, stops = first and not os.path.exists(self.kept), stops + 1
+                cut += not first and json.loads(read_exr(self.kept)[0]["eclat.state"])["underWay"] > 0
+            self.assertGreater(cut, 0)
+            again = self.render("--resume", self.kept)
+            self.assertEqual(whole["image_sha256"], again["image_sha256"])
+            self.assertEqual(whole["samples"], again["samples"])
+            self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
+            os.remove(self.kept)
+
     def test_until_an_error(self):
         job = ["--batch", "2"]
         self.assert_same([*job, "--spp", "12"], [*job, "--error", "60%"], ["--error", "60%"])

@@ -1,0 +1,160 @@
+"""Checkpoints when all goes wrong: killed at any moment, disks that fail, files that are not as they were written."""
+import hashlib
+import json
+import os
+import random
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+from faults import FaultCase, at_once, spread
+from support import eclat, read_exr
+
+KILLS = 100
+CHAINS = 2
+MARK = b"eclat: sealed by SHA-256\n"
+STRAY = r"^\.eclat-\d+-[0-9a-f]{8}\.tmp$"
+
+
+class CheckpointFaults(FaultCase):
+    def setUp(self):
+        super().setUp()
+        self.job = ["--spp", "1000000"]
+
+    def samples(self, path):
+        """Of the picture in a checkpoint, which eclat must be able to read; 0 if there is none yet."""
+        if not os.path.exists(path):
+            return 0
+        run = self.assert_ok(eclat("merge", path, "--partial", "-q", "--json", "-o", path + ".merged.exr"))
+        return json.loads(run.stdout)["samples_per_pixel"]
+
+    def finish(self, kept, samples):
+        """image_sha256 of the job gone on with until so many samples, and of one without a break."""
+        render = ["--json", "-q", "--spp", str(samples)]
+        again = eclat("render", "--resume", kept, *render, "-o", kept + ".a.exr")
+        whole = eclat("render", self.scene, "--size", "8x8", "--batch", "1", "--max-depth", "3", *render, "-o", kept + ".b.exr")
+        return [json.loads(self.assert_ok(run).stdout)["image_sha256"] for run in [again, whole]]
+
+    def chain(self, seed):
+        """One job, killed and gone on with again and again."""
+        dice, done, kept, kills = random.Random(seed), 0, None, 0
+        folder = self.new_folder(f"chain{seed}", old=False)
+        kept = os.path.join(folder, "kept.exr")
+        start = time.monotonic()
+        self.run_with(f"timed{seed}", "--checkpoint", kept, "--every", "0.001s", spp=32)
+        took = time.monotonic() - start
+        while kills < KILLS // CHAINS:
+            process, _ = self.start(f"run{seed}-{kills}", "--resume", kept, "--every", "0.001s", spp=1000000) if done else \
+                self.start(f"run{seed}-{kills}", "--checkpoint", kept, "--every", "0.001s", spp=1000000)
+            time.sleep(dice.uniform(0, 1.5 * took))
+            process.send_signal(signal.SIGKILL)
+            error = process.communicate()[1]
+            self.assertEqual((process.returncode, error), (-signal.SIGKILL, ""))
+            for name in os.listdir(folder):  # killed in the moment in which the new one takes the old one's place
+                self.assertRegex(name, rf"kept\.exr|{STRAY}")
+            now = self.samples(kept)
+            self.assertGreaterEqual(now, done)
+            os.remove(kept + ".merged.exr")
+            done, kills = now, kills + 1
+        self.assertGreater(done, 32)
+        again, whole = self.finish(kept, done + 5)
+        self.assertEqual(again, whole)
+        return done
+
+    def test_killed_a_hundred_times(self):
+        at_once(self.chain, [(seed,) for seed in range(CHAINS)])
+
+    def test_killed_at_any_call(self):
+        """A checkpoint after every batch: what was written before stands, so that a batch is lost and no more."""
+        kept = os.path.join(self.path("counted"), "kept.exr")
+        _, folder = self.run_with("counted", "--checkpoint", kept, "--every", "0.0000001s", spp=6)
+        with open(folder + ".counts", encoding="utf-8") as file:
+            counts = {call: int(count) for call, count in (line.split() for line in file)}
+        self.assertGreaterEqual(counts["fsync"], 6)
+
+        def kill(call, n):
+            name = f"{call}{n}"
+            path = os.path.join(self.path(name), "kept.exr")
+            run, _ = self.run_with(name, "--checkpoint", path, "--every", "0.0000001s", spp=6, call=call, at=n, signal=signal.SIGKILL)
+            self.assertEqual(run.returncode, -signal.SIGKILL)
+            whole = {"rename": n, "fsync": n - 1}.get(call, 0)  # the first file takes no other's place
+            with self.subTest(call=call, n=n):
+                self.assertGreaterEqual(self.samples(path), min(whole, 6))
+                if self.samples(path):
+                    self.assertEqual(*self.finish(path, 6))
+        at_once(kill, [(call, n) for call in ["pwrite", "fsync", "rename", "linkat"] for n in spread(counts[call], 5)])
+
+    def test_a_disk_that_fails_once(self):
+        """The render goes on, and the next checkpoint is written."""
+        for call, code in [("pwrite", 28), ("fsync", 5), ("rename", 5)]:
+            path = os.path.join(self.path(call), "kept.exr")
+            run, folder = self.run_with(call, "--checkpoint", path, "--every", "0.0000001s", spp=5, quiet=False, call=call, at=3, code=code)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertRegex(run.stderr, rf"warning: cannot write '{path}': .*; the render goes on, and the checkpoint will be tried again")
+            self.assertEqual(self.samples(path), 5)
+
+    def test_a_full_disk(self):
+        """The checkpoint before stays; the picture is written if there is room for it, and the exit code says that something is missing."""
+        kept, image = self.path("kept.exr"), self.path("a.png")
+        begun = ["render", self.scene, "--size", "256x256", "--batch", "1", "--max-depth", "3", "-q", "-o", image]
+        self.assert_ok(eclat(*begun, "--spp", "2", "--checkpoint", kept))
+        with open(kept, "rb") as file:
+            before = file.read()
+        run = eclat("render", "--resume", kept, "--spp", "4", "-q", "-o", image,
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4 << 20, 4 << 20)))
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr.splitlines()[-1], rf"error: cannot write '{kept}': File too large; raise .*; the picture is written")
+        with open(kept, "rb") as file:
+            self.assertEqual(before, file.read())
+
+    def make(self):
+        kept = self.path("kept.exr")
+        self.assert_ok(eclat("render", self.scene, "--size", "8x8", "--batch", "1", "--max-depth", "3", "--spp", "18", "-q", "--checkpoint", kept,
+                             "-o", self.path("a.png")))
+        with open(kept, "rb") as file:
+            return kept, file.read()
+
+    def refused(self, kept, data):
+        with open(kept, "wb") as file:
+            file.write(data)
+        for arguments in [["render", "--resume", kept, "--spp", "20", "-q", "-o", self.path("b.png")], ["merge", kept, "-q", "-o", self.path("b.exr")]]:
+            error = self.check_error(eclat(*arguments))
+            self.assertIn(f"cannot read '{kept}': ", error)
+        self.assertFalse(os.path.exists(self.path("b.exr")) or os.path.exists(self.path("b.png")))
+
+    def test_cut_short_or_with_a_bit_turned(self):
+        kept, data = self.make()
+        dice = random.Random(4)
+        for length in [0, 1, 100, len(data) // 2, len(data) - 1, *(dice.randrange(len(data)) for _ in range(10))]:
+            self.refused(kept, data[:length])
+        for place in [0, 4, len(data) - 1, len(data) - 40, *(dice.randrange(len(data)) for _ in range(20))]:
+            self.refused(kept, data[:place] + bytes([data[place] ^ 1 << dice.randrange(8)]) + data[place + 1:])
+        self.refused(kept, data + b"\0")
+        self.refused(kept, self.path("a.png").encode())
+
+    def test_forged(self):
+        """Changed and sealed anew: read as what it says, or refused; never a crash."""
+        kept, data = self.make()
+        body, dice = data[:-len(MARK) - 32], random.Random(5)
+        header = body.index(b"eclat.state")
+        state = header, body.index(b"}", header + 1500)
+
+        def forge(i, place, byte):
+            forged = bytearray(body)
+            forged[place] = byte
+            path = self.path(f"{i}.exr")
+            with open(path, "wb") as file:
+                file.write(bytes(forged) + MARK + hashlib.sha256(forged).digest())
+            run = eclat("merge", path, "--partial", "-q", "-o", self.path(f"{i}.out.exr"))
+            with self.subTest(place=place, byte=byte):
+                self.assertIn(run.returncode, [0, 1], run.stderr)
+                if run.returncode:
+                    self.check_error(run)
+        places = [dice.randrange(len(body) // 4) for _ in range(60)] + [dice.randrange(*state) for _ in range(60)]
+        at_once(forge, [(i, place, dice.choice([0, 255, 57, dice.randrange(256)])) for i, place in enumerate(places)])
+
+
+if __name__ == "__main__":
+    unittest.main()
