@@ -1,41 +1,5 @@
 /* Materials, textures, images and extensions. */
-#include "test_scene_files.h"
-
-/* A 2x1 PNG: 8 bits RGB (red, green) and 16 bits grey (0x0102, 0xfffe). Made with Python's zlib. */
-static const unsigned char png8[] = {
-    137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0, 2, 0, 0, 0, 1, 8, 2, 0, 0, 0,
-    123, 64, 232, 221, 0, 0, 0, 15, 73, 68, 65, 84, 120, 156, 99, 248, 207, 192, 192, 240, 159, 1, 0, 7,
-    255, 1, 255, 1, 127, 137, 167, 0, 0, 0, 0, 73, 69, 78, 68, 174, 66, 96, 130};
-static const unsigned char png16[] = {
-    137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0, 2, 0, 0, 0, 1, 16, 0, 0, 0, 0,
-    129, 217, 252, 21, 0, 0, 0, 13, 73, 68, 65, 84, 120, 156, 99, 96, 100, 250, 255, 15, 0, 3, 11, 2, 1,
-    132, 145, 232, 19, 0, 0, 0, 0, 73, 69, 78, 68, 174, 66, 96, 130};
-static const float triangle_uv[6] = {0, 0, 1, 0, 0, 1};
-
-/* A triangle with TEXCOORD_0; MATERIAL and ROOT are spliced in; images 0 = png8, 1 = png16, 2 = broken. */
-#define TEXTURED(MATERIAL, ROOT)                                                                                       \
-    "{'asset':{'version':'2.0'},'nodes':[{'mesh':0}],"                                                                 \
-    "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'material':0}]}],"                           \
-    "'buffers':[{'byteLength':36,'uri':'@pos@'},{'byteLength':24,'uri':'@uv@'}],"                                      \
-    "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':1,'byteLength':24}],"                                       \
-    "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"                                      \
-    "{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}],"                                                  \
-    "'images':[{'uri':'@png8@'},{'uri':'@png16@'},{'uri':'data:image/png;base64,AAAA','name':'broken'},"               \
-    "{'uri':'missing.png'}],"                                                                                          \
-    "'samplers':[{'magFilter':9728,'wrapS':33071,'wrapT':33648}],"                                                     \
-    "'textures':[{'source':0,'sampler':0},{'source':1},{'source':2},{'sampler':0},{'source':3},{'source':0}],"         \
-    "'materials':[{'name':'m'" MATERIAL "}]" ROOT "}"
-static const blob textured_blobs[] = {{"@pos@", triangle_positions, 36}, {"@uv@", triangle_uv, 24},
-                                      {"@png8@", png8, sizeof png8}, {"@png16@", png16, sizeof png16}, {0}};
-
-static ec_scene *load(const char *text)
-{
-    ec_error err;
-    ec_scene *s = load_text(text, textured_blobs, &err);
-    CHECK_MSG(s != NULL, "%s", err.text);
-    if (!s) exit(1);
-    return s;
-}
+#include "textured_triangle.h"
 
 static void test_defaults(void)
 {
@@ -183,117 +147,6 @@ static void test_glass(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) expect_failure(bad[i].text, textured_blobs, bad[i].message);
 }
 
-/* What lies over a surface: an extension's members in, what the renderer needs out; values out of range are clamped with a warning, those of
- * another kind are an error. */
-#define LAYER(NAME, MEMBERS) TEXTURED(",'extensions':{'" NAME "':{" MEMBERS "}}", ",'extensionsRequired':['" NAME "']")
-
-static const ec_material *load_layer(const char *text, ec_scene **s, bool odd)
-{
-    *s = load(text);
-    CHECK_MSG(odd == (strstr(messages, "clamped") && strstr(messages, "materials[0] \"m\"")), "%s: %s", text, messages);
-    return (*s)->materials;
-}
-
-static void test_coat(void)
-{
-    ec_scene *s;
-    const ec_material *m = load_layer(LAYER("KHR_materials_clearcoat", ""), &s, false);
-    CHECK(m->coat == 0 && m->coat_roughness == 0 && m->coat_normal_scale == 1 && m->textures[EC_SLOT_CLEARCOAT_NORMAL].texture < 0);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_clearcoat", "'clearcoatFactor':0.5,'clearcoatRoughnessFactor':0.25,'clearcoatTexture':{'index':0},"
-                         "'clearcoatRoughnessTexture':{'index':1},'clearcoatNormalTexture':{'index':5,'scale':-2}"), &s, false);
-    CHECK(m->coat == 0.5f && m->coat_roughness == 0.25f && m->coat_normal_scale == -2);
-    CHECK(m->textures[EC_SLOT_CLEARCOAT].texture == 0 && m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS].texture == 1 &&
-          m->textures[EC_SLOT_CLEARCOAT_NORMAL].texture == 2);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_clearcoat", "'clearcoatFactor':2,'clearcoatRoughnessFactor':-1"), &s, true);
-    CHECK(m->coat == 1 && m->coat_roughness == 0);
-    ec_scene_free(s);
-    expect_failure(LAYER("KHR_materials_clearcoat", "'clearcoatFactor':'1'"), textured_blobs, "KHR_materials_clearcoat.clearcoatFactor must be a number");
-    expect_failure(LAYER("KHR_materials_clearcoat", "'clearcoatNormalTexture':{}"), textured_blobs, "clearcoatNormalTexture.index is missing");
-}
-
-static void test_sheen(void)
-{
-    ec_scene *s;
-    const ec_material *m = load_layer(LAYER("KHR_materials_sheen", ""), &s, false);
-    CHECK(m->sheen[0] == 0 && m->sheen[2] == 0 && m->sheen_roughness == 0 && m->textures[EC_SLOT_SHEEN_COLOR].texture < 0);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_sheen", "'sheenColorFactor':[0.5,0.25,1],'sheenRoughnessFactor':0.75,'sheenColorTexture':{'index':0},"
-                         "'sheenRoughnessTexture':{'index':1}"), &s, false);
-    CHECK(m->sheen[0] == 0.5f && m->sheen[1] == 0.25f && m->sheen[2] == 1 && m->sheen_roughness == 0.75f);
-    CHECK(m->textures[EC_SLOT_SHEEN_COLOR].texture == 0 && m->textures[EC_SLOT_SHEEN_ROUGHNESS].texture == 1);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_sheen", "'sheenColorFactor':[-1,0.5,3],'sheenRoughnessFactor':7"), &s, true);
-    CHECK(m->sheen[0] == 0 && m->sheen[1] == 0.5f && m->sheen[2] == 1 && m->sheen_roughness == 1);
-    ec_scene_free(s);
-    expect_failure(LAYER("KHR_materials_sheen", "'sheenColorFactor':[1,1]"), textured_blobs, "KHR_materials_sheen.sheenColorFactor must have 3 numbers");
-}
-
-static void test_anisotropy(void)
-{
-    ec_scene *s;
-    const ec_material *m = load_layer(LAYER("KHR_materials_anisotropy", ""), &s, false);
-    CHECK(m->anisotropy == 0 && m->anisotropy_rotation == 0 && m->textures[EC_SLOT_ANISOTROPY].texture < 0);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_anisotropy", "'anisotropyStrength':0.5,'anisotropyRotation':0.25,'anisotropyTexture':{'index':1}"), &s, false);
-    CHECK(m->anisotropy == 0.5f && m->anisotropy_rotation == 0.25f && m->textures[EC_SLOT_ANISOTROPY].texture == 0);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_anisotropy", "'anisotropyStrength':1.5,'anisotropyRotation':62831.853071795864"), &s, true);
-    CHECK(m->anisotropy == 1 && fabsf(m->anisotropy_rotation) < 1e-6f); /* whole turns */
-    ec_scene_free(s);
-    expect_failure(LAYER("KHR_materials_anisotropy", "'anisotropyRotation':[1]"), textured_blobs, "KHR_materials_anisotropy.anisotropyRotation must be a number");
-}
-
-static void test_film(void)
-{
-    ec_scene *s;
-    const ec_material *m = load_layer(LAYER("KHR_materials_iridescence", ""), &s, false);
-    CHECK(m->film == 0 && m->film_ior == 1.3f && m->film_least == 100 && m->film_most == 400 && m->textures[EC_SLOT_IRIDESCENCE].texture < 0);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_iridescence", "'iridescenceFactor':0.5,'iridescenceIor':1.75,'iridescenceThicknessMinimum':30,"
-                         "'iridescenceThicknessMaximum':20,'iridescenceTexture':{'index':1},'iridescenceThicknessTexture':{'index':0}"), &s, false);
-    CHECK(m->film == 0.5f && m->film_ior == 1.75f && m->film_least == 30 && m->film_most == 20);
-    CHECK(m->textures[EC_SLOT_IRIDESCENCE].texture == 0 && m->textures[EC_SLOT_IRIDESCENCE_THICKNESS].texture == 1);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_iridescence", "'iridescenceFactor':2,'iridescenceIor':0.5,'iridescenceThicknessMaximum':-1"), &s, true);
-    CHECK(m->film == 1 && m->film_ior == 1 && m->film_most == 0);
-    ec_scene_free(s);
-    expect_failure(LAYER("KHR_materials_iridescence", "'iridescenceIor':'1'"), textured_blobs, "KHR_materials_iridescence.iridescenceIor must be a number");
-}
-
-static void test_diffuse_transmission(void)
-{
-    ec_scene *s;
-    const ec_material *m = load_layer(LAYER("KHR_materials_diffuse_transmission", ""), &s, false);
-    CHECK(m->seeps == 0 && m->below[0] == 1 && m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture < 0);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':0.5,'diffuseTransmissionColorFactor':[0.25,0.5,1],"
-                         "'diffuseTransmissionTexture':{'index':1},'diffuseTransmissionColorTexture':{'index':0}},"
-                         "'KHR_materials_volume':{'thicknessFactor':1,'attenuationDistance':2,'attenuationColor':[1,0.5,1]"), &s, false);
-    CHECK(m->seeps == 0.5f && m->below[0] == 0.25f && m->below[2] == 1 && ec_bounds(m) && !ec_refracts(m));
-    CHECK(m->absorption[0] == 0 && fabsf(m->absorption[1] - 0.34657359f) < 1e-6f);
-    CHECK(m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture == 0 && m->textures[EC_SLOT_DIFFUSE_TRANSMISSION_COLOR].texture == 1);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':2,'diffuseTransmissionColorFactor':[-1,0,3]"), &s, true);
-    CHECK(m->seeps == 1 && m->below[0] == 0 && m->below[2] == 1);
-    ec_scene_free(s);
-    expect_failure(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':[1]"), textured_blobs,
-                   "KHR_materials_diffuse_transmission.diffuseTransmissionFactor must be a number");
-}
-
-static void test_dispersion(void)
-{
-    ec_scene *s;
-    const ec_material *m = load_layer(LAYER("KHR_materials_dispersion", "'dispersion':0.36"), &s, false);
-    CHECK(m->dispersion == 0.36f);
-    ec_scene_free(s);
-    m = load_layer(LAYER("KHR_materials_dispersion", "'dispersion':-1"), &s, true);
-    CHECK(m->dispersion == 0);
-    ec_scene_free(s);
-    expect_failure(LAYER("KHR_materials_dispersion", "'dispersion':true"), textured_blobs, "KHR_materials_dispersion.dispersion must be a number");
-}
-
 static void test_images(void)
 {
     ec_scene *s = load(TEXTURED(",'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
@@ -409,12 +262,6 @@ int main(void)
     test_defaults();
     test_factors();
     test_glass();
-    test_coat();
-    test_sheen();
-    test_anisotropy();
-    test_film();
-    test_diffuse_transmission();
-    test_dispersion();
     test_images();
     test_transform();
     test_missing_coordinates();
