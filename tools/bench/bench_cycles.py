@@ -3,8 +3,8 @@
 
 For each scene both render from eclat's camera under one environment map. Printed are the ratio of the means, and how far averages
 of 8 x 8 pixels lie apart, as parts of the picture's mean: in the mean, and 95 % of them less; how much of the mean eclat's own noise
-makes is beside it. Punctual lights are left
-out of both, since Blender measures them in other units. Needs PyPI's bpy (4.5 for Python 3.11), numpy, OpenEXR and pillow:
+makes is beside it. Punctual lights are left out of both, since Blender measures them in other units. Needs PyPI's bpy (4.5 for
+Python 3.11), numpy, OpenEXR and pillow:
 CYCLES_PYTHON names the interpreter that has them."""
 import argparse
 import json
