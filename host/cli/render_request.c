@@ -29,6 +29,7 @@ TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
 CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
 SCENE_CHOICE_SETTERS(choice)
+SHUTTER_SETTER(choice)
 CHOICE_SETTER(filter, options.filter, ec_pixel_filter, ec_filter_names)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
 CHOICE_SETTER(light_choice, options.light_choice, ec_light_choice, ec_light_choice_names)
@@ -162,6 +163,7 @@ static const ec_option options[] = {
     {"verbose", 'v', false, set_verbose},
     {"wave", 0, true, set_wave},
     {"without", 0, true, set_without},
+    SHUTTER_OPTION,
     SCENE_CHOICE_OPTIONS,
 };
 _Static_assert(sizeof options / sizeof options[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
@@ -179,6 +181,7 @@ ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *requ
     EC_TRY(ec_options_scene(argc, argv, first, &request->scene, err));
     if (request->options.integrator == EC_INTEGRATOR_WHITTED && !request->options.max_depth && !request->endless)
         request->options.max_depth = EC_WHITTED_DEPTH;
+    EC_TRY(ec_combinations_check_shutter(&request->choice, err));
     EC_TRY(ec_combinations_check(options, count, given, &request->options, err));
 
     ec_render_options *limits = &request->options;

@@ -66,6 +66,7 @@ void ec_placement_compose(const ec_placement *parent, const double m[16], ec_pla
 static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec_placement *out)
 {
     *out = (ec_placement){.node = node, .mesh = g->nodes[node].mesh};
+    out->moves = g->animated && (g->animated[node] || (parent && parent->moves));
     ec_placement_compose(parent, g->nodes[node].local, out);
 }
 

@@ -265,6 +265,8 @@ static void test_without(void)
     scene->has_environment = true;
     scene->environment.constant[0] = 1;
     scene->colors = calloc(4 * (size_t)scene->vertex_count, sizeof *scene->colors);
+    ec_camera *keys = calloc(2, sizeof *keys);
+    scene->motion = (ec_motion){.segments = 1, .camera_count = 1, .cameras = keys}; /* the scene's to free */
     CHECK((scan(scene) & ec_effects_optional) == ec_effects_optional);
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         uint64_t bit = ec_features[i].bit, off = bit;
