@@ -15,6 +15,8 @@ typedef struct ec_accel_input {
     const uint32_t *indices;
     uint32_t triangle_count;
     bool whole;                 /* no triangle may be cut */
+    const float *swept;         /* of the first triangles, which move: 6 floats each, the box over all the places they take, which stands */
+    uint32_t swept_count;       /* for them (motion.h in kernels/lib takes their corners); with any, `whole` is meant */
     uint32_t shape_count, placed_count; /* instances; twolevel alone knows them, and takes them whole */
     const ec_shape *shapes;     /* their triangles lie in indices too, behind those that are counted here */
     const ec_placed *placed;

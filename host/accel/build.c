@@ -109,7 +109,7 @@ static ec_range load(const ec_builder *builder, uint32_t count)
         uint32_t left = count - first;
         ec_range part;
         ec_prims_load(builder->positions, builder->indices, first, left < LOAD_CHUNK ? left : LOAD_CHUNK,
-                      builder->prims[0], &part);
+                      builder->swept, builder->swept_count, builder->prims[0], &part);
 #pragma omp critical(ec_accel_load)
         ec_range_join(&root, &part);
     }
@@ -136,8 +136,9 @@ static void build_all(ec_builder *builder, uint32_t count, uint32_t capacity, ec
         if (builder->failed) return;
     }
     builder->order = malloc(((size_t)*ref_count + 1) * sizeof *builder->order);
-    if (*ref_count > count) builder->boxes = malloc(*ref_count * sizeof *builder->boxes);
-    if (!builder->order || (*ref_count > count && !builder->boxes)) {
+    bool has_boxes = *ref_count > count || builder->swept_count;
+    if (has_boxes) builder->boxes = malloc(*ref_count * sizeof *builder->boxes);
+    if (!builder->order || (has_boxes && !builder->boxes)) {
         builder->failed = 1;
         return;
     }
@@ -163,14 +164,13 @@ static ec_branch *build_pieces(ec_builder *builder, uint32_t count, bool cut, in
     return tree;
 }
 
-static ec_result build(const float *positions, const uint32_t *indices, uint32_t triangle_count, bool cut, uint32_t threads,
-                       ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
+static ec_result build(ec_builder builder, uint32_t triangle_count, bool cut, uint32_t threads, ec_bvh *bvh, ec_bvh_stats *stats,
+                       ec_error *err)
 {
     double start = ec_now();
     int team = triangle_count < TEAM_MIN ? 1 : threads ? (int)threads : omp_get_max_threads();
     memset(bvh, 0, sizeof *bvh);
     if (triangle_count > INT32_MAX) return ec_fail(err, "%u triangles are more than a BVH can hold", triangle_count);
-    ec_builder builder = {.positions = positions, .indices = indices};
     ec_branch *tree = build_pieces(&builder, triangle_count, cut, team, &bvh->ref_count);
     if (!builder.failed) {
         bvh->node_count = 1;
@@ -178,6 +178,7 @@ static ec_result build(const float *positions, const uint32_t *indices, uint32_t
         bvh->nodes = malloc(bvh->node_count * sizeof *bvh->nodes);
     }
     bvh->triangle_count = triangle_count;
+    bvh->moving_count = builder.swept_count;
     bvh->order = builder.order;
     bvh->boxes = builder.boxes;
     if (bvh->nodes) {
@@ -195,13 +196,20 @@ static ec_result build(const float *positions, const uint32_t *indices, uint32_t
 ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                        ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
 {
-    return build(positions, indices, triangle_count, true, threads, bvh, stats, err);
+    return build((ec_builder){.positions = positions, .indices = indices}, triangle_count, true, threads, bvh, stats, err);
 }
 
 ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                              ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
 {
-    return build(positions, indices, triangle_count, false, threads, bvh, stats, err);
+    return build((ec_builder){.positions = positions, .indices = indices}, triangle_count, false, threads, bvh, stats, err);
+}
+
+ec_result ec_bvh_build_swept(const float *positions, const uint32_t *indices, uint32_t triangle_count, const float *swept, uint32_t swept_count,
+                             uint32_t threads, ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
+{
+    const ec_builder builder = {.positions = positions, .indices = indices, .swept = swept, .swept_count = swept_count};
+    return build(builder, triangle_count, false, threads, bvh, stats, err);
 }
 
 void ec_bvh_free(ec_bvh *bvh)

@@ -18,8 +18,9 @@ typedef struct ec_bvh {
     ec_bvh_build_node *nodes;  /* nodes[0] is the root; owned */
     uint32_t triangle_count;
     uint32_t ref_count;        /* what the leaves hold: triangles, of which some may have been cut into several parts */
+    uint32_t moving_count;     /* the first triangles are only known by the boxes of their references */
     uint32_t *order;           /* triangle ids of the references in leaf order; owned */
-    ec_box *boxes;             /* of the references, NULL where none was cut: then a triangle's own box is meant; owned */
+    ec_box *boxes;             /* of the references, NULL where none was cut and none moves: then a triangle's own box is meant; owned */
 } ec_bvh;
 
 typedef struct ec_bvh_stats {
@@ -41,6 +42,9 @@ ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t
 /* The same without cutting any. */
 ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                              ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
+/* Likewise; the first triangles move, and are sorted by boxes of their own, 6 floats each. boxes is never NULL then. */
+ec_result ec_bvh_build_swept(const float *positions, const uint32_t *indices, uint32_t triangle_count, const float *swept, uint32_t swept_count,
+                             uint32_t threads, ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
 void ec_bvh_free(ec_bvh *bvh);
 
 /* Every triangle once, or in parts whose boxes reach as far as its own; children inside parents; depth within the kernels'

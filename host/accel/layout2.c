@@ -183,10 +183,10 @@ static void fill_triangles(const plan *p, ec_tri *triangles)
     }
 }
 
-/* Does `second` continue `first` to a quad: (p, q, r) and (p, r, s)? */
-static int is_quad(const ec_tri *first, const ec_tri *second)
+/* Does `second` continue `first` to a quad: (p, q, r) and (p, r, s)? Those that move may part. */
+static int is_quad(const ec_tri *first, const ec_tri *second, uint32_t moving)
 {
-    return !memcmp(first->v0, second->v0, sizeof first->v0) && !memcmp(first->v2, second->v1, sizeof first->v2);
+    return first->id >= moving && second->id >= moving && !memcmp(first->v0, second->v0, sizeof first->v0) && !memcmp(first->v2, second->v1, sizeof first->v2);
 }
 
 static void exchange(ec_tri *leaf, ec_box *boxes, uint32_t i, uint32_t k)
@@ -201,19 +201,19 @@ static void exchange(ec_tri *leaf, ec_box *boxes, uint32_t i, uint32_t k)
 }
 
 /* Brings the two halves of quads together within one leaf. */
-static void pair_leaf(ec_tri *leaf, ec_box *boxes, uint32_t count)
+static void pair_leaf(ec_tri *leaf, ec_box *boxes, uint32_t count, uint32_t moving)
 {
     for (uint32_t i = 0; i + 1 < count; i++) {
         uint32_t k = i + 1;
-        while (k < count && !is_quad(&leaf[i], &leaf[k]) && !is_quad(&leaf[k], &leaf[i])) k++;
+        while (k < count && !is_quad(&leaf[i], &leaf[k], moving) && !is_quad(&leaf[k], &leaf[i], moving)) k++;
         if (k == count) continue;
         exchange(leaf, boxes, i + 1, k);
-        if (!is_quad(&leaf[i], &leaf[i + 1])) exchange(leaf, boxes, i, i + 1);
+        if (!is_quad(&leaf[i], &leaf[i + 1], moving)) exchange(leaf, boxes, i, i + 1);
         leaf[i++].has_pair = 1;
     }
 }
 
-static void pair_leaves(const ec_bvh2_node *nodes, uint32_t node_count, ec_tri *triangles, ec_box *boxes)
+static void pair_leaves(const ec_bvh2_node *nodes, uint32_t node_count, uint32_t moving, ec_tri *triangles, ec_box *boxes)
 {
 #pragma omp parallel for schedule(dynamic, 4096) if (node_count > 4096)
     for (uint32_t i = 0; i < node_count; i++)
@@ -221,7 +221,7 @@ static void pair_leaves(const ec_bvh2_node *nodes, uint32_t node_count, ec_tri *
             uint32_t child = nodes[i].child[side];
             if (child == EC_NO_CHILD || !(child & EC_LEAF_BIT)) continue;
             uint32_t first = (child & ~EC_LEAF_BIT) >> 4;
-            pair_leaf(triangles + first, boxes ? boxes + first : NULL, child & 15u);
+            pair_leaf(triangles + first, boxes ? boxes + first : NULL, child & 15u, moving);
         }
 }
 
@@ -237,7 +237,7 @@ ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32
     ec_tri *t = n ? ec_allocate_lines(bvh->ref_count, sizeof *t) : NULL;
     if (t) {
         fill_triangles(&p, t);
-        pair_leaves(n, *node_count, t, p.boxes);
+        pair_leaves(n, *node_count, bvh->moving_count, t, p.boxes);
         *nodes = n;
         *triangles = t;
         *boxes = p.boxes;

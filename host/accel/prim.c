@@ -14,14 +14,19 @@ void ec_prim_vertices(const float *positions, const uint32_t *indices, uint32_t 
     for (int k = 0; k < 3; k++) vertices[k] = load_vertex(positions, indices[3 * (size_t)id + (size_t)k]);
 }
 
-void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, ec_prim *prims,
-                   ec_range *bounds)
+void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, const float *swept, uint32_t swept_count,
+                   ec_prim *prims, ec_range *bounds)
 {
     const ec_box4 none = ec_box4_empty(); /* below it, NaN vertices leave no mark */
     ec_range_clear(bounds);
     for (uint32_t id = first; id < first + count; id++) {
         ec_v4 v[3];
         ec_prim_vertices(positions, indices, id, v);
+        if (id < swept_count) {
+            const float *box = swept + 6 * (size_t)id;
+            v[0] = v[2] = (ec_v4){box[0], box[1], box[2], 0.0f};
+            v[1] = (ec_v4){box[3], box[4], box[5], 0.0f};
+        }
         /* Adding +0 turns -0 into +0: which of the two a minimum returns would depend on the order of its operands,
          * and with it the tree on the number of threads. */
         ec_v4 lo = ec_v4_min(v[0], ec_v4_min(v[1], ec_v4_min(v[2], none.lo))) + ec_v4_all(0.0f);

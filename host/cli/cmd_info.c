@@ -28,6 +28,7 @@ FLAG_SETTER(quiet, quiet)
 TEXT_SETTER(device, device)
 CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
 SCENE_CHOICE_SETTERS(choice)
+SHUTTER_SETTER(choice)
 RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
 SETTER(accel)
@@ -48,6 +49,7 @@ static const ec_option options[] = {
     {"instancing", 0, true, set_instancing},
     {"json", 0, false, set_json},
     {"quiet", 'q', false, set_quiet},
+    SHUTTER_OPTION,
     SCENE_CHOICE_OPTIONS,
 };
 
@@ -123,6 +125,7 @@ ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err)
     EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &request, argc, argv, &first, NULL, &asked, err));
     if (ec_request_serve(asked, argv[0])) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &request.scene, err));
+    EC_TRY(ec_combinations_check_shutter(&request.choice, err));
     EC_TRY(ec_combinations_check_grid(request.grid_density, request.accel, true, err));
     cli->console.quiet = request.quiet;
     ec_log log = ec_console_log(&cli->console);

@@ -25,6 +25,7 @@ static const struct {
     {"sample", ONLY(PATH)},
     {"scattering", ONLY(PATH)},
     {"terminator", ONLY(PATH)},
+    {"shutter", ONLY(PATH)},
     {"accel", ONLY(PATH) | ONLY(WHITTED)},
     {"grid-density", ONLY(PATH) | ONLY(WHITTED)},
 };
@@ -49,6 +50,12 @@ ec_result ec_combinations_check_grid(double density, const char *accel, bool tak
     bool fits = accel && (!strcmp(accel, "grid") || (takes_all && !strcmp(accel, "all")));
     if (density == 0 || fits) return EC_OK;
     return ec_usage(err, "--grid-density belongs to --accel grid%s; leave it out or choose that too", takes_all ? " or all" : "");
+}
+
+ec_result ec_combinations_check_shutter(const ec_scene_choice *choice, ec_error *err)
+{
+    if (!choice->shutter || !choice->at_given) return EC_OK;
+    return ec_usage(err, "--at shows one moment and --shutter all from one to another; give one of them");
 }
 
 ec_result ec_combinations_check(const ec_option *options, int count, const bool *given, const ec_render_options *asked,

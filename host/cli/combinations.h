@@ -12,4 +12,7 @@ ec_result ec_combinations_check(const ec_option *options, int count, const bool 
 /* The same for a grid's density (0: not given) and the acceleration structure asked for, which may be NULL. takes_all: "all" is one. */
 ec_result ec_combinations_check_grid(double density, const char *accel, bool takes_all, ec_error *err);
 
+/* A moment or a span of them. */
+ec_result ec_combinations_check_shutter(const ec_scene_choice *choice, ec_error *err);
+
 #endif

@@ -59,6 +59,8 @@ static const char help_render[] =
     "Renders a glTF 2.0 scene (.gltf or .glb) and states the image's error.\n"
     "\n"
     EC_HELP_SCENE_CHOICE
+    "      --shutter A:B          all moments from A to B seconds of the animation instead of one: motion blur, in\n"
+    "                             --integrator path\n"
     "\n"
     "Picture\n"
     "      --camera NAME|INDEX    look through this camera (default: the scene's first; without any, one that frames it)\n"
@@ -196,7 +198,7 @@ static const char help_info[] =
     "Options\n"
     "      --accel NAME   also build this acceleration structure (bvh2, bvh8, grid, kdtree, none, twolevel, or all),\n"
     "                     send rays through it, and say what both cost\n"
-    "      --animation NAME|INDEX, --at SECONDS, --scene NAME|INDEX, --variant NAME|INDEX\n"
+    "      --animation NAME|INDEX, --at SECONDS, --scene NAME|INDEX, --shutter A:B, --variant NAME|INDEX\n"
     "                     what of the file is shown, as for eclat render\n"
     "      --device ID    where the rays are traced (default: as for eclat render)\n"
     "      --grid-density N\n"

@@ -139,3 +139,16 @@ ec_result ec_parse_lanes(const char *option, const char *text, uint32_t *lanes, 
     *lanes = widths[index];
     return EC_OK;
 }
+
+ec_result ec_parse_span(const char *option, const char *text, double max, double *from, double *to, ec_error *err)
+{
+    char first[64];
+    const char *colon = strchr(text, ':');
+    if (!colon || (size_t)(colon - text) >= sizeof first)
+        return ec_usage(err, "--%s: '%s' is not two numbers as in 0.5:0.52", option, text);
+    snprintf(first, sizeof first, "%.*s", (int)(colon - text), text);
+    EC_TRY(ec_parse_real(option, first, 0, max, from, err));
+    EC_TRY(ec_parse_real(option, colon + 1, 0, max, to, err));
+    if (*from > *to) return ec_usage(err, "--%s: '%s' ends before it begins; give the earlier moment first", option, text);
+    return EC_OK;
+}

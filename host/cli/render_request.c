@@ -33,6 +33,7 @@ TEXT_SETTER(device, device)
 TEXT_SETTER(env, environment)
 CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
 SCENE_CHOICE_SETTERS(choice)
+SHUTTER_SETTER(choice)
 CHOICE_SETTER(filter, options.filter, ec_pixel_filter, ec_filter_names)
 CHOICE_SETTER(integrator, options.integrator, ec_integrator, ec_integrator_names)
 CHOICE_SETTER(light_choice, options.light_choice, ec_light_choice, ec_light_choice_names)
@@ -197,6 +198,7 @@ static const ec_option options[] = {
     {"verbose", 'v', false, set_verbose},
     {"wave", 0, true, set_wave},
     {"without", 0, true, set_without},
+    SHUTTER_OPTION,
     SCENE_CHOICE_OPTIONS,
 };
 _Static_assert(sizeof options / sizeof options[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
@@ -228,6 +230,7 @@ static ec_result settle(ec_render_request *request, const bool *given, ec_error 
 {
     ec_render_options *limits = &request->options;
     if (limits->integrator == EC_INTEGRATOR_WHITTED && !limits->max_depth && !request->endless) limits->max_depth = EC_WHITTED_DEPTH;
+    EC_TRY(ec_combinations_check_shutter(&request->choice, err));
     EC_TRY(ec_combinations_check(options, OPTION_COUNT, given, limits, err));
     if (request->every > 0 && !request->checkpoint) return ec_usage(err, "--every belongs to --checkpoint; leave it out or give that too");
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;

@@ -19,11 +19,20 @@
     }                                                                                        \
     SETTER(at)                                                                               \
     {                                                                                        \
-        REQUEST->field.animated = true;                                                      \
+        REQUEST->field.animated = REQUEST->field.at_given = true;                            \
         return ec_parse_real(option, value, 0, EC_MOMENT_MOST, &REQUEST->field.at, err);     \
     }
 
 #define SCENE_CHOICE_OPTIONS                                                                 \
     {"animation", 0, true, set_animation}, {"at", 0, true, set_at}, {"scene", 0, true, set_scene}, {"variant", 0, true, set_variant}
+
+/* --shutter, for those that blur or count what that takes; in their checks SHUTTER_CHECK. */
+#define SHUTTER_SETTER(field)                                                                \
+    SETTER(shutter)                                                                          \
+    {                                                                                        \
+        REQUEST->field.shutter = true;                                                       \
+        return ec_parse_span(option, value, EC_MOMENT_MOST, &REQUEST->field.opens, &REQUEST->field.closes, err); \
+    }
+#define SHUTTER_OPTION {"shutter", 0, true, set_shutter}
 
 #endif

@@ -292,12 +292,25 @@ static void scan_bodies(const ec_bodies *bodies, ec_effects *effects)
         ec_effects_call(effects, of_walls[i], "bodies of %u materials may lie in one another", bodies->count);
 }
 
+static void scan_motion(const ec_scene *scene, ec_effects *effects)
+{
+    const ec_motion *m = &scene->motion;
+    char what[64] = "";
+    if (!m->segments) return;
+    size_t used = 0;
+    if (m->triangle_count) used = (size_t)snprintf(what, sizeof what, "%u triangles", m->triangle_count);
+    if (m->light_count) used += (size_t)snprintf(what + used, sizeof what - used, "%s%u lights", used ? ", " : "", m->light_count);
+    if (m->camera_count) snprintf(what + used, sizeof what - used, "%s%u cameras", used ? ", " : "", m->camera_count);
+    ec_effects_call(effects, EC_FEATURE_MOTION, "%s move, by %u straight ways within %.2g %%", what, m->segments, 100 * m->deviation);
+}
+
 ec_result ec_pack_effects(const ec_scene *scene, const ec_bodies *bodies, ec_effects *effects, ec_error *err)
 {
     *effects = (ec_effects){0};
     EC_TRY(scan_materials(scene, scan_material, effects, err));
     EC_TRY(scan_materials(scene, scan_images, effects, err));
     if (scene->placed_count) ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once stand in %u places", scene->placed_count);
+    scan_motion(scene, effects);
     scan_bodies(bodies, effects);
     scan_lights(scene, effects);
     scan_normals(scene, effects);

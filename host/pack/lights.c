@@ -72,7 +72,7 @@ double ec_pack_punctual_power(const ec_light *in, double scene_radius)
     return power > 0.0 && isfinite(power) ? power : 0.0;
 }
 
-static void add_punctual(const ec_light *in, double scene_radius, light_list *list)
+static void add_punctual(const ec_light *in, uint32_t moves, double scene_radius, light_list *list)
 {
     double power = ec_pack_punctual_power(in, scene_radius);
     if (power == 0.0) return;
@@ -86,7 +86,8 @@ static void add_punctual(const ec_light *in, double scene_radius, light_list *li
     l->c[1] = in->cos_outer;
     l->c[2] = in->range > 0.0f ? 1.0f / in->range : 0.0f;
     l->kind = in->type == EC_LIGHT_POINT ? EC_KIND_POINT : (in->type == EC_LIGHT_SPOT ? EC_KIND_SPOT : EC_KIND_DIRECTIONAL);
-    l->prim = EC_NO_ID;
+    l->prim = moves ? moves - 1 : EC_NO_ID;
+    if (moves) l->kind |= EC_LIGHT_MOVES;
     list->power[list->count++] = power;
 }
 
@@ -126,6 +127,20 @@ static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
     return result;
 }
 
+/* Of triangles that move, the area goes with the time: their densities lack it. */
+static void mark_moving(const ec_scene *scene, ec_pack *pack, light_list *list)
+{
+    const uint32_t moving = scene->motion.segments ? scene->motion.triangle_count : 0;
+    for (uint32_t i = 0; i < list->count; i++) {
+        ec_light_data *l = &list->lights[i];
+        if ((l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && l->prim < moving) {
+            l->kind |= EC_LIGHT_MOVES;
+            l->pdf_a = pack->prims[l->prim].light_pdf_a = l->pmf;
+        }
+        pack->lamps_move |= (l->kind & EC_LIGHT_MOVES) && !is_far(l);
+    }
+}
+
 /* Which light each triangle is. */
 static ec_result note_prims(ec_pack *pack, const light_list *list, const bool *emits, const uint32_t *first, ec_error *err)
 {
@@ -133,7 +148,7 @@ static ec_result note_prims(ec_pack *pack, const light_list *list, const bool *e
     if (!pack->light_of_prim) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
     for (uint32_t p = 0; p < pack->prim_count; p++) pack->light_of_prim[p] = EC_NO_ID;
     for (uint32_t i = 0; i < list->count; i++)
-        if (list->lights[i].prim != EC_NO_ID) pack->light_of_prim[list->lights[i].prim] = i;
+        if ((list->lights[i].kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE) pack->light_of_prim[list->lights[i].prim] = i;
     for (uint32_t p = 0; p < pack->prim_count; p++)
         if (emits[pack->prims[p].material]) pack->light_of_prim[p] = pack->light_of_prim[first[p]];
     return EC_OK;
@@ -166,13 +181,14 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
         for (uint32_t p = 0; p < pack->prim_count; p++)
             if (emits[pack->prims[p].material] && first[p] == p)
                 add_triangle(scene, pack, p, &mean[pack->prims[p].material], &list);
-        for (uint32_t i = 0; i < scene->light_count; i++) add_punctual(&scene->lights[i], pack->scene_radius, &list);
+        for (uint32_t i = 0; i < scene->light_count; i++) add_punctual(&scene->lights[i], scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius, &list);
         if (environment_luminance > 0.0) {
             double r = pack->scene_radius;
             list.lights[list.count] = (ec_light_data){.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID};
             list.power[list.count++] = 4.0 * PI * PI * r * r * environment_luminance;
         }
         result = finish_table(pack, &list, err);
+        if (result == EC_OK) mark_moving(scene, pack, &list);
         for (uint32_t p = 0; p < pack->prim_count; p++)
             if (emits[pack->prims[p].material]) pack->prims[p].light_pdf_a = pack->prims[first[p]].light_pdf_a;
         if (result == EC_OK) result = note_prims(pack, &list, emits, first, err);

@@ -121,6 +121,7 @@ ec_result ec_pack_scene(const ec_scene *all, ec_pack *pack, ec_error *err)
     if (result == EC_OK) result = ec_pack_textures(scene, pack, err);
     if (result == EC_OK) result = pack_materials(scene, pack, err);
     if (result == EC_OK) result = ec_pack_places(scene, pack, err);
+    if (result == EC_OK) result = ec_pack_motion(scene, pack, err);
     if (result == EC_OK) result = ec_bodies_rank(scene, &pack->bodies, err);
     if (result == EC_OK) pack_bodies(scene, pack);
     if (result == EC_OK) result = ec_pack_lights(scene, pack, err);
@@ -136,6 +137,7 @@ void ec_pack_free(ec_pack *pack)
     free(pack->textures);
     free(pack->texels);
     free(pack->places);
+    free(pack->motion);
     free(pack->lights);
     free(pack->light_alias);
     free(pack->light_of_prim);

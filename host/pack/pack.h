@@ -29,6 +29,9 @@ typedef struct ec_pack {
     uint32_t *texels;
     uint32_t place_words;
     uint32_t *places;              /* of instances: ec_place_header and what it says; NULL: there are none */
+    uint64_t motion_words;
+    uint32_t *motion;              /* keys of what moves (EC_MOTION_* in shared/scene_buffers.h); NULL: nothing does */
+    bool lamps_move;               /* triangles, points or spots among the lights */
     uint32_t light_count;          /* only lights of positive power */
     ec_light_data *lights;
     ec_alias *light_alias;
@@ -63,6 +66,7 @@ bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m);
 bool ec_pack_is_body(const ec_material *m);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_places(const ec_scene *scene, ec_pack *pack, ec_error *err);
+ec_result ec_pack_motion(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
 

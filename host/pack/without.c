@@ -12,7 +12,7 @@ const uint64_t ec_effects_optional =
     EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN | EC_FEATURE_SHEEN_TEXTURE | EC_FEATURE_ANISOTROPY |
     EC_FEATURE_ANISOTROPY_TEXTURE | EC_FEATURE_IRIDESCENCE | EC_FEATURE_IRIDESCENCE_TEXTURE | EC_FEATURE_DIFFUSE_TRANSMISSION |
     EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE | EC_FEATURE_DISPERSION | EC_FEATURE_ENVIRONMENT_MAP | EC_FEATURE_ENVIRONMENT_TURN |
-    EC_FEATURE_CULLING | EC_FEATURE_UNLIT | EC_FEATURE_PANES | EC_FEATURE_NESTED;
+    EC_FEATURE_CULLING | EC_FEATURE_UNLIT | EC_FEATURE_PANES | EC_FEATURE_NESTED | EC_FEATURE_MOTION;
 
 /* Textures by their means: slots that an effect reads. */
 static const struct {
@@ -65,6 +65,7 @@ ec_result ec_scene_view_without(const ec_scene *scene, uint64_t off, int64_t mat
     ec_scene *s = &view->scene;
     for (uint32_t m = 0; m < s->material_count; m++)
         if (material == EC_ALL_MATERIALS || material == m) without(scene, off, &s->materials[m]);
+    if (off & EC_FEATURE_MOTION) s->motion = (ec_motion){0};
     if (off & EC_FEATURE_PUNCTUAL_LIGHTS) s->light_count = 0;
     if (off & EC_FEATURE_SMOOTH_NORMALS) s->normals = NULL;
     if (off & EC_FEATURE_VERTEX_COLORS) s->colors = NULL;

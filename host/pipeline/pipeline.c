@@ -40,6 +40,7 @@ static ec_result choose_accels(ec_pipeline *p, const ec_scene *scene, const char
 static ec_result choose_lights(const ec_pipeline *p, const ec_render_options *o, ec_pack *pack, ec_error *err)
 {
     if (p->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return EC_OK;
+    if (pack->lamps_move) return EC_OK; /* a tree's bounds would hold for one moment only */
     if (o->light_choice == EC_LIGHTS_AUTO && !ec_pack_wants_light_tree(pack)) return EC_OK;
     return ec_pack_light_tree(pack, err);
 }
@@ -65,6 +66,8 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     p->triangle_count = scene->triangle_count;
     p->integrator = options->integrator;
     p->fast_math = options->fast_math;
+    if (scene->motion.segments && p->integrator != EC_INTEGRATOR_PATH)
+        return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");
     EC_TRY(ec_pipeline_set_camera(scene, options, &p->params, err));
     EC_TRY(ec_pipeline_lanes(cl, options->lanes, &p->lanes, err));
     if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
@@ -121,6 +124,7 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     if (options->identify) ec_pipeline_content(p, scene, &pack, &stats->content);
     result = ec_pipeline_upload(p, scene, &pack, err);
     ec_pack_free(&pack);
+    if (result == EC_OK) result = ec_pipeline_upload_camera(p, scene, options, err);
     if (result == EC_OK) result = ec_pipeline_upload_filter(p, options, err);
     if (result == EC_OK) result = ec_pipeline_create_queues(p, options, err);
     stats->pack_seconds = ec_now() - start;

@@ -65,6 +65,8 @@ uint64_t ec_whitted_stack_words(uint32_t max_depth);
 
 /* camera.c */
 ec_result ec_pipeline_set_camera(const ec_scene *scene, const ec_render_options *options, ec_params *params, ec_error *err);
+/* The same at every moment, on the device; nothing for a camera that stands still. */
+ec_result ec_pipeline_upload_camera(ec_pipeline *pipeline, const ec_scene *scene, const ec_render_options *options, ec_error *err);
 /* upload.c: what of the scene goes to the device, and for which effects; doing it */
 typedef struct ec_upload {
     ec_arg arg;

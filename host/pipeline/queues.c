@@ -51,13 +51,14 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
     EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));
     EC_TRY(create(p, "radiance", field * 3 + slack, &p->buffers[EC_ARG_RADIANCE], err));
     EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
+    if (p->effects.called.bits & EC_FEATURE_MOTION) EC_TRY(create(p, "times of paths", field + slack, &p->buffers[EC_ARG_TIMES], err));
     if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->effects.built & EC_FEATURE_TRANSMISSION)) return EC_OK; /* only what passes light branches */
     return create(p, "ray trees", field * ec_whitted_stack_words(p->params.max_depth), &p->buffers[EC_ARG_BRANCHES], err);
 }
 
 static void release_wave(ec_pipeline *p)
 {
-    static const ec_arg of_wave[] = {EC_ARG_HITS, EC_ARG_SHADOWS, EC_ARG_RADIANCE, EC_ARG_AOV, EC_ARG_BRANCHES};
+    static const ec_arg of_wave[] = {EC_ARG_HITS, EC_ARG_SHADOWS, EC_ARG_RADIANCE, EC_ARG_AOV, EC_ARG_TIMES, EC_ARG_BRANCHES};
     for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);
     for (size_t i = 0; i < sizeof of_wave / sizeof of_wave[0]; i++) ec_buffer_release(p->cl, &p->buffers[of_wave[i]]);
 }

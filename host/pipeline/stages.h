@@ -51,6 +51,9 @@ typedef enum ec_arg {
     EC_ARG_TEXELS,
     EC_ARG_SRGB,
     EC_ARG_PLACES,
+    EC_ARG_MOTION,
+    EC_ARG_TIMES,      /* of paths, by slot */
+    EC_ARG_CAMERA_KEYS, /* NULL: it stands still */
     EC_ARG_LIGHT_TABLE,
     EC_ARG_LIGHT_ALIAS,
     EC_ARG_LIGHT_TREE,

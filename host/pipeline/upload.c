@@ -30,6 +30,7 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_PRIMS, pack->prims, 0, {"triangles", 0, pack->prim_count * sizeof *pack->prims}},
         {EC_ARG_MATERIALS, pack->materials, 0, {"materials", 0, pack->material_count * sizeof *pack->materials}},
         {EC_ARG_PLACES, pack->places, 0, {"places of instances", EC_FEATURE_INSTANCES, pack->place_words * 4ull}},
+        {EC_ARG_MOTION, pack->motion, 0, {"keys of what moves", EC_FEATURE_MOTION, pack->motion_words * 4ull}},
         {EC_ARG_SRGB, pack->srgb, 0, {"sRGB table", 0, sizeof pack->srgb}},
         {EC_ARG_INDICES, s->indices, 16, {"indices", EC_FEATURES_ATTRIBUTES, 12 * triangles}},
         {EC_ARG_NORMALS, s->normals, 16, {"normals", EC_FEATURE_SMOOTH_NORMALS, s->normals ? 12 * vertices : 0}},
@@ -102,6 +103,7 @@ ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density)
 {
     return (ec_accel_input){.positions = scene->positions, .indices = scene->indices, .triangle_count = ec_scene_flat_count(scene),
                             .whole = scene->whole, .shape_count = scene->shape_count, .shapes = scene->shapes,
+                            .swept = scene->motion.swept, .swept_count = scene->motion.segments ? scene->motion.triangle_count : 0,
                             .placed_count = scene->placed_count, .placed = scene->placed, .grid_density = grid_density};
 }
 

@@ -9,12 +9,18 @@
 
 #define NO_VERTEX UINT32_MAX
 
-ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, const ec_placement *at, const double *center,
-                            ec_draw_function function)
+ec_draw ec_draw_of(const ec_gltf *g, const ec_placement *at, const double *center)
 {
     ec_draw d = {.g = g, .at = at, .center = center};
     ec_gltf_normal_matrix(at->linear, d.normal_matrix);
     d.mirrored = ec_gltf_determinant(at->linear) < 0;
+    return d;
+}
+
+ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, const ec_placement *at, const double *center,
+                            ec_draw_function function)
+{
+    ec_draw d = ec_draw_of(g, at, center);
     for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
         d.p = &g->meshes[mesh].primitives[k];
         if (d.p->drawn) EC_TRY(function(f, &d));
@@ -28,6 +34,7 @@ static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_place
     for (uint32_t i = 0; i < list->count; i++) {
         int32_t mesh = list->items[i].mesh;
         if (mesh < 0 || (f->is_kept && f->is_kept[i])) continue;
+        f->placement = list->items[i].moves ? i : EC_STILL;
         EC_TRY(ec_flattener_draw(f, g, mesh, &list->items[i], f->scene->center, function));
     }
     return EC_OK;
@@ -125,6 +132,7 @@ static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], 
         f->scene->dropped_nonfinite++;
         return false;
     }
+    if (d->at->moves) return true; /* it may have an area at another moment: motion.c looks at all of them */
     if (size < FLT_MIN || is_flat_in_file(d, v)) {
         f->scene->dropped_degenerate++;
         return false;
@@ -150,7 +158,10 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
         size_t n = s->triangle_count++;
         for (int i = 0; i < 3; i++) {
             uint32_t *known = &f->remap[v[i] - d->p->lowest];
-            if (*known == NO_VERTEX) *known = ec_flattener_append_vertex(f, d, v[i], position[i]);
+            if (*known == NO_VERTEX) {
+                if (f->sources) f->sources[s->vertex_count] = (ec_source){f->placement, (uint32_t)(d->p - d->g->meshes[d->at->mesh].primitives), v[i]};
+                *known = ec_flattener_append_vertex(f, d, v[i], position[i]);
+            }
             /* a mirrored mesh is turned, so that its front stays its front */
             s->indices[3 * n + (size_t)(d->mirrored && i ? 3 - i : i)] = *known;
         }
@@ -207,7 +218,7 @@ static void set_bounds(ec_scene *s, uint32_t flat_vertices)
     }
 }
 
-static ec_result flatten(ec_flattener *f, const ec_gltf *g, const ec_placement_list *placements, ec_keeping *keeping)
+static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *placements, ec_keeping *keeping)
 {
     ec_scene *s = f->scene;
     EC_TRY(for_each_draw(f, g, placements, ec_flattener_count));
@@ -220,8 +231,14 @@ static ec_result flatten(ec_flattener *f, const ec_gltf *g, const ec_placement_l
     bool any_finite = f->low[0] <= f->high[0];
     for (int k = 0; k < 3; k++) s->center[k] = any_finite ? 0.5 * (f->low[k] + f->high[k]) : 0;
     EC_TRY(allocate(f, g->path));
+    if (g->animated) {
+        f->sources = g->sources = malloc(f->vertex_bound * sizeof *g->sources);
+        if (!f->sources) return ec_fail(f->err, "%s: out of memory for %llu vertices", g->path, (unsigned long long)f->vertex_bound);
+    }
     EC_TRY(for_each_draw(f, g, placements, ec_flattener_fill));
     set_bounds(s, s->vertex_count);
+    f->placement = EC_STILL;
+    f->sources = NULL; /* meshes kept once stand still */
     EC_TRY(ec_keep_fill(keeping, f));
     if (!s->triangle_count)
         return ec_fail(f->err, "%s: nothing to render: of %llu triangles %u have no area and %u have NaN or infinite positions",
@@ -230,7 +247,7 @@ static ec_result flatten(ec_flattener *f, const ec_gltf *g, const ec_placement_l
     return EC_OK;
 }
 
-ec_result ec_flatten(const ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
+ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
     ec_flattener f = {.scene = s, .log = log, .err = err, .low = {INFINITY, INFINITY, INFINITY},
                    .high = {-INFINITY, -INFINITY, -INFINITY}};

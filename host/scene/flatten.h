@@ -12,8 +12,12 @@ ec_result ec_flatten_prepare(ec_gltf *gltf, const ec_placement_list *placements,
 ec_result ec_gltf_deform(ec_gltf *gltf, ec_placement_list *placements, ec_error *err);
 
 /* Fills vertices, triangles, bounds, center and the counters of dropped triangles. Fails where nothing is left. */
-ec_result ec_flatten(const ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
+ec_result ec_flatten(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
                      ec_error *err);
+
+/* motion.c: what moves while the shutter is open, from the same file at other moments. `base` is the scene's own document. */
+ec_result ec_gltf_move(const ec_scene_choice *choice, ec_gltf *base, ec_scene *scene, const ec_log *log,
+                       ec_error *err);
 
 /* materials.c: moves the materials into the scene and gives each drawn primitive its index there: a material is
  * doubled where some meshes lack a texture coordinate set that it uses. */

@@ -30,7 +30,7 @@ static void store_direction(const double v[3], float out[3])
     out[2] = usable ? (float)(z / length) : 0;
 }
 
-static void store_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tangent)
+void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tangent)
 {
     float in[4];
     double turned[3];
@@ -70,7 +70,7 @@ uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t 
     float *normal = s->normals ? s->normals + 3 * n : NULL, *tangent = s->tangents ? s->tangents + 4 * n : NULL;
     if (normal) memset(normal, 0, 3 * sizeof(float));
     if (tangent) memset(tangent, 0, 4 * sizeof(float));
-    store_frame(d, vertex, normal, tangent);
+    ec_draw_frame(d, vertex, normal, tangent);
     for (int i = 0; i < 2; i++) {
         if (!s->uv[i]) continue;
         memset(s->uv[i] + 2 * n, 0, 2 * sizeof(float));

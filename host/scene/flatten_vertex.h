@@ -23,6 +23,8 @@ typedef struct ec_flattener {
     uint32_t *remap; /* primitive's vertex - lowest -> scene's vertex */
     uint64_t remap_size;
     bool has_normals, has_tangents, has_uv[2], has_colors;
+    ec_source *sources;  /* NULL: nobody asks */
+    uint32_t placement;  /* the one being drawn, or EC_STILL */
     const bool *is_kept; /* by placement: an instance of a mesh that is kept once; NULL: none is */
 } ec_flattener;
 
@@ -37,6 +39,11 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d);  /* appends its 
 bool ec_is_placeable(const double world[3][3]);
 /* Beyond this squares of distances no longer fit a float; such a position counts as infinite. */
 #define EC_MAX_COORDINATE 1e18
+
+/* A vertex' normal (3 floats) and tangent (4) in the world, each NULL where it is not asked for; what the mesh has none of stays. */
+void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tangent);
+/* What stands at a place; its primitive is still to be said. */
+ec_draw ec_draw_of(const ec_gltf *g, const ec_placement *at, const double *center);
 
 /* Where a vertex lies in the world. */
 void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3]);

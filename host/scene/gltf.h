@@ -135,6 +135,12 @@ typedef struct ec_gltf_image_light {
     double intensity;      /* >= 0 */
 } ec_gltf_image_light;
 
+/* Where a vertex of the scene comes from. */
+typedef struct ec_source {
+    uint32_t placement, primitive, vertex;
+} ec_source;
+#define EC_STILL UINT32_MAX /* as placement: nothing moves it */
+
 typedef struct ec_gltf {
     const char *path;  /* for messages; the caller's */
     char *folder;      /* where URIs start, "" or with a trailing slash */
@@ -156,6 +162,9 @@ typedef struct ec_gltf {
     int32_t *roots;         /* nodes of the scene to show */
     uint32_t root_count;
     ec_instancing instancing; /* the caller's wish */
+    bool *animated;         /* by node: a channel moves it within the shutter; NULL: there is none */
+    uint32_t shutter_keys;  /* most keyframes of a channel within it */
+    ec_source *sources;     /* of the scene's vertices, while a scene is made with a shutter */
     bool quantized;         /* KHR_mesh_quantization: integer positions, normals, tangents */
     char **extensions_used, **extensions_ignored;
     uint32_t extension_count, extension_ignored_count;
@@ -167,7 +176,7 @@ ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf 
 void ec_gltf_free(ec_gltf *gltf); /* NULL is fine */
 
 /* load.c: everything after reading. Takes strings and materials from the document, which stays the caller's. */
-ec_result ec_scene_from_gltf(ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err);
+ec_result ec_scene_from_gltf(const ec_scene_choice *choice, ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err);
 
 /* gltf_tree.c: translation x rotation x scale, column major. A quaternion of any length will do; zero is no rotation. */
 void ec_gltf_compose(const double translation[3], const double rotation[4], const double scale[3], double matrix[16]);

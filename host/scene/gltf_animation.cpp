@@ -2,6 +2,7 @@
  * nodes, meshes, materials, lights and cameras are read. So KHR_animation_pointer costs nothing more than its pointers. */
 #include "scene/gltf_shim.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -75,15 +76,16 @@ static ec_gltf_keyframes convert_keyframes(const json &sampler)
             interpolation == "STEP" ? EC_STEP : interpolation == "CUBICSPLINE" ? EC_CUBICSPLINE : EC_LINEAR};
 }
 
-static json sample(ec_gltf *gltf, const json &sampler, const path &to, double at, const std::string &where)
+static json sample(ec_gltf *gltf, const json &sampler, const path &to, const ec_scene_choice *choice, const std::string &where)
 {
     ec_error err;
     ec_gltf_numbers numbers = {nullptr, 0};
     ec_gltf_keyframes keyframes = convert_keyframes(sampler);
     bool rotation = to[0] == "nodes" && to.back() == "rotation";
-    ec_result result = ec_gltf_keyframes_sample(gltf, &keyframes, rotation, at, where.c_str(), &numbers, &err);
+    ec_result result = ec_gltf_keyframes_sample(gltf, &keyframes, rotation, choice->at, where.c_str(), &numbers, &err);
     std::unique_ptr<double, void (*)(void *)> owned(numbers.values, free);
     if (result != EC_OK) throw bad_file(err.text);
+    if (gltf->animated) gltf->shutter_keys = std::max(gltf->shutter_keys, ec_gltf_keyframes_between(gltf, &keyframes, choice->opens, choice->closes));
     if (numbers.count == 1 && to.back() == "visible") return numbers.values[0] != 0;
     if (numbers.count == 1 && to.back() != "weights") return numbers.values[0];
     return std::vector<double>(numbers.values, numbers.values + numbers.count);
@@ -98,8 +100,8 @@ static std::string pointer_of(const json &target)
     return "/nodes/" + std::to_string(target["node"].get<int>()) + "/" + target["path"].get<std::string>();
 }
 
-static void apply(json &root, const json &animation, const std::string &name, double at, ec_gltf *gltf,
-                  const ec_log *log)
+static void apply(json &root, const json &animation, const std::string &name, const ec_scene_choice *choice,
+                  ec_gltf *gltf, const ec_log *log)
 {
     const json &channels = animation["channels"], &samplers = animation["samplers"];
     for (size_t i = 0; i < channels.size(); i++) {
@@ -110,9 +112,11 @@ static void apply(json &root, const json &animation, const std::string &name, do
             throw bad_file(where + ".sampler is " + std::to_string(sampler) + " but there are " +
                            std::to_string(samplers.size()));
         path to = split(pointer);
-        if (!may_move(to) || !write(root, to, sample(gltf, samplers[sampler], to, at, where)))
+        if (!may_move(to) || !write(root, to, sample(gltf, samplers[sampler], to, choice, where)))
             ec_warn(log, "%s: %s moves %.200s, which eclat does not; it is left out", gltf->path, where.c_str(),
                     printable(pointer).c_str());
+        else if (gltf->animated && to[0] == "nodes")
+            gltf->animated[std::stoul(to[1])] = true;
     }
 }
 
@@ -142,12 +146,13 @@ bool choose_moment(json &root, const ec_scene_choice *choice, ec_gltf *gltf, con
                     names.count > 1 ? "s" : "");
         return false;
     }
-    if (!names.count) throw bad_file("there is no animation in it; leave out --at and --animation");
+    if (!names.count) throw bad_file("there is no animation in it; leave out --at, --animation and --shutter");
+    if (choice->shutter) gltf->animated = make_array<bool>(list_of(root, "nodes").size());
     bool all = choice->animation && std::string(choice->animation) == "all";
     uint32_t one = choice->animation && !all ? find_choice(&names, "animation", choice->animation) : 0;
     const json &animations = root["animations"]; /* stays where it is: what is written is elsewhere */
     for (uint32_t i = 0; i < names.count; i++)
-        if (all || i == one) apply(root, animations[i], "animations[" + std::to_string(i) + "]", choice->at, gltf, log);
+        if (all || i == one) apply(root, animations[i], "animations[" + std::to_string(i) + "]", choice, gltf, log);
     return true;
 }
 

@@ -42,6 +42,8 @@ static void free_geometry(ec_gltf *g)
     free(g->skins);
     free(g->nodes);
     free(g->roots);
+    free(g->animated);
+    free(g->sources);
 }
 
 void ec_gltf_free(ec_gltf *g)

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define MAX_NUMBERS 65536 /* at one key: no mesh has more morph targets */
 
@@ -110,6 +111,7 @@ static void interpolate(const curve *c, uint64_t key, double t, double duration,
     double *next = work, *leave = work + n, *arrive = work + 2 * n;
     if (c->interpolation == EC_STEP) return;
     read_key(c, key + 1, VALUE, next);
+    if (c->interpolation == EC_LINEAR && !memcmp(out, next, n * sizeof *out)) return; /* still, to the last bit */
     if (c->interpolation == EC_LINEAR && rotation) {
         slerp(out, next, t);
         return;
@@ -149,4 +151,11 @@ ec_result ec_gltf_keyframes_sample(ec_gltf *g, const ec_gltf_keyframes *keyframe
     numbers->values = malloc(4 * (size_t)numbers->count * sizeof *numbers->values);
     if (!numbers->values) return ec_fail(err, "%s: out of memory", where);
     return evaluate(&c, rotation, at, where, numbers->values, numbers->values + numbers->count, err);
+}
+
+uint32_t ec_gltf_keyframes_between(const ec_gltf *g, const ec_gltf_keyframes *keyframes, double from, double to)
+{
+    const curve c = {.g = g, .times = &g->accessors[keyframes->input]};
+    int64_t count = find_key(&c, nextafter(to, -INFINITY)) - find_key(&c, from);
+    return count > 0 ? (uint32_t)count : 0;
 }

@@ -21,4 +21,7 @@ typedef struct ec_gltf_numbers {
 ec_result ec_gltf_keyframes_sample(ec_gltf *gltf, const ec_gltf_keyframes *keyframes, bool rotation, double at, const char *where,
                                    ec_gltf_numbers *numbers, ec_error *err);
 
+/* How many of its keys lie between two moments. It has been sampled. */
+uint32_t ec_gltf_keyframes_between(const ec_gltf *gltf, const ec_gltf_keyframes *keyframes, double from, double to);
+
 #endif

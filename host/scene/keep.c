@@ -99,7 +99,7 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
     }
     for (uint32_t i = 0; i < k->placements->count; i++) {
         int32_t mesh = k->placements->items[i].mesh, c = mesh >= 0 ? index[mesh] : -1;
-        k->candidate[i] = c >= 0 && fits(&k->placements->items[i], &k->meshes[c]) ? c : -1;
+        k->candidate[i] = c >= 0 && !k->placements->items[i].moves && fits(&k->placements->items[i], &k->meshes[c]) ? c : -1;
         if (k->candidate[i] >= 0) k->meshes[c].places++;
     }
     result = EC_OK;

@@ -2,6 +2,7 @@
 #include "scene/flatten.h"
 #include "scene/validate.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* Strings change owner. */
@@ -18,7 +19,7 @@ static void take_facts(ec_gltf *g, ec_scene *s)
     g->contents = (ec_scene_contents){0};
 }
 
-static ec_result build(ec_gltf *g, ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
+static ec_result build(const ec_scene_choice *choice, ec_gltf *g, ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
     take_facts(g, s);
     EC_TRY(ec_flatten_prepare(g, placements, s, log, err));
@@ -30,13 +31,14 @@ static ec_result build(ec_gltf *g, ec_placement_list *placements, ec_scene *s, c
     EC_TRY(ec_gltf_cameras_place(g, placements, s, log, err));
     EC_TRY(ec_gltf_lights_place(g, placements, s, log, err));
     EC_TRY(ec_gltf_image_light_load(g, s, log, err));
+    if (g->animated) EC_TRY(ec_gltf_move(choice, g, s, log, err));
     ec_scene_clamp_materials(s, g->path, log);
     EC_TRY(ec_scene_validate(s, err));
     ec_scene_join_quads(s);
     return EC_OK;
 }
 
-ec_result ec_scene_from_gltf(ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err)
+ec_result ec_scene_from_gltf(const ec_scene_choice *choice, ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err)
 {
     ec_result result = EC_FAILED;
     ec_placement_list placements = {0};
@@ -45,7 +47,7 @@ ec_result ec_scene_from_gltf(ec_gltf *gltf, ec_scene **scene, const ec_log *log,
     if (!s) return ec_fail(err, "%s: out of memory", gltf->path);
     EC_TRY_CLEANUP(ec_gltf_place_nodes(gltf, &placements, err));
     EC_TRY_CLEANUP(ec_gltf_place_instances(gltf, &placements, log, err));
-    EC_TRY_CLEANUP(build(gltf, &placements, s, log, err));
+    EC_TRY_CLEANUP(build(choice, gltf, &placements, s, log, err));
     *scene = s;
     s = NULL;
 cleanup:
@@ -57,10 +59,18 @@ cleanup:
 ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err)
 {
     ec_gltf *gltf = NULL;
+    ec_scene_choice moment = *choice;
     *scene = NULL;
-    ec_result result = ec_gltf_read(path, choice, &gltf, log, err);
+    if (choice->shutter) {
+        if (!(isfinite(choice->opens) && choice->opens <= choice->closes && isfinite(choice->closes)))
+            return ec_fail(err, "%s: a shutter cannot open at %g s and close at %g s", path, choice->opens, choice->closes);
+        moment.animated = true;
+        moment.at = 0.5 * (choice->opens + choice->closes);
+        moment.shutter = choice->opens < choice->closes;
+    }
+    ec_result result = ec_gltf_read(path, &moment, &gltf, log, err);
     if (gltf) gltf->instancing = choice->instancing;
-    if (result == EC_OK) result = ec_scene_from_gltf(gltf, scene, log, err);
+    if (result == EC_OK) result = ec_scene_from_gltf(&moment, gltf, scene, log, err);
     ec_gltf_free(gltf);
     return result;
 }

@@ -176,7 +176,8 @@ void ec_model_light(ec_model *m, const ec_light *light, const double at[3], cons
 ec_result ec_model_scene(ec_model *m, ec_scene **scene, ec_error *err)
 {
     *scene = NULL;
-    ec_result result = m && !m->failed ? ec_scene_from_gltf(m->gltf, scene, NULL, err) : ec_fail(err, "out of memory for a model");
+    const ec_scene_choice all = {0};
+    ec_result result = m && !m->failed ? ec_scene_from_gltf(&all, m->gltf, scene, NULL, err) : ec_fail(err, "out of memory for a model");
     ec_model_free(m);
     return result;
 }

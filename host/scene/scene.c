@@ -36,6 +36,7 @@ void ec_scene_free(ec_scene *s)
     free(s->lights);
     free(s->cameras);
     free(s->environment.rgb);
+    ec_motion_free(&s->motion);
     free_strings(s->extensions_used, s->extension_count);
     free_strings(s->extensions_ignored, s->extension_ignored_count);
     ec_scene_contents_free(&s->contents);

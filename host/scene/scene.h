@@ -79,6 +79,7 @@ typedef struct ec_light {
     float intensity[3];        /* colour x intensity: W/sr, or W/m^2 for directional */
     float range;               /* metres; 0 = infinite */
     float cos_inner, cos_outer;
+    uint32_t moves;            /* with ec_scene.motion: 1 + which of its lights; 0: stands still */
     char *name;                /* of its node, owned, may be NULL */
 } ec_light;
 
@@ -90,8 +91,27 @@ typedef struct ec_camera {
     float yfov;                            /* radians, perspective */
     float aspect;                          /* width / height; 0 = the image's */
     float xmag, ymag;                      /* half extents, orthographic */
+    uint32_t moves;                        /* as of ec_light */
     char *name;                            /* owned, may be NULL */
 } ec_camera;
+
+/* What moves while the shutter is open: keys at equal times from its opening to its closing, and straight lines in between. The scene's
+ * first vertices and triangles are those that move; all else in the scene, and these themselves where time has no say, is as in the middle
+ * of the exposure. Keys of one thing lie side by side. */
+typedef struct ec_motion {
+    uint32_t segments;              /* a power of two, one fewer than keys; 0: nothing moves, and the rest means nothing */
+    uint32_t vertex_count, triangle_count;
+    float *positions;               /* 3 a key, segments + 1 keys a vertex; owned, as all here */
+    float *normals, *tangents;      /* likewise, 3 a key; NULL where the scene has none */
+    float *swept;                   /* 6 a triangle: the box over all its keys, lowest corner first */
+    uint32_t light_count, camera_count;
+    ec_light *lights;               /* those that move: their keys; only position and direction mean anything, names are NULL */
+    ec_camera *cameras;             /* likewise, whole cameras */
+    double opens, closes;           /* seconds of the animation */
+    double deviation;               /* largest distance from the true way, over the box that the mesh sweeps, at the moments looked at */
+} ec_motion;
+#define EC_MOTION_SEGMENTS_MOST 128u
+#define EC_MOTION_DEVIATION (1.0 / 2000) /* more segments are taken until it is less */
 
 /* Radiance from infinitely far away. rgb == NULL means `constant` everywhere.
  * Equirectangular, oriented as in Khronos' sample viewer and three.js: a unit direction (x, y, z) lies at
@@ -138,6 +158,7 @@ typedef struct ec_scene {
     uint32_t shape_count, placed_count;
     ec_shape *shapes;
     ec_placed *placed;            /* in the order of their ids, the first of which is shapes[0].first */
+    ec_motion motion;
     bool whole;                   /* no structure may cut triangles, so that all have the same bits with and without instances */
     uint32_t material_count;
     ec_material *materials;       /* at least one (glTF's default) */
@@ -173,6 +194,9 @@ typedef struct ec_scene_choice {
     const char *animation;     /* also "all"; NULL: the first */
     double at;                 /* seconds into it */
     bool animated;             /* false: everything as it is stored */
+    bool at_given;             /* the moment was asked for by name */
+    bool shutter;              /* open from `opens` to `closes`, seconds into it; `at` is then their middle, whatever it was */
+    double opens, closes;
     ec_instancing instancing;  /* which meshes are kept once */
 } ec_scene_choice;
 
@@ -182,6 +206,7 @@ typedef struct ec_scene_choice {
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
 ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
+void ec_motion_free(ec_motion *motion); /* leaves none */
 
 /* Triangles that stand in the world as they are stored: those before the shapes'. */
 static inline uint32_t ec_scene_flat_count(const ec_scene *s) { return s->shape_count ? s->shapes[0].first : s->triangle_count; }

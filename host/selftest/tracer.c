@@ -137,7 +137,8 @@ ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *er
     const ec_array arrays[] = {EC_IN(&params, 1), EC_SCALAR(zero), EC_SCALAR(zero), NO_BUFFER, EC_SCALAR(zero), EC_SCALAR(zero),
                                EC_IN(&counters, 1), EC_IN(r->paths, EC_PATH_FIELDS * wave), EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave),
                                BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3), BUFFER(4),
-                               NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER};
+                               NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER,
+                               NO_BUFFER};
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[a].name);
     return ec_kernel_call(r->t->cl, ec_accels[a].lanes ? r->singles : r->packets, name, (count + r->lanes[a] - 1) / r->lanes[a], LOCAL,
                           arrays, COUNT_OF(arrays), err);

@@ -117,12 +117,52 @@ EC_FN void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxes, v3
     *hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
 }
 
+/* Eight triangles by their corners in the world. flat: those of which rounding may have left nothing that has a normal. */
+EC_FN void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, int8 flat, uint8 id, uint skip0, uint skip1,
+                          bool any_hit, hit8 *h)
+{
+    v3 s0 = ray_vertex(&q->r, p0), s1 = ray_vertex(&q->r, p1), s2 = ray_vertex(&q->r, p2);
+    edges e = edges_make(s0, s1, s2);
+    int8 close;
+    float8 t, inverse;
+    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &close, &t, &inverse);
+    if (!mask_bits8(m)) return;
+    if (mask_bits8(close)) {
+        t = edges_settle(&q->r, &e, s0, s1, s2, close, inverse, t);
+        m = m & (t > 0.0f);
+    }
+    m = m & !(flat & place_leaves_flat(p0, p1, p2));
+    eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);
+}
+
+/* Does any of them move? */
+EC_FN bool block8_moves(const hit_filter *filter, uint8 id)
+{
+    return HAS(MOTION) && filter->g.motion && mask_bits8(motion_moves(filter->g.motion, id));
+}
+
+/* The same, of which some move. */
+EC_FN void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, uint8 id, uint skip0, uint skip1, bool any_hit,
+                         hit8 *h)
+{
+    int8 moves = motion_moves(filter->g.motion, id);
+    motion_corners(filter->g.motion, filter->g.time, moves, id, &p0, &p1, &p2);
+    block8_corners(q, filter, p0, p1, p2, lo, hi, moves, id, skip0, skip1, any_hit, h);
+}
+
 /* A block of up to eight triangles that lie side by side. boxes: NULL where they are whole. */
 EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, global const ec_box8 *boxes,
                              uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
-    edges e = edges_make(tri8_sheared(q, b, 0), tri8_sheared(q, b, 1), tri8_sheared(q, b, 2));
     uint8 id = *(global const uint8 *)b->id;
+    v3 lo, hi;
+    if (block8_moves(filter, id)) {
+        TALLY_TESTS(h, popcount(mask_bits8(id != EC_NO_ID)));
+        block8_boxes(b, boxes, &lo, &hi);
+        block8_moving(q, filter, tri8_vertex(b, 0), tri8_vertex(b, 1), tri8_vertex(b, 2), lo, hi, id, skip0, skip1, any_hit, h);
+        return;
+    }
+    edges e = edges_make(tri8_sheared(q, b, 0), tri8_sheared(q, b, 1), tri8_sheared(q, b, 2));
     int8 close;
     float8 t, inverse;
     TALLY_TESTS(h, popcount(mask_bits8(id != EC_NO_ID)));
@@ -132,7 +172,6 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
         t = edges_settle(&q->r, &e, tri8_sheared_again(q, b, 0), tri8_sheared_again(q, b, 1), tri8_sheared_again(q, b, 2), close, inverse, t);
         m = m & (t > 0.0f);
     }
-    v3 lo, hi;
     block8_boxes(b, boxes, &lo, &hi);
     eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);
 }

@@ -17,8 +17,11 @@ typedef struct hit_filter {
 #define FILTER_PARAMETERS                                                                          \
     global const float *prims, global const float *indices, global const float *uvs,               \
         global const float *colors, global const float *materials,                                 \
-        global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places
-#define FILTER_GEOMETRY {prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places}
+        global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places, \
+        global const float *motion, global const float *times
+#define FILTER_GEOMETRY {prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places, motion}
+/* times: of paths, by slot. */
+#define HAS_TIMES (HAS(MOTION) && motion != 0)
 
 /* Random key of a ray: bounce counts the vertices before it, shadow rays differ from path rays. */
 EC_FN lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, bool is_shadow)

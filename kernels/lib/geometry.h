@@ -4,6 +4,7 @@
 #define EC_LIB_GEOMETRY_H
 
 #include "instance.h"
+#include "motion.h"
 #include "texture.h"
 
 typedef struct geometry {
@@ -16,6 +17,8 @@ typedef struct geometry {
     global const float *materials; /* ec_material_data by word */
     textures tex;
     global const float *places;    /* of instances, or 0 */
+    global const float *motion;    /* what moves, or 0 */
+    lane_f time;                   /* with MOTION: of the paths */
 } geometry;
 
 /* What the surface look-ups share: which triangle, where on it, what it is made of. Off lanes hold triangle 0. */
@@ -91,6 +94,13 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
         h.p1 = v3_select(h.placed, instance_point(g->places, h.place, p1), p1);
         h.p2 = v3_select(h.placed, instance_point(g->places, h.place, p2), p2);
     }
+    if (HAS(MOTION) && g->motion) {
+        lane_i moves = motion_moves(g->motion, prim) & !h.placed;
+        if (any_lane(moves)) {
+            motion_corners(g->motion, g->time, moves, prim, &h.p0, &h.p1, &h.p2);
+            h.light_pdf_a = moves ? h.light_pdf_a * motion_per_area(h.p0, h.p1, h.p2) : h.light_pdf_a;
+        }
+    }
     h.b0 = 1.0f - b1 - b2;
     h.b1 = b1;
     h.b2 = b2;
@@ -116,7 +126,9 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
 EC_FN v3 vertex_normal(const geometry *g, const hit_point *h, lane_u vertex)
 {
     quad q = gather_quad(g->normals, vertex * 3u);
-    return hit_direction(g, h, EC_PLACE_NORMAL, v3_make(q.a, q.b, q.c));
+    v3 n = v3_make(q.a, q.b, q.c);
+    if (HAS(MOTION) && g->motion) n = motion_direction(g->motion, g->time, EC_MOTION_NORMALS, vertex, n);
+    return hit_direction(g, h, EC_PLACE_NORMAL, n);
 }
 
 EC_FN v3 interpolate_v3(const hit_point *h, v3 v0, v3 v1, v3 v2)
@@ -129,14 +141,23 @@ EC_FN v3 interpolate_normal(const geometry *g, const hit_point *h)
     return interpolate_v3(h, vertex_normal(g, h, h->i0), vertex_normal(g, h, h->i1), vertex_normal(g, h, h->i2));
 }
 
+EC_FN v3 vertex_tangent(const geometry *g, const hit_point *h, lane_u vertex, lane_f *hand)
+{
+    quad q = gather_quad(g->tangents, vertex * 4u);
+    v3 t = v3_make(q.a, q.b, q.c);
+    *hand = q.d;
+    if (HAS(MOTION) && g->motion) t = motion_direction(g->motion, g->time, EC_MOTION_TANGENTS, vertex, t);
+    return hit_direction(g, h, 0u, t);
+}
+
 /* hand: the sign says which way the bitangent goes; a mirrored mesh's is mirrored, n x t is not. */
 EC_FN v3 interpolate_tangent(const geometry *g, const hit_point *h, lane_f *hand)
 {
-    quad t0 = gather_quad(g->tangents, h->i0 * 4u), t1 = gather_quad(g->tangents, h->i1 * 4u), t2 = gather_quad(g->tangents, h->i2 * 4u);
-    *hand = interpolate(h, t0.d, t1.d, t2.d);
+    lane_f hand0, hand1, hand2;
+    v3 t0 = vertex_tangent(g, h, h->i0, &hand0), t1 = vertex_tangent(g, h, h->i1, &hand1), t2 = vertex_tangent(g, h, h->i2, &hand2);
+    *hand = interpolate(h, hand0, hand1, hand2);
     if (HAS(INSTANCES)) *hand = h->turned ? -*hand : *hand;
-    return interpolate_v3(h, hit_direction(g, h, 0u, v3_make(t0.a, t0.b, t0.c)), hit_direction(g, h, 0u, v3_make(t1.a, t1.b, t1.c)),
-                          hit_direction(g, h, 0u, v3_make(t2.a, t2.b, t2.c)));
+    return interpolate_v3(h, t0, t1, t2);
 }
 
 EC_FN quad material_quad(const geometry *g, const hit_point *h, uint word)

@@ -4,20 +4,19 @@
 
 #include "../shared/params.h"
 #include "sampler.h"
+#include "camera_axes.h"
 
 /* From a ray through the pinhole, d having 1 along the axis, to one that meets it in the plane of focus and starts at a uniform
  * point of the round aperture. Lengths of d change, so that rays stay those of the pinhole, bit for bit, where there is no aperture. */
-EC_FN void lens_shift(constant ec_params *params, sampler random, v3 *o, v3 *d)
+EC_FN void lens_shift(const camera_axes *v, float nearness, sampler random, v3 *o, v3 *d)
 {
     lane_f u1, u2, cosine;
     sample_pair(random, EC_PAIR_LENS, &u1, &u2);
     lane_f radius = sqrt(u1), sine = sincos_2pi(u2, &cosine);
     lane_f x = radius * cosine, y = radius * sine;
-    v3 at = v3_make(fma(x, F(params->lens_right[0]), y * params->lens_up[0]),
-                    fma(x, F(params->lens_right[1]), y * params->lens_up[1]),
-                    fma(x, F(params->lens_right[2]), y * params->lens_up[2]));
+    v3 at = v3_fma(v->lens_right, x, v3_scale(v->lens_up, y));
     *o = v3_add(*o, at);
-    *d = v3_fma(at, F(-params->lens_nearness), *d);
+    *d = v3_fma(at, F(-nearness), *d);
 }
 
 #endif

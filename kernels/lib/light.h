@@ -47,6 +47,23 @@ EC_FN light_record light_load(const lights *l, lane_u id)
     return r;
 }
 
+/* To where it is at the paths' time. Those that do not move are at key 0 of nothing that is used. */
+EC_FN void light_move(const geometry *g, light_record *l)
+{
+    lane_u type = l->kind & EC_LIGHT_KIND_MASK;
+    lane_i moves = (l->kind & EC_LIGHT_MOVES) != 0u, punctual = moves & (type != EC_KIND_TRIANGLE), triangle = moves & !punctual;
+    if (HAS(AREA_LIGHTS) && any_lane(triangle)) {
+        motion_corners(g->motion, g->time, triangle, l->prim, &l->a, &l->b, &l->c);
+        l->pdf_a = triangle ? l->pdf_a * motion_per_area(l->a, l->b, l->c) : l->pdf_a;
+    }
+    if (HAS(PUNCTUAL_LIGHTS) && any_lane(punctual)) {
+        moment t = moment_of(g->motion, g->time);
+        lane_u light = punctual ? l->prim * 2u : U(0);
+        l->a = v3_select(punctual, motion_point(g->motion, EC_MOTION_LIGHTS, light, t), l->a);
+        l->b = v3_select(punctual, v3_normalize(motion_point(g->motion, EC_MOTION_LIGHTS, light + 1u, t)), l->b);
+    }
+}
+
 /* The same light for every lane. */
 EC_FN light_record light_load_one(global const float *table, uint id)
 {
@@ -241,6 +258,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     light_record one = light_load(l, id);
     one.pmf *= share;
     one.pdf_a *= share;
+    if (HAS(MOTION) && g->motion) light_move(g, &one);
     lane_u type = one.kind & EC_LIGHT_KIND_MASK;
 
     light_sample s;

@@ -12,6 +12,7 @@
 /* Pairs: two for the camera, then four a bounce. */
 #define EC_PAIR_PIXEL 0u
 #define EC_PAIR_LENS 1u
+#define EC_PAIR_TIME 0x80000000u /* when, while the shutter is open: behind all bounces */
 #define EC_PAIR_BOUNCE(b) (2u + 4u * (b))
 #define EC_PAIR_LIGHT 0u    /* point on the light */
 #define EC_PAIR_BSDF 1u     /* direction */

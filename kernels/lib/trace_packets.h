@@ -19,9 +19,12 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
     lane_i active = LANE_NUMBERS < left;
     ray r = ray_make(queue_load_v3(paths, wave, EC_PATH_OX, i), queue_load_v3(paths, wave, EC_PATH_DX, i), params->scene_max);
     hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
+    lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i);
+    slot = active ? slot : U(0);
+    if (HAS_TIMES) filter.g.time = gather_f(times, slot);
     if (HAS(ALPHA)) {
-        lane_u pixel, sample, slot = queue_load_u(paths, wave, EC_PATH_SLOT, i);
-        slot_to_pixel(params, first_pixel, pixel_list, active ? slot : U(0), &pixel, &sample);
+        lane_u pixel, sample;
+        slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
         filter.key = filter_key(seed, pixel, sample, bounce, false);
     }
     const accel a = ACCEL_ARGUMENTS;
@@ -55,6 +58,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     slot = active ? slot : U(0);
     lane_i panes = !TRUE_MASK;
     hit_filter filter = {FILTER_GEOMETRY, U(0), false, HAS(PANES) ? &panes : 0};
+    if (HAS_TIMES) filter.g.time = gather_f(times, slot);
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
@@ -68,7 +72,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     if (!any_lane(open)) return;
     v3 light = queue_load_v3(shadows, wave, EC_SHADOW_LR, i);
     if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
-        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
+        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion, filter.g.time};
         v3 o = r.o, end = v3_add(o, r.d);
         lane_i walks = open & panes;
         filter.panes = 0;

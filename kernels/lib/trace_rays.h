@@ -19,6 +19,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
     ray8 q = ray8_make(p[EC_PATH_OX * wave], p[EC_PATH_OY * wave], p[EC_PATH_OZ * wave], p[EC_PATH_DX * wave],
                        p[EC_PATH_DY * wave], p[EC_PATH_DZ * wave], params->scene_max);
     hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
+    if (HAS_TIMES) filter.g.time = F(times[as_uint(p[EC_PATH_SLOT * wave])]);
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, pixel_list, U(as_uint(p[EC_PATH_SLOT * wave])), &pixel, &sample);
@@ -51,6 +52,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     uint slot = as_uint(p[EC_SHADOW_SLOT * wave]);
     lane_i panes = !TRUE_MASK;
     hit_filter filter = {FILTER_GEOMETRY, U(0), false, HAS(PANES) ? &panes : 0};
+    if (HAS_TIMES) filter.g.time = F(times[slot]);
     if (HAS(ALPHA)) {
         lane_u pixel, sample;
         slot_to_pixel(params, first_pixel, pixel_list, U(slot), &pixel, &sample);
@@ -62,7 +64,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     if (EC_CAT(ACCEL, _any)(&a, &q, &filter, skip, target, &h)) return;
     v3 light = v3_make(F(p[EC_SHADOW_LR * wave]), F(p[EC_SHADOW_LG * wave]), F(p[EC_SHADOW_LB * wave]));
     if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
-        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
+        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion, filter.g.time};
         v3 o = q.r.o, end = v3_add(o, q.r.d);
         filter.panes = 0;
         for (uint left = panes_most(params, bounce);; left--) {

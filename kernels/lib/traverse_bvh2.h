@@ -31,8 +31,19 @@ EC_FN v3 box_high(global const ec_tri *t, global const ec_box *box)
                    F(max(t->v0[2], max(t->v1[2], t->v2[2]))));
 }
 
-/* Lanes m pass inside the edges e of triangle tri, or of the one after it where `second`: is it the closest so far, by (t,
- * triangle id)? skip0 and skip1 are triangles a lane ignores. */
+/* Lanes m meet triangle id, whose box is lo to hi, at t: is it the closest so far, by (t, triangle id)? */
+EC_FN void packet_keep(const ray *r, const hit_filter *filter, v3 lo, v3 hi, lane_u id, const edges *e, lane_i m, lane_f t, lane_f inverse, hit *h)
+{
+    m = m & reference_clamp(r, lo, hi, h->t, &t) & ((t < h->t) | (id < h->prim));
+    lane_f b1 = e->v * inverse + 0.0f, b2 = e->w * inverse + 0.0f; /* no -0: a shared edge is negated */
+    m = filter_hits(filter, m, id, b1, b2, edges_front(r, e));
+    h->t = m ? t : h->t;
+    h->prim = m ? id : h->prim;
+    h->b1 = m ? b1 : h->b1;
+    h->b2 = m ? b2 : h->b2;
+}
+
+/* Lanes m pass inside the edges e of triangle tri, or of the one after it where `second`. skip0 and skip1 are triangles a lane ignores. */
 EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
                        lane_i second, const edges *e, lane_i m, lane_u skip0, lane_u skip1, hit *h)
 {
@@ -50,13 +61,7 @@ EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_t
     global const ec_box *next = box ? box + 1 : 0;
     v3 lo = v3_select(second, box_low(tri + 1, next), box_low(tri, box));
     v3 hi = v3_select(second, box_high(tri + 1, next), box_high(tri, box));
-    m = m & reference_clamp(r, lo, hi, h->t, &t) & ((t < h->t) | (id < h->prim));
-    lane_f b1 = e->v * inverse + 0.0f, b2 = e->w * inverse + 0.0f; /* no -0: a shared edge is negated */
-    m = filter_hits(filter, m, id, b1, b2, edges_front(r, e));
-    h->t = m ? t : h->t;
-    h->prim = m ? id : h->prim;
-    h->b1 = m ? b1 : h->b1;
-    h->b2 = m ? b2 : h->b2;
+    packet_keep(r, filter, lo, hi, id, e, m, t, inverse, h);
 }
 
 EC_FN edges edges_select(lane_i m, edges a, edges b)
@@ -66,10 +71,35 @@ EC_FN edges edges_select(lane_i m, edges a, edges b)
     return e;
 }
 
+/* One that moves, for each lane where it is at its time. Such have boxes, and no second half. */
+EC_FN void packet_moving(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box, lane_u skip0, lane_u skip1, hit *h)
+{
+    v3 p0 = v3_zero(), p1 = p0, p2 = p0;
+    lane_u id = U(tri->id);
+    motion_corners(filter->g.motion, filter->g.time, TRUE_MASK, id, &p0, &p1, &p2);
+    v3 a = ray_vertex(r, p0), b = ray_vertex(r, p1), c = ray_vertex(r, p2);
+    edges e = edges_make(a, b, c);
+    lane_i m = edges_inside(&e), close;
+    lane_f t, inverse;
+    if (!any_lane(m)) return;
+    m = edges_distance(r, &e, m & (skip0 != id) & (skip1 != id), h->t, &close, &inverse, &t);
+    if (!any_lane(m)) return;
+    if (any_lane(close)) {
+        t = edges_settle(r, &e, a, b, c, close, inverse, t);
+        m = m & (t > 0.0f);
+    }
+    m = m & !place_leaves_flat(p0, p1, p2);
+    packet_keep(r, filter, splat_point(box->lo), splat_point(box->hi), id, &e, m, t, inverse, h);
+}
+
 /* One triangle, or two that form a quad, against the packet. Returns how many. */
 EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
                             lane_u skip0, lane_u skip1, hit *h)
 {
+    if (HAS(MOTION) && filter->g.motion && tri->id < ((global const uint *)filter->g.motion)[EC_MOTION_TRIANGLES]) {
+        packet_moving(r, filter, tri, box, skip0, skip1, h);
+        return 1;
+    }
     v3 a = ray_vertex(r, splat_point(tri->v0)), b = ray_vertex(r, splat_point(tri->v1)), c = ray_vertex(r, splat_point(tri->v2));
     edges e = edges_make(a, b, c);
     lane_i m = edges_inside(&e), none = !TRUE_MASK;

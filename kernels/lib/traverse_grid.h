@@ -69,6 +69,18 @@ EC_FN void grid_axis_start(grid_axis *x, int blocks, float guess, float start)
 #define GRID_SHEARED(k) ray8_shear(q, GRID_ROW(k, q->axis_x), GRID_ROW(k, q->axis_y), GRID_ROW(k, q->axis_z))
 #define GRID_SPAN(op, axis) op(GRID_ROW(0, axis), op(GRID_ROW(1, axis), GRID_ROW(2, axis)))
 
+#define GRID_CORNER(k) v3_make(GRID_ROW(k, 0), GRID_ROW(k, 1), GRID_ROW(k, 2))
+
+#define GRID_BOX(k) global const ec_box *b##k = boxes + mail_box[k];
+#define GRID_SIDE(s, axis) (float8)(b0->s[axis], b1->s[axis], b2->s[axis], b3->s[axis], b4->s[axis], b5->s[axis], b6->s[axis], b7->s[axis])
+#define GRID_BOXES(lo_, hi_)                                                                       \
+    {                                                                                              \
+        const uint *mail_box = mail->pending;                                                      \
+        GRID_BOX(0) GRID_BOX(1) GRID_BOX(2) GRID_BOX(3) GRID_BOX(4) GRID_BOX(5) GRID_BOX(6) GRID_BOX(7) \
+        lo_ = v3_make(GRID_SIDE(lo, 0), GRID_SIDE(lo, 1), GRID_SIDE(lo, 2));                       \
+        hi_ = v3_make(GRID_SIDE(hi, 0), GRID_SIDE(hi, 1), GRID_SIDE(hi, 2));                       \
+    }
+
 /* The pending ones, gathered from wherever they lie; free places repeat the first. */
 EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, global const ec_tri *tris, global const ec_box *boxes, uint skip0, uint skip1,
                      bool any_hit, hit8 *h)
@@ -80,6 +92,12 @@ EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, g
     EACH_LANE(GRID_TRIANGLE)
 #undef GRID_TRIANGLE
     uint8 id = as_uint8(GRID_ROW(0, 3));
+    if (block8_moves(filter, id)) { /* there are boxes, then */
+        v3 lo, hi;
+        GRID_BOXES(lo, hi)
+        block8_moving(q, filter, GRID_CORNER(0), GRID_CORNER(1), GRID_CORNER(2), lo, hi, id, skip0, skip1, any_hit, h);
+        return;
+    }
     edges e = edges_make(GRID_SHEARED(0), GRID_SHEARED(1), GRID_SHEARED(2));
     int8 close;
     float8 t, inverse;
@@ -92,13 +110,7 @@ EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, g
     v3 lo = v3_make(GRID_SPAN(min, 0), GRID_SPAN(min, 1), GRID_SPAN(min, 2));
     v3 hi = v3_make(GRID_SPAN(max, 0), GRID_SPAN(max, 1), GRID_SPAN(max, 2));
     if (boxes) {
-#define GRID_BOX(k) global const ec_box *b##k = boxes + mail->pending[k];
-        EACH_LANE(GRID_BOX)
-#undef GRID_BOX
-#define GRID_SIDE(s, axis) (float8)(b0->s[axis], b1->s[axis], b2->s[axis], b3->s[axis], b4->s[axis], b5->s[axis], b6->s[axis], b7->s[axis])
-        lo = v3_make(GRID_SIDE(lo, 0), GRID_SIDE(lo, 1), GRID_SIDE(lo, 2));
-        hi = v3_make(GRID_SIDE(hi, 0), GRID_SIDE(hi, 1), GRID_SIDE(hi, 2));
-#undef GRID_SIDE
+        GRID_BOXES(lo, hi)
     }
     eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);
 }

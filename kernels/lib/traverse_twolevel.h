@@ -71,23 +71,11 @@ EC_FN void visit_block(const ray8 *q, const hit_filter *filter, global const ec_
                        bool any_hit, hit8 *h)
 {
     v3 p0 = visit_corner(n, b, 0), p1 = visit_corner(n, b, 1), p2 = visit_corner(n, b, 2);
-    v3 s0 = ray_vertex(&q->r, p0), s1 = ray_vertex(&q->r, p1), s2 = ray_vertex(&q->r, p2);
-    edges e = edges_make(s0, s1, s2);
     uint8 id = *(global const uint8 *)b->id;
     TALLY_TESTS(h, popcount(mask_bits8(id != EC_NO_ID)));
-    id += n->id;
-    int8 close;
-    float8 t, inverse;
-    int8 m = eight_meet(q, &e, id, skip0, skip1, h, &close, &t, &inverse);
-    if (!mask_bits8(m)) return;
-    if (mask_bits8(close)) {
-        t = edges_settle(&q->r, &e, s0, s1, s2, close, inverse, t);
-        m = m & (t > 0.0f);
-    }
-    m = m & !place_leaves_flat(p0, p1, p2);
     v3 lo = v3_make(min(p0.x, min(p1.x, p2.x)), min(p0.y, min(p1.y, p2.y)), min(p0.z, min(p1.z, p2.z)));
     v3 hi = v3_make(max(p0.x, max(p1.x, p2.x)), max(p0.y, max(p1.y, p2.y)), max(p0.z, max(p1.z, p2.z)));
-    eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);
+    block8_corners(q, filter, p0, p1, p2, lo, hi, TRUE_MASK, id + n->id, skip0, skip1, any_hit, h);
 }
 
 EC_FN void twolevel_leaf(const accel *a, const ray8 *q, const visit *v, const hit_filter *filter, uint child, uint skip0, uint skip1,

@@ -44,6 +44,19 @@ EC_ASSERT_SIZE(ec_place, 112);
 #define EC_PLACE_NORMAL 12
 #define EC_PLACE_ID 24
 
+/* What moves, in words: a header; four words a moving triangle, which are its corners' vertices; then streams with four words a key, all
+ * keys of a vertex side by side: positions, normals, tangents. Of a light first its positions, then as many directions. */
+#define EC_MOTION_SEGMENTS 0u  /* one fewer than keys, a power of two */
+#define EC_MOTION_TRIANGLES 1u /* the scene's first ones */
+#define EC_MOTION_VERTICES 2u
+#define EC_MOTION_POSITIONS 3u /* words where the streams begin */
+#define EC_MOTION_NORMALS 4u
+#define EC_MOTION_TANGENTS 5u
+#define EC_MOTION_LIGHTS 6u
+#define EC_MOTION_HEADER 8u
+/* A camera's key: the first vectors of ec_params. */
+#define EC_CAMERA_VECTORS 6u
+
 typedef struct ec_texture_slot {
     ec_int texture;      /* -1: none */
     ec_uint uv_set;
@@ -129,6 +142,8 @@ EC_ASSERT_SIZE(ec_light_data, 64);
 #define EC_LIGHT_KIND_MASK 7u
 #define EC_LIGHT_TWO_SIDED 8u
 #define EC_LIGHT_TEXTURED 16u
+#define EC_LIGHT_MOVES 32u /* punctual: prim is its number among the lights that move. A triangle that moves has its pmf for a density, here
+                              and in ec_prim: the area is that at the path's time */
 
 /* Alias table entry (Walker 1977, Vose 1991) in integers, so that the probability is exactly the one sampled: a 32-bit
  * random number r picks column r * n >> 32; the low word of that product is compared with `threshold`. */

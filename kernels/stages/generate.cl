@@ -1,14 +1,15 @@
-/* Camera rays. Reads: params. Writes: the path queue, one entry a slot, and zeroes the slots' radiance. Next: intersect.
+/* Camera rays. Reads: params, where it moves the camera's keys. Writes: the path queue, one entry a slot, and zeroes the slots' radiance; with MOTION their times. Next: intersect.
  * Slot s of a wave is sample s % batch of the wave's pixel s / batch. */
 #include "../lib/camera.h"
+#include "../lib/camera_axes.h"
 #include "../lib/lens.h"
 #include "../lib/queue.h"
 #include "../shared/features.h"
 #include "../shared/params.h"
 
 kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
-                        global const float *filter, uint path_count, global float *paths,
-                        global float *radiance)
+                        global const float *filter, uint path_count, global float *paths, global float *radiance,
+                        global const float *camera_keys, global const float *motion, global float *times)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= path_count) return;
@@ -16,16 +17,19 @@ kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel,
     lane_u x, y;
     lane_f sx, sy;
     sampler random = camera_sample(params, seed, first_pixel, pixel_list, filter, slot, &x, &y, &sx, &sy);
-    v3 offset = v3_make(fma(sx, F(params->camera_right[0]), sy * params->camera_up[0]),
-                        fma(sx, F(params->camera_right[1]), sy * params->camera_up[1]),
-                        fma(sx, F(params->camera_right[2]), sy * params->camera_up[2]));
-    v3 o = v3_make(F(params->camera_origin[0]), F(params->camera_origin[1]), F(params->camera_origin[2]));
-    v3 d = v3_make(F(params->camera_forward[0]), F(params->camera_forward[1]), F(params->camera_forward[2]));
+    camera_axes v = camera_axes_make(params);
+    if (HAS(MOTION) && motion) {
+        lane_f time, unused;
+        sample_pair(random, EC_PAIR_TIME, &time, &unused);
+        queue_store_f(times, wave, 0, i, time);
+        if (camera_keys) v = camera_axes_at(camera_keys, motion, time);
+    }
+    v3 offset = v3_fma(v.right, sx, v3_scale(v.up, sy)), o = v.origin, d = v.forward;
     if (params->orthographic)
         o = v3_add(o, offset);
     else
         d = v3_add(d, offset);
-    if (HAS(LENS) && !params->orthographic) lens_shift(params, random, &o, &d);
+    if (HAS(LENS) && !params->orthographic) lens_shift(&v, params->lens_nearness, random, &o, &d);
     if (!params->orthographic) d = v3_normalize(d);
 
     queue_store_v3(paths, wave, EC_PATH_OX, i, o);

@@ -19,7 +19,8 @@ kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, g
                       global const ec_raster_tri *tris, global const uint *starts, global const uint *ends,
                       global const uint *list, global const float *prims, global const float *indices,
                       global const float *uvs, global const float *colors, global const float *materials,
-                      global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places)
+                      global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places, global const float *motion,
+                      global const float *times)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= path_count) return;

@@ -53,6 +53,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const float *normals, global const float *tangents, global const float *uvs,
                      global const float *colors, global const float *materials, global const float *texture_table,
                      global const uint *texels, constant float *srgb, global const float *places,
+                     global const float *motion, global const float *times,
                      global const float *light_table, global const uint *light_alias,
                      global const float *environment_texels, global const uint *environment_table,
                      global const float *light_tree, global const uint *light_trails)
@@ -61,7 +62,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;
-    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
     lights light = {light_table, light_alias, {params, environment_texels, environment_table}, light_tree};
 
     lane_i active = LANE_NUMBERS < left;
@@ -70,6 +71,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     lane_f path_pdf = queue_load_f(paths, wave, EC_PATH_PDF, i);
     lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i), prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
     slot = active ? slot : U(0);
+    if (HAS(MOTION) && motion) g.time = gather_f(times, slot);
     lane_i found = active & (prim != EC_NO_ID);
     v3 wo = v3_negate(d);
 

@@ -9,6 +9,9 @@
 #ifndef EC_TESTS_SUPPORT_EFFECT_FUZZ_H
 #define EC_TESTS_SUPPORT_EFFECT_FUZZ_H
 
+#include <float.h>
+#include <math.h>
+
 #include "base/random.h"
 #include "pack/pack.h"
 #include "support/effect_model.h"
@@ -226,6 +229,47 @@ static inline void ef_colors(const effect_draw *d, ec_scene *s)
     for (size_t i = 0; s->colors && i < 4 * (size_t)s->vertex_count; i++) s->colors[i] = on && i % 4 != 3 ? 0.5f + (float)(i % 5) / 8 : 1;
 }
 
+/* The first half of all triangles drifts, each vertex its own way; or all stands still at two keys that nobody is told of. */
+static inline void ef_motion(const effect_draw *d, ec_scene *s)
+{
+    ec_motion *m = &s->motion;
+    const size_t n = s->vertex_count, keys = 3;
+    if (!ef_has(d, EC_FEATURE_MOTION)) {
+        for (uint32_t i = 0; i < s->light_count && ef_nearly(d, EC_FEATURE_MOTION); i++) s->lights[i].moves = 1;
+        return;
+    }
+    *m = (ec_motion){.segments = 2, .vertex_count = s->vertex_count, .triangle_count = s->triangle_count / 2, .light_count = s->light_count};
+    m->positions = malloc(n * keys * 3 * sizeof *m->positions);
+    if (s->normals) m->normals = malloc(n * keys * 3 * sizeof *m->normals);
+    m->swept = malloc(((size_t)m->triangle_count * 6 + 1) * sizeof *m->swept);
+    m->lights = calloc(s->light_count * keys + 1, sizeof *m->lights);
+    for (size_t i = 0; i < n * keys * 3; i++) {
+        size_t vertex = i / (3 * keys), key = i / 3 % keys, from = 3 * vertex + i % 3;
+        m->positions[i] = s->positions[from] + 0.1f * (float)key * (ef_real(d, 300 + from) - 0.5f);
+        if (s->normals) m->normals[i] = s->normals[from];
+    }
+    for (uint32_t i = 0; i < s->light_count; i++) {
+        for (size_t key = 0; key < keys; key++) {
+            m->lights[i * keys + key] = s->lights[i];
+            m->lights[i * keys + key].name = NULL;
+            m->lights[i * keys + key].position[0] += 0.2f * (float)key;
+        }
+        s->lights[i].moves = i + 1;
+    }
+    for (size_t t = 0; t < m->triangle_count; t++)
+        for (size_t k = 0; k < 3; k++) {
+            float *low = &m->swept[6 * t + k], *high = low + 3;
+            *low = FLT_MAX, *high = -FLT_MAX;
+            for (size_t i = 0; i < 3 * keys; i++) {
+                float x = m->positions[(s->indices[3 * t + i / keys] * keys + i % keys) * 3 + k];
+                *low = fminf(*low, x);
+                *high = fmaxf(*high, x);
+            }
+            s->bounds_min[k] = fminf(s->bounds_min[k], *low);
+            s->bounds_max[k] = fmaxf(s->bounds_max[k], *high);
+        }
+}
+
 /* A floor, panes and balls before a camera. */
 static inline ec_scene *ef_scene(uint64_t seed, effect_run run, uint64_t allowed)
 {
@@ -251,6 +295,7 @@ static inline ec_scene *ef_scene(uint64_t seed, effect_run run, uint64_t allowed
     ec_scene *scene = em_scene(&e);
     ef_environment(d, scene);
     ef_colors(d, scene);
+    ef_motion(d, scene);
     return scene;
 }
 
@@ -309,7 +354,7 @@ static inline void ef_report(uint64_t seed, effect_run run, ec_integrator integr
 /* Scenes of seeds from `first` on; returns how many of them are lit. */
 static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrator integrator, uint64_t wanted)
 {
-    const uint64_t allowed = ef_close(wanted);
+    const uint64_t allowed = ef_close(integrator == EC_INTEGRATOR_PATH ? wanted : wanted & ~EC_FEATURE_MOTION); /* others refuse that */
     int lit = 0;
     case_cl()->keeps_programs = true;
     for (uint64_t seed = first; seed < first + (uint64_t)count; seed++) {

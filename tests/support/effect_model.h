@@ -88,6 +88,19 @@ static inline ec_scene *em_scene(effect_model *e)
     return scene;
 }
 
+/* The camera moves to the right while the shutter is open. */
+static inline void em_pan(ec_scene *scene)
+{
+    ec_camera *keys = calloc(2, sizeof *keys);
+    scene->cameras[0].moves = 1;
+    for (int k = 0; keys && k < 2; k++) {
+        keys[k] = scene->cameras[0];
+        keys[k].name = NULL;
+        keys[k].position[0] += 0.2f * (float)k;
+    }
+    scene->motion = (ec_motion){.segments = 1, .camera_count = 1, .cameras = keys};
+}
+
 /* A scene that calls for every effect that --without can leave out, each in a place of its own before a floor, so that the picture is
  * another one without it: 16 squares, 4 in a row, the last with a body in a body. */
 static inline ec_scene *em_everything(void)
@@ -141,6 +154,7 @@ static inline ec_scene *em_everything(void)
     scene->environment = (ec_environment){.width = 2, .height = 2, .rgb = calloc(12, sizeof(float)), .turned = true,
                                           .turn = {1, 0, 0, 0, 0, -1, 0, 1, 0}};
     for (int i = 0; scene->environment.rgb && i < 12; i++) scene->environment.rgb[i] = 0.1f * (float)i;
+    em_pan(scene);
     return scene;
 }
 
