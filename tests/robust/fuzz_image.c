@@ -44,7 +44,7 @@ static void read_environment(const uint8_t *data, size_t size)
 static void decode_texture(const uint8_t *data, size_t size)
 {
     ec_image image = {0};
-    ec_decode_error why = {""};
+    ec_decode_error why = {.text = ""};
     if (ec_image_decode(data, size, &image, &why))
         PROMISE(image.width && image.height && !image.rgba8 != !image.rgba16, "%u x %u", image.width, image.height);
     else

@@ -99,7 +99,7 @@ static inline ec_result ztest_write_map(const char *path, const ztest_picture *i
     for (uint64_t i = 0; i < values; i++) difference[i] = image->rgb[i] - reference->rgb[i];
     const float *const data[4] = {image->rgb, reference->rgb, difference, z};
     ec_channel channels[12];
-    for (int c = 0; c < 12; c++) channels[c] = (ec_channel){names[c], data[c / 3] + c % 3, 3};
+    for (int c = 0; c < 12; c++) channels[c] = (ec_channel){.name = names[c], .data = data[c / 3] + c % 3, .stride = 3};
     ec_result result = ec_exr_write(path, image->width, image->height, channels, 12, NULL, 0, err);
     free(difference);
     return result;
