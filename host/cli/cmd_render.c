@@ -111,7 +111,8 @@ static ec_result render(ec_console *console, ec_render_job *job, double start, e
         EC_TRY(deliver(console, job, start, err));
         return *job->keep_error.text ? ec_fail(err, "%s; the picture is written", job->keep_error.text) : EC_OK;
     }
-    if (job->film.batch_count == 0 || job->stats.samples == 0) return ec_fail(err, "%s", why.text); /* samples: of a checkpoint that does not fit, none */
+    bool is_empty = job->film.batch_count == 0 || job->stats.samples == 0; /* no samples: a checkpoint that does not fit */
+    if (is_empty) return ec_fail(err, "%s", why.text);
     ec_fail(err, "the render failed after %llu samples a pixel: %s", (unsigned long long)job->stats.samples_per_pixel, why.text);
     ec_error unwritten = {0};
     if (deliver(console, job, start, &unwritten) == EC_OK) ec_fail_more(err, "; the picture so far is written");
@@ -134,7 +135,9 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (done) goto cleanup;
     if (request.resume) EC_TRY_CLEANUP(ec_render_job_take_up(&job, argc, argv, err));
     cli->console.quiet = request.quiet;
-    EC_TRY_CLEANUP(ec_render_job_prepare(&job, &cli->console, err));
+    result = ec_render_job_prepare(&job, &cli->console, err);
+    if (result == EC_FAILED && request.resume && strcmp(folder, job.job.folder)) ec_fail_more(err, "; the job was begun in '%s'", job.job.folder);
+    if (result != EC_OK) goto cleanup;
     EC_TRY_CLEANUP(render(&cli->console, &job, start, err));
 cleanup:
     ec_render_job_free(&job);

@@ -151,81 +151,12 @@ static void announce(const ec_render_job *job, ec_console *console)
     ec_console_say(console, "rendering %s%ux%u pixels on %s until %s", range, options->width, options->height, job->device.name, limits);
 }
 
-ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err)
-{
-    const char *path = job->request->resume;
-    EC_TRY(ec_store_read(path, &job->stored, err));
-    if (job->stored.job.merged) return ec_fail(err, "cannot go on from '%s': it was merged; render what is missing with --samples, and merge that", path);
-    EC_TRY(ec_render_request_resume(&job->stored.job, argc, argv, job->request, err));
-    job->job.argc = job->stored.job.argc;
-    job->job.argv = job->stored.job.argv;
-    job->job.folder = job->stored.job.folder;
-    const ec_render_request *r = job->request;
-    uint32_t batch = job->stored.film.samples_per_batch, first = r->has_slice ? r->slice_first / batch : 0, end = r->has_slice ? r->slice_end / batch : 0;
-    if (first != job->stored.job.first || end != job->stored.job.end)
-        return ec_fail(err, "cannot go on from '%s': it is of other samples than --samples %u:%u; leave that out", path, r->slice_first, r->slice_end);
-    return EC_OK;
-}
-
-/* What is rendered is known: is it what was rendered before? */
-static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
-{
-    ec_render_job *job = user;
-    const ec_log log = ec_console_log(job->console);
-    char difference[1200];
-    ec_identity_of(&job->request->options, &stats->content, &job->job.identity);
-    if (!job->request->resume) return EC_OK;
-    if (ec_identity_differs(&job->stored.job.identity, &job->job.identity, difference, sizeof difference))
-        return ec_fail(err, "cannot go on from '%s': %s; use the scene, options and version that it was made with, or start anew", job->request->resume, difference);
-    if (strcmp(job->stored.job.device, job->device_text))
-        ec_warn(&log, "'%s' was rendered on %s: where that rounds otherwise than %s, the last bits are not those of one run", job->request->resume,
-                job->stored.job.device, job->device_text);
-    return EC_OK;
-}
-
-static bool keep(void *user, const ec_film *film, const ec_past *past)
-{
-    ec_render_job *job = user;
-    const ec_log log = ec_console_log(job->console);
-    ec_picture picture = {0};
-    const ec_attribute attributes[] = {{.name = "eclat.command", .type = EC_ATTR_STRING, .string = job->command},
-                                       {.name = "eclat.version", .type = EC_ATTR_STRING, .string = ECLAT_VERSION}};
-    const ec_picture_style style = {.attributes = attributes, .attribute_count = 2, .job = &job->job, .film = film, .past = past};
-    job->keep_error.text[0] = 0;
-    ec_result result = ec_picture_resolve(film, false, &picture, &job->keep_error);
-    if (result == EC_OK) result = ec_picture_write_exr(job->request->checkpoint, &picture, &style, &job->keep_error);
-    ec_picture_free(&picture);
-    if (result != EC_OK) ec_warn(&log, "%s; the render goes on, and the checkpoint will be tried again", job->keep_error.text);
-    return result == EC_OK;
-}
-
-/* Takes the stored film over. */
-static ec_course make_course(ec_render_job *job, ec_console *console)
-{
-    ec_render_request *request = job->request;
-    uint32_t batch = ec_render_batch(&request->options);
-    job->console = console;
-    snprintf(job->device_text, sizeof job->device_text, "%s (%s)", job->device.name, job->device.driver);
-    job->job.device = job->device_text;
-    job->job.spp = request->slice_of_any ? 0 : request->options.spp;
-    job->job.error_target = request->options.error_target;
-    job->job.time_limit = request->options.time_limit;
-    request->options.identify = request->has_slice || request->checkpoint;
-    ec_course course = {.admit = request->options.identify ? admit : NULL, .keep = request->checkpoint ? keep : NULL, .every = request->every, .user = job};
-    if (request->has_slice) course.first = job->job.first = request->slice_first / batch, course.end = job->job.end = request->slice_end / batch;
-    if (!request->resume) return course;
-    course.past = &job->stored.past;
-    job->film = job->stored.film;
-    job->stored.film = (ec_film){0};
-    return course;
-}
-
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
     ec_progress_view view = {.console = console, .options = &job->request->options,
                              .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
-    const ec_course course = make_course(job, console);
+    const ec_course course = ec_render_job_course(job, console);
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(&job->device, &cl, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
@@ -237,6 +168,8 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
     if (result != EC_OK && job->film.batch_count == 0 && ec_stop_requested())
         return ec_fail(err, "interrupted before there was a picture; nothing is written");
+    if (result == EC_OK && job->film.unsampled && job->request->checkpoint)
+        ec_warn(&log, "no checkpoint is written: the first batch was not complete");
     if (view.cap_reached && !ec_stop_requested() && !strcmp(job->stats.stopped_by, "user"))
         snprintf(job->stats.stopped_by, sizeof job->stats.stopped_by, "spp");
     return result;
@@ -247,4 +180,5 @@ void ec_render_job_free(ec_render_job *job)
     ec_scene_free(job->scene);
     ec_film_destroy(&job->film);
     ec_stored_free(&job->stored);
+    free(job->whole_command);
 }

@@ -26,6 +26,7 @@ typedef struct ec_render_job {
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
     ec_stored stored;            /* what is gone on from. Owned */
     char device_text[256];
+    char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
     ec_console *console;
     ec_error keep_error;         /* why the last checkpoint is not there; empty: it is, or none was wanted */
 } ec_render_job;
@@ -38,6 +39,9 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
 
 /* With --resume, first of all: reads the checkpoint and completes the request by it. */
 ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err);
+
+/* Which batches are taken, from what on, and what is kept on the way. Takes the film of a checkpoint over. */
+ec_course ec_render_job_course(ec_render_job *job, ec_console *console);
 
 /* Renders into job->film, with progress; Ctrl-C ends it early and well. On failure too there may be batches in the film. */
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err);

@@ -102,8 +102,8 @@ static ec_result prepare_to_show(ec_film *film, uint32_t parts, ec_error *err)
     ec_moments own;
     if (parts < 2 || !shows_part(film)) return EC_OK;
     if (!ec_moments_create(&own, pixels_of(film)))
-        return ec_fail(err, "out of memory for another %.1f MB of an image of %u x %u pixels; ask for a smaller one", (double)pixels_of(film) * EC_MOMENTS_BYTES / 1e6,
-                       film->width, film->height);
+        return ec_fail(err, "out of memory for another %.1f MB of an image of %u x %u pixels; ask for a smaller one",
+                       (double)pixels_of(film) * EC_MOMENTS_BYTES / 1e6, film->width, film->height);
     show(film, &own);
     return EC_OK;
 }

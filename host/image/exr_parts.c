@@ -16,7 +16,8 @@ struct ec_exr_file {
 
 static ec_result damaged(const ec_exr_file *file, exr_result_t code, ec_error *err)
 {
-    return ec_fail(err, "cannot read '%s': %s; the file is damaged, take an older one or render it again", file->path, ec_exr_reason(&file->stream, code));
+    return ec_fail(err, "cannot read '%s': %s; the file is damaged, take an older one or render it again", file->path,
+                   ec_exr_reason(&file->stream, code));
 }
 
 static bool size_of(const ec_exr_file *file, int part, uint32_t *width, uint32_t *height)
@@ -122,13 +123,13 @@ ec_result ec_exr_fill(ec_exr_file *file, const char *name, const ec_exr_room *ro
     for (uint32_t i = 0; i < count; i++) {
         const exr_attr_chlist_entry_t *channel = channel_named(file, part, rooms[i].name);
         if (!channel || channel->pixel_type == EXR_PIXEL_HALF || channel->x_sampling != 1 || channel->y_sampling != 1)
-            return ec_fail(err, "cannot read '%s': part '%s' has no 32-bit channel '%s'; the file was not written by this version of eclat", file->path, name,
-                           rooms[i].name);
+            return ec_fail(err, "cannot read '%s': part '%s' has no 32-bit channel '%s'; use the version of eclat that wrote it", file->path,
+                           name, rooms[i].name);
     }
     int32_t lines = 1;
     exr_result_t code = exr_get_storage(file->context, part, &storage);
-    if (code == EXR_ERR_SUCCESS && (storage != EXR_STORAGE_SCANLINE || !size_of(file, part, &width, &height) || width != file->width || height != file->height))
-        code = EXR_ERR_FILE_BAD_HEADER;
+    bool fits = storage == EXR_STORAGE_SCANLINE && size_of(file, part, &width, &height) && width == file->width && height == file->height;
+    if (code == EXR_ERR_SUCCESS && !fits) code = EXR_ERR_FILE_BAD_HEADER;
     if (code == EXR_ERR_SUCCESS) code = exr_get_scanlines_per_chunk(file->context, part, &lines);
     if (code == EXR_ERR_SUCCESS && lines < 1) code = EXR_ERR_FILE_BAD_HEADER;
     exr_decode_pipeline_t block = EXR_DECODE_PIPELINE_INITIALIZER;

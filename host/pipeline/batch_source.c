@@ -57,6 +57,8 @@ ec_result ec_batch_source_take(ec_batch_source *s, const ec_batch_order *order, 
     for (uint32_t first = order->done; first < order->count && *complete; first += per_wave) {
         uint32_t count = order->count - first < per_wave ? order->count - first : per_wave;
         EC_TRY(ec_pipeline_run_wave(p, seed, first, count, order->with_features, err));
+        if (!s->has_begun) EC_TRY(ec_cl_finish(p->cl, err));
+        s->has_begun = true;
         *complete = order->go_on(order->user, first + count) || first + count >= order->count;
     }
     return ec_batch_source_look(s, order, err);

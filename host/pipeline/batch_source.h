@@ -10,6 +10,7 @@ typedef struct ec_batch_source {
     uint64_t seed;
     float *mean;                      /* 3 a pixel: of the batch taken last. Owned */
     uint32_t invalid[EC_STAGE_COUNT]; /* samples dropped so far, by ec_stage */
+    bool has_begun;
 } ec_batch_source;
 
 typedef struct ec_batch_order {
@@ -18,7 +19,7 @@ typedef struct ec_batch_order {
     uint32_t count;                   /* of these */
     uint32_t done;                    /* so many of them are done before: mean holds what they came to */
     bool with_features;               /* first-hit features too, for ec_batch_source_features */
-    /* Asked between waves, with the pixels that are done; false gives the batch up. */
+    /* Asked between waves, with the pixels that are done, the first time when the device has done them; false gives the batch up. */
     bool (*go_on)(void *user, uint32_t done);
     void *user;
 } ec_batch_order;

@@ -29,6 +29,8 @@ typedef struct render_state {
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
     ec_batch_order order;      /* the batch under way */
+    bool look_failed;          /* at what it has come to so far */
+    ec_error look_error;
     double batches_before_it;
     uint64_t under_way;        /* samples of the batch that is not there yet */
     double kept_at;
@@ -119,13 +121,12 @@ static bool goes_on(void *user, uint32_t done)
     render_state *r = user;
     const ec_params *params = &r->source.pipeline.params;
     r->under_way = (uint64_t)done * params->batch;
-    if (r->stats->first_pixel_seconds == 0.0) {
-        (void)ec_cl_finish(r->source.pipeline.cl, NULL); /* what it has to say the next call says too */
-        r->stats->first_pixel_seconds = ec_now() - r->start;
-    }
+    if (r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
     if (done >= r->order.count) return true;
     bool is_due = r->course->keep && r->film->batch_count && ec_now() - r->kept_at >= r->course->every;
-    if (is_due && ec_batch_source_look(&r->source, &r->order, NULL) == EC_OK) keep(r, done); /* what failed fails again, and is told then */
+    r->look_failed = is_due && ec_batch_source_look(&r->source, &r->order, &r->look_error) != EC_OK;
+    if (r->look_failed) return false;
+    if (is_due) keep(r, done);
     double now = ec_now(), share = done / ((double)params->width * params->height);
     bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
     bool go_on = now - r->last_report < 0.1 || report(r, r->batches_before_it + share);
@@ -148,7 +149,10 @@ static ec_result run_batch(render_state *r, bool *complete, ec_error *err)
     r->past.batch = NULL;
     r->batches_before_it = batches_done(r);
     r->under_way = 0;
-    return ec_batch_source_take(&r->source, &r->order, complete, err);
+    ec_result result = ec_batch_source_take(&r->source, &r->order, complete, err);
+    if (!r->look_failed) return result;
+    if (err) *err = r->look_error; /* a device tells of a failure once */
+    return EC_FAILED;
 }
 
 static ec_result mark_unsampled(render_state *r, ec_error *err)

@@ -13,7 +13,7 @@
 /* The object as text, malloc'ed; NULL where there is no memory. */
 char *ec_state_write(const ec_job *job, const ec_film *film, const ec_past *past);
 
-/* Fills the job, the past and of the film samples_per_batch, batch_count, invalid_count; parts get first and count. What is not allocated stays NULL. */
+/* Fills the job, the past but for its arrays, and what is to be known of the film before it is read. */
 typedef struct ec_state_film {
     uint32_t samples_per_batch, batch_count, part_count;
     uint64_t invalid_count;

@@ -10,8 +10,8 @@ static ec_result check_same_job(const ec_merge *merge, const ec_stored *next, co
     const ec_job *here = &merge->all.job, *there = &next->job;
     char difference[1200];
     if (ec_identity_differs(&here->identity, &there->identity, difference, sizeof difference))
-        return ec_fail(err, "'%s' is not of the same job as '%s': %s; merge slices of one scene, with the same options and version", path, merge->first_path,
-                       difference);
+        return ec_fail(err, "'%s' is not of the same job as '%s': %s; merge slices of one scene, with the same options and version", path,
+                       merge->first_path, difference);
     if (next->film.counts || merge->all.film.counts)
         return ec_fail(err, "'%s': pixels of an adaptive render have samples of their own number, and cannot be merged; give it alone", path);
     if (strcmp(here->device, there->device))

@@ -48,8 +48,8 @@ static ec_result read_parts(ec_exr_file *file, const char *path, const ec_state_
         ec_film_part_free(&state->parts[i]);
         return result;
     }
-    if (film->batch_count != state->batch_count) return ec_fail(err, "cannot read '%s': its parts are not of its batches; take an older file", path);
-    return EC_OK;
+    if (film->batch_count == state->batch_count) return EC_OK;
+    return ec_fail(err, "cannot read '%s': its parts are not of its batches; take an older file", path);
 }
 
 static ec_result read_weights(ec_exr_file *file, const char *path, ec_stored *s, ec_error *err)
@@ -79,7 +79,8 @@ static ec_result read_counted(ec_exr_file *file, const char *path, const ec_stat
     EC_TRY(fill(file, name, channels, ec_sum_channels(&shown, film->counts, channels), err));
     film->batch_count = state->batch_count;
     for (uint64_t p = 0; p < pixels; p++)
-        if (film->counts[p] < film->batch_count) return ec_fail(err, "cannot read '%s': pixels have fewer batches than all of them; take an older file", path);
+        if (film->counts[p] < film->batch_count)
+            return ec_fail(err, "cannot read '%s': pixels have fewer batches than all of them; take an older file", path);
     return EC_OK;
 }
 
@@ -102,7 +103,9 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     EC_TRY(ec_exr_open(path, &file, &width, &height, err));
     ec_result result;
     const char *text = ec_exr_text(file, "eclat.state");
-    if (!text) result = ec_fail(err, "cannot read '%s': it is no checkpoint or slice of eclat's; give the file that --checkpoint or --samples wrote", path);
+    if (!text)
+        result = ec_fail(err, "cannot read '%s': it is no checkpoint or slice of eclat's; give the file that --checkpoint or --samples wrote",
+                         path);
     else result = ec_state_read(text, path, s, &state, err);
     if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.samples_per_batch, err);
     if (result == EC_OK) result = state.has_counts ? read_counted(file, path, &state, &s->film, err) : read_parts(file, path, &state, &s->film, err);

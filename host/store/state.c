@@ -126,7 +126,8 @@ static char *copy(reader *r, const cJSON *item)
 
 static void read_job(reader *r, ec_job *job)
 {
-    const cJSON *item, *identity = cJSON_GetObjectItemCaseSensitive(r->state, "identity"), *argv = cJSON_GetObjectItemCaseSensitive(r->state, "command");
+    const cJSON *item, *identity = cJSON_GetObjectItemCaseSensitive(r->state, "identity");
+    const cJSON *argv = cJSON_GetObjectItemCaseSensitive(r->state, "command");
     cJSON_ArrayForEach(item, identity) {
         if (job->identity.count == EC_TRAITS_MAX || !item->string) break;
         ec_trait *trait = &job->identity.traits[job->identity.count++];
@@ -188,12 +189,14 @@ ec_result ec_state_read(const char *text, const char *path, ec_stored *s, ec_sta
     double format = cJSON_GetNumberValue(cJSON_GetObjectItemCaseSensitive(state, "format"));
     ec_result result = EC_OK;
     if (format != FORMAT) {
-        result = ec_fail(err, "cannot read '%s': it was written by another version of eclat (format %g, this one reads %d); use that version", path, format, FORMAT);
+        result = ec_fail(err, "cannot read '%s': it was written by another version of eclat (format %g, this one reads %d); use that version",
+                         path, format, FORMAT);
     } else {
         read_job(&r, &s->job);
         read_past(&r, &s->past);
         read_film(&r, film);
-        if (r.is_wrong) result = ec_fail(err, "cannot read '%s': what it says of its sums makes no sense; take an older file or render it again", path);
+        if (r.is_wrong)
+            result = ec_fail(err, "cannot read '%s': what it says of its sums makes no sense; take an older file or render it again", path);
     }
     cJSON_Delete(state);
     return result;

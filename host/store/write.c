@@ -45,7 +45,10 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
         for (uint32_t i = 0; i < sums; i++) parts[i + 1] = make_part(&rooms[i], i, film);
         if (weight.data) parts[count++] = (ec_exr_part){.name = "allotment", .channels = &weight, .channel_count = 1};
         if (past->under_way)
-            parts[count++] = (ec_exr_part){.name = "under way", .channels = batch, .channel_count = ec_batch_channels(past->batch, batch), .is_plain = true};
+            parts[count++] = (ec_exr_part){.name = "under way",
+                                           .channels = batch,
+                                           .channel_count = ec_batch_channels(past->batch, batch),
+                                           .is_plain = true};
         result = ec_exr_write_parts(path, film->width, film->height, parts, count, err);
     }
     free(parts);

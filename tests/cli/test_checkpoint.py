@@ -1,6 +1,7 @@
 """A render that stops and goes on is the render that never stopped, bit for bit; checkpoints of anything else are refused."""
 import json
 import os
+import shlex
 import shutil
 import signal
 import subprocess
@@ -28,8 +29,11 @@ class Checkpoint(Case):
         begun = self.render(CORNELL, *SIZE, *first, "--checkpoint", self.kept)
         self.assertLess(begun["samples"], whole["samples"])
         again = self.render("--resume", self.kept, *limits)
+        self.assertNotIn("--resume", again["command"])
         self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
         self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
+        command = shlex.split(again["command"])  # what it says renders the same
+        self.assertEqual(again["image_sha256"], json.loads(self.assert_ok(eclat(*command[1:], "--json", "-q")).stdout)["image_sha256"])
 
     def test_paths(self):
         job = ["--batch", "2"]
@@ -148,8 +152,8 @@ class Checkpoint(Case):
         run = eclat("render", "--resume", self.kept, "--spp", "32", "-q")
         self.assertIn("not the same are the scene's camera; ", self.assert_one_error(run, 1))
         os.remove(scene)
-        run = eclat("render", "--resume", self.kept, "--spp", "32", "-q")
-        self.assertIn("cornell-box.gltf", self.assert_one_error(run, 1))
+        run = eclat("render", "--resume", self.kept, "--spp", "32", "-q", cwd="/")
+        self.assertRegex(self.assert_one_error(run, 1), rf"cornell-box.gltf.*; the job was begun in '{os.getcwd()}'$")
 
     def test_the_command_line(self):
         def refuse(says, *options, code=2):

@@ -1,0 +1,131 @@
+/* What a render takes up and what it leaves behind: checkpoints and slices. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command_line.h"
+#include "cli/render_job.h"
+
+/* Is argv[*i] one of these options? Then *i moves on to its value, if that is a word of its own. */
+static bool is_one_of(char *const *argv, int *i, const char *const *names)
+{
+    const char *word = argv[*i];
+    for (; *names; names++) {
+        size_t size = strlen(*names);
+        if (strncmp(word, *names, size) || (word[size] && word[size] != '=' && word[1] == '-')) continue;
+        *i += !word[size];
+        return true;
+    }
+    return false;
+}
+
+/* The job's command with the options of now in place of those that they replace: what renders the picture without a break. The batch may
+ * have followed from another --spp. */
+static ec_result make_command(ec_render_job *job, int argc, char *const *argv, ec_error *err)
+{
+    static const char *const limits[] = {"--spp", "--time", "--error", NULL}, *const outputs[] = {"--output", "-o", NULL},
+                             *const files[] = {"--resume", "--checkpoint", "--every", NULL}, *const batches[] = {"--batch", NULL};
+    const ec_job *before = &job->stored.job;
+    bool has_limit = false, has_output = false;
+    char batch[16], **words = malloc(((size_t)before->argc + (size_t)argc + 4) * sizeof *words);
+    int count = 0;
+    if (!words) return ec_fail(err, "out of memory");
+    for (int i = 1; i < argc; i++) {
+        has_limit |= is_one_of(argv, &i, limits);
+        has_output |= i < argc && is_one_of(argv, &i, outputs);
+    }
+    snprintf(batch, sizeof batch, "%u", job->stored.film.samples_per_batch);
+    words[count++] = (char[]){"eclat"};
+    for (int i = 0; i < before->argc; i++) {
+        bool is_replaced = is_one_of(before->argv, &i, files) || is_one_of(before->argv, &i, batches) ||
+                           (has_limit && is_one_of(before->argv, &i, limits)) || (has_output && is_one_of(before->argv, &i, outputs));
+        if (!is_replaced && i < before->argc) words[count++] = before->argv[i];
+    }
+    words[count++] = (char[]){"--batch"};
+    words[count++] = batch;
+    for (int i = 1; i < argc; i++)
+        if (!is_one_of(argv, &i, files) && !is_one_of(argv, &i, batches) && i < argc) words[count++] = argv[i];
+    job->whole_command = ec_command_line(count, words);
+    free(words);
+    if (!job->whole_command) return ec_fail(err, "out of memory");
+    job->command = job->whole_command;
+    return EC_OK;
+}
+
+ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err)
+{
+    const char *path = job->request->resume;
+    EC_TRY(ec_store_read(path, &job->stored, err));
+    if (job->stored.job.merged)
+        return ec_fail(err, "cannot go on from '%s': it was merged; render what is missing with --samples, and merge that", path);
+    EC_TRY(ec_render_request_resume(&job->stored.job, argc, argv, job->request, err));
+    EC_TRY(make_command(job, job->job.argc, job->job.argv, err)); /* as given: getopt has changed argv's order */
+    job->job.argc = job->stored.job.argc;
+    job->job.argv = job->stored.job.argv;
+    job->job.folder = job->stored.job.folder;
+    const ec_render_request *r = job->request;
+    uint32_t batch = job->stored.film.samples_per_batch;
+    uint32_t first = r->has_slice ? r->slice_first / batch : 0, end = r->has_slice ? r->slice_end / batch : 0;
+    if (first != job->stored.job.first || end != job->stored.job.end)
+        return ec_fail(err, "cannot go on from '%s': it is of other samples than --samples %u:%u; leave that out", path, r->slice_first, r->slice_end);
+    return EC_OK;
+}
+
+/* What is rendered is known: is it what was rendered before? */
+static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
+{
+    ec_render_job *job = user;
+    const ec_log log = ec_console_log(job->console);
+    char difference[1200];
+    ec_identity_of(&job->request->options, &stats->content, &job->job.identity);
+    if (!job->request->resume) return EC_OK;
+    if (ec_identity_differs(&job->stored.job.identity, &job->job.identity, difference, sizeof difference))
+        return ec_fail(err, "cannot go on from '%s': %s; use the scene, options and version that it was made with, or start anew",
+                       job->request->resume, difference);
+    if (strcmp(job->stored.job.device, job->device_text))
+        ec_warn(&log, "'%s' was rendered on %s: where that rounds otherwise than %s, the last bits are not those of one run",
+                job->request->resume, job->stored.job.device, job->device_text);
+    return EC_OK;
+}
+
+static bool keep(void *user, const ec_film *film, const ec_past *past)
+{
+    ec_render_job *job = user;
+    const ec_log log = ec_console_log(job->console);
+    ec_picture picture = {0};
+    const ec_attribute attributes[] = {{.name = "eclat.command", .type = EC_ATTR_STRING, .string = job->command},
+                                       {.name = "eclat.version", .type = EC_ATTR_STRING, .string = ECLAT_VERSION}};
+    const ec_picture_style style = {.attributes = attributes, .attribute_count = 2, .job = &job->job, .film = film, .past = past};
+    job->keep_error.text[0] = 0;
+    ec_result result = ec_picture_resolve(film, false, &picture, &job->keep_error);
+    if (result == EC_OK) result = ec_picture_write_exr(job->request->checkpoint, &picture, &style, &job->keep_error);
+    ec_picture_free(&picture);
+    if (result != EC_OK) ec_warn(&log, "%s; the render goes on, and the checkpoint will be tried again", job->keep_error.text);
+    return result == EC_OK;
+}
+
+ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
+{
+    ec_render_request *request = job->request;
+    uint32_t batch = ec_render_batch(&request->options);
+    job->console = console;
+    snprintf(job->device_text, sizeof job->device_text, "%s (%s)", job->device.name, job->device.driver);
+    job->job.device = job->device_text;
+    job->job.spp = request->slice_of_any ? 0 : request->options.spp;
+    job->job.error_target = request->options.error_target;
+    job->job.time_limit = request->options.time_limit;
+    request->options.identify = request->has_slice || request->checkpoint;
+    ec_course course = {.admit = request->options.identify ? admit : NULL,
+                        .keep = request->checkpoint ? keep : NULL,
+                        .every = request->every,
+                        .user = job};
+    if (request->has_slice) {
+        course.first = job->job.first = request->slice_first / batch;
+        course.end = job->job.end = request->slice_end / batch;
+    }
+    if (!request->resume) return course;
+    course.past = &job->stored.past;
+    job->film = job->stored.film;
+    job->stored.film = (ec_film){0};
+    return course;
+}
