@@ -14,6 +14,7 @@ static ec_render_report make_report(const ec_render_job *job, const char **outpu
         .command = job->command,
         .scene = request->scene,
         .camera = job->camera_text,
+        .viewpoint = job->viewpoint,
         .environment = job->environment_text,
         .options = &request->options,
         .stats = &job->stats,

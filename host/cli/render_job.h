@@ -21,6 +21,7 @@ typedef struct ec_render_job {
     ec_render_stats stats;
     double load_seconds;
     char camera_text[256];
+    ec_viewpoint viewpoint;
     char environment_text[256];
     char image_sha256[EC_HASH_SIZE];
 } ec_render_job;

@@ -51,6 +51,36 @@ SETTER(env_strength)
     REQUEST->adjusts_env = true;
     return ec_parse_real(option, value, 0, 1e30, &REQUEST->env_strength, err);
 }
+SETTER(eye)
+{
+    REQUEST->look.has_eye = true;
+    return ec_parse_triple(option, value, REQUEST->look.to.eye, err);
+}
+SETTER(look_at)
+{
+    REQUEST->look.has_target = true;
+    return ec_parse_triple(option, value, REQUEST->look.to.target, err);
+}
+SETTER(up)
+{
+    const double *up = REQUEST->look.to.up;
+    REQUEST->look.has_up = true;
+    EC_TRY(ec_parse_triple(option, value, REQUEST->look.to.up, err));
+    if (up[0] == 0 && up[1] == 0 && up[2] == 0) return ec_usage(err, "--%s: '%s' is no direction", option, value);
+    return EC_OK;
+}
+SETTER(fov)
+{
+    REQUEST->look.has_lens = true;
+    REQUEST->look.to.tall = 0;
+    return ec_parse_real(option, value, EC_FOV_LEAST, EC_FOV_MOST, &REQUEST->look.to.fov, err);
+}
+SETTER(parallel)
+{
+    REQUEST->look.has_lens = true;
+    REQUEST->look.to.fov = 0;
+    return ec_parse_real(option, value, EC_FOCUS_LEAST, EC_FOCUS_MOST, &REQUEST->look.to.tall, err);
+}
 RANGE_SETTER(filter_width, ec_parse_real, EC_FILTER_WIDTH_LEAST, EC_FILTER_WIDTH_MOST, options.filter_width)
 RANGE_SETTER(focus, ec_parse_real, EC_FOCUS_LEAST, EC_FOCUS_MOST, options.focus)
 RANGE_SETTER(fstop, ec_parse_real, EC_FSTOP_LEAST, EC_FSTOP_MOST, options.fstop)
@@ -137,9 +167,11 @@ static const ec_option options[] = {
     {"env-strength", 0, true, set_env_strength},
     {"error", 0, true, set_error},
     {"exposure", 0, true, set_exposure},
+    {"eye", 0, true, set_eye},
     {"filter", 0, true, set_filter},
     {"filter-width", 0, true, set_filter_width},
     {"focus", 0, true, set_focus},
+    {"fov", 0, true, set_fov},
     {"fstop", 0, true, set_fstop},
     {"grid-density", 0, true, set_grid_density},
     {"instancing", 0, true, set_instancing},
@@ -147,8 +179,10 @@ static const ec_option options[] = {
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},
     {"light-choice", 0, true, set_light_choice},
+    {"look-at", 0, true, set_look_at},
     {"max-depth", 0, true, set_max_depth},
     {"output", 'o', true, set_output},
+    {"parallel", 0, true, set_parallel},
     {"quiet", 'q', false, set_quiet},
     {"rr", 0, true, set_rr},
     {"sample", 0, true, set_sample},
@@ -159,6 +193,7 @@ static const ec_option options[] = {
     {"terminator", 0, true, set_terminator},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
+    {"up", 0, true, set_up},
     {"verbose", 'v', false, set_verbose},
     {"wave", 0, true, set_wave},
     {"without", 0, true, set_without},

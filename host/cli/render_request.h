@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "cli/camera_change.h"
 #include "cli/outputs.h"
 #include "image/image.h"
 #include "pipeline/render.h"
@@ -20,6 +21,7 @@ typedef struct ec_render_request {
     bool endless;              /* --max-depth inf was given */
     bool capped;               /* neither --spp nor the default: the safety cap applies */
     const char *camera;        /* NULL: the scene's default */
+    ec_camera_change look;
     const char *environment;   /* NULL: the scene's own */
     double env_degrees, env_strength; /* 0 and 1: as it is */
     bool adjusts_env;          /* one of these was given */
