@@ -25,6 +25,7 @@ static const command commands[] = {
     {"compare", ec_cmd_compare},
     {"devices", ec_cmd_devices},
     {"selftest", ec_cmd_selftest},
+    {"view", ec_cmd_view},
     {"help", cmd_help},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

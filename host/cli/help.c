@@ -5,6 +5,7 @@
 
 #include "cli/cli.h"
 #include "cli/defaults.h"
+#include "view/view.h"
 
 #define EC_TEXT_COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */
 
@@ -15,6 +16,7 @@ const char EC_HELP_SHORT[] =
     "       eclat compare A.exr B.exr      say whether two images differ by more than noise\n"
     "       eclat devices                  list the OpenCL devices\n"
     "       eclat selftest                 try a device with hard cases of known answers\n"
+    "       eclat view SCENE [options]     look at a scene in a window while it renders\n"
     "       eclat --help                   say more\n";
 
 static const char help_main[] =
@@ -30,6 +32,7 @@ static const char help_main[] =
     "  info SCENE         say what a scene holds and what rendering it takes\n"
     "  render SCENE       render a scene to EXR and PNG\n"
     "  selftest           try a device and its driver with hard cases whose answers are known\n"
+    "  view SCENE         look at a scene in a window while it renders\n"
     "\n"
     "Options\n"
     "  -h, --help         show this\n"
@@ -266,6 +269,25 @@ static const char help_selftest[] =
     "  digits             decimal digits that survived, of the 7.2 that a float has: of what is sampled those that its noise\n"
     "                     lets one see, of counts (expected: none) those of their number\n";
 
+static const char help_view[] =
+    "Usage: eclat view SCENE [options]\n"
+    "\n"
+    "Opens a window that shows a glTF 2.0 scene as it renders: rasterised at once, then by the path tracer, coarse while the\n"
+    "camera moves and finer once it rests. S saves what eclat render would have written, and prints the command that makes\n"
+    "the same picture again, bit for bit. When a file of the scene changes it is loaded again.\n"
+    "\n"
+    "Options: those of eclat render but --adaptive, --json and --verbose; and\n"
+    "      --against FILE.exr     a picture to hold beside the one that is rendered (V and Tab)\n"
+    "      --script FILE          moves the camera and presses keys by a script, then closes; orbit: once around. Lines:\n"
+    "                             turn YAW PITCH SECONDS (degrees), pan RIGHT UP SECONDS (picture heights),\n"
+    "                             dolly FACTOR SECONDS, wait SECONDS, settle (until the limit is met), key NAME\n"
+    "                             (e, E, 1, Tab, Save, ...), quit\n"
+    "      --stats                at the end say when there was first light, and how long frames took while the camera moved\n"
+    "  -h, --help                 show this\n"
+    "      --size WxH             of the window at first (default: 600 high)\n"
+    "      --version              show the version\n"
+    "Limits (--spp, --error, --time) are counted from the moment that the camera rests; once one is met the window sleeps.\n";
+
 void ec_print_help(const char *command)
 {
     const char *text = help_main;
@@ -275,7 +297,9 @@ void ec_print_help(const char *command)
     if (!strcmp(command, "compare")) text = help_compare;
     if (!strcmp(command, "devices")) text = help_devices;
     if (!strcmp(command, "selftest")) text = help_selftest;
+    if (!strcmp(command, "view")) text = help_view;
     fputs(text, stdout);
+    if (text == help_view) ec_view_print_keys();
 }
 
 void ec_print_version(void)

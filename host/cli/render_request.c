@@ -154,7 +154,7 @@ SETTER(size)
     return ec_parse_size(option, value, &REQUEST->options.width, &REQUEST->options.height, err);
 }
 
-static const ec_option options[] = {
+const ec_option ec_render_rows[] = {
     {"accel", 0, true, set_accel},
     {"adaptive", 0, false, set_adaptive},
     {"batch", 0, true, set_batch},
@@ -199,26 +199,35 @@ static const ec_option options[] = {
     {"without", 0, true, set_without},
     SCENE_CHOICE_OPTIONS,
 };
-_Static_assert(sizeof options / sizeof options[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
+_Static_assert(sizeof ec_render_rows / sizeof ec_render_rows[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
+const int ec_render_row_count = sizeof ec_render_rows / sizeof ec_render_rows[0];
 
-ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)
+void ec_render_request_start(ec_render_request *request)
 {
-    int first = 0, count = sizeof options / sizeof options[0];
-    bool given[EC_OPTIONS_MAX] = {false};
     request->options.cutoff = EC_DEFAULT_CUTOFF;
     request->env_strength = 1;
-    ec_request asked;
-    EC_TRY(ec_options_parse(options, count, request, argc, argv, &first, given, &asked, err));
-    *done = ec_request_serve(asked, argv[0]);
-    if (*done) return EC_OK;
-    EC_TRY(ec_options_scene(argc, argv, first, &request->scene, err));
-    if (request->options.integrator == EC_INTEGRATOR_WHITTED && !request->options.max_depth && !request->endless)
-        request->options.max_depth = EC_WHITTED_DEPTH;
-    EC_TRY(ec_combinations_check(options, count, given, &request->options, err));
+}
 
+ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err)
+{
     ec_render_options *limits = &request->options;
+    if (limits->integrator == EC_INTEGRATOR_WHITTED && !limits->max_depth && !request->endless) limits->max_depth = EC_WHITTED_DEPTH;
+    EC_TRY(ec_combinations_check(options, count, given, limits, err));
     bool limited = limits->time_limit > 0 || limits->error_target > 0;
     request->capped = limits->spp == 0 && limited;
     if (limits->spp == 0 && !limited) limits->spp = EC_DEFAULT_SPP;
     return EC_OK;
+}
+
+ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err)
+{
+    int first = 0;
+    bool given[EC_OPTIONS_MAX] = {false};
+    ec_request asked;
+    ec_render_request_start(request);
+    EC_TRY(ec_options_parse(ec_render_rows, ec_render_row_count, request, argc, argv, &first, given, &asked, err));
+    *done = ec_request_serve(asked, argv[0]);
+    if (*done) return EC_OK;
+    EC_TRY(ec_options_scene(argc, argv, first, &request->scene, err));
+    return ec_render_request_settle(request, ec_render_rows, ec_render_row_count, given, err);
 }

@@ -24,9 +24,8 @@ static ec_result set_lens(const ec_camera *c, const ec_render_options *o, ec_par
     return EC_OK;
 }
 
-ec_result ec_pipeline_set_camera(const ec_scene *scene, const ec_render_options *o, ec_params *params, ec_error *err)
+ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)
 {
-    const ec_camera *c = &scene->cameras[o->camera];
     double aspect = (double)o->width / o->height;
     bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
     double half_height = is_flat ? c->ymag : tan(0.5 * c->yfov);

@@ -46,7 +46,7 @@ static uint32_t choose_batch(const ec_render_options *o)
 }
 
 /* Seeds of batches must differ in every bit. */
-static uint32_t batch_seed(uint64_t seed, uint32_t batch)
+uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch)
 {
     return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + batch + 1) >> 16);
 }
@@ -116,7 +116,7 @@ static ec_result run_batch(render_state *r, uint32_t batch, uint32_t pixels, boo
     ec_pipeline *p = &r->pipeline;
     uint32_t per_wave = p->wave / p->params.batch;
     double before = batches_done(r), share = pixels / ((double)p->params.width * p->params.height);
-    uint32_t seed = batch_seed(r->options->seed, batch);
+    uint32_t seed = ec_render_batch_seed(r->options->seed, batch);
     *complete = true;
     r->under_way = 0;
     for (uint32_t first = 0; first < pixels; first += per_wave) {

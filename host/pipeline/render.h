@@ -116,6 +116,9 @@ typedef struct ec_render_stats {
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err);
 
+/* What ec_render seeds its batch number `batch` with. */
+uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch);
+
 /* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);
 

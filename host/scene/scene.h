@@ -202,6 +202,9 @@ bool ec_scene_has_light(const ec_scene *scene);
  * are set to 0, those above EC_RADIANCE_MOST to that; a warning counts them. */
 ec_result ec_scene_set_environment(ec_scene *scene, const char *spec, const ec_log *log, ec_error *err);
 
+/* Turns it about +y, counter-clockwise seen from above. */
+void ec_environment_turn(ec_environment *environment, double degrees);
+
 /* Makes the environment so many times as bright (none at all at 0), and turns it about +y, counter-clockwise seen from above. There
  * must be one. */
 void ec_scene_adjust_environment(ec_scene *scene, double degrees, double strength, const ec_log *log);
