@@ -34,6 +34,7 @@ typedef struct view_job {
     char environment[256];
     double load_seconds;
     uint32_t camera;          /* of the options, once loaded */
+    ec_viewpoint viewpoint;   /* its */
     int saved;
 } view_job;
 
@@ -117,6 +118,7 @@ static ec_result load(void *user, ec_scene **scene, ec_render_options *options, 
     *scene = render.scene;
     *options = request.options;
     job->camera = request.options.camera;
+    job->viewpoint = render.viewpoint;
     job->load_seconds = render.load_seconds;
     snprintf(job->environment, sizeof job->environment, "%s", render.environment_text);
     return EC_OK;
@@ -211,10 +213,11 @@ static char *command_of(const view_job *job, const ec_view_shot *shot, const ec_
     return ec_command_line(w.count, w.argv);
 }
 
-static ec_viewpoint viewpoint_of(const ec_view_shot *shot)
+static ec_viewpoint viewpoint_of(const view_job *job, const ec_view_shot *shot)
 {
     ec_viewpoint v = shot->viewpoint;
     const ec_camera *camera = &shot->scene->cameras[shot->options->camera];
+    if (!shot->moved && shot->options->camera == job->camera) return job->viewpoint;
     if (!shot->moved) ec_camera_viewpoint(camera, shot->scene->center, ec_camera_reach(shot->scene, camera), &v);
     return v;
 }
@@ -234,7 +237,7 @@ static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t s
     snprintf(environment, sizeof environment, "%s", job->environment);
     if (shot->env_degrees != 0) snprintf(environment, sizeof environment, "%s, turned by %g degrees", job->environment, shot->env_degrees);
     ec_render_report report = {
-        .command = command, .scene = job->render.scene, .camera = camera, .viewpoint = viewpoint_of(shot), .environment = environment,
+        .command = command, .scene = job->render.scene, .camera = camera, .viewpoint = viewpoint_of(job, shot), .environment = environment,
         .options = shot->options, .stats = shot->stats, .device = &job->device, .device_why = job->device_why,
         .device_index = job->device_index, .exposure = shot->exposure, .tonemap = shot->tonemap,
         .mean_luminance = ec_film_estimate_error(shot->film).mean_luminance, .batches = shot->film->batch_count,

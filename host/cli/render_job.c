@@ -61,11 +61,9 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
     ec_render_options *options = &job->request->options;
     options->camera = job->scene->default_camera;
     if (job->request->camera) EC_TRY(ec_scene_find_camera(job->scene, job->request->camera, &options->camera, err));
-    EC_TRY(ec_camera_change_apply(&job->request->look, job->scene, options->camera, err));
+    EC_TRY(ec_camera_change_apply(&job->request->look, job->scene, options->camera, &job->viewpoint, err));
     if (!job->request->has_size) choose_size(options, job->request->default_height, &job->scene->cameras[options->camera]);
     ec_camera_describe(job->scene, options->camera, job->camera_text, sizeof job->camera_text);
-    const ec_camera *camera = &job->scene->cameras[options->camera];
-    ec_camera_viewpoint(camera, job->scene->center, ec_camera_reach(job->scene, camera), &job->viewpoint);
     return EC_OK;
 }
 

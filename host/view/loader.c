@@ -54,7 +54,10 @@ static void find_facts(const ec_view_scene *s, ec_view_facts *f)
                          .has_map = scene->environment.rgb != NULL};
     f->camera_count = scene->camera_count < EC_VIEW_CAMERAS ? scene->camera_count : EC_VIEW_CAMERAS;
     for (uint32_t i = 0; i < f->camera_count; i++) {
-        ec_camera_viewpoint(&scene->cameras[i], scene->center, ec_camera_reach(scene, &scene->cameras[i]), &f->cameras[i]);
+        const ec_camera *camera = &scene->cameras[i];
+        double reach = ec_camera_reach(scene, camera);
+        if (i == f->camera) reach = fmin(reach, ec_view_pick(scene, camera, 1, 1, 0, 0).distance); /* what one looks at */
+        ec_camera_viewpoint(camera, scene->center, reach, &f->cameras[i]);
     }
     for (int k = 0; k < 3; k++) {
         double half = 0.5 * ((double)scene->bounds_max[k] - scene->bounds_min[k]);
@@ -136,12 +139,25 @@ static bool is_made(const loader *l, uint32_t role, ec_integrator integrator, ui
     return m->serial == l->scene->serial && m->integrator == integrator && m->without == without;
 }
 
+/* Kernels whose compiling has begun would hold up those of the rasteriser, which some drivers compile as they are launched: PoCL has
+ * one lock for all. */
+static void wait_for_light(ec_view *view)
+{
+    pthread_mutex_lock(&view->lock);
+    while (!view->quit && view->status.pictures == 0 && !*view->status.failure && !view->wish.paused)
+        pthread_cond_wait(&view->changed, &view->lock);
+    pthread_mutex_unlock(&view->lock);
+}
+
 /* First light comes from the rasteriser: nothing is built or compiled as fast. */
 static void serve(loader *l, const ec_view_wish *wish)
 {
     if (!is_made(l, EC_ROLE_PICTURE, wish->integrator, wish->without)) {
         bool first = l->made[EC_ROLE_PICTURE].serial == 0;
-        if (first && wish->integrator != EC_INTEGRATOR_RASTER && !set_up(l, EC_ROLE_PICTURE, EC_INTEGRATOR_RASTER, wish->without)) return;
+        if (first && wish->integrator != EC_INTEGRATOR_RASTER) {
+            if (!set_up(l, EC_ROLE_PICTURE, EC_INTEGRATOR_RASTER, wish->without)) return;
+            wait_for_light(l->view);
+        }
         say_loading(l->view, "building kernels and structures");
         set_up(l, EC_ROLE_PICTURE, wish->integrator, wish->without);
     } else if (wish->has_second && wish->second == EC_SECOND_RUNG && !is_made(l, EC_ROLE_SECOND, wish->rung, wish->without)) {

@@ -103,7 +103,7 @@ static void format_settings(const ec_view_overlay *o, char *text, size_t size)
     if (o->layout) snprintf(beside, sizeof beside, "  | %s", w->second == EC_SECOND_RUNG ? ec_integrator_names[w->rung] : seconds[w->second]);
     if (w->without) ec_feature_names(w->without, without, sizeof without);
     if (!w->moved) snprintf(camera, sizeof camera, "%u", w->camera);
-    snprintf(text, size, "%s  camera %s  exposure %+.2f  %s%s%s%s%s  H: help", o->request->device.name, camera, w->exposure,
+    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s%s", o->request->device.name, camera, w->exposure,
              ec_tonemap_names[w->tonemap], turned, *without ? "  without " : "", without, beside);
 }
 
@@ -162,16 +162,19 @@ static void draw_messages(const ec_view_overlay *o, const ec_view_text *text, do
 void ec_view_overlay_draw(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
 {
     char line[1024];
-    pen p = {text, text->size, 4.4 * text->line, width - text->size};
-    ec_view_veil(0, 0, width, 4.6 * text->line);
+    pen p = {text, text->size, 0, width - text->size};
+    char effects[1200];
+    snprintf(effects, sizeof effects, "effects: %s%s%s", o->status->effects, o->selected ? "  selected: " : "", o->selected ? o->selected : "");
+    double rows = 3 + ceil((double)strlen(effects) / fmax((p.right - p.x) / text->advance - 10, 8));
+    p.y = (rows + 0.4) * text->line;
+    ec_view_veil(0, 0, width, (rows + 0.6) * text->line);
     format_state(o, line, sizeof line);
     write_line(&p, line, white);
     format_probe(o, line, sizeof line);
     write_line(&p, line, grey);
     format_settings(o, line, sizeof line);
     write_line(&p, line, grey);
-    snprintf(line, sizeof line, "effects: %s%s%s", o->status->effects, o->selected ? "  selected: " : "", o->selected ? o->selected : "");
-    write_line(&p, line, grey);
+    write_wrapped(&p, effects, grey);
     if (o->help) draw_help(text, width, height);
     else if (o->effects) draw_effects(o, text, width, height);
     else draw_messages(o, text, width, height);

@@ -50,6 +50,20 @@ static void fail(renderer *r, const ec_error *err)
     pthread_mutex_unlock(&view->lock);
 }
 
+/* What the film has of a probe's pixel. */
+static void read_pixel(const ec_film *film, ec_view_probe *probe)
+{
+    probe->has_film = film->batch_count > 0 && probe->x < film->width && probe->y < film->height;
+    probe->has_error = probe->has_film && film->batch_count > 1;
+    if (!probe->has_film) return;
+    uint64_t p = (uint64_t)probe->y * film->width + probe->x;
+    double n = ec_film_batches(film, p);
+    for (int c = 0; c < 3; c++) {
+        probe->rgb[c] = film->mean[3 * p + c];
+        probe->se[c] = n > 1 ? sqrt(film->m2[4 * p + c] / (n * (n - 1))) : 0;
+    }
+}
+
 static void tell(renderer *r, uint32_t preview)
 {
     const ec_view_picture *p = &r->picture;
@@ -63,6 +77,7 @@ static void tell(renderer *r, uint32_t preview)
     s->error_bound = p->film.batch_count ? p->error.error_bound : INFINITY;
     s->forecast = p->forecast;
     s->done = p->film.batch_count && p->stopped_by;
+    read_pixel(&p->film, &s->probe);
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", p->stopped_by ? p->stopped_by : "");
     ec_feature_names(r->setup[EC_ROLE_PICTURE]->stats.effects.called.bits, s->effects, sizeof s->effects);
     ec_view_post(r->view);
@@ -109,20 +124,12 @@ static ec_result start_afresh(renderer *r, ec_error *err)
 static void serve_probe(renderer *r, const ec_view_wish *wish)
 {
     const ec_scene *scene = r->setup[EC_ROLE_PICTURE]->scene->scene;
-    const ec_film *film = &r->picture.film;
     ec_view_probe probe = {.serial = wish->probes, .x = wish->probe_x, .y = wish->probe_y, .material = -1};
-    uint64_t p = (uint64_t)probe.y * r->wish.width + probe.x;
     if (probe.x < r->wish.width && probe.y < r->wish.height) {
         ec_view_hit hit = ec_view_pick(scene, &r->camera, r->wish.width, r->wish.height, probe.x, probe.y);
         probe.has_surface = isfinite(hit.distance);
         probe.depth = hit.distance;
-        probe.has_film = film->batch_count > 0;
-        probe.has_error = film->batch_count > 1;
-        for (int c = 0; c < 3 && probe.has_film; c++) {
-            double n = ec_film_batches(film, p);
-            probe.rgb[c] = film->mean[3 * p + c];
-            probe.se[c] = n > 1 ? sqrt(film->m2[4 * p + c] / (n * (n - 1))) : 0;
-        }
+        read_pixel(&r->picture.film, &probe);
         if (probe.has_surface) {
             probe.material = scene->triangle_material[hit.triangle];
             const char *name = scene->materials[probe.material].name;

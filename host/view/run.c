@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "view/window.h"
 
+#define TOLD_FOR 6        /* seconds that the message of a save is shown */
 #define FRAME (1.0 / 60)
 #define RESTS_AFTER 0.12  /* seconds without a move */
 #define IDLE 0.5          /* seconds between looks for Ctrl-C */
@@ -59,6 +60,9 @@ static void exchange(ec_window *w)
     }
     pthread_mutex_unlock(&view->lock);
     if (w->status.saves_done != saved) w->told_at = ec_now();
+    bool telling = w->told_at > 0 && ec_now() - w->told_at < TOLD_FOR;
+    w->dirty |= telling != w->telling;
+    w->telling = telling;
 }
 
 static double time_to_wait(const ec_window *w, double last)
@@ -140,6 +144,7 @@ static ec_result run_window(ec_view *view, ec_error *err)
     view->has_window = false;
     ec_view_post(view);
     pthread_mutex_unlock(&view->lock);
+    if (w.glfw) glfwHideWindow(w.glfw); /* a kernel that is being compiled is waited for out of sight */
     pthread_join(view->loader, NULL);
     pthread_join(view->renderer, NULL);
     if (request->stats && result == EC_OK && !view->failed) ec_frames_print(&w.frames, view->status.first_light, stdout);

@@ -56,7 +56,7 @@ typedef struct ec_view_status {
     char told[2300];              /* of the last save, or failure */
     char failure[2300];           /* of the last load; empty: it went well */
     char loading[64];             /* what the loader is at; empty: nothing */
-    char effects[400];            /* active ones, by name */
+    char effects[1024];           /* active ones, by name */
     ec_view_probe probe;
 } ec_view_status;
 

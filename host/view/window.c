@@ -10,7 +10,6 @@
 #include "view/overlay.h"
 
 #define TEXT_SIZE 15
-#define TOLD_FOR 10 /* seconds */
 
 static ec_result glfw_failed(const char *what, ec_error *err)
 {
@@ -123,7 +122,7 @@ static void draw_overlay(const ec_window *w, double width, double height)
 {
     const ec_view_overlay overlay = {.wish = &w->input.wish, .status = &w->status, .facts = &w->input.facts, .request = w->view->request,
                                      .layout = w->input.layout, .help = w->input.help, .effects = w->input.effects,
-                                     .message = ec_now() - w->told_at < TOLD_FOR,
+                                     .message = w->telling,
                                      .selected = w->input.selected.material >= 0 && w->input.facts.serial ? w->input.selected.name : NULL};
     ec_view_overlay_draw(&overlay, &w->text, width, height);
 }

@@ -26,6 +26,7 @@ typedef struct ec_window {
     double s_down;              /* ec_now when S went down; 0: it is up */
     double flown;               /* ec_now of the last step of flight */
     double told_at;             /* when a save was told */
+    bool telling;               /* it still is */
     bool iconified, shown, dirty, is_full;
     int old_x, old_y, old_width, old_height; /* before full screen */
 } ec_window;
