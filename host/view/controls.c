@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "view/window.h"
 
-#define TAP 0.3     /* seconds: S that was down longer than this flew */
+#define TAP 0.3     /* seconds: S that is down longer than this flies */
 #define CLICK 4     /* pixels: a drag that goes no further selects */
 
 static ec_window *of(GLFWwindow *glfw) { return glfwGetWindowUserPointer(glfw); }
@@ -86,6 +86,7 @@ static void on_char(GLFWwindow *glfw, unsigned code)
 
 static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods)
 {
+    (void)mods;
     ec_window *w = of(glfw);
     static const struct {
         int key;
@@ -94,14 +95,13 @@ static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods
     const char *label = glfwGetKeyName(key, scancode);
     bool is_s = label && (!strcmp(label, "s") || !strcmp(label, "S"));
     w->dirty = true;
-    if (!w->input.facts.serial && key != GLFW_KEY_ESCAPE) return;
-    if (is_s && action == GLFW_PRESS) w->s_down = ec_now();
+    if (is_s && action == GLFW_PRESS) w->s_down = ec_now(), w->s_flew = false;
     if (is_s && action == GLFW_RELEASE) {
-        bool tapped = w->s_down > 0 && (ec_now() - w->s_down < TAP || (mods & GLFW_MOD_CONTROL)) && w->drag < 0;
+        bool tapped = w->s_down > 0 && !w->s_flew && w->drag < 0;
         w->s_down = 0;
         if (tapped) ec_view_input_do(&w->input, ec_view_action_of("Save"));
     }
-    if (action != GLFW_PRESS) return;
+    if (action != GLFW_PRESS || (!w->input.facts.serial && key != GLFW_KEY_ESCAPE)) return;
     for (size_t i = 0; i < sizeof named / sizeof named[0]; i++)
         if (named[i].key == key) ec_view_input_do(&w->input, ec_view_action_of(named[i].name));
 }
@@ -116,11 +116,12 @@ void ec_window_fly(ec_window *w)
     GLFWwindow *g = w->glfw;
     double now = ec_now(), seconds = fmin(now - w->flown, 0.1);
     bool control = glfwGetKey(g, GLFW_KEY_LEFT_CONTROL) || glfwGetKey(g, GLFW_KEY_RIGHT_CONTROL);
-    bool s = w->s_down > 0 && (now - w->s_down >= TAP || w->drag == GLFW_MOUSE_BUTTON_RIGHT);
+    bool s = w->s_down > 0 && !control && (now - w->s_down >= TAP || w->drag == GLFW_MOUSE_BUTTON_RIGHT);
     int forward = held(g, GLFW_KEY_W, GLFW_KEY_UP) - (s || glfwGetKey(g, GLFW_KEY_DOWN));
     int right = held(g, GLFW_KEY_D, GLFW_KEY_RIGHT) - held(g, GLFW_KEY_A, GLFW_KEY_LEFT);
     int up = glfwGetKey(g, GLFW_KEY_PAGE_UP) - glfwGetKey(g, GLFW_KEY_PAGE_DOWN);
     w->flown = now;
+    w->s_flew |= s;
     if ((!forward && !right && !up) || control || !w->input.facts.serial) return;
     double pace = glfwGetKey(g, GLFW_KEY_LEFT_SHIFT) || glfwGetKey(g, GLFW_KEY_RIGHT_SHIFT) ? 4 : 1;
     ec_view_input_fly(&w->input, forward * pace, right * pace, up * pace, seconds);

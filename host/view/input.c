@@ -95,6 +95,7 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_SECOND: next_second(in); break;
     case EC_DO_LAYOUT: in->layout = (ec_view_layout)((in->layout + 1) % EC_LAYOUT_COUNT); break;
     case EC_DO_RUNG: w->rung = (ec_integrator)((w->rung + 1) % EC_INTEGRATOR_COUNT); break;
+    case EC_DO_LINES: in->lines = (ec_view_lines)((in->lines + 1) % EC_LINES_COUNT); break;
     case EC_DO_EFFECTS: in->effects = !in->effects, in->help = false; break;
     case EC_DO_MORE: w->more++; break;
     case EC_DO_SAVE: w->saves++; break;

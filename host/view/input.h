@@ -10,6 +10,7 @@ typedef struct ec_view_input {
     ec_view_wish wish;
     ec_view_facts facts;
     ec_view_layout layout;
+    ec_view_lines lines;     /* over the picture */
     bool help, effects;      /* lists that are open */
     bool fullscreen, quit;   /* asked for */
     ec_view_probe selected;  /* material >= 0: the selection */

@@ -24,6 +24,7 @@ const ec_view_key ec_view_keys[] = {
     {{"v", "V"}, EC_DO_LAYOUT, "V", "one picture, wipe at the cursor, side by side"},
     {{"Tab", NULL}, EC_DO_SECOND, "Tab", "second picture: error, samples, another rung, --against"},
     {{"g", "G"}, EC_DO_RUNG, "G", "which rung that is"},
+    {{"i", "I"}, EC_DO_LINES, "I", "lines over the picture: all, the first, none"},
     {{"m", "M"}, EC_DO_MORE, "M", "more: four times the samples, half the error, four times the time"},
     {{"Save", NULL}, EC_DO_SAVE, "S", "save, and print the command that repeats the picture"},
     {{"F5", NULL}, EC_DO_RELOAD, "F5", "load the scene again (done by itself when a file changes)"},

@@ -21,6 +21,7 @@ typedef enum ec_view_action {
     EC_DO_SECOND,
     EC_DO_LAYOUT,
     EC_DO_RUNG,
+    EC_DO_LINES,
     EC_DO_EFFECTS,
     EC_DO_MORE,
     EC_DO_SAVE,

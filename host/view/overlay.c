@@ -159,22 +159,30 @@ static void draw_messages(const ec_view_overlay *o, const ec_view_text *text, do
     if (o->message && *s->told) write_wrapped(&p, s->told, yellow);
 }
 
-void ec_view_overlay_draw(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
+/* At the foot; no more than a quarter of the window, the most important first. */
+static void draw_foot(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
 {
-    char line[1024];
+    char line[1200];
     pen p = {text, text->size, 0, width - text->size};
-    char effects[1200];
-    snprintf(effects, sizeof effects, "effects: %s%s%s", o->status->effects, o->selected ? "  selected: " : "", o->selected ? o->selected : "");
-    double rows = 3 + ceil((double)strlen(effects) / fmax((p.right - p.x) / text->advance - 10, 8));
+    size_t columns = (size_t)fmax((p.right - p.x) / text->advance - 10, 8), effects = strlen(o->status->effects) + 40;
+    double room = fmax(floor(height / text->line / 4), 1), rows = fmin(o->lines == EC_LINES_ALL ? 4 + (double)(effects / columns) : 1, room);
     p.y = (rows + 0.4) * text->line;
     ec_view_veil(0, 0, width, (rows + 0.6) * text->line);
     format_state(o, line, sizeof line);
     write_line(&p, line, white);
+    if (rows < 2) return;
     format_probe(o, line, sizeof line);
     write_line(&p, line, grey);
+    if (rows < 3) return;
     format_settings(o, line, sizeof line);
     write_line(&p, line, grey);
-    write_wrapped(&p, effects, grey);
+    snprintf(line, sizeof line, "effects: %s%s%s", o->status->effects, o->selected ? "  selected: " : "", o->selected ? o->selected : "");
+    if (rows > 3) write_wrapped(&p, line, grey);
+}
+
+void ec_view_overlay_draw(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
+{
+    if (o->lines != EC_LINES_NONE) draw_foot(o, text, width, height);
     if (o->help) draw_help(text, width, height);
     else if (o->effects) draw_effects(o, text, width, height);
     else draw_messages(o, text, width, height);

@@ -11,6 +11,7 @@ typedef struct ec_view_overlay {
     const ec_view_facts *facts;
     const ec_view_request *request;
     ec_view_layout layout;
+    ec_view_lines lines;
     bool help, effects;     /* lists that are open */
     bool message;           /* what was told of the last save is still shown */
     const char *selected;   /* material, or NULL */

@@ -10,6 +10,8 @@
 typedef enum ec_view_second { EC_SECOND_ERROR, EC_SECOND_SAMPLES, EC_SECOND_RUNG, EC_SECOND_FILE, EC_SECOND_COUNT } ec_view_second;
 typedef enum ec_view_layout { EC_LAYOUT_ONE, EC_LAYOUT_WIPE, EC_LAYOUT_BESIDE, EC_LAYOUT_COUNT } ec_view_layout;
 
+typedef enum ec_view_lines { EC_LINES_ALL, EC_LINES_ONE, EC_LINES_NONE, EC_LINES_COUNT } ec_view_lines;
+
 /* What the user wants: written by the window, read by the others. */
 typedef struct ec_view_wish {
     bool moved;                   /* the camera is `viewpoint`; else the scene's number `camera` */

@@ -121,7 +121,7 @@ static void draw_pictures(const ec_window *w, double width, double height)
 static void draw_overlay(const ec_window *w, double width, double height)
 {
     const ec_view_overlay overlay = {.wish = &w->input.wish, .status = &w->status, .facts = &w->input.facts, .request = w->view->request,
-                                     .layout = w->input.layout, .help = w->input.help, .effects = w->input.effects,
+                                     .layout = w->input.layout, .lines = w->input.lines, .help = w->input.help, .effects = w->input.effects,
                                      .message = w->telling,
                                      .selected = w->input.selected.material >= 0 && w->input.facts.serial ? w->input.selected.name : NULL};
     ec_view_overlay_draw(&overlay, &w->text, width, height);

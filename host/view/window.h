@@ -24,6 +24,7 @@ typedef struct ec_window {
     int drag;                   /* mouse button that is down, or -1 */
     double drag_path;           /* how far it went: a click does not move */
     double s_down;              /* ec_now when S went down; 0: it is up */
+    bool s_flew;                /* and is no tap */
     double flown;               /* ec_now of the last step of flight */
     double told_at;             /* when a save was told */
     bool telling;               /* it still is */

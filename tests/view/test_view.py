@@ -13,7 +13,7 @@ from desk import ViewCase, mean_difference, pixels
 from support import CORNELL, ECLAT, SOURCE, eclat, png_size, read_exr
 
 SIZE = ["--size", "200x150"]
-PLAIN = "200x60+0+0"  # above the overlay's lines
+PLAIN = "200x90+0+0"  # above the overlay's lines
 
 
 def repeat(case, command, folder):
@@ -61,6 +61,7 @@ class View(ViewCase):
         settled = re.sub(r"--spp=\d+", "--spp=64", command) + " --seed 5"
         reference = repeat(self, settled, self.path("other-seed"))["box.png"]
         window.tool("mousemove", "--window", window.id, 190, 140)
+        window.key("i", "i")  # no lines over the picture
         shot = None
 
         def near():
