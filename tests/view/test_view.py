@@ -4,13 +4,12 @@ import os
 import re
 import shlex
 import shutil
-import struct
 import subprocess
 import time
 import unittest
 
 from desk import ViewCase, mean_difference, pixels
-from support import CORNELL, ECLAT, SOURCE, eclat, png_size, read_exr
+from support import CORNELL, ENVIRONMENT, eclat, png_size, read_exr
 
 SIZE = ["--size", "200x150"]
 PLAIN = "200x90+0+0"  # above the overlay's lines
@@ -181,6 +180,19 @@ class View(ViewCase):
         self.assertRegex(text, r"(?m)^frames       \d+ in [\d.]+ s of camera moves, median [\d.]+ ms, 95 % under [\d.]+ ms, worst [\d.]+ ms$")
         self.assertGreater(int(re.search(r"pictures     (\d+)", text)[1]), 3)
         self.assert_repeats(window, text.splitlines()[0])
+
+
+class Leaks(ViewCase):
+    @unittest.skipUnless(os.environ.get("ECLAT_TEN_WINDOWS"), "ECLAT_TEN_WINDOWS is not set")
+    def test_ten_windows_leave_nothing_behind(self):
+        script = self.path("close.txt")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write("turn 20 5 0.1\nkey v\nkey Save\nsettle\nkey 3\nwait 0.2\nquit\n")
+        suppressions = os.path.join(os.path.dirname(os.path.abspath(__file__)), "leaks.supp")
+        run = subprocess.run([os.environ["ECLAT_TEN_WINDOWS"], CORNELL, script], capture_output=True, text=True, timeout=500, check=False,
+                             env=dict(ENVIRONMENT, DISPLAY=self.screen.display, LIBGL_ALWAYS_SOFTWARE="1",
+                                      LSAN_OPTIONS=f"suppressions={suppressions}:print_suppressions=0:fast_unwind_on_malloc=0"))
+        self.assertEqual((run.returncode, run.stdout), (0, "ten windows\n"), run.stderr[-4000:])
 
 
 class Refusals(ViewCase):
