@@ -9,7 +9,7 @@ import time
 import unittest
 
 from desk import ViewCase, mean_difference, pixels
-from support import CORNELL, ENVIRONMENT, eclat, png_size, read_exr
+from support import CORNELL, ENVIRONMENT, eclat, png_size, read_exr, write_exr
 
 SIZE = ["--size", "200x150"]
 PLAIN = "200x90+0+0"  # above the overlay's lines
@@ -91,6 +91,20 @@ class View(ViewCase):
         again = window.wait_until(lambda: (lambda c: c if "whitted" not in c else None)(window.save()), 120, 0.5)
         strip = re.compile(r" -o \S+| --batch=\d+| --spp=\d+")
         self.assertEqual(strip.sub("", again).split()[:-1], strip.sub("", plain).split()[:-1])
+        self.assertEqual(window.close(), 0)
+
+    def test_environment_effects_and_rungs_repeat_too(self):
+        sky = write_exr(self.path("sky.exr"), 8, 4, {"R": [float(i % 5) for i in range(32)], "G": [float(i % 3) for i in range(32)],
+                                                      "B": [float(i % 7) for i in range(32)]})
+        window = self.open(self.scene, *SIZE, "--spp", "4", "--batch", "2", "--env", sky)
+        window.save()
+        window.key("period", "period", "period")
+        turned = window.wait_until(lambda: (lambda c: c if "--env-rotate=15" in c else None)(window.save()), 60, 0.5)
+        self.assert_repeats(window, turned)
+        window.key("3", "x", "1", "x")
+        lost = window.wait_until(lambda: (lambda c: c if "--integrator=raster" in c and "--without" in c else None)(window.save()), 60, 0.5)
+        self.assertIn("--without=emission", lost)
+        self.assert_repeats(window, lost)
         self.assertEqual(window.close(), 0)
 
     def test_flying_and_panning_move_the_eye(self):
@@ -188,11 +202,12 @@ class Leaks(ViewCase):
         script = self.path("close.txt")
         with open(script, "w", encoding="utf-8") as file:
             file.write("turn 20 5 0.1\nkey v\nkey Save\nsettle\nkey 3\nwait 0.2\nquit\n")
-        suppressions = os.path.join(os.path.dirname(os.path.abspath(__file__)), "leaks.supp")
         run = subprocess.run([os.environ["ECLAT_TEN_WINDOWS"], CORNELL, script], capture_output=True, text=True, timeout=500, check=False,
-                             env=dict(ENVIRONMENT, DISPLAY=self.screen.display, LIBGL_ALWAYS_SOFTWARE="1",
-                                      LSAN_OPTIONS=f"suppressions={suppressions}:print_suppressions=0:fast_unwind_on_malloc=0"))
+                             env=dict(ENVIRONMENT, DISPLAY=self.screen.display, LIBGL_ALWAYS_SOFTWARE="1", LSAN_OPTIONS="exitcode=0"))
         self.assertEqual((run.returncode, run.stdout), (0, "ten windows\n"), run.stderr[-4000:])
+        # Drivers keep things until the process ends. What was allocated by or for eclat has one of its functions on the stack.
+        ours = [leak for leak in run.stderr.split("\n\n") if "leak of" in leak and re.search(r" in (ec_|load|save|main)\w*", leak)]
+        self.assertEqual(ours, [])
 
 
 class Refusals(ViewCase):
