@@ -59,7 +59,7 @@ static void on_button(GLFWwindow *glfw, int button, int action, int mods)
         w->drag = button;
         w->drag_path = 0;
     } else if (action == GLFW_RELEASE && button == w->drag) {
-        if (button == GLFW_MOUSE_BUTTON_LEFT && w->drag_path <= CLICK) w->input.selected = w->status.probe;
+        if (button == GLFW_MOUSE_BUTTON_LEFT && w->drag_path <= CLICK) w->selecting = w->input.wish.probes;
         w->drag = -1;
     }
 }

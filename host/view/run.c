@@ -60,6 +60,11 @@ static void exchange(ec_window *w)
     }
     pthread_mutex_unlock(&view->lock);
     if (w->status.saves_done != saved) w->told_at = ec_now();
+    if (w->selecting && w->status.probe.serial == w->selecting) {
+        w->input.selected = w->status.probe;
+        w->selecting = 0;
+        w->dirty = true;
+    }
     bool telling = w->told_at > 0 && ec_now() - w->told_at < TOLD_FOR;
     w->dirty |= telling != w->telling;
     w->telling = telling;
@@ -157,6 +162,7 @@ ec_result ec_view_run(const ec_view_request *request, ec_error *err)
     ec_view view = {.request = request, .start = ec_now(), .window = pthread_self()};
     view.wish = (ec_view_wish){.integrator = request->options.integrator, .rung = EC_INTEGRATOR_RASTER, .without = request->options.without,
                                .exposure = request->exposure, .tonemap = request->tonemap, .env_degrees = request->env_degrees};
+    view.status.probe.material = -1;
     view.status.error = view.status.error_bound = INFINITY;
     pthread_mutex_init(&view.lock, NULL);
     pthread_cond_init(&view.changed, NULL);

@@ -22,6 +22,7 @@ typedef struct ec_window {
     double scale;               /* of text: the monitor's */
     double cursor_x, cursor_y;  /* pixels of the framebuffer, from the top left */
     int drag;                   /* mouse button that is down, or -1 */
+    uint32_t selecting;         /* the probe that a click waits for; 0: none */
     double drag_path;           /* how far it went: a click does not move */
     double s_down;              /* ec_now when S went down; 0: it is up */
     bool s_flew;                /* and is no tap */
