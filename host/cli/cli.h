@@ -25,6 +25,7 @@ ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_merge(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err);
+ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err);
 
 /* Prints `eclat VERSION` or a command's help ("" for the program's own) to stdout. */
 void ec_print_version(void);

@@ -7,8 +7,8 @@
 
 #include "base/clock.h"
 #include "cli/cli.h"
-#include "cli/hash.h"
 #include "cli/render_job.h"
+#include "cli/write_report.h"
 
 /* The finished job in figures. Texts are the job's. */
 static ec_render_report make_report(const ec_render_job *job, const char **outputs)
@@ -19,6 +19,7 @@ static ec_render_report make_report(const ec_render_job *job, const char **outpu
         .command = job->command,
         .scene = request->scene,
         .camera = job->camera_text,
+        .viewpoint = job->viewpoint,
         .environment = job->environment_text,
         .options = &request->options,
         .stats = &job->stats,
@@ -53,27 +54,6 @@ static ec_past past_of(const ec_render_job *job)
                      .allotment.gain = 1};
 }
 
-static ec_result write_pictures(ec_render_job *job, ec_render_report *report, ec_error *err)
-{
-    ec_picture picture = {0};
-    ec_report_attributes attributes;
-    ec_result result = EC_OK;
-    EC_TRY_CLEANUP(ec_picture_resolve(&job->film, true, &picture, err));
-    report->heavy_pixels = picture.heavy_count;
-    ec_hash_rgb(picture.rgb, (uint64_t)picture.width * picture.height, job->image_sha256);
-    ec_render_report_attributes(report, &attributes);
-    ec_picture_style style = {.exposure = (float)job->request->exposure,
-                              .tonemap = job->request->tonemap,
-                              .attributes = attributes.list,
-                              .attribute_count = attributes.count};
-    const ec_past past = past_of(job);
-    if (job->request->has_slice) style.job = &job->job, style.film = &job->film, style.past = &past;
-    EC_TRY_CLEANUP(ec_outputs_write(&job->request->outputs, &picture, &style, err));
-cleanup:
-    ec_picture_free(&picture);
-    return result;
-}
-
 static ec_result tell(ec_console *console, const ec_render_job *job, const ec_render_report *report, ec_error *err)
 {
     if (job->stats.invalid_samples > 0) {
@@ -96,7 +76,9 @@ static ec_result deliver(ec_console *console, ec_render_job *job, double start, 
     const char *outputs[EC_OUTPUTS_MAX];
     ec_render_report report = make_report(job, outputs);
     double write_start = ec_now();
-    EC_TRY(write_pictures(job, &report, err));
+    const ec_past past = past_of(job);
+    const ec_slice slice = {&job->job, &past};
+    EC_TRY(ec_write_report(&job->request->outputs, &job->film, job->request->has_slice ? &slice : NULL, &report, job->image_sha256, err));
     report.write_seconds = ec_now() - write_start;
     report.total_seconds = ec_now() - start;
     report.peak_memory_bytes = ec_peak_memory_bytes();

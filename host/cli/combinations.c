@@ -30,6 +30,13 @@ static const struct {
     {"grid-density", ONLY(PATH) | ONLY(WHITTED)},
 };
 
+bool ec_combinations_belongs(const char *option, ec_integrator integrator)
+{
+    for (size_t i = 0; i < sizeof owners / sizeof owners[0]; i++)
+        if (!strcmp(owners[i].option, option) && !(owners[i].integrators >> integrator & 1)) return false;
+    return true;
+}
+
 static ec_result check_owner(const char *option, ec_integrator integrator, ec_error *err)
 {
     for (size_t i = 0; i < sizeof owners / sizeof owners[0]; i++) {

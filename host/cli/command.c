@@ -26,6 +26,7 @@ static const command commands[] = {
     {"merge", ec_cmd_merge},
     {"devices", ec_cmd_devices},
     {"selftest", ec_cmd_selftest},
+    {"view", ec_cmd_view},
     {"help", cmd_help},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

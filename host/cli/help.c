@@ -5,16 +5,19 @@
 
 #include "cli/cli.h"
 #include "cli/defaults.h"
+#include "view/view.h"
 
 #define EC_TEXT_COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */
 
 /* Of each command that renders (scene_choice.h). */
-#define EC_HELP_SCENE_CHOICE \
+/* shutter: what --shutter does, where there is one. */
+#define EC_HELP_SCENE_CHOICE(shutter) \
     "Scene: what of the file is shown\n" \
-    "      --animation NAME|INDEX which animation --at is in, or all (default: the first)\n" \
+    "      --animation NAME|INDEX which animation that moment is in, or all (default: the first)\n" \
     "      --at SECONDS           this moment of it; before its first and after its last key it stands still (default: the\n" \
     "                             scene as stored)\n" \
     "      --scene NAME|INDEX     this scene (default: the file's own choice)\n" \
+    shutter \
     "      --variant NAME|INDEX   with the materials of this variant (KHR_materials_variants)\n"
 
 const char EC_HELP_SHORT[] =
@@ -25,6 +28,7 @@ const char EC_HELP_SHORT[] =
     "       eclat merge A.exr B.exr …      make one picture of slices rendered apart\n"
     "       eclat devices                  list the OpenCL devices\n"
     "       eclat selftest                 try a device with hard cases of known answers\n"
+    "       eclat view SCENE [options]     look at a scene in a window while it renders\n"
     "       eclat --help                   say more\n";
 
 static const char help_main[] =
@@ -41,6 +45,7 @@ static const char help_main[] =
     "  merge A B …        make one picture of slices that were rendered apart\n"
     "  render SCENE       render a scene to EXR and PNG\n"
     "  selftest           try a device and its driver with hard cases whose answers are known\n"
+    "  view SCENE         look at a scene in a window while it renders\n"
     "\n"
     "Options\n"
     "  -h, --help         show this\n"
@@ -58,9 +63,7 @@ static const char help_render[] =
     "\n"
     "Renders a glTF 2.0 scene (.gltf or .glb) and states the image's error.\n"
     "\n"
-    EC_HELP_SCENE_CHOICE
-    "      --shutter A:B          all moments from A to B seconds of the animation instead of one: motion blur, in\n"
-    "                             --integrator path\n"
+    EC_HELP_SCENE_CHOICE("      --shutter A:B          all moments from A to B seconds instead of one: motion blur, in --integrator path\n")
     "\n"
     "Picture\n"
     "      --camera NAME|INDEX    look through this camera (default: the scene's first; without any, one that frames it)\n"
@@ -69,16 +72,21 @@ static const char help_render[] =
     "      --env-rotate DEG       turn the environment by so many degrees, counter-clockwise seen from above (default: 0)\n"
     "      --env-strength S       make it S times as bright (default: 1)\n"
     "      --exposure EV          brighten the PNG by this many stops (default: 0)\n"
+    "      --eye X,Y,Z            from this point, in the file's coordinates (default: the camera's)\n"
     "      --filter NAME          how samples make a pixel: box, those in it alike; blackman-harris, a smooth bell over its\n"
     "                             neighbours too, by importance sampling (default: box)\n"
     "      --filter-width W       pixels from centre to edge of blackman-harris, " EC_TEXT(EC_FILTER_WIDTH_LEAST) " to " EC_TEXT(EC_FILTER_WIDTH_MOST) " (default: 1.5)\n"
     "      --focus D              the distance in metres, along the camera's axis, at which a lens of --fstop is sharp\n"
+    "      --fov DEG              angle from the picture's bottom to its top (default: the camera's)\n"
     "      --fstop N              a thin lens in place of a pinhole: its diameter is the focal length, that of a sensor 24 mm\n"
     "                             high and the camera's field of view, over N; goes with --focus (default: a pinhole)\n"
+    "      --look-at X,Y,Z        towards this one (default: where the camera looks; with --eye the scene's middle)\n"
     "  -o, --output FILE          write FILE, an .exr (all data) or a .png; may be repeated\n"
     "                             (default: the scene's base name with .exr and .png, in the current directory)\n"
+    "      --parallel M           parallel rays instead, M metres from bottom to top\n"
     "      --size WxH             pixels (default: " EC_TEXT(EC_DEFAULT_HEIGHT) " high, as wide as the camera's aspect ratio asks, else square)\n"
     "      --tonemap CURVE        neutral (Khronos PBR Neutral) or none, for the PNG (default: neutral)\n"
+    "      --up X,Y,Z             which way is up (default: 0,1,0 with --eye or --look-at, else the camera's)\n"
     "\n"
     "When to stop: at whichever limit comes first (default: --spp " EC_TEXT(EC_DEFAULT_SPP) ")\n"
     "      --adaptive             more samples where the first ones find more noise; N is then their mean\n"
@@ -159,7 +167,7 @@ static const char help_cost[] =
     "      --seed N               another N, another independent study (default: 0)\n"
     "      Ctrl-C                 stops cleanly and reports what is known so far (exit code 0); a second one aborts\n"
     "\n"
-    EC_HELP_SCENE_CHOICE
+    EC_HELP_SCENE_CHOICE("")
     "\n"
     "Picture\n"
     "      --camera NAME|INDEX    look through this camera (default: the scene's first; without any, one that frames it)\n"
@@ -291,6 +299,25 @@ static const char help_selftest[] =
     "  digits             decimal digits that survived, of the 7.2 that a float has: of what is sampled those that its noise\n"
     "                     lets one see, of counts (expected: none) those of their number\n";
 
+static const char help_view[] =
+    "Usage: eclat view SCENE [options]\n"
+    "\n"
+    "Opens a window that shows a glTF 2.0 scene as it renders: rasterised at once, then by the path tracer, coarse while the\n"
+    "camera moves and finer once it rests. S saves what eclat render would have written, and prints the command that makes\n"
+    "the same picture again, bit for bit. When a file of the scene changes it is loaded again.\n"
+    "\n"
+    "Options: those of eclat render but --adaptive, --json and --verbose; and\n"
+    "      --against FILE.exr     a picture to hold beside the one that is rendered (V and Tab)\n"
+    "      --script FILE          moves the camera and presses keys by a script, then closes; orbit: once around. Lines:\n"
+    "                             turn YAW PITCH SECONDS (degrees), pan RIGHT UP SECONDS (picture heights),\n"
+    "                             dolly FACTOR SECONDS, wait SECONDS, settle (until the limit is met), key NAME\n"
+    "                             (e, E, 1, Tab, Save, ...), quit\n"
+    "      --stats                at the end say when there was first light, and how long frames took while the camera moved\n"
+    "  -h, --help                 show this\n"
+    "      --size WxH             of the window at first (default: 600 high)\n"
+    "      --version              show the version\n"
+    "Limits (--spp, --error, --time) are counted from the moment that the camera rests; once one is met the window sleeps.\n";
+
 void ec_print_help(const char *command)
 {
     const char *text = help_main;
@@ -301,7 +328,9 @@ void ec_print_help(const char *command)
     if (!strcmp(command, "merge")) text = help_merge;
     if (!strcmp(command, "devices")) text = help_devices;
     if (!strcmp(command, "selftest")) text = help_selftest;
+    if (!strcmp(command, "view")) text = help_view;
     fputs(text, stdout);
+    if (text == help_view) ec_view_print_keys();
 }
 
 void ec_print_version(void)

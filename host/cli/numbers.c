@@ -152,3 +152,14 @@ ec_result ec_parse_span(const char *option, const char *text, double max, double
     if (*from > *to) return ec_usage(err, "--%s: '%s' ends before it begins; give the earlier moment first", option, text);
     return EC_OK;
 }
+
+ec_result ec_parse_triple(const char *option, const char *text, double xyz[3], ec_error *err)
+{
+    const char *at = text;
+    for (int i = 0; i < 3; i++) {
+        if (!scan_real(at, &xyz[i], &at) || *at != (i < 2 ? ',' : 0))
+            return ec_usage(err, "--%s: '%s' is not three numbers with commas between them, as in 1,2.5,-3", option, text);
+        at += i < 2;
+    }
+    return EC_OK;
+}

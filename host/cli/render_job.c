@@ -11,6 +11,7 @@
 #include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/stop.h"
+#include "cli/usage.h"
 #include "report/format.h"
 #include "report/scene_report.h"
 
@@ -88,6 +89,7 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
     ec_render_options *options = &job->request->options;
     options->camera = job->scene->default_camera;
     if (job->request->camera) EC_TRY(ec_scene_find_camera(job->scene, job->request->camera, &options->camera, err));
+    EC_TRY(ec_camera_change_apply(&job->request->look, job->scene, options->camera, &job->viewpoint, err));
     if (!job->request->has_size) choose_size(options, job->request->default_height, &job->scene->cameras[options->camera]);
     ec_camera_describe(job->scene, options->camera, job->camera_text, sizeof job->camera_text);
     return EC_OK;

@@ -21,11 +21,12 @@ typedef struct ec_render_job {
     ec_render_stats stats;
     double load_seconds;
     char camera_text[256];
+    ec_viewpoint viewpoint;
     char environment_text[256];
     char image_sha256[EC_HASH_SIZE];
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
     ec_stored stored;            /* what is gone on from. Owned */
-    char device_text[256];
+    char device_text[512];
     char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
     ec_console *console;
     ec_error keep_error;         /* why the last checkpoint is not there; empty: it is, or none was wanted */

@@ -58,6 +58,36 @@ SETTER(env_strength)
     REQUEST->adjusts_env = true;
     return ec_parse_real(option, value, 0, 1e30, &REQUEST->env_strength, err);
 }
+SETTER(eye)
+{
+    REQUEST->look.has_eye = true;
+    return ec_parse_triple(option, value, REQUEST->look.to.eye, err);
+}
+SETTER(look_at)
+{
+    REQUEST->look.has_target = true;
+    return ec_parse_triple(option, value, REQUEST->look.to.target, err);
+}
+SETTER(up)
+{
+    const double *up = REQUEST->look.to.up;
+    REQUEST->look.has_up = true;
+    EC_TRY(ec_parse_triple(option, value, REQUEST->look.to.up, err));
+    if (up[0] == 0 && up[1] == 0 && up[2] == 0) return ec_usage(err, "--%s: '%s' is no direction", option, value);
+    return EC_OK;
+}
+SETTER(fov)
+{
+    REQUEST->look.has_lens = true;
+    REQUEST->look.to.tall = 0;
+    return ec_parse_real(option, value, EC_FOV_LEAST, EC_FOV_MOST, &REQUEST->look.to.fov, err);
+}
+SETTER(parallel)
+{
+    REQUEST->look.has_lens = true;
+    REQUEST->look.to.fov = 0;
+    return ec_parse_real(option, value, EC_FOCUS_LEAST, EC_FOCUS_MOST, &REQUEST->look.to.tall, err);
+}
 RANGE_SETTER(filter_width, ec_parse_real, EC_FILTER_WIDTH_LEAST, EC_FILTER_WIDTH_MOST, options.filter_width)
 RANGE_SETTER(focus, ec_parse_real, EC_FOCUS_LEAST, EC_FOCUS_MOST, options.focus)
 RANGE_SETTER(fstop, ec_parse_real, EC_FSTOP_LEAST, EC_FSTOP_MOST, options.fstop)
@@ -155,7 +185,7 @@ SETTER(size)
     return ec_parse_size(option, value, &REQUEST->options.width, &REQUEST->options.height, err);
 }
 
-static const ec_option options[] = {
+const ec_option ec_render_rows[] = {
     {"accel", 0, true, set_accel},
     {"adaptive", 0, false, set_adaptive},
     {"batch", 0, true, set_batch},
@@ -170,9 +200,11 @@ static const ec_option options[] = {
     {"error", 0, true, set_error},
     {"every", 0, true, set_every},
     {"exposure", 0, true, set_exposure},
+    {"eye", 0, true, set_eye},
     {"filter", 0, true, set_filter},
     {"filter-width", 0, true, set_filter_width},
     {"focus", 0, true, set_focus},
+    {"fov", 0, true, set_fov},
     {"fstop", 0, true, set_fstop},
     {"grid-density", 0, true, set_grid_density},
     {"instancing", 0, true, set_instancing},
@@ -180,8 +212,10 @@ static const ec_option options[] = {
     {"json", 0, false, set_json},
     {"lanes", 0, true, set_lanes},
     {"light-choice", 0, true, set_light_choice},
+    {"look-at", 0, true, set_look_at},
     {"max-depth", 0, true, set_max_depth},
     {"output", 'o', true, set_output},
+    {"parallel", 0, true, set_parallel},
     {"quiet", 'q', false, set_quiet},
     {"resume", 0, true, set_resume},
     {"rr", 0, true, set_rr},
@@ -195,15 +229,15 @@ static const ec_option options[] = {
     {"terminator", 0, true, set_terminator},
     {"time", 0, true, set_time},
     {"tonemap", 0, true, set_tonemap},
+    {"up", 0, true, set_up},
     {"verbose", 'v', false, set_verbose},
     {"wave", 0, true, set_wave},
     {"without", 0, true, set_without},
     SHUTTER_OPTION,
     SCENE_CHOICE_OPTIONS,
 };
-_Static_assert(sizeof options / sizeof options[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
-
-enum { OPTION_COUNT = sizeof options / sizeof options[0] };
+_Static_assert(sizeof ec_render_rows / sizeof ec_render_rows[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
+const int ec_render_row_count = sizeof ec_render_rows / sizeof ec_render_rows[0];
 
 /* The batch must not depend on the slice, nor on a limit of time. */
 static ec_result settle_slice(ec_render_request *request, ec_error *err)
@@ -225,13 +259,12 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
 
 static bool has_limit(const ec_render_options *o) { return o->spp || o->time_limit > 0 || o->error_target > 0; }
 
-/* What follows from all options together. */
-static ec_result settle(ec_render_request *request, const bool *given, ec_error *err)
+ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err)
 {
     ec_render_options *limits = &request->options;
     if (limits->integrator == EC_INTEGRATOR_WHITTED && !limits->max_depth && !request->endless) limits->max_depth = EC_WHITTED_DEPTH;
     EC_TRY(ec_combinations_check_shutter(&request->choice, err));
-    EC_TRY(ec_combinations_check(options, OPTION_COUNT, given, limits, err));
+    EC_TRY(ec_combinations_check(options, count, given, limits, err));
     if (request->every > 0 && !request->checkpoint) return ec_usage(err, "--every belongs to --checkpoint; leave it out or give that too");
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;
     EC_TRY(settle_slice(request, err));
@@ -240,7 +273,7 @@ static ec_result settle(ec_render_request *request, const bool *given, ec_error 
     return EC_OK;
 }
 
-static void begin(ec_render_request *request)
+void ec_render_request_start(ec_render_request *request)
 {
     *request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF};
 }
@@ -249,13 +282,13 @@ ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *requ
 {
     int first = 0;
     bool given[EC_OPTIONS_MAX] = {false};
-    begin(request);
+    ec_render_request_start(request);
     ec_request asked;
-    EC_TRY(ec_options_parse(options, OPTION_COUNT, request, argc, argv, &first, given, &asked, err));
+    EC_TRY(ec_options_parse(ec_render_rows, ec_render_row_count, request, argc, argv, &first, given, &asked, err));
     *done = ec_request_serve(asked, argv[0]);
     if (*done || (request->resume && first == argc)) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &request->scene, err));
-    return request->resume ? EC_OK : settle(request, given, err);
+    return request->resume ? EC_OK : ec_render_request_settle(request, ec_render_rows, ec_render_row_count, given, err);
 }
 
 ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_render_request *request, ec_error *err)
@@ -268,8 +301,8 @@ ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_
     if (!before) return ec_fail(err, "out of memory");
     memcpy(before, job->argv, (size_t)job->argc * sizeof *before);
     before[job->argc] = NULL;
-    begin(request);
-    ec_result result = ec_options_parse(options, OPTION_COUNT, request, job->argc, before, &first, given, &asked, err);
+    ec_render_request_start(request);
+    ec_result result = ec_options_parse(ec_render_rows, ec_render_row_count, request, job->argc, before, &first, given, &asked, err);
     if (result == EC_OK) result = ec_options_scene(job->argc, before, first, &request->scene, err);
     free(before);
     if (result != EC_OK) return ec_fail(err, "'%s' holds a command that this version does not understand; use the version that wrote it", now.resume);
@@ -281,10 +314,10 @@ ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_
     o->spp = has_limit(&now.options) ? 0 : job->spp;
     o->time_limit = has_limit(&now.options) ? 0 : job->time_limit;
     o->error_target = has_limit(&now.options) ? 0 : job->error_target;
-    EC_TRY(ec_options_parse(options, OPTION_COUNT, request, argc, argv, &first, given, &asked, err));
+    EC_TRY(ec_options_parse(ec_render_rows, ec_render_row_count, request, argc, argv, &first, given, &asked, err));
     if (now.scene) request->scene = now.scene;
     const char *batch = ec_identity_value(&job->identity, "--batch");
     if (!now.options.batch && batch) o->batch = (uint32_t)strtoul(batch, NULL, 10);
     if (!request->checkpoint) request->checkpoint = request->resume;
-    return settle(request, given, err);
+    return ec_render_request_settle(request, ec_render_rows, ec_render_row_count, given, err);
 }

@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "cli/camera_change.h"
+#include "cli/options.h"
 #include "cli/outputs.h"
 #include "image/image.h"
 #include "pipeline/render.h"
@@ -21,6 +23,7 @@ typedef struct ec_render_request {
     bool endless;              /* --max-depth inf was given */
     bool capped;               /* neither --spp nor the default: the safety cap applies */
     const char *camera;        /* NULL: the scene's default */
+    ec_camera_change look;
     const char *environment;   /* NULL: the scene's own */
     double env_degrees, env_strength; /* 0 and 1: as it is */
     bool adjusts_env;          /* one of these was given */
@@ -35,6 +38,13 @@ typedef struct ec_render_request {
     ec_tonemap tonemap;
     bool quiet, verbose, json;
 } ec_render_request;
+
+/* Its options, for commands that take most of them too: their target begins with an ec_render_request. Defaults before they are read,
+ * what follows from them and what does not go together after that. */
+extern const ec_option ec_render_rows[];
+extern const int ec_render_row_count;
+void ec_render_request_start(ec_render_request *request);
+ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err);
 
 /* Reads the arguments of `render`. *done: --help or --version was served and nothing is left to do. */
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err);

@@ -63,7 +63,7 @@ typedef struct channel_list {
 
 static void add_channels(channel_list *channels, const float *data, uint32_t stride, uint32_t count, const char *const *names)
 {
-    for (uint32_t i = 0; i < count; i++) channels->list[channels->count++] = (ec_channel){names[i], data + i, stride};
+    for (uint32_t i = 0; i < count; i++) channels->list[channels->count++] = (ec_channel){.name = names[i], .data = data + i, .stride = stride};
 }
 
 /* Layers by name, so that every viewer groups them. No error and no first hit: no such channels. */

@@ -4,8 +4,8 @@
 
 #include "base/random.h"
 
-/* Seeds of batches must differ in every bit. */
-static uint32_t seed_of(uint64_t seed, uint32_t batch)
+/* They must differ in every bit. */
+uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch)
 {
     return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + batch + 1) >> 16);
 }
@@ -50,7 +50,7 @@ ec_result ec_batch_source_look(ec_batch_source *s, const ec_batch_order *order, 
 ec_result ec_batch_source_take(ec_batch_source *s, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
-    uint32_t per_wave = p->wave / p->params.batch, seed = seed_of(s->seed, order->index);
+    uint32_t per_wave = p->wave / p->params.batch, seed = ec_render_batch_seed(s->seed, order->index);
     *complete = true;
     EC_TRY(upload_list(s, order, err));
     if (order->done) EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)order->count * 12, s->mean, err));

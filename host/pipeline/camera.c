@@ -26,9 +26,8 @@ static ec_result set_lens(const ec_camera *c, const ec_render_options *o, ec_par
     return EC_OK;
 }
 
-ec_result ec_pipeline_set_camera(const ec_scene *scene, const ec_render_options *o, ec_params *params, ec_error *err)
+ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)
 {
-    const ec_camera *c = &scene->cameras[o->camera];
     double aspect = (double)o->width / o->height;
     bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
     double half_height = is_flat ? c->ymag : tan(0.5 * c->yfov);
@@ -54,10 +53,7 @@ ec_result ec_pipeline_upload_camera(ec_pipeline *p, const ec_scene *scene, const
     ec_result result = EC_OK;
     for (size_t k = 0; k < keys && result == EC_OK; k++) {
         ec_params params = {.orthographic = 0};
-        ec_render_options at = *o;
-        ec_scene shown = {.cameras = &motion->cameras[(moves - 1) * keys + k], .camera_count = 1};
-        at.camera = 0;
-        result = ec_pipeline_set_camera(&shown, &at, &params, err);
+        result = ec_pipeline_set_camera(&motion->cameras[(moves - 1) * keys + k], o, &params, err);
         for (size_t v = 0; v < EC_CAMERA_VECTORS; v++) memcpy(table + (v * keys + k) * 4, (const float *)&params + 4 * v, 4 * sizeof *table);
     }
     if (result == EC_OK)

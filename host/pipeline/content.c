@@ -47,6 +47,18 @@ static void add_buffers(SHA2_CTX *digests, const ec_scene *scene, const ec_pack 
     }
 }
 
+/* Not with the scene's buffers: only that of the chosen camera goes to the device. */
+static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
+{
+    for (uint32_t i = 0; i < motion->camera_count * (motion->segments + 1); i++) {
+        const ec_camera *c = &motion->cameras[i];
+        const float *const vectors[] = {c->position, c->right, c->up, c->forward};
+        for (int v = 0; v < 4; v++) add(digests, EC_CONTENT_CAMERA, vectors[v], 3 * sizeof(float));
+        const float view[] = {c->yfov, c->aspect, c->xmag, c->ymag};
+        add(digests, EC_CONTENT_CAMERA, view, sizeof view);
+    }
+}
+
 #define TAKE(id, field) (add(digests, id, &p.field, sizeof p.field), memset(&p.field, 0, sizeof p.field))
 
 /* Field by field what is the camera's and the environment's; what is left is settings. */
@@ -84,6 +96,7 @@ void ec_pipeline_content(const ec_pipeline *pipeline, const ec_scene *scene, con
     add_params(digests, pipeline->params);
     uint64_t called = pipeline->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
     add(digests, EC_CONTENT_SETTINGS, &called, sizeof called);
+    if (called & EC_FEATURE_MOTION) add_moving_cameras(digests, &scene->motion);
     for (const char *const *name = ec_kernel_source_names(); *name; name++)
         add(digests, EC_CONTENT_KERNELS, ec_kernel_source(*name), strlen(ec_kernel_source(*name)));
     for (int i = 0; i < EC_CONTENT_COUNT; i++) {

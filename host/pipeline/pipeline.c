@@ -7,18 +7,6 @@
 #include "base/clock.h"
 #include "cl/workarounds.h"
 
-/* What the camera is inside of, as paths keep it. An orthographic one is all over its plane: outside. */
-static uint32_t camera_medium(const ec_scene *scene, const ec_camera *camera, const ec_pack *pack)
-{
-    uint32_t medium = pack->bodies.count ? 0 : EC_NO_ID;
-    if (!(pack->effects.bits & EC_FEATURES_MEDIUM) || camera->type == EC_CAMERA_ORTHOGRAPHIC) return medium;
-    for (uint32_t m = 0; m < scene->material_count; m++) {
-        if (!ec_pack_is_body(&scene->materials[m]) || !ec_bodies_contain(scene, m, camera->position)) continue;
-        medium = pack->bodies.count ? medium | pack->materials[m].body : m * EC_MATERIAL_WORDS;
-    }
-    return medium;
-}
-
 /* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
  * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
  * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
@@ -68,7 +56,7 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     p->fast_math = options->fast_math;
     if (scene->motion.segments && p->integrator != EC_INTEGRATOR_PATH)
         return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");
-    EC_TRY(ec_pipeline_set_camera(scene, options, &p->params, err));
+    EC_TRY(ec_pipeline_set_camera(&scene->cameras[options->camera], options, &p->params, err));
     EC_TRY(ec_pipeline_lanes(cl, options->lanes, &p->lanes, err));
     if (p->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(p, scene, options->accel, err));
 
@@ -116,13 +104,14 @@ static ec_result create(ec_cl *cl, const ec_scene *scene, const ec_scene *called
     for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = plain->environment.turn[k];
     memcpy(params->environment_mean, pack.environment_mean, sizeof pack.environment_mean);
     params->nested = pack.bodies.count > 0;
-    params->camera_medium = camera_medium(plain, &scene->cameras[options->camera], &pack);
     p->bodies_too_many = pack.bodies.too_many;
     params->light_tree_pmf = pack.light_tree_pmf;
     params->scene_radius = pack.scene_radius;
     params->scene_max = pack.scene_max;
-    if (options->identify) ec_pipeline_content(p, scene, &pack, &stats->content);
-    result = ec_pipeline_upload(p, scene, &pack, err);
+    result = ec_insides_make(&pack, &p->insides, err);
+    params->camera_medium = ec_insides_of(&p->insides, &scene->cameras[options->camera]);
+    if (result == EC_OK && options->identify) ec_pipeline_content(p, scene, &pack, &stats->content);
+    if (result == EC_OK) result = ec_pipeline_upload(p, scene, &pack, err);
     ec_pack_free(&pack);
     if (result == EC_OK) result = ec_pipeline_upload_camera(p, scene, options, err);
     if (result == EC_OK) result = ec_pipeline_upload_filter(p, options, err);
@@ -191,5 +180,6 @@ void ec_pipeline_destroy(ec_pipeline *p)
     memset(&p->buffers[EC_ARG_ACCEL], 0, EC_ACCEL_BUFFERS * sizeof *p->buffers);
     for (int i = 0; i < EC_ARG_COUNT; i++) ec_buffer_release(p->cl, &p->buffers[i]);
     for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);
+    ec_insides_free(&p->insides);
     memset(p, 0, sizeof *p);
 }

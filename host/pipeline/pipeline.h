@@ -4,6 +4,7 @@
 
 #include "accel/accel.h"
 #include "pack/pack.h"
+#include "pipeline/insides.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
 #include "shared/params.h"
@@ -20,6 +21,7 @@ typedef struct ec_pipeline {
     ec_render_effects effects;
     uint32_t lanes, wave, triangle_count;
     uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
+    ec_insides insides;           /* what a camera can be inside of */
     uint32_t bodies_too_many;     /* materials of bodies, more than can be told apart; else 0 */
     bool fast_math;
     cl_mem buffers[EC_ARG_COUNT];
@@ -60,11 +62,14 @@ uint64_t ec_pipeline_total(const uint32_t *parts);
 void ec_pipeline_fill_parts(ec_pipeline *pipeline, uint32_t paths);
 void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
 
+/* raster.c: triangles are sorted into tiles once a camera */
+void ec_raster_forget(ec_pipeline *pipeline);
+
 /* whitted.c: of the stack of a slot; max_depth as in the options */
 uint64_t ec_whitted_stack_words(uint32_t max_depth);
 
 /* camera.c */
-ec_result ec_pipeline_set_camera(const ec_scene *scene, const ec_render_options *options, ec_params *params, ec_error *err);
+ec_result ec_pipeline_set_camera(const ec_camera *camera, const ec_render_options *options, ec_params *params, ec_error *err);
 /* The same at every moment, on the device; nothing for a camera that stands still. */
 ec_result ec_pipeline_upload_camera(ec_pipeline *pipeline, const ec_scene *scene, const ec_render_options *options, ec_error *err);
 /* upload.c: what of the scene goes to the device, and for which effects; doing it */

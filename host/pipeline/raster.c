@@ -45,6 +45,12 @@ static ec_result prepare(ec_pipeline *p, const uint32_t *scalars, ec_error *err)
     return result;
 }
 
+void ec_raster_forget(ec_pipeline *p)
+{
+    static const ec_arg of_camera[] = {EC_ARG_RASTER_TRIS, EC_ARG_TILE_STARTS, EC_ARG_TILE_ENDS, EC_ARG_TILE_LIST};
+    for (size_t i = 0; i < sizeof of_camera / sizeof of_camera[0]; i++) ec_buffer_release(p->cl, &p->buffers[of_camera[i]]);
+}
+
 ec_result ec_integrate_raster(ec_pipeline *p, uint32_t *scalars, ec_error *err)
 {
     if (!p->buffers[EC_ARG_TILE_LIST]) EC_TRY(prepare(p, scalars, err));

@@ -124,6 +124,9 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
 /* Samples a pixel in one batch: that of the options, or the one chosen from their limits. */
 uint32_t ec_render_batch(const ec_render_options *options);
 
+/* What ec_render seeds its batch number `batch` with. */
+uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch);
+
 /* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);
 

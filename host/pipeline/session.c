@@ -9,6 +9,10 @@
 
 struct ec_session {
     ec_pipeline pipeline;
+    ec_render_options options;
+    ec_environment environment;  /* its turn as the scene has it; no picture */
+    uint64_t pixels;             /* that the films have room for */
+    double rate;                 /* samples a second of the last waves; 0: not known */
 };
 
 ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t largest, ec_session **session,
@@ -19,6 +23,11 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     *stats = (ec_render_stats){0};
     if (!s) return ec_fail(err, "out of memory for a pipeline");
     ec_result result = ec_pipeline_create(cl, scene, options, largest, &s->pipeline, stats, err);
+    const ec_params *params = &s->pipeline.params;
+    s->options = *options;
+    s->pixels = (uint64_t)options->width * options->height;
+    s->environment.turned = params->environment_turned;
+    for (int k = 0; k < 9; k++) s->environment.turn[k] = params->environment_turn[k / 3 * 4 + k % 3];
     stats->device_bytes = cl->peak_allocated_bytes;
     if (result == EC_OK) return EC_OK;
     ec_session_close(s);
@@ -34,6 +43,38 @@ void ec_session_close(ec_session *session)
 }
 
 uint32_t ec_session_largest(const ec_session *session) { return session->pipeline.wave; }
+
+static ec_result fit_films(ec_session *s, uint64_t pixels, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    if (pixels <= s->pixels) return EC_OK;
+    s->pixels = 0;
+    ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
+    ec_buffer_release(p->cl, &p->buffers[EC_ARG_FEATURE_FILM]);
+    EC_TRY(ec_buffer_create(p->cl, "batch film", pixels * 12, NULL, &p->buffers[EC_ARG_BATCH_FILM], err));
+    EC_TRY(ec_buffer_create(p->cl, "feature film", pixels * 4 * EC_AOV_FIELDS, NULL, &p->buffers[EC_ARG_FEATURE_FILM], err));
+    s->pixels = pixels;
+    return EC_OK;
+}
+
+ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    ec_params *params = &p->params;
+    ec_environment e = s->environment;
+    s->options.width = params->width = view->width;
+    s->options.height = params->height = view->height;
+    EC_TRY(ec_pipeline_set_camera(&view->camera, &s->options, params, err));
+    params->camera_medium = ec_insides_of(&p->insides, &view->camera);
+    ec_environment_turn(&e, view->env_degrees);
+    if (p->buffers[EC_ARG_ENVIRONMENT_TEXELS]) {
+        params->environment_turned = e.turned;
+        for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = e.turn[k];
+    }
+    ec_raster_forget(p);
+    EC_TRY(fit_films(s, (uint64_t)view->width * view->height, err));
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
+}
 
 static ec_result set_batch(ec_pipeline *p, uint32_t samples, ec_error *err)
 {
@@ -52,19 +93,45 @@ static void drop_invalid(ec_session_batch *batch, uint64_t values)
     }
 }
 
+/* Pixels of a wave that ends within the slice. The first one finds out how fast the device is. */
+static uint32_t pixels_a_wave(const ec_session *s, const ec_session_batch *batch)
+{
+    uint32_t most = s->pipeline.wave / batch->samples;
+    const double first = 4096;
+    if (batch->slice <= 0) return most;
+    double fits = (s->rate > 0 ? s->rate * batch->slice : first) / batch->samples;
+    return fits < 64 ? most < 64 ? most : 64 : fits < most ? (uint32_t)fits : most;
+}
+
+static ec_result take_wave(ec_session *s, const ec_session_batch *batch, uint32_t first, uint32_t count, ec_error *err)
+{
+    double start = ec_now();
+    EC_TRY(ec_pipeline_run_wave(&s->pipeline, batch->seed, first, count, batch->features != NULL, err));
+    if (batch->slice <= 0) return EC_OK;
+    EC_TRY(ec_cl_finish(s->pipeline.cl, err)); /* else the next waves would be queued before there is an answer to go_on */
+    double rate = (double)count * batch->samples / (ec_now() - start + 1e-9);
+    s->rate = s->rate > 0 ? 0.7 * s->rate + 0.3 * rate : rate;
+    return EC_OK;
+}
+
+double ec_session_rate(const ec_session *session) { return session->rate; }
+
 ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error *err)
 {
     ec_pipeline *p = &session->pipeline;
-    uint32_t pixels = p->params.width * p->params.height, per_wave = p->wave / batch->samples;
+    uint32_t pixels = p->params.width * p->params.height;
     double start = ec_now();
     batch->complete = false;
     EC_TRY(set_batch(p, batch->samples, err));
-    for (uint32_t first = 0; first < pixels; first += per_wave) {
+    for (uint32_t first = 0, count; first < pixels; first += count) {
         if (batch->go_on && !batch->go_on(batch->user)) return ec_cl_finish(p->cl, err);
-        uint32_t count = pixels - first < per_wave ? pixels - first : per_wave;
-        EC_TRY(ec_pipeline_run_wave(p, batch->seed, first, count, false, err));
+        count = pixels_a_wave(session, batch);
+        if (count > pixels - first) count = pixels - first;
+        EC_TRY(take_wave(session, batch, first, count, err));
     }
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)pixels * 12, batch->mean, err));
+    if (batch->features)
+        EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, (uint64_t)pixels * 4 * EC_AOV_FIELDS, batch->features, err));
     batch->seconds = ec_now() - start;
     batch->complete = true;
     drop_invalid(batch, 3 * (uint64_t)pixels);

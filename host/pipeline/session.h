@@ -13,6 +13,16 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
                           ec_render_stats *stats, ec_error *err);
 void ec_session_close(ec_session *session); /* NULL is fine */
 
+/* What may change without setting up scene, structures and kernels again. */
+typedef struct ec_session_view {
+    ec_camera camera;
+    uint32_t width, height;          /* pixels */
+    double env_degrees;              /* turns the environment's map, from how the scene has it; kernels must be built for that:
+                                        EC_FEATURE_ENVIRONMENT_TURN in more_effects */
+} ec_session_view;
+/* The next batches are of this. The lens is that of the options. */
+ec_result ec_session_look(ec_session *session, const ec_session_view *view, ec_error *err);
+
 /* Most samples a pixel that one batch may have: a pixel's samples are in flight together. */
 uint32_t ec_session_largest(const ec_session *session);
 
@@ -20,12 +30,17 @@ typedef struct ec_session_batch {
     uint32_t seed, samples;          /* samples a pixel */
     bool (*go_on)(void *user);       /* asked between waves; NULL: never stops */
     void *user;
+    double slice;                    /* seconds that a wave may take, as far as one can know; 0: as long as it likes */
+    float *features;                 /* result, if not NULL: of first hits, 8 a pixel as in ec_film.aov */
     float *mean;                     /* result: 3 a pixel; not finite: 0, and counted */
     double seconds;                  /* result */
     uint64_t invalid;                /* result: values that were not finite */
     bool complete;                   /* result: false where go_on said no; mean is then of no use */
 } ec_session_batch;
 ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error *err);
+
+/* Samples a second of the last waves of batches with a slice; 0: none yet. */
+double ec_session_rate(const ec_session *session);
 
 /* Samples dropped by the kernels so far because they were not finite. */
 ec_result ec_session_invalid(ec_session *session, uint64_t *samples, ec_error *err);

@@ -45,6 +45,16 @@ static void add_whole(ec_report_attributes *attributes, const char *name, uint64
         (ec_attribute){.name = name, .type = EC_ATTR_INT, .number = (double)number};
 }
 
+/* As --eye, --look-at, --up and --fov or --parallel take them. */
+static void add_viewpoint(ec_report_attributes *attributes, const ec_viewpoint *v)
+{
+    add_made(attributes, "eclat.camera.eye", "%.9g,%.9g,%.9g", v->eye[0], v->eye[1], v->eye[2]);
+    add_made(attributes, "eclat.camera.lookAt", "%.9g,%.9g,%.9g", v->target[0], v->target[1], v->target[2]);
+    add_made(attributes, "eclat.camera.up", "%.9g,%.9g,%.9g", v->up[0], v->up[1], v->up[2]);
+    if (v->fov > 0) add_made(attributes, "eclat.camera.fov", "%.9g", v->fov);
+    else add_made(attributes, "eclat.camera.parallel", "%.9g", v->tall);
+}
+
 static void add_setting(ec_report_attributes *attributes, const ec_render_report *report)
 {
     const ec_render_options *options = report->options;
@@ -52,6 +62,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_text(attributes, "eclat.version", ECLAT_VERSION);
     add_text(attributes, "eclat.scene", report->scene);
     add_text(attributes, "eclat.camera", report->camera);
+    add_viewpoint(attributes, &report->viewpoint);
     add_text(attributes, "eclat.environment", report->environment);
     add_made(attributes, "eclat.seed", "%" PRIu64, options->seed);
     add_text(attributes, "eclat.integrator", ec_integrator_names[options->integrator]);

@@ -13,6 +13,7 @@ typedef struct ec_render_report {
     const char *command;            /* the command line, quoted for a shell */
     const char *scene;              /* file */
     const char *camera;             /* in words */
+    ec_viewpoint viewpoint;         /* the same in figures */
     const char *environment;        /* --env, or in words */
     const ec_render_options *options;
     const ec_render_stats *stats;

@@ -39,6 +39,46 @@ static void set_frame(ec_camera *camera, double forward[3], double up[3])
     }
 }
 
+static const double radians = 3.14159265358979323846 / 180;
+
+ec_result ec_camera_look(const ec_viewpoint *v, const double center[3], ec_camera *camera, ec_error *err)
+{
+    double forward[3], up[3];
+    *camera = (ec_camera){.type = v->fov > 0 ? EC_CAMERA_PERSPECTIVE : EC_CAMERA_ORTHOGRAPHIC,
+                          .yfov = (float)(v->fov * radians), .ymag = (float)(0.5 * v->tall)};
+    bool finite = isfinite(camera->yfov) && isfinite(camera->ymag);
+    for (int i = 0; i < 3; i++) {
+        forward[i] = v->target[i] - v->eye[i];
+        up[i] = v->up[i];
+        camera->position[i] = (float)(v->eye[i] - center[i]);
+        finite = finite && isfinite(camera->position[i]) && isfinite(up[i]);
+    }
+    if (!finite || !normalize(forward))
+        return ec_fail(err, "a camera at %g,%g,%g cannot look at %g,%g,%g: give two points that are apart", v->eye[0], v->eye[1], v->eye[2],
+                       v->target[0], v->target[1], v->target[2]);
+    if (!normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
+    set_frame(camera, forward, up);
+    return EC_OK;
+}
+
+double ec_camera_reach(const ec_scene *s, const ec_camera *camera)
+{
+    double along = 0;
+    for (int i = 0; i < 3; i++)
+        along += (0.5 * ((double)s->bounds_min[i] + s->bounds_max[i]) - camera->position[i]) * camera->forward[i];
+    return along > 0 ? along : 1;
+}
+
+void ec_camera_viewpoint(const ec_camera *c, const double center[3], double distance, ec_viewpoint *v)
+{
+    *v = (ec_viewpoint){.fov = c->type == EC_CAMERA_PERSPECTIVE ? c->yfov / radians : 0, .tall = 2 * (double)c->ymag};
+    for (int i = 0; i < 3; i++) {
+        v->eye[i] = c->position[i] + center[i];
+        v->target[i] = v->eye[i] + distance * c->forward[i];
+        v->up[i] = c->up[i];
+    }
+}
+
 static bool place_camera(const ec_placement *at, const double center[3], ec_camera *camera)
 {
     double forward[3], up[3];

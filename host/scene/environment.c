@@ -63,9 +63,10 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
 }
 
 /* turn = rotation about +y times turn. */
-static void turn(ec_environment *e, double degrees)
+void ec_environment_turn(ec_environment *e, double degrees)
 {
     static const float upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    if (fmod(degrees, 360) == 0) return;
     double angle = fmod(degrees, 360) * 3.14159265358979323846 / 180, c = cos(angle), s = sin(angle);
     float before[9];
     memcpy(before, e->turned ? e->turn : upright, sizeof before);
@@ -90,5 +91,5 @@ void ec_scene_adjust_environment(ec_scene *s, double degrees, double strength, c
     float *values = e->rgb ? e->rgb : e->constant;
     for (uint64_t i = 0; strength != 1 && i < count; i++) values[i] = (float)fmin(values[i] * strength, FLT_MAX);
     if (strength != 1) clean(values, count, "the environment, scaled", log);
-    if (e->rgb && fmod(degrees, 360) != 0) turn(e, degrees);
+    if (e->rgb) ec_environment_turn(e, degrees);
 }

@@ -229,9 +229,29 @@ bool ec_scene_has_light(const ec_scene *scene);
  * are set to 0, those above EC_RADIANCE_MOST to that; a warning counts them. */
 ec_result ec_scene_set_environment(ec_scene *scene, const char *spec, const ec_log *log, ec_error *err);
 
+/* Turns it about +y, counter-clockwise seen from above. */
+void ec_environment_turn(ec_environment *environment, double degrees);
+
 /* Makes the environment so many times as bright (none at all at 0), and turns it about +y, counter-clockwise seen from above. There
  * must be one. */
 void ec_scene_adjust_environment(ec_scene *scene, double degrees, double strength, const ec_log *log);
+
+/* Where one looks from and what at, in the file's coordinates. */
+typedef struct ec_viewpoint {
+    double eye[3], target[3], up[3]; /* metres; up: a direction */
+    double fov;                      /* degrees from the picture's bottom to its top; 0: parallel rays */
+    double tall;                     /* of parallel rays: metres from bottom to top */
+} ec_viewpoint;
+
+/* The camera that stands there, in the frame recentred by `center`. Its aspect is the image's, its name NULL. Fails where eye and
+ * target are one point, or a number is not finite. The one way from numbers to a camera: the same numbers, the same bits. */
+ec_result ec_camera_look(const ec_viewpoint *viewpoint, const double center[3], ec_camera *camera, ec_error *err);
+
+/* How far before the camera the scene's middle lies, along its axis; where it lies behind it, a metre. */
+double ec_camera_reach(const ec_scene *scene, const ec_camera *camera);
+
+/* And back, to rounding; the target lies `distance` before the eye. */
+void ec_camera_viewpoint(const ec_camera *camera, const double center[3], double distance, ec_viewpoint *viewpoint);
 
 /* Camera by name, else by index; failure lists what there is. */
 ec_result ec_scene_find_camera(const ec_scene *scene, const char *name_or_index, uint32_t *camera, ec_error *err);

@@ -5,7 +5,7 @@ import unittest
 
 from support import Case, eclat
 
-COMMANDS = ["render", "cost", "info", "compare", "merge", "devices"]
+COMMANDS = ["render", "cost", "info", "compare", "merge", "devices", "view"]
 
 
 class Help(Case):

@@ -1,0 +1,281 @@
+/* eclat view SCENE: a window that shows the render; what it saves is what `eclat render` would have written. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/cli.h"
+#include "cli/combinations.h"
+#include "cli/command_line.h"
+#include "cli/defaults.h"
+#include "cli/render_job.h"
+#include "cli/setters.h"
+#include "cli/stop.h"
+#include "cli/write_report.h"
+#include "pack/view.h"
+#include "report/names.h"
+#include "report/scene_report.h"
+#include "view/view.h"
+
+#define VIEW_HEIGHT 600 /* pixels */
+
+typedef struct view_job {
+    ec_render_request render; /* first: the setters of its options are used */
+    const char *against, *script;
+    bool stats;
+    struct {
+        const char *option, *value;
+    } kept[EC_OPTIONS_MAX];   /* as they were given, for the command that repeats a picture */
+    int kept_count;
+    ec_console *console;
+    ec_device_info device;
+    uint32_t device_index;
+    const char *device_why;
+    char environment[256];
+    double load_seconds;
+    uint32_t camera;          /* of the options, once loaded */
+    ec_viewpoint viewpoint;   /* its */
+    int saved;
+} view_job;
+
+#define REQUEST ((view_job *)target)
+TEXT_SETTER(against, against)
+TEXT_SETTER(script, script)
+FLAG_SETTER(stats, stats)
+
+/* Options of `render` that mean nothing here. */
+static bool is_foreign(const char *name)
+{
+    return !strcmp(name, "adaptive") || !strcmp(name, "json") || !strcmp(name, "verbose");
+}
+
+/* Those that the window sets, or that say nothing of the picture. */
+static bool is_ours(const char *name)
+{
+    static const char *const names[] = {"batch", "error", "env-rotate", "exposure", "integrator", "output", "quiet", "size", "spp", "time",
+                                        "tonemap", "without"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (!strcmp(names[i], name)) return true;
+    return false;
+}
+
+static bool is_camera(const char *name)
+{
+    static const char *const names[] = {"camera", "eye", "fov", "look-at", "parallel", "up"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (!strcmp(names[i], name)) return true;
+    return false;
+}
+
+static ec_result set_and_keep(void *target, const char *option, const char *value, ec_error *err)
+{
+    view_job *job = target;
+    for (int i = 0; i < ec_render_row_count; i++) {
+        if (strcmp(ec_render_rows[i].name, option)) continue;
+        EC_TRY(ec_render_rows[i].set(&job->render, option, value, err));
+        if (is_ours(option)) return EC_OK;
+        for (int k = 0; k < job->kept_count; k++)
+            if (!strcmp(job->kept[k].option, option)) job->kept[k] = job->kept[--job->kept_count]; /* the last one counts */
+        job->kept[job->kept_count].option = ec_render_rows[i].name;
+        job->kept[job->kept_count++].value = value;
+        return EC_OK;
+    }
+    return EC_OK;
+}
+
+static ec_result parse(int argc, char **argv, view_job *job, bool *done, ec_error *err)
+{
+    ec_option rows[EC_OPTIONS_MAX] = {{"against", 0, true, set_against}, {"script", 0, true, set_script}, {"stats", 0, false, set_stats}};
+    bool given[EC_OPTIONS_MAX] = {false};
+    int count = 3, first = 0;
+    ec_request asked;
+    for (int i = 0; i < ec_render_row_count && count < EC_OPTIONS_MAX; i++) {
+        if (is_foreign(ec_render_rows[i].name)) continue;
+        rows[count] = ec_render_rows[i];
+        rows[count++].set = set_and_keep;
+    }
+    ec_render_request_start(&job->render);
+    EC_TRY(ec_options_parse(rows, count, job, argc, argv, &first, given, &asked, err));
+    *done = ec_request_serve(asked, argv[0]);
+    if (*done) return EC_OK;
+    EC_TRY(ec_options_scene(argc, argv, first, &job->render.scene, err));
+    job->render.default_height = VIEW_HEIGHT;
+    return ec_render_request_settle(&job->render, rows, count, given, err);
+}
+
+/* The environment stays unturned: the window turns it. */
+static ec_result load(void *user, ec_scene **scene, ec_render_options *options, ec_error *err)
+{
+    view_job *job = user;
+    ec_render_request request = job->render;
+    ec_render_job render = {.request = &request};
+    request.env_degrees = 0;
+    ec_result result = ec_render_job_load(&render, job->console, err);
+    if (result != EC_OK) {
+        ec_render_job_free(&render);
+        return result;
+    }
+    *scene = render.scene;
+    *options = request.options;
+    job->camera = request.options.camera;
+    job->viewpoint = render.viewpoint;
+    job->load_seconds = render.load_seconds;
+    snprintf(job->environment, sizeof job->environment, "%s", render.environment_text);
+    return EC_OK;
+}
+
+/* NAME.exr, NAME-2.exr …: a later picture does not take the place of an earlier one of this window. */
+static void number_outputs(ec_outputs *outputs, int number)
+{
+    for (int i = 0; i < outputs->count && number > 1; i++) {
+        char *path = outputs->file[i].path, *dot = strrchr(path, '.'), numbered[PATH_MAX];
+        if (snprintf(numbered, sizeof numbered, "%.*s-%d%s", (int)(dot - path), path, number, dot) < (int)sizeof numbered)
+            memcpy(path, numbered, sizeof numbered);
+    }
+}
+
+typedef struct words {
+    char *argv[4 * EC_OPTIONS_MAX + 4 * EC_OUTPUTS_MAX + 64];
+    char text[16384];
+    int count;
+    size_t used;
+} words;
+
+__attribute__((format(printf, 2, 3))) static void add(words *w, const char *format, ...)
+{
+    size_t room = sizeof w->text - w->used;
+    va_list args;
+    va_start(args, format);
+    int size = vsnprintf(w->text + w->used, room, format, args);
+    va_end(args);
+    if (size < 0 || (size_t)size >= room || w->count == (int)(sizeof w->argv / sizeof w->argv[0])) return;
+    w->argv[w->count++] = w->text + w->used;
+    w->used += (size_t)size + 1;
+}
+
+static void add_triple(words *w, const char *option, const double xyz[3])
+{
+    add(w, "--%s=%.9g,%.9g,%.9g", option, xyz[0], xyz[1], xyz[2]);
+}
+
+/* The camera that the window moved; or one of the scene's, the one that the options ask for as they ask for it. */
+static void add_camera(words *w, const view_job *job, const ec_view_shot *shot)
+{
+    const ec_viewpoint *v = &shot->viewpoint;
+    if (!shot->moved && shot->options->camera == job->camera) return;
+    if (!shot->moved) {
+        add(w, "--camera=%u", shot->options->camera);
+        return;
+    }
+    add_triple(w, "eye", v->eye);
+    add_triple(w, "look-at", v->target);
+    add_triple(w, "up", v->up);
+    if (v->fov > 0) add(w, "--fov=%.9g", v->fov);
+    else add(w, "--parallel=%.9g", v->tall);
+}
+
+static bool is_kept(const view_job *job, const char *option, const char *value, const ec_view_shot *shot)
+{
+    ec_integrator integrator = shot->options->integrator;
+    bool asked = !shot->moved && shot->options->camera == job->camera;
+    if (!ec_combinations_belongs(option, integrator) || (is_camera(option) && !asked)) return false;
+    bool deep = !strcmp(option, "max-depth") && (!strcmp(value, "inf") || atoi(value) > EC_WHITTED_DEPTH_MOST);
+    return !(integrator == EC_INTEGRATOR_WHITTED && deep);
+}
+
+static char *command_of(const view_job *job, const ec_view_shot *shot, const ec_outputs *outputs)
+{
+    words w = {.count = 0};
+    const ec_render_options *o = shot->options;
+    add(&w, "eclat");
+    add(&w, "render");
+    add(&w, "%s", job->render.scene);
+    for (int i = 0; i < job->kept_count; i++) {
+        const char *option = job->kept[i].option, *value = job->kept[i].value;
+        if (!is_kept(job, option, value ? value : "", shot)) continue;
+        if (value) add(&w, "--%s=%s", option, value);
+        else add(&w, "--%s", option);
+    }
+    add(&w, "--size=%ux%u", o->width, o->height);
+    add_camera(&w, job, shot);
+    if (o->integrator != EC_INTEGRATOR_PATH) add(&w, "--integrator=%s", ec_integrator_names[o->integrator]);
+    if (shot->env_degrees != 0) add(&w, "--env-rotate=%.9g", shot->env_degrees);
+    for (uint32_t i = 0; i < ec_feature_count; i++)
+        if (o->without & ec_features[i].bit) add(&w, "--without=%s", ec_features[i].name);
+    add(&w, "--spp=%u", o->spp);
+    add(&w, "--batch=%u", o->batch);
+    if (shot->exposure != 0) add(&w, "--exposure=%.9g", shot->exposure);
+    if (shot->tonemap != EC_TONEMAP_NEUTRAL) add(&w, "--tonemap=%s", ec_tonemap_names[shot->tonemap]);
+    for (int i = 0; i < outputs->count; i++) {
+        add(&w, "-o");
+        add(&w, "%s", outputs->file[i].path);
+    }
+    return ec_command_line(w.count, w.argv);
+}
+
+static ec_viewpoint viewpoint_of(const view_job *job, const ec_view_shot *shot)
+{
+    ec_viewpoint v = shot->viewpoint;
+    const ec_camera *camera = &shot->scene->cameras[shot->options->camera];
+    if (!shot->moved && shot->options->camera == job->camera) return job->viewpoint;
+    if (!shot->moved) ec_camera_viewpoint(camera, shot->scene->center, ec_camera_reach(shot->scene, camera), &v);
+    return v;
+}
+
+static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
+{
+    view_job *job = user;
+    ec_outputs outputs = job->render.outputs;
+    char sha256[EC_HASH_SIZE], camera[256] = "of the preview window", environment[320];
+    if (outputs.count == 0) EC_TRY(ec_outputs_add_default(&outputs, job->render.scene, err));
+    number_outputs(&outputs, job->saved + 1);
+    const char *inputs[] = {job->render.scene, job->render.environment};
+    EC_TRY(ec_outputs_check(&outputs, inputs, 2, err));
+    char *command = command_of(job, shot, &outputs);
+    if (!command) return ec_fail(err, "out of memory for a command line");
+    if (!shot->moved) ec_camera_describe(shot->scene, shot->options->camera, camera, sizeof camera);
+    snprintf(environment, sizeof environment, "%s", job->environment);
+    if (shot->env_degrees != 0) snprintf(environment, sizeof environment, "%s, turned by %g degrees", job->environment, shot->env_degrees);
+    ec_render_report report = {
+        .command = command, .scene = job->render.scene, .camera = camera, .viewpoint = viewpoint_of(job, shot), .environment = environment,
+        .options = shot->options, .stats = shot->stats, .device = &job->device, .device_why = job->device_why,
+        .device_index = job->device_index, .exposure = shot->exposure, .tonemap = shot->tonemap,
+        .mean_luminance = ec_film_estimate_error(shot->film).mean_luminance, .batches = shot->film->batch_count,
+        .load_seconds = job->load_seconds,
+    };
+    ec_result result = ec_write_report(&outputs, shot->film, NULL, &report, sha256, err);
+    if (result == EC_OK) {
+        int used = snprintf(told, size, "saved");
+        for (int i = 0; i < outputs.count && used > 0 && (size_t)used < size; i++)
+            used += snprintf(told + used, size - (size_t)used, "%s %s", i ? "," : "", outputs.file[i].path);
+        if (used > 0 && (size_t)used < size) snprintf(told + used, size - (size_t)used, "; again by: %s", command);
+        printf("%s\n", command);
+        fflush(stdout);
+        job->saved++;
+    }
+    free(command);
+    return result;
+}
+
+ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
+{
+    view_job job = {.console = &cli->console};
+    bool done = false;
+    EC_TRY(parse(argc, argv, &job, &done, err));
+    if (done) return EC_OK;
+    cli->console.quiet = job.render.quiet;
+    EC_TRY(ec_view_available(err));
+    EC_TRY(ec_device_find(job.render.device, &job.device, &job.device_index, &job.device_why, err));
+    if (job.against) {
+        ec_exr exr = {0};
+        EC_TRY(ec_exr_read(job.against, &exr, err));
+        ec_exr_free(&exr);
+    }
+    const ec_view_request request = {
+        .device = job.device, .options = job.render.options, .env_degrees = job.render.env_degrees, .exposure = job.render.exposure,
+        .tonemap = job.render.tonemap, .scene = job.render.scene, .environment = job.render.environment, .against = job.against,
+        .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_requested,
+    };
+    ec_stop_catch_signals(false);
+    return ec_view_run(&request, err);
+}

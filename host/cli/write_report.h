@@ -1,0 +1,20 @@
+/* A film with its report to the files that were asked for. */
+#ifndef EC_CLI_WRITE_REPORT_H
+#define EC_CLI_WRITE_REPORT_H
+
+#include "cli/hash.h"
+#include "cli/outputs.h"
+#include "film/film.h"
+#include "report/render_report.h"
+#include "store/store.h"
+
+/* What makes the picture a part of a job that `eclat merge` can add to others. */
+typedef struct ec_slice {
+    const ec_job *job;
+    const ec_past *past;
+} ec_slice;
+
+/* slice may be NULL. Counts the report's heavy pixels, hashes the picture into sha256 (to which the report may point already), and writes. */
+ec_result ec_write_report(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report, char sha256[EC_HASH_SIZE], ec_error *err);
+
+#endif

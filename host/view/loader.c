@@ -1,0 +1,226 @@
+/* The loader's thread: reads the scene, and again when a file changes; sets sessions up for what is wished. The picture goes on in
+ * the meantime with what there is. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/clock.h"
+#include "pack/pack.h"
+#include "view/shared.h"
+#include "view/watch.h"
+
+#define SECONDS_BETWEEN_LOOKS 0.3
+
+/* What a role's session was made for. */
+typedef struct made_for {
+    uint32_t serial;   /* of the scene; 0: never */
+    ec_integrator integrator;
+    uint64_t without;
+} made_for;
+
+typedef struct loader {
+    ec_view *view;
+    ec_watch watch;
+    ec_view_scene *scene;
+    uint32_t loads, reloads;
+    made_for made[EC_ROLE_COUNT];
+} loader;
+
+static void say_loading(ec_view *view, const char *what)
+{
+    pthread_mutex_lock(&view->lock);
+    snprintf(view->status.loading, sizeof view->status.loading, "%s", what);
+    ec_view_post(view);
+    pthread_mutex_unlock(&view->lock);
+}
+
+/* A first load that fails ends the program; later ones leave the last picture. */
+static void say_failure(ec_view *view, const ec_error *err, bool is_first)
+{
+    pthread_mutex_lock(&view->lock);
+    if (is_first) view->fatal = *err, view->failed = true;
+    snprintf(view->status.failure, sizeof view->status.failure, "%s", err->text);
+    ec_view_post(view);
+    pthread_mutex_unlock(&view->lock);
+}
+
+static void find_facts(const ec_view_scene *s, ec_view_facts *f)
+{
+    const ec_scene *scene = s->scene;
+    ec_effects effects;
+    *f = (ec_view_facts){.serial = s->serial, .camera = s->options.camera, .width = s->options.width, .height = s->options.height,
+                         .has_map = scene->environment.rgb != NULL};
+    f->camera_count = scene->camera_count < EC_VIEW_CAMERAS ? scene->camera_count : EC_VIEW_CAMERAS;
+    for (uint32_t i = 0; i < f->camera_count; i++) {
+        const ec_camera *camera = &scene->cameras[i];
+        double reach = ec_camera_reach(scene, camera);
+        if (i == f->camera) reach = fmin(reach, ec_view_pick(scene, camera, 1, 1, 0, 0).distance); /* what one looks at */
+        ec_camera_viewpoint(camera, scene->center, reach, &f->cameras[i]);
+    }
+    for (int k = 0; k < 3; k++) {
+        double half = 0.5 * ((double)scene->bounds_max[k] - scene->bounds_min[k]);
+        f->center[k] = 0.5 * ((double)scene->bounds_max[k] + scene->bounds_min[k]) + scene->center[k];
+        f->radius += half * half;
+    }
+    f->radius = f->radius > 0 ? sqrt(f->radius) : 1;
+    if (ec_scene_calls(scene, &effects, NULL) == EC_OK) f->optional = effects.bits & ec_effects_optional;
+}
+
+/* A camera that nobody moved stays where it was too, whatever the file says now. */
+static void keep_camera(ec_view *view, const ec_view_facts *now)
+{
+    const ec_view_facts *old = &view->facts;
+    ec_view_wish *wish = &view->wish;
+    if (!old->serial) wish->camera = now->camera;
+    if (!old->serial || wish->moved) return;
+    const ec_viewpoint *was = &old->cameras[wish->camera];
+    if (wish->camera < now->camera_count && !memcmp(was, &now->cameras[wish->camera], sizeof *was)) return;
+    wish->viewpoint = *was;
+    wish->moved = true;
+}
+
+static ec_result load(loader *l, ec_error *err)
+{
+    ec_view *view = l->view;
+    const ec_view_request *request = view->request;
+    ec_watch_stop(&l->watch);
+    ec_watch_start(&l->watch, request->scene, request->environment);
+    ec_view_scene *s = calloc(1, sizeof *s);
+    if (!s) return ec_fail(err, "out of memory for a scene");
+    *s = (ec_view_scene){.users = 1, .serial = ++l->loads, .options = request->options};
+    ec_result result = request->load(request->user, &s->scene, &s->options, err);
+    if (result != EC_OK) {
+        free(s);
+        return result;
+    }
+    ec_view_facts facts;
+    find_facts(s, &facts);
+    ec_view_scene_release(view, l->scene);
+    l->scene = s;
+    pthread_mutex_lock(&view->lock);
+    keep_camera(view, &facts);
+    view->facts = facts;
+    view->status.failure[0] = 0;
+    ec_view_post(view);
+    pthread_mutex_unlock(&view->lock);
+    return EC_OK;
+}
+
+static void hand_over(ec_view *view, uint32_t role, ec_view_setup *setup)
+{
+    pthread_mutex_lock(&view->lock);
+    ec_view_setup *unclaimed = view->incoming[role];
+    view->incoming[role] = setup;
+    ec_view_post(view);
+    pthread_mutex_unlock(&view->lock);
+    ec_view_setup_free(view, unclaimed);
+}
+
+/* false: it failed, and will not be tried again until something else is wished. */
+static bool set_up(loader *l, uint32_t role, ec_integrator integrator, uint64_t without)
+{
+    ec_view_setup *setup;
+    ec_error err = {0};
+    bool is_first = l->made[role].serial == 0 && role == EC_ROLE_PICTURE;
+    l->made[role] = (made_for){l->scene->serial, integrator, without};
+    if (ec_view_setup_make(l->view, l->scene, integrator, without, &setup, &err) != EC_OK) {
+        say_failure(l->view, &err, is_first);
+        return false;
+    }
+    hand_over(l->view, role, setup);
+    return true;
+}
+
+static bool is_made(const loader *l, uint32_t role, ec_integrator integrator, uint64_t without)
+{
+    const made_for *m = &l->made[role];
+    return m->serial == l->scene->serial && m->integrator == integrator && m->without == without;
+}
+
+/* Kernels whose compiling has begun would hold up those of the rasteriser, which some drivers compile as they are launched: PoCL has
+ * one lock for all. */
+static void wait_for_light(ec_view *view)
+{
+    pthread_mutex_lock(&view->lock);
+    while (!view->quit && view->status.pictures == 0 && !*view->status.failure && !view->wish.paused)
+        pthread_cond_wait(&view->changed, &view->lock);
+    pthread_mutex_unlock(&view->lock);
+}
+
+/* First light comes from the rasteriser: nothing is built or compiled as fast. */
+static void serve(loader *l, const ec_view_wish *wish)
+{
+    if (!is_made(l, EC_ROLE_PICTURE, wish->integrator, wish->without)) {
+        bool first = l->made[EC_ROLE_PICTURE].serial == 0;
+        if (first && wish->integrator != EC_INTEGRATOR_RASTER) {
+            if (!set_up(l, EC_ROLE_PICTURE, EC_INTEGRATOR_RASTER, wish->without)) return;
+            wait_for_light(l->view);
+        }
+        say_loading(l->view, "building kernels and structures");
+        set_up(l, EC_ROLE_PICTURE, wish->integrator, wish->without);
+    } else if (wish->has_second && wish->second == EC_SECOND_RUNG && !is_made(l, EC_ROLE_SECOND, wish->rung, wish->without)) {
+        say_loading(l->view, "building the other rung");
+        set_up(l, EC_ROLE_SECOND, wish->rung, wish->without);
+    }
+    say_loading(l->view, "");
+}
+
+static bool is_served(const loader *l, const ec_view_wish *wish)
+{
+    bool second = !wish->has_second || wish->second != EC_SECOND_RUNG || is_made(l, EC_ROLE_SECOND, wish->rung, wish->without);
+    return second && is_made(l, EC_ROLE_PICTURE, wish->integrator, wish->without);
+}
+
+static struct timespec soon(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_REALTIME, &t);
+    t.tv_nsec += (long)(SECONDS_BETWEEN_LOOKS * 1e9);
+    if (t.tv_nsec >= 1000000000) t.tv_sec++, t.tv_nsec -= 1000000000;
+    return t;
+}
+
+/* Whoever writes a file may not be done yet: only what stays the same from one look to the next is read. */
+static void reload_if_changed(loader *l, bool *pending)
+{
+    if (ec_watch_changed(&l->watch)) {
+        *pending = true;
+        return;
+    }
+    if (!*pending) return;
+    *pending = false;
+    ec_error err = {0};
+    say_loading(l->view, "loading");
+    if (load(l, &err) != EC_OK) say_failure(l->view, &err, false);
+    say_loading(l->view, "");
+}
+
+void *ec_view_loader(void *argument)
+{
+    ec_view *view = argument;
+    loader l = {.view = view};
+    ec_error err = {0};
+    bool pending = false;
+    say_loading(view, "loading");
+    bool loaded = load(&l, &err) == EC_OK;
+    if (!loaded) say_failure(view, &err, true);
+    double looked = ec_now();
+    for (bool quit = !loaded; !quit;) {
+        struct timespec until = soon();
+        pthread_mutex_lock(&view->lock);
+        while (!view->quit && is_served(&l, &view->wish) && l.reloads == view->wish.reloads)
+            if (pthread_cond_timedwait(&view->changed, &view->lock, &until) != 0) break;
+        ec_view_wish wish = view->wish;
+        quit = view->quit;
+        pthread_mutex_unlock(&view->lock);
+        if (quit) break;
+        if (l.reloads != wish.reloads) l.reloads = wish.reloads, pending = true;
+        if (pending || ec_now() - looked >= SECONDS_BETWEEN_LOOKS) reload_if_changed(&l, &pending), looked = ec_now();
+        if (!is_served(&l, &wish)) serve(&l, &wish);
+    }
+    ec_watch_stop(&l.watch);
+    ec_view_scene_release(view, l.scene);
+    return NULL;
+}

@@ -1,0 +1,25 @@
+/* The lines over the picture. */
+#ifndef EC_VIEW_OVERLAY_H
+#define EC_VIEW_OVERLAY_H
+
+#include "view/shared.h"
+#include "view/text.h"
+
+typedef struct ec_view_overlay {
+    const ec_view_wish *wish;
+    const ec_view_status *status;
+    const ec_view_facts *facts;
+    const ec_view_request *request;
+    ec_view_layout layout;
+    ec_view_lines lines;
+    bool help, effects;     /* lists that are open */
+    bool message;           /* what was told of the last save is still shown */
+    const char *selected;   /* material, or NULL */
+} ec_view_overlay;
+
+void ec_view_overlay_draw(const ec_view_overlay *overlay, const ec_view_text *text, double width, double height);
+
+/* The effect that a digit means in the open list; 0: none. */
+uint64_t ec_view_effect_of_digit(const ec_view_facts *facts, int digit);
+
+#endif

@@ -1,0 +1,139 @@
+/* What lies under a pixel. One ray against all triangles: some milliseconds a million, and no structure to keep. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "view/shared.h"
+
+typedef struct ray {
+    double o[3], d[3]; /* d: unit */
+} ray;
+
+/* Through the pixel's centre, as kernels/stages/generate.cl makes it. */
+static ray ray_of(const ec_camera *c, uint32_t width, uint32_t height, uint32_t x, uint32_t y)
+{
+    bool flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
+    double half_height = flat ? c->ymag : tan(0.5 * c->yfov), half_width = half_height * width / height;
+    if (flat && c->aspect <= 0 && c->xmag > 0) half_width = c->xmag;
+    double sx = (2 * (x + 0.5) / width - 1) * half_width, sy = (1 - 2 * (y + 0.5) / height) * half_height, length = 0;
+    ray r;
+    for (int k = 0; k < 3; k++) {
+        double aside = sx * c->right[k] + sy * c->up[k];
+        r.o[k] = c->position[k] + (flat ? aside : 0);
+        r.d[k] = c->forward[k] + (flat ? 0 : aside);
+        length += r.d[k] * r.d[k];
+    }
+    for (int k = 0; k < 3; k++) r.d[k] /= sqrt(length);
+    return r;
+}
+
+/* Moeller and Trumbore 1997; infinite where it misses. */
+static double meet(const ray *r, const float *a, const float *b, const float *c)
+{
+    double e[3], f[3], p[3], s[3], q[3], det = 0, u = 0, v = 0, t = 0;
+    for (int k = 0; k < 3; k++) e[k] = (double)b[k] - a[k], f[k] = (double)c[k] - a[k], s[k] = r->o[k] - a[k];
+    for (int k = 0; k < 3; k++) p[k] = r->d[(k + 1) % 3] * f[(k + 2) % 3] - r->d[(k + 2) % 3] * f[(k + 1) % 3];
+    for (int k = 0; k < 3; k++) q[k] = s[(k + 1) % 3] * e[(k + 2) % 3] - s[(k + 2) % 3] * e[(k + 1) % 3];
+    for (int k = 0; k < 3; k++) det += e[k] * p[k], u += s[k] * p[k], v += r->d[k] * q[k], t += f[k] * q[k];
+    u /= det, v /= det, t /= det;
+    return det != 0 && u >= 0 && v >= 0 && u + v <= 1 && t > 0 ? t : INFINITY;
+}
+
+static void nearer(ec_view_hit *hit, double distance, uint32_t triangle)
+{
+    if (distance < hit->distance) *hit = (ec_view_hit){distance, triangle};
+}
+
+static void try_triangles(const ec_scene *s, const ray *r, uint32_t first, uint32_t count, const ec_placed *placed, ec_view_hit *best)
+{
+    ec_view_hit hit = *best;
+    for (uint32_t t = first; t < first + count; t++) {
+        const float *corner[3];
+        float moved[3][3];
+        for (int k = 0; k < 3; k++) {
+            corner[k] = s->positions + 3 * (size_t)s->indices[3 * (size_t)t + k];
+            if (!placed) continue;
+            ec_placed_point(placed, corner[k], moved[k]);
+            corner[k] = moved[k];
+        }
+        nearer(&hit, meet(r, corner[0], corner[1], corner[2]), t);
+    }
+    *best = hit;
+}
+
+typedef struct sphere {
+    double center[3], radius;
+} sphere;
+
+/* Around the box of some vertices. */
+static sphere around(const float *positions, uint32_t count)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0;
+    sphere s;
+    for (uint32_t v = 0; v < count; v++)
+        for (int k = 0; k < 3; k++) low[k] = fmin(low[k], positions[3 * (size_t)v + k]), high[k] = fmax(high[k], positions[3 * (size_t)v + k]);
+    for (int k = 0; k < 3; k++) s.center[k] = 0.5 * (low[k] + high[k]), square += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
+    s.radius = sqrt(square);
+    return s;
+}
+
+/* Where an instance stands: no distance grows by more than the matrix' Frobenius norm. */
+static sphere place(const sphere *s, const ec_placed *placed)
+{
+    sphere moved = {.radius = 0};
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        moved.center[k] = placed->place[k][3];
+        for (int j = 0; j < 3; j++) moved.center[k] += placed->place[k][j] * s->center[j], square += placed->place[k][j] * placed->place[k][j];
+    }
+    moved.radius = s->radius * sqrt(square) * 1.001;
+    return moved;
+}
+
+static bool passes_by(const ray *r, const sphere *s)
+{
+    double along = 0, square = 0;
+    for (int k = 0; k < 3; k++) along += (s->center[k] - r->o[k]) * r->d[k], square += (s->center[k] - r->o[k]) * (s->center[k] - r->o[k]);
+    return square - along * along > s->radius * s->radius;
+}
+
+static void try_instances(const ec_scene *s, const ray *r, ec_view_hit *best)
+{
+    sphere *spheres = malloc(s->shape_count * sizeof *spheres);
+    if (!spheres) return;
+    for (uint32_t i = 0; i < s->shape_count; i++)
+        spheres[i] = around(s->positions + 3 * (size_t)s->shapes[i].first_vertex, s->shapes[i].vertex_count);
+    for (uint32_t i = 0; i < s->placed_count; i++) {
+        const ec_placed *placed = &s->placed[i];
+        sphere here = place(&spheres[placed->shape], placed);
+        if (!passes_by(r, &here)) try_triangles(s, r, s->shapes[placed->shape].first, s->shapes[placed->shape].count, placed, best);
+    }
+    free(spheres);
+}
+
+ec_view_hit ec_view_pick(const ec_scene *s, const ec_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y)
+{
+    ray r = ray_of(camera, width, height, x, y);
+    ec_view_hit best = {INFINITY, 0};
+    try_triangles(s, &r, 0, ec_scene_flat_count(s), NULL, &best);
+    if (s->placed_count) try_instances(s, &r, &best);
+    return best;
+}
+
+void ec_view_material_sphere(const ec_scene *s, uint32_t material, double center[3], double *radius)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0;
+    for (uint32_t t = 0; t < ec_scene_flat_count(s); t++)
+        for (int i = 0; s->triangle_material[t] == material && i < 3; i++)
+            for (int k = 0; k < 3; k++) {
+                double c = s->positions[3 * (size_t)s->indices[3 * (size_t)t + i] + k];
+                low[k] = fmin(low[k], c), high[k] = fmax(high[k], c);
+            }
+    for (uint32_t i = 0; i < s->placed_count; i++) {
+        const ec_shape *shape = &s->shapes[s->placed[i].shape];
+        if (s->triangle_material[shape->first] != material) continue;
+        sphere own = around(s->positions + 3 * (size_t)shape->first_vertex, shape->vertex_count), here = place(&own, &s->placed[i]);
+        for (int k = 0; k < 3; k++) low[k] = fmin(low[k], here.center[k] - here.radius), high[k] = fmax(high[k], here.center[k] + here.radius);
+    }
+    for (int k = 0; k < 3; k++) center[k] = 0.5 * (low[k] + high[k]) + s->center[k], square += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
+    *radius = sqrt(square);
+}

@@ -1,0 +1,92 @@
+#include "view/script.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+    const char *verb;
+    int numbers; /* that follow it; -1: a key */
+} verbs[] = {{"turn", 3}, {"pan", 3}, {"dolly", 2}, {"wait", 1}, {"settle", 0}, {"key", -1}, {"quit", 0}};
+
+static bool read_step(const char *line, ec_script_step *step)
+{
+    double n[3] = {0, 0, 0};
+    char rest[8];
+    *step = (ec_script_step){.seconds = 0};
+    if (sscanf(line, "%15s", step->verb) != 1) return false;
+    for (size_t i = 0; i < sizeof verbs / sizeof verbs[0]; i++) {
+        if (strcmp(verbs[i].verb, step->verb)) continue;
+        if (verbs[i].numbers < 0) return sscanf(line, "%*s %15s %7s", step->key, rest) == 1 && ec_view_action_of(step->key) != EC_DO_NOTHING;
+        if (sscanf(line, "%*s %lf %lf %lf", &n[0], &n[1], &n[2]) != verbs[i].numbers && verbs[i].numbers > 0) return false;
+        step->seconds = verbs[i].numbers ? n[verbs[i].numbers - 1] : 0;
+        step->a = verbs[i].numbers > 1 ? n[0] : 0;
+        step->b = verbs[i].numbers > 2 ? n[1] : 0;
+        return step->seconds >= 0 && step->seconds < 1e6 && isfinite(step->a) && isfinite(step->b) && (strcmp(step->verb, "dolly") || step->a > 0);
+    }
+    return false;
+}
+
+ec_result ec_script_read(ec_script *s, const char *name, ec_error *err)
+{
+    char line[256];
+    *s = (ec_script){.count = 0};
+    if (!strcmp(name, "orbit")) {
+        s->steps[s->count++] = (ec_script_step){.verb = "turn", .a = 360, .seconds = 6};
+        return EC_OK;
+    }
+    FILE *file = fopen(name, "r");
+    if (!file) return ec_fail(err, "cannot read the script '%s'", name);
+    ec_result result = EC_OK;
+    for (int number = 1; result == EC_OK && fgets(line, sizeof line, file); number++) {
+        line[strcspn(line, "#\n")] = 0;
+        if (!line[strspn(line, " \t\r")]) continue;
+        if (s->count == EC_SCRIPT_STEPS) result = ec_fail(err, "%s:%d: more than %d steps", name, number, EC_SCRIPT_STEPS);
+        else if (!read_step(line, &s->steps[s->count])) result = ec_fail(err, "%s:%d: '%s' is no step; see 'eclat view --help'", name, number, line);
+        else s->count++;
+    }
+    fclose(file);
+    return result;
+}
+
+/* The part of a step that `share` of its time does; false: it goes on. */
+static void do_part(const ec_script_step *step, ec_view_input *in, double share)
+{
+    const double degree = 3.14159265358979323846 / 180;
+    if (!strcmp(step->verb, "turn")) ec_view_input_turn(in, step->a * degree * share, step->b * degree * share);
+    if (!strcmp(step->verb, "pan")) ec_view_input_drag(in, EC_DRAG_PAN, -step->a * share, step->b * share);
+    if (!strcmp(step->verb, "dolly")) ec_view_input_wheel(in, log(step->a) * share / log(0.9));
+}
+
+/* Of those without a time. */
+static bool is_over(const ec_script_step *step, ec_view_input *in, const ec_view_status *status)
+{
+    bool saving = in->wish.saves != status->saves_done;
+    if (!strcmp(step->verb, "settle")) return status->done && !status->preview && !in->wish.moving && !saving && !*status->loading;
+    if (!strcmp(step->verb, "quit")) in->quit = !saving;
+    if (!strcmp(step->verb, "key")) ec_view_input_do(in, ec_view_action_of(step->key));
+    return strcmp(step->verb, "quit") || in->quit;
+}
+
+void ec_script_run(ec_script *s, ec_view_input *in, const ec_view_status *status, double seconds)
+{
+    s->moves = false;
+    if (!status->pictures) return; /* there is nothing to see yet */
+    while (s->at < s->count) {
+        const ec_script_step *step = &s->steps[s->at];
+        if (step->seconds > 0) {
+            double take = fmin(seconds, step->seconds - s->done);
+            do_part(step, in, take / step->seconds);
+            s->moves |= step->a != 0 || step->b != 0;
+            s->done += take;
+            if (s->done < step->seconds - 1e-9) return;
+        } else if (!is_over(step, in, status)) {
+            return;
+        }
+        bool timed = step->seconds > 0;
+        s->at++;
+        s->done = 0;
+        if (timed) return;
+    }
+    in->quit = in->wish.saves == status->saves_done;
+}

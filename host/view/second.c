@@ -1,0 +1,80 @@
+#include "view/second.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "image/error_map.h"
+#include "view/slice.h"
+
+#define RUNG_SAMPLES 4u
+
+void ec_view_others_open(ec_view_others *o, const char *against)
+{
+    *o = (ec_view_others){0};
+    if (against && ec_image_read_rgb(against, &o->file_width, &o->file_height, &o->file, NULL) != EC_OK) o->file = NULL;
+}
+
+void ec_view_others_forget(ec_view_others *o)
+{
+    free(o->rung);
+    o->rung = NULL;
+}
+
+void ec_view_others_close(ec_view_others *o)
+{
+    ec_view_others_forget(o);
+    free(o->file);
+    o->file = NULL;
+}
+
+ec_result ec_view_others_render(ec_view_others *o, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user), void *user,
+                                ec_error *err)
+{
+    float *mean = malloc((size_t)width * height * 3 * sizeof *mean);
+    if (!mean) return ec_fail(err, "out of memory for a second picture");
+    ec_session_batch batch = {.samples = RUNG_SAMPLES, .go_on = go_on, .user = user, .slice = EC_VIEW_SLICE, .mean = mean};
+    ec_result result = ec_session_take(session, &batch, err);
+    if (result == EC_OK && batch.complete) o->rung = mean;
+    else free(mean);
+    return result;
+}
+
+typedef struct maps {
+    const ec_film *film;
+    const float *mean;
+} maps;
+
+/* As `eclat compare --diff`: the standard error in the place of a difference. */
+static void fill_error(const void *user, uint8_t *bytes)
+{
+    const maps *m = user;
+    uint64_t pixels = (uint64_t)m->film->width * m->film->height;
+    float off[3];
+    for (uint64_t p = 0; p < pixels; p++) {
+        double n = ec_film_batches(m->film, p);
+        for (int c = 0; c < 3; c++) off[c] = m->mean[3 * p + c] + (n > 1 ? (float)sqrt(m->film->m2[4 * p + c] / (n * (n - 1))) : 0);
+        ec_error_map(off, m->mean + 3 * p, 1, bytes + 3 * p);
+    }
+}
+
+/* Black none, pale yellow the most there are. */
+static void fill_samples(const void *user, uint8_t *bytes)
+{
+    const maps *m = user;
+    uint64_t pixels = (uint64_t)m->film->width * m->film->height;
+    double most = 1;
+    for (uint64_t p = 0; p < pixels; p++) most = fmax(most, ec_film_batches(m->film, p));
+    for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_batches(m->film, p) / most, bytes + 3 * p);
+}
+
+bool ec_view_others_show(ec_view_others *o, ec_view *view, const ec_view_wish *wish, const ec_film *film, const float *mean)
+{
+    const maps m = {film, mean};
+    switch (wish->second) {
+    case EC_SECOND_ERROR: return ec_view_show_filled(view, EC_ROLE_SECOND, film->width, film->height, fill_error, &m);
+    case EC_SECOND_SAMPLES: return ec_view_show_filled(view, EC_ROLE_SECOND, film->width, film->height, fill_samples, &m);
+    case EC_SECOND_RUNG: return !o->rung || ec_view_show(view, wish, EC_ROLE_SECOND, o->rung, film->width, film->height);
+    case EC_SECOND_FILE: return !o->file || ec_view_show(view, wish, EC_ROLE_SECOND, o->file, o->file_width, o->file_height);
+    default: return true;
+    }
+}

@@ -1,0 +1,46 @@
+/* The window: GLFW and OpenGL. */
+#ifndef EC_VIEW_WINDOW_H
+#define EC_VIEW_WINDOW_H
+
+#include "view/frames.h"
+#include "view/input.h"
+#include "view/script.h"
+#include "view/text.h"
+#include "view/upload.h"
+
+struct GLFWwindow;
+
+typedef struct ec_window {
+    ec_view *view;
+    struct GLFWwindow *glfw;
+    ec_view_textures textures;
+    ec_view_text text;
+    ec_view_input input;
+    ec_view_status status;      /* the last that was looked at */
+    ec_script script;
+    ec_frames frames;
+    double scale;               /* of text: the monitor's */
+    double cursor_x, cursor_y;  /* pixels of the framebuffer, from the top left */
+    int drag;                   /* mouse button that is down, or -1 */
+    uint32_t selecting;         /* the probe that a click waits for; 0: none */
+    double drag_path;           /* how far it went: a click does not move */
+    double s_down;              /* ec_now when S went down; 0: it is up */
+    bool s_flew;                /* and is no tap */
+    double flown;               /* ec_now of the last step of flight */
+    double told_at;             /* when a save was told */
+    bool telling;               /* it still is */
+    bool iconified, shown, dirty, is_full;
+    int old_x, old_y, old_width, old_height; /* before full screen */
+} ec_window;
+
+ec_result ec_window_open(ec_window *window, ec_view *view, ec_error *err); /* hidden */
+void ec_window_size(ec_window *window, uint32_t width, uint32_t height); /* in pixels, as far as the monitor has room; and shows it */
+void ec_window_fullscreen(ec_window *window, bool on);
+void ec_window_fly(ec_window *window);    /* by the keys that are held */
+void ec_window_draw(ec_window *window);
+void ec_window_close(ec_window *window);  /* half-open ones are fine */
+
+/* controls.c: GLFW's callbacks */
+void ec_window_listen(ec_window *window);
+
+#endif

@@ -1,0 +1,81 @@
+"""--eye, --look-at, --up, --fov and --parallel: a camera from the command line."""
+import json
+import math
+import struct
+import unittest
+
+from support import Case, data_uri, eclat, quad_scene, read_exr, write_gltf
+
+SMALL = ["--size", "36x24", "--spp", "4", "--integrator", "raster", "-q"]
+
+
+def corner_scene():
+    """The emitting quad [-1, 1]^2 in z = 0, moved to (10, 20, 30); its camera 3 m before it is turned a quarter about its axis."""
+    scene, _ = quad_scene()
+    scene["nodes"][0]["translation"] = [10, 20, 30]
+    scene["nodes"][1]["translation"] = [10, 20, 33]
+    scene["nodes"][1]["rotation"] = [0, 0, math.sqrt(0.5), math.sqrt(0.5)]
+    return scene
+
+
+class Viewpoint(Case):
+    def setUp(self):
+        super().setUp()
+        self.scene = write_gltf(self.path("quad.gltf"), corner_scene())
+
+    def render(self, *options):
+        out = self.path("out.exr")
+        self.assert_ok(eclat("render", self.scene, *SMALL, "-o", out, "--env", "0,0,0", *options))
+        return read_exr(out)
+
+    def lit(self, *options):
+        """The box of pixels that see light: left, top, right, bottom."""
+        values = self.render(*options)[1]["G"]
+        xs = [i % 36 for i, v in enumerate(values) if v > 0.5]
+        ys = [i // 36 for i, v in enumerate(values) if v > 0.5]
+        return min(xs), min(ys), max(xs) + 1, max(ys) + 1
+
+    def test_looks_where_it_is_told(self):
+        # Half a picture is 12 pixels = tan 45 degrees: from 2 m a metre is 6 pixels.
+        self.assertEqual(self.lit("--eye", "10,20,32", "--look-at=10,20,30", "--fov", "90"), (12, 6, 24, 18))
+        # A metre to the right of it, looking straight on: all moves 6 pixels to the left.
+        self.assertEqual(self.lit("--eye=11,20,32", "--look-at=11,20,30", "--fov=90"), (6, 6, 18, 18))
+        # With +x up what was right is below.
+        self.assertEqual(self.lit("--eye=11,20,32", "--look-at=11,20,30", "--fov=90", "--up=1,0,0"), (12, 12, 24, 24))
+
+    def test_parallel_rays(self):
+        # 8 m are 24 pixels, from however far.
+        for eye in ["10,20,32", "10,20,90"]:
+            self.assertEqual(self.lit("--eye", eye, "--look-at", "10,20,30", "--parallel", "8"), (15, 9, 21, 15))
+
+    def test_what_is_not_given_stays(self):
+        stored = self.render()[1]
+        attributes, same = self.render("--eye=10,20,33", "--up=-1,0,0")  # looks at the middle, as the file's camera does
+        self.assertEqual(same, stored)
+        self.assertIn("command line", attributes["eclat.camera"])
+        for name, value in {"eye": "10,20,33", "lookAt": "10,20,30", "up": "-1,0,0"}.items():
+            self.assertEqual([round(float(x), 4) + 0 for x in attributes[f"eclat.camera.{name}"].split(",")],
+                             [float(x) for x in value.split(",")])
+        self.assertAlmostEqual(float(attributes["eclat.camera.fov"]), math.degrees(0.8), 4)
+        turned = self.render("--fov", "20")[1]
+        self.assertNotEqual(turned["G"], stored["G"])
+
+    def test_the_attributes_make_the_same_camera(self):
+        attributes, first = self.render("--eye=9.1,20.3,31.7", "--look-at=10.2,20,30", "--fov=77.7")
+        again = [f"--{option}={attributes['eclat.camera.' + name]}"
+                 for option, name in [("eye", "eye"), ("look-at", "lookAt"), ("up", "up"), ("fov", "fov")]]
+        second = self.render(*again)[1]
+        worst = max(abs(a - b) for a, b in zip(first["G"], second["G"]))
+        self.assertLess(worst, 0.26)  # one of a pixel's four samples at an edge, at most
+
+    def test_nonsense_is_refused(self):
+        for options, says in {("--eye", "1,2"): "not three numbers", ("--eye", "1,2,nan"): "not three numbers",
+                              ("--eye", "1,2,3,4"): "not three numbers", ("--up", "0,0,0"): "no direction",
+                              ("--fov", "180"): "--fov", ("--fov", "0"): "--fov", ("--parallel", "0"): "--parallel"}.items():
+            self.assertIn(says, self.assert_one_error(eclat("render", self.scene, *options), 2))
+        run = eclat("render", self.scene, *SMALL, "--eye=1,2,3", "--look-at=1,2,3", cwd=self.folder)
+        self.assertIn("apart", self.assert_one_error(run, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,159 @@
+"""A screen without a monitor, eclat's window on it, and a hand. Xvfb with Mesa's software OpenGL; xdotool; ImageMagick's import."""
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from support import ECLAT, ENVIRONMENT, Case
+
+TOOLS = ["Xvfb", "xdotool", "import", "convert"]
+
+
+def why_not():
+    """What is missing for these tests; None: nothing."""
+    missing = [tool for tool in TOOLS if not shutil.which(tool)]
+    if missing:
+        return "not installed: " + ", ".join(missing)
+    run = subprocess.run([ECLAT, "view", "no-such-scene.gltf"], env=dict(ENVIRONMENT, DISPLAY=""), capture_output=True, text=True, check=False)
+    return "eclat was built without its preview window" if "without its preview" in run.stderr else None
+
+
+class Screen:
+    """An X server of its own, on a display number that it chooses."""
+
+    def __init__(self, size="1280x1024"):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp", "-noreset"],
+                                       pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.display = ":" + pipe.readline().strip()
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+class Window:
+    """eclat view, started; its folder is the current one."""
+
+    def __init__(self, screen, folder, *arguments, prefix=(), env=None):
+        self.screen = screen
+        self.environment = dict(ENVIRONMENT, DISPLAY=screen.display, LIBGL_ALWAYS_SOFTWARE="1", **(env or {}))
+        self.out = open(os.path.join(folder, "out.txt"), "w+", encoding="utf-8")
+        self.err = open(os.path.join(folder, "err.txt"), "w+", encoding="utf-8")
+        self.folder = folder
+        self.process = subprocess.Popen([*prefix, ECLAT, "view", *arguments], cwd=folder, env=self.environment, stdin=subprocess.DEVNULL,
+                                        stdout=self.out, stderr=self.err)
+        self.id = None
+
+    def text(self, which="out"):
+        with open(os.path.join(self.folder, which + ".txt"), encoding="utf-8") as file:
+            return file.read()
+
+    def tool(self, *arguments):
+        return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, capture_output=True, text=True, check=False).stdout
+
+    def wait_until(self, what, seconds=120, every=0.1):
+        """what() until it is true; its last value."""
+        until = time.monotonic() + seconds
+        while True:
+            value = what()
+            if value or time.monotonic() > until or self.process.poll() is not None:
+                return value
+            time.sleep(every)
+
+    def appear(self):
+        found = self.wait_until(lambda: self.tool("search", "--onlyvisible", "--name", " - eclat"))
+        assert found, self.text("err")
+        self.id = found.split()[0]
+        self.tool("windowfocus", "--sync", self.id)
+        return self
+
+    def size(self):
+        lines = self.tool("getwindowgeometry", "--shell", self.id).split()
+        values = dict(line.split("=") for line in lines)
+        return int(values["WIDTH"]), int(values["HEIGHT"])
+
+    def key(self, *names):
+        for name in names:
+            self.tool("key", "--window", self.id, name)
+
+    def hold(self, name, seconds):
+        self.tool("keydown", name)
+        time.sleep(seconds)
+        self.tool("keyup", name)
+
+    def drag(self, button, x0, y0, x1, y1):
+        self.tool("mousemove", "--window", self.id, x0, y0, "mousedown", button)
+        for step in range(1, 6):
+            self.tool("mousemove", "--window", self.id, x0 + (x1 - x0) * step // 5, y0 + (y1 - y0) * step // 5)
+        self.tool("mouseup", button)
+
+    def screenshot(self, name="shot.png"):
+        path = os.path.join(self.folder, name)
+        subprocess.run(["import", "-window", self.id, path], env=self.environment, check=True)
+        return path
+
+    def save(self):
+        """Taps S and waits for the command that repeats the picture."""
+        before = self.text().count("\n")
+        self.key("s")
+        self.wait_until(lambda: self.text().count("\n") > before)
+        lines = self.text().splitlines()
+        assert len(lines) > before, self.text("err")
+        return lines[-1]
+
+    def close(self):
+        """By Q; the exit code. Now and then a key sent to a window is lost on the way (events that are sent carry no time, and come among
+        others that do), so it may take another."""
+        try:
+            for _ in range(4):
+                self.key("q")
+                try:
+                    return self.process.wait(15)
+                except subprocess.TimeoutExpired:
+                    continue
+            raise AssertionError("the window does not close")
+        finally:
+            self.kill()
+
+    def kill(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGKILL)
+            self.process.wait()
+        self.out.close()
+        self.err.close()
+
+
+def pixels(path, crop=None):
+    """(width, height, bytes) of a PNG, three a pixel; crop: as ImageMagick takes it."""
+    command = ["convert", path, *(["-crop", crop, "+repage"] if crop else []), "-depth", "8", "ppm:-"]
+    data = subprocess.run(command, capture_output=True, check=True).stdout
+    _, width, height, _, body = data.split(None, 4) if data[:2] == b"P6" else (None,) * 5
+    width, height = int(width), int(height)
+    return width, height, data[-3 * width * height:]
+
+
+def mean_difference(a, b):
+    """Of two pictures of one size, in steps of 256."""
+    assert a[:2] == b[:2], (a[:2], b[:2])
+    return sum(abs(x - y) for x, y in zip(a[2], b[2])) / len(a[2])
+
+
+class ViewCase(Case):
+    @classmethod
+    def setUpClass(cls):
+        reason = why_not()
+        if reason:
+            raise unittest.SkipTest(reason)
+        cls.screen = Screen()
+        cls.addClassCleanup(cls.screen.close)
+
+    def open(self, *arguments, **options):
+        window = Window(self.screen, tempfile.mkdtemp(dir=self.folder), *arguments, **options)
+        self.addCleanup(window.kill)
+        return window.appear()
