@@ -145,7 +145,7 @@ static void check_hot_texel(uint32_t tx, uint32_t ty, float background)
         }
     char file[512], name[64];
     snprintf(file, sizeof file, "%s/direct-hot-texel.exr", ECLAT_TEST_OUT);
-    ec_channel channels[3] = {{"R", rgb, 3}, {"G", rgb + 1, 3}, {"B", rgb + 2, 3}};
+    ec_channel channels[3] = {{.name = "R", .data = rgb, .stride = 3}, {.name = "G", .data = rgb + 1, .stride = 3}, {.name = "B", .data = rgb + 2, .stride = 3}};
     ec_error err = {0};
     CHECK_OK(ec_exr_write(file, WIDTH, HEIGHT, channels, 3, NULL, 0, &err), err);
     gltf_writer *w = floor_scene(0.5);

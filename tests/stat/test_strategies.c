@@ -113,7 +113,7 @@ static const char *write_environment(void)
             int is_sun = (x == 9 || x == 10) && (y == 4 || y == 5), is_sky = y < HEIGHT / 2;
             for (int k = 0; k < 3; k++) rgb[3 * (y * WIDTH + x) + k] = is_sun ? 40 : is_sky ? 0.3f + 0.1f * (float)k : 0.1f;
         }
-    ec_channel channels[3] = {{"R", rgb, 3}, {"G", rgb + 1, 3}, {"B", rgb + 2, 3}};
+    ec_channel channels[3] = {{.name = "R", .data = rgb, .stride = 3}, {.name = "G", .data = rgb + 1, .stride = 3}, {.name = "B", .data = rgb + 2, .stride = 3}};
     ec_error err = {0};
     CHECK_OK(ec_exr_write(ECLAT_TEST_OUT "/strategies-sky.exr", WIDTH, HEIGHT, channels, 3, NULL, 0, &err), err);
     return ECLAT_TEST_OUT "/strategies-sky.exr";
