@@ -27,6 +27,7 @@ static inline bool case_take_batch(void *user, const ec_progress *progress)
     uint32_t n = b->film.batch_count;
     if (n == b->count) return true;
     if (n != b->count + 1) exit(1);
+    ec_film_show(&b->film);
     float *to = b->data + b->count * b->values;
     for (uint64_t i = 0; i < b->values; i++) {
         to[i] = (float)(b->film.mean[i] * n - b->previous[i] * (n - 1));
