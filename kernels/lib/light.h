@@ -72,7 +72,7 @@ EC_FN v3 light_met_error(v3 reach, v3 towards)
 EC_FN v3 light_radiance(const light_record *l, const geometry *g, lane_i m, lane_f b1, lane_f b2, v3 wi)
 {
     v3 radiance = l->emission;
-    if (!HAS(EMISSION_TEXTURE) && !HAS(CLEARCOAT)) return radiance;
+    if (!(HAS(EMISSION_TEXTURE) || HAS(CLEARCOAT))) return radiance;
     lane_i textured = m & ((l->kind & EC_LIGHT_TEXTURED) != 0u), coated = m & ((l->kind & EC_LIGHT_COATED) != 0u);
     lane_i looks = textured | coated;
     if (!any_lane(looks)) return radiance;
