@@ -134,9 +134,11 @@ static void write_flat(const lamp *l, ec_light_data *out)
     out->pdf_a = (float)(1 / l->area);
 }
 
-static void write_body(const lamp *l, ec_light_data *out)
+/* A clear coat over all of it, textured or not, takes 0.04 + 0.96 / 21 of what a disc of all angles sends: the mean of Schlick's
+ * reflectance, by the cosine. */
+static void write_body(const ec_material *m, const lamp *l, ec_light_data *out)
 {
-    double share = out->kind & EC_LIGHT_TWO_SIDED ? 0.5 : 0.25;
+    double share = (out->kind & EC_LIGHT_TWO_SIDED ? 0.5 : 0.25) * (1 - m->coat * (0.04 + 0.96 / 21));
     *out = (ec_light_data){.kind = EC_KIND_POINT, .prim = EC_NO_ID, .pmf = 1.0f, .b = {0, 0, 1},
                            .pdf_a = (float)(l->radius * 1.001)}; /* just outside, where a shadow ray may end */
     for (int k = 0; k < 3; k++) {
@@ -190,7 +192,7 @@ ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *
         bool is_body = bodies[root].area > 0;
         if ((is_body ? root : lamps[i].flat) != i || (lights[i].kind & EC_LIGHT_KIND_MASK) == EC_KIND_ENVIRONMENT) continue;
         lights[kept] = lights[i];
-        if (is_body) write_body(&bodies[i], &lights[kept]);
+        if (is_body) write_body(&scene->materials[scene->triangle_material[lights[i].prim]], &bodies[i], &lights[kept]);
         else if (is_triangle(&lights[i])) write_flat(&lamps[i], &lights[kept]);
         kept++;
     }

@@ -56,7 +56,7 @@ static void add_triangle(const ec_scene *scene, const ec_pack *pack, uint32_t pr
     memcpy(l->c, p->v2, sizeof l->c);
     memcpy(l->emission, m->emission, sizeof l->emission);
     l->kind = EC_KIND_TRIANGLE | (m->double_sided ? EC_LIGHT_TWO_SIDED : 0) |
-              (m->textures[EC_SLOT_EMISSION].texture >= 0 ? EC_LIGHT_TEXTURED : 0);
+              (m->textures[EC_SLOT_EMISSION].texture >= 0 ? EC_LIGHT_TEXTURED : 0) | (m->coat > 0.0f ? EC_LIGHT_COATED : 0);
     l->prim = prim;
     l->pdf_a = (float)(1.0 / area); /* times pmf once that is known */
     list->power[list->count++] = power;

@@ -3,7 +3,7 @@
  *
  *   f = (1 - s) base + s D V,   s = weight (0.04 + 0.96 (1 - n . wo)^5)
  *
- * Light that comes back is not dimmed again: energy is kept, but f(wo, wi) is not f(wi, wo). */
+ * and so of light that the surface under it gives off. Light that comes back is not dimmed again: energy is kept, but f(wo, wi) is not f(wi, wo). */
 #ifndef EC_LIB_COAT_H
 #define EC_LIB_COAT_H
 
@@ -24,6 +24,28 @@ EC_FN v3 coat_local(const coat *c, v3 w)
     return v3_make(v3_dot(w, c->s), v3_dot(w, c->t), v3_dot(w, c->n));
 }
 
+/* Of light along a way at this cosine to its normal. */
+EC_FN lane_f coat_reflectance(lane_f cosine)
+{
+    return fma(pow5(1.0f - min(max(cosine, F(0.0f)), F(1.0f))), F(0.96f), F(0.04f));
+}
+
+/* Light that the surface at h gives off towards wo, after its coat: the coat lies over emission too. For paths that meet a lamp and for
+ * points chosen on one alike. Bodies of glass have no coat inside, also where a texture says that nothing passes. */
+EC_FN v3 coat_emission(const geometry *g, const hit_point *h, lane_i m, v3 wo, v3 emission)
+{
+    if (!HAS(CLEARCOAT)) return emission;
+    m = m & (material_quad(g, h, EC_MATERIAL_COAT).a > 0.0f);
+    if (!any_lane(m)) return emission;
+    surface s;
+    surface_place(h, wo, &s);
+    surface_frame(g, h, m, wo, &s);
+    lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
+    m = m & (s.front | ((flags & (EC_MATERIAL_REFRACTS | EC_MATERIAL_BOUNDS)) == 0u));
+    lane_f share = surface_coat_weight(g, h, m) * coat_reflectance(v3_dot(s.coat_ns, wo));
+    return v3_select(m, v3_scale(emission, 1.0f - share), emission);
+}
+
 /* albedo: about what the surface under it reflects. */
 EC_FN coat coat_make(const surface *s, v3 wo, lane_f albedo)
 {
@@ -37,7 +59,7 @@ EC_FN coat coat_make(const surface *s, v3 wo, lane_f albedo)
     }
     v3_frame(c.n, &c.s, &c.t);
     c.wo = coat_local(&c, wo);
-    c.share = s->coat * fma(pow5(1.0f - min(max(c.wo.z, F(0.0f)), F(1.0f))), F(0.96f), F(0.04f));
+    c.share = s->coat * coat_reflectance(c.wo.z);
     lane_f under = (1.0f - c.share) * albedo;
     /* Never all: what the surface under it does at other angles must not be left out. */
     c.p = c.share > 0.0f ? min(c.share / (c.share + under), F(0.9f)) : F(0.0f);

@@ -43,7 +43,9 @@ EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f u, s
     }
     *beta = v3_select(m, left, *beta);
     s->eta = m ? eta : s->eta;
-    s->f0 = v3_select(m, v3_scale(s->f0, r * r), s->f0);
+    /* A colour of the reflectance that is cut at f90 stays cut. */
+    v3 f0 = v3_scale(s->f0, r * r);
+    s->f0 = v3_select(m, v3_make(min(f0.x, s->f90), min(f0.y, s->f90), min(f0.z, s->f90)), s->f0);
     if (HAS(SMOOTH)) s->smooth = s->smooth | (m & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA));
 }
 

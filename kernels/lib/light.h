@@ -3,6 +3,7 @@
 #ifndef EC_LIB_LIGHT_H
 #define EC_LIB_LIGHT_H
 
+#include "coat.h"
 #include "environment.h"
 #include "light_tree.h"
 #include "spherical_triangle.h"
@@ -84,8 +85,21 @@ EC_FN v3 light_met_error(v3 reach, v3 towards)
     return v3_fma(way, beyond * EC_GAMMA(13), v3_scale(reach, F(EC_GAMMA(4))));
 }
 
-/* A point of a triangle by its barycentrics, seen from p. Its density is that of uniform points. */
-EC_FN light_sample light_point_of_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f b1, lane_f b2)
+/* What the point at these barycentrics of a triangle sends along -wi. */
+EC_FN v3 light_radiance(const light_record *l, const geometry *g, lane_i m, lane_f b1, lane_f b2, v3 wi)
+{
+    v3 radiance = l->emission;
+    if (!(HAS(EMISSION_TEXTURE) || HAS(CLEARCOAT))) return radiance;
+    lane_i textured = m & ((l->kind & EC_LIGHT_TEXTURED) != 0u), coated = m & ((l->kind & EC_LIGHT_COATED) != 0u);
+    lane_i looks = textured | coated;
+    if (!any_lane(looks)) return radiance;
+    hit_point h = hit_point_make(g, looks ? l->prim : U(0), b1, b2);
+    if (HAS(EMISSION_TEXTURE)) radiance = v3_select(textured, v3_mul(radiance, material_texture(g, &h, textured, EC_SLOT_EMISSION, true).rgb), radiance);
+    return coat_emission(g, &h, coated, v3_negate(wi), radiance);
+}
+
+/* A point of a triangle by its barycentrics, seen from p. Its density is that of uniform points; its radiance is still to come. */
+EC_FN light_sample light_point_of_triangle(const light_record *l, lane_i m, v3 p, lane_f b1, lane_f b2)
 {
     light_sample s;
     v3 a = l->a, b = l->b, c = l->c;
@@ -103,14 +117,6 @@ EC_FN light_sample light_point_of_triangle(const light_record *l, const geometry
     cosine = (l->kind & EC_LIGHT_TWO_SIDED) != 0u ? fabs(cosine) : cosine;
     s.target = l->prim;
     s.pdf = l->pdf_a * d2 / cosine;
-    s.radiance = l->emission;
-    if (HAS(EMISSION_TEXTURE)) {
-        lane_i textured = m & ((l->kind & EC_LIGHT_TEXTURED) != 0u);
-        if (any_lane(textured)) {
-            hit_point h = hit_point_make(g, textured ? s.target : U(0), b1, b2);
-            s.radiance = v3_mul(s.radiance, material_texture(g, &h, textured, EC_SLOT_EMISSION, true).rgb);
-        }
-    }
     s.is_delta = s.is_far = !TRUE_MASK;
     s.valid = m & (cosine > 0.0f) & (d2 > 0.0f);
     return s;
@@ -165,9 +171,10 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
         pdf = light_near_pdf(&t, l->pdf_a, n);
         seen = (pdf > 0.0f) & ((v3_dot(a, n) < 0.0f) | ((l->kind & EC_LIGHT_TWO_SIDED) != 0u));
     }
-    light_sample s = light_point_of_triangle(l, g, m, p, b1, b2);
+    light_sample s = light_point_of_triangle(l, m, p, b1, b2);
     /* The direction itself: right above the lamp the way to its point, whose place is rounded, leads anywhere. */
     s.wi = v3_select(near, wi, s.wi);
+    s.radiance = light_radiance(l, g, m, b1, b2, s.wi);
     s.pdf = near ? pdf : s.pdf;
     s.valid = near ? seen : s.valid;
     return s;

@@ -16,8 +16,10 @@ EC_FN light_sample light_from_centre(global const float *table, uint id, const g
     s.radiance = v3_zero();
     if (HAS(AREA_LIGHTS)) {
         /* The density per solid angle is pmf d^2 / (area cos). */
-        s = light_point_of_triangle(&l, g, m & (type == EC_KIND_TRIANGLE), p, F(1.0f / 3.0f), F(1.0f / 3.0f));
-        s.radiance = v3_scale(s.radiance, l.pmf / s.pdf);
+        lane_f third = F(1.0f / 3.0f);
+        lane_i is = m & (type == EC_KIND_TRIANGLE);
+        s = light_point_of_triangle(&l, is, p, third, third);
+        s.radiance = v3_scale(light_radiance(&l, g, is, third, third, s.wi), l.pmf / s.pdf);
     }
     if (HAS(PUNCTUAL_LIGHTS) || HAS(AREA_LIGHTS)) { /* curved lamps count as points */
         lane_i is = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);

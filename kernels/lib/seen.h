@@ -2,8 +2,8 @@
 #ifndef EC_LIB_SEEN_H
 #define EC_LIB_SEEN_H
 
+#include "coat.h"
 #include "environment.h"
-#include "surface.h"
 
 typedef struct seen {
     hit_point h;
@@ -34,7 +34,7 @@ EC_FN seen seen_surface(const geometry *g, lane_i found, lane_u prim, lane_f b1,
     lane_u flags = as_lane_u(emission.d);
     if (HAS(EMISSION)) {
         lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) & (e.s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
-        if (any_lane(m)) e.glow = v3_select(m, surface_emission(g, &e.h, m, emission), e.glow);
+        if (any_lane(m)) e.glow = v3_select(m, coat_emission(g, &e.h, m, wo, surface_emission(g, &e.h, m, emission)), e.glow);
     }
     if (HAS(UNLIT)) {
         lane_i m = found & ((flags & EC_MATERIAL_UNLIT) != 0u);

@@ -218,17 +218,19 @@ EC_FN void surface_anisotropy(const geometry *g, const hit_point *h, lane_i m, s
     s->t = v3_select(m, v3_cross(s->ns, along), s->t);
 }
 
+EC_FN lane_f surface_coat_weight(const geometry *g, const hit_point *h, lane_i m)
+{
+    lane_f weight = material_quad(g, h, EC_MATERIAL_COAT).a;
+    if (HAS(CLEARCOAT_TEXTURE)) weight *= material_texture(g, h, m, EC_SLOT_CLEARCOAT, false).rgb.x;
+    return weight;
+}
+
 /* KHR_materials_clearcoat. The inside of a body that refracts has none. */
 EC_FN void surface_coat(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
-    quad coat = material_quad(g, h, EC_MATERIAL_COAT);
-    lane_f roughness = coat.b;
-    s->coat = coat.a;
-    if (HAS(CLEARCOAT_TEXTURE)) {
-        s->coat *= material_texture(g, h, m, EC_SLOT_CLEARCOAT, false).rgb.x;
-        roughness *= material_texture(g, h, m, EC_SLOT_CLEARCOAT_ROUGHNESS, false).rgb.y;
-    }
-    s->coat = (s->refracts & !s->front) ? F(0.0f) : s->coat;
+    lane_f roughness = material_quad(g, h, EC_MATERIAL_COAT).b, weight = surface_coat_weight(g, h, m);
+    if (HAS(CLEARCOAT_TEXTURE)) roughness *= material_texture(g, h, m, EC_SLOT_CLEARCOAT_ROUGHNESS, false).rgb.y;
+    s->coat = (s->refracts & !s->front) ? F(0.0f) : weight;
     s->coat_alpha = max(roughness * roughness, F(EC_SMOOTH_ALPHA));
     s->coat_smooth = roughness * roughness < EC_SMOOTH_ALPHA;
 }

@@ -116,7 +116,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                 h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source, gather_u(light_trails, lamp));
             }
             lane_f pdf = light_found_pdf(&h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
-            v3 Le = v3_scale(surface_emission(&g, &h, m, emission), found_weight(params->sample, path_pdf, pdf));
+            v3 Le = coat_emission(&g, &h, m, wo, surface_emission(&g, &h, m, emission));
+            Le = v3_scale(Le, found_weight(params->sample, path_pdf, pdf));
             emitted = v3_select(m, Le, emitted);
             emits = emits | m;
         }

@@ -35,20 +35,15 @@ static ec_scene *balls(ec_instancing instancing)
     ec_model_quad(m, material, (double[3]){-1, -3, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
     place(m, flat, 0, 0, 5);
     ec_model_sphere(m, material, (double[3]){1000, 0, 0}, 1, 2, true);
-    place(m, nearly_flat, 0, 0, 5);
-    ec_model_repeat(m);
-    place(m, turned, 3, 1, 0);
-    ec_model_repeat(m);
-    place(m, mirrored, 2000, 2, 0);
-    ec_model_repeat(m);
-    place(m, sheared, -1000, 0, 0);
-    ec_model_repeat(m);
-    place(m, tiny, 7, 0, 7);
-    ec_model_repeat(m);
-    place(m, huge, 1e6, 0, 0);
-    ec_model_repeat(m);
-    place(m, turned, -3, 0, 2);
-    ec_model_repeat(m);
+    const struct {
+        const double *turn;
+        double x, y, z;
+    } places[1 + PLACES] = {{nearly_flat, 0, 0, 5}, {turned, 3, 1, 0}, {mirrored, 2000, 2, 0}, {sheared, -1000, 0, 0},
+                            {tiny, 7, 0, 7}, {huge, 1e6, 0, 0}, {turned, -3, 0, 2}};
+    for (int i = 0; i < 1 + PLACES; i++) {
+        place(m, places[i].turn, places[i].x, places[i].y, places[i].z);
+        ec_model_repeat(m);
+    }
     return end(m);
 }
 

@@ -127,8 +127,27 @@ static void channels_are_their_own(void)
     case_free(&few_wide);
 }
 
+/* A block that reflects all of its middle colour, in white light: the index of blue must not have it return more than comes in. */
+static void reflects_no_more(void)
+{
+    gltf_writer *w = gltf_new();
+    int glass = gltf_add(&w->materials,
+                         "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0},\"extensions\":{\"KHR_materials_transmission\":"
+                         "{\"transmissionFactor\":1},\"KHR_materials_volume\":{\"thicknessFactor\":1},\"KHR_materials_dispersion\":"
+                         "{\"dispersion\":2},\"KHR_materials_specular\":{\"specularColorFactor\":[25,25,25]}}}");
+    gltf_box(w, glass, (double[3]){-1, -1, -1}, (double[3]){1, 1, 1});
+    gltf_camera(w, (double[3]){0, 0, 5}, (double[3]){0.2, 0.3, 0}, 1e-5);
+    ec_render_options o = case_options(8, 8, 4096);
+    case_image image = case_render_file(gltf_write(w, "reflects-all"), "1,1,1", &o);
+    for (int k = 0; k < 3; k++) printf("reflecting glass, channel %d: %.5f +- %.5f\n", k, image.mean[k], image.mean_se[k]);
+    CASE_NEAR(&image, 1.0, 4, 0.01);
+    case_free(&image);
+    free(w);
+}
+
 int main(void)
 {
+    reflects_no_more();
     prism(1.5, 1);
     prism(1.7, 0.2);
     channels_are_their_own();

@@ -1,4 +1,5 @@
-/* Random scenes: does the scan miss an effect? A few tens of scenes of few sets of effects; test_effects_fuzz_many.c has more. */
+/* Random scenes: does the scan miss an effect? A few tens of scenes of few sets of effects, half with multiple
+ * scattering; test_effects_fuzz_many.c has more. */
 #include "support/effect_fuzz.h"
 
 int main(void)
@@ -10,8 +11,9 @@ int main(void)
             EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_UNLIT | EC_FEATURE_NORMAL_TEXTURE,
     };
     int lit = 0;
-    for (uint64_t i = 0; i < 2; i++) lit += ef_run(1000 * i, 15, EF_SHARED, EC_INTEGRATOR_PATH, sets[i]);
-    for (uint64_t seed = 5000; seed < 5004; seed++) lit += ef_run(seed, 1, EF_EXACT, EC_INTEGRATOR_PATH, ef_few(seed));
+    for (uint64_t i = 0; i < 2; i++) lit += ef_run(1000 * i, 15, EF_SHARED, EC_INTEGRATOR_PATH, (ec_scattering)i, sets[i]);
+    for (uint64_t seed = 5000; seed < 5004; seed++)
+        lit += ef_run(seed, 1, EF_EXACT, EC_INTEGRATOR_PATH, (ec_scattering)(seed % 2), ef_few(seed));
     CHECK_MSG(lit == 34, "only %d of 34 scenes are lit", lit);
     TEST_END();
 }

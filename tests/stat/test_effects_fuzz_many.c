@@ -7,9 +7,10 @@ int main(void)
     int lit = 0;
     for (uint64_t i = 0; i < 8; i++) {
         uint64_t set = ec_random_mix(2 * i + 1) & ec_random_mix(2 * i + 2) & EC_FEATURE_ALL; /* a quarter of them, and what these need */
-        lit += ef_run(10000 + 1000 * i, 25, EF_SHARED, integrators[i % 4], set);
+        lit += ef_run(10000 + 1000 * i, 25, EF_SHARED, integrators[i % 4], i % 4 ? EC_SCATTERING_MULTIPLE : EC_SCATTERING_SINGLE, set);
     }
-    for (uint64_t seed = 50000; seed < 50100; seed++) lit += ef_run(seed, 1, EF_EXACT, EC_INTEGRATOR_PATH, ef_few(seed));
+    for (uint64_t seed = 50000; seed < 50100; seed++)
+        lit += ef_run(seed, 1, EF_EXACT, EC_INTEGRATOR_PATH, (ec_scattering)(seed % 2), ef_few(seed));
     CHECK_MSG(lit >= 290, "only %d of 300 scenes are lit", lit);
     TEST_END();
 }

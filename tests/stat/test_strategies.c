@@ -145,6 +145,21 @@ static void textured_emission(void)
     run(w, "textured-emission", NULL, 8192);
 }
 
+/* What a lamp under a clear coat sends goes by the angle, about a bent normal, and by a texture of the coat. */
+static void coated_lamp(void)
+{
+    static const float normals[12] = {-0.6f, -0.8f, 0, 0.6f, -0.8f, 0, 0, -0.8f, -0.6f, 0, -0.8f, 0.6f};
+    uint8_t rgb[3 * 4 * 4] = {0};
+    for (int i = 0; i < 16; i++) rgb[3 * i] = (uint8_t)(i % 3 ? 255 : 40);
+    gltf_writer *w = stage(matt);
+    int texture = add_texture(w, "coated-lamp", 4, rgb);
+    int lamp = gltf_add(&w->materials, "{\"doubleSided\":true,\"emissiveFactor\":[1,1,1],\"extensions\":{\"KHR_materials_clearcoat\":{"
+                        "\"clearcoatFactor\":1,\"clearcoatRoughnessFactor\":0.5,\"clearcoatTexture\":{\"index\":%d}},"
+                        "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":4}}}", texture);
+    gltf_quad_with(w, lamp, (double[3]){-1, 0.5, -0.5}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1}, NULL, normals);
+    run(w, "coated-lamp", NULL, 8192);
+}
+
 static int see_through(gltf_writer *w, const char *mode, double alpha)
 {
     return gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.3,0.8,0.5,%g],\"metallicFactor\":0},"
@@ -285,6 +300,7 @@ int main(void)
     run(stage(matt), "environment-map", sky, 8192);
     run(stage(plastic), "environment-map-on-plastic", sky, 8192);
     textured_emission();
+    coated_lamp();
     glass_before_a_lamp("glass-before-a-lamp", &(gltf_glass){0.9, 0, 1, 1.5, {0.5, 0.8, 0.9}, 0.3});
     glass_before_a_lamp("rough-glass-before-a-lamp", &(gltf_glass){0.9, 0.9, 1, 1.5, {0.5, 0.8, 0.9}, 0.3});
     glass_before_a_lamp("milky-glass-before-a-lamp", &(gltf_glass){0.9, 0, 0.5, 1.5, {0}, 0});

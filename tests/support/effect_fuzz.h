@@ -301,7 +301,7 @@ static inline ec_scene *ef_scene(uint64_t seed, effect_run run, uint64_t allowed
 
 /* Judging ---------------------------------------------------------------------------------------------------------------------- */
 
-static inline ec_render_options ef_options(ec_integrator integrator)
+static inline ec_render_options ef_options(ec_integrator integrator, ec_scattering scattering)
 {
     ec_render_options o = case_options(16, 12, 4);
     o.batch = 2;
@@ -309,13 +309,13 @@ static inline ec_render_options ef_options(ec_integrator integrator)
     o.lanes = 1; /* half the compile time of 16; that all give the same bits is another test */
     o.accel = "bvh8";
     o.integrator = integrator;
+    o.scattering = scattering;
     return o;
 }
 
 /* Do both builds give the same bits? `more` shares kernels among scenes. */
-static inline bool ef_same(const ec_scene *scene, ec_integrator integrator, uint64_t more, double *mean)
+static inline bool ef_same(const ec_scene *scene, ec_render_options o, uint64_t more, double *mean)
 {
-    ec_render_options o = ef_options(integrator);
     o.more_effects = more;
     case_image special = case_render(scene, &o);
     o.all_effects = true;
@@ -328,7 +328,7 @@ static inline bool ef_same(const ec_scene *scene, ec_integrator integrator, uint
 }
 
 /* Scene `seed` without as many of its effects as it takes to fail still; then the bits that mend it. */
-static inline void ef_report(uint64_t seed, effect_run run, ec_integrator integrator, uint64_t allowed)
+static inline void ef_report(uint64_t seed, effect_run run, const ec_render_options *o, uint64_t allowed)
 {
     char names[EC_EFFECT_NAMES], missed[EC_EFFECT_NAMES];
     double mean;
@@ -336,24 +336,25 @@ static inline void ef_report(uint64_t seed, effect_run run, ec_integrator integr
         uint64_t less = ef_close(allowed & ~ec_features[i].bit);
         if (less == allowed || (less & allowed) != less) continue;
         ec_scene *scene = ef_scene(seed, run, less);
-        if (!ef_same(scene, integrator, run == EF_SHARED ? less : 0, &mean)) allowed = less;
+        if (!ef_same(scene, *o, run == EF_SHARED ? less : 0, &mean)) allowed = less;
         ec_scene_free(scene);
     }
     ec_scene *scene = ef_scene(seed, run, allowed);
     const uint64_t base = run == EF_SHARED ? allowed : 0;
     uint64_t mends = 0;
     for (uint32_t i = 0; i < ec_feature_count; i++)
-        if (!((base | EF_NEVER) & ec_features[i].bit) && ef_same(scene, integrator, base | ec_features[i].bit, &mean)) mends |= ec_features[i].bit;
+        if (!((base | EF_NEVER) & ec_features[i].bit) && ef_same(scene, *o, base | ec_features[i].bit, &mean)) mends |= ec_features[i].bit;
     ec_scene_free(scene);
     ec_feature_names(allowed, names, sizeof names);
     ec_feature_names(mends, missed, sizeof missed);
-    fprintf(stderr, "seed %llu, integrator %d: a specialised build gives other bits with no more than: %s; any of these built in mends it: %s\n",
-            (unsigned long long)seed, (int)integrator, names, *missed ? missed : "none alone");
+    fprintf(stderr, "seed %llu, integrator %d, scattering %d: a specialised build gives other bits with no more than: %s; any of these built in mends it: %s\n",
+            (unsigned long long)seed, (int)o->integrator, (int)o->scattering, names, *missed ? missed : "none alone");
 }
 
 /* Scenes of seeds from `first` on; returns how many of them are lit. */
-static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrator integrator, uint64_t wanted)
+static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrator integrator, ec_scattering scattering, uint64_t wanted)
 {
+    const ec_render_options o = ef_options(integrator, scattering);
     const uint64_t allowed = ef_close(integrator == EC_INTEGRATOR_PATH ? wanted : wanted & ~EC_FEATURE_MOTION); /* others refuse that */
     int lit = 0;
     case_cl()->keeps_programs = true;
@@ -366,12 +367,12 @@ static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrato
         CHECK_OK(ec_scene_calls(scene, &called, &err), err);
         ec_feature_names(called.bits & ~(allowed | ef_brought(allowed, called.bits)), names, sizeof names);
         CHECK_MSG(!*names, "seed %llu: nothing has %s, and yet the scan calls for it", (unsigned long long)seed, names);
-        bool same = ef_same(scene, integrator, run == EF_SHARED ? allowed : 0, &mean);
+        bool same = ef_same(scene, o, run == EF_SHARED ? allowed : 0, &mean);
         CHECK_MSG(same, "seed %llu: the specialised build gives other bits", (unsigned long long)seed);
         lit += mean > 0;
         ec_scene_free(scene);
         if (same) continue;
-        ef_report(seed, run, integrator, allowed);
+        ef_report(seed, run, &o, allowed);
         break; /* one is enough to mend */
     }
     return lit;

@@ -84,6 +84,13 @@ def quad(center, u, v, uvs=None):
     return polygon(corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1), uvs=uvs)
 
 
+def sheet(center, u, v):
+    """A quad without texture coordinates."""
+    out = quad(center, u, v)
+    out.uvs = []
+    return out
+
+
 def box(lo, hi, inward=False):
     (x0, y0, z0), (x1, y1, z1) = lo, hi
     faces = [((x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)), ((x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0)),

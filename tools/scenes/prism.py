@@ -2,7 +2,7 @@
 import math
 
 from scenes.gltf import Gltf, axis_angle
-from scenes.mesh import Mesh, polygon, quad
+from scenes.mesh import Mesh, polygon, sheet
 from scenes.showcase import panel
 
 SIDE, HEIGHT = 0.8, 0.75
@@ -24,9 +24,7 @@ def prism():
 
 def make(folder):
     g = Gltf()
-    sheet = quad((0.0, 0.0, 0.0), (3.5, 0.0, 0.0), (0.0, 0.0, -3.5))
-    sheet.uvs = []
-    g.add("table", sheet, g.material("table", (0.3, 0.3, 0.31), lambert=True))
+    g.add("table", sheet((0.0, 0.0, 0.0), (3.5, 0.0, 0.0), (0.0, 0.0, -3.5)), g.material("table", (0.3, 0.3, 0.31), lambert=True))
     glass = g.material("flint", (1.0, 1.0, 1.0), roughness=0.0, transmission=1.0, ior=1.6, body=True,
                        extensions={"KHR_materials_dispersion": {"dispersion": 2.5}})
     g.add("prism", prism(), glass, translation=(0.0, 0.002, 0.0), rotation=axis_angle((0, 1, 0), 12))

@@ -3,7 +3,7 @@ the sheet meets the lamp by way of the mirror, so few samples carry much light: 
 import math
 
 from scenes.gltf import Gltf, normalize
-from scenes.mesh import Mesh, icosphere, quad
+from scenes.mesh import Mesh, icosphere, sheet
 
 SEGMENTS, INNER, OUTER, HEIGHT = 96, 1.0, 1.06, 0.4
 LAMP, RADIUS, POWER = (-2.4, 1.9, 0.6), 0.25, 40.0  # centre, radius, area x radiance
@@ -32,9 +32,7 @@ def rim():
 
 def make(folder):
     g = Gltf()
-    sheet = quad((0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (0.0, 0.0, -4.0))
-    sheet.uvs = []
-    g.add("sheet", sheet, g.material("sheet", (0.7, 0.68, 0.65), lambert=True))
+    g.add("sheet", sheet((0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (0.0, 0.0, -4.0)), g.material("sheet", (0.7, 0.68, 0.65), lambert=True))
     ring = wall(OUTER, 1).append(wall(INNER, -1)).append(rim())
     g.add("ring", ring, g.material("ring", (1.0, 0.78, 0.34), metallic=1.0, roughness=0.0))
     ball = icosphere(RADIUS, 2)
