@@ -57,15 +57,19 @@ class Checkpoint(Case):
             job = [CORNELL, "--size", "40x36", "--wave", "256", *options]
             whole = self.render(*job)
             planes = read_exr(self.path("a.exr"))[1]
-            first, stops, cut = True, 0, 0
-            while first or stops < 3:
-                now = ["--resume", self.kept] if not first else job
+            stops, cut = 0, 0
+            while stops < 3 or not cut:
+                self.assertLess(stops, 60)
+                now = ["--resume", self.kept] if os.path.exists(self.kept) else job
                 process = self.start(*now, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("a.exr"))
-                time.sleep(0.1)
+                time.sleep(0.05 * (1 + stops % 7))  # machines differ in what they have done by then
+                done = process.poll() is not None
                 self.stop(process, [signal.SIGINT, signal.SIGKILL][stops % 2])
-                first, stops = first and not os.path.exists(self.kept), stops + 1
-                cut += not first and json.loads(read_exr(self.kept)[0]["eclat.state"])["underWay"] > 0
-            self.assertGreater(cut, 0)
+                stops += 1
+                if os.path.exists(self.kept):
+                    cut += json.loads(read_exr(self.kept)[0]["eclat.state"])["underWay"] > 0
+                if done and not cut:
+                    os.remove(self.kept)
             again = self.render("--resume", self.kept)
             self.assertEqual(whole["image_sha256"], again["image_sha256"])
             self.assertEqual(whole["samples"], again["samples"])

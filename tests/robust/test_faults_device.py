@@ -55,7 +55,8 @@ class Device(FaultCase):
     def fail_once(self, call, n, code, **more):
         run, folder = self.run_with(f"{call}{n}{code}{len(more)}", call=call, at=n, code=code, **more)
         with self.subTest(call=call, n=n, code=code, more=more):
-            if run.returncode == 0 and call in (HARMLESS + CACHED if self.keeps_binaries else HARMLESS):
+            another = call == "clGetDeviceIDs" and n > 2  # of a second driver, where one is installed: the first one's device does
+            if run.returncode == 0 and (another or call in (HARMLESS + CACHED if self.keeps_binaries else HARMLESS)):
                 self.assertEqual(self.check_files(folder), {"a.exr": "new", "a.png": "new"})
                 return None
             error = self.check_error(run)
