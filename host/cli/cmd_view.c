@@ -46,7 +46,10 @@ FLAG_SETTER(stats, stats)
 /* Options of `render` that mean nothing here. */
 static bool is_foreign(const char *name)
 {
-    return !strcmp(name, "adaptive") || !strcmp(name, "json") || !strcmp(name, "verbose");
+    static const char *const names[] = {"adaptive", "checkpoint", "every", "json", "resume", "samples", "verbose"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(name, names[i])) return true;
+    return false;
 }
 
 /* Those that the window sets, or that say nothing of the picture. */
