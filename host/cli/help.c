@@ -306,7 +306,7 @@ static const char help_view[] =
     "camera moves and finer once it rests. S saves what eclat render would have written, and prints the command that makes\n"
     "the same picture again, bit for bit. When a file of the scene changes it is loaded again.\n"
     "\n"
-    "Options: those of eclat render but --adaptive, --json and --verbose; and\n"
+    "Options: those of eclat render but --adaptive, --json, --verbose and those of checkpoints and slices; and\n"
     "      --against FILE.exr     a picture to hold beside the one that is rendered (V and Tab)\n"
     "      --script FILE          moves the camera and presses keys by a script, then closes; orbit: once around. Lines:\n"
     "                             turn YAW PITCH SECONDS (degrees), pan RIGHT UP SECONDS (picture heights),\n"
