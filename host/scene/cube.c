@@ -75,14 +75,13 @@ static void add_bilinear(const ec_cube *cube, const double d[3], double sum[3])
 
 void ec_cube_unroll(const ec_cube *cube, uint32_t width, uint32_t height, uint32_t samples, float *rgb)
 {
-    const double pi = 3.14159265358979323846;
 #pragma omp parallel for schedule(dynamic, 16)
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++) {
             double sum[3] = {0};
             for (uint32_t i = 0; i < samples * samples; i++) {
                 double u = (x + (i % samples + 0.5) / samples) / width, v = (y + (i / samples + 0.5) / samples) / height;
-                double phi = 2 * pi * (u - 0.5), theta = pi * v;
+                double phi = 2 * M_PI * (u - 0.5), theta = M_PI * v;
                 double d[3] = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
                 add_bilinear(cube, d, sum);
             }

@@ -1,4 +1,5 @@
-/* What the halves of motion share: motion.c reads the moments, motion_keys.c makes keys of them. Inside host/scene/ only. */
+/* What the parts of motion share: motion.c reads the moments, motion_deviation.c says how many keys they need, motion_keys.c makes these.
+ * Inside host/scene/ only. */
 #ifndef EC_SCENE_MOTION_H
 #define EC_SCENE_MOTION_H
 

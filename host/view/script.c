@@ -52,7 +52,7 @@ ec_result ec_script_read(ec_script *s, const char *name, ec_error *err)
 /* The part of a step that `share` of its time does; false: it goes on. */
 static void do_part(const ec_script_step *step, ec_view_input *in, double share)
 {
-    const double degree = 3.14159265358979323846 / 180;
+    const double degree = M_PI / 180;
     if (!strcmp(step->verb, "turn")) ec_view_input_turn(in, step->a * degree * share, step->b * degree * share);
     if (!strcmp(step->verb, "pan")) ec_view_input_drag(in, EC_DRAG_PAN, -step->a * share, step->b * share);
     if (!strcmp(step->verb, "dolly")) ec_view_input_wheel(in, log(step->a) * share / log(0.9));

@@ -92,12 +92,8 @@ static ec_scene *balls(double ior, double dispersion)
 
 static case_image picture(const ec_scene *scene, uint32_t spp, uint64_t seed, ec_sample sample, uint32_t lanes)
 {
-    ec_render_options o = case_options(16, 16, spp);
+    ec_render_options o = case_random(16, spp, sample, seed);
     o.max_depth = 6;
-    o.batch = spp / 32;
-    o.sampler = EC_SAMPLER_INDEPENDENT;
-    o.seed = seed;
-    o.sample = sample;
     o.lanes = lanes;
     return case_render(scene, &o);
 }

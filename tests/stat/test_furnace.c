@@ -81,11 +81,7 @@ static void check_mixed_box(void)
     ec_scene *scene = case_load(OWN_SCENE("furnace/box-materials.gltf"), NULL);
     case_image images[SAMPLE_COUNT];
     for (int s = 0; s < SAMPLE_COUNT; s++) {
-        ec_render_options o = case_options(24, 24, 2048);
-        o.batch = 64;
-        o.sample = (ec_sample)s;
-        o.sampler = EC_SAMPLER_INDEPENDENT;
-        o.seed = (uint64_t)s;
+        ec_render_options o = case_random(24, 2048, (ec_sample)s, (uint64_t)s);
         images[s] = case_render(scene, &o);
     }
     case_check_same(&images[EC_SAMPLE_LIGHT], &images[EC_SAMPLE_MIS], 4, "box of six materials, light and mis");

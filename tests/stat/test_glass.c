@@ -224,11 +224,7 @@ static void nothing_of_index_1(void)
         gltf_glass air = body(1, 0);
         if (i) gltf_box(w, gltf_add_glass(w, &air), (double[3]){-1, 0.5, -0.8}, (double[3]){0.3, 1.3, 0.9});
         gltf_camera(w, (double[3]){0, 1.2, 4}, (double[3]){0, 0.8, 0}, 0.8);
-        ec_render_options o = case_options(16, 16, i ? 8192 : 2048);
-        o.sample = i ? (ec_sample)(i - 1) : EC_SAMPLE_MIS;
-        o.sampler = EC_SAMPLER_INDEPENDENT;
-        o.batch = o.spp / 32;
-        o.seed = (uint64_t)i;
+        ec_render_options o = case_random(16, i ? 8192 : 2048, i ? (ec_sample)(i - 1) : EC_SAMPLE_MIS, (uint64_t)i);
         image[i] = case_render_file(gltf_write(w, "glass-nothing"), NULL, &o);
         free(w);
         char what[96];

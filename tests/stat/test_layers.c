@@ -60,12 +60,8 @@ static void strategies_agree(const ec_scene *scene)
     } ways[3] = {{EC_SAMPLE_MIS, 2048}, {EC_SAMPLE_BSDF, 8192}, {EC_SAMPLE_HEMISPHERE, 8192}};
     case_image image[3];
     for (int i = 0; i < 3; i++) {
-        ec_render_options o = case_options(16, 16, ways[i].spp);
+        ec_render_options o = case_random(16, ways[i].spp, ways[i].sample, (uint64_t)ways[i].sample + 3);
         o.max_depth = 4;
-        o.batch = o.spp / 32;
-        o.sample = ways[i].sample;
-        o.sampler = EC_SAMPLER_INDEPENDENT;
-        o.seed = (uint64_t)ways[i].sample + 3;
         image[i] = case_render(scene, &o);
     }
     case_check_same(&image[1], &image[0], 4, "bsdf and mis");

@@ -27,13 +27,9 @@ static const char *boxes(void)
 
 static case_image picture(const ec_scene *scene, ec_sample sample, ec_scattering scattering, uint32_t spp)
 {
-    ec_render_options o = case_options(16, 16, spp);
+    ec_render_options o = case_random(16, spp, sample, (uint64_t)sample + 7);
     o.max_depth = 5;
-    o.batch = spp / 32;
-    o.sample = sample;
     o.scattering = scattering;
-    o.sampler = EC_SAMPLER_INDEPENDENT;
-    o.seed = (uint64_t)sample + 7;
     return case_render(scene, &o);
 }
 

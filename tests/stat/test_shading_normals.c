@@ -37,11 +37,8 @@ static int clay(gltf_writer *w)
 
 static case_image picture(const ec_scene *scene, ec_sample sample, ec_terminator terminator, uint32_t size, uint32_t spp)
 {
-    ec_render_options o = case_options(size, size, spp);
-    o.sample = sample;
+    ec_render_options o = case_random(size, spp, sample, (uint64_t)sample + 5);
     o.terminator = terminator;
-    o.sampler = EC_SAMPLER_INDEPENDENT;
-    o.seed = (uint64_t)sample + 5;
     return case_render(scene, &o);
 }
 

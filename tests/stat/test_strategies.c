@@ -14,12 +14,8 @@ static void agree(const char *name, const char *path, const char *environment, u
     ec_scene *scene = case_load(path, environment);
     case_image image[COUNT];
     for (int s = 0; s < COUNT; s++) {
-        ec_render_options o = case_options(16, 16, more[s] * spp);
+        ec_render_options o = case_random(16, more[s] * spp, (ec_sample)s, (uint64_t)s + 11);
         o.max_depth = 5;
-        o.batch = o.spp / 32;
-        o.sample = (ec_sample)s;
-        o.sampler = EC_SAMPLER_INDEPENDENT;
-        o.seed = (uint64_t)s + 11;
         image[s] = case_render(scene, &o);
         CHECK_MSG(image[s].mean[1] > 0, "%s, %s: black", name, ec_sample_names[s]);
     }
@@ -41,12 +37,9 @@ static void roulette_agrees(void)
     ec_scene *scene = case_load(OWN_SCENE("cornell-box/cornell-box.gltf"), NULL);
     case_image image[3];
     for (int i = 0; i < 3; i++) {
-        ec_render_options o = case_options(16, 16, 4096);
+        ec_render_options o = case_random(16, 4096, EC_SAMPLE_MIS, (uint64_t)i + 31);
         o.max_depth = 10;
         o.survival = survival[i];
-        o.batch = o.spp / 32;
-        o.sampler = EC_SAMPLER_INDEPENDENT;
-        o.seed = (uint64_t)i + 31;
         image[i] = case_render(scene, &o);
     }
     case_check_same(&image[1], &image[0], 1, "roulette, 0.8 and auto");

@@ -74,6 +74,17 @@ static inline ec_render_options case_options(uint32_t width, uint32_t height, ui
     return (ec_render_options){.width = width, .height = height, .spp = spp};
 }
 
+/* For means that are compared within their standard errors: numbers that do not know of each other, in 32 batches. */
+static inline ec_render_options case_random(uint32_t size, uint32_t spp, ec_sample sample, uint64_t seed)
+{
+    ec_render_options o = case_options(size, size, spp);
+    o.batch = spp / 32;
+    o.sampler = EC_SAMPLER_INDEPENDENT;
+    o.sample = sample;
+    o.seed = seed;
+    return o;
+}
+
 static inline void case_measure(case_image *image)
 {
     double pixels = (double)image->width * image->height, variance[3] = {0};

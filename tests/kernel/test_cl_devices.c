@@ -1,0 +1,65 @@
+/* Which device is chosen, and what is known of its driver. Asks no device. */
+#include "cl/workarounds.h"
+#include "pipeline/render.h"
+#include "support/cl_case.h"
+
+/* The index that `id` chooses among the first `count` fake devices, or -1. */
+static int chosen(const char *id, uint32_t count, const char **why, ec_error *err)
+{
+    ec_device_info devices[4];
+    uint32_t index = 99;
+    fake_devices(devices);
+    return ec_device_choose(devices, count, id, &index, why, err) == EC_OK ? (int)index : -1;
+}
+
+static void workarounds_go_by_the_driver(void)
+{
+    ec_cl cl = {.info = {.name = "llvmpipe", .platform_name = "rusticl", .type = CL_DEVICE_TYPE_CPU, .native_float_width = 8}};
+    ec_error err = {0};
+    uint32_t lanes = 0;
+    CHECK(ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 1);
+    CHECK(ec_pipeline_lanes(&cl, 1, &lanes, &err) == EC_OK && lanes == 1);
+    CHECK(ec_pipeline_lanes(&cl, 4, &lanes, &err) == EC_FAILED);
+    CHECK_MSG(strstr(err.text, "--lanes 4 on llvmpipe") && strstr(err.text, "choose 1") && !strchr(err.text, '\n'), "%s", err.text);
+    strcpy(cl.info.platform_name, "another"); /* no workaround: what the device says, or what is asked for */
+    CHECK(ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 8);
+    CHECK(ec_pipeline_lanes(&cl, 16, &lanes, &err) == EC_OK && lanes == 16);
+    CHECK(!ec_workaround_for(&cl.info));
+    ec_device_info devices[4];
+    fake_devices(devices);
+    const ec_workaround *pocl = ec_workaround_for(&devices[0]);
+    CHECK(pocl && pocl->source_only && !pocl->most_lanes && !ec_workaround_for(&devices[1]));
+}
+
+static void device_rule(void)
+{
+    const char *why = "";
+    ec_error err = {0};
+    unsetenv("ECLAT_DEVICE");
+    CHECK(chosen(NULL, 4, &why, &err) == 3 && strcmp(why, "first GPU") == 0); /* not the absent one */
+    CHECK(chosen(NULL, 3, &why, &err) == 0 && strcmp(why, "first CPU") == 0);
+    CHECK(chosen("", 4, NULL, &err) == 3);
+    CHECK(chosen("1", 4, &why, &err) == 1 && strstr(why, "--device"));
+    CHECK(chosen("geforce", 4, &why, &err) == 3);
+    CHECK(chosen("3090", 4, &why, &err) == 1); /* no index: the first name with it */
+    CHECK(chosen("pocl", 4, &why, &err) == 0);
+    CHECK(chosen("nvidia", 4, &why, &err) == 3); /* names come before platforms */
+    CHECK(chosen("2", 4, &why, &err) == -1 && strstr(err.text, "not available"));
+    CHECK(chosen("radeon", 4, &why, &err) == -1);
+    CHECK(strstr(err.text, "--device radeon") && strstr(err.text, "0: pthread-EPYC") && strstr(err.text, "3: NVIDIA"));
+    CHECK(chosen("4", 4, &why, &err) == -1);
+    CHECK(chosen("1x", 4, &why, &err) == -1);
+    setenv("ECLAT_DEVICE", "1", 1);
+    CHECK(chosen(NULL, 4, &why, &err) == 1 && strstr(why, "ECLAT_DEVICE"));
+    CHECK(chosen("0", 4, &why, &err) == 0);
+    setenv("ECLAT_DEVICE", "radeon", 1);
+    CHECK(chosen(NULL, 4, &why, &err) == -1 && strstr(err.text, "ECLAT_DEVICE radeon"));
+    unsetenv("ECLAT_DEVICE");
+}
+
+int main(void)
+{
+    device_rule();
+    workarounds_go_by_the_driver();
+    TEST_END();
+}
