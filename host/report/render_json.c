@@ -8,6 +8,11 @@
 static void add_setting(cJSON *root, const ec_render_report *report)
 {
     const ec_render_options *options = report->options;
+    if (report->frame) {
+        ec_json_whole(root, "frame", report->frame->number);
+        ec_json_real(root, "frame_seconds", report->frame->seconds);
+        ec_json_text(root, "state", "rendered");
+    }
     ec_json_text(root, "version", ECLAT_VERSION);
     ec_json_text(root, "command", report->command);
     ec_json_text(root, "scene", report->scene);
