@@ -101,13 +101,13 @@ static void write_digest(SHA2_CTX *digest, char text[33])
     for (int k = 0; k < 16; k++) snprintf(text + 2 * k, 3, "%02x", bytes[k]);
 }
 
-void ec_pipeline_content(const ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_content *content)
+void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content)
 {
     SHA2_CTX digests[EC_CONTENT_COUNT];
     for (int i = 0; i < EC_CONTENT_COUNT; i++) SHA256Init(&digests[i]);
-    add_buffers(digests, scene, pack, pipeline->effects);
-    add_params(digests, pipeline->params);
-    uint64_t called = pipeline->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
+    add_buffers(digests, scene, pack, head->effects);
+    add_params(digests, head->params);
+    uint64_t called = head->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
     add(digests, EC_CONTENT_SETTINGS, &called, sizeof called);
     if (called & EC_FEATURE_MOTION) add_moving_cameras(digests, &scene->motion);
     add_kernels(digests);
