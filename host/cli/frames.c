@@ -164,7 +164,7 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
     bool stopped = false;
     EC_TRY(begin(s, err));
     EC_TRY(ec_cl_open(&s->device, &s->cl, err));
-    s->cl.keeps_programs = true;
+    s->cl.keeps_programs = s->cl.keeps_buffers = true;
     s->share.cl = &s->cl;
     for (uint32_t i = 0; i < s->count && !stopped; i++) {
         EC_TRY(take_frame(s, i, &stopped, err));
@@ -182,6 +182,7 @@ ec_result ec_frames_render(ec_console *console, const ec_render_request *request
     if (result == EC_OK) result = render_all(&s, start, err);
     ec_animation_close(s.share.animation);
     free(s.share.environment.rgb);
+    ec_followed_free(&s.share.followed);
     ec_cl_close(&s.cl);
     free(s.states);
     return result;

@@ -181,12 +181,14 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     const ec_course course = ec_render_job_course(job, console);
     ec_cl own = {0}, *cl = job->share ? job->share->cl : &own;
     if (!job->share) EC_TRY(ec_cl_open(&job->device, &own, err));
+    if (job->share) job->request->options.followed = &job->share->followed;
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     announce(job, console);
     ec_result result = ec_render_course(cl, job->scene, &job->request->options, &course, ec_progress_show, &view, &job->film,
                                         &job->stats, &log, err);
     ec_console_erase(console);
     if (!job->share) ec_cl_close(&own);
+    else ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
     if (result != EC_OK && job->film.batch_count == 0 && ec_stop_requested())
         return ec_fail(err, "interrupted before there was a picture; nothing is written");

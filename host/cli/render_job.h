@@ -14,6 +14,7 @@
 typedef struct ec_frame_share {
     ec_animation *animation;
     ec_cl *cl;
+    ec_followed followed;        /* acceleration structures */
     ec_environment environment;  /* that of all frames, once the first one has made it; its picture is owned */
     bool has_environment, environment_known;
 } ec_frame_share;

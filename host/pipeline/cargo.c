@@ -18,18 +18,23 @@ void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t byt
     snprintf(buffer->label, sizeof buffer->label, "%s", label);
 }
 
+static void add_accel_buffers(ec_cargo *cargo, uint32_t which, const ec_accel *accel, bool owned)
+{
+    char label[64];
+    for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++) {
+        const ec_accel_buffer *buffer = &accel->buffers[k];
+        uint32_t before = cargo->head.buffer_count;
+        snprintf(label, sizeof label, "%s %s", ec_accels[which].name, buffer->label);
+        ec_cargo_add(cargo, EC_ARG_ACCEL + k, label, buffer->bytes, 0, buffer->data, owned ? buffer->data : NULL);
+        if (cargo->head.buffer_count > before) cargo->buffers[before].accel = which;
+    }
+}
+
 ec_result ec_cargo_add_accel(ec_cargo *cargo, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)
 {
     ec_accel accel = {0};
-    char label[64];
     EC_TRY(ec_accel_build(which, input, &accel, err));
-    for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++) {
-        ec_accel_buffer *buffer = &accel.buffers[k];
-        uint32_t before = cargo->head.buffer_count;
-        snprintf(label, sizeof label, "%s %s", ec_accels[which].name, buffer->label);
-        ec_cargo_add(cargo, EC_ARG_ACCEL + k, label, buffer->bytes, 0, buffer->data, buffer->data);
-        if (cargo->head.buffer_count > before) cargo->buffers[before].accel = which;
-    }
+    add_accel_buffers(cargo, which, &accel, true);
     if (stats) *stats = accel.stats;
     return EC_OK;
 }
@@ -42,13 +47,23 @@ static ec_result choose_accels(ec_cargo_head *head, const ec_scene *scene, const
     return EC_OK;
 }
 
-static ec_result add_accels(ec_cargo *cargo, const ec_scene *scene, float grid_density, ec_error *err)
+/* They stay where they are, for the next render to follow. */
+static ec_result follow_accels(ec_cargo *cargo, ec_followed *followed, ec_accel_input *input, uint32_t wanted, ec_error *err)
 {
-    ec_accel_input input = ec_accel_input_of(scene, grid_density);
+    EC_TRY(ec_accels_follow(followed, input, wanted, err));
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
+        if (wanted >> a & 1) add_accel_buffers(cargo, a, &followed->accels[a], false);
+    return EC_OK;
+}
+
+static ec_result add_accels(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
+{
+    ec_accel_input input = ec_accel_input_of(scene, o->grid_density);
     uint32_t wanted = 0;
     ec_result result = EC_OK;
     for (uint32_t kind = 0; kind < EC_KIND_COUNT; kind++) wanted |= cargo->head.accels[kind];
-    for (uint32_t a = 0; result == EC_OK && a < EC_ACCEL_COUNT; a++)
+    if (o->followed) result = follow_accels(cargo, o->followed, &input, wanted, err);
+    for (uint32_t a = 0; !o->followed && result == EC_OK && a < EC_ACCEL_COUNT; a++)
         if (wanted >> a & 1) result = ec_cargo_add_accel(cargo, a, &input, NULL, err);
     ec_accel_input_free(&input);
     return result;
@@ -157,7 +172,8 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     double start = ec_now();
     if (o->integrator != EC_INTEGRATOR_RASTER) {
         EC_TRY(choose_accels(head, scene, o->accel, kinds, err));
-        EC_TRY(add_accels(cargo, scene, o->grid_density, err));
+        EC_TRY(add_accels(cargo, scene, o, err));
+        if (o->followed) stats->followed = o->followed->report;
     }
     stats->accel_seconds = ec_now() - start;
     start = ec_now();

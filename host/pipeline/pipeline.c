@@ -31,6 +31,8 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, 
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) p->accels[a].in_use = head->accels[ec_device_kind_of(&cl->info)] >> a & 1;
     EC_TRY(ec_pipeline_lanes(cl, head->lanes, &p->lanes, err));
     double start = ec_now();
+    uint64_t uploaded = cl->uploaded_bytes, found = cl->found_bytes;
+    uint32_t programs = cl->programs_found;
     ec_result result = spent ? ec_pipeline_unload(p, spent, err) : ec_pipeline_upload(p, cargo, err);
     if (result == EC_OK) result = ec_pipeline_create_queues(p, head->wave, err);
     stats->pack_seconds += ec_now() - start;
@@ -38,6 +40,11 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, 
     start = ec_now();
     result = ec_pipeline_build(p, err);
     stats->kernel_seconds = ec_now() - start;
+    for (int i = 0; i <= EC_LANES_MOST; i++) stats->programs_built += p->programs[i] != NULL;
+    stats->programs_found = cl->programs_found - programs;
+    stats->programs_built -= stats->programs_found;
+    stats->bytes_uploaded = cl->uploaded_bytes - uploaded;
+    stats->bytes_found = cl->found_bytes - found;
     stats->lanes = p->lanes;
     stats->wave = p->wave;
     return result;

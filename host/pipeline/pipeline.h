@@ -35,6 +35,7 @@ typedef struct ec_pipeline {
         } tuning[2][EC_TUNED_BOUNCES];
     } accels[EC_ACCEL_COUNT];
     uint64_t rays;                /* traced so far, shadow rays included */
+    double clocked_seconds, clocked_rays; /* of trials (trace.c) */
 } ec_pipeline;
 
 /* Puts a cargo on a device and builds the kernels that it calls for. spent: the same cargo, where nobody else wants it: each of its buffers

@@ -272,6 +272,7 @@ static void finish_stats(render_state *r)
     s->device_bytes = p->cl->peak_allocated_bytes;
     s->cache_hits = p->cl->cache_hits;
     s->cache_misses = p->cl->cache_misses;
+    s->trace_seconds = p->clocked_rays > 0 ? p->clocked_seconds / p->clocked_rays * (double)s->rays : s->seconds;
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", r->stopped_by ? r->stopped_by : "user");
 }
 

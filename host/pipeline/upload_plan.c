@@ -75,6 +75,7 @@ ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, const ec_pa
 ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density)
 {
     return (ec_accel_input){.positions = scene->positions, .indices = scene->indices, .triangle_count = ec_scene_flat_count(scene),
+                            .vertex_count = scene->vertex_count,
                             .whole = scene->whole, .shape_count = scene->shape_count, .shapes = scene->shapes,
                             .swept = scene->motion.swept, .swept_count = scene->motion.segments ? scene->motion.triangle_count : 0,
                             .placed_count = scene->placed_count, .placed = scene->placed, .grid_density = grid_density};

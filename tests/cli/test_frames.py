@@ -82,7 +82,9 @@ class SameBits(FramesCase):
         b.add(GREY, scale=[4, 4, 4])
         b.add(GLOW, translation=[0, 0, 1])
         b.animate(b.camera(2), "translation", [(0, 0, 5), (.5, .2, 5)])
-        self.assert_as_alone(b.write(self.path("pan.gltf")))
+        frames = self.assert_as_alone(b.write(self.path("pan.gltf")))
+        for row in frames[1:]:
+            self.assertEqual(row["shared"]["structures"], "kept", row["frame"])
 
     def test_a_light_alone(self):
         b = Builder()
@@ -91,7 +93,9 @@ class SameBits(FramesCase):
         b.scene["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 4}]}}
         b.animate(b.node(translation=[0, 0, 1], extensions={"KHR_lights_punctual": {"light": 0}}), "translation", [(-1, 0, 1), (1, 0, 1)])
         b.camera(2)
-        self.assert_as_alone(b.write(self.path("light.gltf")))
+        frames = self.assert_as_alone(b.write(self.path("light.gltf")))
+        for row in frames[1:]:
+            self.assertEqual(row["shared"]["structures"], "kept", row["frame"])
 
     def test_skins_and_morph_targets(self):
         for name, half in (("SimpleSkin", 2), ("AnimatedMorphCube", 2.5), ("Fox", 90)):
@@ -257,6 +261,64 @@ class Going(FramesCase):
         self.assertIn("eclat: error: frame 1: ", run.stderr)
         self.assertIn("1 of 3 frames failed", run.stderr.splitlines()[-1])
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith("exr")), ["x.0.exr", "x.2.exr"])
+
+
+class Sharing(FramesCase):
+    """After the first frame nothing is made again that stays as it is. The figures are what the program counts as it does so."""
+
+    def shared(self, scene, *options):
+        rows, _ = rows_of(self.render(scene, *options, "-o", "x.%d.exr"))
+        return [row["shared"] for row in rows]
+
+    def test_programs_textures_and_structures(self):
+        scene = self.model("Fox", 90)
+        first, *others = self.shared(scene, "--animation", "Run", "--frames", "0:4")
+        self.assertEqual((first["structures"], first["programs_kept"], first["bytes_kept"]), ("built", 0, 0))
+        texels = 1024 * 1024 * 4
+        self.assertGreater(first["bytes_uploaded"], texels)
+        for row in others:
+            self.assertIn(row["structures"], ("refitted", "rebuilt"))
+            self.assertEqual((row["programs_built"], row["programs_kept"]), (0, first["programs_built"]))
+            self.assertGreaterEqual(row["bytes_kept"], texels)
+            self.assertLess(row["bytes_uploaded"], first["bytes_uploaded"] - texels + 1)
+            self.assertEqual(row["bytes_kept"] + row["bytes_uploaded"], first["bytes_uploaded"])
+        self.assertIn("refitted", [row["structures"] for row in others])
+
+    def test_an_environment_map_is_read_and_uploaded_once(self):
+        first = eclat("render", room().write(self.path("room.gltf")), "--at", "0", "--animation", "0", "--size", "64x32", "--spp", "4", "-q", "-o",
+                      self.path("sky.exr"))
+        self.assert_ok(first)
+        scene = self.sliding()
+        command = ["--env", "sky.exr", "--env-rotate", "30", "--env-strength", "2", "--fps", "4"]
+        _, *others = self.shared(scene, "--frames", "0:2", *command)
+        for row in others:
+            self.assertGreaterEqual(row["bytes_kept"], 64 * 32 * 16)
+        alone = json.loads(self.render(scene, "--at", "0.5", *command[:-2], "-o", "alone.exr").stdout)
+        self.assertEqual(read_exr(self.path("x.2.exr"))[0]["eclat.imageSha256"], alone["image_sha256"])
+
+    def test_meshes_that_stand_in_many_places_are_built_once(self):
+        b = Builder()
+        mesh = b.add(GREY, translation=[-1, 0, 0])
+        b.add(GLOW, translation=[0, 0, 2], rotation=turn(0, 180))
+        others = [b.node(mesh=0, translation=[1, k - 1, 0]) for k in range(3)]
+        b.animate(others[0], "translation", [(1, -1, 0), (0, -1, 0)])
+        b.camera(2)
+        first, *rest = self.shared(b.write(self.path("instances.gltf")), "--frames", "0:2", "--fps", "4", "--instancing", "on")
+        self.assertGreaterEqual(mesh, 0)
+        self.assertEqual((first["meshes_built"], first["meshes_kept"]), (1, 0))
+        for row in rest:
+            self.assertEqual((row["meshes_built"], row["meshes_kept"]), (0, 1))
+
+    def test_other_effects_build_other_programs_and_only_then(self):
+        """The lamp goes out between frame 1 and 2: kernels for what the scene calls for are others from then on."""
+        b = Builder()
+        b.add(GREY, scale=[4, 4, 4], translation=[0, 0, -1])
+        lamp = b.add(GLOW)
+        b.animate(lamp, "scale", [(1, 1, 1), (0, 0, 0)], times=(0.0, 0.5))
+        b.scene["animations"][0]["samplers"][0]["interpolation"] = "STEP"
+        b.camera(2)
+        rows = self.shared(b.write(self.path("lamp.gltf")), "--frames", "0:3", "--fps", "4", "--env", "1,1,1")
+        self.assertEqual([row["programs_built"] > 0 for row in rows], [True, False, True, False])
 
 
 class CommandLine(FramesCase):
