@@ -14,6 +14,7 @@ typedef struct ec_accel_input {
     const float *positions;
     const uint32_t *indices;
     uint32_t triangle_count;
+    uint32_t vertex_count;      /* of all positions; 0: not told, which only follow.h minds */
     bool whole;                 /* no triangle may be cut */
     const float *swept;         /* of the first triangles, which move: 6 floats each, the box over all the places they take, which stands */
     uint32_t swept_count;       /* for them (motion.h in kernels/lib takes their corners); with any, `whole` is meant */
@@ -24,6 +25,7 @@ typedef struct ec_accel_input {
     float grid_density;         /* cells a reference, within what grid.c allows; 0 = EC_GRID_DENSITY */
     ec_bvh bvh;                 /* built when first asked for, and shared: see ec_accel_bvh */
     ec_bvh_stats bvh_stats;
+    struct ec_shape_trees *trees; /* of meshes that may have been built before; NULL: none are kept */
 } ec_accel_input;
 void ec_accel_input_free(ec_accel_input *input); /* what was built on the way, not what the caller gave */
 

@@ -7,6 +7,7 @@
 
 #include "accel/accel_internal.h"
 #include "accel/build_internal.h"
+#include "accel/shape_trees.h"
 #include "accel/top.h"
 
 #define OFF_BOUND 40.0 /* u |M^-1| (|o| + reach): derived in kernels/lib/traverse_twolevel.h */
@@ -90,33 +91,57 @@ static void measure(const ec_accel_input *in, const ec_shape *shape, shape_facts
         }
 }
 
+static ec_result build_shape(const ec_accel_input *in, const ec_shape *shape, ec_shape_tree *tree, ec_error *err)
+{
+    const uint32_t *indices = in->indices + 3 * (size_t)shape->first;
+    ec_bvh bvh;
+    ec_box8 *boxes;
+    EC_TRY(ec_bvh_build_whole(in->positions, indices, shape->count, in->threads, &bvh, NULL, err));
+    ec_result result = ec_bvh8_layout(&bvh, in->positions, indices, &tree->nodes, &tree->node_count, &tree->blocks, &boxes, &tree->block_count, err);
+    ec_bvh_free(&bvh);
+    return result;
+}
+
+/* The mesh by itself, wherever its vertices lie among all. */
+static ec_fingerprint key_of(const ec_accel_input *in, const ec_shape *shape)
+{
+    ec_fingerprint key = {{shape->count}};
+    for (size_t i = 0; i < 3 * (size_t)shape->count; i++) {
+        uint32_t corner = in->indices[3 * (size_t)shape->first + i] - shape->first_vertex;
+        key = ec_fingerprint_add(key, &corner, sizeof corner);
+    }
+    return ec_fingerprint_add(key, in->positions + 3 * (size_t)shape->first_vertex, 3 * (size_t)shape->vertex_count * sizeof(float));
+}
+
+static void note_parts(const ec_bvh8_node *root, shape_facts *f)
+{
+    for (int k = 0; k < 8; k++) {
+        if (root->child[k] == EC_NO_CHILD) continue;
+        ec_box *part = &f->parts[f->part_count++];
+        for (int axis = 0; axis < 3; axis++) {
+            part->lo[axis] = root->bound[2 * axis][k];
+            part->hi[axis] = root->bound[2 * axis + 1][k];
+        }
+    }
+}
+
 static ec_result append_shape(const ec_accel_input *in, uint32_t index, twolevel *t, ec_error *err)
 {
     const ec_shape *shape = &in->shapes[index];
-    const uint32_t *indices = in->indices + 3 * (size_t)shape->first;
     shape_facts *f = &t->shapes[index];
-    ec_bvh bvh;
-    ec_bvh8_node *nodes;
-    ec_tri8 *blocks;
-    ec_box8 *boxes;
-    uint32_t node_count, block_count;
-    EC_TRY(ec_bvh_build_whole(in->positions, indices, shape->count, in->threads, &bvh, NULL, err));
-    ec_result result = ec_bvh8_layout(&bvh, in->positions, indices, &nodes, &node_count, &blocks, &boxes, &block_count, err);
-    ec_bvh_free(&bvh);
-    EC_TRY(result);
+    ec_shape_tree built = {.wanted = true};
+    if (in->trees) built.key = key_of(in, shape);
+    const ec_shape_tree *tree = in->trees ? ec_shape_trees_find(in->trees, built.key) : NULL;
+    bool is_kept = tree != NULL;
+    if (!is_kept) EC_TRY(build_shape(in, shape, &built, err));
+    if (!is_kept) tree = &built;
     measure(in, shape, f);
     f->root = t->node_count;
-    for (int k = 0; k < 8; k++) {
-        if (nodes[0].child[k] == EC_NO_CHILD) continue;
-        ec_box *part = &f->parts[f->part_count++];
-        for (int axis = 0; axis < 3; axis++) {
-            part->lo[axis] = nodes[0].bound[2 * axis][k];
-            part->hi[axis] = nodes[0].bound[2 * axis + 1][k];
-        }
-    }
-    result = append(t, nodes, node_count, blocks, block_count, err);
-    free(nodes);
-    free(blocks);
+    note_parts(&tree->nodes[0], f);
+    ec_result result = append(t, tree->nodes, tree->node_count, tree->blocks, tree->block_count, err);
+    if (!is_kept && in->trees && result == EC_OK) return ec_shape_trees_add(in->trees, &built, err);
+    free(built.nodes);
+    free(built.blocks);
     return result;
 }
 

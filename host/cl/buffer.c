@@ -1,7 +1,7 @@
 /* Device memory: allocated within the device's limits and accounted for, read, written, zeroed. */
 #include <stdio.h>
 
-#include "cl/cl.h"
+#include "cl/kept.h"
 
 #define EC_SMALLEST_BUFFER 16 /* OpenCL has no empty buffers; an empty table still needs an argument */
 
@@ -58,6 +58,11 @@ void ec_buffer_release(ec_cl *cl, cl_mem *buffer)
 {
     if (!*buffer) return;
     size_t size = 0;
+    if (ec_kept_buffer_has(cl, *buffer)) {
+        clReleaseMemObject(*buffer);
+        *buffer = NULL;
+        return;
+    }
     clGetMemObjectInfo(*buffer, CL_MEM_SIZE, sizeof size, &size, NULL);
     cl->allocated_bytes -= size < cl->allocated_bytes ? size : cl->allocated_bytes;
     clReleaseMemObject(*buffer);

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/fingerprint.h"
 
 typedef struct ec_device_info {
     cl_platform_id platform;
@@ -57,8 +58,13 @@ typedef struct ec_cl {
     uint32_t cache_hits, cache_misses;
     const char *cache_dir;    /* NULL: the default (see ec_program_build) */
     bool keeps_programs;      /* set after ec_cl_open: programs stay built until ec_cl_close, and are found again */
+    bool keeps_buffers;       /* likewise what of a scene is put on the device, as long as the next one wants it too */
     struct ec_kept_program *kept;
     uint32_t kept_count;
+    uint32_t programs_found;  /* among those kept */
+    struct ec_kept_buffer *kept_buffers; /* see ec_buffer_put */
+    uint32_t kept_buffer_count;
+    uint64_t uploaded_bytes, found_bytes; /* by ec_buffer_put */
     ec_cache_use cache;       /* EC_CACHE_AUTO unless set after ec_cl_open */
     ec_cl_launch launches[EC_LAUNCHES]; /* whose end has not been looked at */
     uint32_t launch_count;
@@ -92,6 +98,12 @@ ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, con
  * needed after the call. 0 bytes give a smallest buffer, so that an empty table is still an argument. */
 ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer, ec_error *err);
 void ec_buffer_release(ec_cl *cl, cl_mem *buffer); /* sets it to NULL; NULL is fine */
+/* A buffer that no kernel writes: `bytes` of data, and room for `slack` more. With a key, which is that of label and data, it stays on the
+ * device after its release, and is found there by whoever puts the same again; keep_only lets go of all others that stay. */
+ec_fingerprint ec_buffer_key(const char *label, uint64_t bytes, uint64_t slack, const void *data);
+ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t slack, const void *data, const ec_fingerprint *key, cl_mem *buffer,
+                        ec_error *err);
+void ec_buffers_keep_only(ec_cl *cl, const ec_fingerprint *keys, uint32_t count);
 ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err); /* blocks */
 ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err);
 ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err); /* 4-byte multiples; enqueued */

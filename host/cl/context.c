@@ -22,6 +22,7 @@ void ec_cl_close(ec_cl *cl)
 {
     ec_cl_forget_launches(cl);
     ec_kept_release(cl);
+    ec_kept_buffers_release(cl);
     if (cl->queue) clReleaseCommandQueue(cl->queue);
     if (cl->context) clReleaseContext(cl->context);
     cl->queue = NULL;

@@ -1,4 +1,4 @@
-/* Programs that stay built as long as the device is open. Inside host/cl only. */
+/* Programs that stay built, and buffers that stay on the device, as long as it is open. Inside host/cl only. */
 #ifndef EC_CL_KEPT_H
 #define EC_CL_KEPT_H
 
@@ -9,5 +9,10 @@ typedef struct ec_kept_program ec_kept_program;
 cl_program ec_kept_find(const ec_cl *cl, const ec_cache_key *key); /* borrowed; NULL: none */
 void ec_kept_add(ec_cl *cl, const ec_cache_key *key, cl_program program); /* retains it; without memory it is just not kept */
 void ec_kept_release(ec_cl *cl);
+
+typedef struct ec_kept_buffer ec_kept_buffer;
+
+bool ec_kept_buffer_has(const ec_cl *cl, cl_mem buffer); /* its own reference is not counted as memory twice */
+void ec_kept_buffers_release(ec_cl *cl);
 
 #endif

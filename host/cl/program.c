@@ -97,7 +97,7 @@ ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, con
     ec_result result = EC_OK;
     cl_program kept = cl->keeps_programs ? ec_kept_find(cl, &b.key) : NULL;
     if (kept) {
-        if (clRetainProgram(kept) == CL_SUCCESS) *program = kept;
+        if (clRetainProgram(kept) == CL_SUCCESS) *program = kept, cl->programs_found++;
         else result = ec_fail(err, "cannot retain kernels %s", label);
     } else if (!dump && build_from_cache(&b, program)) {
         cl->cache_hits++;

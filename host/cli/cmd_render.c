@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "cli/cli.h"
+#include "cli/frames.h"
 #include "cli/render_job.h"
 #include "cli/write_report.h"
 
@@ -16,6 +17,7 @@ static ec_render_report make_report(const ec_render_job *job, const char **outpu
     const ec_render_request *request = job->request;
     for (int i = 0; i < request->outputs.count; i++) outputs[i] = request->outputs.file[i].path;
     return (ec_render_report){
+        .frame = job->share ? &job->frame : NULL,
         .command = job->command,
         .scene = request->scene,
         .camera = job->camera_text,
@@ -67,11 +69,12 @@ static ec_result tell(ec_console *console, const ec_render_job *job, const ec_re
         ec_console_say(console, "%s", summary);
         return ec_render_report_json(report, stdout, err);
     }
-    if (!job->request->quiet) ec_render_report_text(report, stdout);
+    if (!job->request->quiet && !job->share) ec_render_report_text(report, stdout);
+    if (!job->request->quiet && job->share) ec_frame_report_text(report, stdout);
     return EC_OK;
 }
 
-static ec_result deliver(ec_console *console, ec_render_job *job, double start, ec_error *err)
+ec_result ec_render_job_deliver(ec_render_job *job, ec_console *console, double start, ec_error *err)
 {
     const char *outputs[EC_OUTPUTS_MAX];
     ec_render_report report = make_report(job, outputs);
@@ -90,14 +93,14 @@ static ec_result render(ec_console *console, ec_render_job *job, double start, e
 {
     ec_error why = {0};
     if (ec_render_job_run(job, console, &why) == EC_OK) {
-        EC_TRY(deliver(console, job, start, err));
+        EC_TRY(ec_render_job_deliver(job, console, start, err));
         return *job->keep_error.text ? ec_fail(err, "%s; the picture is written", job->keep_error.text) : EC_OK;
     }
     bool is_empty = job->film.batch_count == 0 || job->stats.samples == 0; /* no samples: a checkpoint that does not fit */
     if (is_empty) return ec_fail(err, "%s", why.text);
     ec_fail(err, "the render failed after %llu samples a pixel: %s", (unsigned long long)job->stats.samples_per_pixel, why.text);
     ec_error unwritten = {0};
-    if (deliver(console, job, start, &unwritten) == EC_OK) ec_fail_more(err, "; the picture so far is written");
+    if (ec_render_job_deliver(job, console, start, &unwritten) == EC_OK) ec_fail_more(err, "; the picture so far is written");
     else ec_fail_more(err, "; and then: %s", unwritten.text);
     return EC_FAILED;
 }
@@ -117,6 +120,10 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (done) goto cleanup;
     if (request.resume) EC_TRY_CLEANUP(ec_render_job_take_up(&job, argc, argv, err));
     cli->console.quiet = request.quiet;
+    if (request.frames.given) {
+        result = ec_frames_render(&cli->console, &request, argc, as_given, start, err);
+        goto cleanup;
+    }
     result = ec_render_job_prepare(&job, &cli->console, err);
     if (result == EC_FAILED && request.resume && strcmp(folder, job.job.folder)) ec_fail_more(err, "; the job was begun in '%s'", job.job.folder);
     if (result != EC_OK) goto cleanup;

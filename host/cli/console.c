@@ -65,9 +65,21 @@ void ec_console_say(ec_console *console, const char *format, ...)
     print_message(console, "", text);
 }
 
+/* FNV-1a. Where more is said than is remembered, it is said again. */
+static bool was_said(ec_console *console, const char *text)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (; *text; text++) hash = (hash ^ (unsigned char)*text) * UINT64_C(0x100000001b3);
+    for (int i = 0; i < console->said_count; i++)
+        if (console->said[i] == hash) return true;
+    if (console->said_count < (int)(sizeof console->said / sizeof *console->said)) console->said[console->said_count++] = hash;
+    return false;
+}
+
 static void write_log(void *user, ec_severity severity, const char *text)
 {
     ec_console *console = user;
+    if (console->says_once && was_said(console, text)) return;
     if (severity == EC_WARNING)
         print_message(console, "warning: ", text);
     else if (!console->quiet)

@@ -3,6 +3,7 @@
 #define EC_CLI_CONSOLE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "base/error.h"
 
@@ -10,6 +11,9 @@ typedef struct ec_console {
     bool quiet;     /* warnings and errors only */
     bool terminal;  /* stderr is a terminal: progress may be drawn */
     int drawn;      /* columns that the progress line takes now */
+    bool says_once; /* a note or a warning of the library that has been said is not said again: for frames, which are much alike */
+    uint64_t said[64]; /* their hashes */
+    int said_count;
 } ec_console;
 
 void ec_console_error(ec_console *console, const char *text);

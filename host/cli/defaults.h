@@ -17,6 +17,9 @@
 #define EC_FSTOP_MOST 1000000
 #define EC_FOCUS_LEAST 1e-6
 #define EC_FOCUS_MOST 1e12
+#define EC_DEFAULT_FPS 24
+#define EC_FPS_LEAST 0.001
+#define EC_FPS_MOST 100000
 #define EC_FOV_LEAST 0.001       /* degrees */
 #define EC_FOV_MOST 179
 #define EC_GRID_DENSITY_LEAST 0.01

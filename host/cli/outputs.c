@@ -63,6 +63,15 @@ ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t 
     return add_named(outputs, scene, ending, err);
 }
 
+ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err)
+{
+    char ending[40];
+    snprintf(ending, sizeof ending, ".%04u.exr", frame);
+    EC_TRY(add_named(outputs, scene, ending, err));
+    snprintf(ending, sizeof ending, ".%04u.png", frame);
+    return add_named(outputs, scene, ending, err);
+}
+
 bool ec_same_file(const char *a, const char *b)
 {
     struct stat sa, sb;

@@ -31,6 +31,9 @@ ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_erro
 /* The same for a slice of samples first to end: NAME.first-end.exr. */
 ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t first, uint32_t end, ec_error *err);
 
+/* The same for a frame: NAME.0007.exr and .png. */
+ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err);
+
 /* Before any work: can all be written, and would none overwrite an input? inputs may hold NULLs. */
 ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err);
 

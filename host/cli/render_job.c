@@ -49,10 +49,26 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
     return ec_outputs_check(outputs, inputs, 2, err);
 }
 
+/* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */
+static void share_environment(ec_render_job *job, bool is_of_all)
+{
+    ec_frame_share *share = job->share;
+    if (!share || !is_of_all || share->environment_known) return;
+    share->environment = job->scene->environment;
+    share->has_environment = job->scene->has_environment;
+    share->environment_known = true;
+    job->scene->environment.lent = true;
+}
+
 static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *err)
 {
     const char *environment = job->request->environment;
-    if (environment) {
+    bool is_of_all = environment || job->scene->has_environment;
+    if (job->share && job->share->environment_known) {
+        job->scene->environment = job->share->environment;
+        job->scene->environment.lent = true;
+        job->scene->has_environment = job->share->has_environment;
+    } else if (environment) {
         if (job->scene->has_environment) ec_note(log, "--env takes the place of the image-based light that the scene has");
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
     } else if (!ec_scene_has_light(job->scene) && !job->request->adjusts_env) {
@@ -60,11 +76,12 @@ static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *
         environment = "1,1,1";
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
     }
-    if (job->request->adjusts_env) {
+    if (job->request->adjusts_env && !(job->share && job->share->environment_known)) {
         if (!environment && !job->scene->has_environment)
             return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --env, or leave them out");
         ec_scene_adjust_environment(job->scene, job->request->env_degrees, job->request->env_strength, log);
     }
+    share_environment(job, is_of_all);
     if (!environment) environment = job->scene->has_environment ? "the scene's" : "none";
     int used = snprintf(job->environment_text, sizeof job->environment_text, "%s", environment);
     if (job->request->adjusts_env && used > 0 && (size_t)used < sizeof job->environment_text)
@@ -123,9 +140,11 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_erro
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
-    EC_TRY(ec_device_find(job->request->device, &job->device, &job->device_index, &job->device_why, err));
+    const ec_render_request *request = job->request;
+    if (!job->share) EC_TRY(ec_device_find(request->device, &job->device, &job->device_index, &job->device_why, err));
     double start = ec_now();
-    EC_TRY(ec_scene_load_choice(job->request->scene, &job->request->choice, &job->scene, &log, err));
+    if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, &log, err));
+    else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, &log, err));
     EC_TRY(prepare_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
@@ -143,13 +162,14 @@ static void announce(const ec_render_job *job, ec_console *console)
     if (options->error_target > 0)
         snprintf(limits + used, sizeof limits - (size_t)used, "%s%g %% error", used ? " or " : "",
                  100 * options->error_target);
-    if (job->request->default_outputs)
+    if (job->request->default_outputs && !job->share)
         ec_console_say(console, "note: no -o given: the picture goes to %s and %s in the current directory",
                        job->request->outputs.file[0].path, job->request->outputs.file[1].path);
     if (job->request->has_slice)
         snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
     if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
                                              (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
+    if (job->share) snprintf(range, sizeof range, "frame %u, at %.6g s: ", job->frame.number, job->frame.seconds);
     ec_console_say(console, "rendering %s%ux%u pixels on %s until %s", range, options->width, options->height, job->device.name, limits);
 }
 
@@ -159,14 +179,16 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     ec_progress_view view = {.console = console, .options = &job->request->options,
                              .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
     const ec_course course = ec_render_job_course(job, console);
-    ec_cl cl = {0};
-    EC_TRY(ec_cl_open(&job->device, &cl, err));
+    ec_cl own = {0}, *cl = job->share ? job->share->cl : &own;
+    if (!job->share) EC_TRY(ec_cl_open(&job->device, &own, err));
+    if (job->share) job->request->options.followed = &job->share->followed;
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     announce(job, console);
-    ec_result result = ec_render_course(&cl, job->scene, &job->request->options, &course, ec_progress_show, &view, &job->film,
+    ec_result result = ec_render_course(cl, job->scene, &job->request->options, &course, ec_progress_show, &view, &job->film,
                                         &job->stats, &log, err);
     ec_console_erase(console);
-    ec_cl_close(&cl);
+    if (!job->share) ec_cl_close(&own);
+    else ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
     if (result != EC_OK && job->film.batch_count == 0 && ec_stop_requested())
         return ec_fail(err, "interrupted before there was a picture; nothing is written");

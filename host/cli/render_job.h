@@ -10,10 +10,21 @@
 #include "film/film.h"
 #include "report/render_report.h"
 
+/* What the frames of a sequence share. */
+typedef struct ec_frame_share {
+    ec_animation *animation;
+    ec_cl *cl;
+    ec_followed followed;        /* acceleration structures */
+    ec_environment environment;  /* that of all frames, once the first one has made it; its picture is owned */
+    bool has_environment, environment_known;
+} ec_frame_share;
+
 typedef struct ec_render_job {
     ec_render_request *request;
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
+    ec_frame_share *share;       /* NULL: it is no frame of a sequence */
+    ec_frame_facts frame;        /* with that */
     ec_device_info device;
     uint32_t device_index;
     const char *device_why;
@@ -46,6 +57,9 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console);
 
 /* Renders into job->film, with progress; Ctrl-C ends it early and well. On failure too there may be batches in the film. */
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err);
+
+/* cmd_render.c: writes the film to the outputs and tells of it; start: when the command, or the frame, began. */
+ec_result ec_render_job_deliver(ec_render_job *job, ec_console *console, double start, ec_error *err);
 
 void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */
 

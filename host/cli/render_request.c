@@ -25,6 +25,7 @@ SETTER(accel)
 
 FLAG_SETTER(adaptive, options.adaptive)
 FLAG_SETTER(json, json)
+FLAG_SETTER(overwrite, overwrite)
 FLAG_SETTER(quiet, quiet)
 FLAG_SETTER(verbose, verbose)
 TEXT_SETTER(camera, camera)
@@ -89,12 +90,15 @@ SETTER(parallel)
     return ec_parse_real(option, value, EC_FOCUS_LEAST, EC_FOCUS_MOST, &REQUEST->look.to.tall, err);
 }
 RANGE_SETTER(filter_width, ec_parse_real, EC_FILTER_WIDTH_LEAST, EC_FILTER_WIDTH_MOST, options.filter_width)
+RANGE_SETTER(fps, ec_parse_real, EC_FPS_LEAST, EC_FPS_MOST, frames.fps)
 RANGE_SETTER(focus, ec_parse_real, EC_FOCUS_LEAST, EC_FOCUS_MOST, options.focus)
 RANGE_SETTER(fstop, ec_parse_real, EC_FSTOP_LEAST, EC_FSTOP_MOST, options.fstop)
 RANGE_SETTER(exposure, ec_parse_real, -100, 100, exposure)
 RANGE_SETTER(seed, ec_parse_whole, 0, UINT64_MAX, options.seed)
 RANGE_SETTER(spp, ec_parse_u32, 1, EC_MAX_SPP, options.spp)
 RANGE_SETTER(wave, ec_parse_u32, 1, 1u << 28, options.wave)
+
+SETTER(frames) { return ec_frame_range_parse(option, value, &REQUEST->frames, err); }
 
 SETTER(grid_density)
 {
@@ -205,6 +209,8 @@ const ec_option ec_render_rows[] = {
     {"filter-width", 0, true, set_filter_width},
     {"focus", 0, true, set_focus},
     {"fov", 0, true, set_fov},
+    {"fps", 0, true, set_fps},
+    {"frames", 0, true, set_frames},
     {"fstop", 0, true, set_fstop},
     {"grid-density", 0, true, set_grid_density},
     {"instancing", 0, true, set_instancing},
@@ -215,6 +221,7 @@ const ec_option ec_render_rows[] = {
     {"look-at", 0, true, set_look_at},
     {"max-depth", 0, true, set_max_depth},
     {"output", 'o', true, set_output},
+    {"overwrite", 0, false, set_overwrite},
     {"parallel", 0, true, set_parallel},
     {"quiet", 'q', false, set_quiet},
     {"resume", 0, true, set_resume},
@@ -257,6 +264,19 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
+/* A frame is done or not: it is the sequence that goes on. */
+static ec_result settle_frames(ec_render_request *request, ec_error *err)
+{
+    if (!request->frames.given && request->overwrite) return ec_usage(err, "--overwrite belongs to --frames; other pictures are written over as ever");
+    if (!request->frames.given && request->frames.fps > 0) return ec_usage(err, "--fps belongs to --frames; leave it out or give that too");
+    if (!request->frames.given) return EC_OK;
+    if (request->choice.at_given) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
+    const char *other = request->resume ? "resume" : request->checkpoint ? "checkpoint" : request->has_slice ? "samples" : NULL;
+    if (other) return ec_usage(err, "--frames and --%s: a sequence goes on with the frames that are not there yet; leave --%s out", other, other);
+    if (request->frames.fps == 0) request->frames.fps = EC_DEFAULT_FPS;
+    return EC_OK;
+}
+
 static bool has_limit(const ec_render_options *o) { return o->spp || o->time_limit > 0 || o->error_target > 0; }
 
 ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err)
@@ -267,6 +287,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(ec_combinations_check(options, count, given, limits, err));
     if (request->every > 0 && !request->checkpoint) return ec_usage(err, "--every belongs to --checkpoint; leave it out or give that too");
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;
+    EC_TRY(settle_frames(request, err));
     EC_TRY(settle_slice(request, err));
     request->capped = limits->spp == 0 && has_limit(limits);
     if (!has_limit(limits)) limits->spp = EC_DEFAULT_SPP;

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "cli/camera_change.h"
+#include "cli/frame_range.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "image/image.h"
@@ -29,6 +30,8 @@ typedef struct ec_render_request {
     bool adjusts_env;          /* one of these was given */
     const char *device;        /* NULL: chosen */
     double exposure;           /* EV */
+    ec_frame_range frames;     /* of a sequence; not given: one picture */
+    bool overwrite;            /* frames that are there and of another job */
     bool has_slice;            /* --samples A:B: */
     uint32_t slice_first, slice_end; /* samples a pixel, whole batches */
     bool slice_of_any;         /* of a job without an end: --batch, but no --spp */

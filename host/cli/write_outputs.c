@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/frame_job.h"
 #include "film/interval.h"
 
 enum { AOV_STRIDE = 8, AOV_ALBEDO = 0, AOV_NORMAL = 3, AOV_DEPTH = 6, AOV_ALPHA = 7 };
@@ -111,7 +112,7 @@ static ec_result write_png(const char *path, const ec_picture *picture, const ec
     uint8_t *bytes = malloc(pixel_count * 3);
     if (!bytes) return ec_fail(err, "out of memory for '%s'", path);
     ec_tonemap_rgb(picture->rgb, bytes, pixel_count, style->exposure, style->tonemap);
-    ec_result result = ec_png_write(path, picture->width, picture->height, bytes, err);
+    ec_result result = ec_png_write_text(path, picture->width, picture->height, bytes, EC_FRAME_ATTRIBUTE, style->frame_job, err);
     free(bytes);
     return result;
 }

@@ -30,6 +30,7 @@ typedef struct ec_picture_style {
     ec_tonemap tonemap;
     const ec_attribute *attributes; /* EXR only */
     uint32_t attribute_count;
+    const char *frame_job; /* PNG: kept in it as a text; NULL: none */
     /* EXR only: with sums, to go on from or to merge; all NULL: a picture alone */
     const ec_job *job;
     const ec_film *film;

@@ -15,7 +15,8 @@ ec_result ec_write_report(ec_outputs *outputs, const ec_film *film, const ec_sli
     ec_picture_style style = {.exposure = (float)report->exposure,
                               .tonemap = report->tonemap,
                               .attributes = attributes.list,
-                              .attribute_count = attributes.count};
+                              .attribute_count = attributes.count,
+                              .frame_job = report->frame ? report->frame->job : NULL};
     if (slice) style.job = slice->job, style.film = film, style.past = slice->past;
     EC_TRY_CLEANUP(ec_outputs_write(outputs, &picture, &style, err));
 cleanup:

@@ -1,6 +1,8 @@
 #include "image/exr_header.h"
 
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "image/exr_context.h"
 
@@ -31,6 +33,31 @@ int ec_exr_number(const char *path, const char *attribute, double *value)
         is_number = 0;
     exr_finish(&context);
     return is_number;
+}
+
+/* Its last line's block, whole? Blocks may stand in any order, but are written in theirs. */
+static int is_whole(const char *path, exr_context_t context)
+{
+    exr_attr_box2i_t window;
+    exr_chunk_info_t last;
+    struct stat file;
+    return exr_get_data_window(context, 0, &window) == EXR_ERR_SUCCESS &&
+           exr_read_scanline_chunk_info(context, 0, window.max.y, &last) == EXR_ERR_SUCCESS && stat(path, &file) == 0 &&
+           last.data_offset + last.packed_size <= (uint64_t)file.st_size;
+}
+
+char *ec_exr_whole_text(const char *path, const char *attribute)
+{
+    ec_exr_stream stream = {0};
+    exr_context_t context = open_header(path, &stream);
+    const char *text = NULL;
+    int32_t size = 0;
+    char *copy = NULL;
+    if (!context) return NULL;
+    if (is_whole(path, context) && exr_attr_get_string(context, 0, attribute, &size, &text) == EXR_ERR_SUCCESS && text)
+        copy = strndup(text, (size_t)size);
+    exr_finish(&context);
+    return copy;
 }
 
 int ec_exr_is_half(const char *path, const char *channel)

@@ -62,6 +62,9 @@ double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1, on [0, 1] */
  * Non-finite values become 0. in: 3 floats a pixel; out: 3 bytes a pixel. */
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap);
 
+/* text: kept in the file under `keyword` (png_text.h); NULL: none. */
+ec_result ec_png_write_text(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, const char *keyword, const char *text,
+                            ec_error *err);
 ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, ec_error *err);
 
 /* The same in memory; *bytes is malloc'ed. */

@@ -12,11 +12,10 @@ uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch)
 
 static uint64_t pixels_of(const ec_batch_source *s) { return (uint64_t)s->pipeline.params.width * s->pipeline.params.height; }
 
-ec_result ec_batch_source_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch, ec_batch_source *s,
-                               ec_render_stats *stats, ec_error *err)
+ec_result ec_batch_source_open(ec_cl *cl, ec_cargo *cargo, uint64_t seed, ec_batch_source *s, ec_render_stats *stats, ec_error *err)
 {
-    *s = (ec_batch_source){.seed = options->seed};
-    EC_TRY(ec_pipeline_create(cl, scene, options, batch, &s->pipeline, stats, err));
+    *s = (ec_batch_source){.seed = seed};
+    EC_TRY(ec_pipeline_create(cl, cargo, cargo, &s->pipeline, stats, err));
     uint64_t pixels = pixels_of(s);
     s->mean = malloc(pixels * 12);
     if (!s->mean) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);

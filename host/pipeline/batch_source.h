@@ -27,8 +27,8 @@ typedef struct ec_batch_order {
 /* What mean[3 i] holds of a pixel that a batch which was given up has not reached: radiance is never negative. */
 #define EC_NOT_REACHED (-1.0f)
 
-ec_result ec_batch_source_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch, ec_batch_source *source,
-                               ec_render_stats *stats, ec_error *err);
+/* The cargo is spent. */
+ec_result ec_batch_source_open(ec_cl *cl, ec_cargo *cargo, uint64_t seed, ec_batch_source *source, ec_render_stats *stats, ec_error *err);
 void ec_batch_source_close(ec_batch_source *source); /* zero-initialised is fine */
 
 /* *complete: false where go_on said no; pixels not reached then hold what was there before, in a first batch EC_NOT_REACHED. */

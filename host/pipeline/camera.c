@@ -42,7 +42,7 @@ ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o,
     return set_lens(c, o, params, err);
 }
 
-ec_result ec_pipeline_upload_camera(ec_pipeline *p, const ec_scene *scene, const ec_render_options *o, ec_error *err)
+ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
 {
     const ec_motion *motion = &scene->motion;
     const size_t keys = motion->segments + 1;
@@ -50,14 +50,11 @@ ec_result ec_pipeline_upload_camera(ec_pipeline *p, const ec_scene *scene, const
     if (!motion->segments || !moves) return EC_OK;
     float *table = calloc(keys * EC_CAMERA_VECTORS * 4, sizeof *table);
     if (!table) return ec_fail(err, "out of memory for a camera at %zu moments", keys);
-    ec_result result = EC_OK;
-    for (size_t k = 0; k < keys && result == EC_OK; k++) {
+    ec_cargo_add(cargo, EC_ARG_CAMERA_KEYS, "camera keys", keys * EC_CAMERA_VECTORS * 16, 0, table, table);
+    for (size_t k = 0; k < keys; k++) {
         ec_params params = {.orthographic = 0};
-        result = ec_pipeline_set_camera(&motion->cameras[(moves - 1) * keys + k], o, &params, err);
+        EC_TRY(ec_pipeline_set_camera(&motion->cameras[(moves - 1) * keys + k], o, &params, err));
         for (size_t v = 0; v < EC_CAMERA_VECTORS; v++) memcpy(table + (v * keys + k) * 4, (const float *)&params + 4 * v, 4 * sizeof *table);
     }
-    if (result == EC_OK)
-        result = ec_buffer_create(p->cl, "camera keys", keys * EC_CAMERA_VECTORS * 16, table, &p->buffers[EC_ARG_CAMERA_KEYS], err);
-    free(table);
-    return result;
+    return EC_OK;
 }

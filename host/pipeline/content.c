@@ -88,20 +88,36 @@ static void add_params(SHA2_CTX *digests, ec_params p)
     add(digests, EC_CONTENT_SETTINGS, &p, sizeof p);
 }
 
-void ec_pipeline_content(const ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_content *content)
+static void add_kernels(SHA2_CTX *digests)
+{
+    for (const char *const *name = ec_kernel_source_names(); *name; name++)
+        add(digests, EC_CONTENT_KERNELS, ec_kernel_source(*name), strlen(ec_kernel_source(*name)));
+}
+
+static void write_digest(SHA2_CTX *digest, char text[33])
+{
+    uint8_t bytes[SHA256_DIGEST_LENGTH];
+    SHA256Final(bytes, digest);
+    for (int k = 0; k < 16; k++) snprintf(text + 2 * k, 3, "%02x", bytes[k]);
+}
+
+void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content)
 {
     SHA2_CTX digests[EC_CONTENT_COUNT];
     for (int i = 0; i < EC_CONTENT_COUNT; i++) SHA256Init(&digests[i]);
-    add_buffers(digests, scene, pack, pipeline->effects);
-    add_params(digests, pipeline->params);
-    uint64_t called = pipeline->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
+    add_buffers(digests, scene, pack, head->effects);
+    add_params(digests, head->params);
+    uint64_t called = head->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
     add(digests, EC_CONTENT_SETTINGS, &called, sizeof called);
     if (called & EC_FEATURE_MOTION) add_moving_cameras(digests, &scene->motion);
-    for (const char *const *name = ec_kernel_source_names(); *name; name++)
-        add(digests, EC_CONTENT_KERNELS, ec_kernel_source(*name), strlen(ec_kernel_source(*name)));
-    for (int i = 0; i < EC_CONTENT_COUNT; i++) {
-        uint8_t digest[SHA256_DIGEST_LENGTH];
-        SHA256Final(digest, &digests[i]);
-        for (int k = 0; k < 16; k++) snprintf(content->digest[i] + 2 * k, 3, "%02x", digest[k]);
-    }
+    add_kernels(digests);
+    for (int i = 0; i < EC_CONTENT_COUNT; i++) write_digest(&digests[i], content->digest[i]);
+}
+
+void ec_content_kernels(char digest[33])
+{
+    SHA2_CTX digests[EC_CONTENT_COUNT];
+    SHA256Init(&digests[EC_CONTENT_KERNELS]);
+    add_kernels(digests);
+    write_digest(&digests[EC_CONTENT_KERNELS], digest);
 }

@@ -18,4 +18,7 @@ typedef struct ec_content {
     char digest[EC_CONTENT_COUNT][33]; /* the first 128 bits of SHA-256, in hexadecimal; empty: not known */
 } ec_content;
 
+/* That of the kernels alone, which needs no render. */
+void ec_content_kernels(char digest[33]);
+
 #endif

@@ -8,7 +8,7 @@
 
 /* A buffer of the scene's data on the device. */
 typedef struct ec_scene_buffer {
-    const char *label;
+    char label[24];
     uint64_t effects; /* any of these makes it; 0: there in any case */
     uint64_t bytes;   /* 0: not allocated */
 } ec_scene_buffer;

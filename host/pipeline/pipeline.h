@@ -2,9 +2,7 @@
 #ifndef EC_PIPELINE_PIPELINE_H
 #define EC_PIPELINE_PIPELINE_H
 
-#include "accel/accel.h"
-#include "pack/pack.h"
-#include "pipeline/insides.h"
+#include "pipeline/cargo.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
 #include "shared/params.h"
@@ -21,8 +19,6 @@ typedef struct ec_pipeline {
     ec_render_effects effects;
     uint32_t lanes, wave, triangle_count;
     uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
-    ec_insides insides;           /* what a camera can be inside of */
-    uint32_t bodies_too_many;     /* materials of bodies, more than can be told apart; else 0 */
     bool fast_math;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
@@ -39,11 +35,12 @@ typedef struct ec_pipeline {
         } tuning[2][EC_TUNED_BOUNCES];
     } accels[EC_ACCEL_COUNT];
     uint64_t rays;                /* traced so far, shadow rays included */
+    double clocked_seconds, clocked_rays; /* of trials (trace.c) */
 } ec_pipeline;
 
-/* Uploads the scene and builds the kernels that it calls for. */
-ec_result ec_pipeline_create(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
-                             ec_pipeline *pipeline, ec_render_stats *stats, ec_error *err);
+/* Puts a cargo on a device and builds the kernels that it calls for. spent: the same cargo, where nobody else wants it: each of its buffers
+ * is freed as soon as the device has it, and then the rest; else NULL. stats gets times, lanes and wave. */
+ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *pipeline, ec_render_stats *stats, ec_error *err);
 void ec_pipeline_destroy(ec_pipeline *pipeline);
 
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
@@ -70,9 +67,10 @@ uint64_t ec_whitted_stack_words(uint32_t max_depth);
 
 /* camera.c */
 ec_result ec_pipeline_set_camera(const ec_camera *camera, const ec_render_options *options, ec_params *params, ec_error *err);
-/* The same at every moment, on the device; nothing for a camera that stands still. */
-ec_result ec_pipeline_upload_camera(ec_pipeline *pipeline, const ec_scene *scene, const ec_render_options *options, ec_error *err);
-/* upload.c: what of the scene goes to the device, and for which effects; doing it */
+/* upload.c */
+ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_cargo *cargo, ec_error *err);
+ec_result ec_pipeline_unload(ec_pipeline *pipeline, ec_cargo *cargo, ec_error *err); /* the same, and the cargo is freed on the way */
+/* upload_plan.c: what of the scene goes to the device, and for which effects */
 typedef struct ec_upload {
     ec_arg arg;
     const void *data; /* NULL: made as it is uploaded */
@@ -80,16 +78,10 @@ typedef struct ec_upload {
     ec_scene_buffer buffer;
 } ec_upload;
 uint32_t ec_upload_plan(const ec_scene *scene, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects);
-ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_error *err);
-ec_result ec_pipeline_upload_filter(ec_pipeline *pipeline, const ec_render_options *options, ec_error *err);
 /* The scene's triangles and instances, as builders take them. */
 ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density);
-/* Builds an accelerator and uploads it; stats may be NULL. */
-ec_result ec_pipeline_upload_accel(ec_pipeline *pipeline, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
-/* Those that are in use. */
-ec_result ec_pipeline_upload_accels(ec_pipeline *pipeline, const ec_scene *scene, float grid_density, ec_error *err);
-/* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. */
-ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, const ec_render_options *options, ec_error *err);
+/* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. wave: paths in flight; 0 = what suits the device. */
+ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
 /* build.c */
 ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
 /* launch.c */
@@ -102,8 +94,5 @@ ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce,
 void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects);
 uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features);
 bool ec_pipeline_joins(const ec_render_options *options, const ec_pack *pack);
-
-/* content.c: what is rendered; params must be complete. */
-void ec_pipeline_content(const ec_pipeline *pipeline, const ec_scene *scene, const ec_pack *pack, ec_content *content);
 
 #endif

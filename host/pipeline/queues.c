@@ -6,11 +6,11 @@
 
 /* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads. (Queues that
  * stay in the cache gain 5 % of processor time there; launches of a tenth the size lose 40 % of wall time.) */
-static uint64_t fit_wave(const ec_pipeline *p, const ec_render_options *o)
+static uint64_t fit_wave(const ec_pipeline *p)
 {
     const ec_device_info *device = &p->cl->info;
     uint64_t wave = device->type & CL_DEVICE_TYPE_CPU ? (uint64_t)1 << 18 : (uint64_t)1 << 20;
-    uint64_t stack = o->integrator == EC_INTEGRATOR_WHITTED ? ec_whitted_stack_words(o->max_depth) : 0;
+    uint64_t stack = p->integrator == EC_INTEGRATOR_WHITTED ? ec_whitted_stack_words(p->params.max_depth) : 0;
     uint64_t words = 2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + 3 + EC_AOV_FIELDS + stack;
     uint64_t widest = stack > EC_PATH_FIELDS ? stack : EC_PATH_FIELDS;
     while (wave > EC_SMALLEST_WAVE && (wave * 4 * words > device->memory_bytes / 4 || wave * 4 * widest > device->max_allocation_bytes))
@@ -64,14 +64,14 @@ static void release_wave(ec_pipeline *p)
 }
 
 /* Other programs may be using what a device says it has. Fewer paths in flight cost speed only, so the wave is halved until it fits. */
-static ec_result create_wave_that_fits(ec_pipeline *p, const ec_render_options *o, ec_error *err)
+static ec_result create_wave_that_fits(ec_pipeline *p, uint32_t wanted, ec_error *err)
 {
     ec_error why = {0};
-    set_wave(p, o->wave ? o->wave : fit_wave(p, o));
+    set_wave(p, wanted ? wanted : fit_wave(p));
     p->first_wave = p->wave;
     for (uint32_t refused = 0; create_wave(p, &why) != EC_OK; release_wave(p)) {
-        bool lacks_memory = why.kind == EC_ERROR_DEVICE_MEMORY, is_last = o->wave || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
-        if (lacks_memory && o->wave) ec_fail_more(&why, ", or a smaller --wave");
+        bool lacks_memory = why.kind == EC_ERROR_DEVICE_MEMORY, is_last = wanted || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
+        if (lacks_memory && wanted) ec_fail_more(&why, ", or a smaller --wave");
         if (err) *err = why;
         if (!lacks_memory || is_last) return EC_FAILED;
         refused = p->wave;
@@ -80,7 +80,7 @@ static ec_result create_wave_that_fits(ec_pipeline *p, const ec_render_options *
     return EC_OK;
 }
 
-ec_result ec_pipeline_create_queues(ec_pipeline *p, const ec_render_options *options, ec_error *err)
+ec_result ec_pipeline_create_queues(ec_pipeline *p, uint32_t wave, ec_error *err)
 {
     ec_cl *cl = p->cl;
     const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
@@ -89,6 +89,6 @@ ec_result ec_pipeline_create_queues(ec_pipeline *p, const ec_render_options *opt
     EC_TRY(ec_buffer_create(cl, "counters", sizeof(ec_counters), NULL, &p->buffers[EC_ARG_COUNTERS], err));
     EC_TRY(ec_buffer_create(cl, "invalid counts", EC_STAGE_COUNT * 4, NULL, &p->buffers[EC_ARG_INVALID], err));
     EC_TRY(ec_buffer_zero(cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * 4, err));
-    EC_TRY(create_wave_that_fits(p, options, err));
+    EC_TRY(create_wave_that_fits(p, wave, err));
     return ec_buffer_create(cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
 }

@@ -272,6 +272,7 @@ static void finish_stats(render_state *r)
     s->device_bytes = p->cl->peak_allocated_bytes;
     s->cache_hits = p->cl->cache_hits;
     s->cache_misses = p->cl->cache_misses;
+    s->trace_seconds = p->clocked_rays > 0 ? p->clocked_seconds / p->clocked_rays * (double)s->rays : s->seconds;
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", r->stopped_by ? r->stopped_by : "user");
 }
 
@@ -311,18 +312,20 @@ static ec_result take_up(render_state *r, const ec_past *past, uint32_t batch, e
     return EC_OK;
 }
 
-static ec_result set_up(render_state *r, ec_cl *cl, const ec_scene *scene, uint32_t batch, const ec_log *log, ec_error *err)
+static ec_result set_up(render_state *r, ec_cl *cl, const ec_scene *scene, uint32_t batch, ec_cargo *cargo, const ec_log *log, ec_error *err)
 {
     const ec_past *past = r->course->past;
     const ec_pipeline *p = &r->source.pipeline;
     EC_TRY(take_up(r, past, batch, err));
     r->film->shows_late = true;
-    EC_TRY(ec_batch_source_open(cl, scene, r->options, batch, &r->source, r->stats, err));
+    EC_TRY(ec_pipeline_lanes(cl, r->options->lanes, &r->stats->lanes, err)); /* before the work of what follows */
+    EC_TRY(ec_cargo_make(scene, r->options, batch, 1u << ec_device_kind_of(&cl->info), cargo, r->stats, err));
+    EC_TRY(ec_batch_source_open(cl, cargo, r->options->seed, &r->source, r->stats, err));
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
     if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &p->params, &r->past.allotment, err));
-    if (p->bodies_too_many)
+    if (cargo->head.bodies_too_many)
         ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
-                p->bodies_too_many, EC_BODIES_MOST);
+                cargo->head.bodies_too_many, EC_BODIES_MOST);
     if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(p->effects.called.bits & EC_FEATURE_MULTISCATTER))
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
     if (p->wave < p->first_wave)
@@ -341,7 +344,9 @@ ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_opt
     uint32_t batch = ec_render_batch(options);
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
     if (course->end) r.batches_wanted = course->end - course->first;
-    ec_result result = set_up(&r, cl, scene, batch, log, err);
+    ec_cargo cargo = {0};
+    ec_result result = set_up(&r, cl, scene, batch, &cargo, log, err);
+    ec_cargo_free(&cargo);
     if (result == EC_OK) {
         ec_error why = {0};
         result = render_loop(&r, log, &why);

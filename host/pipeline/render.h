@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "accel/follow.h"
 #include "base/error.h"
 #include "cl/cl.h"
 #include "film/film.h"
@@ -68,6 +69,7 @@ typedef struct ec_render_options {
     uint64_t more_effects;      /* EC_FEATURE_*, built in though the scene may not call for them: so that scenes share kernels */
     const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
     float grid_density;         /* cells a reference, where that is a grid; 0 = EC_GRID_DENSITY */
+    struct ec_followed *followed; /* acceleration structures of the render before, which goes on with them (accel/follow.h); NULL: none */
     bool identify;              /* say in the stats what is rendered: content */
     bool fast_math;             /* kernels by -cl-fast-relaxed-math: for `eclat cost` alone, to see what exact arithmetic costs */
 } ec_render_options;
@@ -114,6 +116,10 @@ typedef struct ec_render_stats {
     ec_content content;           /* with options.identify */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */
     uint32_t cache_hits, cache_misses;
+    double trace_seconds;         /* of rays through structures: what clocked launches took, for all rays; else an upper bound, `seconds` */
+    ec_follow_report followed;    /* with options.followed: what became of the structures */
+    uint32_t programs_found, programs_built; /* kept by the device since the one before; made or read from the cache */
+    uint64_t bytes_found, bytes_uploaded;    /* likewise of the scene's buffers */
 } ec_render_stats;
 
 /* film must be zero-initialised; the caller destroys it. cl stays the caller's. On failure too the film keeps the batches that were

@@ -10,6 +10,7 @@
 struct ec_session {
     ec_pipeline pipeline;
     ec_render_options options;
+    ec_insides insides;          /* what a camera can be inside of */
     ec_environment environment;  /* its turn as the scene has it; no picture */
     uint64_t pixels;             /* that the films have room for */
     double rate;                 /* samples a second of the last waves; 0: not known */
@@ -22,7 +23,12 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     *session = s;
     *stats = (ec_render_stats){0};
     if (!s) return ec_fail(err, "out of memory for a pipeline");
-    ec_result result = ec_pipeline_create(cl, scene, options, largest, &s->pipeline, stats, err);
+    ec_cargo cargo;
+    ec_result result = ec_cargo_make(scene, options, largest, 1u << ec_device_kind_of(&cl->info), &cargo, stats, err);
+    s->insides = cargo.insides;
+    cargo.insides = (ec_insides){0};
+    if (result == EC_OK) result = ec_pipeline_create(cl, &cargo, &cargo, &s->pipeline, stats, err);
+    ec_cargo_free(&cargo);
     const ec_params *params = &s->pipeline.params;
     s->options = *options;
     s->pixels = (uint64_t)options->width * options->height;
@@ -39,6 +45,7 @@ void ec_session_close(ec_session *session)
 {
     if (!session) return;
     ec_pipeline_destroy(&session->pipeline);
+    ec_insides_free(&session->insides);
     free(session);
 }
 
@@ -65,7 +72,7 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
     s->options.width = params->width = view->width;
     s->options.height = params->height = view->height;
     EC_TRY(ec_pipeline_set_camera(&view->camera, &s->options, params, err));
-    params->camera_medium = ec_insides_of(&p->insides, &view->camera);
+    params->camera_medium = ec_insides_of(&s->insides, &view->camera);
     ec_environment_turn(&e, view->env_degrees);
     if (p->buffers[EC_ARG_ENVIRONMENT_TEXELS]) {
         params->environment_turned = e.turned;

@@ -42,6 +42,9 @@ ec_result ec_pipeline_trace(ec_pipeline *p, int connect, uint32_t bounce, const 
     uint32_t step = scalars[EC_ARG_STEP];
     uint64_t rays = ec_pipeline_total(connect ? counters->shadows[step] : counters->rays[step]);
     double rate = (double)rays / (ec_now() - start), *best = &p->accels[a].tuning[connect][bounce].best_rate;
-    if (p->accels[a].tuning[connect][bounce].trials++ > 0 && rate > *best) *best = rate;
+    if (p->accels[a].tuning[connect][bounce].trials++ == 0) return EC_OK;
+    if (rate > *best) *best = rate;
+    p->clocked_seconds += (double)rays / rate;
+    p->clocked_rays += (double)rays;
     return EC_OK;
 }

@@ -1,118 +1,48 @@
-/* The scene as device buffers. Host copies are freed as soon as the device has them. */
-#include <math.h>
-#include <stdio.h>
+/* A cargo's buffers, put on a device. */
 #include <stdlib.h>
 
 #include "pipeline/pipeline.h"
-#include "pipeline/pixel_filter.h"
 
-/* Both sets side by side. They must be finite and small enough for the kernels' integer texels. */
-static ec_result upload_uvs(ec_pipeline *p, const ec_scene *scene, const ec_upload *u, ec_error *err)
+/* NULL: this device has no use for it. */
+static cl_mem *place_of(ec_pipeline *p, const ec_cargo_buffer *b)
 {
-    float *uvs = calloc(4 * (size_t)scene->vertex_count, sizeof *uvs);
-    if (!uvs) return ec_fail(err, "out of memory for texture coordinates of %u vertices", scene->vertex_count);
-    for (int set = 0; set < 2; set++)
-        for (size_t i = 0; scene->uv[set] && i < 2 * (size_t)scene->vertex_count; i++) {
-            float c = scene->uv[set][i];
-            uvs[4 * (i / 2) + 2 * set + i % 2] = isfinite(c) ? fminf(fmaxf(c, -1e6f), 1e6f) : 0.0f;
-        }
-    ec_result result = ec_buffer_create(p->cl, u->buffer.label, u->buffer.bytes, uvs, &p->buffers[u->arg], err);
-    free(uvs);
-    return result;
+    if (b->accel == EC_ACCEL_COUNT) return &p->buffers[b->arg];
+    return p->accels[b->accel].in_use ? &p->accels[b->accel].buffers[b->arg - EC_ARG_ACCEL] : NULL;
 }
 
-uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects)
+/* What another render has left on the device and this one has no use for goes first: there may not be room for both. */
+static void make_room(ec_pipeline *p, const ec_cargo *cargo, ec_fingerprint keys[EC_CARGO_BUFFERS])
 {
-    const uint64_t vertices = s->vertex_count, triangles = s->triangle_count, lights = pack->light_count;
-    const uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
-    const uint64_t light = EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT;
-    const ec_upload all[] = {
-        {EC_ARG_PRIMS, pack->prims, 0, {"triangles", 0, pack->prim_count * sizeof *pack->prims}},
-        {EC_ARG_MATERIALS, pack->materials, 0, {"materials", 0, pack->material_count * sizeof *pack->materials}},
-        {EC_ARG_PLACES, pack->places, 0, {"places of instances", EC_FEATURE_INSTANCES, pack->place_words * 4ull}},
-        {EC_ARG_MOTION, pack->motion, 0, {"keys of what moves", EC_FEATURE_MOTION, pack->motion_words * 4ull}},
-        {EC_ARG_SRGB, pack->srgb, 0, {"sRGB table", 0, sizeof pack->srgb}},
-        {EC_ARG_INDICES, s->indices, 16, {"indices", EC_FEATURES_ATTRIBUTES, 12 * triangles}},
-        {EC_ARG_NORMALS, s->normals, 16, {"normals", EC_FEATURE_SMOOTH_NORMALS, s->normals ? 12 * vertices : 0}},
-        {EC_ARG_TANGENTS, s->tangents, 0, {"tangents", EC_FEATURES_TANGENTS, s->tangents ? 16 * vertices : 0}},
-        {EC_ARG_COLORS, s->colors, 0, {"colours", EC_FEATURE_VERTEX_COLORS, s->colors ? 16 * vertices : 0}},
-        {EC_ARG_UVS, NULL, 0, {"texture coordinates", EC_FEATURES_TEXTURED, s->uv[0] || s->uv[1] ? 16 * vertices : 0}},
-        {EC_ARG_TEXTURE_TABLE, pack->textures, 0, {"textures", EC_FEATURES_TEXTURED, pack->texture_count * sizeof *pack->textures}},
-        {EC_ARG_TEXELS, pack->texels, 0, {"texels", EC_FEATURES_TEXTURED, pack->texel_words * 4}},
-        {EC_ARG_LIGHT_TABLE, pack->lights, 0, {"lights", light, lights * sizeof *pack->lights}},
-        {EC_ARG_LIGHT_ALIAS, pack->light_alias, 0, {"light table", light, lights * sizeof *pack->light_alias}},
-        {EC_ARG_ENVIRONMENT_TEXELS, pack->environment_texels, 0, {"environment map", EC_FEATURE_ENVIRONMENT_MAP, texels * 16}},
-        {EC_ARG_ENVIRONMENT_TABLE, pack->environment_table, 0,
-         {"environment table", EC_FEATURE_ENVIRONMENT_MAP, (texels + pack->environment_height) * sizeof *pack->environment_table}},
-        {EC_ARG_LIGHT_TREE, pack->light_tree, 0, {"light tree", EC_FEATURE_LIGHT_TREE, pack->light_node_count * sizeof *pack->light_tree}},
-        {EC_ARG_LIGHT_TRAILS, pack->light_of_prim, 0,
-         {"trails of lamps", EC_FEATURE_LIGHT_TREE, pack->light_node_count ? (uint64_t)pack->prim_count * sizeof *pack->light_of_prim : 0}},
-    };
-    const uint32_t count = sizeof all / sizeof *all;
-    effects->buffer_count = count;
-    for (uint32_t i = 0; i < count; i++) {
-        plan[i] = all[i];
-        uint64_t for_whom = plan[i].buffer.effects; /* also for universal kernels: what is not called for stays NULL */
-        if ((for_whom && !(effects->called.bits & for_whom)) || (!plan[i].data && plan[i].arg != EC_ARG_UVS)) plan[i].buffer.bytes = 0;
-        if (plan[i].buffer.bytes) plan[i].buffer.bytes += plan[i].slack;
-        effects->buffers[i] = plan[i].buffer;
+    for (uint32_t i = 0; i < cargo->head.buffer_count; i++) {
+        const ec_cargo_buffer *b = &cargo->buffers[i];
+        keys[i] = place_of(p, b) ? ec_buffer_key(b->label, b->bytes, b->slack, b->data) : (ec_fingerprint){{0}};
     }
-    return count;
+    ec_buffers_keep_only(p->cl, keys, cargo->head.buffer_count);
 }
 
-ec_result ec_pipeline_upload(ec_pipeline *p, const ec_scene *scene, const ec_pack *pack, ec_error *err)
+/* spent: NULL, or the cargo, whose buffers are freed as the device has them. */
+static ec_result upload(ec_pipeline *p, const ec_cargo *cargo, ec_cargo *spent, ec_error *err)
 {
-    ec_upload plan[EC_SCENE_BUFFERS];
-    uint32_t count = ec_upload_plan(scene, pack, plan, &p->effects);
-    for (uint32_t i = 0; i < count; i++) {
-        const ec_upload *u = &plan[i];
-        uint64_t bytes = u->buffer.bytes;
-        if (!bytes) continue; /* an absent stream stays NULL */
-        if (u->arg == EC_ARG_UVS) EC_TRY(upload_uvs(p, scene, u, err));
-        else EC_TRY(ec_buffer_create(p->cl, u->buffer.label, bytes, u->slack ? NULL : u->data, &p->buffers[u->arg], err));
-        if (u->slack) EC_TRY(ec_buffer_write(p->cl, p->buffers[u->arg], 0, bytes - u->slack, u->data, err));
-    }
-    return EC_OK;
-}
-
-ec_result ec_pipeline_upload_filter(ec_pipeline *p, const ec_render_options *o, ec_error *err)
-{
-    float table[EC_FILTER_ENTRIES];
-    if (o->filter == EC_FILTER_BOX) return EC_OK;
-    ec_pixel_filter_blackman_harris(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH, table);
-    return ec_buffer_create(p->cl, "pixel filter", sizeof table, table, &p->buffers[EC_ARG_PIXEL_FILTER], err);
-}
-
-ec_result ec_pipeline_upload_accel(ec_pipeline *p, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)
-{
-    ec_accel accel = {0};
-    char label[64];
-    ec_result result = ec_accel_build(which, input, &accel, err);
-    for (int k = 0; result == EC_OK && k < EC_ACCEL_BUFFERS; k++) {
-        const ec_accel_buffer *buffer = &accel.buffers[k];
-        if (!buffer->data) continue;
-        snprintf(label, sizeof label, "%s %s", ec_accels[which].name, buffer->label);
-        result = ec_buffer_create(p->cl, label, buffer->bytes, buffer->data, &p->accels[which].buffers[k], err);
-    }
-    if (stats) *stats = accel.stats;
-    ec_accel_free(&accel);
-    return result;
-}
-
-ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density)
-{
-    return (ec_accel_input){.positions = scene->positions, .indices = scene->indices, .triangle_count = ec_scene_flat_count(scene),
-                            .whole = scene->whole, .shape_count = scene->shape_count, .shapes = scene->shapes,
-                            .swept = scene->motion.swept, .swept_count = scene->motion.segments ? scene->motion.triangle_count : 0,
-                            .placed_count = scene->placed_count, .placed = scene->placed, .grid_density = grid_density};
-}
-
-ec_result ec_pipeline_upload_accels(ec_pipeline *p, const ec_scene *scene, float grid_density, ec_error *err)
-{
-    ec_accel_input input = ec_accel_input_of(scene, grid_density);
+    ec_fingerprint keys[EC_CARGO_BUFFERS];
+    bool keeps = p->cl->keeps_buffers;
     ec_result result = EC_OK;
-    for (uint32_t a = 0; result == EC_OK && a < EC_ACCEL_COUNT; a++)
-        if (p->accels[a].in_use) result = ec_pipeline_upload_accel(p, a, &input, NULL, err);
-    ec_accel_input_free(&input);
+    if (keeps) make_room(p, cargo, keys);
+    for (uint32_t i = 0; i < cargo->head.buffer_count && result == EC_OK; i++) {
+        const ec_cargo_buffer *b = &cargo->buffers[i];
+        cl_mem *place = place_of(p, b);
+        if (place) result = ec_buffer_put(p->cl, b->label, b->bytes, b->slack, b->data, keeps ? &keys[i] : NULL, place, err);
+        if (!spent) continue;
+        free(spent->buffers[i].owned);
+        spent->buffers[i].owned = NULL;
+    }
+    return result;
+}
+
+ec_result ec_pipeline_upload(ec_pipeline *p, const ec_cargo *cargo, ec_error *err) { return upload(p, cargo, NULL, err); }
+
+ec_result ec_pipeline_unload(ec_pipeline *p, ec_cargo *cargo, ec_error *err)
+{
+    ec_result result = upload(p, cargo, cargo, err);
+    ec_cargo_free(cargo);
     return result;
 }

@@ -61,6 +61,11 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_text(attributes, "eclat.command", report->command);
     add_text(attributes, "eclat.version", ECLAT_VERSION);
     add_text(attributes, "eclat.scene", report->scene);
+    if (report->frame) {
+        add_whole(attributes, "eclat.frame", report->frame->number);
+        add_real(attributes, "eclat.frame.seconds", report->frame->seconds);
+        add_text(attributes, "eclat.frame.job", report->frame->job);
+    }
     add_text(attributes, "eclat.camera", report->camera);
     add_viewpoint(attributes, &report->viewpoint);
     add_text(attributes, "eclat.environment", report->environment);

@@ -5,9 +5,34 @@
 #include "report/names.h"
 #include "report/render_report.h"
 
+/* What a frame has from those before it. */
+static void add_shared(cJSON *root, const ec_render_stats *stats)
+{
+    const ec_follow_report *f = &stats->followed;
+    cJSON *shared = cJSON_AddObjectToObject(root, "shared");
+    ec_json_text(shared, "structures", ec_follow_names[f->what]);
+    ec_json_real(shared, "structure_seconds", f->seconds);
+    ec_json_real(shared, "refit_seconds", f->refit_seconds);
+    ec_json_real(shared, "build_seconds", f->build_seconds);
+    ec_json_real(shared, "expense", f->expense);
+    ec_json_real(shared, "trace_seconds", stats->trace_seconds);
+    ec_json_whole(shared, "meshes_kept", f->meshes_kept);
+    ec_json_whole(shared, "meshes_built", f->meshes_built);
+    ec_json_whole(shared, "programs_kept", stats->programs_found);
+    ec_json_whole(shared, "programs_built", stats->programs_built);
+    ec_json_whole(shared, "bytes_kept", stats->bytes_found);
+    ec_json_whole(shared, "bytes_uploaded", stats->bytes_uploaded);
+}
+
 static void add_setting(cJSON *root, const ec_render_report *report)
 {
     const ec_render_options *options = report->options;
+    if (report->frame) {
+        ec_json_whole(root, "frame", report->frame->number);
+        ec_json_real(root, "frame_seconds", report->frame->seconds);
+        ec_json_text(root, "state", "rendered");
+        add_shared(root, report->stats);
+    }
     ec_json_text(root, "version", ECLAT_VERSION);
     ec_json_text(root, "command", report->command);
     ec_json_text(root, "scene", report->scene);

@@ -9,7 +9,15 @@
 #include "image/image.h"
 #include "pipeline/render.h"
 
+/* Of a frame of a sequence. */
+typedef struct ec_frame_facts {
+    uint32_t number;
+    double seconds;                 /* of the animation */
+    const char *job;                /* what it is of, for a later run: an attribute of its files */
+} ec_frame_facts;
+
 typedef struct ec_render_report {
+    const ec_frame_facts *frame;    /* NULL: it is none */
     const char *command;            /* the command line, quoted for a shell */
     const char *scene;              /* file */
     const char *camera;             /* in words */
@@ -35,13 +43,15 @@ typedef struct ec_render_report {
 } ec_render_report;
 
 void ec_render_report_text(const ec_render_report *report, FILE *to);
+/* One line for a frame. */
+void ec_frame_report_text(const ec_render_report *report, FILE *to);
 ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_error *err);
 
 /* "error 1.93 % (95 % bound 1.97 %) at 256 samples a pixel in 12.3 s, 5.42 M samples/s" */
 void ec_render_report_summary(const ec_render_report *report, char *text, size_t size);
 
 /* EXR attributes: all that is needed to render the picture again, and what came of it. */
-enum { EC_REPORT_ATTRIBUTES_MAX = 64 };
+enum { EC_REPORT_ATTRIBUTES_MAX = 80 };
 typedef struct ec_report_attributes {
     ec_attribute list[EC_REPORT_ATTRIBUTES_MAX];
     uint32_t count;

@@ -22,6 +22,15 @@ void ec_render_report_summary(const ec_render_report *report, char *text, size_t
              seconds, rate);
 }
 
+void ec_frame_report_text(const ec_render_report *report, FILE *to)
+{
+    char summary[256];
+    ec_render_report_summary(report, summary, sizeof summary);
+    fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
+    for (int i = 0; i < report->output_count; i++) fprintf(to, "%s %s", i ? "," : " →", report->outputs[i]);
+    fputc('\n', to);
+}
+
 /* How far the stated error can be trusted. Nothing to say without an error, or where every pixel can be. */
 static void print_heavy(const ec_render_report *report, FILE *to)
 {

@@ -98,7 +98,7 @@ static ec_result stand_in_world(deformer *d, uint32_t index, const ec_pose *pose
 {
     ec_placement *at = &d->placements->items[index];
     ec_placement world = {.node = at->node, .mesh = at->mesh, .linear = {pose->mirrored ? -1 : 1, 0, 0, 0, 1, 0, 0, 0, 1},
-                          .moves = at->moves, .extra = true};
+                          .reached = at->reached, .moves = at->moves, .extra = true};
     memcpy(world.origin, pose->origin, sizeof world.origin);
     at->mesh = -1;
     return ec_placement_append(d->placements, &world, d->err);
@@ -127,7 +127,7 @@ static ec_result visit(deformer *d, uint32_t index)
     ec_pose pose = {.weights = node->weight_count ? node->weights : mesh->weights,
                     .weight_count = node->weight_count ? node->weight_count : mesh->weight_count};
     bool skinned = node->skin >= 0 && has_influences(mesh);
-    if (d->g->animated && (skinned || pose.weight_count)) at->moves = true; /* its joints or weights may */
+    if (d->g->animated && (skinned || pose.weight_count)) at->reached = true, at->moves = d->g->blurs; /* its joints or weights may */
     if (!any_weight(pose.weights, pose.weight_count)) pose.weight_count = 0;
     ec_result result = skinned ? ec_pose_skin(d->g, node->skin, d->placements, d->placement_of, &pose, d->err) : EC_OK;
     if (result == EC_OK && (skinned || pose.weight_count)) result = deform(d, node, &pose, at);

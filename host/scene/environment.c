@@ -56,7 +56,7 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
         EC_TRY(ec_image_read_rgb(spec, &e.width, &e.height, &e.rgb, err));
         clean(e.rgb, 3 * (uint64_t)e.width * e.height, spec, log);
     }
-    free(s->environment.rgb);
+    if (!s->environment.lent) free(s->environment.rgb);
     s->environment = e;
     s->has_environment = true;
     return EC_OK;

@@ -231,7 +231,9 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     bool any_finite = f->low[0] <= f->high[0];
     for (int k = 0; k < 3; k++) s->center[k] = any_finite ? 0.5 * (f->low[k] + f->high[k]) : 0;
     EC_TRY(allocate(f, g->path));
-    if (g->animated) {
+    free(g->sources);
+    g->sources = NULL;
+    if (g->blurs) {
         f->sources = g->sources = malloc(f->vertex_bound * sizeof *g->sources);
         if (!f->sources) return ec_fail(f->err, "%s: out of memory for %llu vertices", g->path, (unsigned long long)f->vertex_bound);
     }

@@ -15,7 +15,8 @@ ec_result ec_gltf_deform(ec_gltf *gltf, ec_placement_list *placements, ec_error 
 ec_result ec_flatten(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
                      ec_error *err);
 
-/* motion.c: what moves while the shutter is open, from the same file at other moments. `base` is the scene's own document. */
+/* motion.c: what moves while the shutter is open, from the same document at other moments. `base` is the scene's own; it is left posed at
+ * one of them. */
 ec_result ec_gltf_move(const ec_scene_choice *choice, ec_gltf *base, ec_scene *scene, const ec_log *log,
                        ec_error *err);
 

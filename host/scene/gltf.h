@@ -162,7 +162,14 @@ typedef struct ec_gltf {
     int32_t *roots;         /* nodes of the scene to show */
     uint32_t root_count;
     ec_instancing instancing; /* the caller's wish */
-    bool *animated;         /* by node: a channel moves it within the shutter; NULL: there is none */
+    void *tree;             /* of a file that may be posed again: gltf_shim.cpp's; NULL: it may not */
+    uint32_t stored_accessors, stored_meshes; /* the file's own; behind them lie deformed copies of a pose */
+    ec_image *decoded;      /* by image, then by texture (roughness made of glossiness): for all scenes of an animation; NULL: none is kept */
+    uint32_t decoded_count;
+    uint8_t digest[32];     /* SHA-256 over all files that it is made of, with choice->frame */
+    bool *animated;         /* by node: a channel moves it; NULL: there is none */
+    bool blurs;             /* within the shutter */
+    bool frame;             /* of a sequence: see ec_scene_choice */
     uint32_t shutter_keys;  /* most keyframes of a channel within it */
     ec_source *sources;     /* of the scene's vertices, while a scene is made with a shutter */
     bool quantized;         /* KHR_mesh_quantization: integer positions, normals, tangents */
@@ -174,6 +181,18 @@ typedef struct ec_gltf {
 /* gltf_shim.cpp: parses, checks shape and index ranges, loads the buffers. No exception leaves it. */
 ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **gltf, const ec_log *log, ec_error *err);
 void ec_gltf_free(ec_gltf *gltf); /* NULL is fine */
+
+/* Another moment, choice->at, of a document that was read with choice->animated: nothing is read or decoded again. What scenes were made
+ * of stands as before: nodes, weights, and where a channel moves them cameras and lights; with `whole` also what a scene has
+ * taken, its materials. */
+ec_result ec_gltf_pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const ec_log *log, ec_error *err);
+void ec_gltf_tree_free(ec_gltf *gltf);
+void ec_gltf_unpose(ec_gltf *gltf);        /* gltf_free.c: nodes and deformed copies go */
+void ec_gltf_free_looks(ec_gltf *gltf);    /* textures, materials, cameras, lights go */
+
+/* gltf_digest.c: of these bytes, after all before them; of buffers and images in other files. */
+void ec_gltf_digest_add(ec_gltf *gltf, const uint8_t *bytes, uint64_t length);
+void ec_gltf_digest_parts(ec_gltf *gltf);
 
 /* load.c: everything after reading. Takes strings and materials from the document, which stays the caller's. */
 ec_result ec_scene_from_gltf(const ec_scene_choice *choice, ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err);

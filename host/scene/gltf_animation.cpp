@@ -85,7 +85,7 @@ static json sample(ec_gltf *gltf, const json &sampler, const path &to, const ec_
     ec_result result = ec_gltf_keyframes_sample(gltf, &keyframes, rotation, choice->at, where.c_str(), &numbers, &err);
     std::unique_ptr<double, void (*)(void *)> owned(numbers.values, free);
     if (result != EC_OK) throw bad_file(err.text);
-    if (gltf->animated) gltf->shutter_keys = std::max(gltf->shutter_keys, ec_gltf_keyframes_between(gltf, &keyframes, choice->opens, choice->closes));
+    if (gltf->blurs) gltf->shutter_keys = std::max(gltf->shutter_keys, ec_gltf_keyframes_between(gltf, &keyframes, choice->opens, choice->closes));
     if (numbers.count == 1 && to.back() == "visible") return numbers.values[0] != 0;
     if (numbers.count == 1 && to.back() != "weights") return numbers.values[0];
     return std::vector<double>(numbers.values, numbers.values + numbers.count);
@@ -100,9 +100,10 @@ static std::string pointer_of(const json &target)
     return "/nodes/" + std::to_string(target["node"].get<int>()) + "/" + target["path"].get<std::string>();
 }
 
-static void apply(json &root, const json &animation, const std::string &name, const ec_scene_choice *choice,
+static bool apply(json &root, const json &animation, const std::string &name, const ec_scene_choice *choice,
                   ec_gltf *gltf, const ec_log *log)
 {
+    bool more = false;
     const json &channels = animation["channels"], &samplers = animation["samplers"];
     for (size_t i = 0; i < channels.size(); i++) {
         std::string where = name + ".channels[" + std::to_string(i) + "]", pointer = pointer_of(channels[i]["target"]);
@@ -115,9 +116,12 @@ static void apply(json &root, const json &animation, const std::string &name, co
         if (!may_move(to) || !write(root, to, sample(gltf, samplers[sampler], to, choice, where)))
             ec_warn(log, "%s: %s moves %.200s, which eclat does not; it is left out", gltf->path, where.c_str(),
                     printable(pointer).c_str());
-        else if (gltf->animated && to[0] == "nodes")
+        else if (to[0] == "nodes")
             gltf->animated[std::stoul(to[1])] = true;
+        else
+            more |= to[0] != "meshes";
     }
+    return more;
 }
 
 static void list_animations(const json &root, ec_scene_contents &contents)
@@ -136,7 +140,7 @@ static void list_animations(const json &root, ec_scene_contents &contents)
     }
 }
 
-bool choose_moment(json &root, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log)
+std::vector<uint32_t> choose_animations(const json &root, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log)
 {
     ec_scene_names &names = gltf->contents.animations;
     list_animations(root, gltf->contents);
@@ -144,16 +148,27 @@ bool choose_moment(json &root, const ec_scene_choice *choice, ec_gltf *gltf, con
         if (names.count)
             ec_note(log, "%s: %u animation%s: shown as stored, --at SECONDS takes a moment", gltf->path, names.count,
                     names.count > 1 ? "s" : "");
-        return false;
+        return {};
     }
-    if (!names.count) throw bad_file("there is no animation in it; leave out --at, --animation and --shutter");
-    if (choice->shutter) gltf->animated = make_array<bool>(list_of(root, "nodes").size());
+    if (!names.count) throw bad_file("there is no animation in it; leave out --at, --animation, --frames and --shutter");
+    gltf->animated = make_array<bool>(list_of(root, "nodes").size());
+    gltf->blurs = choice->shutter;
     bool all = choice->animation && std::string(choice->animation) == "all";
     uint32_t one = choice->animation && !all ? find_choice(&names, "animation", choice->animation) : 0;
-    const json &animations = root["animations"]; /* stays where it is: what is written is elsewhere */
+    std::vector<uint32_t> chosen;
     for (uint32_t i = 0; i < names.count; i++)
-        if (all || i == one) apply(root, animations[i], "animations[" + std::to_string(i) + "]", choice, gltf, log);
-    return true;
+        if (all || i == one) chosen.push_back(i);
+    return chosen;
+}
+
+bool apply_moment(json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log)
+{
+    bool more = false;
+    for (uint32_t i : animations) { /* they stay where they are: what is written is elsewhere */
+        const json &animation = root["animations"][i];
+        more |= apply(root, animation, "animations[" + std::to_string(i) + "]", choice, gltf, log);
+    }
+    return more;
 }
 
 } // namespace eclat

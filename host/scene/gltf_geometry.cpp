@@ -143,6 +143,17 @@ void convert_meshes(const json &list, ec_gltf *gltf)
     }
 }
 
+void convert_weights(const json &list, ec_gltf *gltf)
+{
+    for (size_t i = 0; i < list.size(); i++) {
+        ec_gltf_mesh &out = gltf->meshes[i];
+        free(out.weights);
+        out.weights = nullptr;
+        out.weight_count = 0;
+        out.weights = copy_numbers(list_of(list[i], "weights"), &out.weight_count);
+    }
+}
+
 void convert_skins(const json &list, ec_gltf *gltf)
 {
     gltf->skins = make_array<ec_gltf_skin>(list.size());

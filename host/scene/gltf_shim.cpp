@@ -182,15 +182,17 @@ static void pad_for_tinygltf(json &root)
                     if (camera.contains(kind)) default_member(camera[kind], member, 1);
 }
 
-/* What is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. */
-static void parse_rest(json &root, tinygltf::Model &model)
+/* Without what is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. */
+static void parse_rest(const json &root, tinygltf::Model &model)
 {
-    for (const char *done : {"accessors", "animations", "buffers", "bufferViews", "images", "meshes", "nodes", "scene",
-                             "scenes", "skins"})
-        root.erase(done);
-    pad_for_tinygltf(root);
-    std::string text = root.dump(), error, warning;
-    root = json();
+    static const std::set<std::string> done = {"accessors", "animations", "buffers", "bufferViews", "images",
+                                               "meshes",    "nodes",      "scene",   "scenes",      "skins"};
+    json rest = json::object();
+    for (auto &member : root.items())
+        if (!done.count(member.key())) rest[member.key()] = member.value();
+    pad_for_tinygltf(rest);
+    std::string text = rest.dump(), error, warning;
+    rest = json();
     if (text.size() > 0x7fffffff) throw bad_file("the JSON part has more than 2 GiB");
     tinygltf::TinyGLTF reader;
     if (reader.LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), "")) return;
@@ -204,10 +206,29 @@ static void check_views(const ec_gltf *gltf)
     if (ec_gltf_check_views(gltf, &err) != EC_OK) throw bad_file(err.text);
 }
 
+/* What is told by name or factor: textures, materials, cameras, lights. */
+static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
+{
+    tinygltf::Model model;
+    parse_rest(root, model);
+    convert_cameras(model, gltf, log);
+    convert_lights(model, gltf);
+    convert_textures(model, gltf);
+    convert_materials(model, gltf, log);
+}
+
+/* What another moment is written into. */
+struct posable {
+    json root;
+    std::vector<uint32_t> animations;
+    bool more; /* than nodes and weights is moved */
+};
+
 static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice *choice, const ec_log *log)
 {
     container file = parse_container(gltf->file, length);
     json &root = file.root;
+    if (choice->frame) ec_gltf_digest_add(gltf, gltf->file, length);
     if (!file.chunk) { /* JSON text is done with: with embedded buffers it is as large as the scene */
         free(gltf->file);
         gltf->file = nullptr;
@@ -224,19 +245,47 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice 
     check_views(gltf);
     choose_scene(root, choice, gltf);
     choose_variant(root, choice, gltf);
-    if (choose_moment(root, choice, gltf, log)) check_document(root, gltf->path, log);
+    std::vector<uint32_t> animations = choose_animations(root, choice, gltf, log);
+    bool more = apply_moment(root, animations, choice, gltf, log);
+    if (!animations.empty()) check_document(root, gltf->path, log);
     convert_meshes(list_of(root, "meshes"), gltf);
     convert_skins(list_of(root, "skins"), gltf);
     convert_nodes(list_of(root, "nodes"), gltf);
     set_roots(root, gltf);
     convert_image_light(root, gltf);
+    convert_looks(root, gltf, log);
+    gltf->stored_accessors = gltf->accessor_count;
+    gltf->stored_meshes = gltf->mesh_count;
+    gltf->frame = choice->frame;
+    if (choice->frame) ec_gltf_digest_parts(gltf);
+    if (choice->shutter || choice->frame) gltf->tree = new posable{std::move(root), animations, more};
+}
 
-    tinygltf::Model model;
-    parse_rest(root, model);
-    convert_cameras(model, gltf, log);
-    convert_lights(model, gltf);
-    convert_textures(model, gltf);
-    convert_materials(model, gltf, log);
+static void pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const ec_log *log)
+{
+    posable &tree = *static_cast<posable *>(gltf->tree);
+    ec_gltf_unpose(gltf);
+    apply_moment(tree.root, tree.animations, choice, gltf, log);
+    check_document(tree.root, gltf->path, log);
+    convert_weights(list_of(tree.root, "meshes"), gltf);
+    convert_nodes(list_of(tree.root, "nodes"), gltf);
+    if (!whole && !tree.more) return;
+    ec_gltf_free_looks(gltf);
+    convert_looks(tree.root, gltf, log);
+}
+
+/* What goes wrong becomes one line. */
+template <typename work> static ec_result guarded(const char *path, ec_error *err, work &&job)
+{
+    try {
+        return job();
+    } catch (const std::bad_alloc &) {
+        return ec_fail(err, "%s: out of memory", path);
+    } catch (const std::exception &e) {
+        return ec_fail(err, "%s: %.1600s", path, printable(e.what()).c_str());
+    } catch (...) {
+        return ec_fail(err, "%s: cannot be read", path);
+    }
 }
 
 } // namespace eclat
@@ -249,22 +298,30 @@ extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choic
     std::unique_ptr<ec_gltf, void (*)(ec_gltf *)> gltf(static_cast<ec_gltf *>(calloc(1, sizeof(ec_gltf))), ec_gltf_free);
     if (!gltf) return ec_fail(err, "%s: out of memory", path);
     gltf->path = path;
-    try {
+    EC_TRY(guarded(path, err, [&] {
         std::string name = path;
         size_t slash = name.find_last_of('/');
         gltf->folder = strdup(slash == std::string::npos ? "" : name.substr(0, slash + 1).c_str());
         if (!gltf->folder) throw std::bad_alloc();
         uint64_t length;
-        ec_result loaded = ec_gltf_file_load(path, &gltf->file, &length, err);
-        if (loaded != EC_OK) return loaded;
+        EC_TRY(ec_gltf_file_load(path, &gltf->file, &length, err));
         read_document(gltf.get(), length, choice, log);
-    } catch (const std::bad_alloc &) {
-        return ec_fail(err, "%s: out of memory", path);
-    } catch (const std::exception &e) {
-        return ec_fail(err, "%s: %.1600s", path, printable(e.what()).c_str());
-    } catch (...) {
-        return ec_fail(err, "%s: cannot be read", path);
-    }
+        return EC_OK;
+    }));
     *result = gltf.release();
     return EC_OK;
+}
+
+extern "C" ec_result ec_gltf_pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const ec_log *log, ec_error *err)
+{
+    return eclat::guarded(gltf->path, err, [&] {
+        eclat::pose(gltf, choice, whole, log);
+        return EC_OK;
+    });
+}
+
+extern "C" void ec_gltf_tree_free(ec_gltf *gltf)
+{
+    delete static_cast<eclat::posable *>(gltf->tree);
+    gltf->tree = nullptr;
 }

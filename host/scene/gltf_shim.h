@@ -36,6 +36,7 @@ const nlohmann::json *find_extension(const nlohmann::json &object, const char *n
 void convert_views(const nlohmann::json &list, ec_gltf *gltf);
 void convert_accessors(const nlohmann::json &list, ec_gltf *gltf);
 void convert_meshes(const nlohmann::json &list, ec_gltf *gltf);
+void convert_weights(const nlohmann::json &list, ec_gltf *gltf); /* of meshes that are there, again */
 void convert_skins(const nlohmann::json &list, ec_gltf *gltf);
 void convert_nodes(const nlohmann::json &list, ec_gltf *gltf);
 void set_roots(const nlohmann::json &root, ec_gltf *gltf);
@@ -47,8 +48,11 @@ uint32_t find_choice(const ec_scene_names *names, const char *what, const char *
 void choose_scene(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
 void choose_variant(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
 
-/* gltf_animation.cpp: likewise a moment of an animation. true: the tree has changed and is to be checked again. */
-bool choose_moment(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log);
+/* gltf_animation.cpp: which animations are shown, by their index; none where everything is as it is stored. */
+std::vector<uint32_t> choose_animations(const nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log);
+/* Likewise a moment of them; the tree is to be checked again then. The same channels are written at every moment, so that one moment
+ * takes the place of another. true: a channel moves more than nodes and weights. */
+bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log);
 
 /* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);

@@ -67,7 +67,8 @@ static void place(const ec_gltf *g, int32_t node, const ec_placement *parent, ec
 {
     bool hidden = g->nodes[node].hidden || (parent && parent->hidden);
     *out = (ec_placement){.node = node, .mesh = hidden ? -1 : g->nodes[node].mesh, .hidden = hidden};
-    out->moves = g->animated && (g->animated[node] || (parent && parent->moves));
+    out->reached = g->animated && (g->animated[node] || (parent && parent->reached));
+    out->moves = g->blurs && out->reached;
     ec_placement_compose(parent, g->nodes[node].local, out);
 }
 

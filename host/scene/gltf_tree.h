@@ -10,6 +10,7 @@ typedef struct ec_placement {
     int32_t mesh; /* what stands there: the node's, or a deformed copy; -1: none, or none that is seen */
     double linear[9]; /* row major */
     double origin[3];
+    bool reached; /* by a channel of the animation, or a node above it is */
     bool moves; /* or may, within the shutter */
     bool extra; /* a mesh that stands elsewhere than its node: no camera, no light */
     bool hidden; /* by its node or one above: no mesh, no light */

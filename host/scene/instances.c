@@ -42,7 +42,7 @@ static ec_result place(ec_gltf *g, uint32_t index, ec_placement_list *placements
     placements->items[index].mesh = -1;
     for (uint64_t i = 0; i < count; i++) {
         double translation[3] = {0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1}, local[16];
-        ec_placement at = {.node = node.node, .mesh = node.mesh, .moves = node.moves, .extra = true};
+        ec_placement at = {.node = node.node, .mesh = node.mesh, .reached = node.reached, .moves = node.moves, .extra = true};
         read(g, of->translation, i, 3, translation);
         read(g, of->rotation, i, 4, rotation);
         read(g, of->scale, i, 3, scale);

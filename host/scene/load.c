@@ -1,5 +1,6 @@
 /* From a glTF document to a scene, step by step. */
 #include "scene/flatten.h"
+#include "scene/load.h"
 #include "scene/validate.h"
 
 #include <math.h>
@@ -16,6 +17,7 @@ static void take_facts(ec_gltf *g, ec_scene *s)
     s->extension_ignored_count = g->extension_ignored_count;
     s->contents = g->contents;
     g->extensions_used = g->extensions_ignored = NULL;
+    g->extension_count = g->extension_ignored_count = 0; /* the first scene of an animation has them */
     g->contents = (ec_scene_contents){0};
 }
 
@@ -31,7 +33,8 @@ static ec_result build(const ec_scene_choice *choice, ec_gltf *g, ec_placement_l
     EC_TRY(ec_gltf_cameras_place(g, placements, s, log, err));
     EC_TRY(ec_gltf_lights_place(g, placements, s, log, err));
     EC_TRY(ec_gltf_image_light_load(g, s, log, err));
-    if (g->animated) EC_TRY(ec_gltf_move(choice, g, s, log, err));
+    if (g->blurs) EC_TRY(ec_gltf_move(choice, g, s, log, err));
+    for (uint32_t i = 0; g->frame && i < placements->count; i++) s->whole |= placements->items[i].reached && placements->items[i].mesh >= 0;
     ec_scene_clamp_materials(s, g->path, log);
     EC_TRY(ec_scene_validate(s, err));
     ec_scene_join_quads(s);
@@ -56,18 +59,24 @@ cleanup:
     return result;
 }
 
+ec_result ec_settle_moment(const char *path, const ec_scene_choice *choice, ec_scene_choice *moment, ec_error *err)
+{
+    *moment = *choice;
+    if (!choice->shutter) return EC_OK;
+    if (!(isfinite(choice->opens) && choice->opens <= choice->closes && isfinite(choice->closes)))
+        return ec_fail(err, "%s: a shutter cannot open at %g s and close at %g s", path, choice->opens, choice->closes);
+    moment->animated = true;
+    moment->at = 0.5 * (choice->opens + choice->closes);
+    moment->shutter = choice->opens < choice->closes;
+    return EC_OK;
+}
+
 ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err)
 {
     ec_gltf *gltf = NULL;
-    ec_scene_choice moment = *choice;
+    ec_scene_choice moment;
     *scene = NULL;
-    if (choice->shutter) {
-        if (!(isfinite(choice->opens) && choice->opens <= choice->closes && isfinite(choice->closes)))
-            return ec_fail(err, "%s: a shutter cannot open at %g s and close at %g s", path, choice->opens, choice->closes);
-        moment.animated = true;
-        moment.at = 0.5 * (choice->opens + choice->closes);
-        moment.shutter = choice->opens < choice->closes;
-    }
+    EC_TRY(ec_settle_moment(path, choice, &moment, err));
     ec_result result = ec_gltf_read(path, &moment, &gltf, log, err);
     if (gltf) gltf->instancing = choice->instancing;
     if (result == EC_OK) result = ec_scene_from_gltf(&moment, gltf, scene, log, err);

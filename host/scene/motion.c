@@ -1,4 +1,4 @@
-/* What moves while the shutter is open. The file is read again at moments in between, more of them until straight lines from key to key
+/* What moves while the shutter is open. The document is posed at moments in between, more of them until straight lines from key to key
  * are close enough to the way things take; a vertex is known again by the node, primitive and number it comes from. One path for moving
  * nodes, skins and morph targets: only where vertices are counts. */
 #include "scene/motion.h"
@@ -85,14 +85,13 @@ static ec_result read_placed(ec_tracks *t, ec_gltf *g, ec_placement_list *placem
 static ec_result read_moment(ec_tracks *t, uint32_t moment, ec_error *err)
 {
     ec_scene_choice choice = *t->choice;
-    ec_gltf *g = NULL;
+    ec_gltf *g = t->base;
     ec_placement_list placements = {0};
     choice.at = seconds_of(t, moment);
-    ec_result result = ec_gltf_read(t->base->path, &choice, &g, NULL, err);
-    for (uint32_t i = 0; result == EC_OK && i < g->node_count; i++) g->nodes[i].hidden = t->base->nodes[i].hidden; /* as in the middle */
-    if (result == EC_OK) result = read_placed(t, g, &placements, moment, err);
+    EC_TRY(ec_gltf_pose(g, &choice, false, NULL, err));
+    for (uint32_t i = 0; i < g->node_count; i++) g->nodes[i].hidden = t->hidden[i];
+    ec_result result = read_placed(t, g, &placements, moment, err);
     free(placements.items);
-    ec_gltf_free(g);
     return result;
 }
 
@@ -129,6 +128,9 @@ static ec_result choose_segments(ec_tracks *t, ec_error *err)
 static ec_result find_vertices(ec_tracks *t, ec_error *err)
 {
     const ec_scene *s = t->scene;
+    t->hidden = malloc(((size_t)t->base->node_count + 1) * sizeof *t->hidden);
+    if (!t->hidden) return ec_fail(err, "%s: out of memory for %u nodes", t->base->path, t->base->node_count);
+    for (uint32_t i = 0; i < t->base->node_count; i++) t->hidden[i] = t->base->nodes[i].hidden;
     uint32_t flat = s->shape_count ? s->shapes[0].first_vertex : s->vertex_count;
     t->vertex = malloc(((size_t)flat + 1) * sizeof *t->vertex);
     if (!t->vertex) return ec_fail(err, "%s: out of memory for %u vertices", t->base->path, flat);
@@ -148,6 +150,7 @@ static void free_tracks(ec_tracks *t)
         free(t->lights[m]);
     }
     free(t->vertex);
+    free(t->hidden);
 }
 
 ec_result ec_gltf_move(const ec_scene_choice *choice, ec_gltf *base, ec_scene *s, const ec_log *log,

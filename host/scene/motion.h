@@ -10,7 +10,8 @@
 /* Where everything is at the moments looked at: 0, step, 2 step, … EC_MOMENTS. */
 typedef struct ec_tracks {
     const ec_scene_choice *choice;
-    const ec_gltf *base;
+    ec_gltf *base;                      /* posed at one moment after the other */
+    bool *hidden;                       /* by node: in the middle of the exposure, and so all the time */
     ec_scene *scene;                    /* as in the middle of the exposure */
     uint32_t *vertex, count;            /* the scene's vertices that may move, ascending */
     uint32_t words, normals, tangents;  /* floats of one: its position, normal and tangent, and where these begin; 0: none */

@@ -16,6 +16,7 @@ void ec_scene_free(ec_scene *s)
     for (uint32_t i = 0; i < s->camera_count; i++) free(s->cameras[i].name);
     for (uint32_t i = 0; i < s->light_count; i++) free(s->lights[i].name);
     for (uint32_t i = 0; i < s->image_count; i++) {
+        if (s->images[i].lent) continue;
         free(s->images[i].rgba8);
         free(s->images[i].rgba16);
         free(s->images[i].name);
@@ -35,7 +36,7 @@ void ec_scene_free(ec_scene *s)
     free(s->images);
     free(s->lights);
     free(s->cameras);
-    free(s->environment.rgb);
+    if (!s->environment.lent) free(s->environment.rgb);
     ec_motion_free(&s->motion);
     free_strings(s->extensions_used, s->extension_count);
     free_strings(s->extensions_ignored, s->extension_ignored_count);

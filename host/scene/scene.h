@@ -17,6 +17,7 @@ typedef struct ec_image {
     uint8_t *rgba8;   /* 4 * width * height, owned */
     uint16_t *rgba16; /* 4 * width * height, owned; only where the file has more than 8 bits */
     char *name;       /* for messages, owned, may be NULL */
+    bool lent;        /* all of it is an animation's, which outlives the scene */
 } ec_image;
 
 /* Radiance and intensity beyond this are taken as this, with a warning: what sampling divides by then stays within float. */
@@ -121,6 +122,7 @@ typedef struct ec_environment {
     uint32_t width, height;
     float *rgb;           /* 3 * width * height, linear, finite and >= 0, owned */
     float constant[3];
+    bool lent;            /* rgb is somebody else's, who outlives the scene */
     bool turned;          /* by turn, row major: directions of the map, as above, to those of the scene */
     float turn[9];
 } ec_environment;
@@ -159,7 +161,7 @@ typedef struct ec_scene {
     ec_shape *shapes;
     ec_placed *placed;            /* in the order of their ids, the first of which is shapes[0].first */
     ec_motion motion;
-    bool whole;                   /* no structure may cut triangles, so that all have the same bits with and without instances */
+    bool whole;                   /* no structure may cut triangles, so that all have the same bits with and without instances, and built anew or refitted */
     uint32_t material_count;
     ec_material *materials;       /* at least one (glTF's default) */
     uint32_t texture_count;
@@ -198,6 +200,7 @@ typedef struct ec_scene_choice {
     bool shutter;              /* open from `opens` to `closes`, seconds into it; `at` is then their middle, whatever it was */
     double opens, closes;
     ec_instancing instancing;  /* which meshes are kept once */
+    bool frame;                /* of a sequence: where an animation may move meshes no triangle is cut, at any of its moments */
 } ec_scene_choice;
 
 /* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. Adds a framing camera where
@@ -205,6 +208,16 @@ typedef struct ec_scene_choice {
  * ec_scene_has_light). Owned by the caller: ec_scene_free. */
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
 ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
+
+/* A file of which many moments are shown: read and decoded once. choice: animated, a frame; its moment is the first one shown. */
+typedef struct ec_animation ec_animation;
+ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_animation **animation, const ec_log *log, ec_error *err);
+void ec_animation_close(ec_animation *animation); /* after its scenes; NULL is fine */
+/* The scene at choice->at, or over its shutter; all else of choice as when it was opened. Pixels of images are lent by the animation. A
+ * light that the file has all around is in the first scene only, which may lend it to the others. */
+ec_result ec_animation_show(ec_animation *animation, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
+/* SHA-256 over all files that it is made of, whether they are shown or not: in hexadecimal. */
+void ec_animation_digest(const ec_animation *animation, char digest[65]);
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
 void ec_motion_free(ec_motion *motion); /* leaves none */
 

@@ -67,13 +67,24 @@ bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_erro
 
 /* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. One that there is no
  * memory for does. */
-static bool decode(table *t, uint32_t index, ec_image *out)
+static bool decode_now(table *t, uint32_t index, ec_image *out)
 {
     ec_error err;
     if (ec_gltf_image_load(t->g, index, out, &err)) return true;
     if (err.kind == EC_ERROR_HOST_MEMORY) t->result = ec_fail(t->err, "%s: %.1200s", t->g->path, err.text);
     else ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
     return false;
+}
+
+/* Where an animation keeps them, the same pixels serve all its scenes. */
+static bool decode(table *t, uint32_t index, ec_image *out)
+{
+    ec_image *kept = t->g->decoded ? &t->g->decoded[index] : NULL;
+    if (!kept) return decode_now(t, index, out);
+    if (!kept->width && !decode_now(t, index, kept)) return false;
+    *out = *kept;
+    out->lent = true;
+    return true;
 }
 
 static int64_t map_image(table *t, int32_t index)
@@ -93,7 +104,7 @@ static int64_t map_image(table *t, int32_t index)
 static int64_t make_roughness(table *t, const ec_gltf_texture *in)
 {
     ec_image *out = &t->s->images[t->s->image_count];
-    if (in->image < 0 || !decode(t, (uint32_t)in->image, out)) return UNUSABLE;
+    if (in->image < 0 || !decode_now(t, (uint32_t)in->image, out)) return UNUSABLE;
     for (size_t i = 0; i < 4 * (size_t)out->width * out->height; i += 4) {
         double gloss = (double)in->glossiness * (out->rgba8 ? out->rgba8[i + 3] / 255.0 : out->rgba16[i + 3] / 65535.0);
         if (out->rgba8) out->rgba8[i + 1] = (uint8_t)(255 * (1 - gloss) + 0.5), out->rgba8[i + 2] = 0;

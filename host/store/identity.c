@@ -82,7 +82,9 @@ static void describe(const char *name, const char *there, const char *here, char
 {
     if (!strcmp(name, "kernels")) snprintf(text, size, "it is of another version of eclat, whose kernels are not the same");
     else if (!strcmp(name, "settings")) snprintf(text, size, "the settings of the render are not the same");
-    else snprintf(text, size, "%s is %s there and %s here", name, there ? there : "not known", here ? here : "not known");
+    else if (!strcmp(name, "files")) snprintf(text, size, "the scene's files are not the same");
+    else if (!there || !here) snprintf(text, size, "%s is %s there and %s here", name, there ? there : "not given", here ? here : "not given");
+    else snprintf(text, size, "%s is %s there and %s here", name, there, here);
 }
 
 bool ec_identity_differs(const ec_identity *there, const ec_identity *here, char *text, size_t size)

@@ -11,7 +11,7 @@ typedef struct ec_trait {
     char name[32], value[512];
 } ec_trait;
 
-enum { EC_TRAITS_MAX = 40 };
+enum { EC_TRAITS_MAX = 72 };
 
 typedef struct ec_identity {
     ec_trait traits[EC_TRAITS_MAX];

@@ -1,0 +1,38 @@
+/* Structures from one moment to the next: what has not moved is kept, what has is refitted or built again, whichever is cheaper by the
+ * times clocked so far. The hits are the same in any case. */
+#ifndef EC_ACCEL_FOLLOW_H
+#define EC_ACCEL_FOLLOW_H
+
+#include "accel/accel.h"
+#include "accel/shape_trees.h"
+
+typedef enum ec_follow { EC_FOLLOW_BUILT, EC_FOLLOW_KEPT, EC_FOLLOW_REFITTED, EC_FOLLOW_REBUILT } ec_follow;
+extern const char *const ec_follow_names[]; /* in their order */
+
+typedef struct ec_follow_report {
+    ec_follow what;
+    double seconds;          /* that it took */
+    double refit_seconds;    /* of them: trying a refit; 0: none was tried */
+    double build_seconds;    /* of the last build */
+    double expense;          /* of the trees as they are refitted, over that after their last build; 1 without a refit */
+    uint32_t meshes_kept, meshes_built; /* trees of meshes that are kept once */
+} ec_follow_report;
+
+/* Zero-initialised: nothing yet. */
+typedef struct ec_followed {
+    ec_accel accels[EC_ACCEL_COUNT]; /* as they stand; their buffers are owned */
+    uint32_t present;                /* 1 << which */
+    double built_expense[EC_ACCEL_COUNT];
+    struct ec_followed_input *input; /* a copy of what they were made of last */
+    ec_shape_trees trees;
+    double trace_seconds;            /* what rays took in the moment before; 0: not known */
+    ec_follow_report report;         /* of the last time */
+} ec_followed;
+
+/* Brings the structures `wanted` (1 << which) to the input's triangles. On failure none is left. */
+ec_result ec_accels_follow(ec_followed *followed, ec_accel_input *input, uint32_t wanted, ec_error *err);
+/* What tracing rays took with them, clocked: a refit that would make that longer by more than a build takes is given up. */
+void ec_followed_tell(ec_followed *followed, double trace_seconds);
+void ec_followed_free(ec_followed *followed);
+
+#endif

@@ -1,0 +1,32 @@
+/* Trees of meshes that are kept once, from one build of two levels to the next. */
+#ifndef EC_ACCEL_SHAPE_TREES_H
+#define EC_ACCEL_SHAPE_TREES_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+#include "base/fingerprint.h"
+#include "shared/accel.h"
+
+typedef struct ec_shape_tree {
+    ec_fingerprint key;      /* of the mesh's triangles in its own space */
+    ec_bvh8_node *nodes;     /* owned */
+    ec_tri8 *blocks;         /* owned */
+    uint32_t node_count, block_count;
+    bool wanted;             /* by the build that is under way */
+} ec_shape_tree;
+
+/* Zero-initialised: none. */
+typedef struct ec_shape_trees { /* accel.h points to it */
+    ec_shape_tree *list;
+    uint32_t count, found, built; /* found, built: since ec_shape_trees_begin */
+} ec_shape_trees;
+
+void ec_shape_trees_begin(ec_shape_trees *trees);
+const ec_shape_tree *ec_shape_trees_find(ec_shape_trees *trees, ec_fingerprint key); /* NULL: it is not there; valid until the next add */
+/* Takes the tree over, also on failure. */
+ec_result ec_shape_trees_add(ec_shape_trees *trees, const ec_shape_tree *tree, ec_error *err);
+void ec_shape_trees_end(ec_shape_trees *trees); /* those that nobody has wanted go */
+void ec_shape_trees_free(ec_shape_trees *trees);
+
+#endif

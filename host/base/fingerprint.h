@@ -1,0 +1,17 @@
+/* 128 bits that tell one run of bytes from another, at the speed of memory. No protection against people. */
+#ifndef EC_BASE_FINGERPRINT_H
+#define EC_BASE_FINGERPRINT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct ec_fingerprint {
+    uint64_t half[2];
+} ec_fingerprint;
+
+/* so_far: of what came before; {0} to begin with. */
+ec_fingerprint ec_fingerprint_add(ec_fingerprint so_far, const void *bytes, uint64_t size);
+
+static inline bool ec_fingerprint_is(ec_fingerprint a, ec_fingerprint b) { return a.half[0] == b.half[0] && a.half[1] == b.half[1]; }
+
+#endif

@@ -1,0 +1,189 @@
+#include "cli/frames.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "cli/frame_job.h"
+#include "cli/frame_names.h"
+#include "cli/render_job.h"
+#include "cli/stop.h"
+#include "report/json.h"
+#include "store/identity_text.h"
+
+typedef struct sequence {
+    ec_console *console;
+    const ec_render_request *request;
+    ec_given_options given;
+    char files[65];             /* digest of what the scene is made of */
+    ec_frame_share share;
+    ec_cl cl;
+    ec_device_info device;
+    uint32_t device_index;
+    const char *device_why;
+    ec_frame_state *states;     /* by frame, as they were found */
+    uint32_t count, rendered, skipped, failed;
+} sequence;
+
+static ec_result outputs_of(const sequence *s, uint32_t frame, ec_outputs *outputs, ec_error *err)
+{
+    const ec_render_request *r = s->request;
+    outputs->count = 0;
+    if (r->outputs.count == 0) return ec_outputs_add_frame(outputs, r->scene, frame, err);
+    return ec_frame_outputs(&r->outputs, frame, s->count > 1, outputs, err);
+}
+
+static ec_scene_choice choice_of(const sequence *s, uint32_t frame)
+{
+    ec_scene_choice choice = s->request->choice;
+    double at = ec_frame_seconds(&s->request->frames, frame);
+    choice.animated = choice.frame = true;
+    choice.at = at;
+    choice.opens += at; /* a shutter is told from where the frame is */
+    choice.closes += at;
+    return choice;
+}
+
+/* Before anything is rendered: names, folders, what is there already. */
+static ec_result look_around(sequence *s, ec_error *err)
+{
+    const ec_render_request *r = s->request;
+    const char *inputs[] = {r->scene, r->environment};
+    char difference[PATH_MAX + 1400];
+    ec_outputs outputs;
+    ec_identity identity;
+    uint32_t others = 0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        uint32_t frame = ec_frame_number(&r->frames, i);
+        EC_TRY(outputs_of(s, frame, &outputs, err));
+        EC_TRY(ec_frame_identify(&s->given, r, s->files, frame, &identity, err));
+        s->states[i] = ec_frame_look(&outputs, &identity, difference, sizeof difference);
+        if (s->states[i] != EC_FRAME_DONE) EC_TRY(ec_outputs_check(&outputs, inputs, 2, err));
+        if (s->states[i] == EC_FRAME_OTHER && !r->overwrite && others++ == 0) ec_fail(err, "%s", difference);
+    }
+    if (!others) return EC_OK;
+    if (others > 1) ec_fail_more(err, " (so with %u frames)", others);
+    ec_fail_more(err, "; --overwrite renders what is not of this sequence again, -o names other files");
+    return EC_FAILED;
+}
+
+static ec_result tell_state(const sequence *s, uint32_t frame, const char *state, const char *error, const ec_outputs *names, ec_error *err)
+{
+    if (!s->request->json) return EC_OK;
+    cJSON *object = cJSON_CreateObject();
+    ec_json_whole(object, "frame", frame);
+    ec_json_real(object, "frame_seconds", ec_frame_seconds(&s->request->frames, frame));
+    ec_json_text(object, "state", state);
+    if (error) ec_json_text(object, "error", error);
+    cJSON *outputs = cJSON_AddArrayToObject(object, "outputs");
+    for (int i = 0; i < names->count; i++) ec_json_text(outputs, NULL, names->file[i].path);
+    return ec_json_print(object, stdout, err);
+}
+
+/* *stopped: by Ctrl-C, before it was done; nothing of it is written then. */
+static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t frame, bool *stopped, ec_error *err)
+{
+    double start = ec_now();
+    ec_identity identity;
+    EC_TRY(ec_frame_identify(&s->given, s->request, s->files, frame, &identity, err));
+    char *words = ec_identity_write(&identity), *command = ec_frame_command(&s->given, s->request, &request->outputs, frame);
+    ec_render_job job = {.request = request, .command = command, .share = &s->share, .device = s->device, .device_index = s->device_index,
+                         .device_why = s->device_why, .frame = {frame, ec_frame_seconds(&s->request->frames, frame), words}};
+    ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
+    if (result == EC_OK) result = ec_render_job_load(&job, s->console, err);
+    if (result == EC_OK) result = ec_render_job_run(&job, s->console, err);
+    *stopped = ec_stop_requested() && (result != EC_OK || !strcmp(job.stats.stopped_by, "user"));
+    if (result == EC_OK && !*stopped) result = ec_render_job_deliver(&job, s->console, start, err);
+    ec_render_job_free(&job);
+    free(words);
+    free(command);
+    return result;
+}
+
+static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *err)
+{
+    uint32_t frame = ec_frame_number(&s->request->frames, i);
+    ec_render_request *request = malloc(sizeof *request); /* what a frame finds out, as its size, is its own */
+    if (!request) return ec_fail(err, "out of memory");
+    *request = *s->request;
+    request->choice = choice_of(s, frame);
+    ec_error why = {0};
+    ec_result told = EC_OK, result = outputs_of(s, frame, &request->outputs, &why);
+    if (s->states[i] == EC_FRAME_DONE) {
+        s->skipped++;
+        told = tell_state(s, frame, "skipped", NULL, &request->outputs, err);
+    } else {
+        if (result == EC_OK) result = render_frame(s, request, frame, stopped, &why);
+        if (result == EC_OK && !*stopped) s->rendered++;
+        if (result != EC_OK && !*stopped) {
+            char text[sizeof why.text + 32];
+            snprintf(text, sizeof text, "frame %u: %s", frame, why.text);
+            ec_console_error(s->console, text);
+            s->failed++;
+            told = tell_state(s, frame, "failed", why.text, &request->outputs, err);
+        }
+    }
+    free(request);
+    return told;
+}
+
+static ec_result conclude(const sequence *s, bool stopped, double start, ec_error *err)
+{
+    uint32_t there = s->rendered + s->skipped;
+    if (s->request->json) {
+        cJSON *object = cJSON_CreateObject();
+        ec_json_whole(object, "frames", s->count);
+        ec_json_whole(object, "rendered", s->rendered);
+        ec_json_whole(object, "skipped", s->skipped);
+        ec_json_whole(object, "failed", s->failed);
+        ec_json_real(object, "total_seconds", ec_now() - start);
+        EC_TRY(ec_json_print(object, stdout, err));
+    }
+    if (s->skipped) ec_console_say(s->console, "%u of %u frames were there already", s->skipped, s->count);
+    if (stopped) return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there, s->count);
+    if (s->failed) return ec_fail(err, "%u of %u frames failed; the same command tries them again", s->failed, s->count);
+    return EC_OK;
+}
+
+static ec_result begin(sequence *s, ec_error *err)
+{
+    const ec_log log = ec_console_log(s->console);
+    const ec_render_request *r = s->request;
+    ec_scene_choice first = choice_of(s, r->frames.first);
+    ec_outputs outputs;
+    EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* patterns first of all */
+    EC_TRY(ec_device_find(r->device, &s->device, &s->device_index, &s->device_why, err));
+    EC_TRY(ec_animation_open(r->scene, &first, &s->share.animation, &log, err));
+    ec_animation_digest(s->share.animation, s->files);
+    return look_around(s, err);
+}
+
+static ec_result render_all(sequence *s, double start, ec_error *err)
+{
+    bool stopped = false;
+    EC_TRY(begin(s, err));
+    EC_TRY(ec_cl_open(&s->device, &s->cl, err));
+    s->cl.keeps_programs = s->cl.keeps_buffers = true;
+    s->share.cl = &s->cl;
+    for (uint32_t i = 0; i < s->count && !stopped; i++) {
+        EC_TRY(take_frame(s, i, &stopped, err));
+        stopped |= ec_stop_requested() && i + 1 < s->count;
+    }
+    return conclude(s, stopped, start, err);
+}
+
+ec_result ec_frames_render(ec_console *console, const ec_render_request *request, int argc, char *const *argv, double start, ec_error *err)
+{
+    sequence s = {.console = console, .request = request, .count = ec_frame_count(&request->frames)};
+    console->says_once = true;
+    s.states = calloc(s.count, sizeof *s.states);
+    ec_result result = s.states ? ec_given_options_read(argc, argv, &s.given, err) : ec_fail(err, "out of memory for %u frames", s.count);
+    if (result == EC_OK) result = render_all(&s, start, err);
+    ec_animation_close(s.share.animation);
+    free(s.share.environment.rgb);
+    ec_followed_free(&s.share.followed);
+    ec_cl_close(&s.cl);
+    free(s.states);
+    return result;
+}

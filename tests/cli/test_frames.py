@@ -1,0 +1,364 @@
+"""Sequences of frames: each the bits of that frame alone, skipped where it is done, refused where it is something else; and what the frames
+share."""
+import json
+import os
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+from support import ECLAT, ENVIRONMENT, SHARED, Case, data_uri, eclat, read_exr, write_gltf
+from test_motion import GLOW, GREY, Builder, room, turn
+
+SMALL = ["--size", "16x12", "--spp", "4", "-q"]
+
+
+def rows_of(run):
+    """What --json said: a line for each frame, and one for all."""
+    rows = [json.loads(line) for line in run.stdout.splitlines()]
+    return rows[:-1], rows[-1]
+
+
+class FramesCase(Case):
+    def render(self, scene, *options):
+        return self.assert_ok(eclat("render", scene, *SMALL, "--json", *options, cwd=self.folder))
+
+    def refuse(self, scene, says, *options, code=2):
+        line = self.assert_one_error(eclat("render", scene, *SMALL, *options, cwd=self.folder), code)
+        self.assertIn(says, line)
+
+    def model(self, name, half=4):
+        """With a camera of its own: a still would be framed by itself."""
+        path = os.path.join(SHARED, "assets", "gltf", name, "glTF", name + ".gltf")
+        if not os.path.exists(path):
+            self.skipTest("no " + path)
+        with open(path, encoding="utf-8") as file:
+            scene = json.load(file)
+        for part in scene["buffers"] + scene.get("images", []):
+            if not part.get("uri", "data:").startswith("data:"):
+                with open(os.path.join(os.path.dirname(path), part["uri"]), "rb") as file:
+                    part["uri"] = data_uri(file.read())
+        scene["cameras"] = [{"type": "orthographic", "orthographic": {"xmag": half, "ymag": half, "znear": 0.1, "zfar": 1000}}]
+        scene["nodes"].append({"camera": 0, "translation": [12, 18, 12], "rotation": [-.3536, .3536, .1464, .8536]})
+        scene["scenes"][scene.get("scene", 0)]["nodes"].append(len(scene["nodes"]) - 1)
+        return write_gltf(self.path(name + ".gltf"), scene)
+
+    def sliding(self):
+        """A lit quad that slides over a grey one: little to render."""
+        b = Builder()
+        b.add(GREY, scale=[4, 4, 4], translation=[0, 0, -1])
+        b.animate(b.add(GLOW), "translation", [(-1, 0, 0), (1, 0, 0)])
+        b.camera(2)
+        return b.write(self.path("slide.gltf"))
+
+
+class SameBits(FramesCase):
+    def assert_as_alone(self, scene, *options, frames="0:6:2", fps="8", numbers=(0, 2, 4, 6)):
+        """The sequence, each frame by --at, and one by the command that its file has."""
+        frames, last = rows_of(self.render(scene, "--frames", frames, "--fps", fps, "-o", "s.%02d.exr", *options))
+        self.assertEqual((last["frames"], last["rendered"], last["skipped"], last["failed"]), (len(numbers), len(numbers), 0, 0))
+        self.assertEqual([row["frame"] for row in frames], list(numbers))
+        hashes = [row["image_sha256"] for row in frames]
+        self.assertGreater(len(set(hashes)), 1, "nothing moves")
+        for number, sha in zip(numbers, hashes):
+            at = repr(number / float(fps))
+            alone = json.loads(self.render(scene, "--at", at, "-o", "alone.exr", *options).stdout)
+            self.assertEqual(alone["image_sha256"], sha, f"frame {number}")
+        name = f"s.{numbers[1]:02d}.exr"
+        attributes, planes = read_exr(self.path(name))
+        os.rename(self.path(name), self.path("kept.exr"))
+        self.assertIn("--frames %d " % numbers[1], attributes["eclat.command"])
+        command = attributes["eclat.command"].split()
+        self.assert_ok(eclat(*command[1:], "-q", cwd=self.folder))
+        self.assertEqual(read_exr(self.path(name))[1], planes)
+        return frames
+
+    def test_nodes_lamps_lights_and_cameras(self):
+        self.assert_as_alone(room().write(self.path("room.gltf")), "--animation", "all", "--env", "0.3,0.3,0.3")
+
+    def test_a_camera_alone(self):
+        b = Builder()
+        b.add(GREY, scale=[4, 4, 4])
+        b.add(GLOW, translation=[0, 0, 1])
+        b.animate(b.camera(2), "translation", [(0, 0, 5), (.5, .2, 5)])
+        frames = self.assert_as_alone(b.write(self.path("pan.gltf")))
+        for row in frames[1:]:
+            self.assertEqual(row["shared"]["structures"], "kept", row["frame"])
+
+    def test_a_light_alone(self):
+        b = Builder()
+        b.add(GREY, scale=[4, 4, 4])
+        b.scene["extensionsUsed"] = ["KHR_lights_punctual"]
+        b.scene["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 4}]}}
+        b.animate(b.node(translation=[0, 0, 1], extensions={"KHR_lights_punctual": {"light": 0}}), "translation", [(-1, 0, 1), (1, 0, 1)])
+        b.camera(2)
+        frames = self.assert_as_alone(b.write(self.path("light.gltf")))
+        for row in frames[1:]:
+            self.assertEqual(row["shared"]["structures"], "kept", row["frame"])
+
+    def test_skins_and_morph_targets(self):
+        for name, half in (("SimpleSkin", 2), ("AnimatedMorphCube", 2.5), ("Fox", 90)):
+            with self.subTest(name):
+                for old in os.listdir(self.folder):
+                    os.remove(self.path(old))
+                self.assert_as_alone(self.model(name, half), "--animation", "0")
+
+    def test_in_every_structure(self):
+        scene = room().write(self.path("room.gltf"))
+        common = ["--animation", "all", "--frames", "0:2", "--fps", "4"]
+        wanted = None
+        for accel in ("auto", "bvh2", "bvh8", "grid", "kdtree", "none", "twolevel"):
+            frames, _ = rows_of(self.render(scene, *common, "--accel", accel, "-o", accel + ".%d.exr"))
+            got = [row["image_sha256"] for row in frames]
+            wanted = wanted or got
+            self.assertEqual(got, wanted, accel)
+
+    def test_instances_that_move_and_that_do_not(self):
+        b = Builder()
+        moving = b.add(GREY, translation=[-1, 0, 0])
+        b.add(GLOW, translation=[0, 0, 2], rotation=turn(0, 180))
+        for k in range(3):
+            b.node(mesh=0, translation=[1, k - 1, 0])
+        b.animate(moving, "translation", [(-1, -1, 0), (-1, 1, 0)])
+        b.camera(2)
+        self.assert_as_alone(b.write(self.path("instances.gltf")), "--instancing", "on")
+
+    def test_a_shutter_counts_from_the_frame(self):
+        scene = self.sliding()
+        frames, _ = rows_of(self.render(scene, "--frames", "1:2", "--fps", "4", "--shutter", "0:0.2", "-o", "b.%d.exr"))
+        for row, span in zip(frames, ("0.25:0.45", "0.5:0.7")):
+            alone = json.loads(self.render(scene, "--shutter", span, "-o", "alone.exr").stdout)
+            self.assertEqual(alone["image_sha256"], row["image_sha256"])
+
+    def test_what_appears_and_goes(self):
+        """Triangles without area are dropped: what structures are of changes from frame to frame."""
+        b = Builder()
+        b.add(GREY, scale=[4, 4, 4], translation=[0, 0, -1])
+        b.animate(b.add(GLOW), "scale", [(0, 0, 0), (1, 1, 1), (0, 0, 0)], times=(0.0, 0.5, 1.0))
+        b.camera(2)
+        self.assert_as_alone(b.write(self.path("grow.gltf")), frames="0:8:4", numbers=(0, 4, 8))
+
+
+class Going(FramesCase):
+    def frames(self, *options, scene=None):
+        return rows_of(self.render(scene or self.sliding(), "--frames", "0:3", "-o", "f.%04d.exr", *options))
+
+    def test_what_is_done_is_skipped(self):
+        first, _ = self.frames()
+        before = {name: os.stat(self.path(name)).st_mtime_ns for name in os.listdir(self.folder) if name.endswith(".exr")}
+        self.assertEqual(sorted(before), [f"f.000{k}.exr" for k in range(4)])
+        os.remove(self.path("f.0002.exr"))
+        rows, last = self.frames()
+        self.assertEqual([row["state"] for row in rows], ["skipped", "skipped", "rendered", "skipped"])
+        self.assertEqual((last["rendered"], last["skipped"]), (1, 3))
+        self.assertEqual(rows[2]["image_sha256"], first[2]["image_sha256"])
+        for name in before:
+            self.assertEqual(os.stat(self.path(name)).st_mtime_ns == before[name], name != "f.0002.exr")
+
+    def test_others_are_refused_before_anything_is_rendered(self):
+        scene = self.sliding()
+        self.frames(scene=scene)
+        os.remove(self.path("f.0000.exr"))
+        common = ["--frames", "0:3", "-o", "f.%04d.exr"]
+        for says, *options in (("--spp is 4 there and 8 here", "--spp", "8"), ("--seed is not given there and 1 here", "--seed", "1"),
+                               ("moment is 0.041666666666666664 s there", "--fps", "12"), ("--env is not given there and 1,1,1 here", "--env", "1,1,1")):
+            with self.subTest(says):
+                self.refuse(scene, "'f.0001.exr' is there already: " + says, *common, *options, code=1)
+                self.refuse(scene, "(so with 3 frames); --overwrite", *common, *options, code=1)
+                self.assertFalse(os.path.exists(self.path("f.0000.exr")))
+        _, last = self.frames("--spp", "8", "--overwrite", scene=scene)
+        self.assertEqual(last["rendered"], 4)
+        self.assertEqual(read_exr(self.path("f.0001.exr"))[0]["eclat.samplesPerPixel"], 8)
+
+    def test_a_changed_scene_is_another(self):
+        scene = self.sliding()
+        self.frames(scene=scene)
+        with open(scene, encoding="utf-8") as file:
+            text = file.read()
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(text.replace("0.6", "0.7"))
+        self.refuse(scene, "the scene's files are not the same", "--frames", "0:3", "-o", "f.%04d.exr", code=1)
+
+    def test_what_does_not_matter_is_not_compared(self):
+        scene = self.sliding()
+        self.frames(scene=scene)
+        _, last = self.frames("--lanes", "4", "--wave", "2048", "--accel", "kdtree", "--effects", "all", scene=scene)
+        self.assertEqual(last["skipped"], 4)
+
+    def test_half_a_file_and_a_strange_one(self):
+        scene = self.sliding()
+        self.frames("-o", "f.%d.png", scene=scene)
+        for name in ("f.0001.exr", "f.2.png"):
+            with open(self.path(name), "rb") as file:
+                whole = file.read()
+            for bytes_there in (whole[:len(whole) * 3 // 4], b"", b"nothing"):
+                with open(self.path(name), "wb") as file:
+                    file.write(bytes_there)
+                self.refuse(scene, f"'{name}' is there already: it is no whole frame", "--frames", "0:3", "-o", "f.%04d.exr", "-o", "f.%d.png", code=1)
+            with open(self.path(name), "wb") as file:
+                file.write(whole)
+        self.assertEqual(self.frames("-o", "f.%d.png", scene=scene)[1]["skipped"], 4)
+
+    def test_pictures_alone_know_what_they_are_of(self):
+        scene = self.sliding()
+        rows_of(self.render(scene, "--frames", "0:1", "-o", "p.%d.png"))
+        self.assertEqual(rows_of(self.render(scene, "--frames", "0:2", "-o", "p.%d.png"))[1]["skipped"], 2)
+        self.refuse(scene, "--exposure is not given there and 1 here", "--frames", "0:2", "-o", "p.%d.png", "--exposure", "1", code=1)
+
+    def test_a_picture_that_is_missing_beside_another(self):
+        scene = self.sliding()
+        self.frames(scene=scene)
+        _, last = self.frames("-o", "f.%d.png", scene=scene)
+        self.assertEqual(last["rendered"], 4)
+
+    def test_killed_and_gone_on_with(self):
+        scene, command = self.sliding(), ["--frames", "0:11", "--spp", "64", "-o", "k.%02d.exr"]
+        whole, _ = rows_of(self.render(scene, *command[:-1], "whole.%02d.exr"))
+        kills, done = 0, 0
+        while kills < 3:
+            process = subprocess.Popen([ECLAT, "render", scene, *SMALL, *command], cwd=self.folder, env=ENVIRONMENT)
+            deadline = time.monotonic() + 60
+            while process.poll() is None and time.monotonic() < deadline:
+                if len([name for name in os.listdir(self.folder) if name.startswith("k.")]) > done + 1:
+                    break
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            kills += 1
+            done = len([name for name in os.listdir(self.folder) if name.startswith("k.")])
+        rows, last = rows_of(self.render(scene, *command))
+        self.assertEqual(last["skipped"], done)
+        self.assertGreaterEqual(done, 2)
+        for row in whole:
+            number = row["frame"]
+            self.assertEqual(read_exr(self.path(f"k.{number:02d}.exr"))[0]["eclat.imageSha256"], row["image_sha256"])
+
+    def test_interrupted(self):
+        scene, command = self.sliding(), ["--frames", "0:40", "--spp", "256", "--size", "64x64", "-o", "i.%02d.exr"]
+        process = subprocess.Popen([ECLAT, "render", scene, "-q", *command], cwd=self.folder, env=ENVIRONMENT, stderr=subprocess.PIPE, encoding="utf-8")
+        while process.poll() is None and not os.path.exists(self.path("i.01.exr")):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1)
+        self.assertRegex(said, r"interrupted: (\d+) of 41 frames are there; the same command goes on")
+        there = [name for name in os.listdir(self.folder) if name.startswith("i.")]
+        for name in there:
+            self.assertEqual(read_exr(self.path(name))[0]["eclat.stoppedBy"], "spp")
+
+    def test_a_frame_that_fails_leaves_the_others(self):
+        b = Builder()
+        b.animate(b.add(GLOW), "translation", [(0, 0, 0), (0, 0, 0), (float("nan"), 0, 0), (1, 0, 0), (1, 0, 0)],
+                  times=(0.0, 0.5, 1.0, 1.5, 2.0))
+        b.camera(2)
+        scene = b.write(self.path("broken.gltf"))
+        run = eclat("render", scene, *SMALL, "--frames", "0:2", "--fps", "1", "--json", "-o", "x.%d.exr", cwd=self.folder)
+        self.assertEqual(run.returncode, 1)
+        rows, last = rows_of(run)
+        self.assertEqual([row["state"] for row in rows], ["rendered", "failed", "rendered"])
+        self.assertIn("NaN", rows[1]["error"])
+        self.assertEqual((last["rendered"], last["failed"]), (2, 1))
+        self.assertIn("eclat: error: frame 1: ", run.stderr)
+        self.assertIn("1 of 3 frames failed", run.stderr.splitlines()[-1])
+        self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith("exr")), ["x.0.exr", "x.2.exr"])
+
+
+class Sharing(FramesCase):
+    """After the first frame nothing is made again that stays as it is. The figures are what the program counts as it does so."""
+
+    def shared(self, scene, *options):
+        rows, _ = rows_of(self.render(scene, *options, "-o", "x.%d.exr"))
+        return [row["shared"] for row in rows]
+
+    def test_programs_textures_and_structures(self):
+        scene = self.model("Fox", 90)
+        first, *others = self.shared(scene, "--animation", "Run", "--frames", "0:4")
+        self.assertEqual((first["structures"], first["programs_kept"], first["bytes_kept"]), ("built", 0, 0))
+        texels = 1024 * 1024 * 4
+        self.assertGreater(first["bytes_uploaded"], texels)
+        for row in others:
+            self.assertIn(row["structures"], ("refitted", "rebuilt"))
+            self.assertEqual((row["programs_built"], row["programs_kept"]), (0, first["programs_built"]))
+            self.assertGreaterEqual(row["bytes_kept"], texels)
+            self.assertLess(row["bytes_uploaded"], first["bytes_uploaded"] - texels + 1)
+            self.assertEqual(row["bytes_kept"] + row["bytes_uploaded"], first["bytes_uploaded"])
+        self.assertIn("refitted", [row["structures"] for row in others])
+
+    def test_an_environment_map_is_read_and_uploaded_once(self):
+        first = eclat("render", room().write(self.path("room.gltf")), "--at", "0", "--animation", "0", "--size", "64x32", "--spp", "4", "-q", "-o",
+                      self.path("sky.exr"))
+        self.assert_ok(first)
+        scene = self.sliding()
+        command = ["--env", "sky.exr", "--env-rotate", "30", "--env-strength", "2", "--fps", "4"]
+        _, *others = self.shared(scene, "--frames", "0:2", *command)
+        for row in others:
+            self.assertGreaterEqual(row["bytes_kept"], 64 * 32 * 16)
+        alone = json.loads(self.render(scene, "--at", "0.5", *command[:-2], "-o", "alone.exr").stdout)
+        self.assertEqual(read_exr(self.path("x.2.exr"))[0]["eclat.imageSha256"], alone["image_sha256"])
+
+    def test_meshes_that_stand_in_many_places_are_built_once(self):
+        b = Builder()
+        mesh = b.add(GREY, translation=[-1, 0, 0])
+        b.add(GLOW, translation=[0, 0, 2], rotation=turn(0, 180))
+        others = [b.node(mesh=0, translation=[1, k - 1, 0]) for k in range(3)]
+        b.animate(others[0], "translation", [(1, -1, 0), (0, -1, 0)])
+        b.camera(2)
+        first, *rest = self.shared(b.write(self.path("instances.gltf")), "--frames", "0:2", "--fps", "4", "--instancing", "on")
+        self.assertGreaterEqual(mesh, 0)
+        self.assertEqual((first["meshes_built"], first["meshes_kept"]), (1, 0))
+        for row in rest:
+            self.assertEqual((row["meshes_built"], row["meshes_kept"]), (0, 1))
+
+    def test_other_effects_build_other_programs_and_only_then(self):
+        """The lamp goes out between frame 1 and 2: kernels for what the scene calls for are others from then on."""
+        b = Builder()
+        b.add(GREY, scale=[4, 4, 4], translation=[0, 0, -1])
+        lamp = b.add(GLOW)
+        b.animate(lamp, "scale", [(1, 1, 1), (0, 0, 0)], times=(0.0, 0.5))
+        b.scene["animations"][0]["samplers"][0]["interpolation"] = "STEP"
+        b.camera(2)
+        rows = self.shared(b.write(self.path("lamp.gltf")), "--frames", "0:3", "--fps", "4", "--env", "1,1,1")
+        self.assertEqual([row["programs_built"] > 0 for row in rows], [True, False, True, False])
+
+
+class CommandLine(FramesCase):
+    def test_names(self):
+        scene = self.sliding()
+        for says, *options in (("one name for all", "-o", "out.exr"), ("2 places", "-o", "a%d.%04d.exr"), ("there may be d", "-o", "a.%s.exr"),
+                               ("there may be d", "-o", "a.%4d.exr"), ("there may be d", "-o", "a.%-4d.exr"), ("there may be d", "-o", "a.%f.png"),
+                               ("there may be d", "-o", "a.%0099d.png"), ("must be named", "-o", "a.%d.tif"), ("given twice", "-o", "a%d.png", "-o", "a%01d.png")):
+            with self.subTest(options):
+                self.refuse(scene, says, "--frames", "0:2", *options)
+        self.assertEqual(os.listdir(self.folder), ["slide.gltf"])
+        self.render(scene, "--frames", "7:8", "-o", "100%%.%d.png")
+        self.render(scene, "--frames", "9", "-o", "one.png")
+        self.render(scene, "--frames", "3")
+        self.render(scene, "-o", "%d.png")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["%d.png", "100%.7.png", "100%.8.png", "one.png", "slide.0003.exr", "slide.0003.png", "slide.gltf"])
+
+    def test_ranges(self):
+        scene = self.sliding()
+        for text in ("", ":", "1:", ":2", "a:b", "1:2:", "1:2:0", "1:2:3:4", "-1:2", "1.5", "0:99999999"):
+            with self.subTest(text):
+                self.refuse(scene, "--frames", "--frames", text, "-o", "a.%d.png")
+        self.refuse(scene, "ends before it begins", "--frames", "4:2", "-o", "a.%d.png")
+        rows, _ = rows_of(self.render(scene, "--frames", "0:7:3", "-o", "r.%d.png"))
+        self.assertEqual([row["frame"] for row in rows], [0, 3, 6])
+
+    def test_combinations(self):
+        scene, frames = self.sliding(), ["--frames", "0:2", "-o", "a.%d.exr"]
+        self.refuse(scene, "leave --at out", *frames, "--at", "1")
+        self.refuse(scene, "--frames and --checkpoint", *frames, "--checkpoint", "c.exr")
+        self.refuse(scene, "--frames and --samples", *frames, "--samples", "0:2")
+        self.refuse(scene, "--fps belongs to --frames", "--fps", "24")
+        self.refuse(scene, "--overwrite belongs to --frames", "--overwrite")
+        self.refuse(scene, "--fps", *frames, "--fps", "0")
+        still = Builder()
+        still.add(GLOW)
+        self.refuse(still.write(self.path("still.gltf")), "no animation", *frames, code=1)
+        self.refuse(self.path("nothing.gltf"), "nothing.gltf", *frames, code=1)
+        self.refuse(scene, "folder", "--frames", "0:2", "-o", "nowhere/a.%d.exr", code=1)
+
+
+if __name__ == "__main__":
+    unittest.main()
