@@ -6,7 +6,7 @@
 #include "cli/console.h"
 #include "cli/hash.h"
 #include "cli/render_request.h"
-#include "cli/write_outputs.h"
+#include "cli/write_rows.h"
 #include "film/film.h"
 #include "report/render_report.h"
 
@@ -17,7 +17,8 @@ typedef struct ec_render_job {
     ec_device_info device;
     uint32_t device_index;
     const char *device_why;
-    ec_film film;
+    ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
+    ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
     ec_render_stats stats;
     double load_seconds;
     char camera_text[256];
@@ -46,6 +47,12 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console);
 
 /* Renders into job->film, with progress; Ctrl-C ends it early and well. On failure too there may be batches in the film. */
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err);
+
+/* What is known of the job by now, in figures; outputs: room for the paths. Texts are the job's. */
+ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
+
+/* render_course.c: why a picture of this request has to be rendered whole; NULL: it need not */
+const char *ec_render_whole_for(const ec_render_request *request);
 
 void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */
 
