@@ -1,6 +1,7 @@
 /* eclat render SCENE: check, load, render, write, tell. */
 
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -10,35 +11,6 @@
 #include "cli/frames.h"
 #include "cli/render_job.h"
 #include "cli/write_report.h"
-
-/* The finished job in figures. Texts are the job's. */
-static ec_render_report make_report(const ec_render_job *job, const char **outputs)
-{
-    const ec_render_request *request = job->request;
-    for (int i = 0; i < request->outputs.count; i++) outputs[i] = request->outputs.file[i].path;
-    return (ec_render_report){
-        .frame = job->share ? &job->frame : NULL,
-        .command = job->command,
-        .scene = request->scene,
-        .camera = job->camera_text,
-        .viewpoint = job->viewpoint,
-        .environment = job->environment_text,
-        .options = &request->options,
-        .stats = &job->stats,
-        .verbose = request->verbose,
-        .device = &job->device,
-        .device_why = job->device_why,
-        .device_index = job->device_index,
-        .exposure = request->exposure,
-        .tonemap = request->tonemap,
-        .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
-        .batches = job->film.batch_count,
-        .load_seconds = job->load_seconds,
-        .image_sha256 = job->image_sha256,
-        .outputs = outputs,
-        .output_count = request->outputs.count,
-    };
-}
 
 /* What a slice says of itself, beside its sums. */
 static ec_past past_of(const ec_render_job *job)
@@ -74,14 +46,41 @@ static ec_result tell(ec_console *console, const ec_render_job *job, const ec_re
     return EC_OK;
 }
 
+static ec_result write_film(ec_render_job *job, ec_render_report *report, ec_error *err)
+{
+    const ec_past past = past_of(job);
+    const ec_slice slice = {&job->job, &past};
+    return ec_write_report(&job->request->outputs, &job->film, job->request->has_slice ? &slice : NULL, report, job->image_sha256, err);
+}
+
+/* Of a picture in strips, whose rows are in the files already. */
+static ec_result finish_rows(ec_console *console, ec_render_job *job, ec_render_report *report, ec_error *err)
+{
+    const ec_log log = ec_console_log(console);
+    const uint32_t height = job->request->options.height;
+    ec_rows_told told;
+    ec_row_writer *rows = job->rows;
+    EC_TRY(ec_row_writer_finish(rows, &told, err));
+    if (told.rows < height)
+        ec_warn(&log, "the strips from row %u on are not complete: they have no samples (0 in the samples channel) and are black", told.rows);
+    job->stats.error = told.error.error;
+    job->stats.error_bound = told.error.error_bound;
+    job->stats.relmse = told.error.relmse;
+    report->mean_luminance = told.error.mean_luminance;
+    report->batches = told.batches;
+    job->rows = NULL; /* closing frees it */
+    ec_result result = ec_report_rows_close(rows, report, &told, err);
+    snprintf(job->image_sha256, sizeof job->image_sha256, "%s", told.sha256);
+    report->image_sha256 = job->image_sha256;
+    return result;
+}
+
 ec_result ec_render_job_deliver(ec_render_job *job, ec_console *console, double start, ec_error *err)
 {
     const char *outputs[EC_OUTPUTS_MAX];
-    ec_render_report report = make_report(job, outputs);
+    ec_render_report report = ec_render_job_report(job, outputs);
     double write_start = ec_now();
-    const ec_past past = past_of(job);
-    const ec_slice slice = {&job->job, &past};
-    EC_TRY(ec_write_report(&job->request->outputs, &job->film, job->request->has_slice ? &slice : NULL, &report, job->image_sha256, err));
+    EC_TRY(job->rows ? finish_rows(console, job, &report, err) : write_film(job, &report, err));
     report.write_seconds = ec_now() - write_start;
     report.total_seconds = ec_now() - start;
     report.peak_memory_bytes = ec_peak_memory_bytes();
@@ -96,9 +95,10 @@ static ec_result render(ec_console *console, ec_render_job *job, double start, e
         EC_TRY(ec_render_job_deliver(job, console, start, err));
         return *job->keep_error.text ? ec_fail(err, "%s; the picture is written", job->keep_error.text) : EC_OK;
     }
-    bool is_empty = job->film.batch_count == 0 || job->stats.samples == 0; /* no samples: a checkpoint that does not fit */
+    bool is_empty = (job->film.batch_count == 0 && !job->rows) || job->stats.samples == 0; /* no samples: a checkpoint that does not fit */
     if (is_empty) return ec_fail(err, "%s", why.text);
-    ec_fail(err, "the render failed after %llu samples a pixel: %s", (unsigned long long)job->stats.samples_per_pixel, why.text);
+    if (job->rows) ec_fail(err, "the render failed after %u of %u rows: %s", ec_row_writer_rows(job->rows), job->request->options.height, why.text);
+    else ec_fail(err, "the render failed after %llu samples a pixel: %s", (unsigned long long)job->stats.samples_per_pixel, why.text);
     ec_error unwritten = {0};
     if (ec_render_job_deliver(job, console, start, &unwritten) == EC_OK) ec_fail_more(err, "; the picture so far is written");
     else ec_fail_more(err, "; and then: %s", unwritten.text);

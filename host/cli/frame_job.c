@@ -10,7 +10,6 @@
 
 #include "cli/command_line.h"
 #include "image/exr_header.h"
-#include "image/png_text.h"
 #include "pipeline/content.h"
 #include "store/identity_text.h"
 

@@ -3,8 +3,19 @@
 #define EC_CLI_HASH_H
 
 #include <stdint.h>
+#include <sys/types.h>
+
+#include <sha2.h>
 
 enum { EC_HASH_SIZE = 65 };
+
+/* Of pixels that come one after the other. */
+typedef struct ec_hash {
+    SHA2_CTX context;
+} ec_hash;
+void ec_hash_begin(ec_hash *hash);
+void ec_hash_add(ec_hash *hash, const float *rgb, uint64_t pixel_count);
+void ec_hash_end(ec_hash *hash, char text[EC_HASH_SIZE]);
 
 /* SHA-256 of 3 floats a pixel as little-endian IEEE bytes, in hexadecimal. */
 void ec_hash_rgb(const float *rgb, uint64_t pixel_count, char text[EC_HASH_SIZE]);

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,6 +86,29 @@ ec_result ec_parse_seconds(const char *option, const char *text, double *seconds
     if (!(parsed > 0) || parsed > EC_MAX_SECONDS)
         return ec_usage(err, "--%s: '%s' must be more than 0 and at most %g seconds", option, text, EC_MAX_SECONDS);
     *seconds = parsed;
+    return EC_OK;
+}
+
+/* "4G" and "4GB" are 4 10^9, "4Gi" and "4GiB" 4 2^30; 0: no unit. */
+static double bytes_in(const char *unit)
+{
+    static const char letters[] = "kKmMgGtT";
+    const char *letter = *unit ? strchr(letters, *unit) : NULL;
+    if (!letter) return 0;
+    bool is_binary = unit[1] == 'i';
+    const char *rest = unit + 1 + is_binary;
+    return !*rest || !strcmp(rest, "B") ? pow(is_binary ? 1024 : 1000, (double)((letter - letters) / 2 + 1)) : 0;
+}
+
+ec_result ec_parse_bytes(const char *option, const char *text, uint64_t *bytes, ec_error *err)
+{
+    const char *unit;
+    double parsed;
+    if (!scan_real(text, &parsed, &unit) || bytes_in(unit) == 0)
+        return ec_usage(err, "--%s: '%s' is not an amount of memory such as 512M or 4G", option, text);
+    parsed *= bytes_in(unit);
+    if (!(parsed >= 1e6) || parsed > 1e18) return ec_usage(err, "--%s: '%s' must be from 1M to 1000000T", option, text);
+    *bytes = (uint64_t)parsed;
     return EC_OK;
 }
 

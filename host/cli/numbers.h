@@ -15,6 +15,7 @@ ec_result ec_parse_u32(const char *option, const char *text, uint32_t min, uint3
                        ec_error *err);
 ec_result ec_parse_real(const char *option, const char *text, double min, double max, double *value, ec_error *err);
 ec_result ec_parse_seconds(const char *option, const char *text, double *seconds, ec_error *err); /* 30, 30s, 2m, 1h */
+ec_result ec_parse_bytes(const char *option, const char *text, uint64_t *bytes, ec_error *err); /* 4G, 512M: 10^9, 10^6; GiB, MiB */
 ec_result ec_parse_percent(const char *option, const char *text, double *fraction, ec_error *err); /* 2 and 2%: 0.02 */
 /* Two of them from 0 to max, "A:B", the second not under the first. */
 ec_result ec_parse_span(const char *option, const char *text, double max, double *from, double *to, ec_error *err);

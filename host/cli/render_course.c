@@ -5,6 +5,7 @@
 
 #include "cli/command_line.h"
 #include "cli/render_job.h"
+#include "cli/write_report.h"
 
 /* Is argv[*i] one of these options? Then *i moves on to its value, if that is a word of its own. */
 static bool is_one_of(char *const *argv, int *i, const char *const *names)
@@ -104,6 +105,36 @@ static bool keep(void *user, const ec_film *film, const ec_past *past)
     return result == EC_OK;
 }
 
+/* What cannot be had strip by strip. */
+const char *ec_render_whole_for(const ec_render_request *r)
+{
+    if (r->options.adaptive) return "--adaptive"; /* the allotment looks at all pixels */
+    if (r->options.error_target > 0) return "--error"; /* of the whole image */
+    if (r->options.time_limit > 0 || r->capped) return "--time";
+    if (r->resume) return "--resume";
+    if (r->checkpoint) return "--checkpoint";
+    return r->has_slice ? "--samples" : NULL;
+}
+
+/* Strips go to the files as they come. */
+static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row, const ec_render_stats *stats, ec_error *err)
+{
+    enum { ROOM = 256 }; /* for how it ended, and counts that grow beyond a number's size */
+    ec_render_job *job = user;
+    const char *outputs[EC_OUTPUTS_MAX];
+    if (first_row == 0) {
+        ec_render_report report = ec_render_job_report(job, outputs);
+        report.stats = stats;
+        report.batches = film->batch_count;
+        EC_TRY(ec_report_rows_open(&job->rows, &job->request->outputs, film, job->request->options.height, &report, ROOM, err));
+    }
+    ec_result result = ec_row_writer_put(job->rows, film, err);
+    if (result == EC_OK) return EC_OK;
+    ec_row_writer_abort(job->rows); /* no file is left */
+    job->rows = NULL;
+    return result;
+}
+
 ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
 {
     ec_render_request *request = job->request;
@@ -117,6 +148,8 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
     request->options.identify = request->has_slice || request->checkpoint;
     ec_course course = {.admit = request->options.identify ? admit : NULL,
                         .keep = request->checkpoint ? keep : NULL,
+                        .strip = ec_render_whole_for(request) ? NULL : take_strip,
+                        .whole_for = ec_render_whole_for(request),
                         .every = request->every,
                         .user = job};
     if (request->has_slice) {

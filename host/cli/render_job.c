@@ -12,7 +12,7 @@
 #include "cli/progress.h"
 #include "cli/stop.h"
 #include "cli/usage.h"
-#include "report/format.h"
+#include "pipeline/strips.h"
 #include "report/scene_report.h"
 
 /* A slice is its sums: a PNG alone would throw them away. */
@@ -112,19 +112,17 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. */
-static ec_result check_memory(const ec_render_options *options, ec_error *err)
+/* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. What is told here early is looked
+ * at again when the scene is on the device. */
+static ec_result check_memory(const ec_render_job *job, ec_error *err)
 {
-    uint64_t batches = options->spp ? (options->spp + ec_render_batch(options) - 1ull) / ec_render_batch(options) : 1;
-    const uint64_t bytes_per_pixel = 96 + EC_MOMENTS_BYTES * ec_film_copies(batches); /* first-hit features 32, planes for the files 64 */
-    uint64_t needed = (uint64_t)options->width * options->height * bytes_per_pixel;
+    const ec_render_options *options = &job->request->options;
+    const char *reason = ec_render_whole_for(job->request);
+    uint64_t needed = ec_strip_whole(options, job->device.type & CL_DEVICE_TYPE_CPU);
     uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
-    char needed_text[32], present_text[32];
-    if (needed <= present) return EC_OK;
-    ec_format_bytes(needed, needed_text, sizeof needed_text);
-    ec_format_bytes(present, present_text, sizeof present_text);
-    return ec_fail(err, "a picture of %ux%u pixels takes %s and this machine has %s; ask for a smaller --size",
-                   options->width, options->height, needed_text, present_text);
+    int64_t budget = options->memory ? ec_strip_budget(options, 0) : (int64_t)present;
+    if (reason && (int64_t)needed > budget) return ec_strip_refuse(options, needed, budget, reason, err);
+    return EC_OK;
 }
 
 ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_error *err)
@@ -148,7 +146,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
     EC_TRY(prepare_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
-    return check_memory(&job->request->options, err);
+    return check_memory(job, err);
 }
 
 static void announce(const ec_render_job *job, ec_console *console)
@@ -189,8 +187,9 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     ec_console_erase(console);
     if (!job->share) ec_cl_close(&own);
     else ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
-    if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
-    if (result != EC_OK && job->film.batch_count == 0 && ec_stop_requested())
+    const bool has_picture = job->film.batch_count || job->rows;
+    if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");
+    if (result != EC_OK && !has_picture && ec_stop_requested())
         return ec_fail(err, "interrupted before there was a picture; nothing is written");
     if (result == EC_OK && job->film.unsampled && job->request->checkpoint)
         ec_warn(&log, "no checkpoint is written: the first batch was not complete");
@@ -199,10 +198,39 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     return result;
 }
 
+ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX])
+{
+    const ec_render_request *request = job->request;
+    for (int i = 0; i < request->outputs.count; i++) outputs[i] = request->outputs.file[i].path;
+    return (ec_render_report){
+        .frame = job->share ? &job->frame : NULL,
+        .command = job->command,
+        .scene = request->scene,
+        .camera = job->camera_text,
+        .viewpoint = job->viewpoint,
+        .environment = job->environment_text,
+        .options = &request->options,
+        .stats = &job->stats,
+        .verbose = request->verbose,
+        .device = &job->device,
+        .device_why = job->device_why,
+        .device_index = job->device_index,
+        .exposure = request->exposure,
+        .tonemap = request->tonemap,
+        .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
+        .batches = job->film.batch_count,
+        .load_seconds = job->load_seconds,
+        .image_sha256 = job->image_sha256,
+        .outputs = outputs,
+        .output_count = request->outputs.count,
+    };
+}
+
 void ec_render_job_free(ec_render_job *job)
 {
     ec_scene_free(job->scene);
     ec_film_destroy(&job->film);
+    ec_row_writer_abort(job->rows);
     ec_stored_free(&job->stored);
     free(job->whole_command);
 }

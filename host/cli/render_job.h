@@ -6,7 +6,7 @@
 #include "cli/console.h"
 #include "cli/hash.h"
 #include "cli/render_request.h"
-#include "cli/write_outputs.h"
+#include "cli/write_rows.h"
 #include "film/film.h"
 #include "report/render_report.h"
 
@@ -28,7 +28,8 @@ typedef struct ec_render_job {
     ec_device_info device;
     uint32_t device_index;
     const char *device_why;
-    ec_film film;
+    ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
+    ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
     ec_render_stats stats;
     double load_seconds;
     char camera_text[256];
@@ -37,7 +38,7 @@ typedef struct ec_render_job {
     char image_sha256[EC_HASH_SIZE];
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
     ec_stored stored;            /* what is gone on from. Owned */
-    char device_text[512];
+    char device_text[516];
     char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
     ec_console *console;
     ec_error keep_error;         /* why the last checkpoint is not there; empty: it is, or none was wanted */
@@ -60,6 +61,11 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
 
 /* cmd_render.c: writes the film to the outputs and tells of it; start: when the command, or the frame, began. */
 ec_result ec_render_job_deliver(ec_render_job *job, ec_console *console, double start, ec_error *err);
+/* What is known of the job by now, in figures; outputs: room for the paths. Texts are the job's. */
+ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
+
+/* render_course.c: why a picture of this request has to be rendered whole; NULL: it need not */
+const char *ec_render_whole_for(const ec_render_request *request);
 
 void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */
 

@@ -46,6 +46,7 @@ CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
 PARSED_SETTER(error, ec_parse_percent, options.error_target)
 PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 PARSED_SETTER(every, ec_parse_seconds, every)
+PARSED_SETTER(memory, ec_parse_bytes, options.memory)
 PARSED_SETTER(time, ec_parse_seconds, options.time_limit)
 RANGE_SETTER(batch, ec_parse_u32, 1, EC_MAX_SPP, options.batch)
 RANGE_SETTER(cutoff, ec_parse_real, 0, 1, options.cutoff)
@@ -220,6 +221,7 @@ const ec_option ec_render_rows[] = {
     {"light-choice", 0, true, set_light_choice},
     {"look-at", 0, true, set_look_at},
     {"max-depth", 0, true, set_max_depth},
+    {"memory", 0, true, set_memory},
     {"output", 'o', true, set_output},
     {"overwrite", 0, false, set_overwrite},
     {"parallel", 0, true, set_parallel},

@@ -4,42 +4,44 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/frame_job.h"
 #include "film/interval.h"
 
-enum { AOV_STRIDE = 8, AOV_ALBEDO = 0, AOV_NORMAL = 3, AOV_DEPTH = 6, AOV_ALPHA = 7 };
+enum { AOV_ALBEDO = 0, AOV_NORMAL = 3, AOV_DEPTH = 6, AOV_ALPHA = 7 };
 
-static ec_result resolve_error(const ec_film *film, ec_picture *picture)
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, ec_error *err)
 {
-    size_t pixel_count = (size_t)film->width * film->height;
-    picture->stderr_rgb = malloc(pixel_count * 3 * sizeof(float));
-    picture->stderr_y = malloc(pixel_count * sizeof(float));
-    picture->low = malloc(pixel_count * 3 * sizeof(float));
-    picture->high = malloc(pixel_count * 3 * sizeof(float));
-    picture->heavy = malloc(pixel_count * sizeof(float));
-    if (!picture->stderr_rgb || !picture->stderr_y || !picture->low || !picture->high || !picture->heavy) return EC_FAILED;
-    ec_film_resolve(film, NULL, picture->stderr_rgb);
-    ec_film_resolve_luminance_error(film, picture->stderr_y);
-    picture->heavy_count = ec_film_intervals(film, picture->low, picture->high, picture->heavy);
+    const size_t pixel_count = (size_t)width * rows;
+    *picture = (ec_picture){.width = width, .height = rows};
+    float **const planes[] = {&picture->rgb, &picture->constants, &picture->stderr_rgb, &picture->stderr_y, &picture->low, &picture->high, &picture->heavy};
+    static const size_t values[] = {3, 2, 3, 1, 3, 3, 1};
+    for (int i = 0; i < (with_error ? 7 : 2); i++)
+        if (!(*planes[i] = malloc(pixel_count * values[i] * sizeof(float)))) {
+            ec_picture_free(picture);
+            return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", width, rows);
+        }
     return EC_OK;
+}
+
+void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows)
+{
+    const ec_film here = ec_film_rows(film, first, rows);
+    const size_t pixel_count = (size_t)film->width * rows;
+    picture->height = rows;
+    picture->aov = here.aov;
+    ec_film_resolve(&here, picture->rgb, picture->stderr_rgb);
+    if (picture->stderr_y) ec_film_resolve_luminance_error(&here, picture->stderr_y);
+    if (picture->heavy) picture->heavy_count = ec_film_interval_rows(film, first, rows, picture->low, picture->high, picture->heavy);
+    for (size_t i = 0; i < pixel_count; i++) {
+        float samples = (float)((double)ec_film_batches(&here, i) * film->samples_per_batch);
+        picture->constants[2 * i] = here.unsampled && here.unsampled[i] ? 0.0f : samples;
+        picture->constants[2 * i + 1] = 1;
+    }
 }
 
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err)
 {
-    size_t pixel_count = (size_t)film->width * film->height;
-    picture->width = film->width;
-    picture->height = film->height;
-    picture->aov = film->aov;
-    picture->rgb = malloc(pixel_count * 3 * sizeof(float));
-    picture->constants = malloc(pixel_count * 2 * sizeof(float));
-    if (!picture->rgb || !picture->constants || (with_error && film->batch_count >= 2 && resolve_error(film, picture) != EC_OK))
-        return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", film->width, film->height);
-    ec_film_resolve(film, picture->rgb, NULL);
-    for (size_t i = 0; i < pixel_count; i++) {
-        float samples = (float)((double)ec_film_batches(film, i) * film->samples_per_batch);
-        picture->constants[2 * i] = film->unsampled && film->unsampled[i] ? 0.0f : samples;
-        picture->constants[2 * i + 1] = 1;
-    }
+    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && film->batch_count >= 2, err));
+    ec_picture_fill(picture, film, 0, film->height);
     return EC_OK;
 }
 
@@ -55,26 +57,20 @@ void ec_picture_free(ec_picture *picture)
     *picture = (ec_picture){0};
 }
 
-enum { CHANNELS_MAX = 26 };
-
-typedef struct channel_list {
-    ec_channel list[CHANNELS_MAX];
-    uint32_t count;
-} channel_list;
-
-static void add_channels(channel_list *channels, const float *data, uint32_t stride, uint32_t count, const char *const *names)
+static void add_channels(ec_channel_list *channels, const float *data, uint32_t stride, uint32_t count, const char *const *names)
 {
     for (uint32_t i = 0; i < count; i++) channels->list[channels->count++] = (ec_channel){.name = names[i], .data = data + i, .stride = stride};
 }
 
 /* Layers by name, so that every viewer groups them. No error and no first hit: no such channels. */
-static void list_channels(const ec_picture *picture, channel_list *channels)
+void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
 {
     static const char *const colour[] = {"R", "G", "B"}, *const error[] = {"stderr.R", "stderr.G", "stderr.B"},
                              *const low[] = {"low95.R", "low95.G", "low95.B"}, *const high[] = {"high95.R", "high95.G", "high95.B"},
                              *const error_y[] = {"stderr.Y"}, *const heavy[] = {"heavy"}, *const samples[] = {"samples"},
                              *const alpha[] = {"A"}, *const albedo[] = {"albedo.R", "albedo.G", "albedo.B"},
                              *const normal[] = {"normal.X", "normal.Y", "normal.Z"}, *const depth[] = {"depth.Z"};
+    channels->count = 0;
     add_channels(channels, picture->rgb, 3, 3, colour);
     add_channels(channels, picture->constants, 2, 1, samples);
     if (picture->stderr_rgb) {
@@ -89,16 +85,16 @@ static void list_channels(const ec_picture *picture, channel_list *channels)
         add_channels(channels, picture->constants + 1, 2, 1, alpha);
         return;
     }
-    add_channels(channels, aov + AOV_ALPHA, AOV_STRIDE, 1, alpha);
-    add_channels(channels, aov + AOV_ALBEDO, AOV_STRIDE, 3, albedo);
-    add_channels(channels, aov + AOV_NORMAL, AOV_STRIDE, 3, normal);
-    add_channels(channels, aov + AOV_DEPTH, AOV_STRIDE, 1, depth);
+    add_channels(channels, aov + AOV_ALPHA, EC_FILM_FEATURES, 1, alpha);
+    add_channels(channels, aov + AOV_ALBEDO, EC_FILM_FEATURES, 3, albedo);
+    add_channels(channels, aov + AOV_NORMAL, EC_FILM_FEATURES, 3, normal);
+    add_channels(channels, aov + AOV_DEPTH, EC_FILM_FEATURES, 1, depth);
 }
 
 ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
 {
-    channel_list channels = {.count = 0};
-    list_channels(picture, &channels);
+    ec_channel_list channels;
+    ec_picture_channels(picture, &channels);
     const ec_exr_part part = {.channels = channels.list, .channel_count = channels.count, .attributes = style->attributes,
                               .attribute_count = style->attribute_count};
     if (style->job) return ec_store_write(path, style->job, style->film, style->past, &part, err);
@@ -112,9 +108,15 @@ static ec_result write_png(const char *path, const ec_picture *picture, const ec
     uint8_t *bytes = malloc(pixel_count * 3);
     if (!bytes) return ec_fail(err, "out of memory for '%s'", path);
     ec_tonemap_rgb(picture->rgb, bytes, pixel_count, style->exposure, style->tonemap);
-    ec_result result = ec_png_write_text(path, picture->width, picture->height, bytes, EC_FRAME_ATTRIBUTE, style->frame_job, err);
+    ec_result result = ec_png_write(path, picture->width, picture->height, bytes, err);
     free(bytes);
     return result;
+}
+
+void ec_output_settle(ec_output *output)
+{
+    char absolute[PATH_MAX];
+    if (realpath(output->path, absolute)) snprintf(output->path, sizeof output->path, "%s", absolute);
 }
 
 ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
@@ -129,8 +131,7 @@ ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const
             result = written;
             continue;
         }
-        char absolute[PATH_MAX];
-        if (realpath(output->path, absolute)) snprintf(output->path, sizeof output->path, "%s", absolute);
+        ec_output_settle(output);
     }
     return result;
 }

@@ -7,7 +7,7 @@
 #include "image/image.h"
 #include "store/store.h"
 
-/* Float planes of a film, ready to be written and hashed. */
+/* Float planes of a film or of some of its rows, ready to be written and hashed. 64 bytes a pixel, 20 where no error is known. */
 typedef struct ec_picture {
     uint32_t width, height;
     float *rgb;        /* 3 per pixel, owned */
@@ -23,6 +23,19 @@ typedef struct ec_picture {
 
 /* with_error false: what is known of the error stays NULL in any case. */
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
+
+/* The same of some rows at a time: room for as many, then row `first` and those below it, of a film that is shown. */
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, ec_error *err);
+void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
+
+/* What of it goes into an EXR. No error and no first hit: no such channels. */
+enum { EC_CHANNELS_MAX = 26 };
+typedef struct ec_channel_list {
+    ec_channel list[EC_CHANNELS_MAX];
+    uint32_t count;
+} ec_channel_list;
+void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels);
+
 void ec_picture_free(ec_picture *picture); /* zero-initialised ones are fine */
 
 typedef struct ec_picture_style {
@@ -30,7 +43,7 @@ typedef struct ec_picture_style {
     ec_tonemap tonemap;
     const ec_attribute *attributes; /* EXR only */
     uint32_t attribute_count;
-    const char *frame_job; /* PNG: kept in it as a text; NULL: none */
+    ec_png_text text; /* PNG: kept in it by ec_row_writer */
     /* EXR only: with sums, to go on from or to merge; all NULL: a picture alone */
     const ec_job *job;
     const ec_film *film;
@@ -39,6 +52,9 @@ typedef struct ec_picture_style {
 
 /* One EXR, as ec_outputs_write does it. */
 ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err);
+
+/* Once it is written: its absolute path. */
+void ec_output_settle(ec_output *output);
 
 /* Writes every output and makes its path absolute. One that fails does not keep the others from being written. */
 ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const ec_picture_style *style, ec_error *err);

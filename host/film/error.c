@@ -29,14 +29,6 @@
 #include "film/film.h"
 #include "film/statistics.h"
 
-/* Sums over pixels of luminance and of s^2 / n, the variances of their means. */
-typedef struct variance_sums {
-    double luminance, s2, s4;
-    double ratio;    /* of s^4 n / (n - 1) */
-    double relative; /* of SE^2 / (x + 0.01)^2, all channels */
-    double v4, v8;  /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
-} variance_sums;
-
 /* An estimate of v^2 without bias for any distribution: with k-statistics (Fisher 1930; Kendall & Stuart ch. 12)
  * E[k2^2] = v^2 (n+1)/(n-1) + kappa4/n and E[k4] = kappa4. */
 static double squared_variance(double n, double m2, double m4)
@@ -47,7 +39,7 @@ static double squared_variance(double n, double m2, double m4)
     return isfinite(value) ? value : k2 * k2; /* m4 left the range of float (deviations beyond 1e9): the wider choice */
 }
 
-static void add_pixel(const ec_moments *m, uint64_t p, double n, variance_sums *sums)
+static void add_pixel(const ec_moments *m, uint64_t p, double n, ec_error_sums *sums)
 {
     double m2 = m->m2[4 * p + 3], s2 = m2 / (n * (n - 1)), s4 = s2 * s2;
     double v2 = n >= 4 ? squared_variance(n, m2, m->m34[2 * p + 1]) / (n * n) : s4;
@@ -63,22 +55,20 @@ static void add_pixel(const ec_moments *m, uint64_t p, double n, variance_sums *
     }
 }
 
-static variance_sums sum_up(const ec_film *film)
+void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
-    variance_sums sums = {0};
     ec_film_glass glass;
     for (uint64_t first = 0; first < pixels; first += EC_FILM_GLASS) {
         uint64_t count = pixels - first < EC_FILM_GLASS ? pixels - first : EC_FILM_GLASS;
         const ec_moments m = ec_film_look(film, first, count, &glass);
-        for (uint64_t p = 0; p < count; p++) add_pixel(&m, p, ec_film_batches(film, first + p), &sums);
+        for (uint64_t p = 0; p < count; p++) add_pixel(&m, p, ec_film_batches(film, first + p), sums);
     }
-    return sums;
 }
 
 /* nu. G is taken one standard error high, since it comes out low just when a noisy pixel's variance does, and then both
  * would make the bound too small; with many pixels that margin vanishes. */
-static double effective_pixels(const variance_sums *sums, double n, double pixels)
+static double effective_pixels(const ec_error_sums *sums, double n, double pixels)
 {
     double v4 = sums->v4, v8 = sums->v8;
     if (n < 4) { /* normal pixels: moments of chi-square with n-1 degrees of freedom */
@@ -99,25 +89,31 @@ double ec_film_error_bound(double square, double noisy_pixels, double pixels, do
     return sqrt(square * (1 + hypot(from_pixels, from_mean)));
 }
 
-ec_film_error ec_film_estimate_error(const ec_film *film)
+ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t batches, bool varied)
 {
     ec_film_error result = {.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
-    double n = film->batch_count, pixels = (double)film->width * film->height;
+    double n = batches;
     if (n < 1) return result;
-    variance_sums sums = sum_up(film);
-    double mean = result.mean_luminance = sums.luminance / pixels;
-    if (n >= 2) result.relmse = sums.relative / (3 * pixels);
+    double mean = result.mean_luminance = sums->luminance / pixels;
+    if (n >= 2) result.relmse = sums->relative / (3 * pixels);
     if (n < 2 || !(mean > 0)) return result;
-    double square = sums.s2 / pixels / (mean * mean);
+    double square = sums->s2 / pixels / (mean * mean);
     result.error = sqrt(square);
     result.error_bound = 0;
     if (square == 0) return result;
-    if (film->counts) n = sums.ratio / (sums.ratio - sums.s4);
+    if (varied) n = sums->ratio / (sums->ratio - sums->s4);
 
-    double nu = result.noisy_pixels = effective_pixels(&sums, n, pixels);
+    double nu = result.noisy_pixels = effective_pixels(sums, n, pixels);
     /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */
-    double variance = n >= 4 ? fmax(sums.s4 - sums.v4, 0) : sums.s4 * 2 / (n + 1);
-    result.spread = sqrt(variance) / sums.s2;
+    double variance = n >= 4 ? fmax(sums->s4 - sums->v4, 0) : sums->s4 * 2 / (n + 1);
+    result.spread = sqrt(variance) / sums->s2;
     result.error_bound = ec_film_error_bound(square, nu, pixels, n);
     return result;
+}
+
+ec_film_error ec_film_estimate_error(const ec_film *film)
+{
+    ec_error_sums sums = {0};
+    if (film->batch_count) ec_film_sum_errors(film, &sums);
+    return ec_film_error_of(&sums, (double)film->width * film->height, film->batch_count, film->counts != NULL);
 }

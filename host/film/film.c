@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_t samples_per_batch, ec_error *err)
 {
@@ -76,4 +77,30 @@ void ec_film_resolve_luminance_error(const ec_film *film, float *stderr_y)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
     for (uint64_t p = 0; p < pixels; p++) stderr_y[p] = (float)sqrt(film->m2[4 * p + 3] * to_variance_of_mean(film, p));
+}
+
+ec_film ec_film_rows(const ec_film *film, uint32_t first, uint32_t rows)
+{
+    const uint64_t before = (uint64_t)first * film->width;
+    const ec_moments all = {film->mean, film->m2, film->m34, film->largest}, here = ec_moments_from(&all, before);
+    return (ec_film){.width = film->width,
+                     .height = rows,
+                     .batch_count = film->batch_count,
+                     .samples_per_batch = film->samples_per_batch,
+                     .counts = film->counts ? film->counts + before : NULL,
+                     .mean = here.mean,
+                     .m2 = here.m2,
+                     .m34 = here.m34,
+                     .largest = here.largest,
+                     .aov = film->aov ? film->aov + EC_FILM_FEATURES * before : NULL,
+                     .unsampled = film->unsampled ? film->unsampled + before : NULL};
+}
+
+void ec_film_copy_rows(ec_film *film, uint32_t to, const ec_film *from, uint32_t first, uint32_t rows)
+{
+    const ec_film there = ec_film_rows(from, first, rows), here = ec_film_rows(film, to, rows);
+    const uint64_t pixels = (uint64_t)rows * film->width;
+    ec_moments_copy(&(ec_moments){here.mean, here.m2, here.m34, here.largest}, &(ec_moments){there.mean, there.m2, there.m34, there.largest}, pixels);
+    if (here.aov && there.aov) memcpy(here.aov, there.aov, pixels * EC_FILM_FEATURES * sizeof *here.aov);
+    film->batch_count = from->batch_count;
 }

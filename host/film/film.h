@@ -21,6 +21,8 @@ static inline double ec_luminance(const double rgb[3])
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
+enum { EC_FILM_FEATURES = 8 };
+
 typedef struct ec_film {
     uint32_t width, height;
     uint32_t batch_count;         /* B: batches that every pixel has */
@@ -33,7 +35,7 @@ typedef struct ec_film {
     uint64_t invalid_count;       /* values that were NaN or infinite and counted as 0 */
     /* First-hit features, from the first batch; may be NULL. albedo 3, normal 3, depth 1, alpha 1 per pixel.
      * ec_film_create leaves it NULL; whoever sets it mallocs it, ec_film_destroy frees it. */
-    float *aov;                   /* 8 per pixel */
+    float *aov;                   /* EC_FILM_FEATURES per pixel */
     /* Set only where the render was stopped within its first batch: 1 for pixels that have no sample. malloc'ed. */
     uint8_t *unsampled;
     /* What mean, m2, m34 and largest are joined from, by `first`, no two with batches in common. None where pixels have counts. Owned;
@@ -73,6 +75,13 @@ ec_moments ec_film_look(const ec_film *film, uint64_t first, uint64_t pixels, ec
 
 void ec_film_part_free(ec_film_part *part);
 
+/* Some rows of what is shown as a film of their own, whose memory is that of the whole: not to be added to, nor destroyed. */
+ec_film ec_film_rows(const ec_film *film, uint32_t first, uint32_t rows);
+
+/* Rows [first, first + rows) of a film that is shown over those from `to` on of one made by ec_film_create, as wide; first-hit features too
+ * where both have them. Counts and marks are left out. */
+void ec_film_copy_rows(ec_film *film, uint32_t to, const ec_film *from, uint32_t first, uint32_t rows);
+
 /* What is shown stays; it can no longer be joined with other batches' sums. */
 void ec_film_drop_parts(ec_film *film);
 
@@ -107,6 +116,19 @@ typedef struct ec_film_error {
     double relmse;
 } ec_film_error;
 ec_film_error ec_film_estimate_error(const ec_film *film);
+
+/* What an image's error is made of: sums over its pixels in row order, so that films which follow one another downwards, taken one after
+ * the other, come to the bits of the whole. Begin with zeros. */
+typedef struct ec_error_sums {
+    double luminance, s2, s4; /* s2: s^2 / n, the variance of a pixel's mean */
+    double ratio;             /* of s^4 n / (n - 1) */
+    double relative;          /* of SE^2 / (x + 0.01)^2, all channels */
+    double v4, v8;            /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
+} ec_error_sums;
+void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums);
+
+/* The same of so many pixels that have `batches` batches each; varied: they have counts of their own, and at least these. */
+ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t batches, bool varied);
 
 /* The bound of an error whose square is `square`, after so many batches. */
 double ec_film_error_bound(double square, double noisy_pixels, double pixels, double batches);

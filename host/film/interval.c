@@ -33,7 +33,7 @@ static double skewness_around(const ec_film *film, uint32_t x, uint32_t y)
 {
     if (film->batch_count < 3) return 0;
     moments sum = {0};
-    ec_neighbourhood around = ec_neighbourhood_of(x, y, 2, film->width, film->height);
+    ec_neighbourhood around = ec_neighbourhood_of(x, y, EC_INTERVAL_REACH, film->width, film->height);
     for (uint32_t j = around.y0; j < around.y1; j++)
         for (uint32_t i = around.x0; i < around.x1; i++) {
             uint64_t q = (uint64_t)j * film->width + i;
@@ -68,19 +68,19 @@ static double inverse_hall(double y, double gamma)
     return (cbrt(1 + gamma * (y - gamma / 6)) - 1) * 3 / gamma;
 }
 
+/* low and high: of the pixel; either may be NULL */
 static void write_interval(const ec_film *film, uint64_t p, double most, double least, float *low, float *high)
 {
     double n = ec_film_batches(film, p);
     for (int c = 0; c < 3; c++) {
         double mean = film->mean[3 * p + c], se = sqrt(film->m2[4 * p + c] / (n * (n - 1)));
-        if (low) low[3 * p + c] = (float)fmax(mean - most * se, 0); /* radiance is never negative */
-        if (high) high[3 * p + c] = (float)fmin(mean - least * se, FLT_MAX); /* files hold no infinity */
+        if (low) low[c] = (float)fmax(mean - most * se, 0); /* radiance is never negative */
+        if (high) high[c] = (float)fmin(mean - least * se, FLT_MAX); /* files hold no infinity */
     }
 }
 
-static uint64_t know_nothing(const ec_film *film, float *low, float *high, float *heavy)
+static uint64_t know_nothing(uint64_t pixels, float *low, float *high, float *heavy)
 {
-    uint64_t pixels = (uint64_t)film->width * film->height;
     for (uint64_t i = 0; i < 3 * pixels; i++) {
         if (low) low[i] = 0;
         if (high) high[i] = INFINITY;
@@ -89,22 +89,28 @@ static uint64_t know_nothing(const ec_film *film, float *low, float *high, float
     return pixels;
 }
 
-uint64_t ec_film_intervals(const ec_film *film, float *low, float *high, float *heavy)
+uint64_t ec_film_interval_rows(const ec_film *film, uint32_t first, uint32_t rows, float *low, float *high, float *heavy)
 {
-    if (film->batch_count < 2) return know_nothing(film, low, high, heavy);
+    if (film->batch_count < 2) return know_nothing((uint64_t)rows * film->width, low, high, heavy);
     uint32_t n = 0;
     double t = 0;
-    uint64_t count = 0;
-    for (uint32_t y = 0; y < film->height; y++)
-        for (uint32_t x = 0; x < film->width; x++) {
+    uint64_t count = 0, i = 0;
+    for (uint32_t y = first; y < first + rows; y++)
+        for (uint32_t x = 0; x < film->width; x++, i++) {
             uint64_t p = (uint64_t)y * film->width + x;
             if (n != ec_film_batches(film, p)) t = ec_student_t_quantile(0.975, (n = ec_film_batches(film, p)) - 1.0);
             double gamma = skewness_around(film, x, y);
             int is_heavy = !(fabs(gamma) <= gamma_most) || is_dominated(film, x, y); /* NaN: moments left the range of float */
             gamma = gamma <= gamma_most ? fmax(gamma, -gamma_most) : gamma_most;
             count += (uint64_t)is_heavy;
-            if (heavy) heavy[p] = (float)is_heavy;
-            if (low || high) write_interval(film, p, inverse_hall(t, gamma), inverse_hall(-t, gamma), low, high);
+            if (heavy) heavy[i] = (float)is_heavy;
+            if (low || high)
+                write_interval(film, p, inverse_hall(t, gamma), inverse_hall(-t, gamma), low ? low + 3 * i : NULL, high ? high + 3 * i : NULL);
         }
     return count;
+}
+
+uint64_t ec_film_intervals(const ec_film *film, float *low, float *high, float *heavy)
+{
+    return ec_film_interval_rows(film, 0, film->height, low, high, heavy);
 }

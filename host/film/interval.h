@@ -10,4 +10,8 @@
  * of heavy pixels. With fewer than two batches nothing is known: 0, infinity, and every pixel heavy. */
 uint64_t ec_film_intervals(const ec_film *film, float *low, float *high, float *heavy);
 
+/* The same of rows [first, first + rows) alone, whose first value comes first. They look at EC_INTERVAL_REACH rows above and below. */
+enum { EC_INTERVAL_REACH = 2 };
+uint64_t ec_film_interval_rows(const ec_film *film, uint32_t first, uint32_t rows, float *low, float *high, float *heavy);
+
 #endif

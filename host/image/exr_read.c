@@ -3,6 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/memory.h"
 #include "image/exr_context.h"
 #include "image/exr_read_rgba.h"
 #include "image/image.h"
@@ -64,6 +65,10 @@ static ec_result read_size(exr_source *source, ec_exr *exr, ec_error *err)
 static ec_result allocate_planes(const exr_source *source, const exr_attr_chlist_t *list, ec_exr *exr, ec_error *err)
 {
     uint64_t pixels = (uint64_t)exr->width * exr->height, count = (uint64_t)list->num_channels;
+    const uint64_t free_now = ec_memory_free(); /* it would be promised, and the process killed as it is used */
+    if (pixels * 4 * count > free_now)
+        return ec_fail(err, "cannot read '%s': %u x %u pixels with %llu channels take %.1f GB of memory, and %.1f are free; crop it, or save the channels that are "
+                            "wanted", source->path, exr->width, exr->height, (unsigned long long)count, (double)(pixels * 4 * count) / 1e9, (double)free_now / 1e9);
     exr->names = calloc(count, sizeof *exr->names);
     exr->planes = calloc(count, sizeof *exr->planes);
     int enough = exr->names && exr->planes && pixels * count <= value_max;

@@ -1,6 +1,7 @@
-/* OpenEXR out: scan lines, ZIP (16 lines a block) or plain, 32-bit values; one part, or several and a seal. */
+/* OpenEXR out: scan lines, ZIP (16 lines a block) or plain, 32-bit values; one part, or several and a seal; rows as they come. */
 #include <errno.h>
 #include <openexr.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -8,19 +9,32 @@
 #include "image/image.h"
 #include "image/seal.h"
 
-enum { SHORT_NAME_MAX = 31 }; /* longer names need a flag in the file header */
+enum {
+    SHORT_NAME_MAX = 31, /* longer names need a flag in the file header */
+    ROOM_MAX = 4096
+};
 
-typedef struct exr_picture {
-    const char *path;
+/* A file on its way. The parts are the caller's; of what they point to no more is needed after the header than channels' names. */
+struct ec_exr_rows {
+    ec_atomic_file file;
+    char *path;              /* owned */
     uint32_t width, height;
     const ec_exr_part *parts;
     uint32_t part_count;
-} exr_picture;
+    uint32_t room;           /* blanks in the header */
+    exr_context_t context;
+    uint64_t header_size;
+    exr_encode_pipeline_t block;
+    int part;                /* that is being written, from row y on */
+    uint32_t y;
+    int write_error;         /* errno of the first failed write */
+};
 
-typedef struct exr_target {
-    int fd;
-    int write_error; /* errno of the first failed write */
-} exr_target;
+/* Where a header goes that is made once more: from it comes what takes the place of the first. */
+typedef struct header_bytes {
+    uint8_t *bytes;
+    uint64_t size, most;
+} header_bytes;
 
 /* The library calls both of these with its lock held: nothing of it that takes the lock may be called from here, error reports among
  * it, or a full disk would hang the program. */
@@ -32,11 +46,11 @@ static void ignore_message(exr_const_context_t context, exr_result_t code, const
 static int64_t write_all(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
                          exr_stream_error_func_ptr_t report)
 {
-    exr_target *stream = user;
+    ec_exr_rows *stream = user;
     uint64_t done = 0;
     (void)context, (void)report;
     while (done < size) {
-        ssize_t written = pwrite(stream->fd, (const char *)buffer + done, size - done, (off_t)(offset + done));
+        ssize_t written = pwrite(stream->file.fd, (const char *)buffer + done, size - done, (off_t)(offset + done));
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) {
             if (!stream->write_error) stream->write_error = written < 0 ? errno : ENOSPC;
@@ -44,6 +58,17 @@ static int64_t write_all(exr_const_context_t context, void *user, const void *bu
         }
         done += (uint64_t)written;
     }
+    return (int64_t)size;
+}
+
+static int64_t write_to_memory(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
+                               exr_stream_error_func_ptr_t report)
+{
+    header_bytes *header = user;
+    (void)context, (void)report;
+    if (offset > header->most || size > header->most - offset) return -1;
+    memcpy(header->bytes + offset, buffer, size);
+    if (header->size < offset + size) header->size = offset + size;
     return (int64_t)size;
 }
 
@@ -58,10 +83,10 @@ static exr_result_t set_attribute(exr_context_t context, int part, const ec_attr
     return EXR_ERR_INVALID_ARGUMENT;
 }
 
-static int has_long_name(const exr_picture *picture)
+static int has_long_name(const ec_exr_part *parts, uint32_t part_count)
 {
-    for (uint32_t k = 0; k < picture->part_count; k++) {
-        const ec_exr_part *part = &picture->parts[k];
+    for (uint32_t k = 0; k < part_count; k++) {
+        const ec_exr_part *part = &parts[k];
         for (uint32_t i = 0; i < part->channel_count; i++)
             if (strlen(part->channels[i].name) > SHORT_NAME_MAX) return 1;
         for (uint32_t i = 0; i < part->attribute_count; i++)
@@ -70,12 +95,12 @@ static int has_long_name(const exr_picture *picture)
     return 0;
 }
 
-static exr_result_t add_part(exr_context_t context, const exr_picture *picture, const ec_exr_part *part)
+static exr_result_t add_part(exr_context_t context, const ec_exr_rows *rows, const ec_exr_part *part)
 {
     int index = 0;
     exr_result_t code = exr_add_part(context, part->name, EXR_STORAGE_SCANLINE, &index);
     if (code == EXR_ERR_SUCCESS)
-        code = exr_initialize_required_attr_simple(context, index, (int32_t)picture->width, (int32_t)picture->height,
+        code = exr_initialize_required_attr_simple(context, index, (int32_t)rows->width, (int32_t)rows->height,
                                                    part->is_plain ? EXR_COMPRESSION_NONE : EXR_COMPRESSION_ZIP);
     for (uint32_t i = 0; code == EXR_ERR_SUCCESS && i < part->channel_count; i++)
         code = exr_add_channel(context, index, part->channels[i].name, part->channels[i].is_words ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT,
@@ -85,11 +110,25 @@ static exr_result_t add_part(exr_context_t context, const exr_picture *picture, 
     return code;
 }
 
-static exr_result_t write_header(exr_context_t context, const exr_picture *picture)
+/* blanks: of an attribute that keeps the header's size; 0: there is none */
+static exr_result_t write_header(exr_context_t context, const ec_exr_rows *rows, const ec_exr_part *parts, uint32_t blanks)
 {
-    exr_result_t code = has_long_name(picture) ? exr_set_longname_support(context, 1) : EXR_ERR_SUCCESS;
-    for (uint32_t k = 0; code == EXR_ERR_SUCCESS && k < picture->part_count; k++) code = add_part(context, picture, &picture->parts[k]);
+    char text[ROOM_MAX + 1];
+    exr_result_t code = has_long_name(parts, rows->part_count) ? exr_set_longname_support(context, 1) : EXR_ERR_SUCCESS;
+    for (uint32_t k = 0; code == EXR_ERR_SUCCESS && k < rows->part_count; k++) code = add_part(context, rows, &parts[k]);
+    memset(text, ' ', blanks);
+    text[blanks] = 0;
+    if (code == EXR_ERR_SUCCESS && blanks) code = exr_attr_set_string(context, 0, "eclat.room", text);
     return code == EXR_ERR_SUCCESS ? exr_write_header(context) : code;
+}
+
+static exr_context_initializer_t setup_of(void *user, exr_write_func_ptr_t write)
+{
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.error_handler_fn = ignore_message;
+    setup.user_data = user;
+    setup.write_fn = write;
+    return setup;
 }
 
 /* Points every channel of the block (the library's order: sorted by name) at the caller's pixels, row y on. */
@@ -110,26 +149,27 @@ static void point_at_row(exr_encode_pipeline_t *block, const ec_exr_part *part, 
     }
 }
 
-static exr_result_t write_part(exr_context_t context, const exr_picture *picture, int part)
+/* A chunk, whose first row is the first of the channels'. */
+static exr_result_t write_chunk(ec_exr_rows *rows, const ec_exr_part *part, uint32_t row)
 {
-    int32_t block_height = 1;
-    exr_result_t code = exr_get_scanlines_per_chunk(context, part, &block_height);
-    exr_encode_pipeline_t block = EXR_ENCODE_PIPELINE_INITIALIZER;
-    for (uint32_t y = 0; code == EXR_ERR_SUCCESS && y < picture->height; y += (uint32_t)block_height) {
-        exr_chunk_info_t info;
-        code = exr_write_scanline_chunk_info(context, part, (int)y, &info);
-        if (code == EXR_ERR_SUCCESS)
-            code = y == 0 ? exr_encoding_initialize(context, part, &info, &block)
-                          : exr_encoding_update(context, part, &info, &block);
-        if (code == EXR_ERR_SUCCESS) point_at_row(&block, &picture->parts[part], picture->width, y);
-        if (code == EXR_ERR_SUCCESS && y == 0) code = exr_encoding_choose_default_routines(context, part, &block);
-        if (code == EXR_ERR_SUCCESS) code = exr_encoding_run(context, part, &block);
-    }
-    exr_encoding_destroy(context, &block);
-    return code;
+    exr_chunk_info_t info;
+    bool is_first = rows->y == 0;
+    exr_result_t code = exr_write_scanline_chunk_info(rows->context, rows->part, (int)rows->y, &info);
+    if (code == EXR_ERR_SUCCESS)
+        code = is_first ? exr_encoding_initialize(rows->context, rows->part, &info, &rows->block)
+                        : exr_encoding_update(rows->context, rows->part, &info, &rows->block);
+    if (code == EXR_ERR_SUCCESS) point_at_row(&rows->block, part, rows->width, row);
+    if (code == EXR_ERR_SUCCESS && is_first) code = exr_encoding_choose_default_routines(rows->context, rows->part, &rows->block);
+    return code == EXR_ERR_SUCCESS ? exr_encoding_run(rows->context, rows->part, &rows->block) : code;
 }
 
-static ec_result check(const exr_picture *picture, const ec_exr_part *part, ec_error *err)
+static ec_result failed(const ec_exr_rows *rows, exr_result_t code, ec_error *err)
+{
+    if (rows->write_error) return ec_write_failed(err, rows->path, rows->write_error);
+    return ec_fail(err, "cannot write '%s': %s", rows->path, exr_get_default_error_message(code));
+}
+
+static ec_result check(const ec_exr_rows *picture, const ec_exr_part *part, ec_error *err)
 {
     if (picture->width == 0 || picture->height == 0 || part->channel_count == 0)
         return ec_fail(err, "cannot write '%s': an image of %u x %u pixels and %u channels is empty", picture->path,
@@ -146,6 +186,109 @@ static ec_result check(const exr_picture *picture, const ec_exr_part *part, ec_e
     return EC_OK;
 }
 
+static ec_result begin(ec_exr_rows *rows, ec_error *err)
+{
+    for (uint32_t k = 0; k < rows->part_count; k++) EC_TRY(check(rows, &rows->parts[k], err));
+    EC_TRY(ec_atomic_open(&rows->file, rows->path, err));
+    const exr_context_initializer_t setup = setup_of(rows, write_all);
+    exr_result_t code = exr_start_write(&rows->context, rows->path, EXR_WRITE_FILE_DIRECTLY, &setup);
+    if (code == EXR_ERR_SUCCESS) code = write_header(rows->context, rows, rows->parts, rows->room);
+    off_t size = lseek(rows->file.fd, 0, SEEK_END);
+    rows->header_size = size > 0 ? (uint64_t)size : 0;
+    return code == EXR_ERR_SUCCESS ? EC_OK : failed(rows, code, err);
+}
+
+ec_result ec_exr_rows_begin(ec_exr_rows **made, const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts,
+                            uint32_t part_count, uint32_t room, ec_error *err)
+{
+    ec_exr_rows *rows = calloc(1, sizeof *rows);
+    *made = NULL;
+    if (!rows || !(rows->path = strdup(path))) {
+        free(rows);
+        return ec_fail(err, "out of memory for '%s'", path);
+    }
+    rows->file.fd = -1;
+    rows->block = (exr_encode_pipeline_t)EXR_ENCODE_PIPELINE_INITIALIZER;
+    rows->width = width;
+    rows->height = height;
+    rows->parts = parts;
+    rows->part_count = part_count;
+    rows->room = room < ROOM_MAX ? room : ROOM_MAX;
+    if (begin(rows, err) != EC_OK) {
+        ec_exr_rows_abort(rows);
+        return EC_FAILED;
+    }
+    *made = rows;
+    return EC_OK;
+}
+
+ec_result ec_exr_rows_put(ec_exr_rows *rows, const ec_exr_part *part, uint32_t count, ec_error *err)
+{
+    int32_t block_height = 1;
+    exr_result_t code = exr_get_scanlines_per_chunk(rows->context, rows->part, &block_height);
+    for (uint32_t row = 0; code == EXR_ERR_SUCCESS && row < count; row += (uint32_t)block_height, rows->y += (uint32_t)block_height)
+        code = write_chunk(rows, part, row);
+    if (code != EXR_ERR_SUCCESS) return failed(rows, code, err);
+    if (rows->y < rows->height) return EC_OK;
+    exr_encoding_destroy(rows->context, &rows->block);
+    rows->block = (exr_encode_pipeline_t)EXR_ENCODE_PIPELINE_INITIALIZER;
+    rows->part++;
+    rows->y = 0;
+    return EC_OK;
+}
+
+/* The header once more, over the first one: what it says was not known then. Blanks make up for what has become longer or shorter. */
+static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, ec_error *err)
+{
+    header_bytes header = {.most = rows->header_size + ROOM_MAX};
+    header.bytes = malloc(header.most);
+    if (!header.bytes) return ec_fail(err, "out of memory for '%s'", rows->path);
+    exr_result_t code = EXR_ERR_SUCCESS;
+    for (uint32_t attempt = 0, blanks = rows->room; code == EXR_ERR_SUCCESS && header.size != rows->header_size && attempt < 2; attempt++) {
+        const exr_context_initializer_t setup = setup_of(&header, write_to_memory);
+        exr_context_t context = NULL;
+        header.size = 0;
+        code = exr_start_write(&context, rows->path, EXR_WRITE_FILE_DIRECTLY, &setup);
+        if (code == EXR_ERR_SUCCESS) code = write_header(context, rows, part, blanks);
+        uint64_t size = header.size;
+        if (context) exr_finish(&context); /* of a file without pixels; what it writes goes behind the header, or nowhere */
+        header.size = size;
+        blanks = blanks + (uint32_t)rows->header_size - (uint32_t)size;
+        if (!rows->room || blanks == 0 || blanks > ROOM_MAX) break;
+    }
+    bool fits = code == EXR_ERR_SUCCESS && header.size == rows->header_size;
+    if (fits && write_all(NULL, rows, header.bytes, header.size, 0, NULL) < 0) code = EXR_ERR_WRITE_IO;
+    free(header.bytes);
+    if (code != EXR_ERR_SUCCESS) return failed(rows, code, err);
+    return fits ? EC_OK : ec_fail(err, "cannot write '%s': what is told of the picture does not fit its header", rows->path);
+}
+
+ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err)
+{
+    exr_result_t code = exr_finish(&rows->context); /* writes the table of blocks */
+    ec_result result = code == EXR_ERR_SUCCESS ? EC_OK : failed(rows, code, err);
+    if (result == EC_OK && attributes) {
+        ec_exr_part part = rows->parts[0];
+        part.attributes = attributes;
+        part.attribute_count = attribute_count;
+        result = write_header_again(rows, &part, err);
+    }
+    if (result == EC_OK && rows->part_count > 1 && (rows->write_error = ec_seal(rows->file.fd)) != 0) result = failed(rows, code, err);
+    if (result == EC_OK) result = ec_atomic_commit(&rows->file, err);
+    ec_exr_rows_abort(rows);
+    return result;
+}
+
+void ec_exr_rows_abort(ec_exr_rows *rows)
+{
+    if (!rows) return;
+    if (rows->context) exr_encoding_destroy(rows->context, &rows->block);
+    if (rows->context) exr_finish(&rows->context);
+    ec_atomic_abort(&rows->file);
+    free(rows->path);
+    free(rows);
+}
+
 ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const ec_channel *channels,
                        uint32_t channel_count, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err)
 {
@@ -155,25 +298,12 @@ ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const 
 
 ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts, uint32_t part_count, ec_error *err)
 {
-    const exr_picture picture = {path, width, height, parts, part_count};
-    for (uint32_t k = 0; k < part_count; k++) EC_TRY(check(&picture, &parts[k], err));
-    ec_atomic_file file;
-    EC_TRY(ec_atomic_open(&file, path, err));
-
-    exr_target stream = {.fd = file.fd};
-    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    setup.error_handler_fn = ignore_message;
-    setup.user_data = &stream;
-    setup.write_fn = write_all;
-    exr_context_t context = NULL;
-    exr_result_t code = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &setup);
-    if (code == EXR_ERR_SUCCESS) code = write_header(context, &picture);
-    for (uint32_t k = 0; code == EXR_ERR_SUCCESS && k < part_count; k++) code = write_part(context, &picture, (int)k);
-    exr_result_t finish_code = context ? exr_finish(&context) : EXR_ERR_SUCCESS; /* writes the table of blocks */
-    if (code == EXR_ERR_SUCCESS) code = finish_code;
-
-    if (code == EXR_ERR_SUCCESS && (part_count == 1 || (stream.write_error = ec_seal(file.fd)) == 0)) return ec_atomic_commit(&file, err);
-    ec_atomic_abort(&file);
-    if (stream.write_error) return ec_write_failed(err, path, stream.write_error);
-    return ec_fail(err, "cannot write '%s': %s", path, exr_get_default_error_message(code));
+    ec_exr_rows *rows;
+    EC_TRY(ec_exr_rows_begin(&rows, path, width, height, parts, part_count, 0, err));
+    for (uint32_t k = 0; k < part_count; k++) {
+        if (ec_exr_rows_put(rows, &parts[k], height, err) == EC_OK) continue;
+        ec_exr_rows_abort(rows);
+        return EC_FAILED;
+    }
+    return ec_exr_rows_end(rows, NULL, 0, err);
 }

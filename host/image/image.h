@@ -39,6 +39,19 @@ typedef struct ec_exr_part {
 } ec_exr_part;
 ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts, uint32_t part_count, ec_error *err);
 
+/* The same of rows that come one after the other, from the top; `parts` stay as they are until the end. room: bytes by which the attributes
+ * of the end may be longer or shorter than those of the beginning, by blanks in an attribute eclat.room; 0: they are as long. */
+typedef struct ec_exr_rows ec_exr_rows;
+enum { EC_EXR_ROWS = 16 }; /* that are compressed together */
+ec_result ec_exr_rows_begin(ec_exr_rows **rows, const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts,
+                            uint32_t part_count, uint32_t room, ec_error *err);
+/* The next rows, a multiple of EC_EXR_ROWS or up to the last, of parts[0], after its last row of parts[1], and so on: `part` has the same
+ * channels, whose data begin with these rows. */
+ec_result ec_exr_rows_put(ec_exr_rows *rows, const ec_exr_part *part, uint32_t count, ec_error *err);
+/* The file gets its name; after a failure there is none. attributes: what the first part's have become; NULL: nothing else. Frees rows. */
+ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err);
+void ec_exr_rows_abort(ec_exr_rows *rows); /* leaves nothing; frees rows; NULL is fine */
+
 /* All channels of an EXR file's first part as float planes, half and uint converted. Tiled (first level) and scan-line,
  * every compression; of DWAA and DWAB files only R, G, B and A. Deep and subsampled images are refused. */
 typedef struct ec_exr {
@@ -62,12 +75,24 @@ double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1, on [0, 1] */
  * Non-finite values become 0. in: 3 floats a pixel; out: 3 bytes a pixel. */
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap);
 
-/* text: kept in the file under `keyword` (png_text.h); NULL: none. */
-ec_result ec_png_write_text(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, const char *keyword, const char *text,
-                            ec_error *err);
 ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, ec_error *err);
 
-/* The same in memory; *bytes is malloc'ed. */
+/* Kept in a file beside the picture; viewers leave it alone. UTF-8; keyword: up to 79 characters. */
+typedef struct ec_png_text {
+    const char *keyword, *text; /* NULL: none */
+} ec_png_text;
+
+/* The same of rows that come one after the other, from the top. text: NULL is none. */
+typedef struct ec_png_rows ec_png_rows;
+ec_result ec_png_rows_begin(ec_png_rows **rows, const char *path, uint32_t width, uint32_t height, const ec_png_text *text, ec_error *err);
+ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *rgb, uint32_t count, ec_error *err);
+ec_result ec_png_rows_end(ec_png_rows *rows, ec_error *err); /* the file gets its name; after a failure there is none. Frees rows */
+void ec_png_rows_abort(ec_png_rows *rows);                   /* leaves nothing; frees rows; NULL is fine */
+
+/* What a PNG keeps under that keyword, malloc'ed; NULL where there is none, or the file is not whole. */
+char *ec_png_whole_text(const char *path, const char *keyword);
+
+/* In memory; *bytes is malloc'ed. */
 ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t **bytes, size_t *size, ec_error *err);
 
 /* Before a long render: can this file be written here? Leaves nothing behind. */

@@ -1,10 +1,14 @@
-/* PNG out: 8-bit sRGB through libpng's simplified API, which also writes the sRGB chunk. */
+/* PNG out: 8-bit sRGB. In memory through libpng's simplified API, to files row by row; both write the sRGB chunk. */
+#include <errno.h>
 #include <png.h>
+#include <setjmp.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "image/atomic_file.h"
 #include "image/image.h"
-#include "image/png_text.h"
 
 ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t **bytes, size_t *size, ec_error *err)
 {
@@ -20,21 +24,128 @@ ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uin
     return ec_fail(err, "cannot make a PNG of %u x %u pixels: %s", width, height, *image.message ? image.message : "out of memory");
 }
 
-ec_result ec_png_write_text(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, const char *keyword, const char *text,
-                            ec_error *err)
+struct ec_png_rows {
+    ec_atomic_file file;
+    char *path;           /* owned */
+    png_structp png;
+    png_infop info;
+    uint32_t width;
+    int write_error;      /* errno of the write that failed */
+    char message[128];    /* the library's last complaint */
+};
+
+/* libpng leaves by longjmp. */
+static void complain(png_structp png, png_const_charp message)
 {
-    uint8_t *bytes;
-    size_t size;
-    if (width == 0 || height == 0)
-        return ec_fail(err, "cannot write '%s': an image of %u x %u pixels is empty", path, width, height);
-    EC_TRY(ec_png_encode(width, height, rgb, &bytes, &size, err));
-    ec_result result = text ? ec_png_add_text(&bytes, &size, keyword, text, err) : EC_OK;
-    if (result == EC_OK) result = ec_atomic_write(path, bytes, size, err);
-    free(bytes);
+    ec_png_rows *rows = png_get_error_ptr(png);
+    snprintf(rows->message, sizeof rows->message, "%s", message);
+    png_longjmp(png, 1);
+}
+
+static void warn(png_structp png, png_const_charp message)
+{
+    ec_png_rows *rows = png_get_error_ptr(png);
+    snprintf(rows->message, sizeof rows->message, "%s", message); /* of an error that follows it the cause */
+}
+
+static void write_all(png_structp png, png_bytep bytes, size_t size)
+{
+    ec_png_rows *rows = png_get_io_ptr(png);
+    for (size_t done = 0; done < size;) {
+        ssize_t put = write(rows->file.fd, bytes + done, size - done);
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) {
+            rows->write_error = put < 0 ? errno : ENOSPC;
+            png_error(png, "write");
+        }
+        done += (size_t)put;
+    }
+}
+
+static void flush(png_structp png) { (void)png; }
+
+static ec_result failed(const ec_png_rows *rows, ec_error *err)
+{
+    if (rows->write_error) return ec_write_failed(err, rows->path, rows->write_error);
+    return ec_fail(err, "cannot write '%s': %s", rows->path, *rows->message ? rows->message : "out of memory");
+}
+
+static void put_text(const ec_png_rows *rows, const ec_png_text *text)
+{
+    png_text one = {.compression = PNG_ITXT_COMPRESSION_NONE, .key = (png_charp)(uintptr_t)text->keyword, .text = (png_charp)(uintptr_t)text->text};
+    if (text->text) png_set_text(rows->png, rows->info, &one, 1);
+}
+
+static ec_result begin(ec_png_rows *rows, uint32_t height, const ec_png_text *text, ec_error *err)
+{
+    if (rows->width == 0 || height == 0)
+        return ec_fail(err, "cannot write '%s': an image of %u x %u pixels is empty", rows->path, rows->width, height);
+    EC_TRY(ec_atomic_open(&rows->file, rows->path, err));
+    rows->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, rows, complain, warn);
+    rows->info = rows->png ? png_create_info_struct(rows->png) : NULL;
+    if (!rows->info || setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
+    png_set_write_fn(rows->png, rows, write_all, flush);
+    png_set_IHDR(rows->png, rows->info, rows->width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(rows->png, rows->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (text) put_text(rows, text);
+    png_write_info(rows->png, rows->info);
+    return EC_OK;
+}
+
+ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, uint32_t width, uint32_t height, const ec_png_text *text, ec_error *err)
+{
+    ec_png_rows *rows = calloc(1, sizeof *rows);
+    *made = NULL;
+    if (!rows || !(rows->path = strdup(path))) {
+        free(rows);
+        return ec_fail(err, "out of memory for '%s'", path);
+    }
+    rows->file.fd = -1;
+    rows->width = width;
+    if (begin(rows, height, text, err) != EC_OK) {
+        ec_png_rows_abort(rows);
+        return EC_FAILED;
+    }
+    *made = rows;
+    return EC_OK;
+}
+
+ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *rgb, uint32_t count, ec_error *err)
+{
+    if (setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
+    for (uint32_t y = 0; y < count; y++) png_write_row(rows->png, rgb + (uint64_t)y * rows->width * 3);
+    return EC_OK;
+}
+
+static ec_result finish(ec_png_rows *rows, ec_error *err)
+{
+    if (setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
+    png_write_end(rows->png, rows->info);
+    return ec_atomic_commit(&rows->file, err);
+}
+
+ec_result ec_png_rows_end(ec_png_rows *rows, ec_error *err)
+{
+    ec_result result = finish(rows, err);
+    ec_png_rows_abort(rows);
     return result;
+}
+
+void ec_png_rows_abort(ec_png_rows *rows)
+{
+    if (!rows) return;
+    png_destroy_write_struct(&rows->png, &rows->info);
+    ec_atomic_abort(&rows->file);
+    free(rows->path);
+    free(rows);
 }
 
 ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, ec_error *err)
 {
-    return ec_png_write_text(path, width, height, rgb, NULL, NULL, err);
+    ec_png_rows *rows;
+    EC_TRY(ec_png_rows_begin(&rows, path, width, height, NULL, err));
+    if (ec_png_rows_put(rows, rgb, height, err) == EC_OK) return ec_png_rows_end(rows, err);
+    ec_png_rows_abort(rows);
+    return EC_FAILED;
 }

@@ -10,6 +10,7 @@ typedef struct ec_batch_source {
     uint64_t seed;
     float *mean;                      /* 3 a pixel: of the batch taken last. Owned */
     uint32_t invalid[EC_STAGE_COUNT]; /* samples dropped so far, by ec_stage */
+    uint32_t rows;                    /* that it renders: from params.film_row on */
     bool has_begun;
 } ec_batch_source;
 
@@ -29,6 +30,9 @@ typedef struct ec_batch_order {
 
 /* The cargo is spent. */
 ec_result ec_batch_source_open(ec_cl *cl, ec_cargo *cargo, uint64_t seed, ec_batch_source *source, ec_render_stats *stats, ec_error *err);
+
+/* Before the first batch: which rows of the picture the next ones are of, all of them or a strip (strips.h). A film begins with them. */
+ec_result ec_batch_source_turn_to(ec_batch_source *source, uint32_t first_row, uint32_t rows, ec_error *err);
 void ec_batch_source_close(ec_batch_source *source); /* zero-initialised is fine */
 
 /* *complete: false where go_on said no; pixels not reached then hold what was there before, in a first batch EC_NOT_REACHED. */

@@ -33,7 +33,7 @@ typedef struct ec_cargo_head {
 typedef struct ec_cargo_buffer {
     uint32_t arg;                    /* ec_arg; EC_ARG_ACCEL + k for the k-th of an accelerator's */
     uint32_t accel;                  /* which one's; EC_ACCEL_COUNT: it is no accelerator's */
-    char label[48];                  /* for messages */
+    char label[64];                  /* for messages */
     uint64_t bytes;                  /* of data … */
     uint64_t slack;                  /* … and so many more on the device, of any value */
     const void *data;

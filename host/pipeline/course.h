@@ -26,6 +26,12 @@ typedef struct ec_course {
      * could not: the render goes on, and tries again. NULL: never. */
     bool (*keep)(void *user, const ec_film *film, const ec_past *past);
     double every;
+    /* Where the picture does not fit into memory it is rendered in strips (strips.h): each that is complete, from the top, with its first row
+     * and what is known so far; samples are those of strips before it too. Its failure ends the render. The film is then made anew; in the
+     * end it is empty, unless there was one strip only, which is not told. NULL: pictures are rendered whole, because of what
+     * `whole_for` says, an option as on the command line. */
+    ec_result (*strip)(void *user, const ec_film *film, uint32_t first_row, const ec_render_stats *stats, ec_error *err);
+    const char *whole_for;
     void *user;
 } ec_course;
 

@@ -19,7 +19,9 @@ typedef struct ec_pipeline {
     ec_render_effects effects;
     uint32_t lanes, wave, triangle_count;
     uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
-    bool fast_math;
+    uint64_t wave_bytes;          /* of the wave's buffers, which drivers may not have given yet */
+    uint64_t film_pixels;         /* that the films have room for */
+    bool fast_math, wave_is_given;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
     cl_program programs[EC_LANES_MOST + 1]; /* by lane width */
@@ -82,6 +84,8 @@ uint32_t ec_upload_plan(const ec_scene *scene, const ec_pack *pack, ec_upload pl
 ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density);
 /* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. wave: paths in flight; 0 = what suits the device. */
 ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
+/* Room for films of so many pixels, which ec_pipeline_run_wave wants; what was in them is lost where they grow. */
+ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, ec_error *err);
 /* build.c */
 ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
 /* launch.c */

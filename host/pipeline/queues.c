@@ -83,12 +83,45 @@ static ec_result create_wave_that_fits(ec_pipeline *p, uint32_t wanted, ec_error
 ec_result ec_pipeline_create_queues(ec_pipeline *p, uint32_t wave, ec_error *err)
 {
     ec_cl *cl = p->cl;
-    const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    EC_TRY(create(p, "batch film", pixels * 12, &p->buffers[EC_ARG_BATCH_FILM], err));
-    EC_TRY(create(p, "feature film", pixels * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err));
     EC_TRY(ec_buffer_create(cl, "counters", sizeof(ec_counters), NULL, &p->buffers[EC_ARG_COUNTERS], err));
     EC_TRY(ec_buffer_create(cl, "invalid counts", EC_STAGE_COUNT * 4, NULL, &p->buffers[EC_ARG_INVALID], err));
     EC_TRY(ec_buffer_zero(cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * 4, err));
+    const uint64_t before = cl->allocated_bytes;
     EC_TRY(create_wave_that_fits(p, wave, err));
+    p->wave_bytes = cl->allocated_bytes - before;
+    p->wave_is_given = wave != 0;
     return ec_buffer_create(cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
+}
+
+static ec_result create_films(ec_pipeline *p, uint64_t pixels, ec_error *err)
+{
+    ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
+    ec_buffer_release(p->cl, &p->buffers[EC_ARG_FEATURE_FILM]);
+    EC_TRY(create(p, "batch film", pixels * 12, &p->buffers[EC_ARG_BATCH_FILM], err));
+    return create(p, "feature film", pixels * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err);
+}
+
+static ec_result halve_wave(ec_pipeline *p, ec_error *err)
+{
+    release_wave(p);
+    set_wave(p, p->wave / 2);
+    EC_TRY(create_wave(p, err));
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
+}
+
+/* Here too paths in flight make room. */
+ec_result ec_pipeline_fit_films(ec_pipeline *p, uint64_t pixels, ec_error *err)
+{
+    ec_error why = {0};
+    if (pixels <= p->film_pixels) return EC_OK;
+    p->film_pixels = 0;
+    for (uint32_t refused = 0; create_films(p, pixels, &why) != EC_OK;) {
+        bool is_last = p->wave_is_given || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
+        if (err) *err = why;
+        if (why.kind != EC_ERROR_DEVICE_MEMORY || is_last) return EC_FAILED;
+        refused = p->wave;
+        EC_TRY(halve_wave(p, err));
+    }
+    p->film_pixels = pixels;
+    return EC_OK;
 }

@@ -11,6 +11,7 @@
 #include "pipeline/batch_source.h"
 #include "pipeline/course.h"
 #include "pipeline/forecast.h"
+#include "pipeline/strips.h"
 
 typedef struct render_state {
     ec_batch_source source;
@@ -36,7 +37,13 @@ typedef struct render_state {
     double kept_at;
     uint32_t kept_next, kept_under_way;
     const char *stopped_by;
+    uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
+    uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
 } render_state;
+
+/* Of the film: the picture, or the strip under way. */
+static double film_pixels(const render_state *r) { return (double)r->film->width * r->film->height; }
+static double picture_pixels(const render_state *r) { return (double)r->options->width * r->options->height; }
 
 /* Largest divisor of the sample count that still leaves 16 batches: whole batches, and enough of them for an error. */
 static uint32_t batch_of_spp(uint32_t spp)
@@ -55,6 +62,8 @@ uint32_t ec_render_batch(const ec_render_options *o)
 static double fraction_done(const render_state *r, double batches, double seconds)
 {
     const ec_render_options *o = r->options;
+    if (r->strip_rows) /* spp alone ends them */
+        return fmin(((double)r->samples_before / r->source.pipeline.params.batch + batches * film_pixels(r)) / r->batches_wanted / picture_pixels(r), 1.0);
     if (isfinite(r->forecast.seconds) && r->forecast.seconds > 0.0) return fmin(seconds / r->forecast.seconds, 1.0);
     double f = 0.0;
     if (r->batches_wanted) f = fmax(f, batches / r->batches_wanted);
@@ -73,17 +82,17 @@ static bool report(render_state *r, double batches)
     r->last_report = now;
     if (!r->progress) return true;
     ec_pipeline *p = &r->source.pipeline;
-    double samples = batches * p->params.batch * p->params.width * p->params.height;
+    double samples = (double)r->samples_before + batches * p->params.batch * film_pixels(r);
     double f = fraction_done(r, batches, seconds);
     ec_progress progress = {
         .seconds = seconds,
         .seconds_left = f > 0.0 ? seconds * (1.0 - f) / f : -1.0,
         .fraction = f,
-        .samples_per_pixel = (uint64_t)(batches * p->params.batch),
+        .samples_per_pixel = (uint64_t)(r->strip_rows ? samples / picture_pixels(r) : batches * p->params.batch),
         .samples = (uint64_t)samples,
         .samples_per_second = seconds > 0.0 ? samples / seconds : 0.0,
-        .error = r->error.error,
-        .error_bound = r->error.error_bound,
+        .error = r->strip_rows ? INFINITY : r->error.error, /* that of a strip is not the picture's */
+        .error_bound = r->strip_rows ? INFINITY : r->error.error_bound,
         .pilot = r->stats->forecast.pilot_samples ? &r->stats->forecast : NULL,
         .forecast = r->forecast,
     };
@@ -93,8 +102,7 @@ static bool report(render_state *r, double batches)
 /* Batches a pixel, in the mean. */
 static double batches_done(const render_state *r)
 {
-    const ec_params *params = &r->source.pipeline.params;
-    return (double)r->past.samples / params->batch / ((double)params->width * params->height);
+    return (double)r->past.samples / r->source.pipeline.params.batch / film_pixels(r);
 }
 
 /* Hands over what there is. A batch that is under way goes with it: on large pictures one takes minutes. */
@@ -127,7 +135,7 @@ static bool goes_on(void *user, uint32_t done)
     r->look_failed = is_due && ec_batch_source_look(&r->source, &r->order, &r->look_error) != EC_OK;
     if (r->look_failed) return false;
     if (is_due) keep(r, done);
-    double now = ec_now(), share = done / ((double)params->width * params->height);
+    double now = ec_now(), share = done / film_pixels(r);
     bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
     bool go_on = now - r->last_report < 0.1 || report(r, r->batches_before_it + share);
     if (!out_of_time && go_on) return true;
@@ -138,9 +146,8 @@ static bool goes_on(void *user, uint32_t done)
 /* The pixels that the next batch is for: all, or the allotment's; and waves until they are done or *complete is false. */
 static ec_result run_batch(render_state *r, bool *complete, ec_error *err)
 {
-    const ec_params *params = &r->source.pipeline.params;
     ec_allotment *a = &r->past.allotment;
-    r->order = (ec_batch_order){.index = r->past.next, .count = params->width * params->height, .with_features = r->past.next == 0,
+    r->order = (ec_batch_order){.index = r->past.next, .count = r->film->width * r->film->height, .with_features = r->past.next == 0,
                                 .go_on = goes_on, .user = r};
     if (a->weight) r->order.count = ec_allotment_pass(a, r->film), r->order.list = a->list;
     if (r->past.under_way < r->order.count) r->order.done = r->past.under_way;
@@ -190,7 +197,7 @@ static void look_ahead(render_state *r, bool at_pilot)
     r->batch_end = now;
     if (r->first_seconds == 0.0) r->first_seconds = now - r->render_start;
     else if (at_pilot || !r->past.allotment.weight) r->sum += took, r->squares += took * took, r->timed++;
-    if (!ec_pilot_is_over(r->film->batch_count) || r->timed == 0.0) return;
+    if (!ec_pilot_is_over(r->film->batch_count) || r->timed == 0.0 || r->strip_rows) return;
     double mean = r->sum / r->timed, variance = fmax(r->squares / r->timed - mean * mean, 0.0);
     ec_pace pace = {now - r->render_start, r->first_seconds, r->timed > 1.0 ? sqrt(variance / (r->timed - 1.0)) / mean : 0.0};
     r->forecast = ec_forecast_make(r->film, &r->error, r->options, &pace, done, at_pilot ? r->past.allotment.gain : 1.0);
@@ -218,7 +225,7 @@ static ec_result take_batch(render_state *r, const ec_log *log, ec_error *err)
 {
     bool complete;
     EC_TRY(run_batch(r, &complete, err));
-    if (!complete && (r->past.next > 0 || r->course->end)) { /* part of a batch is of no use to a picture */
+    if (!complete && (r->past.next > 0 || r->course->end || r->strip_rows)) { /* part of a batch is of no use to a picture */
         keep(r, (uint32_t)(r->under_way / r->source.pipeline.params.batch));
         return EC_OK;
     }
@@ -232,7 +239,7 @@ static ec_result take_batch(render_state *r, const ec_log *log, ec_error *err)
     return EC_OK;
 }
 
-static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
+static ec_result render_film(render_state *r, const ec_log *log, ec_error *err)
 {
     ec_result result = EC_OK;
     r->last_report = r->batch_end = r->kept_at = ec_now();
@@ -247,6 +254,39 @@ static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
     return result;
 }
 
+/* A strip that is not complete is of no use to a picture. */
+static ec_result render_strip(render_state *r, uint32_t first_row, uint32_t rows, const ec_log *log, ec_error *err)
+{
+    ec_render_stats told = *r->stats;
+    r->past = (ec_past){.seconds = first_row ? ec_now() - r->render_start : 0.0, .allotment.gain = 1.0};
+    r->stopped_by = NULL;
+    EC_TRY(ec_film_create(r->film, r->options->width, rows, r->source.pipeline.params.batch, err));
+    r->film->shows_late = true;
+    EC_TRY(ec_batch_source_turn_to(&r->source, first_row, rows, err));
+    EC_TRY(render_film(r, log, err));
+    if (strcmp(r->stopped_by, "spp")) return EC_OK;
+    r->samples_before += r->past.samples;
+    r->invalid_in_films += r->film->invalid_count;
+    ec_film_show(r->film);
+    told.samples = r->samples_before;
+    return r->course->strip(r->course->user, r->film, first_row, &told, err);
+}
+
+static ec_result render_strips(render_state *r, const ec_log *log, ec_error *err)
+{
+    const uint32_t height = r->options->height;
+    ec_result result = EC_OK;
+    r->stopped_by = "spp";
+    for (uint32_t row = 0, rows; result == EC_OK && row < height && !strcmp(r->stopped_by, "spp"); row += rows) {
+        rows = height - row < r->strip_rows ? height - row : r->strip_rows;
+        result = render_strip(r, row, rows, log, err);
+        ec_film_destroy(r->film);
+    }
+    r->past.samples = r->samples_before;
+    r->error.error = r->error.error_bound = r->error.relmse = INFINITY; /* of strips, not of the picture */
+    return result;
+}
+
 /* Asks nothing of the device, which may be lost. */
 static void finish_stats(render_state *r)
 {
@@ -258,9 +298,9 @@ static void finish_stats(render_state *r)
     s->invalid_intersect = invalid[EC_STAGE_INTERSECT];
     s->invalid_shade = invalid[EC_STAGE_SHADE];
     s->invalid_connect = invalid[EC_STAGE_CONNECT];
-    s->invalid_accumulate = invalid[EC_STAGE_ACCUMULATE] + r->film->invalid_count; /* finite samples whose sum is not */
+    s->invalid_accumulate = invalid[EC_STAGE_ACCUMULATE] + r->film->invalid_count + r->invalid_in_films; /* finite samples whose sum is not */
     s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
-    s->samples_per_pixel = (uint64_t)(batches_done(r) * p->params.batch + 1e-6);
+    s->samples_per_pixel = (uint64_t)((double)r->past.samples / picture_pixels(r) + 1e-6);
     s->allotment_gain = r->past.allotment.gain;
     s->samples = r->past.samples;
     s->rays = r->rays_before + p->rays;
@@ -296,31 +336,61 @@ static ec_result note_unneeded(const ec_scene *scene, uint64_t without, const ec
     return EC_OK;
 }
 
-/* Film and figures of the course's past, or of none. */
-static ec_result take_up(render_state *r, const ec_past *past, uint32_t batch, ec_error *err)
+/* What kernels take when they first run. PoCL compiles their last part then: 13 MB for the Cornell box, 127 for all effects; where it has
+ * done so before (the cache was hit), none was seen. */
+static uint64_t driver_bytes(const ec_cl *cl) { return cl->cache_misses ? 144ull << 20 : 8ull << 20; }
+
+/* All rows, or as many as there is memory for. Small pictures do not ask. */
+static ec_result choose_rows(render_state *r, const ec_log *log, ec_error *err)
 {
     const ec_render_options *o = r->options;
+    const ec_pipeline *p = &r->source.pipeline;
+    const ec_device_info *device = &p->cl->info;
+    const bool shared = device->type & CL_DEVICE_TYPE_CPU, can = r->course->strip != NULL;
+    const uint64_t whole = ec_strip_whole(o, shared), left = device->memory_bytes - p->cl->allocated_bytes;
+    if (!o->memory && (whole < EC_STRIP_NEVER || !can)) return EC_OK;
+    const int64_t budget = ec_strip_budget(o, driver_bytes(p->cl) + (shared ? p->wave_bytes : 0));
+    const uint32_t rows = ec_strip_rows(o, shared, budget, left, device->max_allocation_bytes);
+    r->stats->strips = rows ? (o->height + rows - 1) / rows : 1;
+    if (rows == o->height || (!rows && !o->memory)) return EC_OK;
+    if (!rows)
+        return ec_fail(err, "--memory: %.0f MB are not enough for scene and program, and for %u rows of this picture, %.1f MB; give %.0fM or more, "
+                            "or a picture less wide", (double)o->memory / 1e6, EC_STRIP_STEP, (double)ec_strip_least(o, shared) / 1e6,
+                       ceil((double)((int64_t)(o->memory + ec_strip_least(o, shared)) - budget) / 1e6));
+    if (!can) return ec_strip_refuse(o, whole, budget, r->course->whole_for, err);
+    r->strip_rows = rows;
+    ec_note(log, "not all %u rows fit into %s memory at a time: the picture is rendered in %u strips of %u", o->height, o->memory ? "that" : "free",
+            r->stats->strips, rows);
+    return EC_OK;
+}
+
+/* Film and figures of the course's past, or of none. */
+static void take_up(render_state *r, const ec_past *past)
+{
     r->past.allotment.gain = 1.0;
     r->past.next = r->kept_next = r->course->first;
-    if (!past) return ec_film_create(r->film, o->width, o->height, batch, err);
+    if (!past) return;
     r->past = *past;
     r->past.allotment.weight = NULL;
     r->rays_before = past->rays;
     memcpy(r->invalid_before, past->invalid, sizeof r->invalid_before);
     r->kept_next = past->next;
     r->kept_under_way = past->under_way;
-    return EC_OK;
 }
 
 static ec_result set_up(render_state *r, ec_cl *cl, const ec_scene *scene, uint32_t batch, ec_cargo *cargo, const ec_log *log, ec_error *err)
 {
     const ec_past *past = r->course->past;
     const ec_pipeline *p = &r->source.pipeline;
-    EC_TRY(take_up(r, past, batch, err));
-    r->film->shows_late = true;
+    take_up(r, past);
     EC_TRY(ec_pipeline_lanes(cl, r->options->lanes, &r->stats->lanes, err)); /* before the work of what follows */
     EC_TRY(ec_cargo_make(scene, r->options, batch, 1u << ec_device_kind_of(&cl->info), cargo, r->stats, err));
     EC_TRY(ec_batch_source_open(cl, cargo, r->options->seed, &r->source, r->stats, err));
+    EC_TRY(choose_rows(r, log, err));
+    if (!past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, batch, err));
+    r->film->shows_late = true;
+    if (!r->strip_rows) EC_TRY(ec_batch_source_turn_to(&r->source, 0, r->options->height, err));
+    r->stats->wave = p->wave;
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
     if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &p->params, &r->past.allotment, err));
     if (cargo->head.bodies_too_many)
@@ -336,7 +406,7 @@ static ec_result set_up(render_state *r, ec_cl *cl, const ec_scene *scene, uint3
 ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, const ec_course *course, ec_progress_fn progress,
                            void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
-    memset(stats, 0, sizeof *stats);
+    *stats = (ec_render_stats){.strips = 1};
     EC_TRY(check_ends(options, err));
     EC_TRY(note_unneeded(scene, options->without, log, err));
     render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
@@ -349,7 +419,7 @@ ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_opt
     ec_cargo_free(&cargo);
     if (result == EC_OK) {
         ec_error why = {0};
-        result = render_loop(&r, log, &why);
+        result = r.strip_rows ? render_strips(&r, log, &why) : render_film(&r, log, &why);
         if (result != EC_OK) r.stopped_by = why.kind == EC_ERROR_OTHER ? "failure" : "device";
         if (result != EC_OK && err) *err = why;
         finish_stats(&r);

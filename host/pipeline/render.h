@@ -62,6 +62,7 @@ typedef struct ec_render_options {
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
+    uint64_t memory;            /* bytes that the process should not exceed: else it renders strips (strips.h); 0 = what is free */
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */
@@ -109,6 +110,7 @@ typedef struct ec_render_stats {
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
     uint32_t lanes, wave, batch;
+    uint32_t strips;              /* in which the picture was rendered: 1, the whole, where it fitted into memory */
     uint32_t instances;           /* of meshes that are kept once; 0: none, or they were written out */
     uint64_t triangles, stored_triangles; /* that rays can meet, and that take memory */
     uint64_t device_bytes;        /* peak of all buffers */

@@ -12,7 +12,6 @@ struct ec_session {
     ec_render_options options;
     ec_insides insides;          /* what a camera can be inside of */
     ec_environment environment;  /* its turn as the scene has it; no picture */
-    uint64_t pixels;             /* that the films have room for */
     double rate;                 /* samples a second of the last waves; 0: not known */
 };
 
@@ -29,9 +28,9 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     cargo.insides = (ec_insides){0};
     if (result == EC_OK) result = ec_pipeline_create(cl, &cargo, &cargo, &s->pipeline, stats, err);
     ec_cargo_free(&cargo);
+    if (result == EC_OK) result = ec_pipeline_fit_films(&s->pipeline, (uint64_t)options->width * options->height, err);
     const ec_params *params = &s->pipeline.params;
     s->options = *options;
-    s->pixels = (uint64_t)options->width * options->height;
     s->environment.turned = params->environment_turned;
     for (int k = 0; k < 9; k++) s->environment.turn[k] = params->environment_turn[k / 3 * 4 + k % 3];
     stats->device_bytes = cl->peak_allocated_bytes;
@@ -51,19 +50,6 @@ void ec_session_close(ec_session *session)
 
 uint32_t ec_session_largest(const ec_session *session) { return session->pipeline.wave; }
 
-static ec_result fit_films(ec_session *s, uint64_t pixels, ec_error *err)
-{
-    ec_pipeline *p = &s->pipeline;
-    if (pixels <= s->pixels) return EC_OK;
-    s->pixels = 0;
-    ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
-    ec_buffer_release(p->cl, &p->buffers[EC_ARG_FEATURE_FILM]);
-    EC_TRY(ec_buffer_create(p->cl, "batch film", pixels * 12, NULL, &p->buffers[EC_ARG_BATCH_FILM], err));
-    EC_TRY(ec_buffer_create(p->cl, "feature film", pixels * 4 * EC_AOV_FIELDS, NULL, &p->buffers[EC_ARG_FEATURE_FILM], err));
-    s->pixels = pixels;
-    return EC_OK;
-}
-
 ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
@@ -79,7 +65,7 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
         for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = e.turn[k];
     }
     ec_raster_forget(p);
-    EC_TRY(fit_films(s, (uint64_t)view->width * view->height, err));
+    EC_TRY(ec_pipeline_fit_films(p, (uint64_t)view->width * view->height, err));
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
 }
 

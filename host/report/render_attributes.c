@@ -125,6 +125,7 @@ static void add_result(ec_report_attributes *attributes, const ec_render_report 
     add_whole(attributes, "eclat.triangles", stats->triangles);
     add_whole(attributes, "eclat.storedTriangles", stats->stored_triangles);
     add_whole(attributes, "eclat.wave", stats->wave);
+    if (stats->strips > 1) add_whole(attributes, "eclat.strips", stats->strips);
     add_effects(attributes, &stats->effects);
     add_real(attributes, "eclat.seconds", stats->seconds);
     add_real(attributes, "eclat.error", stats->error);

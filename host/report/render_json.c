@@ -145,6 +145,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     ec_json_whole(root, "wave", report->stats->wave);
     ec_json_whole(root, "batch", report->stats->batch);
     ec_json_whole(root, "batches", report->batches);
+    ec_json_whole(root, "strips", report->stats->strips);
     ec_effects_json(root, &report->stats->effects);
     cJSON *device = ec_device_json(report->device, report->device_index);
     ec_json_text(device, "why", report->device_why);

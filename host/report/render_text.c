@@ -10,12 +10,13 @@
 void ec_render_report_summary(const ec_render_report *report, char *text, size_t size)
 {
     const ec_render_stats *stats = report->stats;
-    char error[96] = "error unknown (it takes two batches)", percent[32], bound[32], seconds[32], rate[32];
+    char error[96] = "error unknown", percent[32], bound[32], seconds[32], rate[32];
     if (isfinite(stats->error)) {
         ec_format_percent(stats->error, percent, sizeof percent);
         ec_format_percent(stats->error_bound, bound, sizeof bound);
         snprintf(error, sizeof error, "error %s (95 %% bound %s)", percent, bound);
     }
+    if (report->batches < 2) snprintf(error, sizeof error, "error unknown (it takes two batches)");
     ec_format_seconds(stats->seconds, seconds, sizeof seconds);
     ec_format_count(stats->samples_per_second, rate, sizeof rate);
     snprintf(text, size, "%s at %" PRIu64 " samples a pixel in %s, %s samples/s", error, stats->samples_per_pixel,

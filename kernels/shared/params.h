@@ -46,7 +46,7 @@ typedef struct ec_params {
     ec_uint panes_count;          /* is a pane that a shadow ray passes a vertex, as max_depth counts them? Not in Whitted's */
     ec_uint nested;               /* bodies may lie in one another: media are sets (lib/medium.h) */
     ec_uint camera_medium;        /* what the camera is inside of */
-    ec_uint pad;
+    ec_uint film_row;             /* the picture's row that the films begin with */
 } ec_params;
 EC_ASSERT_SIZE(ec_params, 272);
 

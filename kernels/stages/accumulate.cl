@@ -1,5 +1,5 @@
 /* The mean of a pixel's samples in this batch, added in sample order. Reads: the slots' radiance. Writes: the batch film,
- * 3 floats a pixel in row order, or in the list's. Last stage of a wave. */
+ * 3 floats a pixel in row order from film_row on, or in the list's. Last stage of a wave. */
 #include "../lib/film.h"
 #include "../lib/math.h"
 
@@ -28,7 +28,7 @@ kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global c
     if (i >= pixel_count) return;
     uint x, y;
     pixel_to_xy(params, first_pixel + i, &x, &y);
-    global float *out = batch_film + 3 * (pixel_list ? (ulong)(first_pixel + i) : (ulong)y * params->width + x);
+    global float *out = batch_film + 3 * (pixel_list ? (ulong)(first_pixel + i) : (ulong)(y - params->film_row) * params->width + x);
     for (uint c = 0; c < 3; c++) {
         global const float *in = radiance + c * wave + i * batch;
         float mean = sum_of(in, batch, 1.0f) / (float)batch;

@@ -1,4 +1,5 @@
-/* First-hit features, the mean over a pixel's samples. Reads: the slots' features. Writes: 8 floats a pixel in row order. */
+/* First-hit features, the mean over a pixel's samples. Reads: the slots' features. Writes: 8 floats a pixel in row order from
+ * film_row on. */
 #include "../lib/film.h"
 #include "../shared/path_state.h"
 
@@ -13,7 +14,7 @@ kernel void ec_features(constant ec_params *params, uint first_pixel, global con
     if (i >= pixel_count) return;
     uint x, y;
     pixel_to_xy(params, pixel_list ? pixel_list[first_pixel + i] : first_pixel + i, &x, &y);
-    global float *out = feature_film + EC_AOV_FIELDS * ((ulong)y * params->width + x);
+    global float *out = feature_film + EC_AOV_FIELDS * ((ulong)(y - params->film_row) * params->width + x);
     for (uint c = 0; c < EC_AOV_FIELDS; c++) {
         float sum = 0.0f;
         for (uint s = 0; s < batch; s++) sum += aov[c * wave + i * batch + s];

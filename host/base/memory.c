@@ -1,0 +1,122 @@
+#include "base/memory.h"
+
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
+
+/* Fields of /proc/self/statm: all of the address space, what of it is resident. */
+static void look_at_self(uint64_t *space, uint64_t *resident)
+{
+    const uint64_t page = (uint64_t)sysconf(_SC_PAGESIZE);
+    FILE *file = fopen("/proc/self/statm", "re");
+    *space = *resident = 0;
+    if (!file) return;
+    if (fscanf(file, "%" SCNu64 " %" SCNu64, space, resident) != 2) *space = *resident = 0;
+    *space *= page;
+    *resident *= page;
+    fclose(file);
+}
+
+uint64_t ec_memory_resident(void)
+{
+    uint64_t space, resident;
+    look_at_self(&space, &resident);
+    return resident;
+}
+
+static uint64_t available(void)
+{
+    uint64_t kib = 0;
+    char line[128];
+    FILE *file = fopen("/proc/meminfo", "re");
+    if (!file) return UINT64_MAX;
+    while (fgets(line, sizeof line, file) && sscanf(line, "MemAvailable: %" SCNu64, &kib) != 1) kib = 0;
+    fclose(file);
+    return kib ? kib * 1024 : UINT64_MAX;
+}
+
+/* A number that a file holds; UINT64_MAX where there is none, or "max". */
+static uint64_t number_in(const char *folder, const char *name)
+{
+    char path[4400];
+    uint64_t value = UINT64_MAX;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "re");
+    if (!file) return UINT64_MAX;
+    if (fscanf(file, "%" SCNu64, &value) != 1) value = UINT64_MAX;
+    fclose(file);
+    return value;
+}
+
+/* The two versions of control groups. */
+typedef struct group_files {
+    const char *root, *limit, *used, *cached[2];
+} group_files;
+static const group_files versions[] = {
+    {"/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", {"total_inactive_file ", "total_active_file "}},
+    {"/sys/fs/cgroup", "memory.max", "memory.current", {"inactive_file ", "active_file "}}};
+
+/* What the page cache holds of a group's memory, which is taken back before anybody is ended for it. */
+static uint64_t cached_in(const char *folder, const group_files *files)
+{
+    char path[4400], line[128];
+    uint64_t sum = 0, value;
+    snprintf(path, sizeof path, "%s/memory.stat", folder);
+    FILE *file = fopen(path, "re");
+    if (!file) return 0;
+    while (fgets(line, sizeof line, file))
+        for (int i = 0; i < 2; i++) {
+            const size_t size = strlen(files->cached[i]);
+            if (!strncmp(line, files->cached[i], size) && sscanf(line + size, "%" SCNu64, &value) == 1) sum += value;
+        }
+    fclose(file);
+    return sum;
+}
+
+/* Under the limits of a group and of all that it is in. */
+static uint64_t left_in_group(const char *path, const group_files *files)
+{
+    char folder[4200];
+    uint64_t left = UINT64_MAX;
+    snprintf(folder, sizeof folder, "%s%s", files->root, path);
+    for (size_t root = strlen(files->root), size = strlen(folder); size >= root; size = strlen(folder)) {
+        const uint64_t most = number_in(folder, files->limit), now = number_in(folder, files->used), cached = cached_in(folder, files);
+        const uint64_t held = cached < now ? now - cached : 0;
+        if (most != UINT64_MAX && now != UINT64_MAX) left = least(left, most > held ? most - held : 0);
+        char *slash = strrchr(folder, '/');
+        if (!slash || size == root) break;
+        *slash = 0;
+    }
+    return left;
+}
+
+/* A line of /proc/self/cgroup is "0::/path", or "4:memory:/path" in the first version. In a container the path may be that of outside: what
+ * is not there has no limit, and the root stands for the group. */
+static uint64_t left_in_groups(void)
+{
+    char line[4096];
+    uint64_t left = UINT64_MAX;
+    FILE *file = fopen("/proc/self/cgroup", "re");
+    if (!file) return left;
+    while (fgets(line, sizeof line, file)) {
+        line[strcspn(line, "\n")] = 0;
+        const char *first = strchr(line, ':'), *path = first ? strchr(first + 1, ':') : NULL;
+        if (path && (path == first + 1 || !strncmp(first, ":memory:", 8))) left = least(left, left_in_group(path + 1, &versions[path == first + 1]));
+    }
+    fclose(file);
+    return left;
+}
+
+uint64_t ec_memory_free(void)
+{
+    struct rlimit limit;
+    uint64_t space, resident, left = least(available(), left_in_groups());
+    look_at_self(&space, &resident);
+    if (!getrlimit(RLIMIT_AS, &limit) && limit.rlim_cur != RLIM_INFINITY) left = least(left, limit.rlim_cur > space ? limit.rlim_cur - space : 0);
+    return left;
+}

@@ -1,0 +1,13 @@
+/* How much memory this process has, and how much more it may take. */
+#ifndef EC_BASE_MEMORY_H
+#define EC_BASE_MEMORY_H
+
+#include <stdint.h>
+
+uint64_t ec_memory_resident(void); /* bytes that are the process's own and in memory now; 0: not known */
+
+/* Bytes that it may take beside them before the machine runs short, its control group (v2 or v1) ends it, or its address space (ulimit -v)
+ * is full. What the page cache holds counts as free. UINT64_MAX: not known. */
+uint64_t ec_memory_free(void);
+
+#endif

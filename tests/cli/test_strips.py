@@ -1,0 +1,85 @@
+"""Pictures larger than memory, in strips of rows: the bits of the whole, and what strips cannot do."""
+import json
+import os
+import re
+import unittest
+
+from support import CORNELL, RING, Case, eclat, read_exr
+
+
+class Strips(Case):
+    def render(self, name, *options, scene=CORNELL, **more):
+        run = self.assert_ok(eclat("render", scene, "--json", "-q", *options, "-o", self.path(name + ".exr"), "-o", self.path(name + ".png"), **more))
+        return json.loads(run.stdout)
+
+    def least(self, *options, scene=CORNELL):
+        """Megabytes that the program asks for where there are too few."""
+        run = eclat("render", scene, "-q", *options, "--memory", "1M", "-o", self.path("none.exr"))
+        line = self.assert_one_error(run, 1)
+        self.assertFalse(os.path.exists(self.path("none.exr")))
+        return int(re.search(r"give (\d+)M or more", line).group(1))
+
+    def in_strips(self, name, *options, scene=CORNELL, above=1):
+        """The least memory differs a little from run to run."""
+        report = self.render(name, *options, "--memory", f"{self.least(*options, scene=scene) + above}M", scene=scene)
+        self.assertGreater(report["strips"], 1)
+        return report
+
+    def assert_same(self, whole, strips):
+        a, b = self.path(whole + ".exr"), self.path(strips + ".exr")
+        (attributes, left), (others, right) = read_exr(a), read_exr(b)
+        self.assertEqual(sorted(left), sorted(right))
+        for name in left:
+            self.assertEqual(left[name], right[name], name)
+        for name in ["error", "errorBound", "relMSE", "heavyPixels", "imageSha256", "batches", "samplesPerPixel", "stoppedBy", "invalid", "wave", "kernels"]:
+            self.assertEqual(attributes.get("eclat." + name), others.get("eclat." + name), name)
+        with open(self.path(whole + ".png"), "rb") as one, open(self.path(strips + ".png"), "rb") as other:
+            self.assertEqual(one.read(), other.read())
+
+    def test_the_bits_of_the_whole(self):
+        """Odd sizes: tiles and blocks of an EXR end where they will. One batch, several, and sums of 16 joined."""
+        for i, options in enumerate([["--size", "256x256", "--spp", "2"], ["--size", "301x155", "--spp", "1"],
+                                     ["--size", "97x250", "--spp", "20", "--batch", "1"], ["--size", "90x203", "--spp", "40", "--batch", "2", "--filter", "blackman-harris"],
+                                     ["--size", "200x120", "--spp", "2", "--integrator", "whitted"], ["--size", "200x120", "--spp", "2", "--integrator", "raster"]]):
+            with self.subTest(options=options):
+                whole = self.render(f"whole{i}", *options)
+                strips = self.in_strips(f"strips{i}", *options)
+                self.assert_same(f"whole{i}", f"strips{i}")
+                self.assertEqual(whole["strips"], 1)
+                for name in ["error", "error_bound", "relmse", "mean_luminance", "heavy_pixels", "image_sha256", "samples", "rays", "invalid_samples", "stopped_by"]:
+                    self.assertEqual(whole[name], strips[name], name)
+
+    def test_lanes_and_waves(self):
+        options = ["--size", "128x200", "--spp", "4"]
+        for lanes, wave in [("1", "4096"), ("8", "70000")]:
+            self.render("whole", *options, "--lanes", lanes, "--wave", "9999", scene=RING)
+            self.in_strips("strips", *options, "--lanes", lanes, "--wave", wave, scene=RING)
+            _, planes = read_exr(self.path("strips.exr"))
+            _, other = read_exr(self.path("whole.exr"))
+            self.assertEqual(planes, other)
+
+    def test_what_fits_is_rendered_whole(self):
+        report = self.render("whole", "--size", "64x64", "--spp", "1", "--memory", "2G")
+        self.assertEqual(report["strips"], 1)
+        self.assertNotIn("eclat.strips", read_exr(self.path("whole.exr"))[0])
+
+    def test_what_strips_cannot_do(self):
+        for options, name in [(["--adaptive"], "--adaptive"), (["--error", "5"], "--error"), (["--time", "10s"], "--time"), (["--spp", "4", "--time", "9s"], "--time"),
+                              (["--checkpoint", self.path("c.exr")], "--checkpoint"), (["--spp", "32", "--samples", "0:16"], "--samples")]:
+            run = eclat("render", CORNELL, "--size", "4096x4096", "-q", "--memory", "400M", *options, "-o", self.path("a.exr"))
+            line = self.assert_one_error(run, 1)
+            self.assertIn(f"in strips, one after the other, but {name} is for pictures", line)
+            self.assertRegex(line, r"4096x4096 pixels take [\d.]+ MB and there are [\d.]+")
+            self.assertEqual(os.listdir(self.folder), [])
+
+    def test_amounts(self):
+        for text in ["4", "G", "-1G", "0M", "1K", "4X", "4GBs", "1e30G", "nan", "4 G", ""]:
+            run = eclat("render", CORNELL, "--memory", text, cwd=self.folder)
+            self.assertIn("--memory", self.assert_one_error(run, 2))
+        for text in ["4G", "4GB", "4Gi", "4GiB", "0.5g", "2000M", "1T"]:
+            run = eclat("render", "none.gltf", "--memory", text, cwd=self.folder)
+            self.assertIn("none.gltf", self.assert_one_error(run, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()
