@@ -26,6 +26,7 @@ static void add_settings(cJSON *to, const ec_render_options *o)
         ec_json_whole(settings, "max_depth", o->max_depth);
     else
         cJSON_AddNullToObject(settings, "max_depth");
+    ec_json_text(settings, "scattering", ec_scattering_names[o->scattering]);
     ec_json_text(settings, "accel", o->accel ? o->accel : "auto");
     if (o->lanes)
         ec_json_whole(settings, "lanes", o->lanes);

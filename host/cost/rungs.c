@@ -16,6 +16,7 @@ const double ec_cost_targets[EC_COST_TARGETS] = {0.05, 0.02, 0.01, 0.005};
 typedef struct rung_list {
     const ec_scene *scene;
     uint64_t called; /* effects */
+    bool is_rough;   /* metal or glass, so that --scattering makes a difference */
     const ec_render_options *base;
     ec_cost_row *rows;
     uint32_t count;
@@ -72,6 +73,16 @@ static void add_roulettes(rung_list *list)
     off->options.survival = 1;
     off->options.max_depth = DEPTH_CUT;
     off->unbiased = false;
+}
+
+/* Another model of the surface, so another picture: the floor is the light that is lost by scattering once. */
+static void add_scattering(rung_list *list)
+{
+    if (!list->is_rough) return;
+    begin(list, "scattering", "Rough metal and glass, instead of scattering once");
+    ec_cost_rung *again = add(list, "scattering-multiple", "multiple");
+    again->options.scattering = EC_SCATTERING_MULTIPLE;
+    again->unbiased = false;
 }
 
 static void add_arithmetic(rung_list *list)
@@ -164,9 +175,10 @@ static void add_effects(rung_list *list)
 
 ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_cost_row **rows, uint32_t *count, ec_error *err)
 {
-    ec_effects effects;
+    ec_effects effects, rough;
     EC_TRY(ec_scene_calls(scene, &effects, err));
-    rung_list list = {scene, effects.bits, base, calloc(ROWS_MOST, sizeof(ec_cost_row)), 0, NULL, NULL};
+    EC_TRY(ec_scene_rough(scene, &rough, err));
+    rung_list list = {scene, effects.bits, rough.bits != 0, base, calloc(ROWS_MOST, sizeof(ec_cost_row)), 0, NULL, NULL};
     *rows = list.rows;
     *count = 0;
     if (!list.rows) return ec_fail(err, "out of memory for the rungs of a study");
@@ -175,6 +187,7 @@ ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_
     add_samplings(&list);
     add_integrators(&list);
     add_roulettes(&list);
+    add_scattering(&list);
     add_arithmetic(&list);
     add_effects(&list);
     add_speeds(&list);

@@ -58,8 +58,9 @@ ec_result ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies, ec_error
 ec_result ec_pack_effects(const ec_scene *plain, const ec_bodies *bodies, ec_effects *effects, ec_error *err);
 /* What multiple scattering calls for, if a caller wants it: rough metal and glass that shows. */
 void ec_pack_rough(const ec_scene *plain, ec_effects *effects);
-/* The scan alone. */
+/* The scans alone. */
 ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *err);
+ec_result ec_scene_rough(const ec_scene *scene, ec_effects *effects, ec_error *err);
 /* Of a plain scene: may light go straight on through it, somewhere: thin-walled and smooth? */
 bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m);
 /* Is there a body behind it? */

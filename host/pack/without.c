@@ -94,3 +94,13 @@ ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *e
     ec_scene_view_free(&plain);
     return result;
 }
+
+ec_result ec_scene_rough(const ec_scene *scene, ec_effects *effects, ec_error *err)
+{
+    ec_scene_view plain;
+    EC_TRY(ec_scene_view_plain(scene, &plain, err));
+    *effects = (ec_effects){0};
+    ec_pack_rough(&plain.scene, effects);
+    ec_scene_view_free(&plain);
+    return EC_OK;
+}

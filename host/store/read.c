@@ -1,3 +1,4 @@
+#include <float.h>
 #include <stdlib.h>
 
 #include "store/layout.h"
@@ -17,10 +18,25 @@ static ec_result no_memory(const char *path, ec_error *err)
     return ec_fail(err, "cannot read '%s': its film does not fit into memory", path);
 }
 
+static bool are_between(double low, double high, const double *values, uint64_t count)
+{
+    bool all = true;
+    for (uint64_t i = 0; i < count; i++) all &= values[i] >= low && values[i] <= high; /* NaN is not */
+    return all;
+}
+
+/* Batches are finite floats (ec_film_add_batch sees to it), so this is what can come of them. Third and fourth moments may leave the range. */
+static ec_result check_sums(const char *path, const ec_moments *sums, uint64_t pixels, ec_error *err)
+{
+    const double most = FLT_MAX, square = most * most * UINT32_MAX;
+    if (are_between(-most, most, sums->mean, 3 * pixels) && are_between(0, square, sums->m2, 4 * pixels)) return EC_OK;
+    return ec_fail(err, "cannot read '%s': sums in it are none of any samples; take an older file or render it again", path);
+}
+
 static ec_result read_batch(ec_exr_file *file, const char *path, const char *part, uint64_t pixels, float **batch, ec_error *err)
 {
     ec_channel channels[3];
-    *batch = malloc(pixels * 3 * sizeof(float));
+    *batch = calloc(pixels * 3, sizeof **batch); /* it goes by a const pointer, as what is written does */
     if (!*batch) return no_memory(path, err);
     return fill(file, part, channels, ec_batch_channels(*batch, channels), err);
 }
@@ -36,6 +52,7 @@ static ec_result read_part(ec_exr_file *file, const char *path, uint32_t index, 
     } else {
         if (!ec_moments_create(&part->sums, pixels)) return no_memory(path, err);
         EC_TRY(fill(file, name, channels, ec_sum_channels(&part->sums, NULL, channels), err));
+        EC_TRY(check_sums(path, &part->sums, pixels, err));
     }
     return ec_film_insert(film, part, err);
 }
@@ -77,6 +94,7 @@ static ec_result read_counted(ec_exr_file *file, const char *path, const ec_stat
     const ec_moments shown = {film->mean, film->m2, film->m34, film->largest};
     ec_sum_part_name(0, name);
     EC_TRY(fill(file, name, channels, ec_sum_channels(&shown, film->counts, channels), err));
+    EC_TRY(check_sums(path, &shown, pixels, err));
     film->batch_count = state->batch_count;
     for (uint64_t p = 0; p < pixels; p++)
         if (film->counts[p] < film->batch_count)

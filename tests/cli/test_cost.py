@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat
+from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, quad_scene, write_gltf
 
 SMALL = ("--size", "32x32")
 PATH = "path"
@@ -146,6 +146,21 @@ class Study(Case):
         self.assertIn("interrupted", states)
         self.assertLess(states, {"interrupted", "measured", "budget too small"})
         self.assertTrue(os.path.exists(self.path("cut.html")))
+
+    def test_scattering(self):
+        """Where there is rough metal. White of roughness 1, seen head-on in a white sky, returns 1 - ln 2 by scattering once (Heitz 2014), and
+        next to all by scattering again: the floor is what once loses. The box, all matt, has no such rung."""
+        plate = {"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}
+        document, _ = quad_scene(material=plate)
+        document["cameras"][0]["perspective"]["yfov"] = 0.01
+        scene = write_gltf(self.path("plate.gltf"), document)
+        run = self.assert_ok(eclat("cost", scene, "--env", "1,1,1", "--size", "8x8", "--budget", "30s", "--json", "-", cwd=self.folder))
+        again = rung_of(json.loads(run.stdout), "scattering-multiple")
+        self.assertEqual((again["state"], again["group"], again["settings"]["scattering"]), ("measured", "scattering", "multiple"), again["note"])
+        self.assertTrue(again["biased"])
+        self.assertAlmostEqual(again["error_floor"], 0.996 / (1 - math.log(2)) - 1, delta=0.02)
+        _, report = self.study("--budget", "2s")
+        self.assertNotIn("scattering-multiple", [r["id"] for r in report["rungs"]])
 
     def test_usage(self):
         for arguments, message in [(["-o", "a.png"], "NAME.html"), (["--budget", "0"], "more than 0"), ([], "needs a SCENE"),

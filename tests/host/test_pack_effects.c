@@ -262,15 +262,20 @@ static void test_without(void)
 static void check_rough(const ec_material *m, bool expected, int line)
 {
     effect_model e = em_new();
+    ec_material unused = em_plain();
+    unused.metallic = unused.roughness = 1;
+    em_material(&e, &unused);
     em_quad(&e, em_material(&e, m), NULL);
     ec_scene *scene = em_scene(&e);
     ec_pack pack;
-    ec_effects found = {0};
+    ec_effects packed = {0}, found;
     ec_error err = {0};
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
+    ec_pack_rough(&pack.plain.scene, &packed);
+    CHECK_OK(ec_scene_rough(scene, &found, &err), err);
     CHECK_MSG(!(pack.effects.bits & EC_FEATURE_MULTISCATTER), "line %d: called for without the option", line);
-    ec_pack_rough(&pack.plain.scene, &found);
-    CHECK_MSG(found.bits == (expected ? EC_FEATURE_MULTISCATTER : 0), "line %d: %llx", line, (unsigned long long)found.bits);
+    CHECK_MSG(packed.bits == (expected ? EC_FEATURE_MULTISCATTER : 0), "line %d: %llx", line, (unsigned long long)packed.bits);
+    CHECK_MSG(found.bits == packed.bits, "line %d: %llx by itself", line, (unsigned long long)found.bits);
     ec_pack_free(&pack);
     ec_scene_free(scene);
 }

@@ -15,10 +15,6 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Read by the address sanitizer: an allocation that a header's claim makes large fails, as it would on a small machine. */
-__attribute__((weak)) const char *__asan_default_options(void);
-const char *__asan_default_options(void) { return "allocator_may_return_null=1:max_allocation_size_mb=64"; }
-
 /* A broken promise ends the process, as libFuzzer expects of a finding. */
 #define PROMISE(condition, ...)                                                                    \
     do {                                                                                           \

@@ -7,7 +7,9 @@ import struct
 import sys
 import unittest
 
-from support import CORNELL, ECLAT, SOURCE, Case, eclat, read_exr
+from support import CORNELL, ECLAT, SOURCE, Case, eclat, read_exr, write_gltf
+from test_image_light import COLOURS, lit_scene, png
+from test_motion import room
 
 sys.path.insert(0, os.path.join(SOURCE, "tools"))
 import opencl_devices
@@ -22,6 +24,18 @@ PICTURES = {
     "whitted": [GLASS, "--spp", "4", "--batch", "2", "--integrator", "whitted"],
     "raster": [LAMPS, "--spp", "4", "--batch", "2", "--integrator", "raster"],
 }
+VELVET, FILM, BRUSHED, PRISM = (os.path.join(SOURCE, "scenes", name, name + ".gltf") for name in ("velvet", "soap-film", "brushed-metal", "prism"))
+# What a file or an option may ask for beyond these: each with its own kernels, so slower.
+MORE = {
+    "motion": ["MOTION", "--animation", "all", "--shutter", "0:1", "--spp", "4", "--env", "0.3,0.3,0.3"],
+    "image light": ["IMAGE LIGHT", "--spp", "4"],
+    "scattering": [GLASS, "--spp", "4", "--scattering", "multiple"],
+    "instances": [LAMPS, "--spp", "4", "--instancing", "on", "--accel", "twolevel", "--light-choice", "tree"],
+    "velvet": [VELVET, "--spp", "2"],
+    "soap film": [FILM, "--spp", "2"],
+    "brushed metal": [BRUSHED, "--spp", "2", "--fstop", "4", "--focus", "2"],
+    "prism": [PRISM, "--spp", "2", "--filter", "blackman-harris", "--terminator", "smooth"],
+}
 LANES = ["1", "4", "8", "16"]
 BUILD = os.path.dirname(os.path.abspath(ECLAT))
 SLOW = "llvmpipe"  # compiles and renders for minutes, and can have one lane only: takes part if ECLAT_SLOW_DEVICES is set
@@ -32,6 +46,7 @@ def bits(planes):
 
 
 DEVICES = opencl_devices.find(ECLAT, BUILD)
+FAST = [pair for pair in DEVICES if SLOW not in pair[0]["name"]]
 
 
 def setUpModule():
@@ -41,9 +56,18 @@ def setUpModule():
 
 
 class DevicesAgree(Case):
+    def made(self, what):
+        """Scenes that are no files."""
+        if what == "MOTION":
+            return room().write(self.path("motion.gltf"))
+        faces = [png(8, lambda x, y, c=colour: tuple((v + 16 * x) % 256 for v in c)) for colour in COLOURS]
+        return write_gltf(self.path("lit.gltf"), lit_scene(faces, rotation=[0.5, 0.5, 0.5, 0.5]))
+
     def render(self, name, environment, lanes):
         path = self.path("picture.exr")
-        self.assert_ok(eclat("render", *PICTURES[name], "--size", "32x24", "--lanes", lanes, "-o", path, "-q", env=environment,
+        scene, *options = {**PICTURES, **MORE}[name]
+        scene = scene if os.path.exists(scene) else self.made(scene)
+        self.assert_ok(eclat("render", scene, *options, "--size", "32x24", "--lanes", lanes, "-o", path, "-q", env=environment,
                              timeout=600))
         return bits(read_exr(path)[1])
 
@@ -60,10 +84,15 @@ class DevicesAgree(Case):
                                             f"{opencl_devices.title(first)} with 1")
 
     def test_every_lane_width(self):
-        fast = [pair for pair in DEVICES if SLOW not in pair[0]["name"]]
         for name in PICTURES:
             with self.subTest(name):
-                self.check(name, fast, LANES)
+                self.check(name, FAST, LANES)
+
+    def test_every_effect(self):
+        """The reference at one lane, the others at what they choose for themselves."""
+        for name in MORE:
+            with self.subTest(name):
+                self.check(name, FAST, ["auto"])
 
     def test_slow_devices(self):
         slow = [pair for pair in DEVICES if SLOW in pair[0]["name"]]

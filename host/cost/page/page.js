@@ -30,7 +30,7 @@ function element(tag, content, attributes = {}) {
     return e;
 }
 /* A rung's name as it stands alone: in the table its group's heading says the rest. */
-const labels = {sampling: "sample ", sampler: "", roulette: "rr ", effect: "without ", lights: "without ", accelerator: "", lanes: "lanes "};
+const labels = {sampling: "sample ", sampler: "", roulette: "rr ", scattering: "scattering ", effect: "without ", lights: "without ", accelerator: "", lanes: "lanes "};
 const label = r => (labels[r.group] ?? "") + (r.group === "base" ? "path (default)" : r.name);
 
 /* Colours that differ in hue and lightness, on both grounds. */

@@ -1,0 +1,59 @@
+"""Which way brushed metal is brushed: KHR_materials_anisotropy's rotation counter-clockwise from the tangent, its texture's direction, the
+bitangent's sign, coordinates where there are no tangents. A sun lights a plate directly, so pictures are free of noise; those that mean
+the same direction agree to what rounding leaves."""
+import math
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
+from hard_scene import NORMAL, QUAD, UV, Scene, one_pixel_png
+from support import Case, eclat, read_exr
+
+ANISOTROPY, LIGHTS = "KHR_materials_anisotropy", "KHR_lights_punctual"
+ALONG = 0.7  # the direction that is meant, from +x towards +y
+TURNED_UV = ("TEXCOORD_0", 2, [c for x, y, _ in zip(*[iter(QUAD)] * 3) for c in (math.cos(ALONG) * x + math.sin(ALONG) * y, math.sin(ALONG) * x - math.cos(ALONG) * y)])
+
+
+def tangents(angle, sign=1):
+    return "TANGENT", 4, [math.cos(angle), math.sin(angle), 0, sign] * 6
+
+
+def towards(angle):
+    """The texture's colour of a direction, at full strength."""
+    return round(127.5 + 127.5 * math.cos(angle)), round(127.5 + 127.5 * math.sin(angle)), 255
+
+
+class Direction(Case):
+    def plate(self, *streams, rotation=0.0, texture=None):
+        brushed = {"anisotropyStrength": 0.8, "anisotropyRotation": rotation}
+        if texture:
+            brushed["anisotropyTexture"] = {"index": 0}
+        scene = Scene({"pbrMetallicRoughness": {"roughnessFactor": 0.4}, "extensions": {ANISOTROPY: brushed}})
+        scene.extend(ANISOTROPY).extend(LIGHTS, {"lights": [{"type": "directional", "intensity": 3}]}).add(QUAD, streams=[NORMAL, *streams])
+        scene.node(rotation=[-0.3, 0.35, 0, math.sqrt(1 - 0.3 ** 2 - 0.35 ** 2)], extensions={LIGHTS: {"light": 0}})
+        if texture:
+            scene.texture(one_pixel_png(texture))
+        out = self.path("out.exr")
+        self.assert_ok(eclat("render", scene.write(self.path("scene.gltf")), "-q", "--size", "8x8", "--spp", "4", "--max-depth", "2", "-o", out))
+        return read_exr(out)[1]["R"]
+
+    def assert_alike(self, a, b, delta, what):
+        apart = max(abs(x - y) for x, y in zip(a, b)) / max(b)
+        self.assertLess(apart, delta, what)
+
+    def test_all_ways_to_say_one_direction(self):
+        expected = self.plate(tangents(ALONG), UV)
+        other = self.plate(tangents(-ALONG), UV)
+        self.assertGreater(max(abs(x - y) for x, y in zip(expected, other)), 0.2 * max(expected))  # the test can see which way it is turned
+        self.assert_alike(self.plate(tangents(0), UV, rotation=ALONG), expected, 1e-4, "rotation")
+        self.assert_alike(self.plate(tangents(0.3), UV, rotation=ALONG - 0.3 - 4 * math.pi), expected, 1e-4, "rotation from a tangent that is turned")
+        self.assert_alike(self.plate(tangents(0, -1), UV, rotation=-ALONG), expected, 1e-4, "the bitangent the other way round")
+        self.assert_alike(self.plate(TURNED_UV), expected, 1e-4, "along u where there are no tangents")
+        self.assert_alike(self.plate(tangents(0), UV, texture=towards(ALONG)), expected, 0.02, "texture")  # bytes
+        self.assert_alike(self.plate(tangents(0), UV, rotation=ALONG - 0.4, texture=towards(0.4)), expected, 0.02, "rotation and texture")
+        self.assert_alike(self.plate(tangents(ALONG + math.pi), UV), expected, 1e-4, "back to front")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,100 @@
+/* Checkpoints and slices by their bytes, without the seal, which is put on here: behind one that fits any reader has to get along with what is
+ * there. What begins with a brace is the JSON object alone, which mutants of whole files seldom reach. */
+#include <fcntl.h>
+#include <math.h>
+
+#include "fuzz.h"
+#include "image/seal.h"
+#include "store/layout.h"
+#include "store/merge.h"
+
+enum { PIXELS_MOST = 1 << 12 }; /* more teaches nothing and costs executions */
+
+/* The pipeline's, for ec_identity_of, which no reader calls. */
+uint32_t ec_render_batch(const ec_render_options *options) { return options->batch; }
+
+static void judge_job(const ec_stored *s)
+{
+    PROMISE(s->job.argc >= 1 && s->job.argv[s->job.argc] == NULL, "%d arguments", s->job.argc);
+    for (int i = 0; i < s->job.argc; i++) PROMISE(s->job.argv[i], "argument %d of %d", i, s->job.argc);
+    PROMISE(s->job.folder && s->job.device, "no folder or device");
+    PROMISE(s->job.identity.count <= EC_TRAITS_MAX, "%u traits", s->job.identity.count);
+}
+
+static void read_state(const uint8_t *data, size_t size)
+{
+    ec_stored stored = {0};
+    ec_state_film film = {0};
+    ec_error err = {0};
+    char *text = malloc(size + 1);
+    PROMISE(text, "out of memory");
+    memcpy(text, data, size);
+    text[size] = 0;
+    ec_result result = ec_state_read(text, "input", &stored, &film, &err);
+    fuzz_judge_result(result, &err);
+    if (result == EC_OK) {
+        judge_job(&stored);
+        for (uint32_t i = 0; i < film.part_count; i++)
+            PROMISE(ec_film_part_is_sound(film.parts[i].first, film.parts[i].count), "batches %u and %u more", film.parts[i].first, film.parts[i].count);
+    }
+    free(film.parts);
+    ec_stored_free(&stored);
+    free(text);
+}
+
+/* No two parts have a batch in common, and what the picture's errors are made of is there. */
+static void judge_film(const ec_film *film)
+{
+    uint64_t end = 0, batches = 0;
+    PROMISE(film->samples_per_batch && film->batch_count, "%u batches of %u", film->batch_count, film->samples_per_batch);
+    for (uint32_t i = 0; i < film->part_count; i++) {
+        PROMISE(film->parts[i].first >= end, "part %u begins with batch %u, not after %llu", i, film->parts[i].first, (unsigned long long)end);
+        end = (uint64_t)film->parts[i].first + film->parts[i].count;
+        batches += film->parts[i].count;
+    }
+    PROMISE(film->counts ? !film->part_count : batches == film->batch_count, "parts of %llu batches, not %u", (unsigned long long)batches, film->batch_count);
+    ec_film_error error = ec_film_estimate_error(film); /* of any bits: the sanitizers judge */
+    PROMISE(!isnan(error.error), "an error that is no number");
+}
+
+/* A file beside itself has every batch twice. */
+static void merge_twice(const char *path)
+{
+    ec_merge merge = {0};
+    ec_error err = {0};
+    char missing[4096];
+    ec_result result = ec_merge_take(&merge, path, NULL, &err);
+    fuzz_judge_result(result, &err);
+    if (result == EC_OK) {
+        (void)ec_merge_missing(&merge, missing, sizeof missing);
+        PROMISE(ec_merge_take(&merge, path, NULL, &err) != EC_OK && err.text[0], "merged with itself");
+        ec_film_show(&merge.all.film);
+    }
+    ec_merge_free(&merge);
+}
+
+static void read_file(const uint8_t *data, size_t size)
+{
+    ec_stored stored;
+    ec_error err = {0};
+    const char *path = fuzz_file(data, size);
+    int fd = open(path, O_RDWR | O_CLOEXEC);
+    PROMISE(fd >= 0 && ec_seal(fd) == 0, "cannot seal");
+    close(fd);
+    ec_result result = ec_store_read(path, &stored, &err);
+    fuzz_judge_result(result, &err);
+    if (result != EC_OK) return;
+    judge_job(&stored);
+    if ((uint64_t)stored.film.width * stored.film.height <= PIXELS_MOST) {
+        judge_film(&stored.film);
+        merge_twice(path);
+    }
+    ec_stored_free(&stored);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (size && data[0] == '{') read_state(data, size);
+    else read_file(data, size);
+    return 0;
+}
