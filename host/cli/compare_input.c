@@ -76,7 +76,8 @@ ec_result ec_compare_input_load(const char *path, ec_compare_input *input, ec_er
     ec_exr exr;
     ec_result result;
     *input = (ec_compare_input){.path = path};
-    EC_TRY(ec_exr_read(path, &exr, err));
+    const char *const wanted[] = {colour[0], colour[1], colour[2], error[0], error[1], error[2], "stderr.Y", "samples", NULL};
+    EC_TRY(ec_exr_read_some(path, wanted, &exr, err));
     EC_TRY_CLEANUP(weave(path, &exr, colour, 3, &input->rgb, err));
     input->measured = (ec_measured){.width = exr.width, .height = exr.height, .rgb = input->rgb};
     for (int c = 0; c < 3; c++) input->measured.is_half |= ec_exr_is_half(path, colour[c]);

@@ -18,6 +18,7 @@ typedef struct exr_source {
     exr_context_t context;
     ec_exr_stream stream;
     const char *path;
+    float *unwanted; /* a line, for channels that nobody asked for: not every routine of the library passes them over */
     int32_t origin_x, origin_y;
     exr_storage_t storage;
     int32_t tile_width, tile_height;
@@ -62,28 +63,37 @@ static ec_result read_size(exr_source *source, ec_exr *exr, ec_error *err)
     return EC_OK;
 }
 
-static ec_result allocate_planes(const exr_source *source, const exr_attr_chlist_t *list, ec_exr *exr, ec_error *err)
+static int is_wanted(const char *const *wanted, const char *name)
 {
-    uint64_t pixels = (uint64_t)exr->width * exr->height, count = (uint64_t)list->num_channels;
-    const uint64_t free_now = ec_memory_free(); /* it would be promised, and the process killed as it is used */
-    if (pixels * 4 * count > free_now)
-        return ec_fail(err, "cannot read '%s': %u x %u pixels with %llu channels take %.1f GB of memory, and %.1f are free; crop it, or save the channels that are "
-                            "wanted", source->path, exr->width, exr->height, (unsigned long long)count, (double)(pixels * 4 * count) / 1e9, (double)free_now / 1e9);
+    for (; wanted && *wanted; wanted++)
+        if (!strcmp(*wanted, name)) return 1;
+    return !wanted;
+}
+
+static ec_result allocate_planes(const exr_source *source, const exr_attr_chlist_t *list, const char *const *wanted, ec_exr *exr, ec_error *err)
+{
+    uint64_t pixels = (uint64_t)exr->width * exr->height, count = (uint64_t)list->num_channels, planes = 0;
+    for (uint64_t i = 0; i < count; i++) planes += (uint64_t)is_wanted(wanted, list->entries[i].name.str);
+    const uint64_t bytes = pixels * planes * sizeof(float), free_now = ec_memory_free(); /* else promised, and the process killed as it is used */
+    if (bytes > free_now)
+        return ec_fail(err, "cannot read '%s': %u x %u pixels with %llu channels take %.1f GB of memory, and %.1f are free; crop it", source->path, exr->width,
+                       exr->height, (unsigned long long)planes, (double)bytes / 1e9, (double)free_now / 1e9);
     exr->names = calloc(count, sizeof *exr->names);
     exr->planes = calloc(count, sizeof *exr->planes);
-    int enough = exr->names && exr->planes && pixels * count <= value_max;
+    int enough = exr->names && exr->planes && pixels * planes <= value_max;
     for (uint64_t i = 0; enough && i < count; i++) {
-        exr->names[i] = strdup(list->entries[i].name.str);
-        exr->planes[i] = calloc(pixels, sizeof(float));
+        const char *name = list->entries[i].name.str;
+        exr->names[i] = strdup(name);
+        if (is_wanted(wanted, name)) exr->planes[i] = calloc(pixels, sizeof(float));
         exr->channel_count++;
-        enough = exr->names[i] && exr->planes[i];
+        enough = exr->names[i] && (exr->planes[i] || !is_wanted(wanted, name));
     }
     if (enough) return EC_OK;
     return ec_fail(err, "cannot read '%s': %u x %u pixels with %llu channels do not fit into memory", source->path,
-                   exr->width, exr->height, (unsigned long long)count);
+                   exr->width, exr->height, (unsigned long long)planes);
 }
 
-static ec_result read_channel_list(const exr_source *source, ec_exr *exr, ec_error *err)
+static ec_result read_channel_list(const exr_source *source, const char *const *wanted, ec_exr *exr, ec_error *err)
 {
     const exr_attr_chlist_t *list = NULL;
     exr_result_t code = exr_get_channels(source->context, 0, &list);
@@ -93,7 +103,7 @@ static ec_result read_channel_list(const exr_source *source, ec_exr *exr, ec_err
         if (list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1)
             return ec_fail(err, "cannot read '%s': channel '%s' is subsampled (luminance and chroma); save it as RGB",
                            source->path, list->entries[i].name.str);
-    return allocate_planes(source, list, exr, err);
+    return allocate_planes(source, list, wanted, exr, err);
 }
 
 /* Decodes one block or tile into the planes, its first pixel being (x, y). */
@@ -111,8 +121,8 @@ static exr_result_t decode(const exr_source *source, exr_decode_pipeline_t *bloc
         channel->user_data_type = EXR_PIXEL_FLOAT;
         channel->user_bytes_per_element = sizeof(float);
         channel->user_pixel_stride = sizeof(float);
-        channel->user_line_stride = (int32_t)(exr->width * sizeof(float));
-        channel->decode_to_ptr = (uint8_t *)(exr->planes[c] + (uint64_t)y * exr->width + x);
+        channel->user_line_stride = exr->planes[c] ? (int32_t)(exr->width * sizeof(float)) : 0;
+        channel->decode_to_ptr = (uint8_t *)(exr->planes[c] ? exr->planes[c] + (uint64_t)y * exr->width + x : source->unwanted);
     }
     code = exr_decoding_choose_default_routines(source->context, 0, block);
     return code == EXR_ERR_SUCCESS ? exr_decoding_run(source->context, 0, block) : code;
@@ -159,7 +169,9 @@ static ec_result read_pixels(const exr_source *source, ec_exr *exr, ec_error *er
     return code == EXR_ERR_SUCCESS ? EC_OK : damaged(source, code, err);
 }
 
-ec_result ec_exr_read(const char *path, ec_exr *exr, ec_error *err)
+ec_result ec_exr_read(const char *path, ec_exr *exr, ec_error *err) { return ec_exr_read_some(path, NULL, exr, err); }
+
+ec_result ec_exr_read_some(const char *path, const char *const *wanted, ec_exr *exr, ec_error *err)
 {
     *exr = (ec_exr){0};
     exr_source source = {.path = path};
@@ -174,9 +186,12 @@ ec_result ec_exr_read(const char *path, ec_exr *exr, ec_error *err)
     ec_result result;
     EC_TRY_CLEANUP(check_storage(&source, err));
     EC_TRY_CLEANUP(read_size(&source, exr, err));
-    EC_TRY_CLEANUP(read_channel_list(&source, exr, err));
+    EC_TRY_CLEANUP(read_channel_list(&source, wanted, exr, err));
+    source.unwanted = wanted ? malloc(exr->width * sizeof(float)) : NULL;
+    if (wanted && !source.unwanted) EC_TRY_CLEANUP(ec_fail(err, "cannot read '%s': out of memory", path));
     EC_TRY_CLEANUP(read_pixels(&source, exr, err));
 cleanup:
+    free(source.unwanted);
     exr_finish(&source.context);
     if (result != EC_OK) ec_exr_free(exr);
     return result;

@@ -14,7 +14,7 @@ static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *ex
         if (!name[0] || name[1] || !strchr("RGBA", name[0]))
             return ec_fail(err, "cannot read '%s': of a DWA compressed file only R, G, B and A are read, not channel '%s'; "
                                 "save it with ZIP compression", path, name);
-        for (uint64_t i = 0; i < count; i++) {
+        for (uint64_t i = 0; exr->planes[c] && i < count; i++) {
             const ImfRgba *p = &pixels[i];
             ImfHalf value = name[0] == 'R' ? p->r : name[0] == 'G' ? p->g : name[0] == 'B' ? p->b : p->a;
             exr->planes[c][i] = ImfHalfToFloat(value);

@@ -60,6 +60,8 @@ typedef struct ec_exr {
     float **planes;     /* owned, width * height each */
 } ec_exr;
 ec_result ec_exr_read(const char *path, ec_exr *exr, ec_error *err);
+/* Of these channels (NULL ends them; none: all) only: others are named, and their planes NULL. */
+ec_result ec_exr_read_some(const char *path, const char *const *wanted, ec_exr *exr, ec_error *err);
 const float *ec_exr_plane(const ec_exr *exr, const char *name); /* NULL if absent */
 void ec_exr_free(ec_exr *exr);
 

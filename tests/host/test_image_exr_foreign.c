@@ -107,6 +107,14 @@ static void foreign_files_are_read(void)
                     worst[c] = fmaxf(worst[c], fabsf(exr.planes[c][i] - foreign_value(c, i % FW, i / FW)));
             CHECK_MSG(worst[0] <= kinds[k].half_error && worst[1] == 0 && worst[2] == 0, "%s: off by %g %g %g", path,
                       worst[0], worst[1], worst[2]);
+            for (int c = 0; c < 3; c++) { /* one of them alone */
+                static const char *const names[3] = {"A", "B", "id"};
+                ec_exr one;
+                CHECK_OK(ec_exr_read_some(path, (const char *const[]){names[c], "none", NULL}, &one, &err), err);
+                CHECK(one.channel_count == 3 && !memcmp(ec_exr_plane(&one, names[c]), exr.planes[c], sizeof(float) * FW * FH));
+                CHECK(!ec_exr_plane(&one, names[(c + 1) % 3]) && !ec_exr_plane(&one, names[(c + 2) % 3]) && !ec_exr_plane(&one, "none"));
+                ec_exr_free(&one);
+            }
             ec_exr_free(&exr);
             double number = 0;
             CHECK(ec_exr_is_half(path, "A") && !ec_exr_is_half(path, "B") && !ec_exr_is_half(path, "none"));
