@@ -132,7 +132,7 @@ static void refit(ec_followed *f, const ec_accel_input *in)
         if (f->built_expense[a] > 0) expense = fmax(expense, ec_accel_expense(a, &f->accels[a]) / f->built_expense[a]);
     }
     f->report.expense = expense > 0 ? expense : 1;
-    f->report.refit_seconds = ec_now() - start;
+    f->report.refit_seconds = f->refit_seconds = ec_now() - start;
 }
 
 /* trace_seconds are those of the moment before, whose trees cost `before` times what they cost when they were built. */
@@ -145,6 +145,7 @@ static bool is_worth_building(const ec_followed *f, double before)
 static ec_result follow_moved(ec_followed *f, ec_accel_input *in, uint32_t wanted, ec_error *err)
 {
     double before = f->report.expense;
+    if (f->refit_seconds > f->report.build_seconds) return build(f, in, wanted, err); /* as it may be on many cores */
     refit(f, in);
     f->report.what = EC_FOLLOW_REFITTED;
     return is_worth_building(f, before) ? build(f, in, wanted, err) : EC_OK;

@@ -26,6 +26,7 @@ typedef struct ec_followed {
     struct ec_followed_input *input; /* a copy of what they were made of last */
     ec_shape_trees trees;
     double trace_seconds;            /* what rays took in the moment before; 0: not known */
+    double refit_seconds;            /* of the last refit; 0: there was none */
     ec_follow_report report;         /* of the last time */
 } ec_followed;
 

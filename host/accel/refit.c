@@ -1,5 +1,8 @@
-/* Boxes from the leaves up. In all layouts children lie behind their parents, so that one sweep from the end does. */
+/* Boxes from the leaves up: the leaves on all cores, since they are most of the work, then the nodes above them. In all layouts children lie
+ * behind their parents, so that one sweep from the end does. */
 #include "accel/refit.h"
+
+#include "accel/accel_internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -74,14 +77,26 @@ static box refit_block(const ec_accel_input *in, ec_tri8 *block, ec_box8 *boxes)
     return all;
 }
 
+static void set_child8(ec_bvh8_node *n, int k, const box *b)
+{
+    for (int axis = 0; axis < 3; axis++) n->bound[2 * axis][k] = b->lo[axis], n->bound[2 * axis + 1][k] = b->hi[axis];
+}
+
 static void refit8(const ec_accel_input *in, ec_bvh8_node *nodes, uint64_t node_count, ec_tri8 *blocks, ec_box8 *boxes)
 {
-    for (uint64_t i = node_count; i-- > 0;)
+#pragma omp parallel for schedule(dynamic, 256) num_threads(ec_accel_threads(in, in->triangle_count))
+    for (uint64_t i = 0; i < node_count; i++)
         for (int k = 0; k < 8; k++) {
             uint32_t child = nodes[i].child[k], block = child & ~EC_LEAF_BIT;
-            if (child == EC_NO_CHILD) continue;
-            box b = child & EC_LEAF_BIT ? refit_block(in, &blocks[block], boxes ? &boxes[block] : NULL) : node8_box(&nodes[child]);
-            for (int axis = 0; axis < 3; axis++) nodes[i].bound[2 * axis][k] = b.lo[axis], nodes[i].bound[2 * axis + 1][k] = b.hi[axis];
+            if (child == EC_NO_CHILD || !(child & EC_LEAF_BIT)) continue;
+            box b = refit_block(in, &blocks[block], boxes ? &boxes[block] : NULL);
+            set_child8(&nodes[i], k, &b);
+        }
+    for (uint64_t i = node_count; i-- > 0;)
+        for (int k = 0; k < 8; k++) {
+            if (nodes[i].child[k] & EC_LEAF_BIT) continue;
+            box b = node8_box(&nodes[nodes[i].child[k]]);
+            set_child8(&nodes[i], k, &b);
         }
 }
 
@@ -134,15 +149,27 @@ static box node2_box(const ec_bvh2_node *n)
     return all;
 }
 
+static void set_child2(ec_bvh2_node *n, int side, const box *b)
+{
+    memcpy(n->lo[side], b->lo, sizeof b->lo);
+    memcpy(n->hi[side], b->hi, sizeof b->hi);
+}
+
 static void refit2(const ec_accel_input *in, ec_bvh2_node *nodes, uint64_t node_count, ec_tri *triangles, ec_box *boxes)
 {
-    for (uint64_t i = node_count; i-- > 0;)
+#pragma omp parallel for schedule(dynamic, 1024) num_threads(ec_accel_threads(in, in->triangle_count))
+    for (uint64_t i = 0; i < node_count; i++)
         for (int side = 0; side < 2; side++) {
             uint32_t child = nodes[i].child[side], first = (child & ~EC_LEAF_BIT) >> 4;
-            if (child == EC_NO_CHILD) continue;
-            box b = child & EC_LEAF_BIT ? refit_leaf(in, triangles + first, boxes ? boxes + first : NULL, child & 15u) : node2_box(&nodes[child]);
-            memcpy(nodes[i].lo[side], b.lo, sizeof b.lo);
-            memcpy(nodes[i].hi[side], b.hi, sizeof b.hi);
+            if (child == EC_NO_CHILD || !(child & EC_LEAF_BIT)) continue;
+            box b = refit_leaf(in, triangles + first, boxes ? boxes + first : NULL, child & 15u);
+            set_child2(&nodes[i], side, &b);
+        }
+    for (uint64_t i = node_count; i-- > 0;)
+        for (int side = 0; side < 2; side++) {
+            if (nodes[i].child[side] & EC_LEAF_BIT) continue;
+            box b = node2_box(&nodes[nodes[i].child[side]]);
+            set_child2(&nodes[i], side, &b);
         }
 }
 

@@ -101,6 +101,15 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     return result;
 }
 
+/* What a device has forgotten or not done right is not to be taken for there. */
+static ec_result begin_anew(sequence *s, ec_error *err)
+{
+    ec_cl_close(&s->cl);
+    EC_TRY(ec_cl_open(&s->device, &s->cl, err));
+    s->cl.keeps_programs = s->cl.keeps_buffers = true;
+    return EC_OK;
+}
+
 static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *err)
 {
     uint32_t frame = ec_frame_number(&s->request->frames, i);
@@ -122,6 +131,7 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
             ec_console_error(s->console, text);
             s->failed++;
             told = tell_state(s, frame, "failed", why.text, &request->outputs, err);
+            if (told == EC_OK) told = begin_anew(s, err);
         }
     }
     free(request);
@@ -163,8 +173,7 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
 {
     bool stopped = false;
     EC_TRY(begin(s, err));
-    EC_TRY(ec_cl_open(&s->device, &s->cl, err));
-    s->cl.keeps_programs = s->cl.keeps_buffers = true;
+    EC_TRY(begin_anew(s, err));
     s->share.cl = &s->cl;
     for (uint32_t i = 0; i < s->count && !stopped; i++) {
         EC_TRY(take_frame(s, i, &stopped, err));

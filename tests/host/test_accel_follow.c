@@ -91,8 +91,11 @@ static void test_what_is_measured_decides(void)
     CHECK(expense > 1 && f.report.expense == 1 && f.report.refit_seconds > 0);
     check_root(&f, s);
     ec_followed_tell(&f, 1e6);
-    raise(s, 0.4f);
     CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_KEPT);
+    raise(s, 0.41f);
+    ec_followed_tell(&f, 0);
+    f.refit_seconds = 2 * f.report.build_seconds; /* clocked: it takes longer than a build */
+    CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_REBUILT && f.report.refit_seconds == 0);
     ec_followed_free(&f);
     free(s);
 }

@@ -4,7 +4,7 @@
 #include <malloc.h>
 #include <stdatomic.h>
 
-#include "accel/accel.h"
+#include "accel/follow.h"
 #include "pack/pack.h"
 #include "test_scene_files.h"
 
@@ -67,12 +67,41 @@ static ec_result pack_all(const ec_scene *scene, ec_error *err)
 
 typedef struct input {
     const char *path, *map;
-    bool animated;
+    bool animated, frames;
 } input;
+
+/* Two moments of one document, and what structures become from the one to the other. */
+static ec_result show(ec_animation *animation, double at, ec_followed *followed, ec_error *err)
+{
+    ec_scene *scene;
+    const ec_scene_choice choice = {.at = at, .animated = true, .frame = true};
+    EC_TRY(ec_animation_show(animation, &choice, &scene, NULL, err));
+    ec_accel_input in = {.positions = scene->positions, .indices = scene->indices, .triangle_count = scene->triangle_count,
+                         .vertex_count = scene->vertex_count, .whole = scene->whole, .threads = 1};
+    ec_result result = pack_all(scene, err);
+    if (result == EC_OK) result = ec_accels_follow(followed, &in, 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8"), err);
+    ec_accel_input_free(&in);
+    ec_scene_free(scene);
+    return result;
+}
+
+static ec_result all_frames(const input *in, ec_error *err)
+{
+    ec_animation *animation;
+    ec_followed followed = {0};
+    const ec_scene_choice choice = {.at = 0.2, .animated = true, .frame = true};
+    ec_result result = ec_animation_open(in->path, &choice, &animation, NULL, err);
+    if (result != EC_OK) CHECK(!animation);
+    for (int k = 0; k < 3 && result == EC_OK; k++) result = show(animation, 0.2 + 0.2 * k, &followed, err);
+    ec_followed_free(&followed);
+    ec_animation_close(animation);
+    return result;
+}
 
 static ec_result everything(const input *in, ec_error *err)
 {
     ec_scene *scene, written;
+    if (in->frames) return all_frames(in, err);
     ec_scene_choice choice = {.at = 0.6, .animated = in->animated, .instancing = EC_INSTANCING_ON};
     ec_result result = ec_scene_load_choice(in->path, &choice, &scene, NULL, err);
     if (result != EC_OK) CHECK(!scene);
@@ -95,11 +124,11 @@ static ec_result fail_at(const input *in, long at, ec_error *err)
 }
 
 /* most: how many of the allocations are tried, evenly spread. */
-static void sweep(const char *name, const char *map, bool animated, long most)
+static void sweep_as(const char *name, input in, long most)
 {
     char path[512];
     ec_error err;
-    input in = {path, map, animated};
+    in.path = path;
     snprintf(path, sizeof path, "%s/%s", ECLAT_SOURCE_DIR, name);
     fail_at(&in, 0, &err); /* what libraries and the run-time allocate once */
     CHECK_OK(fail_at(&in, 0, &err), err);
@@ -117,6 +146,8 @@ static void sweep(const char *name, const char *map, bool animated, long most)
     CHECK_MSG(calls == count, "%s: %ld allocations, %ld before", name, (long)calls, count);
 }
 
+static void sweep(const char *name, const char *map, bool animated, long most) { sweep_as(name, (input){.map = map, .animated = animated}, most); }
+
 int main(void)
 {
     static const char hdr[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n\x40\x40\x40\x81\x80\x40\x40\x81\x40\x80\x40\x81\x40\x40\x80\x81";
@@ -125,6 +156,8 @@ int main(void)
     sweep("tests/robust/corpus/gltf/seed-morph", map, true, 200);
     sweep("tests/robust/corpus/gltf/seed-skin", map, true, 200);
     sweep("tests/robust/corpus/gltf/seed-spline", map, true, 200);
+    sweep_as("tests/robust/corpus/gltf/seed-morph", (input){.frames = true}, 200);
+    sweep_as("tests/robust/corpus/gltf/seed-skin", (input){.frames = true}, 200);
     sweep("tests/robust/corpus/gltf/seed-variants", map, false, 200);
     sweep("tests/robust/corpus/gltf/seed-webp", map, false, 200);
     sweep("tests/robust/corpus/gltf/seed-instances", map, false, 200);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/accel.h"
+#include "accel/refit.h"
 
 enum { SIDE = 200, THREADS = 4, TRIANGLES = 2 * SIDE * SIDE };
 
@@ -43,6 +43,24 @@ static int build_all(const float *positions, const uint32_t *indices)
     return built;
 }
 
+/* Whole triangles, whose trees follow them. */
+static int refit_all(float *positions, const uint32_t *indices)
+{
+    ec_error err = {0};
+    int refitted = 0;
+    for (uint32_t which = 0; which < EC_ACCEL_COUNT; which++) {
+        ec_accel_input input = {.positions = positions, .indices = indices, .triangle_count = TRIANGLES, .threads = THREADS, .whole = true};
+        ec_accel accel;
+        if (!ec_accel_can_refit(which) || ec_accel_build(which, &input, &accel, &err) != EC_OK) continue;
+        for (uint32_t v = 0; v < 4 * SIDE * SIDE; v++) positions[3 * v + 2] += positions[3 * v] * 0.01f;
+        ec_accel_refit(which, &input, &accel);
+        refitted += ec_accel_expense(which, &accel) > 0;
+        ec_accel_free(&accel);
+        ec_accel_input_free(&input);
+    }
+    return refitted;
+}
+
 static int commit_race(void)
 {
     int count = 0;
@@ -57,8 +75,9 @@ int main(int argc, char **argv)
     uint32_t *indices = malloc(sizeof(uint32_t) * 3 * TRIANGLES);
     if (!positions || !indices) return 1;
     make_field(positions, indices);
-    int built = argc > 1 && !strcmp(argv[1], "race") ? commit_race() : build_all(positions, indices);
-    printf("%d structures of %d triangles by %d threads\n", built, TRIANGLES, THREADS);
+    bool races = argc > 1 && !strcmp(argv[1], "race");
+    int built = races ? commit_race() : build_all(positions, indices), refitted = races ? 0 : refit_all(positions, indices);
+    printf("%d structures of %d triangles by %d threads, %d refitted\n", built, TRIANGLES, THREADS, refitted);
     free(positions);
     free(indices);
     return built >= EC_ACCEL_COUNT - 1 ? 0 : 1;

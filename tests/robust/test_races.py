@@ -47,7 +47,7 @@ class Races(unittest.TestCase):
     def test_the_builders_have_none(self):
         run = self.watch()
         self.assertEqual(run.returncode, 0, run.stdout[:4000])
-        self.assertIn("5 structures of 80000 triangles by 4 threads", run.stdout)
+        self.assertIn("5 structures of 80000 triangles by 4 threads, 2 refitted", run.stdout)
 
 
 if __name__ == "__main__":
