@@ -50,6 +50,19 @@ static void print_effects(const ec_render_effects *effects, FILE *to)
     fprintf(to, "effects  %s\n", line);
 }
 
+/* What came before the first ray. Some drivers keep kernels of earlier runs themselves, for others eclat does and counts them. */
+static void print_setup(const ec_render_stats *stats, FILE *to)
+{
+    char kernels[32], accel[32], buffers[32], first[32], counted[64] = "";
+    ec_format_seconds(stats->kernel_seconds, kernels, sizeof kernels);
+    ec_format_seconds(stats->accel_seconds, accel, sizeof accel);
+    ec_format_seconds(stats->pack_seconds, buffers, sizeof buffers);
+    ec_format_seconds(stats->first_pixel_seconds, first, sizeof first);
+    if (stats->cache_misses || stats->cache_hits)
+        snprintf(counted, sizeof counted, " (%u compiled, %u from the cache)", stats->cache_misses, stats->cache_hits);
+    fprintf(to, "set-up   kernels %s%s, acceleration structure %s, buffers %s; first pixel after %s\n", kernels, counted, accel, buffers, first);
+}
+
 static const char *stop_in_words(const char *stopped_by)
 {
     if (!strcmp(stopped_by, "error")) return "the error bound is under --error";
@@ -80,6 +93,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     print_heavy(report, to);
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
     fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
+    print_setup(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);
     else print_effects(&stats->effects, to);
     fprintf(to, "invalid  %" PRIu64 " samples\n", stats->invalid_samples);

@@ -42,6 +42,7 @@
     CASE("lights/punctual", false, ec_selftest_punctual, "units of glTF's lights")                                                 \
     CASE("lights/panes", true, ec_selftest_panes, "points and suns that light nothing behind a window")                            \
     CASE("camera/lens", false, ec_selftest_lens, "blur of another width than the thin lens's")                                    \
+    CASE("camera/shutter", true, ec_selftest_shutter, "things that stand still for some rays while they move for others")           \
     CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")             \
     CASE("scatter/fresnel", false, ec_selftest_fresnel, "black or bright rims where total reflection sets in")                     \
     CASE("scatter/film", false, ec_selftest_film, "rainbows on films of nothing; black or bright rims")                            \

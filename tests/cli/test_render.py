@@ -37,6 +37,7 @@ class Files(Render):
             self.assertIn(os.path.join(os.path.realpath(self.folder), name), run.stdout)
         self.assertEqual(png_size(self.path("quad.png")), (768, 512))  # aspect ratio 1.5
         self.assertRegex(run.stdout, r"error .* at 2 samples a pixel in .* samples/s")
+        self.assertRegex(run.stdout, r"(?m)^set-up   kernels [\d.]+ m?s( \(\d+ compiled, \d+ from the cache\))?, acceleration structure .*; first pixel after [\d.]+ m?s$")
         self.assertRegex(run.stdout, r"(?m)^invalid  0 samples$")
 
     def test_effects_are_told_in_all_places(self):
