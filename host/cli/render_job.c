@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "cl/workarounds.h"
 #include "cli/defaults.h"
 #include "cli/numbers.h"
 #include "cli/progress.h"
@@ -123,7 +124,10 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_erro
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
-    EC_TRY(ec_device_find(job->request->device, &job->device, &job->device_index, &job->device_why, err));
+    job->device_count = 1;
+    if (!job->takes_several) EC_TRY(ec_device_find(job->request->device, job->devices, job->device_indices, &job->device_why, err));
+    else EC_TRY(ec_device_find_several(job->request->device, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count,
+                                       &job->device_why, err));
     double start = ec_now();
     EC_TRY(ec_scene_load_choice(job->request->scene, &job->request->choice, &job->scene, &log, err));
     EC_TRY(prepare_light(job, &log, err));
@@ -135,7 +139,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
 static void announce(const ec_render_job *job, ec_console *console)
 {
     const ec_render_options *options = &job->request->options;
-    char limits[160] = "", range[64] = "";
+    char limits[160] = "", range[64] = "", more[64] = "";
     int used = 0;
     if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
     if (options->time_limit > 0)
@@ -150,7 +154,41 @@ static void announce(const ec_render_job *job, ec_console *console)
         snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
     if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
                                              (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
-    ec_console_say(console, "rendering %s%ux%u pixels on %s until %s", range, options->width, options->height, job->device.name, limits);
+    if (job->device_count > 1) snprintf(more, sizeof more, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
+    ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more, limits);
+}
+
+/* Bits are the same wherever division and square root are correctly rounded. */
+static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
+{
+    for (uint32_t i = 0; i < job->device_count; i++) {
+        const ec_device_info *one = &job->devices[i];
+        bool is_alike = true;
+        for (uint32_t k = 0; k < job->device_count; k++) is_alike &= !strcmp(one->name, job->devices[k].name) && !strcmp(one->driver, job->devices[k].driver);
+        if (is_alike || ec_device_rounds(one)) continue;
+        ec_warn(log, "%s does not say that it rounds division and square root correctly: where it does not, the last bits are not those of one device",
+                one->name);
+    }
+}
+
+/* Those that do not open are left out, if there are others. */
+static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *log, ec_error *err)
+{
+    uint32_t count = 0, wanted = job->device_count;
+    for (uint32_t i = 0; i < wanted; i++) {
+        ec_error why = {0};
+        if (ec_cl_open(&job->devices[i], &devices[count], &why) == EC_OK) {
+            job->devices[count] = job->devices[i];
+            job->device_indices[count++] = job->device_indices[i];
+        } else if (count || i + 1 < wanted) {
+            ec_warn(log, "%s is out: %s", job->devices[i].name, why.text);
+        } else if (err) {
+            *err = why;
+        }
+    }
+    job->device_count = count;
+    if (count) warn_of_rounding(job, log);
+    return count ? EC_OK : EC_FAILED;
 }
 
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
@@ -159,14 +197,14 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     ec_progress_view view = {.console = console, .options = &job->request->options,
                              .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
     const ec_course course = ec_render_job_course(job, console);
-    ec_cl cl = {0};
-    EC_TRY(ec_cl_open(&job->device, &cl, err));
+    ec_cl devices[EC_DEVICES_MOST];
+    EC_TRY(open_devices(job, devices, &log, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     announce(job, console);
-    ec_result result = ec_render_course(&cl, job->scene, &job->request->options, &course, ec_progress_show, &view, &job->film,
-                                        &job->stats, &log, err);
+    ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
+                                        &job->film, &job->stats, &log, err);
     ec_console_erase(console);
-    ec_cl_close(&cl);
+    for (uint32_t i = 0; i < job->device_count; i++) ec_cl_close(&devices[i]);
     if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
     if (result != EC_OK && job->film.batch_count == 0 && ec_stop_requested())
         return ec_fail(err, "interrupted before there was a picture; nothing is written");

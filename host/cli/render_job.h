@@ -14,8 +14,9 @@ typedef struct ec_render_job {
     ec_render_request *request;
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
-    ec_device_info device;
-    uint32_t device_index;
+    bool takes_several;          /* devices; else a list of them is refused */
+    ec_device_info devices[EC_DEVICES_MOST];
+    uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
     ec_film film;
     ec_render_stats stats;
@@ -26,7 +27,7 @@ typedef struct ec_render_job {
     char image_sha256[EC_HASH_SIZE];
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
     ec_stored stored;            /* what is gone on from. Owned */
-    char device_text[512];
+    char device_text[1024];      /* of all of them, each driver once */
     char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
     ec_console *console;
     ec_error keep_error;         /* why the last checkpoint is not there; empty: it is, or none was wanted */
