@@ -181,7 +181,7 @@ static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *
             job->devices[count] = job->devices[i];
             job->device_indices[count++] = job->device_indices[i];
         } else if (count || i + 1 < wanted) {
-            ec_warn(log, "%s is out: %s", job->devices[i].name, why.text);
+            ec_warn(log, "%s is out, and the others take over its work: %s", job->devices[i].name, why.text);
         } else if (err) {
             *err = why;
         }

@@ -224,7 +224,7 @@ static ec_result tell_failures(ec_team *t, ec_error *err)
         if (!m->has_failed || m->is_told) continue;
         m->is_told = true;
         if (!alive(t) && err) *err = m->why;
-        if (alive(t)) ec_warn(t->log, "%s is out: %s; what it had begun goes to the other devices", m->recruit.name, m->why.text);
+        if (alive(t)) ec_warn(t->log, "%s is out, and the others take over its work: %s", m->recruit.name, m->why.text);
     }
     return alive(t) ? EC_OK : EC_FAILED;
 }
