@@ -13,6 +13,7 @@
 #include "cli/progress.h"
 #include "cli/stop.h"
 #include "cli/usage.h"
+#include "pipeline/team.h"
 #include "report/format.h"
 #include "report/scene_report.h"
 
@@ -97,11 +98,12 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 }
 
 /* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. */
-static ec_result check_memory(const ec_render_options *options, ec_error *err)
+static ec_result check_memory(const ec_render_options *options, uint32_t devices, ec_error *err)
 {
     uint64_t batches = options->spp ? (options->spp + ec_render_batch(options) - 1ull) / ec_render_batch(options) : 1;
     const uint64_t bytes_per_pixel = 96 + EC_MOMENTS_BYTES * ec_film_copies(batches); /* first-hit features 32, planes for the files 64 */
-    uint64_t needed = (uint64_t)options->width * options->height * bytes_per_pixel;
+    uint64_t pixels = (uint64_t)options->width * options->height, needed = pixels * bytes_per_pixel;
+    if (devices > 1) needed += 12 * pixels * ec_team_window(devices, pixels);
     uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
     char needed_text[32], present_text[32];
     if (needed <= present) return EC_OK;
@@ -133,7 +135,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
     EC_TRY(prepare_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
-    return check_memory(&job->request->options, err);
+    return check_memory(&job->request->options, job->device_count, err);
 }
 
 static void announce(const ec_render_job *job, ec_console *console)
