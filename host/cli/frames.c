@@ -88,7 +88,7 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     ec_identity identity;
     EC_TRY(ec_frame_identify(&s->given, s->request, s->files, frame, &identity, err));
     char *words = ec_identity_write(&identity), *command = ec_frame_command(&s->given, s->request, &request->outputs, frame);
-    ec_render_job job = {.request = request, .command = command, .share = &s->share, .device = s->device, .device_index = s->device_index,
+    ec_render_job job = {.request = request, .command = command, .share = &s->share, .devices = {s->device}, .device_indices = {s->device_index}, .device_count = 1,
                          .device_why = s->device_why, .frame = {frame, ec_frame_seconds(&s->request->frames, frame), words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, s->console, err);

@@ -7,12 +7,14 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "cl/workarounds.h"
 #include "cli/defaults.h"
 #include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/stop.h"
 #include "cli/usage.h"
 #include "pipeline/strips.h"
+#include "pipeline/team.h"
 #include "report/scene_report.h"
 
 /* A slice is its sums: a PNG alone would throw them away. */
@@ -117,8 +119,8 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 static ec_result check_memory(const ec_render_job *job, ec_error *err)
 {
     const ec_render_options *options = &job->request->options;
-    const char *reason = ec_render_whole_for(job->request);
-    uint64_t needed = ec_strip_whole(options, job->device.type & CL_DEVICE_TYPE_CPU);
+    const char *reason = job->device_count > 1 ? "more than one --device" : ec_render_whole_for(job->request);
+    uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count);
     uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
     int64_t budget = options->memory ? ec_strip_budget(options, 0) : (int64_t)present;
     if (reason && (int64_t)needed > budget) return ec_strip_refuse(options, needed, budget, reason, err);
@@ -139,7 +141,11 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
 {
     const ec_log log = ec_console_log(console);
     const ec_render_request *request = job->request;
-    if (!job->share) EC_TRY(ec_device_find(request->device, &job->device, &job->device_index, &job->device_why, err));
+    if (!job->share) job->device_count = 1;
+    if (job->takes_several)
+        EC_TRY(ec_device_find_several(request->device, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count, &job->device_why, err));
+    else if (!job->share)
+        EC_TRY(ec_device_find(request->device, job->devices, job->device_indices, &job->device_why, err));
     double start = ec_now();
     if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, &log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, &log, err));
@@ -152,7 +158,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
 static void announce(const ec_render_job *job, ec_console *console)
 {
     const ec_render_options *options = &job->request->options;
-    char limits[160] = "", range[64] = "";
+    char limits[160] = "", range[64] = "", more[64] = "";
     int used = 0;
     if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
     if (options->time_limit > 0)
@@ -168,7 +174,41 @@ static void announce(const ec_render_job *job, ec_console *console)
     if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
                                              (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
     if (job->share) snprintf(range, sizeof range, "frame %u, at %.6g s: ", job->frame.number, job->frame.seconds);
-    ec_console_say(console, "rendering %s%ux%u pixels on %s until %s", range, options->width, options->height, job->device.name, limits);
+    if (job->device_count > 1) snprintf(more, sizeof more, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
+    ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more, limits);
+}
+
+/* Bits are the same wherever division and square root are correctly rounded. */
+static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
+{
+    for (uint32_t i = 0; i < job->device_count; i++) {
+        const ec_device_info *one = &job->devices[i];
+        bool is_alike = true;
+        for (uint32_t k = 0; k < job->device_count; k++) is_alike &= !strcmp(one->name, job->devices[k].name) && !strcmp(one->driver, job->devices[k].driver);
+        if (is_alike || ec_device_rounds(one)) continue;
+        ec_warn(log, "%s does not say that it rounds division and square root correctly: where it does not, the last bits are not those of one device",
+                one->name);
+    }
+}
+
+/* Those that do not open are left out, if there are others. */
+static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *log, ec_error *err)
+{
+    uint32_t count = 0, wanted = job->device_count;
+    for (uint32_t i = 0; i < wanted; i++) {
+        ec_error why = {0};
+        if (ec_cl_open(&job->devices[i], &devices[count], &why) == EC_OK) {
+            job->devices[count] = job->devices[i];
+            job->device_indices[count++] = job->device_indices[i];
+        } else if (count || i + 1 < wanted) {
+            ec_warn(log, "%s is out, and the others take over its work: %s", job->devices[i].name, why.text);
+        } else if (err) {
+            *err = why;
+        }
+    }
+    job->device_count = count;
+    if (count) warn_of_rounding(job, log);
+    return count ? EC_OK : EC_FAILED;
 }
 
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
@@ -177,16 +217,16 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     ec_progress_view view = {.console = console, .options = &job->request->options,
                              .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
     const ec_course course = ec_render_job_course(job, console);
-    ec_cl own = {0}, *cl = job->share ? job->share->cl : &own;
-    if (!job->share) EC_TRY(ec_cl_open(&job->device, &own, err));
+    ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : own;
+    if (!job->share) EC_TRY(open_devices(job, own, &log, err));
     if (job->share) job->request->options.followed = &job->share->followed;
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     announce(job, console);
-    ec_result result = ec_render_course(cl, job->scene, &job->request->options, &course, ec_progress_show, &view, &job->film,
-                                        &job->stats, &log, err);
+    ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
+                                        &job->film, &job->stats, &log, err);
     ec_console_erase(console);
-    if (!job->share) ec_cl_close(&own);
-    else ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
+    for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&own[i]);
+    if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     const bool has_picture = job->film.batch_count || job->rows;
     if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");
     if (result != EC_OK && !has_picture && ec_stop_requested())
@@ -212,9 +252,9 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .options = &request->options,
         .stats = &job->stats,
         .verbose = request->verbose,
-        .device = &job->device,
+        .device = job->devices,
         .device_why = job->device_why,
-        .device_index = job->device_index,
+        .device_index = job->device_indices,
         .exposure = request->exposure,
         .tonemap = request->tonemap,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,

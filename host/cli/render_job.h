@@ -25,8 +25,9 @@ typedef struct ec_render_job {
     ec_scene *scene;             /* owned */
     ec_frame_share *share;       /* NULL: it is no frame of a sequence */
     ec_frame_facts frame;        /* with that */
-    ec_device_info device;
-    uint32_t device_index;
+    bool takes_several;          /* devices; else a list of them is refused */
+    ec_device_info devices[EC_DEVICES_MOST];
+    uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
@@ -38,7 +39,7 @@ typedef struct ec_render_job {
     char image_sha256[EC_HASH_SIZE];
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
     ec_stored stored;            /* what is gone on from. Owned */
-    char device_text[516];
+    char device_text[1024];      /* of all of them, each driver once */
     char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
     ec_console *console;
     ec_error keep_error;         /* why the last checkpoint is not there; empty: it is, or none was wanted */

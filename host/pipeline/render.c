@@ -8,13 +8,15 @@
 
 #include "base/clock.h"
 #include "pipeline/adaptive.h"
-#include "pipeline/batch_source.h"
 #include "pipeline/course.h"
 #include "pipeline/forecast.h"
+#include "pipeline/sources.h"
 #include "pipeline/strips.h"
 
 typedef struct render_state {
-    ec_batch_source source;
+    ec_sources sources;
+    ec_batch_source *source;
+    ec_params params;          /* width, height and batch are the render's */
     const ec_render_options *options;
     const ec_course *course;
     ec_progress_fn progress;
@@ -36,6 +38,7 @@ typedef struct render_state {
     uint64_t under_way;        /* samples of the batch that is not there yet */
     double kept_at;
     uint32_t kept_next, kept_under_way;
+    float *aov;                /* of the first batch, until it is in the film */
     const char *stopped_by;
     uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
     uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
@@ -63,7 +66,7 @@ static double fraction_done(const render_state *r, double batches, double second
 {
     const ec_render_options *o = r->options;
     if (r->strip_rows) /* spp alone ends them */
-        return fmin(((double)r->samples_before / r->source.pipeline.params.batch + batches * film_pixels(r)) / r->batches_wanted / picture_pixels(r), 1.0);
+        return fmin(((double)r->samples_before / r->params.batch + batches * film_pixels(r)) / r->batches_wanted / picture_pixels(r), 1.0);
     if (isfinite(r->forecast.seconds) && r->forecast.seconds > 0.0) return fmin(seconds / r->forecast.seconds, 1.0);
     double f = 0.0;
     if (r->batches_wanted) f = fmax(f, batches / r->batches_wanted);
@@ -81,14 +84,13 @@ static bool report(render_state *r, double batches)
     double now = ec_now(), seconds = now - r->render_start;
     r->last_report = now;
     if (!r->progress) return true;
-    ec_pipeline *p = &r->source.pipeline;
-    double samples = (double)r->samples_before + batches * p->params.batch * film_pixels(r);
+    double samples = (double)r->samples_before + batches * r->params.batch * film_pixels(r);
     double f = fraction_done(r, batches, seconds);
     ec_progress progress = {
         .seconds = seconds,
         .seconds_left = f > 0.0 ? seconds * (1.0 - f) / f : -1.0,
         .fraction = f,
-        .samples_per_pixel = (uint64_t)(r->strip_rows ? samples / picture_pixels(r) : batches * p->params.batch),
+        .samples_per_pixel = (uint64_t)(r->strip_rows ? samples / picture_pixels(r) : batches * r->params.batch),
         .samples = (uint64_t)samples,
         .samples_per_second = seconds > 0.0 ? samples / seconds : 0.0,
         .error = r->strip_rows ? INFINITY : r->error.error, /* that of a strip is not the picture's */
@@ -102,7 +104,7 @@ static bool report(render_state *r, double batches)
 /* Batches a pixel, in the mean. */
 static double batches_done(const render_state *r)
 {
-    return (double)r->past.samples / r->source.pipeline.params.batch / film_pixels(r);
+    return (double)r->past.samples / r->params.batch / film_pixels(r);
 }
 
 /* Hands over what there is. A batch that is under way goes with it: on large pictures one takes minutes. */
@@ -114,9 +116,9 @@ static void keep(render_state *r, uint32_t under_way)
     now.seconds = ec_now() - r->render_start;
     if (under_way) {
         now.under_way = under_way;
-        now.batch = r->source.mean;
-        now.rays = r->rays_before + r->source.pipeline.rays;
-        for (int i = 0; i < EC_STAGE_COUNT; i++) now.invalid[i] = r->invalid_before[i] + r->source.invalid[i];
+        now.batch = r->source->mean;
+        now.rays = r->rays_before + r->source->rays;
+        for (int i = 0; i < EC_STAGE_COUNT; i++) now.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
     }
     ec_film_show(r->film);
     if (r->course->keep(r->course->user, r->film, &now)) r->kept_next = now.next, r->kept_under_way = under_way;
@@ -127,12 +129,11 @@ static void keep(render_state *r, uint32_t under_way)
 static bool goes_on(void *user, uint32_t done)
 {
     render_state *r = user;
-    const ec_params *params = &r->source.pipeline.params;
-    r->under_way = (uint64_t)done * params->batch;
-    if (r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
+    r->under_way = (uint64_t)done * r->params.batch;
+    if (done > r->order.done && r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
     if (done >= r->order.count) return true;
     bool is_due = r->course->keep && r->film->batch_count && ec_now() - r->kept_at >= r->course->every;
-    r->look_failed = is_due && ec_batch_source_look(&r->source, &r->order, &r->look_error) != EC_OK;
+    r->look_failed = is_due && r->source->look(r->source, &r->order, &r->look_error) != EC_OK;
     if (r->look_failed) return false;
     if (is_due) keep(r, done);
     double now = ec_now(), share = done / film_pixels(r);
@@ -143,20 +144,32 @@ static bool goes_on(void *user, uint32_t done)
     return false;
 }
 
+/* Up to which batch a source may look ahead: what comes after the pilot of an adaptive render, and each pass then, depends on the film. */
+static uint32_t known_end(const render_state *r)
+{
+    uint32_t left = UINT32_MAX - r->past.next, pilot = 1;
+    if (r->batches_wanted) left = r->batches_wanted - (uint32_t)fmin(batches_done(r), r->batches_wanted - 1.0);
+    while (!ec_pilot_is_over(r->film->batch_count + pilot)) pilot++;
+    if (r->options->adaptive && !r->past.allotted && pilot < left) left = pilot;
+    return r->past.next + (r->past.allotment.weight ? 1 : left);
+}
+
 /* The pixels that the next batch is for: all, or the allotment's; and waves until they are done or *complete is false. */
 static ec_result run_batch(render_state *r, bool *complete, ec_error *err)
 {
+    const uint64_t pixels = (uint64_t)r->film->width * r->film->height;
     ec_allotment *a = &r->past.allotment;
-    r->order = (ec_batch_order){.index = r->past.next, .count = r->film->width * r->film->height, .with_features = r->past.next == 0,
-                                .go_on = goes_on, .user = r};
+    if (r->past.next == 0 && !r->aov) r->aov = calloc(pixels * EC_AOV_FIELDS, sizeof *r->aov);
+    if (r->past.next == 0 && !r->aov) return ec_fail(err, "out of memory for the first-hit features");
+    r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)pixels, .aov = r->aov, .go_on = goes_on, .user = r};
     if (a->weight) r->order.count = ec_allotment_pass(a, r->film), r->order.list = a->list;
     if (r->past.under_way < r->order.count) r->order.done = r->past.under_way;
-    if (r->order.done) memcpy(r->source.mean, r->past.batch, (uint64_t)r->order.count * 12);
+    if (r->order.done) r->order.before = r->past.batch;
     r->past.under_way = 0;
     r->past.batch = NULL;
     r->batches_before_it = batches_done(r);
     r->under_way = 0;
-    ec_result result = ec_batch_source_take(&r->source, &r->order, complete, err);
+    ec_result result = r->source->take(r->source, &r->order, complete, err);
     if (!r->look_failed) return result;
     if (err) *err = r->look_error; /* a device tells of a failure once */
     return EC_FAILED;
@@ -165,12 +178,14 @@ static ec_result run_batch(render_state *r, bool *complete, ec_error *err)
 static ec_result mark_unsampled(render_state *r, ec_error *err)
 {
     uint64_t pixels = (uint64_t)r->film->width * r->film->height;
-    float *mean = r->source.mean;
+    float *mean = r->source->mean;
     r->film->unsampled = calloc(pixels, 1);
     if (!r->film->unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
+    r->under_way = pixels * r->params.batch;
     for (uint64_t i = 0; i < pixels; i++) {
         if (mean[3 * i] != EC_NOT_REACHED) continue;
         r->film->unsampled[i] = 1;
+        r->under_way -= r->params.batch;
         mean[3 * i] = mean[3 * i + 1] = mean[3 * i + 2] = 0.0f;
     }
     return EC_OK;
@@ -178,14 +193,15 @@ static ec_result mark_unsampled(render_state *r, ec_error *err)
 
 static ec_result add_batch(render_state *r, bool complete, ec_error *err)
 {
-    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source.invalid[i];
+    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
     if (!complete) EC_TRY(mark_unsampled(r, err));
     ec_allotment *a = &r->past.allotment;
-    if (a->weight) EC_TRY(ec_film_add_some(r->film, r->source.mean, a->places, r->order.count, err));
-    else EC_TRY(ec_film_add_at(r->film, r->past.next, r->source.mean, err));
-    if (r->past.next == 0) EC_TRY(ec_batch_source_features(&r->source, &r->film->aov, err));
+    if (a->weight) EC_TRY(ec_film_add_some(r->film, r->source->mean, a->places, r->order.count, err));
+    else EC_TRY(ec_film_add_at(r->film, r->past.next, r->source->mean, err));
+    if (r->aov) r->film->aov = r->aov;
+    r->aov = NULL;
     r->past.samples += r->under_way;
-    r->past.rays = r->rays_before + r->source.pipeline.rays;
+    r->past.rays = r->rays_before + r->source->rays;
     r->past.next++;
     r->error = ec_film_estimate_error(r->film);
     return EC_OK;
@@ -197,7 +213,7 @@ static void look_ahead(render_state *r, bool at_pilot)
     r->batch_end = now;
     if (r->first_seconds == 0.0) r->first_seconds = now - r->render_start;
     else if (at_pilot || !r->past.allotment.weight) r->sum += took, r->squares += took * took, r->timed++;
-    if (!ec_pilot_is_over(r->film->batch_count) || r->timed == 0.0 || r->strip_rows) return;
+    if (!ec_pilot_is_over(r->film->batch_count) || r->timed == 0.0) return;
     double mean = r->sum / r->timed, variance = fmax(r->squares / r->timed - mean * mean, 0.0);
     ec_pace pace = {now - r->render_start, r->first_seconds, r->timed > 1.0 ? sqrt(variance / (r->timed - 1.0)) / mean : 0.0};
     r->forecast = ec_forecast_make(r->film, &r->error, r->options, &pace, done, at_pilot ? r->past.allotment.gain : 1.0);
@@ -226,14 +242,14 @@ static ec_result take_batch(render_state *r, const ec_log *log, ec_error *err)
     bool complete;
     EC_TRY(run_batch(r, &complete, err));
     if (!complete && (r->past.next > 0 || r->course->end || r->strip_rows)) { /* part of a batch is of no use to a picture */
-        keep(r, (uint32_t)(r->under_way / r->source.pipeline.params.batch));
+        keep(r, (uint32_t)(r->under_way / r->params.batch));
         return EC_OK;
     }
     if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
     EC_TRY(add_batch(r, complete, err));
     /* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
     bool at_pilot = r->options->adaptive && !r->past.allotted && ec_pilot_is_over(r->film->batch_count);
-    if (at_pilot) EC_TRY(ec_allot(r->film, &r->source.pipeline.params, &r->past.allotment, err));
+    if (at_pilot) EC_TRY(ec_allot(r->film, &r->params, &r->past.allotment, err));
     r->past.allotted |= at_pilot;
     if (complete && !is_done(r, at_pilot) && ec_now() - r->kept_at >= r->course->every) keep(r, 0);
     return EC_OK;
@@ -260,9 +276,9 @@ static ec_result render_strip(render_state *r, uint32_t first_row, uint32_t rows
     ec_render_stats told = *r->stats;
     r->past = (ec_past){.seconds = first_row ? ec_now() - r->render_start : 0.0, .allotment.gain = 1.0};
     r->stopped_by = NULL;
-    EC_TRY(ec_film_create(r->film, r->options->width, rows, r->source.pipeline.params.batch, err));
+    EC_TRY(ec_film_create(r->film, r->options->width, rows, r->params.batch, err));
     r->film->shows_late = true;
-    EC_TRY(ec_batch_source_turn_to(&r->source, first_row, rows, err));
+    EC_TRY(r->source->turn_to(r->source, first_row, rows, err));
     EC_TRY(render_film(r, log, err));
     if (strcmp(r->stopped_by, "spp")) return EC_OK;
     r->samples_before += r->past.samples;
@@ -291,7 +307,7 @@ static ec_result render_strips(render_state *r, const ec_log *log, ec_error *err
 static void finish_stats(render_state *r)
 {
     ec_render_stats *s = r->stats;
-    const ec_pipeline *p = &r->source.pipeline;
+    const ec_pipeline *alone = ec_sources_alone(&r->sources);
     const uint64_t *invalid = r->past.invalid;
     s->seconds = ec_now() - r->render_start;
     s->invalid_generate = invalid[EC_STAGE_GENERATE];
@@ -303,16 +319,13 @@ static void finish_stats(render_state *r)
     s->samples_per_pixel = (uint64_t)((double)r->past.samples / picture_pixels(r) + 1e-6);
     s->allotment_gain = r->past.allotment.gain;
     s->samples = r->past.samples;
-    s->rays = r->rays_before + p->rays;
+    s->rays = r->rays_before + r->source->rays;
     s->samples_per_second = s->seconds > 0.0 ? (double)s->samples / s->seconds : 0.0;
     s->rays_per_second = s->seconds > 0.0 ? (double)s->rays / s->seconds : 0.0;
     s->error = r->error.error;
     s->error_bound = r->error.error_bound;
     s->relmse = r->error.relmse;
-    s->device_bytes = p->cl->peak_allocated_bytes;
-    s->cache_hits = p->cl->cache_hits;
-    s->cache_misses = p->cl->cache_misses;
-    s->trace_seconds = p->clocked_rays > 0 ? p->clocked_seconds / p->clocked_rays * (double)s->rays : s->seconds;
+    s->trace_seconds = alone && alone->clocked_rays > 0 ? alone->clocked_seconds / alone->clocked_rays * (double)s->rays : s->seconds;
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", r->stopped_by ? r->stopped_by : "user");
 }
 
@@ -344,7 +357,7 @@ static uint64_t driver_bytes(const ec_cl *cl) { return cl->cache_misses ? 144ull
 static ec_result choose_rows(render_state *r, const ec_log *log, ec_error *err)
 {
     const ec_render_options *o = r->options;
-    const ec_pipeline *p = &r->source.pipeline;
+    const ec_pipeline *p = ec_sources_alone(&r->sources);
     const ec_device_info *device = &p->cl->info;
     const bool shared = device->type & CL_DEVICE_TYPE_CPU, can = r->course->strip != NULL;
     const uint64_t whole = ec_strip_whole(o, shared), left = device->memory_bytes - p->cl->allocated_bytes;
@@ -378,33 +391,43 @@ static void take_up(render_state *r, const ec_past *past)
     r->kept_under_way = past->under_way;
 }
 
-static ec_result set_up(render_state *r, ec_cl *cl, const ec_scene *scene, uint32_t batch, ec_cargo *cargo, const ec_log *log, ec_error *err)
+/* Of one device, told once it is loaded, since that is what its films have to fit beside; several devices have all rows. */
+static ec_result choose_film(render_state *r, uint32_t batch, const ec_log *log, ec_error *err)
 {
-    const ec_past *past = r->course->past;
-    const ec_pipeline *p = &r->source.pipeline;
-    take_up(r, past);
-    EC_TRY(ec_pipeline_lanes(cl, r->options->lanes, &r->stats->lanes, err)); /* before the work of what follows */
-    EC_TRY(ec_cargo_make(scene, r->options, batch, 1u << ec_device_kind_of(&cl->info), cargo, r->stats, err));
-    EC_TRY(ec_batch_source_open(cl, cargo, r->options->seed, &r->source, r->stats, err));
-    EC_TRY(choose_rows(r, log, err));
-    if (!past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, batch, err));
+    const ec_pipeline *alone = ec_sources_alone(&r->sources);
+    if (alone) EC_TRY(choose_rows(r, log, err));
+    if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, batch, err));
     r->film->shows_late = true;
-    if (!r->strip_rows) EC_TRY(ec_batch_source_turn_to(&r->source, 0, r->options->height, err));
-    r->stats->wave = p->wave;
-    if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
-    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &p->params, &r->past.allotment, err));
-    if (cargo->head.bodies_too_many)
-        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
-                cargo->head.bodies_too_many, EC_BODIES_MOST);
-    if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(p->effects.called.bits & EC_FEATURE_MULTISCATTER))
-        ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
-    if (p->wave < p->first_wave)
-        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", p->wave, p->first_wave);
+    if (!alone) return EC_OK;
+    if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
+    r->stats->wave = alone->wave;
+    if (alone->wave < alone->first_wave)
+        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", alone->wave, alone->first_wave);
     return EC_OK;
 }
 
-ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, const ec_course *course, ec_progress_fn progress,
-                           void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
+static ec_result set_up(render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene, uint32_t batch, const ec_log *log,
+                        ec_error *err)
+{
+    const ec_past *past = r->course->past;
+    const ec_cargo_head *head = &r->sources.cargo.head;
+    take_up(r, past);
+    EC_TRY(ec_sources_pack(devices, device_count, scene, r->options, batch, &r->sources, r->stats, err));
+    r->params = head->params;
+    const uint64_t called = head->effects.called.bits; /* the cargo is spent when it is loaded */
+    if (head->bodies_too_many)
+        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
+                head->bodies_too_many, EC_BODIES_MOST);
+    if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(called & EC_FEATURE_MULTISCATTER))
+        ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
+    if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
+    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, &r->past.allotment, err));
+    EC_TRY(ec_sources_open(&r->sources, r->options->seed, log, &r->source, r->stats, err));
+    return choose_film(r, batch, log, err);
+}
+
+ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene, const ec_render_options *options, const ec_course *course,
+                           ec_progress_fn progress, void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     *stats = (ec_render_stats){.strips = 1};
     EC_TRY(check_ends(options, err));
@@ -414,9 +437,7 @@ ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_opt
     uint32_t batch = ec_render_batch(options);
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
     if (course->end) r.batches_wanted = course->end - course->first;
-    ec_cargo cargo = {0};
-    ec_result result = set_up(&r, cl, scene, batch, &cargo, log, err);
-    ec_cargo_free(&cargo);
+    ec_result result = set_up(&r, devices, device_count, scene, batch, log, err);
     if (result == EC_OK) {
         ec_error why = {0};
         result = r.strip_rows ? render_strips(&r, log, &why) : render_film(&r, log, &why);
@@ -426,7 +447,8 @@ ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_opt
     }
     ec_film_show(film);
     ec_allotment_free(&r.past.allotment);
-    ec_batch_source_close(&r.source);
+    free(r.aov);
+    ec_sources_close(&r.sources, stats);
     return result;
 }
 
@@ -434,7 +456,7 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     const ec_course whole = {0};
-    return ec_render_course(cl, scene, options, &whole, progress, user, film, stats, log, err);
+    return ec_render_course(cl, 1, scene, options, &whole, progress, user, film, stats, log, err);
 }
 
 ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, ec_render_effects *effects, ec_error *err)

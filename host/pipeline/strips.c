@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "film/moments.h"
 #include "film/parts.h"
+#include "pipeline/team.h"
 
 ec_strip_need ec_strip_needs(const ec_render_options *o)
 {
@@ -16,6 +17,14 @@ uint64_t ec_strip_whole(const ec_render_options *o, bool shared)
 {
     const ec_strip_need n = ec_strip_needs(o);
     return (uint64_t)o->width * o->height * (n.host + (shared ? n.device : 0)) + o->width * n.column;
+}
+
+uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *devices, uint32_t count)
+{
+    const uint64_t pixels = (uint64_t)o->width * o->height;
+    uint64_t bytes = ec_strip_whole(o, false);
+    for (uint32_t i = 0; i < count; i++) bytes += devices[i].type & CL_DEVICE_TYPE_CPU ? pixels * ec_strip_needs(o).device : 0;
+    return count > 1 ? bytes + 12 * pixels * ec_team_window(count, pixels) : bytes;
 }
 
 static uint64_t rows_in(uint64_t bytes, uint64_t width, uint64_t per_pixel) { return bytes / (width * per_pixel); }
