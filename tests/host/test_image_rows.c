@@ -151,5 +151,5 @@ int main(void)
     exr_attributes_of_other_lengths();
     png_rows();
     nothing_half_written();
-    return 0;
+    TEST_END();
 }

@@ -24,5 +24,5 @@ int main(void)
     const rlim_t space = pages * (uint64_t)sysconf(_SC_PAGESIZE) + room;
     CHECK(setrlimit(RLIMIT_AS, &(struct rlimit){space, RLIM_INFINITY}) == 0);
     CHECK(ec_memory_free() <= room && ec_memory_free() > room / 2);
-    return 0;
+    TEST_END();
 }
