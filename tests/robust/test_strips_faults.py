@@ -71,10 +71,10 @@ class Strips(FaultCase):
             rows = [planes["samples"][SIDE * y:SIDE * (y + 1)] for y in range(SIDE)]
             done = sum(row == [2.0] * SIDE for row in rows)
             kept.add(done)
-            self.assertEqual(rows[done:], [[0.0] * SIDE] * (SIDE - done))
+            self.assertTrue(rows[done:] == [[0.0] * SIDE] * (SIDE - done))
             self.assertEqual(done % 16, 0)
             for name in ["R", "G", "B", "stderr.R", "stderr.Y", "A", "albedo.R", "depth.Z"]:
-                self.assertEqual(planes[name][:SIDE * done], whole[name][:SIDE * done], name)
+                self.assertTrue(planes[name][:SIDE * done] == whole[name][:SIDE * done], name)
                 self.assertEqual(set(planes[name][SIDE * done:]), {0.0} if done < SIDE else set(), name)
             if done == SIDE:
                 return
