@@ -265,7 +265,7 @@ ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *
     if (s->dropped_degenerate)
         ec_note(log, "%s: %u triangles without area are left out", g->path, s->dropped_degenerate);
     if (f.odd_values)
-        ec_warn(log, "%s: %llu texture coordinates or colours are NaN, infinite or (colours) out of 0..1; they are clamped",
+        ec_warn(log, "%s: %llu texture coordinates or colours are NaN, beyond 1e18 or (colours) out of 0..1; they are clamped",
                 g->path, (unsigned long long)f.odd_values);
     return EC_OK;
 }

@@ -1,7 +1,6 @@
 /* One vertex with its streams, from a primitive's accessors to the scene's arrays. */
 #include "scene/flatten_vertex.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -74,7 +73,7 @@ uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t 
     for (int i = 0; i < 2; i++) {
         if (!s->uv[i]) continue;
         memset(s->uv[i] + 2 * n, 0, 2 * sizeof(float));
-        store_values(f, d, d->p->streams.uv[i], vertex, 2, -FLT_MAX, FLT_MAX, s->uv[i] + 2 * n);
+        store_values(f, d, d->p->streams.uv[i], vertex, 2, -EC_UV_MOST, EC_UV_MOST, s->uv[i] + 2 * n);
     }
     if (s->colors) {
         for (int i = 0; i < 4; i++) s->colors[4 * n + (size_t)i] = 1;

@@ -31,6 +31,9 @@ typedef struct ec_texture {
     bool nearest;         /* magnification filter NEAREST; otherwise bilinear */
 } ec_texture;
 
+/* Of texture coordinates and of what transforms them: their products are floats. Beyond 2^24 a texture shows one texel anyway. */
+#define EC_UV_MOST 1e18f
+
 /* Use of a texture by a material; texture < 0 means none. */
 typedef struct ec_texture_use {
     int32_t texture;

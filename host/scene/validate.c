@@ -26,6 +26,8 @@ void ec_scene_clamp_materials(ec_scene *s, const char *path, const ec_log *log)
         for (int k = 0; k < 3; k++) changed |= clamp(&m->sheen[k], 0, 1);
         if (m->ior != 0) changed |= clamp(&m->ior, 1, 1e3f);
         changed |= clamp(&m->alpha_cutoff, 0, 1e30f) | clamp(&m->normal_scale, -1e30f, 1e30f);
+        for (int slot = 0; slot < EC_SLOT_COUNT; slot++)
+            for (int k = 0; k < 6; k++) changed |= clamp(&m->textures[slot].transform[k], -EC_UV_MOST, EC_UV_MOST);
         if (changed)
             ec_warn(log, "%s: materials[%u] \"%.80s\" has factors out of glTF's range; they are clamped", path, i,
                     m->name ? m->name : "");

@@ -42,7 +42,7 @@ def ball(material):
             places += n
             normals += n
             tangents += [-math.sin(around), 0, -math.cos(around), 1]
-            first += [i / COLUMNS, j / ROWS]
+            first += [5 * i / COLUMNS, 3 * j / ROWS]
             a, b = j * (COLUMNS + 1) + i, (j + 1) * (COLUMNS + 1) + i
             indices += [a, b, a + 1, a + 1, b, b + 1] if i < COLUMNS and j < ROWS else []
     scene = Scene(material)
@@ -101,7 +101,7 @@ class OddMaterials(HardCase):
         """On every slot: the second set, turned and mirrored; and as far as float goes."""
         core = {name: {name: None} for name in ("normalTexture", "emissiveTexture")}
         core.update({name: {"pbrMetallicRoughness": {name: None}} for name in ("baseColorTexture", "metallicRoughnessTexture")})
-        for transform in [{"offset": [0.3, 0.2], "rotation": 0.7, "scale": [2, -3], "texCoord": 1}, {"scale": [3e38, 3e38]}, {"offset": [1e38, -1e38]}]:
+        for transform in [{"offset": [0.3, 0.2], "rotation": 0.7, "scale": [2, -3], "texCoord": 1}, {"scale": [3e38, 3e38]}, {"scale": [3e38, -3e38], "rotation": 0.8, "offset": [-3e38, 3e38]}]:
             use = {"index": 0, "texCoord": 0, "extensions": {"KHR_texture_transform": transform}}
             materials = {name: {"pbrMetallicRoughness": {name: use}} if "pbrMetallicRoughness" in shape else {name: use} for name, shape in core.items()}
             materials.update({key: layered(**{layer: {**LAYERS[layer], key: use}}) for layer, keys in TEXTURES.items() for key in keys})
