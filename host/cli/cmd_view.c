@@ -277,7 +277,7 @@ ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
     const ec_view_request request = {
         .device = job.device, .options = job.render.options, .env_degrees = job.render.env_degrees, .exposure = job.render.exposure,
         .tonemap = job.render.tonemap, .scene = job.render.scene, .environment = job.render.environment, .against = job.against,
-        .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_requested,
+        .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_descriptor(),
     };
     ec_stop_catch_signals(false);
     return ec_view_run(&request, err);

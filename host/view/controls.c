@@ -32,6 +32,14 @@ static void probe(ec_window *w)
     wish->probes++;
 }
 
+static void on_enter(GLFWwindow *glfw, int inside)
+{
+    ec_window *w = of(glfw);
+    if (inside) return;
+    w->input.wish.probe_x = w->input.wish.probe_y = UINT32_MAX;
+    w->input.wish.probes++;
+}
+
 static void on_cursor(GLFWwindow *glfw, double x, double y)
 {
     ec_window *w = of(glfw);
@@ -155,6 +163,7 @@ static void on_scale(GLFWwindow *glfw, float x, float y)
 void ec_window_listen(ec_window *w)
 {
     glfwSetWindowUserPointer(w->glfw, w);
+    glfwSetCursorEnterCallback(w->glfw, on_enter);
     glfwSetCursorPosCallback(w->glfw, on_cursor);
     glfwSetMouseButtonCallback(w->glfw, on_button);
     glfwSetScrollCallback(w->glfw, on_scroll);

@@ -14,7 +14,7 @@ typedef struct ec_window {
     ec_view *view;
     struct GLFWwindow *glfw;
     ec_view_textures textures;
-    ec_view_text text;
+    ec_view_text text, small;   /* small: no larger than the help can be */
     ec_view_input input;
     ec_view_status status;      /* the last that was looked at */
     ec_script script;
@@ -29,7 +29,7 @@ typedef struct ec_window {
     double flown;               /* ec_now of the last step of flight */
     double told_at;             /* when a save was told */
     bool telling;               /* it still is */
-    bool iconified, shown, dirty, is_full;
+    bool iconified, shown, dirty, is_full, stopped;
     int old_x, old_y, old_width, old_height; /* before full screen */
 } ec_window;
 
