@@ -73,21 +73,22 @@ static void format_settings(const ec_view_overlay *o, char *text, size_t size)
              ec_tonemap_names[w->tonemap], turned, *without ? "  without " : "", without);
 }
 
-/* Under the top of the window: what needs to be read now. */
-static void draw_messages(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
+/* Under the top of the window, and above the foot: what needs to be read now. */
+static void draw_messages(const ec_view_overlay *o, const ec_view_text *text, double width, double height, double foot)
 {
     const ec_view_status *s = o->status;
     char line[80];
     ec_view_block b;
-    ec_block_start(&b, text, width, 0.7 * height);
+    ec_block_start(&b, text, width, height - foot);
     ec_block_add(&b, s->failure, 2, red);
     if (*s->loading) snprintf(line, sizeof line, "%s ...", s->loading), ec_block_add(&b, line, 2, yellow);
     if (o->message) ec_block_add(&b, s->told, 2, yellow);
     ec_block_draw(&b, 0, height, width);
 }
 
-/* At the foot; no more than half of the window. What is under the cursor comes and goes above the rest, which stays in its place. */
-static void draw_foot(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
+/* At the foot; no more than half of the window. What is under the cursor comes and goes above the rest, which stays in its place.
+ * Its height. */
+static double draw_foot(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
 {
     char state[400], settings[1000], effects[1200], probe[400];
     bool selected = o->selected->node >= 0;
@@ -104,6 +105,7 @@ static void draw_foot(const ec_view_overlay *o, const ec_view_text *text, double
         if (fits) break;
     }
     ec_block_draw(&b, 0, ec_block_height(&b), width);
+    return ec_block_height(&b);
 }
 
 /* What the second picture is, in its upper right corner. */
@@ -129,8 +131,8 @@ void ec_view_overlay_draw(const ec_view_overlay *o, const ec_view_text *text, do
         ec_view_help_draw(o->small, width, height);
         return;
     }
-    if (o->lines != EC_LINES_NONE) draw_foot(o, text, width, height);
+    double foot = o->lines != EC_LINES_NONE ? draw_foot(o, text, width, height) : 0;
     if (o->layout != EC_LAYOUT_ONE && o->lines != EC_LINES_NONE) draw_label(o, text, width, o->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
     if (o->effects) ec_view_effects_draw(o->facts, o->wish->without, text, width, height);
-    else draw_messages(o, text, width, height);
+    else draw_messages(o, text, width, height, foot);
 }

@@ -76,9 +76,8 @@ static void exchange(ec_window *w)
 /* Seconds; infinite where only an event can bring something new. */
 static double time_to_wait(const ec_window *w, double last)
 {
-    bool flying = w->s_down > 0;
-    static const int keys[] = {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_PAGE_UP,
-                               GLFW_KEY_PAGE_DOWN};
+    bool flying = w->s_down > 0 || w->flies;
+    static const int keys[] = {GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) flying |= glfwGetKey(w->glfw, keys[i]) == GLFW_PRESS;
     if (w->view->request->script || flying || w->input.wish.moving || (w->dirty && !w->iconified)) return fmax(FRAME - (ec_now() - last), 0.0005);
     return w->telling ? fmax(w->told_at + TOLD_FOR - ec_now(), 0) + 0.001 : INFINITY;

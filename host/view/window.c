@@ -43,6 +43,14 @@ ec_result ec_window_open(ec_window *w, ec_view *view, ec_error *err)
     return EC_OK;
 }
 
+void ec_window_fit(ec_window *w, int width, int height)
+{
+    ec_view_wish *wish = &w->input.wish;
+    wish->width = (uint32_t)fmin(fmax(width, 1), w->textures.largest); /* beyond that it is stretched */
+    wish->height = (uint32_t)fmin(fmax(height, 1), w->textures.largest);
+    ec_view_textures_fit(&w->textures, w->view, (size_t)wish->width * wish->height * 3);
+}
+
 void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
 {
     GLFWmonitor *monitor = glfwGetPrimaryMonitor();
@@ -62,9 +70,7 @@ void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
     glfwSetWindowSize(w->glfw, across, down);
     glfwPollEvents();
     glfwGetFramebufferSize(w->glfw, &framebuffer_width, &framebuffer_height);
-    w->input.wish.width = (uint32_t)fmax(framebuffer_width, 1);
-    w->input.wish.height = (uint32_t)fmax(framebuffer_height, 1);
-    ec_view_textures_fit(&w->textures, w->view, (size_t)w->input.wish.width * w->input.wish.height * 3);
+    ec_window_fit(w, framebuffer_width, framebuffer_height);
     w->shown = w->dirty = true;
 }
 
@@ -159,7 +165,9 @@ void ec_window_draw(ec_window *w)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     if (w->text.glyphs && (w->small.glyphs || !w->input.help)) draw_overlay(w, width, height);
     glfwSwapBuffers(w->glfw);
-    w->dirty = false;
+    w->dirty = width != w->drawn_width || height != w->drawn_height; /* some drivers learn of a new size from the frame that is wrong */
+    w->drawn_width = width;
+    w->drawn_height = height;
 }
 
 void ec_window_close(ec_window *w)
