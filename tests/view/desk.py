@@ -122,7 +122,7 @@ class Window:
         """Taps S and waits for the command that repeats the picture."""
         before = self.text().count("\n")
         self.key("s")
-        self.wait_until(lambda: self.text().count("\n") > before)
+        self.wait_until(lambda: self.text().count("\n") > before, 30)
         lines = self.text().splitlines()
         assert len(lines) > before, self.text("err")
         return lines[-1]

@@ -46,6 +46,8 @@ class Rest(ViewCase):
 
 
 class Monitors(ViewCase):
+    """Xvfb has one output, so GLFW knows one monitor; who parts it in two, for windows and full screen, is openbox."""
+
     def test_full_screen_is_that_of_the_monitor_it_is_on(self):
         self.use_screen("900x300", managed=True)
         self.screen.run("xrandr", "--setmonitor", "left", "600/150x300/75+0+0", "screen")
