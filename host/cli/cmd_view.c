@@ -43,13 +43,23 @@ TEXT_SETTER(against, against)
 TEXT_SETTER(script, script)
 FLAG_SETTER(stats, stats)
 
-/* Options of `render` that mean nothing here. */
-static bool is_foreign(const char *name)
+/* Options of `render` that mean nothing here; NULL: it does mean something. */
+static const char *why_foreign(const char *name)
 {
-    static const char *const names[] = {"adaptive", "checkpoint", "every", "fps", "frames", "json", "memory", "overwrite", "resume", "samples", "verbose"};
+    static const char *const lasting = "a window keeps no checkpoints and renders no slices", *const moving = "a window shows one moment";
+    static const char *const talking = "a window reports to who looks at it";
+    static const char *const names[][2] = {{"adaptive", "the window's samples are the same in all pixels"}, {"checkpoint", lasting}, {"every", lasting},
+                                            {"fps", moving}, {"frames", moving}, {"json", talking}, {"memory", "a window's picture is held whole"},
+                                            {"overwrite", moving}, {"resume", lasting}, {"samples", lasting}, {"verbose", talking}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (!strcmp(name, names[i])) return true;
-    return false;
+        if (!strcmp(name, names[i][0])) return names[i][1];
+    return NULL;
+}
+
+static ec_result refuse(void *target, const char *option, const char *value, ec_error *err)
+{
+    (void)target, (void)value;
+    return ec_usage(err, "--%s is for 'eclat render': %s", option, why_foreign(option));
 }
 
 /* Those that the window sets, or that say nothing of the picture. */
@@ -93,9 +103,8 @@ static ec_result parse(int argc, char **argv, view_job *job, bool *done, ec_erro
     int count = 3, first = 0;
     ec_request asked;
     for (int i = 0; i < ec_render_row_count && count < EC_OPTIONS_MAX; i++) {
-        if (is_foreign(ec_render_rows[i].name)) continue;
         rows[count] = ec_render_rows[i];
-        rows[count++].set = set_and_keep;
+        rows[count++].set = why_foreign(ec_render_rows[i].name) ? refuse : set_and_keep;
     }
     ec_render_request_start(&job->render);
     EC_TRY(ec_options_parse(rows, count, job, argc, argv, &first, given, &asked, err));
@@ -277,7 +286,7 @@ ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
     const ec_view_request request = {
         .device = job.device, .options = job.render.options, .env_degrees = job.render.env_degrees, .exposure = job.render.exposure,
         .tonemap = job.render.tonemap, .scene = job.render.scene, .environment = job.render.environment, .against = job.against,
-        .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_requested,
+        .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_descriptor(),
     };
     ec_stop_catch_signals(false);
     return ec_view_run(&request, err);

@@ -5,11 +5,13 @@
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <sys/eventfd.h>
 
 /* The process's, as signals are. */
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;
+static int told = -1;
 
 static void end(int signal_number)
 {
@@ -25,6 +27,7 @@ static void *watch(void *signals)
 {
     for (int number; sigwait(signals, &number) == 0;) {
         if (atomic_load(&manner) == ENDS || atomic_exchange(&requested, true)) end(number);
+        if (told >= 0) eventfd_write(told, 1);
         if (atomic_load(&manner) == TELLS) fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
     }
     return NULL;
@@ -40,6 +43,7 @@ void ec_stop_watch_signals(void)
         if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaddset(&signals, numbers[i]);
     }
     pthread_t thread;
+    told = eventfd(0, EFD_CLOEXEC);
     pthread_sigmask(SIG_BLOCK, &signals, NULL);
     if (pthread_create(&thread, NULL, watch, &signals) == 0) pthread_detach(thread);
     else pthread_sigmask(SIG_UNBLOCK, &signals, NULL); /* they end the process as ever */
@@ -48,6 +52,11 @@ void ec_stop_watch_signals(void)
 void ec_stop_catch_signals(bool tell)
 {
     atomic_store(&manner, tell ? TELLS : CATCHES);
+}
+
+int ec_stop_descriptor(void)
+{
+    return told;
 }
 
 bool ec_stop_requested(void)

@@ -13,4 +13,7 @@ void ec_stop_watch_signals(void);
 void ec_stop_catch_signals(bool tell);
 bool ec_stop_requested(void);
 
+/* Readable from then on, for those who sleep; -1: there are no more descriptors. The process's own. */
+int ec_stop_descriptor(void);
+
 #endif

@@ -1,5 +1,6 @@
 /* Flattens placed meshes into one triangle soup: positions go through double, are recentred and only then rounded. */
 #include "scene/keep.h"
+#include "scene/parts.h"
 
 #include <float.h>
 #include <math.h>
@@ -35,6 +36,7 @@ static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_place
         int32_t mesh = list->items[i].mesh;
         if (mesh < 0 || (f->is_kept && f->is_kept[i])) continue;
         f->placement = list->items[i].moves ? i : EC_STILL;
+        f->node = list->items[i].node;
         EC_TRY(ec_flattener_draw(f, g, mesh, &list->items[i], f->scene->center, function));
     }
     return EC_OK;
@@ -144,6 +146,7 @@ static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], 
 ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
 {
     ec_scene *s = f->scene;
+    if (f->node >= 0) ec_part_add(s, s->triangle_count, (uint32_t)f->node);
     memset(f->remap, 0xff, ((uint64_t)d->p->highest - d->p->lowest + 1) * sizeof *f->remap);
     for (uint64_t t = 0; t < d->p->triangle_count; t++) {
         uint32_t v[3];
@@ -231,6 +234,7 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     bool any_finite = f->low[0] <= f->high[0];
     for (int k = 0; k < 3; k++) s->center[k] = any_finite ? 0.5 * (f->low[k] + f->high[k]) : 0;
     EC_TRY(allocate(f, g->path));
+    EC_TRY(ec_parts_start(s, g, placements->count, f->err));
     free(g->sources);
     g->sources = NULL;
     if (g->blurs) {
@@ -240,6 +244,7 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     EC_TRY(for_each_draw(f, g, placements, ec_flattener_fill));
     set_bounds(s, s->vertex_count);
     f->placement = EC_STILL;
+    f->node = -1;
     f->sources = NULL; /* meshes kept once stand still */
     EC_TRY(ec_keep_fill(keeping, f));
     if (!s->triangle_count)

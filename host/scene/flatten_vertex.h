@@ -25,6 +25,7 @@ typedef struct ec_flattener {
     bool has_normals, has_tangents, has_uv[2], has_colors;
     ec_source *sources;  /* NULL: nobody asks */
     uint32_t placement;  /* the one being drawn, or EC_STILL */
+    int32_t node;        /* whose triangles are being drawn; -1: of a mesh that is kept once */
     const bool *is_kept; /* by placement: an instance of a mesh that is kept once; NULL: none is */
 } ec_flattener;
 

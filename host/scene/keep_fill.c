@@ -1,5 +1,6 @@
 /* The triangles of kept meshes, once each, and the matrices of the places where they stand. */
 #include "scene/keep.h"
+#include "scene/parts.h"
 
 #include <float.h>
 #include <math.h>
@@ -202,6 +203,7 @@ ec_result ec_keep_fill(ec_keeping *k, ec_flattener *f)
         if (id >= UINT32_MAX)
             return ec_fail(f->err, "%s: more than %u triangles once all instances are counted; simplify the scene", k->g->path, UINT32_MAX - 1);
         s->placed[s->placed_count++] = one;
+        ec_part_add(s, one.id, (uint32_t)k->placements->items[i].node);
     }
     s->whole = s->placed_count > 0;
     bound(s, f, reach);

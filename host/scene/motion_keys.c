@@ -111,6 +111,7 @@ static ec_result reorder(const sorting *o, ec_error *err)
         memcpy(s->indices, corners, 3 * (size_t)used * sizeof *corners);
         memcpy(s->triangle_material, materials, used * sizeof *materials);
         close_up(s, o->triangles, used);
+        s->part_count = 0;
         result = permute(o, s->positions, 3, err);
     }
     free(corners);

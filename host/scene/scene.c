@@ -31,6 +31,8 @@ void ec_scene_free(ec_scene *s)
     free(s->triangle_material);
     free(s->shapes);
     free(s->placed);
+    free(s->parts);
+    free_strings(s->node_names, s->node_count);
     free(s->materials);
     free(s->textures);
     free(s->images);

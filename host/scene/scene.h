@@ -145,6 +145,11 @@ void ec_scene_contents_free(ec_scene_contents *contents);
 /* Which one is `wanted`: by name, else by index. `what` is for the message, which lists what there is. */
 ec_result ec_scene_names_find(const ec_scene_names *names, const char *what, const char *wanted, uint32_t *index, ec_error *err);
 
+/* Triangles from this id up to the next part's are of one node: an index in the file. */
+typedef struct ec_part {
+    uint32_t first, node;
+} ec_part;
+
 typedef struct ec_scene {
     /* Vertices; optional streams are NULL where no primitive has them. A vertex without a normal or tangent has
      * zeros there (the kernels then use the geometric normal, the uv derivatives); without a colour, ones. */
@@ -163,6 +168,9 @@ typedef struct ec_scene {
     uint32_t shape_count, placed_count;
     ec_shape *shapes;
     ec_placed *placed;            /* in the order of their ids, the first of which is shapes[0].first */
+    uint32_t part_count;          /* 0 where what moves has been sorted out: nobody knows any more */
+    ec_part *parts;               /* by id, placed triangles included */
+    char **node_names;            /* node_count; each may be NULL; all owned */
     ec_motion motion;
     bool whole;                   /* no structure may cut triangles, so that all have the same bits with and without instances, and built anew or refitted */
     uint32_t material_count;
@@ -232,6 +240,9 @@ static inline uint64_t ec_scene_met_count(const ec_scene *s)
     const ec_placed *last = s->placed_count ? &s->placed[s->placed_count - 1] : NULL;
     return last ? (uint64_t)last->id + s->shapes[last->shape].count : s->triangle_count;
 }
+
+/* Its node, by a triangle's id; -1: not known. */
+int64_t ec_scene_node_of(const ec_scene *s, uint32_t id);
 
 /* The same scene with every instance written out, to the last bit: for what knows triangles only. What it shares with `scene` stays
  * that one's: ec_scene_written_free. Fails where this machine has no memory for it. */

@@ -1,6 +1,7 @@
 /* Keys and mouse of the window. */
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -24,12 +25,22 @@ static double pixels_a_unit(GLFWwindow *glfw)
 static void probe(ec_window *w)
 {
     ec_view_wish *wish = &w->input.wish;
-    double x = w->cursor_x, half = 0.5 * wish->width;
-    if (w->input.layout == EC_LAYOUT_BESIDE) x = 2 * (x < half ? x : x - half);
-    if (x < 0 || w->cursor_y < 0 || x >= wish->width || w->cursor_y >= wish->height) return;
-    wish->probe_x = (uint32_t)x;
-    wish->probe_y = (uint32_t)w->cursor_y;
+    int width, height;
+    glfwGetFramebufferSize(w->glfw, &width, &height);
+    double x = w->cursor_x * wish->width / fmax(width, 1), y = w->cursor_y * wish->height / fmax(height, 1), half = 0.5 * wish->width;
+    if (w->input.layout == EC_LAYOUT_BESIDE) x = 2 * (x < half ? x : x - half), y = 2 * y - 0.5 * wish->height; /* window.c has them so */
+    bool inside = x >= 0 && y >= 0 && x < wish->width && y < wish->height;
+    wish->probe_x = inside ? (uint32_t)x : UINT32_MAX;
+    wish->probe_y = inside ? (uint32_t)y : UINT32_MAX;
     wish->probes++;
+}
+
+static void on_enter(GLFWwindow *glfw, int inside)
+{
+    ec_window *w = of(glfw);
+    if (inside) return;
+    w->input.wish.probe_x = w->input.wish.probe_y = UINT32_MAX;
+    w->input.wish.probes++;
 }
 
 static void on_cursor(GLFWwindow *glfw, double x, double y)
@@ -84,16 +95,35 @@ static void on_char(GLFWwindow *glfw, unsigned code)
     else ec_view_input_do(&w->input, ec_view_action_of(name));
 }
 
+/* The small Latin letter on a key; 0: none. Where a keyboard has other letters, the one at its place on a US keyboard: *is_other. */
+static char letter_of(int key, int scancode, bool *is_other)
+{
+    const char *label = glfwGetKeyName(key, scancode);
+    *is_other = label && (label[0] & 0x80) && key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
+    if (*is_other) return (char)('a' + key - GLFW_KEY_A);
+    return label && isalpha((unsigned char)label[0]) && !label[1] ? (char)tolower((unsigned char)label[0]) : 0;
+}
+
+static void hold(ec_window *w, char letter, int action)
+{
+    static const char fly[] = "wad";
+    const char *at = letter ? strchr(fly, letter) : NULL;
+    if (at && action == GLFW_PRESS) w->flies |= 1u << (at - fly);
+    if (at && action == GLFW_RELEASE) w->flies &= ~(1u << (at - fly));
+}
+
 static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods)
 {
-    (void)mods;
     ec_window *w = of(glfw);
     static const struct {
         int key;
         const char *name;
     } named[] = {{GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_TAB, "Tab"}, {GLFW_KEY_F5, "F5"}, {GLFW_KEY_F11, "F11"}};
-    const char *label = glfwGetKeyName(key, scancode);
-    bool is_s = label && (!strcmp(label, "s") || !strcmp(label, "S"));
+    bool is_other;
+    char letter = letter_of(key, scancode, &is_other);
+    bool is_s = letter == 's';
+    hold(w, letter, action);
+    if (is_other && action == GLFW_PRESS) on_char(glfw, (unsigned)(mods & GLFW_MOD_SHIFT ? toupper(letter) : letter));
     w->dirty = true;
     if (is_s && action == GLFW_PRESS) w->s_down = ec_now(), w->s_flew = false;
     if (is_s && action == GLFW_RELEASE) {
@@ -106,9 +136,9 @@ static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods
         if (named[i].key == key) ec_view_input_do(&w->input, ec_view_action_of(named[i].name));
 }
 
-static int held(GLFWwindow *glfw, int key, int arrow)
+static int held(const ec_window *w, unsigned letter, int arrow)
 {
-    return glfwGetKey(glfw, key) == GLFW_PRESS || glfwGetKey(glfw, arrow) == GLFW_PRESS;
+    return (w->flies & letter) || glfwGetKey(w->glfw, arrow) == GLFW_PRESS;
 }
 
 void ec_window_fly(ec_window *w)
@@ -117,8 +147,8 @@ void ec_window_fly(ec_window *w)
     double now = ec_now(), seconds = fmin(now - w->flown, 0.1);
     bool control = glfwGetKey(g, GLFW_KEY_LEFT_CONTROL) || glfwGetKey(g, GLFW_KEY_RIGHT_CONTROL);
     bool s = w->s_down > 0 && !control && (now - w->s_down >= TAP || w->drag == GLFW_MOUSE_BUTTON_RIGHT);
-    int forward = held(g, GLFW_KEY_W, GLFW_KEY_UP) - (s || glfwGetKey(g, GLFW_KEY_DOWN));
-    int right = held(g, GLFW_KEY_D, GLFW_KEY_RIGHT) - held(g, GLFW_KEY_A, GLFW_KEY_LEFT);
+    int forward = held(w, 1, GLFW_KEY_UP) - (s || glfwGetKey(g, GLFW_KEY_DOWN));
+    int right = held(w, 4, GLFW_KEY_RIGHT) - held(w, 2, GLFW_KEY_LEFT);
     int up = glfwGetKey(g, GLFW_KEY_PAGE_UP) - glfwGetKey(g, GLFW_KEY_PAGE_DOWN);
     w->flown = now;
     w->s_flew |= s;
@@ -133,9 +163,7 @@ static void on_framebuffer(GLFWwindow *glfw, int width, int height)
     ec_window *w = of(glfw);
     w->dirty = true;
     if (width <= 0 || height <= 0) return; /* minimised, on some systems */
-    w->input.wish.width = (uint32_t)width;
-    w->input.wish.height = (uint32_t)height;
-    ec_view_textures_fit(&w->textures, w->view, (size_t)width * (size_t)height * 3);
+    ec_window_fit(w, width, height);
 }
 
 static void on_iconify(GLFWwindow *glfw, int iconified)
@@ -155,6 +183,7 @@ static void on_scale(GLFWwindow *glfw, float x, float y)
 void ec_window_listen(ec_window *w)
 {
     glfwSetWindowUserPointer(w->glfw, w);
+    glfwSetCursorEnterCallback(w->glfw, on_enter);
     glfwSetCursorPosCallback(w->glfw, on_cursor);
     glfwSetMouseButtonCallback(w->glfw, on_button);
     glfwSetScrollCallback(w->glfw, on_scroll);

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "view/lists.h"
 #include "view/orbit.h"
-#include "view/overlay.h"
 
 static const double half_turn = 3.14159265358979323846;
 
@@ -17,7 +17,7 @@ void ec_view_input_learn(ec_view_input *in, const ec_view_facts *facts)
     if (in->wish.camera >= facts->camera_count) in->wish.camera = 0;
     in->wish.without &= facts->optional;
     if (!in->wish.moved) in->wish.viewpoint = facts->cameras[in->wish.camera];
-    in->selected.material = -1;
+    in->selected.node = -1;
 }
 
 /* From here on the camera is the window's own. */
@@ -37,8 +37,9 @@ static void moved(ec_view_input *in)
 
 static void frame(ec_view_input *in)
 {
-    bool some = in->selected.material >= 0 && in->selected.radius > 0;
-    ec_orbit_frame(take_camera(in), some ? in->selected.center : in->facts.center, some ? in->selected.radius : in->facts.radius,
+    const ec_view_probe *node = in->selected.node >= 0 ? &in->selected : &in->under;
+    bool some = node->node >= 0 && node->radius > 0;
+    ec_orbit_frame(take_camera(in), some ? node->center : in->facts.center, some ? node->radius : in->facts.radius,
                    (double)in->wish.width / in->wish.height);
     moved(in);
 }
@@ -52,7 +53,7 @@ static void reset(ec_view_input *in)
     w->exposure = in->request->exposure;
     w->tonemap = in->request->tonemap;
     w->env_degrees = in->request->env_degrees;
-    in->selected.material = -1;
+    in->selected.node = -1;
 }
 
 static void next_camera(ec_view_input *in)

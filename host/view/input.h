@@ -13,7 +13,7 @@ typedef struct ec_view_input {
     ec_view_lines lines;     /* over the picture */
     bool help, effects;      /* lists that are open */
     bool fullscreen, quit;   /* asked for */
-    ec_view_probe selected;  /* material >= 0: the selection */
+    ec_view_probe under, selected; /* the cursor's, and that of the click; node >= 0: there is one */
     double moved_at;         /* ec_now of the last move */
 } ec_view_input;
 

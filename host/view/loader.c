@@ -6,12 +6,12 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/clock.h"
 #include "pack/pack.h"
 #include "view/shared.h"
 #include "view/watch.h"
 
-#define SECONDS_BETWEEN_LOOKS 0.3
+#define SETTLES 0.3  /* seconds that files must stay as they are before they are read */
+#define DEAF_LOOKS 1 /* seconds between looks where nobody tells of changes */
 
 /* What a role's session was made for. */
 typedef struct made_for {
@@ -24,7 +24,7 @@ typedef struct loader {
     ec_view *view;
     ec_watch watch;
     ec_view_scene *scene;
-    uint32_t loads, reloads;
+    uint32_t loads, reloads, file_events;
     made_for made[EC_ROLE_COUNT];
 } loader;
 
@@ -86,7 +86,7 @@ static ec_result load(loader *l, ec_error *err)
     ec_view *view = l->view;
     const ec_view_request *request = view->request;
     ec_watch_stop(&l->watch);
-    ec_watch_start(&l->watch, request->scene, request->environment);
+    ec_watch_start(&l->watch, request->scene, request->environment, view->files);
     ec_view_scene *s = calloc(1, sizeof *s);
     if (!s) return ec_fail(err, "out of memory for a scene");
     *s = (ec_view_scene){.users = 1, .serial = ++l->loads, .options = request->options};
@@ -173,13 +173,31 @@ static bool is_served(const loader *l, const ec_view_wish *wish)
     return second && is_made(l, EC_ROLE_PICTURE, wish->integrator, wish->without);
 }
 
-static struct timespec soon(void)
+static struct timespec in_seconds(double seconds)
 {
     struct timespec t;
     clock_gettime(CLOCK_REALTIME, &t);
-    t.tv_nsec += (long)(SECONDS_BETWEEN_LOOKS * 1e9);
-    if (t.tv_nsec >= 1000000000) t.tv_sec++, t.tv_nsec -= 1000000000;
+    double at = (double)t.tv_nsec * 1e-9 + seconds;
+    t.tv_sec += (time_t)at;
+    t.tv_nsec = (long)((at - floor(at)) * 1e9);
     return t;
+}
+
+/* Until there is something to do, and for no reason else. true: it is time to look at the files. */
+static bool wait_for_work(loader *l, bool pending, ec_view_wish *wish, bool *quit)
+{
+    ec_view *view = l->view;
+    bool timed = pending || l->watch.is_deaf, late = false;
+    struct timespec until = in_seconds(pending ? SETTLES : DEAF_LOOKS);
+    pthread_mutex_lock(&view->lock);
+    while (!view->quit && !late && is_served(l, &view->wish) && l->reloads == view->wish.reloads && l->file_events == view->file_events)
+        late = (timed ? pthread_cond_timedwait(&view->changed, &view->lock, &until) : pthread_cond_wait(&view->changed, &view->lock)) != 0;
+    *wish = view->wish;
+    *quit = view->quit;
+    bool told = l->file_events != view->file_events;
+    l->file_events = view->file_events;
+    pthread_mutex_unlock(&view->lock);
+    return late || told;
 }
 
 /* Whoever writes a file may not be done yet: only what stays the same from one look to the next is read. */
@@ -206,18 +224,12 @@ void *ec_view_loader(void *argument)
     say_loading(view, "loading");
     bool loaded = load(&l, &err) == EC_OK;
     if (!loaded) say_failure(view, &err, true);
-    double looked = ec_now();
     for (bool quit = !loaded; !quit;) {
-        struct timespec until = soon();
-        pthread_mutex_lock(&view->lock);
-        while (!view->quit && is_served(&l, &view->wish) && l.reloads == view->wish.reloads)
-            if (pthread_cond_timedwait(&view->changed, &view->lock, &until) != 0) break;
-        ec_view_wish wish = view->wish;
-        quit = view->quit;
-        pthread_mutex_unlock(&view->lock);
+        ec_view_wish wish;
+        bool look = wait_for_work(&l, pending, &wish, &quit);
         if (quit) break;
-        if (l.reloads != wish.reloads) l.reloads = wish.reloads, pending = true;
-        if (pending || ec_now() - looked >= SECONDS_BETWEEN_LOOKS) reload_if_changed(&l, &pending), looked = ec_now();
+        if (l.reloads != wish.reloads) l.reloads = wish.reloads, pending = look = true;
+        if (look) reload_if_changed(&l, &pending);
         if (!is_served(&l, &wish)) serve(&l, &wish);
     }
     ec_watch_stop(&l.watch);

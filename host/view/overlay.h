@@ -14,12 +14,10 @@ typedef struct ec_view_overlay {
     ec_view_lines lines;
     bool help, effects;     /* lists that are open */
     bool message;           /* what was told of the last save is still shown */
-    const char *selected;   /* material, or NULL */
+    const ec_view_probe *selected; /* node < 0: nothing */
+    const ec_view_text *small;     /* that of the help */
 } ec_view_overlay;
 
 void ec_view_overlay_draw(const ec_view_overlay *overlay, const ec_view_text *text, double width, double height);
-
-/* The effect that a digit means in the open list; 0: none. */
-uint64_t ec_view_effect_of_digit(const ec_view_facts *facts, int digit);
 
 #endif

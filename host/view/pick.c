@@ -38,11 +38,6 @@ static double meet(const ray *r, const float *a, const float *b, const float *c)
     return det != 0 && u >= 0 && v >= 0 && u + v <= 1 && t > 0 ? t : INFINITY;
 }
 
-static void nearer(ec_view_hit *hit, double distance, uint32_t triangle)
-{
-    if (distance < hit->distance) *hit = (ec_view_hit){distance, triangle};
-}
-
 static void try_triangles(const ec_scene *s, const ray *r, uint32_t first, uint32_t count, const ec_placed *placed, ec_view_hit *best)
 {
     ec_view_hit hit = *best;
@@ -55,7 +50,8 @@ static void try_triangles(const ec_scene *s, const ray *r, uint32_t first, uint3
             ec_placed_point(placed, corner[k], moved[k]);
             corner[k] = moved[k];
         }
-        nearer(&hit, meet(r, corner[0], corner[1], corner[2]), t);
+        double distance = meet(r, corner[0], corner[1], corner[2]);
+        if (distance < hit.distance) hit = (ec_view_hit){distance, t, placed ? placed->id + t - first : t};
     }
     *best = hit;
 }
@@ -113,27 +109,42 @@ static void try_instances(const ec_scene *s, const ray *r, ec_view_hit *best)
 ec_view_hit ec_view_pick(const ec_scene *s, const ec_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y)
 {
     ray r = ray_of(camera, width, height, x, y);
-    ec_view_hit best = {INFINITY, 0};
+    ec_view_hit best = {INFINITY, 0, 0};
     try_triangles(s, &r, 0, ec_scene_flat_count(s), NULL, &best);
     if (s->placed_count) try_instances(s, &r, &best);
     return best;
 }
 
-void ec_view_material_sphere(const ec_scene *s, uint32_t material, double center[3], double *radius)
+typedef struct box {
+    double low[3], high[3];
+} box;
+
+static void grow(box *b, const float point[3])
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0;
-    for (uint32_t t = 0; t < ec_scene_flat_count(s); t++)
-        for (int i = 0; s->triangle_material[t] == material && i < 3; i++)
-            for (int k = 0; k < 3; k++) {
-                double c = s->positions[3 * (size_t)s->indices[3 * (size_t)t + i] + k];
-                low[k] = fmin(low[k], c), high[k] = fmax(high[k], c);
-            }
+    for (int k = 0; k < 3; k++) b->low[k] = fmin(b->low[k], (double)point[k]), b->high[k] = fmax(b->high[k], (double)point[k]);
+}
+
+static void grow_by_part(box *b, const ec_scene *s, uint32_t first, uint64_t end)
+{
+    for (uint32_t t = first; t < end && t < ec_scene_flat_count(s); t++)
+        for (int i = 0; i < 3; i++) grow(b, s->positions + 3 * (size_t)s->indices[3 * (size_t)t + i]);
     for (uint32_t i = 0; i < s->placed_count; i++) {
-        const ec_shape *shape = &s->shapes[s->placed[i].shape];
-        if (s->triangle_material[shape->first] != material) continue;
-        sphere own = around(s->positions + 3 * (size_t)shape->first_vertex, shape->vertex_count), here = place(&own, &s->placed[i]);
-        for (int k = 0; k < 3; k++) low[k] = fmin(low[k], here.center[k] - here.radius), high[k] = fmax(high[k], here.center[k] + here.radius);
+        const ec_placed *placed = &s->placed[i];
+        const ec_shape *shape = &s->shapes[placed->shape];
+        for (uint32_t v = 0; placed->id >= first && placed->id < end && v < shape->vertex_count; v++) {
+            float point[3];
+            ec_placed_point(placed, s->positions + 3 * ((size_t)shape->first_vertex + v), point);
+            grow(b, point);
+        }
     }
-    for (int k = 0; k < 3; k++) center[k] = 0.5 * (low[k] + high[k]) + s->center[k], square += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
-    *radius = sqrt(square);
+}
+
+void ec_view_node_sphere(const ec_scene *s, uint32_t node, double center[3], double *radius)
+{
+    box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    double square = 0;
+    for (uint32_t p = 0; p < s->part_count; p++)
+        if (s->parts[p].node == node) grow_by_part(&b, s, s->parts[p].first, p + 1 < s->part_count ? s->parts[p + 1].first : ec_scene_met_count(s));
+    for (int k = 0; k < 3; k++) center[k] = 0.5 * (b.low[k] + b.high[k]) + s->center[k], square += 0.25 * (b.high[k] - b.low[k]) * (b.high[k] - b.low[k]);
+    *radius = isfinite(square) ? sqrt(square) : 0;
 }

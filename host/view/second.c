@@ -24,7 +24,8 @@ void ec_view_others_close(ec_view_others *o)
 {
     ec_view_others_forget(o);
     free(o->file);
-    o->file = NULL;
+    free(o->fitted);
+    o->file = o->fitted = NULL;
 }
 
 ec_result ec_view_others_render(ec_view_others *o, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user), void *user,
@@ -37,6 +38,32 @@ ec_result ec_view_others_render(ec_view_others *o, ec_session *session, uint32_t
     if (result == EC_OK && batch.complete) o->rung = mean;
     else free(mean);
     return result;
+}
+
+/* The mean of what a pixel of another grid covers; of a coarser one the nearest. */
+static void resample(const ec_view_others *o, float *out, uint32_t width, uint32_t height)
+{
+    for (uint64_t y = 0; y < height; y++)
+        for (uint64_t x = 0; x < width; x++) {
+            uint64_t x0 = x * o->file_width / width, x1 = (x + 1) * o->file_width / width, y0 = y * o->file_height / height;
+            uint64_t y1 = (y + 1) * o->file_height / height, count = 0;
+            double sum[3] = {0, 0, 0};
+            for (uint64_t v = y0; v == y0 || v < y1; v++)
+                for (uint64_t u = x0; u == x0 || u < x1; u++, count++)
+                    for (int c = 0; c < 3; c++) sum[c] += (double)o->file[3 * (v * o->file_width + u) + c];
+            for (int c = 0; c < 3; c++) out[3 * (y * width + x) + c] = (float)(sum[c] / (double)count);
+        }
+}
+
+/* At the picture's size: that is what the window has textures and buffers for. */
+static bool show_file(ec_view_others *o, ec_view *view, const ec_view_wish *wish, uint32_t width, uint32_t height)
+{
+    if (!o->file) return true;
+    if (o->fitted && (o->fitted_width != width || o->fitted_height != height)) free(o->fitted), o->fitted = NULL;
+    if (!o->fitted && (o->fitted = malloc((size_t)width * height * 3 * sizeof *o->fitted))) resample(o, o->fitted, width, height);
+    o->fitted_width = width;
+    o->fitted_height = height;
+    return !o->fitted || ec_view_show(view, wish, EC_ROLE_SECOND, o->fitted, width, height);
 }
 
 typedef struct maps {
@@ -74,7 +101,7 @@ bool ec_view_others_show(ec_view_others *o, ec_view *view, const ec_view_wish *w
     case EC_SECOND_ERROR: return ec_view_show_filled(view, EC_ROLE_SECOND, film->width, film->height, fill_error, &m);
     case EC_SECOND_SAMPLES: return ec_view_show_filled(view, EC_ROLE_SECOND, film->width, film->height, fill_samples, &m);
     case EC_SECOND_RUNG: return !o->rung || ec_view_show(view, wish, EC_ROLE_SECOND, o->rung, film->width, film->height);
-    case EC_SECOND_FILE: return !o->file || ec_view_show(view, wish, EC_ROLE_SECOND, o->file, o->file_width, o->file_height);
+    case EC_SECOND_FILE: return show_file(o, view, wish, film->width, film->height);
     default: return true;
     }
 }

@@ -7,7 +7,8 @@
 typedef struct ec_view_others {
     float *rung;                 /* 3 a pixel, of the other rung; NULL: not rendered of this camera */
     float *file;                 /* --against */
-    uint32_t file_width, file_height;
+    float *fitted;               /* the same, as large as the picture; NULL: not yet shown */
+    uint32_t file_width, file_height, fitted_width, fitted_height;
 } ec_view_others;
 
 /* against: an EXR that was read before without complaint, or NULL. */

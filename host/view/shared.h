@@ -35,12 +35,12 @@ typedef struct ec_view_wish {
 
 typedef struct ec_view_probe {
     uint32_t serial;              /* of wish.probes */
-    bool has_film, has_error, has_surface;
+    bool is_inside, has_film, has_error, has_surface;
     uint32_t x, y;
     double rgb[3], se[3], depth;
-    int64_t material;             /* -1: none */
-    char name[100];
-    double center[3], radius;     /* of that material's triangles, in the file's coordinates */
+    int64_t material, node;       /* -1: none, or not known */
+    char name[100], node_name[100];
+    double center[3], radius;     /* around that node's triangles, in the file's coordinates; 0: there are none */
 } ec_view_probe;
 
 /* What there is to tell: written by renderer and loader, read by the window. */
@@ -103,12 +103,14 @@ typedef struct ec_view_slot {
 typedef struct ec_view {
     const ec_view_request *request;
     double start;
-    pthread_t window, loader, renderer;
+    pthread_t window, loader, renderer, watcher;
     bool has_window;              /* GLFW can be told of changes */
+    int files, leave;             /* descriptors: of inotify; readable once the watcher is to end. -1: none */
     pthread_mutex_t lock;         /* guards all below */
     pthread_cond_t changed;
     uint64_t events;              /* counts changes, so that none is slept through */
-    bool quit;
+    bool quit, stopped;           /* stopped: from outside */
+    uint32_t file_events;         /* something happened beside the scene's files */
     ec_error fatal;
     bool failed;
     ec_view_wish wish;
@@ -130,6 +132,7 @@ void ec_view_setup_free(ec_view *view, ec_view_setup *setup); /* NULL is fine */
 
 void *ec_view_loader(void *view);   /* loader.c */
 void *ec_view_renderer(void *view); /* renderer.c */
+void *ec_view_watcher(void *view);  /* watcher.c */
 
 /* show.c: a picture of 3 floats a pixel through the CLI's tone mapper to the window; false: no slot was free, ask again later */
 bool ec_view_show(ec_view *view, const ec_view_wish *wish, uint32_t role, const float *rgb, uint32_t width, uint32_t height);
@@ -140,9 +143,9 @@ bool ec_view_show_filled(ec_view *view, uint32_t role, uint32_t width, uint32_t 
 /* pick.c: the surface that a pixel's centre sees, by trying all triangles */
 typedef struct ec_view_hit {
     double distance;  /* metres from the camera; infinite: none */
-    uint32_t triangle;
+    uint32_t triangle, id; /* place in the scene's arrays; id: another where its mesh is kept once */
 } ec_view_hit;
 ec_view_hit ec_view_pick(const ec_scene *scene, const ec_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y);
-void ec_view_material_sphere(const ec_scene *scene, uint32_t material, double center[3], double *radius);
+void ec_view_node_sphere(const ec_scene *scene, uint32_t node, double center[3], double *radius);
 
 #endif

@@ -94,7 +94,7 @@ void ec_view_text_draw(const ec_view_text *t, double x, double y, double right, 
 
 void ec_view_veil(double x0, double y0, double x1, double y1)
 {
-    glColor4f(0, 0, 0, 0.6f);
+    glColor4f(0, 0, 0, 0.72f);
     glBegin(GL_QUADS);
     glVertex2d(x0, y0), glVertex2d(x1, y0), glVertex2d(x1, y1), glVertex2d(x0, y1);
     glEnd();

@@ -12,6 +12,8 @@ typedef struct ec_view_text {
     struct ec_view_glyphs *glyphs;      /* owned */
 } ec_view_text;
 
+#define EC_TEXT_NARROW 0.52 /* a character's width over `size`, about */
+
 /* size: pixels of a line's height */
 ec_result ec_view_text_make(ec_view_text *text, double size, ec_error *err);
 void ec_view_text_free(ec_view_text *text); /* zero-initialised is fine */

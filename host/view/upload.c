@@ -25,6 +25,9 @@ ec_result ec_view_textures_make(ec_view_textures *t, ec_error *err)
     *t = (ec_view_textures){0};
     if (epoxy_gl_version() < 21)
         return ec_fail(err, "the preview window needs OpenGL 2.1; this display has %s", (const char *)glGetString(GL_VERSION));
+    int largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    t->largest = (uint32_t)(largest > 0 ? largest : 1024);
     glGenTextures(EC_ROLE_COUNT, t->texture);
     glGenBuffers(EC_VIEW_SLOTS, t->buffer);
     for (int i = 0; i < EC_ROLE_COUNT; i++) {

@@ -8,6 +8,7 @@
 typedef struct ec_view_textures {
     unsigned texture[EC_ROLE_COUNT], buffer[EC_VIEW_SLOTS];
     uint32_t width[EC_ROLE_COUNT], height[EC_ROLE_COUNT]; /* 0: no picture yet */
+    uint32_t largest; /* pixels of a side */
 } ec_view_textures;
 
 ec_result ec_view_textures_make(ec_view_textures *textures, ec_error *err);

@@ -1,6 +1,7 @@
-/* A window that shows a render converging. Three threads: the window's, which alone knows GLFW and OpenGL and never waits; the
+/* A window that shows a render converging. Four threads: the window's, which alone knows GLFW and OpenGL and never waits; the
  * renderer's (renderer.c), which takes batches and previews from a session; the loader's (loader.c), which reads files and sets
- * sessions up. They share ec_view, under one lock (shared.h). */
+ * sessions up; the watcher's (watcher.c), which hears of changed files. They share ec_view, under one lock (shared.h), and sleep
+ * where there is nothing to do. */
 #ifndef EC_VIEW_VIEW_H
 #define EC_VIEW_VIEW_H
 
@@ -36,7 +37,7 @@ typedef struct ec_view_request {
     ec_result (*load)(void *user, ec_scene **scene, ec_render_options *options, ec_error *err);
     /* From the renderer's thread. told: one line for the window. */
     ec_result (*save)(void *user, const ec_view_shot *shot, char *told, size_t size, ec_error *err);
-    bool (*stop)(void);              /* asked a few times a second: Ctrl-C */
+    int stop;                        /* a descriptor, readable once the window is to close (Ctrl-C); -1: none */
 } ec_view_request;
 
 /* Fails at once where this build has no preview, and says how to get one. */

@@ -1,11 +1,15 @@
 #include "view/watch.h"
 
-#include <ctype.h>
 #include <cjson/cJSON.h>
+#include <ctype.h>
+#include <limits.h>
+#include <linux/magic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/inotify.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 
 #define LARGEST_JSON (256u << 20)
 
@@ -18,9 +22,38 @@ static uint64_t state_of(const char *path)
     return (h * 31 + (uint64_t)s.st_size) * 31 + (uint64_t)s.st_ino;
 }
 
-static void add(ec_watch *w, const char *path)
+/* What another machine does to its files, its kernel tells nobody here. */
+static bool is_told_of(const char *folder)
+{
+    static const unsigned long remote[] = {NFS_SUPER_MAGIC, SMB_SUPER_MAGIC, SMB2_SUPER_MAGIC, CIFS_SUPER_MAGIC, AFS_SUPER_MAGIC,
+                                           V9FS_MAGIC, FUSE_SUPER_MAGIC};
+    struct statfs s;
+    bool told = statfs(folder, &s) == 0;
+    for (size_t i = 0; i < sizeof remote / sizeof remote[0]; i++) told = told && (uint32_t)s.f_type != (uint32_t)remote[i];
+    return told;
+}
+
+/* By its folder, since a file that takes another's place is another file. */
+static bool hear_folder(int events, const char *path)
+{
+    const uint32_t mask = IN_CLOSE_WRITE | IN_MODIFY | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO | IN_DELETE_SELF | IN_MOVE_SELF;
+    char folder[PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    if (snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".") >= (int)sizeof folder) return false;
+    return is_told_of(folder) && inotify_add_watch(events, folder, mask) >= 0;
+}
+
+/* A link's own folder, and that of the file which it leads to. */
+static bool hear(int events, const char *path)
+{
+    char real[PATH_MAX];
+    return hear_folder(events, path) && (!realpath(path, real) || hear_folder(events, real));
+}
+
+static void add(ec_watch *w, const char *path, int events)
 {
     if (w->count == EC_WATCH_MOST || !(w->paths[w->count] = strdup(path))) return;
+    w->is_deaf |= !hear(events, path);
     w->seen[w->count++] = state_of(path);
 }
 
@@ -36,7 +69,7 @@ static void decode_percent(char *text)
     *out = 0;
 }
 
-static void add_uris(ec_watch *w, const cJSON *list, const char *folder, int folder_length)
+static void add_uris(ec_watch *w, const cJSON *list, const char *folder, int folder_length, int events)
 {
     char path[4096];
     const cJSON *item;
@@ -46,7 +79,7 @@ static void add_uris(ec_watch *w, const cJSON *list, const char *folder, int fol
         if (!uri || !strncmp(uri, "data:", 5)) continue;
         snprintf(path, sizeof path, "%.*s%s", folder_length, folder, uri);
         decode_percent(path + folder_length);
-        add(w, path);
+        add(w, path, events);
     }
 }
 
@@ -66,17 +99,17 @@ static char *read_json(const char *path)
     return text;
 }
 
-void ec_watch_start(ec_watch *w, const char *scene, const char *environment)
+void ec_watch_start(ec_watch *w, const char *scene, const char *environment, int events)
 {
     *w = (ec_watch){.count = 0};
-    add(w, scene);
-    if (environment) add(w, environment);
+    add(w, scene, events);
+    if (environment) add(w, environment, events);
     char *text = read_json(scene);
     const char *slash = strrchr(scene, '/');
     int folder_length = slash ? (int)(slash - scene) + 1 : 0;
     cJSON *json = text ? cJSON_Parse(text) : NULL;
-    add_uris(w, cJSON_GetObjectItemCaseSensitive(json, "buffers"), scene, folder_length);
-    add_uris(w, cJSON_GetObjectItemCaseSensitive(json, "images"), scene, folder_length);
+    add_uris(w, cJSON_GetObjectItemCaseSensitive(json, "buffers"), scene, folder_length, events);
+    add_uris(w, cJSON_GetObjectItemCaseSensitive(json, "images"), scene, folder_length, events);
     cJSON_Delete(json);
     free(text);
 }

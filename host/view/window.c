@@ -7,9 +7,12 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "view/lists.h"
 #include "view/overlay.h"
 
-#define TEXT_SIZE 15
+#define TEXT_SIZE 15     /* pixels, where the monitor's scale is 1 */
+#define TEXT_LEAST 11
+#define COLUMNS 64       /* that text grows smaller for */
 
 static ec_result glfw_failed(const char *what, ec_error *err)
 {
@@ -40,6 +43,14 @@ ec_result ec_window_open(ec_window *w, ec_view *view, ec_error *err)
     return EC_OK;
 }
 
+void ec_window_fit(ec_window *w, int width, int height)
+{
+    ec_view_wish *wish = &w->input.wish;
+    wish->width = (uint32_t)fmin(fmax(width, 1), w->textures.largest); /* beyond that it is stretched */
+    wish->height = (uint32_t)fmin(fmax(height, 1), w->textures.largest);
+    ec_view_textures_fit(&w->textures, w->view, (size_t)wish->width * wish->height * 3);
+}
+
 void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
 {
     GLFWmonitor *monitor = glfwGetPrimaryMonitor();
@@ -59,9 +70,7 @@ void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
     glfwSetWindowSize(w->glfw, across, down);
     glfwPollEvents();
     glfwGetFramebufferSize(w->glfw, &framebuffer_width, &framebuffer_height);
-    w->input.wish.width = (uint32_t)fmax(framebuffer_width, 1);
-    w->input.wish.height = (uint32_t)fmax(framebuffer_height, 1);
-    ec_view_textures_fit(&w->textures, w->view, (size_t)w->input.wish.width * w->input.wish.height * 3);
+    ec_window_fit(w, framebuffer_width, framebuffer_height);
     w->shown = w->dirty = true;
 }
 
@@ -123,20 +132,25 @@ static void draw_overlay(const ec_window *w, double width, double height)
     const ec_view_overlay overlay = {.wish = &w->input.wish, .status = &w->status, .facts = &w->input.facts, .request = w->view->request,
                                      .layout = w->input.layout, .lines = w->input.lines, .help = w->input.help, .effects = w->input.effects,
                                      .message = w->telling,
-                                     .selected = w->input.selected.material >= 0 && w->input.facts.serial ? w->input.selected.name : NULL};
+                                     .selected = &w->input.selected, .small = &w->small};
     ec_view_overlay_draw(&overlay, &w->text, width, height);
+}
+
+static void fit_text(ec_view_text *text, double size)
+{
+    if (text->size == size) return;
+    ec_view_text_free(text);
+    ec_view_text_make(text, size, NULL);
 }
 
 void ec_window_draw(ec_window *w)
 {
     int width, height;
-    double size = round(TEXT_SIZE * fmax(w->scale, 0.5));
     glfwGetFramebufferSize(w->glfw, &width, &height);
     if (width <= 0 || height <= 0) return;
-    if (w->text.size != size) {
-        ec_view_text_free(&w->text);
-        ec_view_text_make(&w->text, size, NULL);
-    }
+    double scale = fmax(w->scale, 0.5), fits = fmax(round(width / (COLUMNS * EC_TEXT_NARROW)), round(TEXT_LEAST * scale));
+    fit_text(&w->text, fmin(round(TEXT_SIZE * scale), fits));
+    if (w->input.help) fit_text(&w->small, ec_view_help_size(round(TEXT_SIZE * scale), width, height));
     glViewport(0, 0, width, height);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
@@ -149,15 +163,18 @@ void ec_window_draw(ec_window *w)
     draw_pictures(w, width, height);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    if (w->text.glyphs) draw_overlay(w, width, height);
+    if (w->text.glyphs && (w->small.glyphs || !w->input.help)) draw_overlay(w, width, height);
     glfwSwapBuffers(w->glfw);
-    w->dirty = false;
+    w->dirty = width != w->drawn_width || height != w->drawn_height; /* some drivers learn of a new size from the frame that is wrong */
+    w->drawn_width = width;
+    w->drawn_height = height;
 }
 
 void ec_window_close(ec_window *w)
 {
     if (w->glfw) {
         ec_view_text_free(&w->text);
+        ec_view_text_free(&w->small);
         ec_view_textures_free(&w->textures, w->view);
         glfwDestroyWindow(w->glfw);
     }

@@ -14,7 +14,7 @@ typedef struct ec_window {
     ec_view *view;
     struct GLFWwindow *glfw;
     ec_view_textures textures;
-    ec_view_text text;
+    ec_view_text text, small;   /* small: no larger than the help can be */
     ec_view_input input;
     ec_view_status status;      /* the last that was looked at */
     ec_script script;
@@ -26,15 +26,18 @@ typedef struct ec_window {
     double drag_path;           /* how far it went: a click does not move */
     double s_down;              /* ec_now when S went down; 0: it is up */
     bool s_flew;                /* and is no tap */
+    unsigned flies;             /* bits: W, A, D are down, wherever the keyboard has them */
     double flown;               /* ec_now of the last step of flight */
     double told_at;             /* when a save was told */
     bool telling;               /* it still is */
-    bool iconified, shown, dirty, is_full;
+    bool iconified, shown, dirty, is_full, stopped;
+    int drawn_width, drawn_height; /* of the last frame */
     int old_x, old_y, old_width, old_height; /* before full screen */
 } ec_window;
 
 ec_result ec_window_open(ec_window *window, ec_view *view, ec_error *err); /* hidden */
 void ec_window_size(ec_window *window, uint32_t width, uint32_t height); /* in pixels, as far as the monitor has room; and shows it */
+void ec_window_fit(ec_window *window, int width, int height);             /* the picture to the framebuffer */
 void ec_window_fullscreen(ec_window *window, bool on);
 void ec_window_fly(ec_window *window);    /* by the keys that are held */
 void ec_window_draw(ec_window *window);

@@ -1,4 +1,5 @@
-"""A screen without a monitor, eclat's window on it, and a hand. Xvfb with Mesa's software OpenGL; xdotool; ImageMagick's import."""
+"""A screen without a monitor, eclat's window on it, and a hand. Xvfb with Mesa's software OpenGL; xdotool; ImageMagick's import;
+openbox where windows are to be minimised."""
 import os
 import shutil
 import signal
@@ -7,9 +8,9 @@ import tempfile
 import time
 import unittest
 
-from support import ECLAT, ENVIRONMENT, Case
+from support import CORNELL, ECLAT, ENVIRONMENT, Case
 
-TOOLS = ["Xvfb", "xdotool", "import", "convert"]
+TOOLS = ["Xvfb", "xdotool", "import", "convert", "xrdb", "xprop", "xrandr", "setxkbmap", "openbox"]
 
 
 def why_not():
@@ -22,17 +23,35 @@ def why_not():
 
 
 class Screen:
-    """An X server of its own, on a display number that it chooses."""
+    """An X server of its own, on a display number that it chooses. dpi: what desktops tell of dense monitors; managed: by openbox, else
+    windows have neither frames nor icons."""
 
-    def __init__(self, size="1280x1024"):
+    def __init__(self, size="1280x1024", dpi=None, managed=False):
         read, write = os.pipe()
         self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp", "-noreset"],
                                        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as pipe:
             self.display = ":" + pipe.readline().strip()
+        self.environment = dict(ENVIRONMENT, DISPLAY=self.display)
+        self.manager = None
+        if dpi:
+            subprocess.run(["xrdb", "-merge", "-"], input=f"Xft.dpi: {dpi}\n", text=True, env=self.environment, check=True)
+        if managed:
+            self.manager = subprocess.Popen(["openbox", "--config-file", "/dev/null"], env=self.environment, stdout=subprocess.DEVNULL,
+                                            stderr=subprocess.DEVNULL)
+            until = time.monotonic() + 20
+            while "window id" not in self.run("xprop", "-root", "_NET_SUPPORTING_WM_CHECK"):
+                assert time.monotonic() < until, "openbox does not manage windows"
+                time.sleep(0.05)
+
+    def run(self, *arguments):
+        return subprocess.run(arguments, env=self.environment, capture_output=True, text=True, check=True).stdout
 
     def close(self):
+        if self.manager:
+            self.manager.terminate()
+            self.manager.wait()
         self.server.terminate()
         self.server.wait()
 
@@ -103,10 +122,32 @@ class Window:
         """Taps S and waits for the command that repeats the picture."""
         before = self.text().count("\n")
         self.key("s")
-        self.wait_until(lambda: self.text().count("\n") > before)
+        self.wait_until(lambda: self.text().count("\n") > before, 30)
         lines = self.text().splitlines()
         assert len(lines) > before, self.text("err")
         return lines[-1]
+
+    def picture(self, crop=None):
+        return pixels(self.screenshot(), crop)
+
+    def used(self):
+        """(seconds of processor time, times that any thread went to sleep or was put there)"""
+        switches = 0
+        with open(f"/proc/{self.process.pid}/stat", encoding="utf-8") as file:
+            fields = file.read().rsplit(")", 1)[1].split()
+        for task in os.listdir(f"/proc/{self.process.pid}/task"):
+            with open(f"/proc/{self.process.pid}/task/{task}/status", encoding="utf-8") as file:
+                switches += sum(int(line.split()[1]) for line in file if "ctxt_switches" in line)
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK"), switches
+
+    def uses(self, seconds):
+        before = self.used()
+        time.sleep(seconds)
+        return tuple(b - a for a, b in zip(before, self.used()))
+
+    def rest(self, seconds=60):
+        """Until nothing goes on."""
+        assert self.wait_until(lambda: self.uses(0.2)[1] == 0, seconds, 0), "the window finds no rest"
 
     def close(self):
         """By Q; the exit code."""
@@ -149,8 +190,18 @@ class ViewCase(Case):
     def setUp(self):
         """A screen each: a key that is down as its window goes would type into the next one."""
         super().setUp()
-        self.screen = Screen()
-        self.addCleanup(self.screen.close)
+        self.screen = None
+        self.use_screen()
+        self.scene = shutil.copy(CORNELL, self.path("box.gltf"))
+        shutil.copy(os.path.join(os.path.dirname(CORNELL), "cornell-box.bin"), self.folder)
+
+    def use_screen(self, *arguments, **options):
+        """Another one than before."""
+        if self.screen:
+            self.screen.close()
+        else:
+            self.addCleanup(lambda: self.screen.close())
+        self.screen = Screen(*arguments, **options)
 
     def open(self, *arguments, **options):
         window = Window(self.screen, tempfile.mkdtemp(dir=self.folder), *arguments, **options)

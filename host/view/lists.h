@@ -1,0 +1,17 @@
+/* The lists that open over the picture: help, and effects. */
+#ifndef EC_VIEW_LISTS_H
+#define EC_VIEW_LISTS_H
+
+#include "view/shared.h"
+#include "view/text.h"
+
+/* The largest text, in pixels, but no larger than `most`, with which all of the help is seen. */
+double ec_view_help_size(double most, double width, double height);
+void ec_view_help_draw(const ec_view_text *text, double width, double height);
+
+void ec_view_effects_draw(const ec_view_facts *facts, uint64_t without, const ec_view_text *text, double width, double height);
+
+/* The effect that a digit means in the open list; 0: none. */
+uint64_t ec_view_effect_of_digit(const ec_view_facts *facts, int digit);
+
+#endif

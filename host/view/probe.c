@@ -1,0 +1,47 @@
+/* What is under the cursor: the film's pixel, and the surface that its centre sees. */
+#include <math.h>
+#include <stdio.h>
+
+#include "view/renderer.h"
+
+void ec_renderer_read_pixel(const ec_film *film, ec_view_probe *probe)
+{
+    probe->has_film = film->batch_count > 0 && probe->x < film->width && probe->y < film->height;
+    probe->has_error = probe->has_film && film->batch_count > 1;
+    if (!probe->has_film) return;
+    uint64_t p = (uint64_t)probe->y * film->width + probe->x;
+    double n = ec_film_batches(film, p);
+    for (int c = 0; c < 3; c++) {
+        probe->rgb[c] = film->mean[3 * p + c];
+        probe->se[c] = n > 1 ? sqrt(film->m2[4 * p + c] / (n * (n - 1))) : 0;
+    }
+}
+
+void ec_renderer_probe(ec_renderer *r, const ec_view_wish *wish)
+{
+    const ec_scene *scene = r->setup[EC_ROLE_PICTURE]->scene->scene;
+    ec_view_probe probe = {.serial = wish->probes, .x = wish->probe_x, .y = wish->probe_y, .material = -1, .node = -1};
+    probe.is_inside = probe.x < r->wish.width && probe.y < r->wish.height;
+    r->looked_away = false;
+    if (probe.is_inside) {
+        ec_view_hit hit = ec_view_pick(scene, &r->camera, r->wish.width, r->wish.height, probe.x, probe.y);
+        probe.has_surface = isfinite(hit.distance);
+        probe.depth = hit.distance;
+        ec_renderer_read_pixel(&r->picture.film, &probe);
+        if (probe.has_surface) {
+            probe.material = scene->triangle_material[hit.triangle];
+            const char *name = scene->materials[probe.material].name;
+            snprintf(probe.name, sizeof probe.name, "%s", name ? name : "unnamed");
+            probe.node = ec_scene_node_of(scene, hit.id);
+        }
+        if (probe.node >= 0) {
+            const char *name = scene->node_names[probe.node];
+            snprintf(probe.node_name, sizeof probe.node_name, "%s", name ? name : "unnamed");
+            ec_view_node_sphere(scene, (uint32_t)probe.node, probe.center, &probe.radius);
+        }
+    }
+    pthread_mutex_lock(&r->view->lock);
+    r->view->status.probe = probe;
+    ec_view_post(r->view);
+    pthread_mutex_unlock(&r->view->lock);
+}

@@ -1,0 +1,110 @@
+"""Every key that the window's help names does what it says, in the picture or in the command that repeats it.
+ctest label: slow"""
+import json
+import os
+import re
+
+from desk import ViewCase, mean_difference
+from support import write_exr, write_gltf
+
+TALL = [0.3685, 0.165, 0.3515]  # the middle of the Cornell box's tall block
+
+
+class Keys(ViewCase):
+    def start(self, *arguments):
+        self.window = self.open(self.scene, *arguments)
+        self.window.rest()
+        self.window.key("i", "i")
+        self.picture = self.settled()
+
+    def settled(self):
+        self.window.rest()
+        return self.window.picture()
+
+    def press(self, *names):
+        """How much the picture differs from before; keeps the new one."""
+        before = self.picture
+        self.window.key(*names)
+        self.picture = self.settled()
+        return mean_difference(before, self.picture)
+
+    def mean(self):
+        return sum(self.picture[2]) / len(self.picture[2])
+
+    def point(self, x, y):
+        self.window.tool("mousemove", "--window", self.window.id, x, y)
+        self.window.rest()
+
+    def target(self):
+        return [float(x) for x in re.search(r"--look-at=(\S+)", self.window.save())[1].split(",")]
+
+    def test_keys_show_what_they_do(self):
+        with open(self.scene, encoding="utf-8") as file:
+            scene = json.load(file)
+        scene["nodes"].append(dict(scene["nodes"][8], translation=[0.4, 0.4, -0.5]))
+        scene["scenes"][0]["nodes"].append(len(scene["nodes"]) - 1)
+        write_gltf(self.scene, scene)
+        sky = write_exr(self.path("sky.exr"), 8, 4, {c: [float((i * k) % 7 // 3) for i in range(32)] for c, k in [("R", 1), ("G", 3), ("B", 5)]})
+        self.start("--size", "160x90", "--spp", "4", "--env", sky)
+        first, mean = self.picture, self.mean()
+        self.press("E")
+        self.assertGreater(self.mean(), 1.05 * mean)
+        self.press("e", "e")
+        self.assertLess(self.mean(), 0.95 * mean)
+        self.press("E")
+        self.assertEqual(self.picture, first)
+        for keys, back in [("t", "t"), ("period", "comma"), ("c", "c"), ("3", "1"), ("2", "1"), ("h", "h"), ("i", "i i")]:
+            self.assertGreater(self.press(*keys.split()), 0.5, keys)
+            self.press(*back.split())
+            self.assertLess(mean_difference(self.picture, first), 0.01, back)
+        self.press("x")
+        self.assertGreater(self.press("1"), 1)
+        self.press("1", "x")
+        self.assertEqual(self.picture, first)
+        self.point(20, 45)
+        for keys in ["Tab", "v", "v"]:  # wipe; side by side; one
+            self.assertGreater(self.press(keys), 1, keys)
+        self.assertEqual(self.picture, first)
+        self.press("Tab", "Tab", "Tab")  # samples, another rung
+        self.assertGreater(self.press("g"), 1)
+        self.press("v", "v")
+        for keys in ["w", "a", "d", "Up", "Down", "Left", "Right", "Prior", "Next", "s"]:
+            before = self.picture
+            self.window.hold(keys, 0.45 if keys == "s" else 0.2)
+            self.picture = self.settled()
+            self.assertGreater(mean_difference(before, self.picture), 0.5, keys)
+        self.press("E", "t", "period", "r")
+        self.assertEqual(self.picture, first)
+        self.window.key("F5")
+        self.assertTrue(self.window.wait_until(lambda: self.window.uses(0.1)[0] > 0.02, 10, 0), "nothing is loaded again")
+        self.assertEqual(self.settled(), first)
+        self.assertIn("--spp=4 ", self.window.save())
+        self.assertGreater(self.press("m"), 0.3)
+        self.assertIn("--spp=16 ", self.window.save())
+        self.assertEqual(self.window.close(), 0)
+
+    def test_f_frames_selection_cursor_or_all(self):
+        self.start("--size", "200x200", "--spp", "1")
+        everything = [0.278, 0.2744, 0.2796]
+        for place, click, expected in [((80, 110), False, TALL), ((198, 2), False, everything), ((80, 110), True, TALL)]:
+            self.press("r")
+            self.point(*place)
+            if click:
+                self.window.tool("click", 1)
+                self.point(198, 2)
+            self.press("f")
+            for a, b in zip(self.target(), expected):
+                self.assertAlmostEqual(a, b, delta=1e-3, msg=f"{place} {click}")
+        self.window.tool("click", 1)  # on nothing
+        self.window.rest()
+        self.press("r", "f")
+        self.assertAlmostEqual(self.target()[0], everything[0], delta=1e-3)
+        self.assertEqual(self.window.close(), 0)
+
+    def test_every_change_is_in_the_second_save_too(self):
+        self.start("--size", "64x48", "--spp", "2")
+        self.window.save()
+        again = self.window.save()
+        self.assertIn("-2.exr", again)
+        self.assertTrue(os.path.exists(os.path.join(self.window.folder, "box-2.png")))
+        self.assertEqual(self.window.close(), 0)

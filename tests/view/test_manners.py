@@ -1,0 +1,164 @@
+"""The preview window among others: at rest, minimised, on several and on dense monitors, on other keyboards, when things break.
+ctest label: slow"""
+import os
+import re
+import shutil
+import signal
+import subprocess
+import unittest
+
+from desk import ViewCase, mean_difference
+from support import write_exr
+
+SIZE = ["--size", "200x150"]
+
+
+class Rest(ViewCase):
+    def test_nothing_wakes_it_but_events(self):
+        window = self.open(self.scene, *SIZE, "--spp", "4")
+        window.rest()
+        seconds, switches = window.uses(4)
+        self.assertEqual(switches, 0)
+        self.assertLessEqual(seconds, 0.02)
+        # From that sleep a file wakes it that comes in another's place by rename, as editors write them.
+        before = window.picture("200x60+0+0")
+        with open(self.scene, encoding="utf-8") as file:
+            text = file.read()
+        with open(self.path("new"), "w", encoding="utf-8") as file:
+            file.write(re.sub(r'"emissiveFactor":\s*\[[^]]*\]', '"emissiveFactor":[0,0,0.05]', text))
+        os.rename(self.path("new"), self.scene)
+        self.assertTrue(window.wait_until(lambda: mean_difference(window.picture("200x60+0+0"), before) > 10, 30))
+        window.rest()
+        window.process.send_signal(signal.SIGINT)
+        self.assertEqual(window.process.wait(5), 0)
+
+    def test_minimised_it_renders_nothing(self):
+        self.use_screen(managed=True)
+        window = self.open(self.scene, *SIZE, "--error", "0.1%")
+        self.assertTrue(window.wait_until(lambda: window.uses(0.5)[0] > 0.2), "it does not render")
+        window.tool("windowminimize", window.id)
+        self.assertTrue(window.wait_until(lambda: "HIDDEN" in self.screen.run("xprop", "-id", window.id, "_NET_WM_STATE"), 10))
+        window.rest(10)
+        self.assertEqual(window.uses(2), (0, 0))
+        window.tool("windowactivate", window.id)
+        self.assertTrue(window.wait_until(lambda: window.uses(0.5)[0] > 0.2), "it does not go on")
+        self.assertEqual(window.close(), 0)
+
+
+class Monitors(ViewCase):
+    """Xvfb has one output, so GLFW knows one monitor; who parts it in two, for windows and full screen, is openbox."""
+
+    def test_full_screen_is_that_of_the_monitor_it_is_on(self):
+        self.use_screen("900x300", managed=True)
+        self.screen.run("xrandr", "--setmonitor", "left", "600/150x300/75+0+0", "screen")
+        self.screen.run("xrandr", "--setmonitor", "right", "300/75x300/75+600+0", "none")
+        window = self.open(self.scene, *SIZE, "--spp", "2")
+        window.tool("windowmove", "--sync", window.id, 650, 50)
+
+        def place():
+            text = window.tool("getwindowgeometry", window.id)
+            return tuple(int(x) for x in re.findall(r"-?\d+", re.sub(r"Window \d+|screen: \d+", "", text)))
+        window.key("F11")
+        self.assertTrue(window.wait_until(lambda: place() == (600, 0, 300, 300), 10), place())
+        self.assertIn("--size=300x300", window.wait_until(lambda: (lambda c: c if "300x300" in c else None)(window.save()), 20, 0.5) or "")
+        window.key("F11")
+        self.assertTrue(window.wait_until(lambda: place()[2:] == (200, 150) and place()[0] > 600, 10), place())
+        self.assertEqual(window.close(), 0)
+
+    def test_text_is_as_dense_as_the_monitor(self):
+        heights = []
+        for dpi in [96, 192]:
+            self.use_screen(dpi=dpi)
+            window = self.open(self.scene, "--size", "800x400", "--spp", "1")
+            window.rest()
+            lines = window.picture("700x400+0+0")
+            window.key("i", "i")
+            window.rest()
+            plain = window.picture("700x400+0+0")
+            row = 3 * 700
+            changed = [y for y in range(400) if lines[2][y * row:(y + 1) * row] != plain[2][y * row:(y + 1) * row]]
+            heights.append(changed[-1] - changed[0])
+            self.assertEqual(window.close(), 0)
+        self.assertGreater(heights[1], 1.8 * heights[0])  # more rows too, where fewer characters fit
+
+
+class Keyboards(ViewCase):
+    def eye(self, window):
+        window.rest()
+        return [float(x) for x in re.search(r"--eye=([^ ]+)", window.save())[1].split(",")]
+
+    def test_letters_are_where_the_keyboard_has_them(self):
+        self.screen.run("setxkbmap", "fr")
+        window = self.open(self.scene, *SIZE, "--spp", "1")
+        window.rest()
+        window.hold("a", 0.5)  # where a US keyboard has Q
+        self.assertGreater(self.eye(window)[0], 0.28)  # it looks along +z: left is +x
+        window.key("E", "E", "E")
+        self.assertIn("--exposure=1 ", window.save())
+        shown = window.picture()
+        window.key("question")
+        window.rest()
+        self.assertGreater(mean_difference(window.picture(), shown), 5)
+        self.assertEqual(window.close(), 0)
+
+    def test_other_letters_are_taken_by_their_places(self):
+        self.screen.run("setxkbmap", "ru")
+        window = self.open(self.scene, *SIZE, "--spp", "1")
+        window.rest()
+        window.hold("Cyrillic_ef", 0.5)  # where a US keyboard has A
+        window.key("Cyrillic_U", "Cyrillic_U", "Cyrillic_U", "Cyrillic_e", "Cyrillic_u")  # E E E, nothing, e
+        window.rest()
+        window.key("Cyrillic_yeru")  # S
+        window.wait_until(lambda: "\n" in window.text(), 20)
+        self.assertIn("--exposure=0.666666667", window.text())
+        self.assertGreater(float(re.search(r"--eye=([^,]+)", window.text())[1]), 0.28)
+        window.key("Cyrillic_shorti")  # Q
+        self.assertEqual(window.process.wait(10), 0)
+
+
+class Broken(ViewCase):
+    def test_files_that_go_are_told_of_and_come_back(self):
+        sky = write_exr(self.path("sky.exr"), 2, 2, {"R": [1.0] * 4, "G": [1.0] * 4, "B": [1.0] * 4})
+        window = self.open(self.scene, *SIZE, "--spp", "4", "--env", sky)
+        window.rest()
+        plain = window.picture()
+
+        def differs():
+            return mean_difference(window.picture(), plain)
+        for spoil in [lambda: None, lambda: os.mkdir(self.scene), lambda: shutil.copy(__file__, self.scene)]:
+            os.rename(self.scene, self.path("kept"))
+            spoil()
+            self.assertTrue(window.wait_until(lambda: differs() > 2, 20))
+            self.assertGreater(len(set(window.picture("200x20+0+55")[2])), 8)  # the last picture stays
+            if os.path.isdir(self.scene):
+                os.rmdir(self.scene)
+            os.rename(self.path("kept"), self.scene)
+            self.assertTrue(window.wait_until(lambda: window.rest() or differs() < 1, 20))
+        shutil.copy(write_exr(self.path("green.exr"), 2, 2, {"R": [0.0] * 4, "G": [9.0] * 4, "B": [0.0] * 4}), sky)
+        self.assertTrue(window.wait_until(lambda: differs() > 5, 20))
+        self.assertEqual(window.close(), 0)
+
+    def test_a_lost_device_is_told_of_and_closes(self):
+        window = self.open(self.scene, *SIZE, "--spp", "100000", "--batch", "1",
+                           env={"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_CALL": "clEnqueueNDRangeKernel", "FAULT_AT": "3000", "FAULT_LOST": "1"})
+        window.rest()
+        self.assertGreater(len(set(window.picture("200x60+0+40")[2])), 8)  # what there was of the picture
+        command = window.save()
+        self.assertRegex(command, r"--spp=\d+ --batch=1 ")
+        self.assertEqual(window.close(), 0)
+
+    def test_sizes_that_are_none(self):
+        script = self.path("save.txt")
+        wide = write_exr(self.path("wide.exr"), 500, 3, {c: [0.5] * 1500 for c in "RGB"})
+        with open(script, "w", encoding="utf-8") as file:
+            file.write("key v\nkey Tab\nkey Tab\nkey Tab\nsettle\nkey Save\nquit\n")
+        for size, saved in [("1x1", "1x1"), ("20000x20", "1280x1")]:
+            run = subprocess.run([os.environ["ECLAT"], "view", self.scene, "--size", size, "--spp", "2", "--against", wide, "--script", script],
+                                 env=dict(self.screen.environment, LIBGL_ALWAYS_SOFTWARE="1"), cwd=self.folder, capture_output=True, text=True,
+                                 timeout=60, check=False)
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+            self.assertIn("--size=" + saved, run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
