@@ -117,6 +117,7 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
     if (!request) return ec_fail(err, "out of memory");
     *request = *s->request;
     request->choice = choice_of(s, frame);
+    if (request->seed_is_frame) request->options.seed = frame;
     ec_error why = {0};
     ec_result told = EC_OK, result = outputs_of(s, frame, &request->outputs, &why);
     if (s->states[i] == EC_FRAME_DONE) {
@@ -191,6 +192,7 @@ ec_result ec_frames_render(ec_console *console, const ec_render_request *request
     if (result == EC_OK) result = render_all(&s, start, err);
     ec_animation_close(s.share.animation);
     free(s.share.environment.rgb);
+    ec_packed_map_free(&s.share.packed);
     ec_followed_free(&s.share.followed);
     ec_cl_close(&s.cl);
     free(s.states);

@@ -128,7 +128,7 @@ static const char help_render[] =
     "      --sampler NAME         sobol (Owen-scrambled) or independent (default: sobol)\n"
     "      --scattering NAME      rough metal and glass: single, as glTF has it, which loses light; multiple, which gives\n"
     "                             back what facets reflect or pass on to one another (default: single)\n"
-    "      --seed N               another N, another independent image (default: 0)\n"
+    "      --seed N               another N, another independent image; frame: with --frames the frame's number (default: 0)\n"
     "      --terminator NAME      where light grazes facets with vertex normals: geometric, they shade themselves; smooth,\n"
     "                             rays start on the smooth surface that is meant (default: geometric)\n"
     "\n"

@@ -50,14 +50,18 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
 }
 
 /* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */
-static void share_environment(ec_render_job *job, bool is_of_all)
+static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error *err)
 {
     ec_frame_share *share = job->share;
-    if (!share || !is_of_all || share->environment_known) return;
+    if (!share || !is_of_all || share->environment_known) return EC_OK;
+    if (job->scene->environment.rgb) EC_TRY(ec_pack_map(&job->scene->environment, &share->packed, err));
     share->environment = job->scene->environment;
     share->has_environment = job->scene->has_environment;
     share->environment_known = true;
+    if (share->environment.rgb) share->environment.packed = &share->packed;
+    job->scene->environment = share->environment;
     job->scene->environment.lent = true;
+    return EC_OK;
 }
 
 static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *err)
@@ -81,7 +85,7 @@ static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *
             return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --env, or leave them out");
         ec_scene_adjust_environment(job->scene, job->request->env_degrees, job->request->env_strength, log);
     }
-    share_environment(job, is_of_all);
+    EC_TRY(share_environment(job, is_of_all, err));
     if (!environment) environment = job->scene->has_environment ? "the scene's" : "none";
     int used = snprintf(job->environment_text, sizeof job->environment_text, "%s", environment);
     if (job->request->adjusts_env && used > 0 && (size_t)used < sizeof job->environment_text)

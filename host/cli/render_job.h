@@ -8,6 +8,7 @@
 #include "cli/render_request.h"
 #include "cli/write_outputs.h"
 #include "film/film.h"
+#include "pack/pack.h"
 #include "report/render_report.h"
 
 /* What the frames of a sequence share. */
@@ -16,6 +17,7 @@ typedef struct ec_frame_share {
     ec_cl *cl;
     ec_followed followed;        /* acceleration structures */
     ec_environment environment;  /* that of all frames, once the first one has made it; its picture is owned */
+    ec_packed_map packed;        /* of its picture */
     bool has_environment, environment_known;
 } ec_frame_share;
 
