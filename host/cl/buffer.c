@@ -84,12 +84,17 @@ ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t by
     return ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err);
 }
 
-ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err)
+ec_result ec_buffer_fill(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *word, ec_error *err)
 {
     if (bytes == 0) return EC_OK;
-    const cl_uint zero = 0;
     cl_event event;
-    cl_int code = clEnqueueFillBuffer(cl->queue, buffer, &zero, sizeof zero, offset, bytes, 0, NULL, &event);
+    cl_int code = clEnqueueFillBuffer(cl->queue, buffer, word, sizeof(cl_uint), offset, bytes, 0, NULL, &event);
     EC_TRY(ec_cl_check(code, "clEnqueueFillBuffer", NULL, err));
-    return ec_cl_launched(cl, event, "zeroing a buffer", err);
+    return ec_cl_launched(cl, event, "filling a buffer", err);
+}
+
+ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err)
+{
+    const cl_uint zero = 0;
+    return ec_buffer_fill(cl, buffer, offset, bytes, &zero, err);
 }

@@ -49,16 +49,26 @@ static bool first_of(const ec_device_info *devices, uint32_t count, cl_device_ty
     return false;
 }
 
+/* What was asked for, and where; NULL: nothing. */
+static const char *asked_for(const char *id, const char **from)
+{
+    *from = id && *id ? "--device" : "ECLAT_DEVICE";
+    if (!id || !*id) id = getenv("ECLAT_DEVICE");
+    return id && *id ? id : NULL;
+}
+
+static bool is_all(const char *id) { return !strcasecmp(id, "all"); }
+
 ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index,
                            const char **why, ec_error *err) {
-    const char *from = "--device", *unused;
+    const char *from, *unused;
     if (!why) why = &unused;
-    if (!id || !*id) {
-        id = getenv("ECLAT_DEVICE");
-        from = "ECLAT_DEVICE";
-    }
-    if (id && *id) {
-        if (!find(devices, count, id, index)) {
+    id = asked_for(id, &from);
+    if (id) {
+        bool found = find(devices, count, id, index);
+        if (is_all(id) || (!found && strchr(id, ',')))
+            return ec_fail(err, "%s %s: this takes one device, only eclat render takes several; name one of them", from, id);
+        if (!found) {
             char names[1024];
             list_names(devices, count, names, sizeof names);
             return ec_fail(err, "%s %s: no such device; there %s %s (an index or a part of the name)", from, id,
@@ -75,6 +85,59 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
     else if (first_of(devices, count, CL_DEVICE_TYPE_ALL, index)) *why = "first device";
     else return ec_fail(err, "none of the %u OpenCL devices is available and has a compiler; see eclat devices", count);
     return EC_OK;
+}
+
+static ec_result choose_all(const ec_device_info *devices, uint32_t count, uint32_t *indices, uint32_t most, uint32_t *chosen, ec_error *err)
+{
+    *chosen = 0;
+    for (uint32_t i = 0; i < count && *chosen < most; i++)
+        if (usable(&devices[i])) indices[(*chosen)++] = i;
+    return *chosen ? EC_OK : ec_fail(err, "none of the %u OpenCL devices is available and has a compiler; see eclat devices", count);
+}
+
+static ec_result choose_next(const ec_device_info *devices, uint32_t count, const char *list, const char *id, uint32_t *indices, uint32_t most,
+                             uint32_t *chosen, ec_error *err)
+{
+    if (!*id) return ec_fail(err, "the list of devices '%s' has an empty place; give numbers or names with commas between them", list);
+    if (*chosen == most) return ec_fail(err, "the list of devices '%s' is too long; name %u at most", list, most);
+    EC_TRY(ec_device_choose(devices, count, id, &indices[*chosen], NULL, err));
+    for (uint32_t i = 0; i < *chosen; i++)
+        if (indices[i] == indices[*chosen])
+            return ec_fail(err, "the list of devices '%s' has device %u (%s) twice; name each once", list, indices[i], devices[indices[i]].name);
+    ++*chosen;
+    return EC_OK;
+}
+
+ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *indices, uint32_t most,
+                                   uint32_t *chosen, const char **why, ec_error *err)
+{
+    const char *from;
+    const char *list = asked_for(id, &from);
+    *chosen = 1;
+    bool is_list = list && strchr(list, ',') && !find(devices, count, list, indices);
+    if (list && (is_all(list) || is_list) && why) *why = from[0] == '-' ? "chosen by --device" : "chosen by ECLAT_DEVICE";
+    if (list && is_all(list)) return choose_all(devices, count, indices, most, chosen, err);
+    if (!is_list) return ec_device_choose(devices, count, id, indices, why, err);
+    *chosen = 0;
+    for (const char *at = list, *end; at; at = *end ? end + 1 : NULL) {
+        char one[256];
+        end = at + strcspn(at, ",");
+        snprintf(one, sizeof one, "%.*s", (int)(end - at), at);
+        EC_TRY(choose_next(devices, count, list, one, indices, most, chosen, err));
+    }
+    return EC_OK;
+}
+
+ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most, uint32_t *chosen, const char **why,
+                                 ec_error *err)
+{
+    ec_device_info *all = NULL;
+    uint32_t count = 0;
+    EC_TRY(ec_devices_list(&all, &count, err));
+    ec_result result = ec_device_choose_several(all, count, id, indices, most, chosen, why, err);
+    for (uint32_t i = 0; result == EC_OK && i < *chosen; i++) devices[i] = all[indices[i]];
+    free(all);
+    return result;
 }
 
 ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err)

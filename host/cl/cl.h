@@ -33,8 +33,15 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
 ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index,
                            const char **why, ec_error *err);
 
+/* The same for `all` (those that are available and have a compiler) and lists such as `0,2` or `pocl,intel`: several indices, `most` at
+ * most, in the order given. */
+ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *indices, uint32_t most,
+                                   uint32_t *chosen, const char **why, ec_error *err);
+
 /* Both at once: the device that id means, and its place in the list. index and why may be NULL. */
 ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err);
+ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most, uint32_t *chosen, const char **why,
+                                 ec_error *err);
 
 /* Whether programs go through the binary cache. AUTO leaves it out for drivers that need the source:
  * cl/workarounds.c. */
@@ -106,7 +113,9 @@ ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t s
 void ec_buffers_keep_only(ec_cl *cl, const ec_fingerprint *keys, uint32_t count);
 ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err); /* blocks */
 ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err);
-ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err); /* 4-byte multiples; enqueued */
+/* With the same four bytes, or zeros, over and over: multiples of 4 bytes; enqueued. */
+ec_result ec_buffer_fill(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *word, ec_error *err);
+ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err);
 
 ec_result ec_kernel_create(cl_program program, const char *name, cl_kernel *kernel, ec_error *err);
 /* All arguments at once; the count must be the kernel's. ec_kernel_arguments(k, (ec_argument[]){EC_ARGUMENT(a),

@@ -7,7 +7,9 @@
  * contexts, and each program more costs 0.1-0.2 s: see ec_kernel_sources_join.
  *
  * rusticl was still busy with kernels of eight lanes after five minutes of processor time. It ends the process over a binary that it
- * does not know, and has a cache of its own. */
+ * does not know, and has a cache of its own.
+ *
+ * Of Intel's runtime and llvmpipe tests/kernel/test_rounding.c has seen that they round division and square root correctly. */
 #include "cl/workarounds.h"
 
 #include <string.h>
@@ -17,7 +19,8 @@ static const ec_workaround workarounds[] = {
     {"Oclgrind", "21.10, 2026-11", "names lines of the source; what lanes that are off read counts as uninitialised once another part of the buffer is written",
      .source_only = true, .no_touch = true},
     {"rusticl", "Mesa 22.3.6, 2026-11", "its compiler takes gigabytes and many minutes for kernels of more than one lane", .most_lanes = 1,
-     .source_only = true},
+     .source_only = true, .rounds = true},
+    {"Intel(R) OpenCL", "2026.22.10, 2026-11", "does not say that it rounds correctly, but does", .rounds = true},
 };
 
 const ec_workaround *ec_workaround_for(const ec_device_info *device)
@@ -26,4 +29,10 @@ const ec_workaround *ec_workaround_for(const ec_device_info *device)
         if (strstr(device->platform_name, workarounds[i].driver) || strstr(device->platform_version, workarounds[i].driver))
             return &workarounds[i];
     return NULL;
+}
+
+bool ec_device_rounds(const ec_device_info *device)
+{
+    const ec_workaround *driver = ec_workaround_for(device);
+    return device->correctly_rounded_divide_sqrt || (driver && driver->rounds);
 }

@@ -10,10 +10,14 @@ typedef struct ec_workaround {
     const char *what;       /* what is wrong, for messages */
     bool source_only;       /* its programs do not go through eclat's binary cache */
     uint32_t most_lanes;    /* 0: any */
+    bool rounds;            /* division and square root correctly, though it does not say so */
     bool no_touch;          /* buffers are not written to only to see whether there is memory for them */
 } ec_workaround;
 
 /* The one for a device, or NULL. */
 const ec_workaround *ec_workaround_for(const ec_device_info *device);
+
+/* Does arithmetic give the same bits as on other devices of which this is true? */
+bool ec_device_rounds(const ec_device_info *device);
 
 #endif

@@ -62,12 +62,12 @@ static ec_result run_study(ec_cost_study *study, const ec_render_job *job, ec_co
 {
     ec_cl cl = {0};
     cost_view view = {.console = console};
-    EC_TRY(ec_cl_open(&job->device, &cl, err));
+    EC_TRY(ec_cl_open(job->devices, &cl, err));
     study->cl = &cl;
     study->go_on = show;
     study->user = &view;
     ec_stop_catch_signals(ec_console_wants_progress(console));
-    ec_console_say(console, "studying %ux%u pixels on %s for %g s", study->options.width, study->options.height, job->device.name, study->budget);
+    ec_console_say(console, "studying %ux%u pixels on %s for %g s", study->options.width, study->options.height, job->devices->name, study->budget);
     ec_result result = ec_cost_run(study, err);
     ec_console_erase(console);
     ec_cl_close(&cl);
@@ -107,8 +107,8 @@ ec_result ec_cmd_cost(ec_cli *cli, int argc, char **argv, ec_error *err)
     result = run_study(&study, &job, &cli->console, err);
     if (result != EC_OK && !(study.row_count && study.rows[0].state == EC_COST_MEASURED)) goto cleanup;
     const ec_cost_report report = {.study = &study, .command = cli->line, .scene = request.render.scene, .camera = job.camera_text,
-                                   .environment = job.environment_text, .device = &job.device, .device_why = job.device_why,
-                                   .device_index = job.device_index};
+                                   .environment = job.environment_text, .device = job.devices, .device_why = job.device_why,
+                                   .device_index = job.device_indices[0]};
     if (result == EC_OK) result = deliver(&report, &request, err);
     else if (deliver(&report, &request, NULL) == EC_OK) ec_fail_more(err, "; what was measured before is reported");
 cleanup:

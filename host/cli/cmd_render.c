@@ -26,9 +26,9 @@ static ec_render_report make_report(const ec_render_job *job, const char **outpu
         .options = &request->options,
         .stats = &job->stats,
         .verbose = request->verbose,
-        .device = &job->device,
+        .device = job->devices,
         .device_why = job->device_why,
-        .device_index = job->device_index,
+        .device_index = job->device_indices,
         .exposure = request->exposure,
         .tonemap = request->tonemap,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
@@ -114,7 +114,7 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (!as_given) return ec_fail(err, "out of memory");
     memcpy(as_given, argv, ((size_t)argc + 1) * sizeof *as_given);
     if (!getcwd(folder, sizeof folder)) folder[0] = 0;
-    ec_render_job job = {.request = &request, .command = cli->line, .job = {.argc = argc, .argv = as_given, .folder = folder}};
+    ec_render_job job = {.request = &request, .takes_several = true, .command = cli->line, .job = {.argc = argc, .argv = as_given, .folder = folder}};
     ec_result result = EC_OK;
     EC_TRY_CLEANUP(ec_render_request_parse(argc, argv, &request, &done, err));
     if (done) goto cleanup;

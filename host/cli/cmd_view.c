@@ -242,7 +242,7 @@ static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t s
     ec_render_report report = {
         .command = command, .scene = job->render.scene, .camera = camera, .viewpoint = viewpoint_of(job, shot), .environment = environment,
         .options = shot->options, .stats = shot->stats, .device = &job->device, .device_why = job->device_why,
-        .device_index = job->device_index, .exposure = shot->exposure, .tonemap = shot->tonemap,
+        .device_index = &job->device_index, .exposure = shot->exposure, .tonemap = shot->tonemap,
         .mean_luminance = ec_film_estimate_error(shot->film).mean_luminance, .batches = shot->film->batch_count,
         .load_seconds = job->load_seconds,
     };

@@ -18,10 +18,6 @@ typedef struct sequence {
     ec_given_options given;
     char files[65];             /* digest of what the scene is made of */
     ec_frame_share share;
-    ec_cl cl;
-    ec_device_info device;
-    uint32_t device_index;
-    const char *device_why;
     ec_frame_state *states;     /* by frame, as they were found */
     uint32_t count, rendered, skipped, failed;
 } sequence;
@@ -88,8 +84,7 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     ec_identity identity;
     EC_TRY(ec_frame_identify(&s->given, s->request, s->files, frame, &identity, err));
     char *words = ec_identity_write(&identity), *command = ec_frame_command(&s->given, s->request, &request->outputs, frame);
-    ec_render_job job = {.request = request, .command = command, .share = &s->share, .device = s->device, .device_index = s->device_index,
-                         .device_why = s->device_why, .frame = {frame, ec_frame_seconds(&s->request->frames, frame), words}};
+    ec_render_job job = {.request = request, .command = command, .share = &s->share, .frame = {frame, ec_frame_seconds(&s->request->frames, frame), words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, s->console, err);
     if (result == EC_OK) result = ec_render_job_run(&job, s->console, err);
@@ -99,15 +94,6 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     free(words);
     free(command);
     return result;
-}
-
-/* What a device has forgotten or not done right is not to be taken for there. */
-static ec_result begin_anew(sequence *s, ec_error *err)
-{
-    ec_cl_close(&s->cl);
-    EC_TRY(ec_cl_open(&s->device, &s->cl, err));
-    s->cl.keeps_programs = s->cl.keeps_buffers = true;
-    return EC_OK;
 }
 
 static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *err)
@@ -132,7 +118,7 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
             ec_console_error(s->console, text);
             s->failed++;
             told = tell_state(s, frame, "failed", why.text, &request->outputs, err);
-            if (told == EC_OK) told = begin_anew(s, err);
+            ec_frame_share_close(&s->share); /* what a device has forgotten or not done right is not to be taken for there */
         }
     }
     free(request);
@@ -157,6 +143,18 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
     return EC_OK;
 }
 
+static ec_result find_devices(sequence *s, ec_error *err)
+{
+    ec_render_request request = *s->request;
+    ec_render_job job = {.request = &request, .takes_several = true};
+    EC_TRY(ec_render_job_find_devices(&job, err));
+    memcpy(s->share.devices, job.devices, sizeof job.devices);
+    memcpy(s->share.device_indices, job.device_indices, sizeof job.device_indices);
+    s->share.device_count = job.device_count;
+    s->share.device_why = job.device_why;
+    return EC_OK;
+}
+
 static ec_result begin(sequence *s, ec_error *err)
 {
     const ec_log log = ec_console_log(s->console);
@@ -164,7 +162,7 @@ static ec_result begin(sequence *s, ec_error *err)
     ec_scene_choice first = choice_of(s, r->frames.first);
     ec_outputs outputs;
     EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* patterns first of all */
-    EC_TRY(ec_device_find(r->device, &s->device, &s->device_index, &s->device_why, err));
+    EC_TRY(find_devices(s, err));
     EC_TRY(ec_animation_open(r->scene, &first, &s->share.animation, &log, err));
     ec_animation_digest(s->share.animation, s->files);
     return look_around(s, err);
@@ -174,8 +172,6 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
 {
     bool stopped = false;
     EC_TRY(begin(s, err));
-    EC_TRY(begin_anew(s, err));
-    s->share.cl = &s->cl;
     for (uint32_t i = 0; i < s->count && !stopped; i++) {
         EC_TRY(take_frame(s, i, &stopped, err));
         stopped |= ec_stop_requested() && i + 1 < s->count;
@@ -194,7 +190,7 @@ ec_result ec_frames_render(ec_console *console, const ec_render_request *request
     free(s.share.environment.rgb);
     ec_packed_map_free(&s.share.packed);
     ec_followed_free(&s.share.followed);
-    ec_cl_close(&s.cl);
+    ec_frame_share_close(&s.share);
     free(s.states);
     return result;
 }

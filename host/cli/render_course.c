@@ -104,12 +104,25 @@ static bool keep(void *user, const ec_film *film, const ec_past *past)
     return result == EC_OK;
 }
 
+/* "pthread-… (3.1) + NVIDIA H100 (535.54)": what rounding may depend on. */
+static void describe_devices(ec_render_job *job)
+{
+    char *text = job->device_text;
+    text[0] = 0;
+    for (uint32_t i = 0; i < job->device_count; i++) {
+        char one[520];
+        size_t used = strlen(text);
+        snprintf(one, sizeof one, "%s (%s)", job->devices[i].name, job->devices[i].driver);
+        if (!strstr(text, one)) snprintf(text + used, sizeof job->device_text - used, "%s%s", used ? " + " : "", one);
+    }
+}
+
 ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
 {
     ec_render_request *request = job->request;
     uint32_t batch = ec_render_batch(&request->options);
     job->console = console;
-    snprintf(job->device_text, sizeof job->device_text, "%s (%s)", job->device.name, job->device.driver);
+    describe_devices(job);
     job->job.device = job->device_text;
     job->job.spp = request->slice_of_any ? 0 : request->options.spp;
     job->job.error_target = request->options.error_target;

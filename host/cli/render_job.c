@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "cl/workarounds.h"
 #include "cli/defaults.h"
 #include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/stop.h"
 #include "cli/usage.h"
+#include "pipeline/team.h"
 #include "report/format.h"
 #include "report/scene_report.h"
 
@@ -117,11 +119,12 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 }
 
 /* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. */
-static ec_result check_memory(const ec_render_options *options, ec_error *err)
+static ec_result check_memory(const ec_render_options *options, uint32_t devices, ec_error *err)
 {
     uint64_t batches = options->spp ? (options->spp + ec_render_batch(options) - 1ull) / ec_render_batch(options) : 1;
     const uint64_t bytes_per_pixel = 96 + EC_MOMENTS_BYTES * ec_film_copies(batches); /* first-hit features 32, planes for the files 64 */
-    uint64_t needed = (uint64_t)options->width * options->height * bytes_per_pixel;
+    uint64_t pixels = (uint64_t)options->width * options->height, needed = pixels * bytes_per_pixel;
+    if (devices > 1) needed += 12 * pixels * ec_team_window(devices, pixels);
     uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
     char needed_text[32], present_text[32];
     if (needed <= present) return EC_OK;
@@ -141,24 +144,43 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_erro
     return EC_OK;
 }
 
+ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
+{
+    const char *wanted = job->request->device;
+    job->device_count = 1;
+    if (!job->takes_several) return ec_device_find(wanted, job->devices, job->device_indices, &job->device_why, err);
+    return ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count, &job->device_why, err);
+}
+
+/* Those of all frames. */
+static void take_devices(ec_render_job *job)
+{
+    const ec_frame_share *share = job->share;
+    memcpy(job->devices, share->devices, sizeof job->devices);
+    memcpy(job->device_indices, share->device_indices, sizeof job->device_indices);
+    job->device_count = share->device_count;
+    job->device_why = share->device_why;
+}
+
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
     const ec_render_request *request = job->request;
-    if (!job->share) EC_TRY(ec_device_find(request->device, &job->device, &job->device_index, &job->device_why, err));
+    if (!job->share) EC_TRY(ec_render_job_find_devices(job, err));
+    else take_devices(job);
     double start = ec_now();
     if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, &log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, &log, err));
     EC_TRY(prepare_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
-    return check_memory(&job->request->options, err);
+    return check_memory(&job->request->options, job->device_count, err);
 }
 
 static void announce(const ec_render_job *job, ec_console *console)
 {
     const ec_render_options *options = &job->request->options;
-    char limits[160] = "", range[64] = "";
+    char limits[160] = "", range[64] = "", more[64] = "";
     int used = 0;
     if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
     if (options->time_limit > 0)
@@ -173,8 +195,63 @@ static void announce(const ec_render_job *job, ec_console *console)
         snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
     if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
                                              (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
+    if (job->device_count > 1) snprintf(more, sizeof more, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
     if (job->share) snprintf(range, sizeof range, "frame %u, at %.6g s: ", job->frame.number, job->frame.seconds);
-    ec_console_say(console, "rendering %s%ux%u pixels on %s until %s", range, options->width, options->height, job->device.name, limits);
+    ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more, limits);
+}
+
+/* Bits are the same wherever division and square root are correctly rounded. */
+static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
+{
+    for (uint32_t i = 0; i < job->device_count; i++) {
+        const ec_device_info *one = &job->devices[i];
+        bool is_alike = true;
+        for (uint32_t k = 0; k < job->device_count; k++) is_alike &= !strcmp(one->name, job->devices[k].name) && !strcmp(one->driver, job->devices[k].driver);
+        if (is_alike || ec_device_rounds(one)) continue;
+        ec_warn(log, "%s does not say that it rounds division and square root correctly: where it does not, the last bits are not those of one device",
+                one->name);
+    }
+}
+
+/* Those that do not open are left out, if there are others. */
+static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *log, ec_error *err)
+{
+    uint32_t count = 0, wanted = job->device_count;
+    for (uint32_t i = 0; i < wanted; i++) {
+        ec_error why = {0};
+        if (ec_cl_open(&job->devices[i], &devices[count], &why) == EC_OK) {
+            job->devices[count] = job->devices[i];
+            job->device_indices[count++] = job->device_indices[i];
+        } else if (count || i + 1 < wanted) {
+            ec_warn(log, "%s is out, and the others take over its work: %s", job->devices[i].name, why.text);
+        } else if (err) {
+            *err = why;
+        }
+    }
+    job->device_count = count;
+    if (count) warn_of_rounding(job, log);
+    return count ? EC_OK : EC_FAILED;
+}
+
+/* Once for all frames, and again after one that failed; what does not open is out for the rest of them. */
+static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *err)
+{
+    ec_frame_share *share = job->share;
+    job->request->options.followed = &share->followed;
+    if (share->is_open) return EC_OK;
+    EC_TRY(open_devices(job, share->cl, log, err));
+    memcpy(share->devices, job->devices, sizeof share->devices);
+    memcpy(share->device_indices, job->device_indices, sizeof share->device_indices);
+    share->device_count = job->device_count;
+    for (uint32_t i = 0; i < share->device_count; i++) share->cl[i].keeps_programs = share->cl[i].keeps_buffers = true;
+    share->is_open = true;
+    return EC_OK;
+}
+
+void ec_frame_share_close(ec_frame_share *share)
+{
+    for (uint32_t i = 0; share->is_open && i < share->device_count; i++) ec_cl_close(&share->cl[i]);
+    share->is_open = false;
 }
 
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
@@ -183,16 +260,16 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     ec_progress_view view = {.console = console, .options = &job->request->options,
                              .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
     const ec_course course = ec_render_job_course(job, console);
-    ec_cl own = {0}, *cl = job->share ? job->share->cl : &own;
-    if (!job->share) EC_TRY(ec_cl_open(&job->device, &own, err));
-    if (job->share) job->request->options.followed = &job->share->followed;
+    ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : own;
+    if (!job->share) EC_TRY(open_devices(job, devices, &log, err));
+    else EC_TRY(open_shared(job, &log, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     announce(job, console);
-    ec_result result = ec_render_course(cl, job->scene, &job->request->options, &course, ec_progress_show, &view, &job->film,
-                                        &job->stats, &log, err);
+    ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
+                                        &job->film, &job->stats, &log, err);
     ec_console_erase(console);
-    if (!job->share) ec_cl_close(&own);
-    else ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
+    for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
+    if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     if (result == EC_OK && job->film.batch_count == 0) result = ec_fail(err, "no batch of samples was finished");
     if (result != EC_OK && job->film.batch_count == 0 && ec_stop_requested())
         return ec_fail(err, "interrupted before there was a picture; nothing is written");

@@ -14,12 +14,18 @@
 /* What the frames of a sequence share. */
 typedef struct ec_frame_share {
     ec_animation *animation;
-    ec_cl *cl;
+    ec_device_info devices[EC_DEVICES_MOST];
+    uint32_t device_indices[EC_DEVICES_MOST], device_count;
+    const char *device_why;
+    ec_cl cl[EC_DEVICES_MOST];   /* of these, once they are open */
+    bool is_open;
     ec_followed followed;        /* acceleration structures */
     ec_environment environment;  /* that of all frames, once the first one has made it; its picture is owned */
     ec_packed_map packed;        /* of its picture */
     bool has_environment, environment_known;
 } ec_frame_share;
+
+void ec_frame_share_close(ec_frame_share *share); /* the devices, with what they keep; the next frame opens them anew */
 
 typedef struct ec_render_job {
     ec_render_request *request;
@@ -27,8 +33,9 @@ typedef struct ec_render_job {
     ec_scene *scene;             /* owned */
     ec_frame_share *share;       /* NULL: it is no frame of a sequence */
     ec_frame_facts frame;        /* with that */
-    ec_device_info device;
-    uint32_t device_index;
+    bool takes_several;          /* devices; else a list of them is refused */
+    ec_device_info devices[EC_DEVICES_MOST];
+    uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
     ec_film film;
     ec_render_stats stats;
@@ -39,7 +46,7 @@ typedef struct ec_render_job {
     char image_sha256[EC_HASH_SIZE];
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
     ec_stored stored;            /* what is gone on from. Owned */
-    char device_text[512];
+    char device_text[1024];      /* of all of them, each driver once */
     char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
     ec_console *console;
     ec_error keep_error;         /* why the last checkpoint is not there; empty: it is, or none was wanted */
@@ -47,6 +54,9 @@ typedef struct ec_render_job {
 
 /* All that can fail early does so here: outputs, device, scene, environment, camera. */
 ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_error *err);
+
+/* By the request: one, or with takes_several all that it names. */
+ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err);
 
 /* The same without the outputs: device, scene, environment, camera, size. */
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err);

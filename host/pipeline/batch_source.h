@@ -1,43 +1,42 @@
-/* Where batches come from: one device that renders one batch at a time. It knows no film, no limits and no other source; a batch's
- * numbers depend on its index alone, so that any source may take any batch. */
+/* Where batches come from: a device, a team of them, or whatever else has these functions. A source knows no film, no limits and no other
+ * source; a batch's numbers depend on its index alone, so that any source may take any batch, or any piece of one. */
 #ifndef EC_PIPELINE_BATCH_SOURCE_H
 #define EC_PIPELINE_BATCH_SOURCE_H
 
-#include "pipeline/pipeline.h"
+#include "base/error.h"
+#include "pipeline/render.h"
+#include "shared/path_state.h"
 
-typedef struct ec_batch_source {
-    ec_pipeline pipeline;
-    uint64_t seed;
-    float *mean;                      /* 3 a pixel: of the batch taken last. Owned */
-    uint32_t invalid[EC_STAGE_COUNT]; /* samples dropped so far, by ec_stage */
-    bool has_begun;
-} ec_batch_source;
-
+/* Positions done to count - 1 of a batch. A position is a place in `list`; without one a pixel number, and then both ends of what is not a
+ * whole batch are whole rows of tiles (kernels/lib/film.h), whose numbers and places in row order are the same range. */
 typedef struct ec_batch_order {
     uint32_t index;                   /* of the batch, in the whole job */
+    uint32_t end;                     /* batches before this one will be ordered next, all pixels of each, if no limit is met: they may be begun */
     const uint32_t *list;             /* pixel numbers, those of one pass of an adaptive render; NULL: all pixels */
-    uint32_t count;                   /* of these */
-    uint32_t done;                    /* so many of them are done before: mean holds what they came to */
-    bool with_features;               /* first-hit features too, for ec_batch_source_features */
-    /* Asked between waves, with the pixels that are done, the first time when the device has done them; false gives the batch up. */
+    uint32_t count, done;
+    const float *before;              /* what the done ones came to, 3 floats a position; NULL: somebody else has that */
+    float *into;                      /* room for 3 floats a position; NULL: the source's own */
+    float *aov;                       /* first-hit features too: ec_film's, of the same positions; NULL: not wanted */
+    /* Asked between waves, with the positions that are done, the first time when the device has done them; false gives the batch up. */
     bool (*go_on)(void *user, uint32_t done);
     void *user;
 } ec_batch_order;
 
-/* What mean[3 i] holds of a pixel that a batch which was given up has not reached: radiance is never negative. */
+/* What mean[3 i] holds of a pixel that a first batch which was given up has not reached: radiance is never negative. */
 #define EC_NOT_REACHED (-1.0f)
 
-/* The cargo is spent. */
-ec_result ec_batch_source_open(ec_cl *cl, ec_cargo *cargo, uint64_t seed, ec_batch_source *source, ec_render_stats *stats, ec_error *err);
-void ec_batch_source_close(ec_batch_source *source); /* zero-initialised is fine */
-
-/* *complete: false where go_on said no; pixels not reached then hold what was there before, in a first batch EC_NOT_REACHED. */
-ec_result ec_batch_source_take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err);
-
-/* Between two waves: mean becomes what the batch under way has come to so far, and invalid too. */
-ec_result ec_batch_source_look(ec_batch_source *source, const ec_batch_order *order, ec_error *err);
-
-/* Of the batch taken last, 8 floats a pixel, malloc'ed: ec_film's aov. */
-ec_result ec_batch_source_features(ec_batch_source *source, float **aov, ec_error *err);
+typedef struct ec_batch_source ec_batch_source;
+struct ec_batch_source {
+    /* *complete: false where go_on said no; positions not reached then hold what was there before, in a first batch EC_NOT_REACHED. */
+    ec_result (*take)(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err);
+    /* From go_on alone: mean becomes what the batch under way has come to so far, and rays and invalid too. */
+    ec_result (*look)(ec_batch_source *source, const ec_batch_order *order, ec_error *err);
+    void (*close)(ec_batch_source *source); /* the figures stay */
+    float *mean;                      /* 3 a position: of the batch taken last, until the next one is */
+    uint64_t rays;                    /* traced so far */
+    double clocked_seconds, clocked_rays; /* those of launches that were clocked, if any were */
+    uint32_t invalid[EC_STAGE_COUNT]; /* samples dropped in batches taken so far, by ec_stage */
+    uint32_t least;                   /* positions under which an order is not worth its launches; 0: any */
+};
 
 #endif

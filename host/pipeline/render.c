@@ -8,12 +8,14 @@
 
 #include "base/clock.h"
 #include "pipeline/adaptive.h"
-#include "pipeline/batch_source.h"
 #include "pipeline/course.h"
 #include "pipeline/forecast.h"
+#include "pipeline/sources.h"
 
 typedef struct render_state {
-    ec_batch_source source;
+    ec_sources sources;
+    ec_batch_source *source;
+    ec_params params;          /* width, height and batch are the render's */
     const ec_render_options *options;
     const ec_course *course;
     ec_progress_fn progress;
@@ -35,6 +37,7 @@ typedef struct render_state {
     uint64_t under_way;        /* samples of the batch that is not there yet */
     double kept_at;
     uint32_t kept_next, kept_under_way;
+    float *aov;                /* of the first batch, until it is in the film */
     const char *stopped_by;
 } render_state;
 
@@ -72,14 +75,13 @@ static bool report(render_state *r, double batches)
     double now = ec_now(), seconds = now - r->render_start;
     r->last_report = now;
     if (!r->progress) return true;
-    ec_pipeline *p = &r->source.pipeline;
-    double samples = batches * p->params.batch * p->params.width * p->params.height;
+    double samples = batches * r->params.batch * r->params.width * r->params.height;
     double f = fraction_done(r, batches, seconds);
     ec_progress progress = {
         .seconds = seconds,
         .seconds_left = f > 0.0 ? seconds * (1.0 - f) / f : -1.0,
         .fraction = f,
-        .samples_per_pixel = (uint64_t)(batches * p->params.batch),
+        .samples_per_pixel = (uint64_t)(batches * r->params.batch),
         .samples = (uint64_t)samples,
         .samples_per_second = seconds > 0.0 ? samples / seconds : 0.0,
         .error = r->error.error,
@@ -93,7 +95,7 @@ static bool report(render_state *r, double batches)
 /* Batches a pixel, in the mean. */
 static double batches_done(const render_state *r)
 {
-    const ec_params *params = &r->source.pipeline.params;
+    const ec_params *params = &r->params;
     return (double)r->past.samples / params->batch / ((double)params->width * params->height);
 }
 
@@ -106,9 +108,9 @@ static void keep(render_state *r, uint32_t under_way)
     now.seconds = ec_now() - r->render_start;
     if (under_way) {
         now.under_way = under_way;
-        now.batch = r->source.mean;
-        now.rays = r->rays_before + r->source.pipeline.rays;
-        for (int i = 0; i < EC_STAGE_COUNT; i++) now.invalid[i] = r->invalid_before[i] + r->source.invalid[i];
+        now.batch = r->source->mean;
+        now.rays = r->rays_before + r->source->rays;
+        for (int i = 0; i < EC_STAGE_COUNT; i++) now.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
     }
     ec_film_show(r->film);
     if (r->course->keep(r->course->user, r->film, &now)) r->kept_next = now.next, r->kept_under_way = under_way;
@@ -119,12 +121,12 @@ static void keep(render_state *r, uint32_t under_way)
 static bool goes_on(void *user, uint32_t done)
 {
     render_state *r = user;
-    const ec_params *params = &r->source.pipeline.params;
+    const ec_params *params = &r->params;
     r->under_way = (uint64_t)done * params->batch;
-    if (r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
+    if (done > r->order.done && r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
     if (done >= r->order.count) return true;
     bool is_due = r->course->keep && r->film->batch_count && ec_now() - r->kept_at >= r->course->every;
-    r->look_failed = is_due && ec_batch_source_look(&r->source, &r->order, &r->look_error) != EC_OK;
+    r->look_failed = is_due && r->source->look(r->source, &r->order, &r->look_error) != EC_OK;
     if (r->look_failed) return false;
     if (is_due) keep(r, done);
     double now = ec_now(), share = done / ((double)params->width * params->height);
@@ -135,21 +137,32 @@ static bool goes_on(void *user, uint32_t done)
     return false;
 }
 
+/* Up to which batch a source may look ahead: what comes after the pilot of an adaptive render, and each pass then, depends on the film. */
+static uint32_t known_end(const render_state *r)
+{
+    uint32_t left = UINT32_MAX - r->past.next, pilot = 1;
+    if (r->batches_wanted) left = r->batches_wanted - (uint32_t)fmin(batches_done(r), r->batches_wanted - 1.0);
+    while (!ec_pilot_is_over(r->film->batch_count + pilot)) pilot++;
+    if (r->options->adaptive && !r->past.allotted && pilot < left) left = pilot;
+    return r->past.next + (r->past.allotment.weight ? 1 : left);
+}
+
 /* The pixels that the next batch is for: all, or the allotment's; and waves until they are done or *complete is false. */
 static ec_result run_batch(render_state *r, bool *complete, ec_error *err)
 {
-    const ec_params *params = &r->source.pipeline.params;
+    const uint64_t pixels = (uint64_t)r->params.width * r->params.height;
     ec_allotment *a = &r->past.allotment;
-    r->order = (ec_batch_order){.index = r->past.next, .count = params->width * params->height, .with_features = r->past.next == 0,
-                                .go_on = goes_on, .user = r};
+    if (r->past.next == 0 && !r->aov) r->aov = calloc(pixels * EC_AOV_FIELDS, sizeof *r->aov);
+    if (r->past.next == 0 && !r->aov) return ec_fail(err, "out of memory for the first-hit features");
+    r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)pixels, .aov = r->aov, .go_on = goes_on, .user = r};
     if (a->weight) r->order.count = ec_allotment_pass(a, r->film), r->order.list = a->list;
     if (r->past.under_way < r->order.count) r->order.done = r->past.under_way;
-    if (r->order.done) memcpy(r->source.mean, r->past.batch, (uint64_t)r->order.count * 12);
+    if (r->order.done) r->order.before = r->past.batch;
     r->past.under_way = 0;
     r->past.batch = NULL;
     r->batches_before_it = batches_done(r);
     r->under_way = 0;
-    ec_result result = ec_batch_source_take(&r->source, &r->order, complete, err);
+    ec_result result = r->source->take(r->source, &r->order, complete, err);
     if (!r->look_failed) return result;
     if (err) *err = r->look_error; /* a device tells of a failure once */
     return EC_FAILED;
@@ -158,12 +171,14 @@ static ec_result run_batch(render_state *r, bool *complete, ec_error *err)
 static ec_result mark_unsampled(render_state *r, ec_error *err)
 {
     uint64_t pixels = (uint64_t)r->film->width * r->film->height;
-    float *mean = r->source.mean;
+    float *mean = r->source->mean;
     r->film->unsampled = calloc(pixels, 1);
     if (!r->film->unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
+    r->under_way = pixels * r->params.batch;
     for (uint64_t i = 0; i < pixels; i++) {
         if (mean[3 * i] != EC_NOT_REACHED) continue;
         r->film->unsampled[i] = 1;
+        r->under_way -= r->params.batch;
         mean[3 * i] = mean[3 * i + 1] = mean[3 * i + 2] = 0.0f;
     }
     return EC_OK;
@@ -171,14 +186,15 @@ static ec_result mark_unsampled(render_state *r, ec_error *err)
 
 static ec_result add_batch(render_state *r, bool complete, ec_error *err)
 {
-    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source.invalid[i];
+    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
     if (!complete) EC_TRY(mark_unsampled(r, err));
     ec_allotment *a = &r->past.allotment;
-    if (a->weight) EC_TRY(ec_film_add_some(r->film, r->source.mean, a->places, r->order.count, err));
-    else EC_TRY(ec_film_add_at(r->film, r->past.next, r->source.mean, err));
-    if (r->past.next == 0) EC_TRY(ec_batch_source_features(&r->source, &r->film->aov, err));
+    if (a->weight) EC_TRY(ec_film_add_some(r->film, r->source->mean, a->places, r->order.count, err));
+    else EC_TRY(ec_film_add_at(r->film, r->past.next, r->source->mean, err));
+    if (r->aov) r->film->aov = r->aov;
+    r->aov = NULL;
     r->past.samples += r->under_way;
-    r->past.rays = r->rays_before + r->source.pipeline.rays;
+    r->past.rays = r->rays_before + r->source->rays;
     r->past.next++;
     r->error = ec_film_estimate_error(r->film);
     return EC_OK;
@@ -219,14 +235,14 @@ static ec_result take_batch(render_state *r, const ec_log *log, ec_error *err)
     bool complete;
     EC_TRY(run_batch(r, &complete, err));
     if (!complete && (r->past.next > 0 || r->course->end)) { /* part of a batch is of no use to a picture */
-        keep(r, (uint32_t)(r->under_way / r->source.pipeline.params.batch));
+        keep(r, (uint32_t)(r->under_way / r->params.batch));
         return EC_OK;
     }
     if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
     EC_TRY(add_batch(r, complete, err));
     /* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
     bool at_pilot = r->options->adaptive && !r->past.allotted && ec_pilot_is_over(r->film->batch_count);
-    if (at_pilot) EC_TRY(ec_allot(r->film, &r->source.pipeline.params, &r->past.allotment, err));
+    if (at_pilot) EC_TRY(ec_allot(r->film, &r->params, &r->past.allotment, err));
     r->past.allotted |= at_pilot;
     if (complete && !is_done(r, at_pilot) && ec_now() - r->kept_at >= r->course->every) keep(r, 0);
     return EC_OK;
@@ -251,7 +267,6 @@ static ec_result render_loop(render_state *r, const ec_log *log, ec_error *err)
 static void finish_stats(render_state *r)
 {
     ec_render_stats *s = r->stats;
-    const ec_pipeline *p = &r->source.pipeline;
     const uint64_t *invalid = r->past.invalid;
     s->seconds = ec_now() - r->render_start;
     s->invalid_generate = invalid[EC_STAGE_GENERATE];
@@ -260,19 +275,16 @@ static void finish_stats(render_state *r)
     s->invalid_connect = invalid[EC_STAGE_CONNECT];
     s->invalid_accumulate = invalid[EC_STAGE_ACCUMULATE] + r->film->invalid_count; /* finite samples whose sum is not */
     s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
-    s->samples_per_pixel = (uint64_t)(batches_done(r) * p->params.batch + 1e-6);
+    s->samples_per_pixel = (uint64_t)(batches_done(r) * r->params.batch + 1e-6);
     s->allotment_gain = r->past.allotment.gain;
     s->samples = r->past.samples;
-    s->rays = r->rays_before + p->rays;
+    s->rays = r->rays_before + r->source->rays;
     s->samples_per_second = s->seconds > 0.0 ? (double)s->samples / s->seconds : 0.0;
     s->rays_per_second = s->seconds > 0.0 ? (double)s->rays / s->seconds : 0.0;
     s->error = r->error.error;
     s->error_bound = r->error.error_bound;
     s->relmse = r->error.relmse;
-    s->device_bytes = p->cl->peak_allocated_bytes;
-    s->cache_hits = p->cl->cache_hits;
-    s->cache_misses = p->cl->cache_misses;
-    s->trace_seconds = p->clocked_rays > 0 ? p->clocked_seconds / p->clocked_rays * (double)s->rays : s->seconds;
+    s->trace_seconds = r->source->clocked_rays > 0 ? r->source->clocked_seconds / r->source->clocked_rays * (double)s->rays : s->seconds;
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", r->stopped_by ? r->stopped_by : "user");
 }
 
@@ -312,29 +324,27 @@ static ec_result take_up(render_state *r, const ec_past *past, uint32_t batch, e
     return EC_OK;
 }
 
-static ec_result set_up(render_state *r, ec_cl *cl, const ec_scene *scene, uint32_t batch, ec_cargo *cargo, const ec_log *log, ec_error *err)
+static ec_result set_up(render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene, uint32_t batch, const ec_log *log,
+                        ec_error *err)
 {
     const ec_past *past = r->course->past;
-    const ec_pipeline *p = &r->source.pipeline;
+    const ec_cargo_head *head = &r->sources.cargo.head;
     EC_TRY(take_up(r, past, batch, err));
     r->film->shows_late = true;
-    EC_TRY(ec_pipeline_lanes(cl, r->options->lanes, &r->stats->lanes, err)); /* before the work of what follows */
-    EC_TRY(ec_cargo_make(scene, r->options, batch, 1u << ec_device_kind_of(&cl->info), cargo, r->stats, err));
-    EC_TRY(ec_batch_source_open(cl, cargo, r->options->seed, &r->source, r->stats, err));
+    EC_TRY(ec_sources_pack(devices, device_count, scene, r->options, batch, &r->sources, r->stats, err));
+    r->params = head->params;
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
-    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &p->params, &r->past.allotment, err));
-    if (cargo->head.bodies_too_many)
+    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, &r->past.allotment, err));
+    if (head->bodies_too_many)
         ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
-                cargo->head.bodies_too_many, EC_BODIES_MOST);
-    if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(p->effects.called.bits & EC_FEATURE_MULTISCATTER))
+                head->bodies_too_many, EC_BODIES_MOST);
+    if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(head->effects.called.bits & EC_FEATURE_MULTISCATTER))
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
-    if (p->wave < p->first_wave)
-        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", p->wave, p->first_wave);
-    return EC_OK;
+    return ec_sources_open(&r->sources, r->options->seed, log, &r->source, r->stats, err);
 }
 
-ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, const ec_course *course, ec_progress_fn progress,
-                           void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
+ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene, const ec_render_options *options, const ec_course *course,
+                           ec_progress_fn progress, void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     memset(stats, 0, sizeof *stats);
     EC_TRY(check_ends(options, err));
@@ -344,9 +354,7 @@ ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_opt
     uint32_t batch = ec_render_batch(options);
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
     if (course->end) r.batches_wanted = course->end - course->first;
-    ec_cargo cargo = {0};
-    ec_result result = set_up(&r, cl, scene, batch, &cargo, log, err);
-    ec_cargo_free(&cargo);
+    ec_result result = set_up(&r, devices, device_count, scene, batch, log, err);
     if (result == EC_OK) {
         ec_error why = {0};
         result = render_loop(&r, log, &why);
@@ -356,7 +364,8 @@ ec_result ec_render_course(ec_cl *cl, const ec_scene *scene, const ec_render_opt
     }
     ec_film_show(film);
     ec_allotment_free(&r.past.allotment);
-    ec_batch_source_close(&r.source);
+    free(r.aov);
+    ec_sources_close(&r.sources, stats);
     return result;
 }
 
@@ -364,7 +373,7 @@ ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *o
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     const ec_course whole = {0};
-    return ec_render_course(cl, scene, options, &whole, progress, user, film, stats, log, err);
+    return ec_render_course(cl, 1, scene, options, &whole, progress, user, film, stats, log, err);
 }
 
 ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, ec_render_effects *effects, ec_error *err)

@@ -97,6 +97,15 @@ typedef struct ec_progress {
  * the batches that are complete; if none is, the partial first batch is finished for fewer samples). */
 typedef bool (*ec_progress_fn)(void *user, const ec_progress *progress);
 
+/* What came from one of several devices. */
+typedef struct ec_render_share {
+    double batches;               /* of all pixels, or as many in pieces */
+    uint32_t lanes, wave;
+    uint64_t device_bytes;        /* peak of all buffers */
+    bool has_failed;
+} ec_render_share;
+enum { EC_DEVICES_MOST = 32 };    /* that one render takes */
+
 typedef struct ec_render_stats {
     double seconds;               /* rendering, without set-up */
     double accel_seconds, pack_seconds, kernel_seconds; /* set-up: BVH, buffers, kernel build or cache look-up */
@@ -111,7 +120,9 @@ typedef struct ec_render_stats {
     uint32_t lanes, wave, batch;
     uint32_t instances;           /* of meshes that are kept once; 0: none, or they were written out */
     uint64_t triangles, stored_triangles; /* that rays can meet, and that take memory */
-    uint64_t device_bytes;        /* peak of all buffers */
+    uint64_t device_bytes;        /* peak of all buffers, on all devices */
+    ec_render_share shares[EC_DEVICES_MOST]; /* by device, where there are several */
+    uint32_t share_count;
     ec_render_effects effects;    /* which were called for, why, and what came of it */
     ec_content content;           /* with options.identify */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */

@@ -153,6 +153,19 @@ static void add_machine(ec_report_attributes *attributes, const ec_device_info *
                  sysconf(_SC_NPROCESSORS_ONLN));
 }
 
+/* "0 NAME: 7.5 batches, 1 NAME: 8.5 batches": of several devices. */
+static void add_shares(ec_report_attributes *attributes, const ec_render_report *report)
+{
+    char text[2048] = "";
+    for (uint32_t i = 0; i < report->stats->share_count; i++) {
+        const ec_render_share *share = &report->stats->shares[i];
+        size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used, "%s%u %s: %.4g batches%s", used ? ", " : "", report->device_index[i], report->device[i].name,
+                 share->batches, share->has_failed ? " (failed)" : "");
+    }
+    if (*text) add_made(attributes, "eclat.devices", "%s", text);
+}
+
 void ec_render_report_attributes(const ec_render_report *report, ec_report_attributes *attributes)
 {
     attributes->count = 0;
@@ -161,4 +174,5 @@ void ec_render_report_attributes(const ec_render_report *report, ec_report_attri
     add_result(attributes, report);
     add_text(attributes, "eclat.imageSha256", report->image_sha256);
     add_machine(attributes, report->device);
+    add_shares(attributes, report);
 }

@@ -130,6 +130,23 @@ static void add_cost(cJSON *root, const ec_render_report *report)
     ec_json_whole(root, "device_bytes", stats->device_bytes);
 }
 
+/* Of several devices, what each has done. */
+static void add_shares(cJSON *root, const ec_render_report *report)
+{
+    const ec_render_stats *stats = report->stats;
+    cJSON *list = stats->share_count ? cJSON_AddArrayToObject(root, "devices") : NULL;
+    for (uint32_t i = 0; i < stats->share_count; i++) {
+        const ec_render_share *share = &stats->shares[i];
+        cJSON *one = ec_device_json(&report->device[i], report->device_index[i]);
+        ec_json_real(one, "batches", share->batches);
+        ec_json_whole(one, "lanes", share->lanes);
+        ec_json_whole(one, "wave", share->wave);
+        ec_json_whole(one, "device_bytes", share->device_bytes);
+        cJSON_AddBoolToObject(one, "failed", share->has_failed);
+        cJSON_AddItemToArray(list, one);
+    }
+}
+
 ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_error *err)
 {
     cJSON *root = cJSON_CreateObject();
@@ -146,9 +163,10 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     ec_json_whole(root, "batch", report->stats->batch);
     ec_json_whole(root, "batches", report->batches);
     ec_effects_json(root, &report->stats->effects);
-    cJSON *device = ec_device_json(report->device, report->device_index);
+    cJSON *device = ec_device_json(report->device, *report->device_index);
     ec_json_text(device, "why", report->device_why);
     cJSON_AddItemToObject(root, "device", device);
+    add_shares(root, report);
     cJSON *outputs = cJSON_AddArrayToObject(root, "outputs");
     for (int i = 0; i < report->output_count; i++) ec_json_text(outputs, NULL, report->outputs[i]);
     return ec_json_print(root, to, err);

@@ -26,9 +26,9 @@ typedef struct ec_render_report {
     const ec_render_options *options;
     const ec_render_stats *stats;
     bool verbose;                   /* every effect with what calls for it */
-    const ec_device_info *device;
+    const ec_device_info *device;   /* as many as there are shares in stats, or one */
+    const uint32_t *device_index;
     const char *device_why;         /* "first GPU" */
-    uint32_t device_index;
     double exposure;                /* EV, of the PNG */
     ec_tonemap tonemap;
     double mean_luminance;

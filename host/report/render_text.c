@@ -91,7 +91,13 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
                 stats->stored_triangles);
     print_heavy(report, to);
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
-    fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
+    if (!stats->share_count) fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
+    for (uint32_t i = 0; i < stats->share_count; i++) {
+        const ec_render_share *share = &stats->shares[i];
+        fprintf(to, "device   %s, %u lanes: %.4g of %" PRIu32 " batches%s\n", report->device[i].name, share->lanes, share->batches, report->batches,
+                share->has_failed ? ", then it failed" : "");
+    }
+    if (stats->share_count) fprintf(to, "memory   %s at the peak\n", memory);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);
     else print_effects(&stats->effects, to);
     fprintf(to, "invalid  %" PRIu64 " samples\n", stats->invalid_samples);

@@ -317,6 +317,16 @@ class Sharing(FramesCase):
             self.assertEqual(row["bytes_kept"] + row["bytes_uploaded"], first["bytes_uploaded"])
         self.assertIn("refitted", [row["structures"] for row in others])
 
+    def test_on_several_devices(self):
+        scene = self.sliding()
+        rows, _ = rows_of(self.render(scene, "--frames", "0:2", "-o", "one.%d.exr"))
+        run = eclat("render", scene, *SMALL, "--batch", "1", "--frames", "0:2", "--device", "all", "--json", "-o", "all.%d.exr", cwd=self.folder,
+                    env={"POCL_DEVICES": "pthread basic"})
+        several, _ = rows_of(self.assert_ok(run))
+        self.assertEqual([row["image_sha256"] for row in several], [row["image_sha256"] for row in rows])
+        if len(several[0].get("devices", [])) > 1:
+            self.assertEqual([row["shared"]["bytes_kept"] > 0 for row in several], [False, True, True])
+
     def test_an_environment_map_is_read_and_uploaded_once(self):
         first = eclat("render", room().write(self.path("room.gltf")), "--at", "0", "--animation", "0", "--size", "64x32", "--spp", "4", "-q", "-o",
                       self.path("sky.exr"))

@@ -53,7 +53,10 @@ static void workarounds_go_by_the_driver(void)
     ec_device_info devices[4];
     fake_devices(devices);
     const ec_workaround *pocl = ec_workaround_for(&devices[0]);
-    CHECK(pocl && pocl->source_only && !pocl->most_lanes && !ec_workaround_for(&devices[1]));
+    CHECK(pocl && pocl->source_only && !pocl->most_lanes && !ec_workaround_for(&devices[2]));
+    CHECK(ec_device_rounds(&devices[1]) && !ec_device_rounds(&devices[3])); /* neither says so */
+    devices[3].correctly_rounded_divide_sqrt = true;
+    CHECK(ec_device_rounds(&devices[3]));
 }
 
 static void device_rule(void)
@@ -79,6 +82,41 @@ static void device_rule(void)
     CHECK(chosen("0", 4, &why, &err) == 0);
     setenv("ECLAT_DEVICE", "radeon", 1);
     CHECK(chosen(NULL, 4, &why, &err) == -1 && strstr(err.text, "ECLAT_DEVICE radeon"));
+    unsetenv("ECLAT_DEVICE");
+}
+
+/* The indices that `id` chooses, as digits: at most three. */
+static const char *several(const char *id, const char **why, ec_error *err)
+{
+    static char text[8];
+    ec_device_info devices[4];
+    uint32_t indices[3] = {9, 9, 9}, count = 9;
+    fake_devices(devices);
+    if (ec_device_choose_several(devices, 4, id, indices, 3, &count, why, err) != EC_OK) return "";
+    for (uint32_t i = 0; i < count; i++) text[i] = (char)('0' + indices[i]);
+    text[count] = 0;
+    return text;
+}
+
+static void lists_of_devices(void)
+{
+    const char *why = "";
+    ec_error err = {0};
+    unsetenv("ECLAT_DEVICE");
+    CHECK(!strcmp(several(NULL, &why, &err), "3") && !strcmp(why, "first GPU"));
+    CHECK(!strcmp(several("all", &why, &err), "013") && strstr(why, "--device")); /* not the absent one */
+    CHECK(!strcmp(several("3,0", &why, &err), "30") && !strcmp(several("geforce,pocl", &why, &err), "30"));
+    CHECK(!strcmp(several("intel", &why, &err), "1"));
+    CHECK(!strcmp(several("0,pthread", &why, &err), "") && strstr(err.text, "'0,pthread' has device 0 (pthread-EPYC) twice"));
+    CHECK(!strcmp(several("0,", &why, &err), "") && strstr(err.text, "empty place"));
+    CHECK(!strcmp(several("0,2", &why, &err), "") && strstr(err.text, "not available"));
+    CHECK(!strcmp(several("0,all", &why, &err), "") && strstr(err.text, "all"));
+    CHECK(!strcmp(several("0,1,3,0", &why, &err), "") && strstr(err.text, "too long; name 3 at most"));
+    CHECK(chosen("all", 4, &why, &err) == -1 && strstr(err.text, "--device all: this takes one device"));
+    CHECK(chosen("0,1", 4, &why, &err) == -1 && strstr(err.text, "--device 0,1: this takes one device"));
+    setenv("ECLAT_DEVICE", "ALL", 1);
+    CHECK(!strcmp(several(NULL, &why, &err), "013") && strstr(why, "ECLAT_DEVICE"));
+    CHECK(chosen(NULL, 4, &why, &err) == -1 && strstr(err.text, "ECLAT_DEVICE ALL: this takes one device"));
     unsetenv("ECLAT_DEVICE");
 }
 
@@ -387,6 +425,7 @@ int main(void)
     setenv("XDG_CACHE_HOME", folder, 1);
     char *device = getenv("ECLAT_DEVICE") ? strdup(getenv("ECLAT_DEVICE")) : NULL;
     device_rule();
+    lists_of_devices();
     workarounds_go_by_the_driver();
     key_covers_everything();
     entries_are_checked();

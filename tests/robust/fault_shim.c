@@ -4,6 +4,8 @@
  *   FAULT_CODE=-5               what it answers: an OpenCL code, or an errno for calls on files; default CL_OUT_OF_RESOURCES, ENOSPC
  *   FAULT_SIGNAL=9              instead: the process is sent this signal there, and the call goes on
  *   FAULT_SLEEP=60              instead: the call takes so many seconds, as with a device that hangs
+ *   FAULT_PAUSE=5               instead: from that call on each takes so many milliseconds more, as with a slow device
+ *   FAULT_DEVICE=1              only calls on the second context that was created count
  *   FAULT_LOST=1                from then on every OpenCL call answers so, as with a device that was lost
  *   FAULT_STATUS=-5             of clGetEventInfo: the call succeeds, and tells that the command did not
  *   FAULT_MEMORY=BYTES          of all buffers; above it FAULT_CALL fails every time (creation, or the first use)
@@ -48,6 +50,24 @@ static unsigned counts[CALL_COUNT];
 static size_t allocated;
 static bool lost;
 
+/* Which context, by number, a thread's last call was on: several devices are worked by a thread each. */
+static cl_context contexts[16];
+static unsigned context_count;
+static __thread unsigned here;
+
+static void on_context(cl_context context)
+{
+    for (unsigned i = 0; i < context_count; i++)
+        if (contexts[i] == context) here = i;
+}
+
+static void on_queue(cl_command_queue queue)
+{
+    cl_context context = NULL;
+    clGetCommandQueueInfo(queue, CL_QUEUE_CONTEXT, sizeof context, &context, NULL);
+    on_context(context);
+}
+
 static long number(const char *variable, long otherwise)
 {
     const char *text = getenv(variable);
@@ -63,15 +83,22 @@ __attribute__((destructor)) static void tell(void)
     if (file) fclose(file);
 }
 
+static bool is_chosen_device(void)
+{
+    return !getenv("FAULT_DEVICE") || (unsigned)number("FAULT_DEVICE", 0) == here;
+}
+
 /* Is it this call's turn? */
 static bool is_due(enum call call)
 {
     const char *chosen = getenv("FAULT_CALL");
     long memory = number("FAULT_MEMORY", 0), signal_number = number("FAULT_SIGNAL", 0);
+    if (!is_chosen_device()) return false;
     unsigned count = __atomic_add_fetch(&counts[call], 1, __ATOMIC_RELAXED);
     if (!chosen || strcmp(chosen, names[call])) return false;
     if (memory) return allocated > (size_t)memory;
-    if (count != (unsigned)number("FAULT_AT", 1)) return false;
+    if (getenv("FAULT_PAUSE") && count >= (unsigned)number("FAULT_AT", 1)) usleep(1000 * (unsigned)number("FAULT_PAUSE", 0));
+    if (getenv("FAULT_PAUSE") || count != (unsigned)number("FAULT_AT", 1)) return false;
     if (signal_number) kill(getpid(), (int)signal_number);
     if (getenv("FAULT_SLEEP")) sleep((unsigned)number("FAULT_SLEEP", 0));
     return !signal_number && !getenv("FAULT_SLEEP");
@@ -79,16 +106,18 @@ static bool is_due(enum call call)
 
 static cl_int device_fault(enum call call)
 {
-    if (!is_due(call) && !lost) return CL_SUCCESS;
+    if (!is_due(call) && !(lost && is_chosen_device())) return CL_SUCCESS;
     lost = getenv("FAULT_LOST") != NULL;
     return (cl_int)number("FAULT_CODE", CL_OUT_OF_RESOURCES);
 }
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-#define ANSWERS(name, parameters, arguments)                                                                                       \
+#define ANSWERS(name, parameters, arguments) ANSWERS_ON((void)0, name, parameters, arguments)
+#define ANSWERS_ON(place, name, parameters, arguments)                                                                                       \
     cl_int name parameters                                                                                                         \
     {                                                                                                                              \
+        place;                                                                                                                     \
         cl_int code = device_fault(CALL_##name);                                                                                   \
         return code ? code : REAL(name) arguments;                                                                                 \
     }
@@ -98,29 +127,40 @@ ANSWERS(clGetDeviceInfo, (cl_device_id d, cl_device_info i, size_t n, void *v, s
 ANSWERS(clBuildProgram, (cl_program p, cl_uint n, const cl_device_id *d, const char *o, void(CL_CALLBACK *f)(cl_program, void *), void *u), (p, n, d, o, f, u))
 ANSWERS(clGetProgramInfo, (cl_program p, cl_program_info i, size_t n, void *v, size_t *r), (p, i, n, v, r))
 ANSWERS(clSetKernelArg, (cl_kernel k, cl_uint i, size_t n, const void *v), (k, i, n, v))
-ANSWERS(clEnqueueNDRangeKernel, (cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint n, const cl_event *w, cl_event *e), (q, k, d, o, g, l, n, w, e))
-ANSWERS(clEnqueueReadBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
-ANSWERS(clEnqueueWriteBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, const void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
-ANSWERS(clEnqueueFillBuffer, (cl_command_queue q, cl_mem m, const void *v, size_t vs, size_t o, size_t s, cl_uint n, const cl_event *w, cl_event *e), (q, m, v, vs, o, s, n, w, e))
-ANSWERS(clFinish, (cl_command_queue q), (q))
+ANSWERS_ON(on_queue(q), clEnqueueNDRangeKernel, (cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint n, const cl_event *w, cl_event *e), (q, k, d, o, g, l, n, w, e))
+ANSWERS_ON(on_queue(q), clEnqueueReadBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
+ANSWERS_ON(on_queue(q), clEnqueueWriteBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, const void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
+ANSWERS_ON(on_queue(q), clEnqueueFillBuffer, (cl_command_queue q, cl_mem m, const void *v, size_t vs, size_t o, size_t s, cl_uint n, const cl_event *w, cl_event *e), (q, m, v, vs, o, s, n, w, e))
+ANSWERS_ON(on_queue(q), clFinish, (cl_command_queue q), (q))
 ANSWERS(clWaitForEvents, (cl_uint n, const cl_event *e), (n, e))
 
-#define MAKES(type, name, parameters, arguments)                                                                                   \
+#define MAKES(place, type, name, parameters, arguments)                                                                                   \
     type name parameters                                                                                                           \
     {                                                                                                                              \
+        place;                                                                                                                     \
         cl_int code = device_fault(CALL_##name);                                                                                   \
         if (!code) return REAL(name) arguments;                                                                                    \
         if (error) *error = code;                                                                                                  \
         return NULL;                                                                                                               \
     }
-MAKES(cl_context, clCreateContext, (const cl_context_properties *p, cl_uint n, const cl_device_id *d, void(CL_CALLBACK *f)(const char *, const void *, size_t, void *), void *u, cl_int *error), (p, n, d, f, u, error))
-MAKES(cl_command_queue, clCreateCommandQueue, (cl_context c, cl_device_id d, cl_command_queue_properties p, cl_int *error), (c, d, p, error))
-MAKES(cl_program, clCreateProgramWithSource, (cl_context c, cl_uint n, const char **s, const size_t *l, cl_int *error), (c, n, s, l, error))
-MAKES(cl_program, clCreateProgramWithBinary, (cl_context c, cl_uint n, const cl_device_id *d, const size_t *l, const unsigned char **b, cl_int *s, cl_int *error), (c, n, d, l, b, s, error))
-MAKES(cl_kernel, clCreateKernel, (cl_program p, const char *n, cl_int *error), (p, n, error))
+MAKES(on_context(c), cl_command_queue, clCreateCommandQueue, (cl_context c, cl_device_id d, cl_command_queue_properties p, cl_int *error), (c, d, p, error))
+MAKES(on_context(c), cl_program, clCreateProgramWithSource, (cl_context c, cl_uint n, const char **s, const size_t *l, cl_int *error), (c, n, s, l, error))
+MAKES(on_context(c), cl_program, clCreateProgramWithBinary, (cl_context c, cl_uint n, const cl_device_id *d, const size_t *l, const unsigned char **b, cl_int *s, cl_int *error), (c, n, d, l, b, s, error))
+MAKES((void)0, cl_kernel, clCreateKernel, (cl_program p, const char *n, cl_int *error), (p, n, error))
+
+cl_context clCreateContext(const cl_context_properties *p, cl_uint n, const cl_device_id *d, void(CL_CALLBACK *f)(const char *, const void *, size_t, void *), void *u, cl_int *error)
+{
+    here = context_count;
+    cl_int code = device_fault(CALL_clCreateContext);
+    cl_context made = code ? NULL : REAL(clCreateContext)(p, n, d, f, u, error);
+    if (code && error) *error = code;
+    if (context_count < sizeof contexts / sizeof *contexts) contexts[context_count++] = made;
+    return made;
+}
 
 cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t size, void *host, cl_int *error)
 {
+    on_context(context);
     allocated += size;
     cl_int code = device_fault(CALL_clCreateBuffer);
     if (!code) return REAL(clCreateBuffer)(context, flags, size, host, error);

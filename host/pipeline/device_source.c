@@ -1,0 +1,93 @@
+#include "pipeline/device_source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+
+/* They must differ in every bit. */
+uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch)
+{
+    return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + batch + 1) >> 16);
+}
+
+static uint64_t pixels_of(const ec_device_source *s) { return (uint64_t)s->pipeline.params.width * s->pipeline.params.height; }
+
+static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    cl_mem *list = &p->buffers[EC_ARG_PIXEL_LIST];
+    const uint64_t slack = 64; /* lanes past the last sample look too */
+    if (!order->list) return EC_OK;
+    if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", (pixels_of(s) + slack) * 4, NULL, list, err));
+    return ec_buffer_write(p->cl, *list, 4ull * order->done, 4ull * (order->count - order->done), order->list + order->done, err);
+}
+
+/* Where the batch goes on the host, and what of it is there. */
+static ec_result prepare(ec_device_source *s, const ec_batch_order *order, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    if (!order->into && !s->own) s->own = malloc(pixels_of(s) * 12);
+    s->base.mean = order->into ? order->into : s->own;
+    if (!s->base.mean) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels_of(s));
+    if (!order->before) return EC_OK;
+    memcpy(s->base.mean, order->before, 12ull * order->count);
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, 12ull * order->count, s->base.mean, err);
+}
+
+static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_error *err)
+{
+    ec_device_source *s = (ec_device_source *)source;
+    ec_pipeline *p = &s->pipeline;
+    uint64_t first = order->before ? 0 : order->done; /* pixels in number order are not those in row order: all of them, to be sure */
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 12 * first, 12 * (order->count - first), s->base.mean + 3 * first, err));
+    s->base.rays = p->rays;
+    s->base.clocked_seconds = p->clocked_seconds;
+    s->base.clocked_rays = p->clocked_rays;
+    return ec_pipeline_read_invalid(p, s->base.invalid, err);
+}
+
+static ec_result read_features(ec_device_source *s, const ec_batch_order *order, ec_error *err)
+{
+    const uint64_t first = order->done, fields = EC_AOV_FIELDS;
+    if (!order->aov) return EC_OK;
+    return ec_buffer_read(s->pipeline.cl, s->pipeline.buffers[EC_ARG_FEATURE_FILM], 4 * fields * first, 4 * fields * (order->count - first),
+                          order->aov + fields * first, err);
+}
+
+static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
+{
+    ec_device_source *s = (ec_device_source *)source;
+    ec_pipeline *p = &s->pipeline;
+    uint32_t per_wave = p->wave / p->params.batch, seed = ec_render_batch_seed(s->seed, order->index);
+    *complete = true;
+    EC_TRY(upload_list(s, order, err));
+    EC_TRY(prepare(s, order, err));
+    for (uint32_t first = order->done; first < order->count && *complete; first += per_wave) {
+        uint32_t count = order->count - first < per_wave ? order->count - first : per_wave;
+        EC_TRY(ec_pipeline_run_wave(p, seed, first, count, order->aov != NULL, err));
+        if (!s->has_begun) EC_TRY(ec_cl_finish(p->cl, err));
+        s->has_begun = true;
+        *complete = order->go_on(order->user, first + count) || first + count >= order->count;
+    }
+    EC_TRY(look(source, order, err));
+    return read_features(s, order, err);
+}
+
+static void close_device(ec_batch_source *source)
+{
+    ec_device_source *s = (ec_device_source *)source;
+    ec_pipeline_destroy(&s->pipeline);
+    free(s->own);
+    s->own = s->base.mean = NULL;
+}
+
+ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *s, ec_render_stats *stats,
+                                ec_error *err)
+{
+    *s = (ec_device_source){.base = {.take = take, .look = look, .close = close_device}, .seed = seed};
+    EC_TRY(ec_pipeline_create(cl, cargo, spent, &s->pipeline, stats, err));
+    s->base.least = s->pipeline.wave / s->pipeline.params.batch;
+    const float not_reached = EC_NOT_REACHED;
+    return ec_buffer_fill(cl, s->pipeline.buffers[EC_ARG_BATCH_FILM], 0, pixels_of(s) * 12, &not_reached, err);
+}

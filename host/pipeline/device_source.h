@@ -1,0 +1,20 @@
+/* Batches from one device. */
+#ifndef EC_PIPELINE_DEVICE_SOURCE_H
+#define EC_PIPELINE_DEVICE_SOURCE_H
+
+#include "pipeline/batch_source.h"
+#include "pipeline/pipeline.h"
+
+typedef struct ec_device_source {
+    ec_batch_source base;
+    ec_pipeline pipeline;
+    uint64_t seed;
+    float *own;                       /* room for a batch, where orders bring none */
+    bool has_begun;
+} ec_device_source;
+
+/* spent: as for ec_pipeline_create. To be closed on failure too. */
+ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *source,
+                                ec_render_stats *stats, ec_error *err);
+
+#endif

@@ -1,0 +1,99 @@
+#include "pipeline/sources.h"
+
+#include <stdlib.h>
+
+ec_result ec_sources_pack(ec_cl *devices, uint32_t count, const ec_scene *scene, const ec_render_options *options, uint32_t batch, ec_sources *s,
+                          ec_render_stats *stats, ec_error *err)
+{
+    uint32_t kinds = 0;
+    s->devices = devices;
+    s->count = s->unloaded = count;
+    for (uint32_t i = 0; i < count; i++) {
+        EC_TRY(ec_pipeline_lanes(&devices[i], options->lanes, &stats->lanes, err)); /* before the work of what follows */
+        kinds |= 1u << ec_device_kind_of(&devices[i].info);
+    }
+    s->recruits = calloc(count, sizeof *s->recruits);
+    if (!s->recruits) return ec_fail(err, "out of memory for %u devices", count);
+    return ec_cargo_make(scene, options, batch, kinds, &s->cargo, stats, err);
+}
+
+/* By the member's thread. */
+static ec_result load(void *user, ec_batch_source **source, ec_error *err)
+{
+    ec_source_recruit *r = user;
+    ec_sources *s = r->all;
+    *source = &r->source.base;
+    ec_result result = ec_device_source_open(r->cl, &s->cargo, NULL, s->seed, &r->source, &r->stats, err);
+    pthread_mutex_lock(&s->lock);
+    if (--s->unloaded == 0) ec_cargo_free(&s->cargo);
+    pthread_mutex_unlock(&s->lock);
+    return result;
+}
+
+static ec_result open_team(ec_sources *s, const ec_log *log, ec_error *err)
+{
+    ec_team_recruit recruits[EC_DEVICES_MOST];
+    pthread_mutex_init(&s->lock, NULL);
+    for (uint32_t i = 0; i < s->count; i++) {
+        s->recruits[i] = (ec_source_recruit){.all = s, .cl = &s->devices[i]};
+        recruits[i] = (ec_team_recruit){.name = s->devices[i].info.name, .open = load, .user = &s->recruits[i]};
+    }
+    return ec_team_open(recruits, s->count, s->cargo.head.params.width, s->cargo.head.params.height, log, &s->team, err);
+}
+
+ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_log *log, ec_batch_source **source, ec_render_stats *stats, ec_error *err)
+{
+    s->seed = seed;
+    if (s->count > 1) {
+        EC_TRY(open_team(s, log, err));
+        *source = ec_team_source(s->team);
+        return EC_OK;
+    }
+    ec_device_source *one = &s->recruits->source;
+    const ec_pipeline *p = &one->pipeline;
+    *source = &one->base;
+    EC_TRY(ec_device_source_open(s->devices, &s->cargo, &s->cargo, seed, one, stats, err));
+    if (p->wave < p->first_wave)
+        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", p->wave, p->first_wave);
+    return EC_OK;
+}
+
+static void tell_shares(const ec_sources *s, ec_render_stats *stats)
+{
+    const double pixels = (double)s->cargo.head.params.width * s->cargo.head.params.height;
+    stats->share_count = s->count;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const ec_render_stats *own = &s->recruits[i].stats;
+        ec_render_share *share = &stats->shares[i];
+        share->batches = (double)ec_team_share(s->team, i, &share->has_failed) / pixels;
+        share->lanes = own->lanes;
+        share->wave = own->wave;
+        share->device_bytes = s->devices[i].peak_allocated_bytes;
+        stats->programs_found += own->programs_found;
+        stats->programs_built += own->programs_built;
+        stats->bytes_found += own->bytes_found;
+        stats->bytes_uploaded += own->bytes_uploaded;
+        if (!stats->wave) stats->wave = own->wave, stats->lanes = own->lanes;
+        if (own->kernel_seconds > stats->kernel_seconds) stats->kernel_seconds = own->kernel_seconds;
+    }
+}
+
+void ec_sources_close(ec_sources *s, ec_render_stats *stats)
+{
+    if (s->team) {
+        ec_batch_source *team = ec_team_source(s->team);
+        team->close(team);
+        tell_shares(s, stats);
+        ec_team_free(s->team);
+        pthread_mutex_destroy(&s->lock);
+    } else if (s->recruits && s->recruits->source.base.close) {
+        s->recruits->source.base.close(&s->recruits->source.base);
+    }
+    for (uint32_t i = 0; i < s->count; i++) {
+        stats->device_bytes += s->devices[i].peak_allocated_bytes;
+        stats->cache_hits += s->devices[i].cache_hits;
+        stats->cache_misses += s->devices[i].cache_misses;
+    }
+    ec_cargo_free(&s->cargo);
+    free(s->recruits);
+}

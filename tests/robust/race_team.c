@@ -1,0 +1,110 @@
+/* A team of sources under ThreadSanitizer (test_races.py): batches that sources of different speed make up, one of which fails on the way and
+ * one at once; what comes out is checked to the last position, in order, with and without pixel lists. With an argument the sources commit a
+ * race of their own, which must be found. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "pipeline/team.h"
+
+enum { WIDTH = 40, HEIGHT = 37, PIXELS = WIDTH * HEIGHT, MEMBERS = 5, BATCHES = 60 };
+
+static bool races;
+static uint64_t raced;
+
+typedef struct fake {
+    ec_batch_source base;
+    uint32_t index, taken;
+} fake;
+
+static float value(uint32_t batch, uint32_t pixel) { return (float)(batch * 4096 + pixel); }
+
+static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
+{
+    fake *f = (fake *)source;
+    *complete = true;
+    if (f->index == 1 && f->taken++ == 7) return ec_fail(err, "it is over");
+    for (uint32_t i = order->done; i < order->count && *complete; i++) {
+        for (uint32_t k = 0; k < 3; k++) order->into[3 * i + k] = value(order->index, order->list ? order->list[i] : i);
+        if (i % 256 == 0) *complete = order->go_on(order->user, i + 1) || i + 1 == order->count;
+    }
+    usleep(f->index == 2 ? 4000 : 300);
+    if (races) raced++;
+    source->rays += order->count - order->done;
+    source->invalid[0] += 2;
+    return EC_OK;
+}
+
+static void close_fake(ec_batch_source *source) { (void)source; }
+
+static ec_result open_fake(void *user, ec_batch_source **source, ec_error *err)
+{
+    fake *f = user;
+    f->base.take = take;
+    f->base.close = close_fake;
+    f->base.least = 100;
+    *source = &f->base;
+    return f->index == 3 ? ec_fail(err, "it does not open") : EC_OK;
+}
+
+static bool go_on(void *user, uint32_t done)
+{
+    *(uint32_t *)user = done;
+    return true;
+}
+
+static void count_warning(void *user, ec_severity severity, const char *text)
+{
+    (void)severity;
+    fprintf(stderr, "%s\n", text);
+    ++*(int *)user;
+}
+
+static int check(const ec_batch_order *order, const float *mean)
+{
+    for (uint32_t i = 0; i < order->count; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            if (mean[3 * i + k] != value(order->index, order->list ? order->list[i] : i)) return 1;
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    (void)argv;
+    races = argc > 1;
+    static fake fakes[MEMBERS];
+    static uint32_t list[PIXELS];
+    ec_team_recruit recruits[MEMBERS];
+    ec_team *team;
+    ec_error err = {0};
+    int wrong = 0, warnings = 0;
+    uint32_t done = 0;
+    const ec_log log = {count_warning, &warnings};
+    for (uint32_t i = 0; i < MEMBERS; i++) {
+        fakes[i].index = i;
+        recruits[i] = (ec_team_recruit){.name = "a fake", .open = open_fake, .user = &fakes[i]};
+    }
+    for (uint32_t i = 0; i < PIXELS; i++) list[i] = PIXELS - 1 - i;
+    if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, &log, &team, &err) != EC_OK) return 2;
+    ec_batch_source *source = ec_team_source(team);
+    for (uint32_t b = 3; b < BATCHES; b++) {
+        const bool is_pass = b % 20 == 0;
+        const ec_batch_order order = {.index = b, .end = b / 20 * 20 + 20, .list = is_pass ? list : NULL, .count = is_pass ? PIXELS - 100 : PIXELS,
+                                      .go_on = go_on, .user = &done};
+        bool complete;
+        if (source->take(source, &order, &complete, &err) != EC_OK || !complete || done != order.count) return 3;
+        wrong += check(&order, source->mean);
+    }
+    uint64_t shares = 0;
+    source->close(source);
+    for (uint32_t i = 0; i < MEMBERS; i++) {
+        bool has_failed;
+        shares += ec_team_share(team, i, &has_failed);
+        wrong += has_failed != (i == 1 || i == 3);
+    }
+    ec_team_free(team);
+    printf("%d batches of %d sources, %d wrong, %d warnings, %s\n", BATCHES - 3, MEMBERS, wrong, warnings,
+           shares == (uint64_t)PIXELS * (BATCHES - 3) - 200 ? "all pixels once" : "not all pixels once");
+    return wrong != 0;
+}

@@ -1,0 +1,234 @@
+"""Several devices on one picture: the bits of one device, whatever each of them took; a device that fails loses nothing, a slow one holds
+nobody up. Two or three devices of PoCL's single-threaded driver, which is one more device for each word in POCL_DEVICES, and PoCL beside
+Intel's runtime where tools/test --all-devices has installed that."""
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from faults import SHIM, FaultCase
+from support import CORNELL, ECLAT, ENVIRONMENT, RING, SOURCE, Case, eclat, read_exr
+
+sys.path.insert(0, os.path.join(SOURCE, "tools"))
+import opencl_devices
+
+TWO = {"POCL_DEVICES": "basic basic"}
+THREE = {"POCL_DEVICES": "basic basic basic"}
+RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "batches"]
+SIZE = ["--size", "72x50"]  # rows of tiles that are not whole
+OUT = re.compile(r"^eclat: warning: (.*) is out, and the others take over its work: (.*)$")
+
+
+def setUpModule():
+    found = subprocess.run([ECLAT, "devices", "--json"], env=dict(ENVIRONMENT, **TWO), stdout=subprocess.PIPE, encoding="utf-8", check=False)
+    if found.returncode or sum(device["name"].startswith("basic") for device in json.loads(found.stdout)["devices"]) < 2:
+        print("skipped: the default OpenCL driver is not a PoCL that offers two basic devices")
+        sys.exit(77)
+
+
+class Several(Case):
+    def render(self, *options, device="all", env=None, name="a.exr", timeout=300):
+        run = eclat("render", *options, *(["--device", device] if device else []), "--json", "-q", "-o", self.path(name), env=env or TWO,
+                    timeout=timeout)
+        return json.loads(self.assert_ok(run).stdout)
+
+    def assert_same(self, *job, env=None):
+        """One device's figures and planes."""
+        one = self.render(CORNELL, *SIZE, *job, device="0", env=env)
+        planes = read_exr(self.path("a.exr"))[1]
+        several = self.render(CORNELL, *SIZE, *job, env=env)
+        self.assertEqual({key: one[key] for key in RESULT}, {key: several[key] for key in RESULT})
+        self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
+        self.assertNotIn("devices", one)
+        return several
+
+    def test_samples(self):
+        several = self.assert_same("--spp", "40", "--batch", "2", env=THREE)
+        self.assertEqual(len(several["devices"]), 3)
+        self.assertAlmostEqual(sum(one["batches"] for one in several["devices"]), 20, places=4)
+        self.assertEqual(several["rays"], self.render(CORNELL, *SIZE, "--spp", "40", "--batch", "2", device="1", env=THREE)["rays"])
+
+    def test_pieces_of_batches(self):
+        """A wave is two rows of tiles of the seven: every batch is cut."""
+        several = self.assert_same("--spp", "64", "--batch", "16", "--wave", str(72 * 8 * 16 * 2))
+        self.assertTrue(all(one["batches"] > 0 for one in several["devices"]), several["devices"])
+
+    def test_error(self):
+        self.assertEqual(self.assert_same("--error", "12%", "--batch", "4")["stopped_by"], "error")
+
+    def test_adaptive(self):
+        several = self.assert_same("--adaptive", "--spp", "64", "--batch", "4", "--wave", "4096")
+        self.assertLess(several["allotment_gain"], 1)  # it is not uniform all the same
+        self.assertTrue(all(one["batches"] > 0 for one in several["devices"]), several["devices"])
+        self.assert_same("--adaptive", "--error", "10%", "--batch", "4")
+
+    def test_slices(self):
+        self.assert_same("--samples", "16:80", "--spp", "96", "--batch", "4")
+        self.render(CORNELL, *SIZE, "--samples", "0:48", "--spp", "96", "--batch", "4", name="first.exr")
+        self.render(CORNELL, *SIZE, "--samples", "48:96", "--spp", "96", "--batch", "4", device="0", name="second.exr")
+        self.assert_ok(eclat("merge", self.path("first.exr"), self.path("second.exr"), "-o", self.path("all.exr"), "-q"))
+        self.render(CORNELL, *SIZE, "--spp", "96", "--batch", "4", device="1")
+        self.assertEqual(read_exr(self.path("a.exr"))[1]["R"], read_exr(self.path("all.exr"))[1]["R"])
+
+    def test_other_integrators_and_lanes(self):
+        for options in [["--integrator", "whitted"], ["--integrator", "raster"], ["--lanes", "4"], ["--accel", "grid"]]:
+            with self.subTest(options):
+                self.assert_same("--spp", "8", "--batch", "1", *options)
+
+    def test_going_on(self):
+        kept = self.path("kept.exr")
+        for job in [[], ["--adaptive"]]:
+            whole = self.render(CORNELL, *SIZE, "--spp", "96", "--batch", "4", *job, device="0")
+            for first, then in [("all", "all"), ("0", "all")]:
+                self.render(CORNELL, *SIZE, "--spp", "40", "--batch", "4", *job, "--checkpoint", kept, device=first)
+                again = self.render("--resume", kept, "--spp", "96", device=None, env=dict(TWO, ECLAT_DEVICE=then))
+                self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
+
+    def test_killed(self):
+        """The last checkpoint stands, holds no hole, and is not older than an interval and what a write and the pieces under way take."""
+        job = [RING, "--size", "96x96", "--spp", "512", "--batch", "16", "--wave", "16384"]
+        whole = self.render(*job, device="0")
+        for after in [0.8, 1.5]:
+            kept = self.path(f"kept{after}.exr")
+            process = subprocess.Popen([ECLAT, "render", *job, "--device", "all", "--checkpoint", kept, "--every", "0.1", "-q", "-o", self.path("a.exr")],
+                                       env=dict(ENVIRONMENT, **TWO, LD_PRELOAD=SHIM, FAULT_CALL="clEnqueueNDRangeKernel", FAULT_PAUSE="2"))
+            while not os.path.exists(kept) and process.poll() is None:
+                time.sleep(0.01)
+            time.sleep(after)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            state = json.loads(read_exr(kept)[0]["eclat.state"])
+            self.assertGreater(state["seconds"], after - 1.2)
+            again = self.render("--resume", kept, "--spp", "512", device=None)
+            self.assertEqual(again["image_sha256"], whole["image_sha256"])
+
+    def test_time_and_interruption(self):
+        """The end comes within waves; whatever the picture has is whole batches."""
+        job = [CORNELL, "--size", "256x256", "--batch", "16", "--wave", "16384"]
+        start = time.monotonic()
+        self.assertEqual(self.render(*job, "--time", "2s")["stopped_by"], "time")
+        self.assertLess(time.monotonic() - start, 30)  # starting up, and a loaded machine
+        whole = self.render(*job, "--spp", "16", device="0")
+        first = self.render(*job, "--time", "0.05s", name="first.exr")  # within the first batch: what was reached is right, the rest is marked
+        samples, red = read_exr(self.path("first.exr"))[1]["samples"], read_exr(self.path("first.exr"))[1]["R"]
+        right = read_exr(self.path("a.exr"))[1]["R"]
+        self.assertEqual(whole["samples_per_pixel"], 16)
+        self.assertLessEqual(set(samples), {0.0, 16.0})
+        self.assertEqual(sum(samples), first["samples"])
+        self.assertEqual([a for a, n in zip(red, samples) if n], [b for b, n in zip(right, samples) if n])
+
+    def test_what_is_said(self):
+        run = self.assert_ok(eclat("render", CORNELL, *SIZE, "--spp", "16", "--batch", "1", "--device", "1,0", "-o", self.path("a.exr"), env=TWO))
+        self.assertRegex(run.stderr, r"(?m)^eclat: rendering 72x50 pixels on basic-.* and 1 more device until 16 samples a pixel$")
+        shares = re.findall(r"(?m)^device   basic-.*, \d+ lanes: ([0-9.]+) of 16 batches$", run.stdout)
+        self.assertEqual((len(shares), sum(map(float, shares))), (2, 16))
+        self.assertRegex(read_exr(self.path("a.exr"))[0]["eclat.devices"], r"^1 basic-.*: [0-9.]+ batches, 0 basic-.*: [0-9.]+ batches$")
+        self.assertNotIn("warning", run.stderr)  # alike: they round alike
+
+    def test_refusals(self):
+        for device, words in [("0,0", "twice; name each once"), ("0,,1", "has an empty place"), ("0,no-such", "--device no-such: no such device"),
+                              ("0,7", "--device 7: no such device")]:
+            self.assertIn(words, self.assert_one_error(eclat("render", CORNELL, "--device", device, env=TWO, cwd=self.folder), 1))
+        for command in [["cost", CORNELL], ["selftest"], ["info", CORNELL, "--accel", "bvh2"], ["view", CORNELL]]:
+            for device in ["0,1", "all"]:
+                run = eclat(*command, "--device", device, env=TWO, cwd=self.folder)
+                if "built without" not in run.stderr:
+                    self.assertIn("this takes one device, only eclat render takes several; name one of them", self.assert_one_error(run, 1))
+
+
+class Failing(FaultCase):
+    """One of three devices fails."""
+    job = ["--batch", "8", "--size", "256x256", "--device", "all", "--json"]  # long enough for all of them to take part
+
+    def setUp(self):
+        super().setUp()
+        run, _ = self.run_with("whole", *self.job, spp=128, env=THREE)
+        self.whole = json.loads(self.assert_ok(run).stdout)
+
+    def fails(self, name, *options, spp=128, **faults):
+        run, folder = self.run_with(name, *self.job, *options, spp=spp, env=THREE, device=1, **faults)
+        report = json.loads(self.assert_ok(run).stdout)
+        self.assertEqual(report["image_sha256"], self.whole["image_sha256"])
+        self.assertEqual(self.check_files(folder), {"a.exr": "new", "a.png": "new"})
+        lines = [OUT.match(line) for line in run.stderr.splitlines() if not line.startswith("  ")]
+        self.assertEqual((len(lines), bool(lines and lines[0])), (1, True), run.stderr)
+        self.assertRegex(lines[0].group(1), "^basic-")
+        self.assertEqual([one["failed"] for one in report["devices"]], [False, True, False])
+        return lines[0].group(2)
+
+    def test_at_any_time(self):
+        for at in [1, 2, 12, 40]:
+            for faults in [{}, {"lost": 1}]:
+                with self.subTest(at=at, faults=faults):
+                    why = self.fails(f"lost{at}{len(faults)}", call="clEnqueueNDRangeKernel", at=at, **faults)
+                    self.assertIn("CL_OUT_OF_RESOURCES", why)
+
+    def test_in_set_up(self):
+        self.assertIn("CL_MEM_OBJECT_ALLOCATION_FAILURE", self.fails("memory", call="clCreateBuffer", at=2, code=-4, lost=1))
+        why = self.fails("build", call="clBuildProgram", code=-11, log="lib/bsdf.h:42: error: no such thing\n")
+        self.assertRegex(why, "^kernels lanes.* do not compile on basic-")
+
+    def test_before_it_opens(self):
+        run, _ = self.run_with("queue", *self.job, spp=128, env=THREE, device=1, call="clCreateCommandQueue")
+        report = json.loads(self.assert_ok(run).stdout)
+        self.assertEqual((report["image_sha256"], len(report["devices"])), (self.whole["image_sha256"], 2))
+        self.assertRegex(run.stderr, r"^eclat: warning: basic-.* is out, and the others take over its work: clCreateCommandQueue .*\n$")
+
+    def test_all_fail(self):
+        run, folder = self.run_with("none", *self.job, spp=4096, env=THREE, call="clEnqueueNDRangeKernel", at=300, lost=1)
+        lines = [line for line in run.stderr.splitlines() if not OUT.match(line)]
+        self.assertEqual((run.returncode, len(lines)), (1, 1), run.stderr)
+        self.assertRegex(lines[0], r"^eclat: error: the render failed after \d+ samples a pixel: .*; the picture so far is written$")
+        report = json.loads(run.stdout)
+        self.assertEqual(report["stopped_by"], "device")
+        self.check_files(folder)
+        run, _ = self.run_with("so far", *self.job, spp=report["samples_per_pixel"], env=THREE)
+        self.assertEqual(json.loads(run.stdout)["image_sha256"], report["image_sha256"])
+
+    def test_a_slow_one_holds_nobody_up(self):
+        """What one device does in t seconds two of them do in little more, where the other one is so slow that a batch takes it 5 s and
+        more: a wave of it, an eighth of a batch, is all that they may wait for."""
+        job = [*self.job, "--size", "256x256", "--batch", "64", "--wave", str(256 * 256 * 8)]
+        slow = {"call": "clEnqueueNDRangeKernel", "pause": 50, "device": 1}
+        run, _ = self.run_with("slow alone", *job, "--device", "1", spp=64, env=TWO, **dict(slow, device=0))
+        batch = json.loads(self.assert_ok(run).stdout)["seconds"]
+        run, _ = self.run_with("fast", *job, "--device", "0", spp=256, env=TWO)
+        fast = json.loads(self.assert_ok(run).stdout)
+        run, _ = self.run_with("both", *job, spp=256, env=TWO, **slow)
+        both = json.loads(self.assert_ok(run).stdout)
+        self.assertEqual(both["image_sha256"], fast["image_sha256"])
+        self.assertGreater(batch, 5)
+        self.assertLess(both["seconds"], 1.5 * fast["seconds"] + batch / 4, f"a batch takes the slow one {batch:.1f} s")
+        self.assertGreater(both["devices"][1]["batches"], 0)
+
+
+class Unlike(Case):
+    """PoCL and another processor driver together."""
+
+    def test_pocl_and_intel(self):
+        build = os.path.dirname(os.path.abspath(ECLAT))
+        icds = [icd for icd in opencl_devices.icd_files(build) if re.search("pocl|intel", icd)]
+        vendors = self.path("vendors")
+        os.mkdir(vendors)
+        for icd in icds:
+            os.symlink(os.path.abspath(icd), os.path.join(vendors, os.path.basename(icd)))
+        env = dict(opencl_devices.environment_of(vendors), POCL_DEVICES="basic")
+        found = json.loads(self.assert_ok(eclat("devices", "--json", env=env)).stdout)["devices"]
+        if len({device["platform"] for device in found}) < 2:
+            self.skipTest("one driver only; tools/test --all-devices installs Intel's")
+        job = ["render", CORNELL, *SIZE, "--spp", "64", "--batch", "1", "--json", "-o", self.path("a.exr")]
+        pictures = set()
+        for device in ["0", "all", "intel,pocl"]:
+            run = self.assert_ok(eclat(*job, "--device", device, env=env))
+            pictures.add(json.loads(run.stdout)["image_sha256"])
+            self.assertNotIn("warning", run.stderr)
+        self.assertEqual(len(pictures), 1)
+        self.assertTrue(all(one["batches"] > 0 for one in json.loads(run.stdout)["devices"]), run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
