@@ -90,9 +90,10 @@ class Several(Case):
 
     def test_killed(self):
         """The last checkpoint stands, holds no hole, and is not older than an interval and what a write and the pieces under way take."""
-        job = [RING, "--size", "96x96", "--spp", "512", "--batch", "16", "--wave", "16384"]
+        job = [RING, "--size", "96x96", "--spp", "512", "--batch", "128", "--wave", "16384"]  # 72 waves a batch, which are cut
         whole = self.render(*job, device="0")
-        for after in [0.8, 1.5]:
+        cut = 0
+        for after in [0.3, 0.8, 1.5]:
             kept = self.path(f"kept{after}.exr")
             process = subprocess.Popen([ECLAT, "render", *job, "--device", "all", "--checkpoint", kept, "--every", "0.1", "-q", "-o", self.path("a.exr")],
                                        env=dict(ENVIRONMENT, **TWO, LD_PRELOAD=SHIM, FAULT_CALL="clEnqueueNDRangeKernel", FAULT_PAUSE="2"))
@@ -103,8 +104,10 @@ class Several(Case):
             process.wait()
             state = json.loads(read_exr(kept)[0]["eclat.state"])
             self.assertGreater(state["seconds"], after - 1.2)
+            cut += state["underWay"] > 0
             again = self.render("--resume", kept, "--spp", "512", device=None)
             self.assertEqual(again["image_sha256"], whole["image_sha256"])
+        self.assertGreater(cut, 0)
 
     def test_time_and_interruption(self):
         """The end comes within waves; whatever the picture has is whole batches."""
@@ -206,8 +209,18 @@ class Failing(FaultCase):
         self.assertGreater(both["devices"][1]["batches"], 0)
 
 
-class Unlike(Case):
-    """PoCL and another processor driver together."""
+class Unlike(FaultCase):
+    """Drivers that are not alike together."""
+
+    def test_one_that_does_not_say_how_it_rounds(self):
+        """The last question to the second device is how it rounds."""
+        env = {"POCL_DEVICES": "pthread basic"}
+        last = self.count_calls("--device", "0", env=env)["clGetDeviceInfo"]
+        for device, warns in [("all", True), ("1", False)]:
+            run, _ = self.run_with("rounds" + device, "--device", device, env=env, call="clGetDeviceInfo", at=last)
+            said = re.search("(?m)^eclat: warning: (basic|pthread)-.* does not say that it rounds division and square root correctly: where it does not, "
+                             "the last bits are not those of one device$", self.assert_ok(run).stderr)
+            self.assertEqual(bool(said), warns, run.stderr)
 
     def test_pocl_and_intel(self):
         build = os.path.dirname(os.path.abspath(ECLAT))
