@@ -78,13 +78,14 @@ static ec_result tell_state(const sequence *s, uint32_t frame, const char *state
 }
 
 /* *stopped: by Ctrl-C, before it was done; nothing of it is written then. */
-static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t frame, bool *stopped, ec_error *err)
+static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t i, bool *stopped, ec_error *err)
 {
+    uint32_t frame = ec_frame_number(&s->request->frames, i);
     double start = ec_now();
     ec_identity identity;
     EC_TRY(ec_frame_identify(&s->given, s->request, s->files, frame, &identity, err));
     char *words = ec_identity_write(&identity), *command = ec_frame_command(&s->given, s->request, &request->outputs, frame);
-    ec_render_job job = {.request = request, .command = command, .share = &s->share, .frame = {frame, ec_frame_seconds(&s->request->frames, frame), words}};
+    ec_render_job job = {.request = request, .command = command, .share = &s->share, .frame = {frame, i + 1, s->count, ec_frame_seconds(&s->request->frames, frame), words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, s->console, err);
     if (result == EC_OK) result = ec_render_job_run(&job, s->console, err);
@@ -110,7 +111,7 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
         s->skipped++;
         told = tell_state(s, frame, "skipped", NULL, &request->outputs, err);
     } else {
-        if (result == EC_OK) result = render_frame(s, request, frame, stopped, &why);
+        if (result == EC_OK) result = render_frame(s, request, i, stopped, &why);
         if (result == EC_OK && !*stopped) s->rendered++;
         if (result != EC_OK && !*stopped) {
             char text[sizeof why.text + 32];

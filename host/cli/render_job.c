@@ -196,7 +196,7 @@ static void announce(const ec_render_job *job, ec_console *console)
     if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
                                              (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
     if (job->device_count > 1) snprintf(more, sizeof more, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
-    if (job->share) snprintf(range, sizeof range, "frame %u, at %.6g s: ", job->frame.number, job->frame.seconds);
+    if (job->share) snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place, job->frame.count, job->frame.seconds);
     ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more, limits);
 }
 
