@@ -16,7 +16,7 @@ typedef struct sequence {
     ec_console *console;
     const ec_render_request *request;
     ec_given_options given;
-    char files[65];             /* digest of what the scene is made of */
+    ec_identity identity;       /* of all frames */
     ec_frame_share share;
     ec_frame_state *states;     /* by frame, as they were found */
     uint32_t count, rendered, skipped, failed;
@@ -53,7 +53,7 @@ static ec_result look_around(sequence *s, ec_error *err)
     for (uint32_t i = 0; i < s->count; i++) {
         uint32_t frame = ec_frame_number(&r->frames, i);
         EC_TRY(outputs_of(s, frame, &outputs, err));
-        EC_TRY(ec_frame_identify(&s->given, r, s->files, frame, &identity, err));
+        ec_frame_identify(&s->identity, r, frame, &identity);
         s->states[i] = ec_frame_look(&outputs, &identity, difference, sizeof difference);
         if (s->states[i] != EC_FRAME_DONE) EC_TRY(ec_outputs_check(&outputs, inputs, 2, err));
         if (s->states[i] == EC_FRAME_OTHER && !r->overwrite && others++ == 0) ec_fail(err, "%s", difference);
@@ -83,7 +83,7 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     uint32_t frame = ec_frame_number(&s->request->frames, i);
     double start = ec_now();
     ec_identity identity;
-    EC_TRY(ec_frame_identify(&s->given, s->request, s->files, frame, &identity, err));
+    ec_frame_identify(&s->identity, s->request, frame, &identity);
     char *words = ec_identity_write(&identity), *command = ec_frame_command(&s->given, s->request, &request->outputs, frame);
     ec_render_job job = {.request = request, .command = command, .share = &s->share, .frame = {frame, i + 1, s->count, ec_frame_seconds(&s->request->frames, frame), words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
@@ -162,10 +162,12 @@ static ec_result begin(sequence *s, ec_error *err)
     const ec_render_request *r = s->request;
     ec_scene_choice first = choice_of(s, r->frames.first);
     ec_outputs outputs;
+    char files[65];
     EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* patterns first of all */
     EC_TRY(find_devices(s, err));
     EC_TRY(ec_animation_open(r->scene, &first, &s->share.animation, &log, err));
-    ec_animation_digest(s->share.animation, s->files);
+    ec_animation_digest(s->share.animation, files);
+    EC_TRY(ec_frames_identify(&s->given, r, files, &s->identity, err));
     return look_around(s, err);
 }
 
