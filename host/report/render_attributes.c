@@ -1,5 +1,6 @@
 #include <inttypes.h>
 #include <stdarg.h>
+#include <string.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
