@@ -131,7 +131,7 @@ static void refit(ec_followed *f, const ec_accel_input *in)
         ec_accel_refit(a, in, &f->accels[a]);
         if (f->built_expense[a] > 0) expense = fmax(expense, ec_accel_expense(a, &f->accels[a]) / f->built_expense[a]);
     }
-    f->report.expense = expense > 0 ? expense : 1;
+    f->report.expense = f->report.refit_expense = expense > 0 ? expense : 1;
     f->report.refit_seconds = f->refit_seconds = ec_now() - start;
 }
 
@@ -156,7 +156,7 @@ ec_result ec_accels_follow(ec_followed *f, ec_accel_input *in, uint32_t wanted, 
     double start = ec_now();
     ec_result result = EC_OK;
     bool same_ones = f->present == wanted && same_triangles(f->input, in), stands = same_ones && same_places(f->input, in);
-    f->report.refit_seconds = 0;
+    f->report.refit_seconds = f->report.refit_expense = 0;
     if (stands) f->report.what = EC_FOLLOW_KEPT;
     else if (same_ones && can_refit(wanted, in)) result = follow_moved(f, in, wanted, err);
     else result = build(f, in, wanted, err);

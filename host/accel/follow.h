@@ -14,7 +14,8 @@ typedef struct ec_follow_report {
     double seconds;          /* that it took */
     double refit_seconds;    /* of them: trying a refit; 0: none was tried */
     double build_seconds;    /* of the last build */
-    double expense;          /* of the trees as they are refitted, over that after their last build; 1 without a refit */
+    double expense;          /* of the trees as they stand, over that after their last build */
+    double refit_expense;    /* what a refit has come to, also where it was given up; 0: none was tried */
     uint32_t meshes_kept, meshes_built; /* trees of meshes that are kept once */
 } ec_follow_report;
 

@@ -83,8 +83,7 @@ static ec_result add_environment(ec_identity *identity, const char *environment,
     return EC_OK;
 }
 
-ec_result ec_frame_identify(const ec_given_options *given, const ec_render_request *request, const char *files, uint32_t frame, ec_identity *identity,
-                            ec_error *err)
+ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files, ec_identity *identity, ec_error *err)
 {
     char text[64];
     memset(identity, 0, sizeof *identity);
@@ -93,8 +92,6 @@ ec_result ec_frame_identify(const ec_given_options *given, const ec_render_reque
     add(identity, "kernels", text);
     add(identity, "files", files);
     EC_TRY(add_environment(identity, request->environment, err));
-    snprintf(text, sizeof text, "%.17g s", ec_frame_seconds(&request->frames, frame));
-    add(identity, "moment", text);
     for (int i = 0; i < given->count; i++) {
         char name[40];
         if (is_among(given->list[i].option, immaterial)) continue;
@@ -102,6 +99,14 @@ ec_result ec_frame_identify(const ec_given_options *given, const ec_render_reque
         add(identity, name, given->list[i].value ? given->list[i].value : "on");
     }
     return EC_OK;
+}
+
+void ec_frame_identify(const ec_identity *all, const ec_render_request *request, uint32_t frame, ec_identity *identity)
+{
+    char text[64];
+    *identity = *all;
+    snprintf(text, sizeof text, "%.17g s", ec_frame_seconds(&request->frames, frame));
+    add(identity, "moment", text);
 }
 
 char *ec_frame_command(const ec_given_options *given, const ec_render_request *request, const ec_outputs *outputs, uint32_t frame)

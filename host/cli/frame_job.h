@@ -15,10 +15,11 @@ typedef struct ec_given_options {
 } ec_given_options;
 ec_result ec_given_options_read(int argc, char *const *argv, ec_given_options *given, ec_error *err);
 
-/* Its identity: version, kernels, the bytes of the scene's files and of the environment's (files), the moment, and every
- * option that a picture may depend on, as it was given. */
-ec_result ec_frame_identify(const ec_given_options *given, const ec_render_request *request, const char *files, uint32_t frame, ec_identity *identity,
-                            ec_error *err);
+/* What all frames are of: version, kernels, the bytes of the scene's files (their digest) and of the environment's, and every option that a
+ * picture may depend on, as it was given. */
+ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files, ec_identity *all, ec_error *err);
+/* One of them: the same at its moment. */
+void ec_frame_identify(const ec_identity *all, const ec_render_request *request, uint32_t frame, ec_identity *identity);
 
 /* The command that renders this frame alone to the same bits; malloc'ed, NULL when out of memory. */
 char *ec_frame_command(const ec_given_options *given, const ec_render_request *request, const ec_outputs *outputs, uint32_t frame);

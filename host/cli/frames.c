@@ -16,12 +16,8 @@ typedef struct sequence {
     ec_console *console;
     const ec_render_request *request;
     ec_given_options given;
-    char files[65];             /* digest of what the scene is made of */
+    ec_identity identity;       /* of all frames */
     ec_frame_share share;
-    ec_cl cl;
-    ec_device_info device;
-    uint32_t device_index;
-    const char *device_why;
     ec_frame_state *states;     /* by frame, as they were found */
     uint32_t count, rendered, skipped, failed;
 } sequence;
@@ -57,7 +53,7 @@ static ec_result look_around(sequence *s, ec_error *err)
     for (uint32_t i = 0; i < s->count; i++) {
         uint32_t frame = ec_frame_number(&r->frames, i);
         EC_TRY(outputs_of(s, frame, &outputs, err));
-        EC_TRY(ec_frame_identify(&s->given, r, s->files, frame, &identity, err));
+        ec_frame_identify(&s->identity, r, frame, &identity);
         s->states[i] = ec_frame_look(&outputs, &identity, difference, sizeof difference);
         if (s->states[i] != EC_FRAME_DONE) EC_TRY(ec_outputs_check(&outputs, inputs, 2, err));
         if (s->states[i] == EC_FRAME_OTHER && !r->overwrite && others++ == 0) ec_fail(err, "%s", difference);
@@ -82,14 +78,14 @@ static ec_result tell_state(const sequence *s, uint32_t frame, const char *state
 }
 
 /* *stopped: by Ctrl-C, before it was done; nothing of it is written then. */
-static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t frame, bool *stopped, ec_error *err)
+static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t i, bool *stopped, ec_error *err)
 {
+    uint32_t frame = ec_frame_number(&s->request->frames, i);
     double start = ec_now();
     ec_identity identity;
-    EC_TRY(ec_frame_identify(&s->given, s->request, s->files, frame, &identity, err));
+    ec_frame_identify(&s->identity, s->request, frame, &identity);
     char *words = ec_identity_write(&identity), *command = ec_frame_command(&s->given, s->request, &request->outputs, frame);
-    ec_render_job job = {.request = request, .command = command, .share = &s->share, .devices = {s->device}, .device_indices = {s->device_index}, .device_count = 1,
-                         .device_why = s->device_why, .frame = {frame, ec_frame_seconds(&s->request->frames, frame), words}};
+    ec_render_job job = {.request = request, .command = command, .share = &s->share, .frame = {frame, i + 1, s->count, ec_frame_seconds(&s->request->frames, frame), words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, s->console, err);
     if (result == EC_OK) result = ec_render_job_run(&job, s->console, err);
@@ -101,15 +97,6 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     return result;
 }
 
-/* What a device has forgotten or not done right is not to be taken for there. */
-static ec_result begin_anew(sequence *s, ec_error *err)
-{
-    ec_cl_close(&s->cl);
-    EC_TRY(ec_cl_open(&s->device, &s->cl, err));
-    s->cl.keeps_programs = s->cl.keeps_buffers = true;
-    return EC_OK;
-}
-
 static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *err)
 {
     uint32_t frame = ec_frame_number(&s->request->frames, i);
@@ -117,13 +104,14 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
     if (!request) return ec_fail(err, "out of memory");
     *request = *s->request;
     request->choice = choice_of(s, frame);
+    if (request->seed_is_frame) request->options.seed = frame;
     ec_error why = {0};
     ec_result told = EC_OK, result = outputs_of(s, frame, &request->outputs, &why);
     if (s->states[i] == EC_FRAME_DONE) {
         s->skipped++;
         told = tell_state(s, frame, "skipped", NULL, &request->outputs, err);
     } else {
-        if (result == EC_OK) result = render_frame(s, request, frame, stopped, &why);
+        if (result == EC_OK) result = render_frame(s, request, i, stopped, &why);
         if (result == EC_OK && !*stopped) s->rendered++;
         if (result != EC_OK && !*stopped) {
             char text[sizeof why.text + 32];
@@ -131,7 +119,7 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
             ec_console_error(s->console, text);
             s->failed++;
             told = tell_state(s, frame, "failed", why.text, &request->outputs, err);
-            if (told == EC_OK) told = begin_anew(s, err);
+            ec_frame_share_close(&s->share); /* what a device has forgotten or not done right is not to be taken for there */
         }
     }
     free(request);
@@ -156,16 +144,30 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
     return EC_OK;
 }
 
+static ec_result find_devices(sequence *s, ec_error *err)
+{
+    ec_render_request request = *s->request;
+    ec_render_job job = {.request = &request, .takes_several = true};
+    EC_TRY(ec_render_job_find_devices(&job, err));
+    memcpy(s->share.devices, job.devices, sizeof job.devices);
+    memcpy(s->share.device_indices, job.device_indices, sizeof job.device_indices);
+    s->share.device_count = job.device_count;
+    s->share.device_why = job.device_why;
+    return EC_OK;
+}
+
 static ec_result begin(sequence *s, ec_error *err)
 {
     const ec_log log = ec_console_log(s->console);
     const ec_render_request *r = s->request;
     ec_scene_choice first = choice_of(s, r->frames.first);
     ec_outputs outputs;
+    char files[65];
     EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* patterns first of all */
-    EC_TRY(ec_device_find(r->device, &s->device, &s->device_index, &s->device_why, err));
+    EC_TRY(find_devices(s, err));
     EC_TRY(ec_animation_open(r->scene, &first, &s->share.animation, &log, err));
-    ec_animation_digest(s->share.animation, s->files);
+    ec_animation_digest(s->share.animation, files);
+    EC_TRY(ec_frames_identify(&s->given, r, files, &s->identity, err));
     return look_around(s, err);
 }
 
@@ -173,8 +175,6 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
 {
     bool stopped = false;
     EC_TRY(begin(s, err));
-    EC_TRY(begin_anew(s, err));
-    s->share.cl = &s->cl;
     for (uint32_t i = 0; i < s->count && !stopped; i++) {
         EC_TRY(take_frame(s, i, &stopped, err));
         stopped |= ec_stop_requested() && i + 1 < s->count;
@@ -191,8 +191,9 @@ ec_result ec_frames_render(ec_console *console, const ec_render_request *request
     if (result == EC_OK) result = render_all(&s, start, err);
     ec_animation_close(s.share.animation);
     free(s.share.environment.rgb);
+    ec_packed_map_free(&s.share.packed);
     ec_followed_free(&s.share.followed);
-    ec_cl_close(&s.cl);
+    ec_frame_share_close(&s.share);
     free(s.states);
     return result;
 }

@@ -52,14 +52,18 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
 }
 
 /* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */
-static void share_environment(ec_render_job *job, bool is_of_all)
+static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error *err)
 {
     ec_frame_share *share = job->share;
-    if (!share || !is_of_all || share->environment_known) return;
+    if (!share || !is_of_all || share->environment_known) return EC_OK;
+    if (job->scene->environment.rgb) EC_TRY(ec_pack_map(&job->scene->environment, &share->packed, err));
     share->environment = job->scene->environment;
     share->has_environment = job->scene->has_environment;
     share->environment_known = true;
+    if (share->environment.rgb) share->environment.packed = &share->packed;
+    job->scene->environment = share->environment;
     job->scene->environment.lent = true;
+    return EC_OK;
 }
 
 static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *err)
@@ -83,7 +87,7 @@ static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *
             return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --env, or leave them out");
         ec_scene_adjust_environment(job->scene, job->request->env_degrees, job->request->env_strength, log);
     }
-    share_environment(job, is_of_all);
+    EC_TRY(share_environment(job, is_of_all, err));
     if (!environment) environment = job->scene->has_environment ? "the scene's" : "none";
     int used = snprintf(job->environment_text, sizeof job->environment_text, "%s", environment);
     if (job->request->adjusts_env && used > 0 && (size_t)used < sizeof job->environment_text)
@@ -137,15 +141,30 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_erro
     return EC_OK;
 }
 
+ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
+{
+    const char *wanted = job->request->device;
+    job->device_count = 1;
+    if (!job->takes_several) return ec_device_find(wanted, job->devices, job->device_indices, &job->device_why, err);
+    return ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count, &job->device_why, err);
+}
+
+/* Those of all frames. */
+static void take_devices(ec_render_job *job)
+{
+    const ec_frame_share *share = job->share;
+    memcpy(job->devices, share->devices, sizeof job->devices);
+    memcpy(job->device_indices, share->device_indices, sizeof job->device_indices);
+    job->device_count = share->device_count;
+    job->device_why = share->device_why;
+}
+
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
     const ec_render_request *request = job->request;
-    if (!job->share) job->device_count = 1;
-    if (job->takes_several)
-        EC_TRY(ec_device_find_several(request->device, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count, &job->device_why, err));
-    else if (!job->share)
-        EC_TRY(ec_device_find(request->device, job->devices, job->device_indices, &job->device_why, err));
+    if (!job->share) EC_TRY(ec_render_job_find_devices(job, err));
+    else take_devices(job);
     double start = ec_now();
     if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, &log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, &log, err));
@@ -173,8 +192,8 @@ static void announce(const ec_render_job *job, ec_console *console)
         snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
     if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
                                              (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
-    if (job->share) snprintf(range, sizeof range, "frame %u, at %.6g s: ", job->frame.number, job->frame.seconds);
     if (job->device_count > 1) snprintf(more, sizeof more, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
+    if (job->share) snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place, job->frame.count, job->frame.seconds);
     ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more, limits);
 }
 
@@ -211,6 +230,27 @@ static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *
     return count ? EC_OK : EC_FAILED;
 }
 
+/* Once for all frames, and again after one that failed; what does not open is out for the rest of them. */
+static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *err)
+{
+    ec_frame_share *share = job->share;
+    job->request->options.followed = &share->followed;
+    if (share->is_open) return EC_OK;
+    EC_TRY(open_devices(job, share->cl, log, err));
+    memcpy(share->devices, job->devices, sizeof share->devices);
+    memcpy(share->device_indices, job->device_indices, sizeof share->device_indices);
+    share->device_count = job->device_count;
+    for (uint32_t i = 0; i < share->device_count; i++) share->cl[i].keeps_programs = share->cl[i].keeps_buffers = true;
+    share->is_open = true;
+    return EC_OK;
+}
+
+void ec_frame_share_close(ec_frame_share *share)
+{
+    for (uint32_t i = 0; share->is_open && i < share->device_count; i++) ec_cl_close(&share->cl[i]);
+    share->is_open = false;
+}
+
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
@@ -218,14 +258,14 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
                              .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
     const ec_course course = ec_render_job_course(job, console);
     ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : own;
-    if (!job->share) EC_TRY(open_devices(job, own, &log, err));
-    if (job->share) job->request->options.followed = &job->share->followed;
+    if (!job->share) EC_TRY(open_devices(job, devices, &log, err));
+    else EC_TRY(open_shared(job, &log, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     announce(job, console);
     ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
                                         &job->film, &job->stats, &log, err);
     ec_console_erase(console);
-    for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&own[i]);
+    for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
     if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     const bool has_picture = job->film.batch_count || job->rows;
     if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");

@@ -8,16 +8,24 @@
 #include "cli/render_request.h"
 #include "cli/write_rows.h"
 #include "film/film.h"
+#include "pack/pack.h"
 #include "report/render_report.h"
 
 /* What the frames of a sequence share. */
 typedef struct ec_frame_share {
     ec_animation *animation;
-    ec_cl *cl;
+    ec_device_info devices[EC_DEVICES_MOST];
+    uint32_t device_indices[EC_DEVICES_MOST], device_count;
+    const char *device_why;
+    ec_cl cl[EC_DEVICES_MOST];   /* of these, once they are open */
+    bool is_open;
     ec_followed followed;        /* acceleration structures */
     ec_environment environment;  /* that of all frames, once the first one has made it; its picture is owned */
+    ec_packed_map packed;        /* of its picture */
     bool has_environment, environment_known;
 } ec_frame_share;
+
+void ec_frame_share_close(ec_frame_share *share); /* the devices, with what they keep; the next frame opens them anew */
 
 typedef struct ec_render_job {
     ec_render_request *request;
@@ -47,6 +55,9 @@ typedef struct ec_render_job {
 
 /* All that can fail early does so here: outputs, device, scene, environment, camera. */
 ec_result ec_render_job_prepare(ec_render_job *job, ec_console *console, ec_error *err);
+
+/* By the request: one, or with takes_several all that it names. */
+ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err);
 
 /* The same without the outputs: device, scene, environment, camera, size. */
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err);

@@ -95,7 +95,6 @@ RANGE_SETTER(fps, ec_parse_real, EC_FPS_LEAST, EC_FPS_MOST, frames.fps)
 RANGE_SETTER(focus, ec_parse_real, EC_FOCUS_LEAST, EC_FOCUS_MOST, options.focus)
 RANGE_SETTER(fstop, ec_parse_real, EC_FSTOP_LEAST, EC_FSTOP_MOST, options.fstop)
 RANGE_SETTER(exposure, ec_parse_real, -100, 100, exposure)
-RANGE_SETTER(seed, ec_parse_whole, 0, UINT64_MAX, options.seed)
 RANGE_SETTER(spp, ec_parse_u32, 1, EC_MAX_SPP, options.spp)
 RANGE_SETTER(wave, ec_parse_u32, 1, 1u << 28, options.wave)
 
@@ -168,6 +167,12 @@ SETTER(checkpoint)
         return ec_usage(err, "--%s: '%s' must be named NAME.exr", option, value);
     REQUEST->checkpoint = value;
     return EC_OK;
+}
+
+SETTER(seed)
+{
+    REQUEST->seed_is_frame = !strcmp(value, "frame");
+    return REQUEST->seed_is_frame ? EC_OK : ec_parse_whole(option, value, 0, UINT64_MAX, &REQUEST->options.seed, err);
 }
 
 SETTER(samples)
@@ -271,6 +276,7 @@ static ec_result settle_frames(ec_render_request *request, ec_error *err)
 {
     if (!request->frames.given && request->overwrite) return ec_usage(err, "--overwrite belongs to --frames; other pictures are written over as ever");
     if (!request->frames.given && request->frames.fps > 0) return ec_usage(err, "--fps belongs to --frames; leave it out or give that too");
+    if (!request->frames.given && request->seed_is_frame) return ec_usage(err, "--seed frame belongs to --frames; give a number");
     if (!request->frames.given) return EC_OK;
     if (request->choice.at_given) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
     const char *other = request->resume ? "resume" : request->checkpoint ? "checkpoint" : request->has_slice ? "samples" : NULL;

@@ -31,6 +31,7 @@ typedef struct ec_render_request {
     const char *device;        /* NULL: chosen */
     double exposure;           /* EV */
     ec_frame_range frames;     /* of a sequence; not given: one picture */
+    bool seed_is_frame;        /* --seed frame */
     bool overwrite;            /* frames that are there and of another job */
     bool has_slice;            /* --samples A:B: */
     uint32_t slice_first, slice_end; /* samples a pixel, whole batches */

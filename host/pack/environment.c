@@ -33,11 +33,11 @@ static double texel_mean(const ec_environment *e, uint32_t x, uint32_t y)
 }
 
 /* Dim texels keep a twentieth of their share by solid angle, so that a hot one cannot starve them. */
-static ec_result build_table(const ec_environment *e, double *weights, double sum, double solid, ec_pack *pack, ec_error *err)
+static ec_result build_table(const ec_environment *e, double *weights, double sum, double solid, ec_packed_map *map, ec_error *err)
 {
     const uint32_t width = e->width, height = e->height;
     double *rows = calloc(height, sizeof *rows), *row_pmf = malloc(height * sizeof *row_pmf), *pmf = malloc(width * sizeof *pmf);
-    ec_distribution_entry *table = pack->environment_table;
+    ec_distribution_entry *table = map->table;
     bool has_memory = rows && row_pmf && pmf;
     for (size_t i = 0; has_memory && i < (size_t)width * height; i++) {
         double sine = sine_of_row(e, (uint32_t)(i / width));
@@ -50,7 +50,7 @@ static ec_result build_table(const ec_environment *e, double *weights, double su
         memset(row, 0, width * sizeof *row); /* of a black row; nobody looks there */
         if (!(rows[y] > 0.0)) continue;
         ec_distribution_build(weights + (size_t)y * width, width, row, pmf);
-        for (uint32_t x = 0; x < width; x++) pack->environment_texels[4 * ((size_t)y * width + x) + 3] = (float)(row_pmf[y] * pmf[x]);
+        for (uint32_t x = 0; x < width; x++) map->texels[4 * ((size_t)y * width + x) + 3] = (float)(row_pmf[y] * pmf[x]);
     }
     free(rows);
     free(row_pmf);
@@ -69,24 +69,24 @@ void ec_environment_mean(const ec_environment *e, float mean[3])
     for (int k = 0; k < 3; k++) mean[k] = (float)(sum[k] / solid);
 }
 
-ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err)
+void ec_packed_map_free(ec_packed_map *map)
 {
-    const ec_environment *e = &scene->environment;
-    *mean_luminance = 0.0;
-    if (!scene->has_environment) return EC_OK;
-    for (int k = 0; k < 3; k++) pack->environment_mean[k] = e->constant[k];
-    if (!e->rgb) {
-        *mean_luminance = luminance(e->constant);
-        return EC_OK;
-    }
+    free(map->texels);
+    free(map->table);
+    *map = (ec_packed_map){0};
+}
+
+ec_result ec_pack_map(const ec_environment *e, ec_packed_map *map, ec_error *err)
+{
+    *map = (ec_packed_map){.width = e->width, .height = e->height};
     size_t count = (size_t)e->width * e->height;
     if (count >= 1u << 26)
         return ec_fail(err, "the environment map has %u x %u pixels; at most 2^26 are handled: shrink it", e->width, e->height);
     double *weights = malloc(count * sizeof *weights);
-    pack->environment_texels = malloc(4 * count * sizeof(float));
-    pack->environment_table = malloc((count + e->height) * sizeof *pack->environment_table);
+    map->texels = malloc(4 * count * sizeof(float));
+    map->table = malloc((count + e->height) * sizeof *map->table);
     ec_result result = EC_OK;
-    if (!weights || !pack->environment_texels || !pack->environment_table) {
+    if (!weights || !map->texels || !map->table) {
         result = ec_fail(err, "out of memory for an environment map of %u x %u", e->width, e->height);
         goto cleanup;
     }
@@ -96,23 +96,45 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
         for (uint32_t x = 0; x < e->width; x++) {
             size_t i = (size_t)y * e->width + x;
             weights[i] = texel_mean(e, x, y) * sine;
-            for (int k = 0; k < 3; k++) pack->environment_texels[4 * i + k] = e->rgb[3 * i + k];
-            pack->environment_texels[4 * i + 3] = 0.0f;
+            for (int k = 0; k < 3; k++) map->texels[4 * i + k] = e->rgb[3 * i + k];
+            map->texels[4 * i + 3] = 0.0f;
             sum += weights[i];
             solid += sine;
         }
     }
-    ec_environment_mean(e, pack->environment_mean);
-    pack->environment_width = e->width;
-    pack->environment_height = e->height;
+    ec_environment_mean(e, map->mean);
     if (sum > 0.0) {
-        *mean_luminance = sum / solid;
-        result = build_table(e, weights, sum, solid, pack, err);
+        map->mean_luminance = sum / solid;
+        result = build_table(e, weights, sum, solid, map, err);
     } else {
-        free(pack->environment_table);
-        pack->environment_table = NULL; /* black: looked up, never sampled */
+        free(map->table);
+        map->table = NULL; /* black: looked up, never sampled */
     }
 cleanup:
     free(weights);
+    if (result != EC_OK) ec_packed_map_free(map);
     return result;
+}
+
+ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err)
+{
+    const ec_environment *e = &scene->environment;
+    ec_packed_map map;
+    *mean_luminance = 0.0;
+    if (!scene->has_environment) return EC_OK;
+    for (int k = 0; k < 3; k++) pack->environment_mean[k] = e->constant[k];
+    if (!e->rgb) {
+        *mean_luminance = luminance(e->constant);
+        return EC_OK;
+    }
+    pack->environment_lent = e->packed != NULL;
+    if (e->packed) map = *e->packed;
+    else EC_TRY(ec_pack_map(e, &map, err));
+    pack->environment_texels = map.texels;
+    pack->environment_table = map.table;
+    pack->environment_width = map.width;
+    pack->environment_height = map.height;
+    memcpy(pack->environment_mean, map.mean, sizeof map.mean);
+    *mean_luminance = map.mean_luminance;
+    return EC_OK;
 }

@@ -142,7 +142,7 @@ void ec_pack_free(ec_pack *pack)
     free(pack->light_alias);
     free(pack->light_of_prim);
     free(pack->light_tree);
-    free(pack->environment_texels);
-    free(pack->environment_table);
+    if (!pack->environment_lent) free(pack->environment_texels);
+    if (!pack->environment_lent) free(pack->environment_table);
     memset(pack, 0, sizeof *pack);
 }

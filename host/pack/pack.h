@@ -43,6 +43,7 @@ typedef struct ec_pack {
     uint32_t environment_width, environment_height;
     float *environment_texels;     /* R, G, B, pmf; NULL where the environment is constant */
     ec_distribution_entry *environment_table; /* of rows; then of the texels of each row. NULL where it is black */
+    bool environment_lent;         /* texels and table are the scene's environment's (ec_packed_map) */
     float environment_mean[3];     /* radiance over all directions */
     float environment_pmf;         /* chance that light sampling chooses the environment */
     float scene_radius, scene_max;
@@ -69,6 +70,16 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_places(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_motion(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);
+/* A map by itself, for scenes that share it: ec_environment.packed. */
+typedef struct ec_packed_map {
+    uint32_t width, height;
+    float *texels;                 /* as environment_texels; owned */
+    ec_distribution_entry *table;  /* as environment_table; owned */
+    float mean[3];
+    double mean_luminance;
+} ec_packed_map;
+ec_result ec_pack_map(const ec_environment *map, ec_packed_map *packed, ec_error *err); /* of a map with rgb; empty after a failure */
+void ec_packed_map_free(ec_packed_map *packed); /* zero-initialised is fine */
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
 
 /* Is a tree worth its time: are there so many lamps, so far apart? */

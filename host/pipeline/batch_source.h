@@ -36,6 +36,7 @@ struct ec_batch_source {
     void (*close)(ec_batch_source *source); /* the figures stay */
     float *mean;                      /* 3 a position: of the batch taken last, until the next one is */
     uint64_t rays;                    /* traced so far */
+    double clocked_seconds, clocked_rays; /* those of launches that were clocked, if any were */
     uint32_t invalid[EC_STAGE_COUNT]; /* samples dropped in batches taken so far, by ec_stage */
     uint32_t least;                   /* positions under which an order is not worth its launches; 0: any */
 };

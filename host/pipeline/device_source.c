@@ -56,6 +56,8 @@ static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_e
     uint64_t first = order->before ? 0 : order->done; /* pixels in number order are not those in row order: all of them, to be sure */
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 12 * first, 12 * (order->count - first), s->base.mean + 3 * first, err));
     s->base.rays = p->rays;
+    s->base.clocked_seconds = p->clocked_seconds;
+    s->base.clocked_rays = p->clocked_rays;
     return ec_pipeline_read_invalid(p, s->base.invalid, err);
 }
 

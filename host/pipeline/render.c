@@ -307,7 +307,6 @@ static ec_result render_strips(render_state *r, const ec_log *log, ec_error *err
 static void finish_stats(render_state *r)
 {
     ec_render_stats *s = r->stats;
-    const ec_pipeline *alone = ec_sources_alone(&r->sources);
     const uint64_t *invalid = r->past.invalid;
     s->seconds = ec_now() - r->render_start;
     s->invalid_generate = invalid[EC_STAGE_GENERATE];
@@ -325,7 +324,7 @@ static void finish_stats(render_state *r)
     s->error = r->error.error;
     s->error_bound = r->error.error_bound;
     s->relmse = r->error.relmse;
-    s->trace_seconds = alone && alone->clocked_rays > 0 ? alone->clocked_seconds / alone->clocked_rays * (double)s->rays : s->seconds;
+    s->trace_seconds = r->source->clocked_rays > 0 ? r->source->clocked_seconds / r->source->clocked_rays * (double)s->rays : s->seconds;
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", r->stopped_by ? r->stopped_by : "user");
 }
 

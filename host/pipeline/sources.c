@@ -66,6 +66,10 @@ static void tell_shares(const ec_sources *s, ec_render_stats *stats)
         share->lanes = own->lanes;
         share->wave = own->wave;
         share->device_bytes = s->devices[i].peak_allocated_bytes;
+        stats->programs_found += own->programs_found;
+        stats->programs_built += own->programs_built;
+        stats->bytes_found += own->bytes_found;
+        stats->bytes_uploaded += own->bytes_uploaded;
         if (!stats->wave) stats->wave = own->wave, stats->lanes = own->lanes;
         if (own->kernel_seconds > stats->kernel_seconds) stats->kernel_seconds = own->kernel_seconds;
     }

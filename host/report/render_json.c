@@ -15,6 +15,7 @@ static void add_shared(cJSON *root, const ec_render_stats *stats)
     ec_json_real(shared, "refit_seconds", f->refit_seconds);
     ec_json_real(shared, "build_seconds", f->build_seconds);
     ec_json_real(shared, "expense", f->expense);
+    ec_json_real(shared, "refit_expense", f->refit_expense);
     ec_json_real(shared, "trace_seconds", stats->trace_seconds);
     ec_json_whole(shared, "meshes_kept", f->meshes_kept);
     ec_json_whole(shared, "meshes_built", f->meshes_built);

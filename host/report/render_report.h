@@ -11,7 +11,7 @@
 
 /* Of a frame of a sequence. */
 typedef struct ec_frame_facts {
-    uint32_t number;
+    uint32_t number, place, count;  /* the place-th of so many, from 1 */
     double seconds;                 /* of the animation */
     const char *job;                /* what it is of, for a later run: an attribute of its files */
 } ec_frame_facts;

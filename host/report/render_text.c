@@ -23,6 +23,18 @@ void ec_render_report_summary(const ec_render_report *report, char *text, size_t
              seconds, rate);
 }
 
+static void print_shared(const ec_render_stats *stats, FILE *to)
+{
+    const ec_follow_report *f = &stats->followed;
+    char seconds[32], build[32], kept[32], uploaded[32];
+    ec_format_seconds(f->seconds, seconds, sizeof seconds);
+    ec_format_seconds(f->build_seconds, build, sizeof build);
+    ec_format_bytes(stats->bytes_found, kept, sizeof kept);
+    ec_format_bytes(stats->bytes_uploaded, uploaded, sizeof uploaded);
+    fprintf(to, "  structures %s in %s, at %.3f times the cost after their last build, which took %s; programs: %u kept, %u built; buffers: %s kept, %s uploaded\n",
+            ec_follow_names[f->what], seconds, f->expense, build, stats->programs_found, stats->programs_built, kept, uploaded);
+}
+
 void ec_frame_report_text(const ec_render_report *report, FILE *to)
 {
     char summary[256];
@@ -30,6 +42,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
     for (int i = 0; i < report->output_count; i++) fprintf(to, "%s %s", i ? "," : " →", report->outputs[i]);
     fputc('\n', to);
+    if (report->verbose) print_shared(report->stats, to);
 }
 
 /* How far the stated error can be trusted. Nothing to say without an error, or where every pixel can be. */

@@ -126,6 +126,7 @@ typedef struct ec_environment {
     float *rgb;           /* 3 * width * height, linear, finite and >= 0, owned */
     float constant[3];
     bool lent;            /* rgb is somebody else's, who outlives the scene */
+    const struct ec_packed_map *packed; /* what host/pack has made of rgb before, likewise; NULL: nothing yet */
     bool turned;          /* by turn, row major: directions of the map, as above, to those of the scene */
     float turn[9];
 } ec_environment;

@@ -1,6 +1,7 @@
 """Sequences of frames: each the bits of that frame alone, skipped where it is done, refused where it is something else; and what the frames
 share."""
 import json
+import math
 import os
 import signal
 import struct
@@ -130,6 +131,38 @@ class SameBits(FramesCase):
         for row, span in zip(frames, ("0.25:0.45", "0.5:0.7")):
             alone = json.loads(self.render(scene, "--shutter", span, "-o", "alone.exr").stdout)
             self.assertEqual(alone["image_sha256"], row["image_sha256"])
+
+    def test_triangles_that_would_be_cut(self):
+        """Long beams across each other: single stills may have them in parts, frames never, so that they are the same whatever came before."""
+        b = Builder()
+        b.add(GREY, scale=[6, 6, 6], translation=[0, 0, -1])
+        b.animate(b.add(GLOW, translation=[0, 0, 3], rotation=turn(0, 180)), "translation", [(0, 0, 3), (1, 0, 3)])
+        for k in range(2000):
+            b.node(mesh=0, translation=[2 * math.cos(2.1 * k), 2 * math.sin(1.7 * k), 1 + math.sin(3.3 * k)], scale=[3, .01, 1],
+                   rotation=[.35 * math.sin(k), .35 * math.cos(k), .87 * math.sin(2.4 * k), .87 * math.cos(2.4 * k)])
+        b.camera(2)
+        scene, common = b.write(self.path("beams.gltf")), ["--fps", "4", "--instancing", "off", "--accel", "bvh8"]
+        still = json.loads(self.assert_ok(eclat("info", scene, "--accel", "bvh8", "--json")).stdout)
+        self.assertGreater(still["accels"][0]["references"], 1.05 * still["triangles"], "nothing to cut")
+        rows, _ = rows_of(self.render(scene, "--frames", "0:2", *common, "-o", "s.%d.exr"))
+        self.assertEqual([row["shared"]["structures"] for row in rows], ["built", "refitted", "refitted"])
+        for row in rows:
+            alone, _ = rows_of(self.render(scene, "--frames", str(row["frame"]), *common, "-o", f"alone{row['frame']}.exr"))
+            self.assertEqual(alone[0]["image_sha256"], row["image_sha256"], row["frame"])
+
+    def test_noise_that_stands_and_that_does_not(self):
+        b = Builder()
+        b.add(GREY, scale=[4, 4, 4])
+        b.add(GLOW, translation=[0, 0, 1], rotation=turn(0, 180))
+        b.animate(b.camera(2), "translation", [(0, 0, 5), (0, 0, 5)])
+        scene = b.write(self.path("still.gltf"))
+        for options, kinds in (([], 1), (["--seed", "frame"], 3)):
+            rows, _ = rows_of(self.render(scene, "--frames", "0:2", *options, "-o", f"n{kinds}.%d.exr"))
+            self.assertEqual(len({row["image_sha256"] for row in rows}), kinds)
+        self.assertEqual([row["seed"] for row in rows], [0, 1, 2])
+        at = json.loads(self.render(scene, "--at", "0.1", "--seed", "2", "-o", "alone.exr").stdout)
+        self.assertEqual(at["image_sha256"], rows[2]["image_sha256"])
+        self.refuse(scene, "--seed frame belongs to --frames", "--seed", "frame")
 
     def test_what_appears_and_goes(self):
         """Triangles without area are dropped: what structures are of changes from frame to frame."""
@@ -283,6 +316,16 @@ class Sharing(FramesCase):
             self.assertLess(row["bytes_uploaded"], first["bytes_uploaded"] - texels + 1)
             self.assertEqual(row["bytes_kept"] + row["bytes_uploaded"], first["bytes_uploaded"])
         self.assertIn("refitted", [row["structures"] for row in others])
+
+    def test_on_several_devices(self):
+        scene = self.sliding()
+        rows, _ = rows_of(self.render(scene, "--frames", "0:2", "-o", "one.%d.exr"))
+        run = eclat("render", scene, *SMALL, "--batch", "1", "--frames", "0:2", "--device", "all", "--json", "-o", "all.%d.exr", cwd=self.folder,
+                    env={"POCL_DEVICES": "pthread basic"})
+        several, _ = rows_of(self.assert_ok(run))
+        self.assertEqual([row["image_sha256"] for row in several], [row["image_sha256"] for row in rows])
+        if len(several[0].get("devices", [])) > 1:
+            self.assertEqual([row["shared"]["bytes_kept"] > 0 for row in several], [False, True, True])
 
     def test_an_environment_map_is_read_and_uploaded_once(self):
         first = eclat("render", room().write(self.path("room.gltf")), "--at", "0", "--animation", "0", "--size", "64x32", "--spp", "4", "-q", "-o",
