@@ -4,6 +4,7 @@
 
 #include "pipeline/adaptive.h"
 #include "pipeline/render.h"
+#include "pipeline/sources.h"
 
 /* What a render knows between two waves, beside its film: with both another goes on as if there had been no break. */
 typedef struct ec_past {
@@ -26,6 +27,7 @@ typedef struct ec_course {
      * could not: the render goes on, and tries again. NULL: never. */
     bool (*keep)(void *user, const ec_film *film, const ec_past *past);
     double every;
+    const ec_allies *allies;          /* that take batches too; NULL: none */
     void *user;
 } ec_course;
 

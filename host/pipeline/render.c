@@ -330,7 +330,7 @@ static ec_result set_up(render_state *r, ec_cl *devices, uint32_t device_count, 
     const ec_cargo_head *head = &r->sources.cargo.head;
     EC_TRY(take_up(r, past, batch, err));
     r->film->shows_late = true;
-    EC_TRY(ec_sources_pack(devices, device_count, scene, r->options, batch, &r->sources, r->stats, err));
+    EC_TRY(ec_sources_pack(devices, device_count, r->course->allies != NULL, scene, r->options, batch, &r->sources, r->stats, err));
     r->params = head->params;
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
     if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, &r->past.allotment, err));
@@ -339,7 +339,7 @@ static ec_result set_up(render_state *r, ec_cl *devices, uint32_t device_count, 
                 head->bodies_too_many, EC_BODIES_MOST);
     if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(head->effects.called.bits & EC_FEATURE_MULTISCATTER))
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
-    return ec_sources_open(&r->sources, r->options->seed, log, &r->source, r->stats, err);
+    return ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err);
 }
 
 ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene, const ec_render_options *options, const ec_course *course,
