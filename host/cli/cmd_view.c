@@ -46,7 +46,7 @@ FLAG_SETTER(stats, stats)
 /* Options of `render` that mean nothing here. */
 static bool is_foreign(const char *name)
 {
-    static const char *const names[] = {"adaptive", "checkpoint", "every", "json", "resume", "samples", "verbose"};
+    static const char *const names[] = {"adaptive", "checkpoint", "every", "json", "plan", "resume", "samples", "verbose"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(name, names[i])) return true;
     return false;

@@ -122,6 +122,7 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
     ec_render_request *request = job->request;
     uint32_t batch = ec_render_batch(&request->options);
     job->console = console;
+    if (job->ranks) job->allies = ec_ranks_allies(job->ranks, request->device);
     describe_devices(job);
     job->job.device = job->device_text;
     job->job.spp = request->slice_of_any ? 0 : request->options.spp;
@@ -131,6 +132,7 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
     ec_course course = {.admit = request->options.identify ? admit : NULL,
                         .keep = request->checkpoint ? keep : NULL,
                         .every = request->every,
+                        .allies = job->ranks ? &job->allies : NULL,
                         .user = job};
     if (request->has_slice) {
         course.first = job->job.first = request->slice_first / batch;

@@ -130,12 +130,24 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
     if (!job->takes_several) EC_TRY(ec_device_find(job->request->device, job->devices, job->device_indices, &job->device_why, err));
     else EC_TRY(ec_device_find_several(job->request->device, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count,
                                        &job->device_why, err));
+    if (job->ranks) ec_ranks_share_devices(job->ranks, job->devices, job->device_indices, &job->device_count);
     double start = ec_now();
     EC_TRY(ec_scene_load_choice(job->request->scene, &job->request->choice, &job->scene, &log, err));
     EC_TRY(prepare_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
     return check_memory(&job->request->options, job->device_count, err);
+}
+
+/* Where a rank dies, mpirun ends all others: a signal is the last that rank 0 hears of it. */
+static void hint_at_resume(ec_render_job *job)
+{
+    const char *checkpoint = job->request->checkpoint;
+    if (checkpoint)
+        snprintf(job->hint, sizeof job->hint, "asked to stop, as mpirun asks all where one rank has died: 'eclat render --resume %s' goes on from the last checkpoint", checkpoint);
+    else
+        snprintf(job->hint, sizeof job->hint, "asked to stop, as mpirun asks all where one rank has died; with --checkpoint FILE it could be gone on with");
+    ec_stop_hint(job->hint);
 }
 
 static void announce(const ec_render_job *job, ec_console *console)
@@ -157,6 +169,8 @@ static void announce(const ec_render_job *job, ec_console *console)
     if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
                                              (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
     if (job->device_count > 1) snprintf(more, sizeof more, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
+    used = (int)strlen(more);
+    if (job->ranks) snprintf(more + used, sizeof more - (size_t)used, ", with %d more processes,", ec_ranks_count(job->ranks) - 1);
     ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more, limits);
 }
 
@@ -202,6 +216,7 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     ec_cl devices[EC_DEVICES_MOST];
     EC_TRY(open_devices(job, devices, &log, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
+    if (job->ranks) hint_at_resume(job);
     announce(job, console);
     ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
                                         &job->film, &job->stats, &log, err);

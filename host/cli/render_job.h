@@ -8,12 +8,16 @@
 #include "cli/render_request.h"
 #include "cli/write_outputs.h"
 #include "film/film.h"
+#include "ranks/ranks.h"
 #include "report/render_report.h"
 
 typedef struct ec_render_job {
     ec_render_request *request;
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
+    ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
+    ec_allies allies;            /* the same as the render has them */
+    char hint[600];              /* how to go on, for who is asked to stop */
     bool takes_several;          /* devices; else a list of them is refused */
     ec_device_info devices[EC_DEVICES_MOST];
     uint32_t device_indices[EC_DEVICES_MOST], device_count;

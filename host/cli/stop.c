@@ -10,6 +10,7 @@
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;
+static const char *_Atomic hint;
 
 static void end(int signal_number)
 {
@@ -25,6 +26,7 @@ static void *watch(void *signals)
 {
     for (int number; sigwait(signals, &number) == 0;) {
         if (atomic_load(&manner) == ENDS || atomic_exchange(&requested, true)) end(number);
+        if (atomic_load(&hint)) fprintf(stderr, "eclat: %s\n", atomic_load(&hint));
         if (atomic_load(&manner) == TELLS) fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
     }
     return NULL;
@@ -48,6 +50,11 @@ void ec_stop_watch_signals(void)
 void ec_stop_catch_signals(bool tell)
 {
     atomic_store(&manner, tell ? TELLS : CATCHES);
+}
+
+void ec_stop_hint(const char *line)
+{
+    atomic_store(&hint, line);
 }
 
 bool ec_stop_requested(void)

@@ -13,4 +13,7 @@ void ec_stop_watch_signals(void);
 void ec_stop_catch_signals(bool tell);
 bool ec_stop_requested(void);
 
+/* Said on standard error when the first one comes, whatever happens then. A text that stays; NULL: none. */
+void ec_stop_hint(const char *line);
+
 #endif
