@@ -217,6 +217,7 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     EC_TRY(open_devices(job, devices, &log, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
     if (job->ranks) hint_at_resume(job);
+    if (job->ranks) ec_ranks_note_binding(job->devices, job->device_count, &log);
     announce(job, console);
     ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
                                         &job->film, &job->stats, &log, err);

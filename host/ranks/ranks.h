@@ -25,6 +25,8 @@ int ec_ranks_count(const ec_ranks *ranks);
 ec_allies ec_ranks_allies(ec_ranks *ranks, const char *device);
 /* Leaves those that are this process', where several on one host are to use several devices: every n-th, or if there are fewer devices one. */
 void ec_ranks_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count);
+/* Where these are processors and the launcher lets this process use some of the cores only. */
+void ec_ranks_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log);
 
 void ec_ranks_leave(ec_ranks *ranks); /* on rank 0 it sends all others home. NULL is fine */
 

@@ -187,6 +187,14 @@ class Ranks(Case):
         run = self.render_with(fault, [CORNELL, "--size", "64x48", "--spp", "1024", "--batch", "4"])
         self.assertRegex(run.stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
 
+    def test_cores(self):
+        """What a launcher binds to a core, as Open MPI does, is told of it."""
+        for binding, says in [("core", 1), ("none", 0)]:
+            run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", binding, "--mca", "hwloc_base_binding_policy", f"{binding}:overload-allowed", "-n", "2", ECLAT,
+                                  "render", *JOB, "--spp", "4", "-o", self.path("b.exr")], env=MPI, stdin=subprocess.DEVNULL, capture_output=True,
+                                 encoding="utf-8", timeout=60)
+            self.assertEqual(self.assert_ok(run).stderr.count("--bind-to none"), says, run.stderr)
+
     def test_hosts(self):
         """Only the first one has the scene, and the folder that the picture goes to."""
         here = self.path("only-here")
