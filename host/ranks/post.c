@@ -379,7 +379,8 @@ static incoming *take_letter(peer *from, uint32_t box)
     return in;
 }
 
-ec_result ec_post_receive(ec_post *p, int from, uint32_t box, bool (*go_on)(void *user), void *user, ec_letter *letter, ec_error *err)
+ec_result ec_post_receive(ec_post *p, int from, uint32_t box, bool (*go_on)(void *user), void *user, ec_letter *letter,
+                          ec_error *err)
 {
     incoming *in;
     bool waits = true;

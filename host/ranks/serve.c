@@ -93,7 +93,8 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, ec_error *err)
     if (result == EC_OK && count) {
         const ec_params *params = &s.sources.cargo.head.params;
         s.pixels = (uint64_t)params->width * params->height;
-        bool fit = open_devices(infos, count, devices, &why) == EC_OK && ec_sources_enlist(devices, count, s.sources.cargo.head.lanes, &s.sources, &stats, &why) == EC_OK &&
+        bool fit = open_devices(infos, count, devices, &why) == EC_OK &&
+                   ec_sources_enlist(devices, count, s.sources.cargo.head.lanes, &s.sources, &stats, &why) == EC_OK &&
                    ec_sources_open(&s.sources, seed, NULL, NULL, &s.source, &stats, &why) == EC_OK;
         if (!fit && !*why.text) ec_fail(&why, "its device failed");
         result = take_orders(&s, &why, err);

@@ -158,10 +158,11 @@ class Ranks(Case):
             self.assertNotEqual(process.returncode, 0, error)
             if victim:
                 self.assertIn(f"eclat render --resume {kept}", error)
-            done = int(json.loads(self.assert_ok(eclat("render", "--resume", kept, "--spp", "1", "--json", "-q", "-o", self.path("b.exr"))).stdout)["samples_per_pixel"])
+            run = self.assert_ok(eclat("render", "--resume", kept, "--spp", "1", "--json", "-q", "-o", self.path("b.exr")))
+            done = json.loads(run.stdout)["samples_per_pixel"]
             whole, _ = self.render(*job, "--spp", str(done + 10))
-            again = json.loads(self.assert_ok(mpirun(2, "render", "--resume", kept, "--spp", str(done + 10), "--json", "-q", "-o", self.path("b.exr"))).stdout)
-            self.assertEqual(whole["image_sha256"], again["image_sha256"])
+            run = self.assert_ok(mpirun(2, "render", "--resume", kept, "--spp", str(done + 10), "--json", "-q", "-o", self.path("b.exr")))
+            self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
             os.remove(kept)
 
     def render_with(self, on_rank_1, job):
@@ -190,8 +191,8 @@ class Ranks(Case):
     def test_cores(self):
         """What a launcher binds to a core, as Open MPI does, is told of it."""
         for binding, says in [("core", 1), ("none", 0)]:
-            run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", binding, "--mca", "hwloc_base_binding_policy", f"{binding}:overload-allowed", "-n", "2", ECLAT,
-                                  "render", *JOB, "--spp", "4", "-o", self.path("b.exr")], env=MPI, stdin=subprocess.DEVNULL, capture_output=True,
+            run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", binding, "--mca", "hwloc_base_binding_policy",
+                                  f"{binding}:overload-allowed", "-n", "2", ECLAT, "render", *JOB, "--spp", "4", "-o", self.path("b.exr")], env=MPI, stdin=subprocess.DEVNULL, capture_output=True,
                                  encoding="utf-8", timeout=60)
             self.assertEqual(self.assert_ok(run).stderr.count("--bind-to none"), says, run.stderr)
 
