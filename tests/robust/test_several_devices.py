@@ -1,6 +1,8 @@
 """Several devices on one picture: the bits of one device, whatever each of them took; a device that fails loses nothing, a slow one holds
 nobody up. Two or three devices of PoCL's single-threaded driver, which is one more device for each word in POCL_DEVICES, and PoCL beside
-Intel's runtime where tools/test --all-devices has installed that."""
+Intel's runtime where tools/test --all-devices has installed that.
+
+ctest label: slow"""
 import json
 import os
 import re
