@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "cli/console.h"
+#include "ranks/ranks.h"
 
 /* What a command gets: the console, and the whole command line as it was typed. */
 typedef struct ec_cli {
@@ -12,6 +13,7 @@ typedef struct ec_cli {
     char **argv;
     int exit_code; /* of a command that succeeded: 1 where the answer is no, as of compare and selftest */
     char *line;  /* the same as one text, before getopt reorders it; owned */
+    ec_ranks *ranks; /* the other processes of an MPI job; NULL: there are none */
 } ec_cli;
 
 /* Runs the command that argv names; returns the exit code: 0, 1 (failed, or the answer is no) or 2 (usage). */

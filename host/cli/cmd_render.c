@@ -10,6 +10,7 @@
 #include "cli/cli.h"
 #include "cli/frames.h"
 #include "cli/render_job.h"
+#include "cli/render_plan.h"
 #include "cli/write_report.h"
 
 /* What a slice says of itself, beside its sums. */
@@ -114,20 +115,21 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (!as_given) return ec_fail(err, "out of memory");
     memcpy(as_given, argv, ((size_t)argc + 1) * sizeof *as_given);
     if (!getcwd(folder, sizeof folder)) folder[0] = 0;
-    ec_render_job job = {.request = &request, .takes_several = true, .command = cli->line, .job = {.argc = argc, .argv = as_given, .folder = folder}};
+    ec_render_job job = {.request = &request, .takes_several = true, .ranks = cli->ranks, .command = cli->line, .job = {.argc = argc, .argv = as_given, .folder = folder}};
     ec_result result = EC_OK;
     EC_TRY_CLEANUP(ec_render_request_parse(argc, argv, &request, &done, err));
     if (done) goto cleanup;
     if (request.resume) EC_TRY_CLEANUP(ec_render_job_take_up(&job, argc, argv, err));
     cli->console.quiet = request.quiet;
     if (request.frames.given) {
-        result = ec_frames_render(&cli->console, &request, argc, as_given, start, err);
+        result = ec_frames_render(&cli->console, &request, job.ranks, argc, as_given, start, err);
         goto cleanup;
     }
-    result = ec_render_job_prepare(&job, &cli->console, err);
+    if (request.plan_ranks) job.takes_several = false, job.ranks = NULL; /* of one device and one process: what all of them are taken to be */
+    result = request.plan_ranks ? ec_render_job_load(&job, &cli->console, err) : ec_render_job_prepare(&job, &cli->console, err);
     if (result == EC_FAILED && request.resume && strcmp(folder, job.job.folder)) ec_fail_more(err, "; the job was begun in '%s'", job.job.folder);
     if (result != EC_OK) goto cleanup;
-    EC_TRY_CLEANUP(render(&cli->console, &job, start, err));
+    result = request.plan_ranks ? ec_render_plan(&job, &cli->console, err) : render(&cli->console, &job, start, err);
 cleanup:
     ec_render_job_free(&job);
     free(as_given);

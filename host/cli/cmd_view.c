@@ -50,7 +50,8 @@ static const char *why_foreign(const char *name)
     static const char *const talking = "a window reports to who looks at it";
     static const char *const names[][2] = {{"adaptive", "the window's samples are the same in all pixels"}, {"checkpoint", lasting}, {"every", lasting},
                                             {"fps", moving}, {"frames", moving}, {"json", talking}, {"memory", "a window's picture is held whole"},
-                                            {"overwrite", moving}, {"resume", lasting}, {"samples", lasting}, {"verbose", talking}};
+                                            {"overwrite", moving}, {"plan", "a window is one process"}, {"resume", lasting}, {"samples", lasting},
+                                            {"verbose", talking}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(name, names[i][0])) return names[i][1];
     return NULL;

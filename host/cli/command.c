@@ -8,6 +8,7 @@
 #include "cli/cli.h"
 #include "cli/command_line.h"
 #include "cli/help.h"
+#include "cli/stop.h"
 #include "cli/suggest.h"
 #include "cli/usage.h"
 
@@ -16,18 +17,19 @@ static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err);
 typedef struct command {
     const char *name;
     ec_result (*run)(ec_cli *cli, int argc, char **argv, ec_error *err);
+    bool by_all; /* the ranks of an MPI job, not the first of them alone */
 } command;
 
 static const command commands[] = {
-    {"render", ec_cmd_render},
-    {"cost", ec_cmd_cost},
-    {"info", ec_cmd_info},
-    {"compare", ec_cmd_compare},
-    {"merge", ec_cmd_merge},
-    {"devices", ec_cmd_devices},
-    {"selftest", ec_cmd_selftest},
-    {"view", ec_cmd_view},
-    {"help", cmd_help},
+    {"render", ec_cmd_render, true},
+    {"cost", ec_cmd_cost, false},
+    {"info", ec_cmd_info, false},
+    {"compare", ec_cmd_compare, false},
+    {"merge", ec_cmd_merge, false},
+    {"devices", ec_cmd_devices, false},
+    {"selftest", ec_cmd_selftest, false},
+    {"view", ec_cmd_view, false},
+    {"help", cmd_help, false},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
@@ -78,6 +80,7 @@ static ec_result run(ec_cli *cli, ec_error *err)
     }
     const command *found = find_command(name);
     if (!found) return unknown_command(name, err);
+    if (cli->ranks && !found->by_all) ec_console_say(&cli->console, "note: only render is shared out; rank 0 does this alone");
     return found->run(cli, cli->argc - 1, cli->argv + 1, err);
 }
 
@@ -92,9 +95,10 @@ static ec_result flush_results(ec_error *err)
     return EC_OK;
 }
 
-int ec_cli_main(int argc, char **argv)
+/* What a process does that is alone, or the first of several. */
+static int lead(ec_ranks *ranks, int argc, char **argv)
 {
-    ec_cli cli = {.console = {.terminal = isatty(STDERR_FILENO) == 1}, .argc = argc, .argv = argv};
+    ec_cli cli = {.console = {.terminal = isatty(STDERR_FILENO) == 1}, .argc = argc, .argv = argv, .ranks = ranks};
     if (argc < 2) {
         fputs(EC_HELP_SHORT, stderr);
         return EC_USAGE;
@@ -106,4 +110,37 @@ int ec_cli_main(int argc, char **argv)
     if (result != EC_OK) ec_console_error(&cli.console, err.text);
     free(cli.line);
     return result != EC_OK ? (int)result : cli.exit_code;
+}
+
+/* The other ranks of an MPI job read no command line. They end when rank 0 says so: signals go to all, and what is to be written is its. One that
+ * fails ends without leaving, so that the launcher ends the others, which may be waiting for it. */
+static int follow(ec_ranks *ranks)
+{
+    ec_error err = {0};
+    ec_console console = {0};
+    ec_stop_catch_signals(false);
+    if (ec_ranks_serve(ranks, &err) == EC_OK) {
+        ec_ranks_leave(ranks);
+        return 0;
+    }
+    ec_fail_more(&err, "; this was rank %d", ec_ranks_number(ranks));
+    ec_console_error(&console, err.text);
+    return EC_FAILED;
+}
+
+int ec_cli_main(int argc, char **argv)
+{
+    if (!ec_ranks_launched()) return lead(NULL, argc, argv);
+    ec_ranks *ranks = NULL;
+    ec_error err = {0};
+    ec_console console = {0};
+    if (ec_ranks_join(&ranks, &err) != EC_OK) {
+        if (ec_ranks_launched_first()) ec_console_error(&console, err.text);
+        ec_ranks_leave(ranks);
+        return EC_FAILED;
+    }
+    if (ec_ranks_number(ranks) > 0) return follow(ranks);
+    int code = lead(ranks, argc, argv);
+    ec_ranks_leave(ranks);
+    return code;
 }

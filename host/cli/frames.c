@@ -15,6 +15,7 @@
 typedef struct sequence {
     ec_console *console;
     const ec_render_request *request;
+    ec_ranks *ranks;            /* the other processes of an MPI job; NULL: there are none */
     ec_given_options given;
     ec_identity identity;       /* of all frames */
     ec_frame_share share;
@@ -85,7 +86,8 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     ec_identity identity;
     ec_frame_identify(&s->identity, s->request, frame, &identity);
     char *words = ec_identity_write(&identity), *command = ec_frame_command(&s->given, s->request, &request->outputs, frame);
-    ec_render_job job = {.request = request, .command = command, .share = &s->share, .frame = {frame, i + 1, s->count, ec_frame_seconds(&s->request->frames, frame), words}};
+    ec_render_job job = {.request = request, .command = command, .ranks = s->ranks, .share = &s->share,
+                         .frame = {frame, i + 1, s->count, ec_frame_seconds(&s->request->frames, frame), words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, s->console, err);
     if (result == EC_OK) result = ec_render_job_run(&job, s->console, err);
@@ -147,7 +149,7 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
 static ec_result find_devices(sequence *s, ec_error *err)
 {
     ec_render_request request = *s->request;
-    ec_render_job job = {.request = &request, .takes_several = true};
+    ec_render_job job = {.request = &request, .ranks = s->ranks, .takes_several = true};
     EC_TRY(ec_render_job_find_devices(&job, err));
     memcpy(s->share.devices, job.devices, sizeof job.devices);
     memcpy(s->share.device_indices, job.device_indices, sizeof job.device_indices);
@@ -182,9 +184,9 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
     return conclude(s, stopped, start, err);
 }
 
-ec_result ec_frames_render(ec_console *console, const ec_render_request *request, int argc, char *const *argv, double start, ec_error *err)
+ec_result ec_frames_render(ec_console *console, const ec_render_request *request, ec_ranks *ranks, int argc, char *const *argv, double start, ec_error *err)
 {
-    sequence s = {.console = console, .request = request, .count = ec_frame_count(&request->frames)};
+    sequence s = {.console = console, .request = request, .ranks = ranks, .count = ec_frame_count(&request->frames)};
     console->says_once = true;
     s.states = calloc(s.count, sizeof *s.states);
     ec_result result = s.states ? ec_given_options_read(argc, argv, &s.given, err) : ec_fail(err, "out of memory for %u frames", s.count);

@@ -153,6 +153,7 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
     ec_render_request *request = job->request;
     uint32_t batch = ec_render_batch(&request->options);
     job->console = console;
+    if (job->ranks) job->allies = ec_ranks_allies(job->ranks, request->device);
     describe_devices(job);
     job->job.device = job->device_text;
     job->job.spp = request->slice_of_any ? 0 : request->options.spp;
@@ -164,6 +165,7 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
                         .strip = ec_render_whole_for(request) ? NULL : take_strip,
                         .whole_for = ec_render_whole_for(request),
                         .every = request->every,
+                        .allies = job->ranks ? &job->allies : NULL,
                         .user = job};
     if (request->has_slice) {
         course.first = job->job.first = request->slice_first / batch;

@@ -123,8 +123,9 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 static ec_result check_memory(const ec_render_job *job, ec_error *err)
 {
     const ec_render_options *options = &job->request->options;
-    const char *reason = job->device_count > 1 ? "more than one --device" : ec_render_whole_for(job->request);
-    uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count);
+    const uint32_t allies = job->ranks ? (uint32_t)ec_ranks_count(job->ranks) - 1 : 0;
+    const char *reason = job->device_count > 1 ? "more than one --device" : allies ? "an MPI job" : ec_render_whole_for(job->request);
+    uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count, allies);
     uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
     int64_t budget = options->memory ? ec_strip_budget(options, 0) : (int64_t)present;
     if (reason && (int64_t)needed > budget) return ec_strip_refuse(options, needed, budget, reason, err);
@@ -146,7 +147,9 @@ ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
     const char *wanted = job->request->device;
     job->device_count = 1;
     if (!job->takes_several) return ec_device_find(wanted, job->devices, job->device_indices, &job->device_why, err);
-    return ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count, &job->device_why, err);
+    EC_TRY(ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count, &job->device_why, err));
+    if (job->ranks) ec_ranks_share_devices(job->ranks, job->devices, job->device_indices, &job->device_count);
+    return EC_OK;
 }
 
 /* Those of all frames. */
@@ -174,6 +177,17 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
     return check_memory(job, err);
 }
 
+/* Where a rank dies, mpirun ends all others: a signal is the last that rank 0 hears of it. */
+static void hint_at_resume(ec_render_job *job)
+{
+    const char *checkpoint = job->request->checkpoint;
+    if (checkpoint)
+        snprintf(job->hint, sizeof job->hint, "asked to stop, as mpirun asks all where one rank has died: 'eclat render --resume %s' goes on from the last checkpoint", checkpoint);
+    else
+        snprintf(job->hint, sizeof job->hint, "asked to stop, as mpirun asks all where one rank has died; with --checkpoint FILE it could be gone on with");
+    ec_stop_hint(job->hint);
+}
+
 static void announce(const ec_render_job *job, ec_console *console)
 {
     const ec_render_options *options = &job->request->options;
@@ -194,6 +208,8 @@ static void announce(const ec_render_job *job, ec_console *console)
                                              (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
     if (job->device_count > 1) snprintf(more, sizeof more, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
     if (job->share) snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place, job->frame.count, job->frame.seconds);
+    used = (int)strlen(more);
+    if (job->ranks) snprintf(more + used, sizeof more - (size_t)used, ", with %d more processes,", ec_ranks_count(job->ranks) - 1);
     ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more, limits);
 }
 
@@ -261,6 +277,8 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     if (!job->share) EC_TRY(open_devices(job, devices, &log, err));
     else EC_TRY(open_shared(job, &log, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
+    if (job->ranks) hint_at_resume(job);
+    if (job->ranks) ec_ranks_note_binding(job->devices, job->device_count, &log);
     announce(job, console);
     ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
                                         &job->film, &job->stats, &log, err);

@@ -9,6 +9,7 @@
 #include "cli/write_rows.h"
 #include "film/film.h"
 #include "pack/pack.h"
+#include "ranks/ranks.h"
 #include "report/render_report.h"
 
 /* What the frames of a sequence share. */
@@ -31,6 +32,9 @@ typedef struct ec_render_job {
     ec_render_request *request;
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
+    ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
+    ec_allies allies;            /* the same as the render has them */
+    char hint[600];              /* how to go on, for who is asked to stop */
     ec_frame_share *share;       /* NULL: it is no frame of a sequence */
     ec_frame_facts frame;        /* with that */
     bool takes_several;          /* devices; else a list of them is refused */

@@ -11,6 +11,7 @@
 #include "cli/scene_choice.h"
 #include "cli/setters.h"
 #include "pack/view.h"
+#include "ranks/plan.h"
 #include "report/names.h"
 
 #define REQUEST ((ec_render_request *)target)
@@ -175,6 +176,19 @@ SETTER(seed)
     return REQUEST->seed_is_frame ? EC_OK : ec_parse_whole(option, value, 0, UINT64_MAX, &REQUEST->options.seed, err);
 }
 
+/* RANKS[,GBIT[,MICROSECONDS]] */
+SETTER(plan)
+{
+    char text[64], *rest = text;
+    REQUEST->plan_gbit = EC_PLAN_GBIT;
+    REQUEST->plan_microseconds = EC_PLAN_MICROSECONDS;
+    if (snprintf(text, sizeof text, "%s", value) >= (int)sizeof text) return ec_usage(err, "--%s: '%s' is too long", option, value);
+    EC_TRY(ec_parse_u32(option, strsep(&rest, ","), 1, EC_PLAN_RANKS_MOST, &REQUEST->plan_ranks, err));
+    if (rest) EC_TRY(ec_parse_real(option, strsep(&rest, ","), 0.001, 1e6, &REQUEST->plan_gbit, err));
+    if (rest) EC_TRY(ec_parse_real(option, rest, 0, 1e6, &REQUEST->plan_microseconds, err));
+    return EC_OK;
+}
+
 SETTER(samples)
 {
     char first[24];
@@ -230,6 +244,7 @@ const ec_option ec_render_rows[] = {
     {"output", 'o', true, set_output},
     {"overwrite", 0, false, set_overwrite},
     {"parallel", 0, true, set_parallel},
+    {"plan", 0, true, set_plan},
     {"quiet", 'q', false, set_quiet},
     {"resume", 0, true, set_resume},
     {"rr", 0, true, set_rr},

@@ -40,6 +40,8 @@ typedef struct ec_render_request {
     double every;              /* seconds between two of them */
     const char *resume;        /* a checkpoint to go on from; NULL: from the start */
     ec_tonemap tonemap;
+    uint32_t plan_ranks;       /* say what up to so many ranks would buy, and render no picture; 0: render */
+    double plan_gbit, plan_microseconds; /* what is assumed for that */
     bool quiet, verbose, json;
 } ec_render_request;
 

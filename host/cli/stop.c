@@ -12,6 +12,7 @@ enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;
 static int told = -1;
+static const char *_Atomic hint;
 
 static void end(int signal_number)
 {
@@ -28,6 +29,7 @@ static void *watch(void *signals)
     for (int number; sigwait(signals, &number) == 0;) {
         if (atomic_load(&manner) == ENDS || atomic_exchange(&requested, true)) end(number);
         if (told >= 0) eventfd_write(told, 1);
+        if (atomic_load(&hint)) fprintf(stderr, "eclat: %s\n", atomic_load(&hint));
         if (atomic_load(&manner) == TELLS) fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
     }
     return NULL;
@@ -57,6 +59,11 @@ void ec_stop_catch_signals(bool tell)
 int ec_stop_descriptor(void)
 {
     return told;
+}
+
+void ec_stop_hint(const char *line)
+{
+    atomic_store(&hint, line);
 }
 
 bool ec_stop_requested(void)

@@ -16,4 +16,7 @@ bool ec_stop_requested(void);
 /* Readable from then on, for those who sleep; -1: there are no more descriptors. The process's own. */
 int ec_stop_descriptor(void);
 
+/* Said on standard error when the first one comes, whatever happens then. A text that stays; NULL: none. */
+void ec_stop_hint(const char *line);
+
 #endif

@@ -184,6 +184,7 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     stats->triangles = ec_scene_met_count(scene);
     stats->stored_triangles = scene->triangle_count;
     stats->effects = head->effects;
+    for (uint32_t i = 0; i < head->buffer_count; i++) stats->scene_bytes += cargo->buffers[i].bytes;
     return EC_OK;
 }
 

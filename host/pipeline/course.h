@@ -4,6 +4,7 @@
 
 #include "pipeline/adaptive.h"
 #include "pipeline/render.h"
+#include "pipeline/sources.h"
 
 /* What a render knows between two waves, beside its film: with both another goes on as if there had been no break. */
 typedef struct ec_past {
@@ -32,6 +33,7 @@ typedef struct ec_course {
      * `whole_for` says, an option as on the command line. */
     ec_result (*strip)(void *user, const ec_film *film, uint32_t first_row, const ec_render_stats *stats, ec_error *err);
     const char *whole_for;
+    const ec_allies *allies;          /* that take batches too; NULL: none */
     void *user;
 } ec_course;
 

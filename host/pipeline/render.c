@@ -411,7 +411,7 @@ static ec_result set_up(render_state *r, ec_cl *devices, uint32_t device_count, 
     const ec_past *past = r->course->past;
     const ec_cargo_head *head = &r->sources.cargo.head;
     take_up(r, past);
-    EC_TRY(ec_sources_pack(devices, device_count, scene, r->options, batch, &r->sources, r->stats, err));
+    EC_TRY(ec_sources_pack(devices, device_count, r->course->allies != NULL, scene, r->options, batch, &r->sources, r->stats, err));
     r->params = head->params;
     const uint64_t called = head->effects.called.bits; /* the cargo is spent when it is loaded */
     if (head->bodies_too_many)
@@ -421,7 +421,7 @@ static ec_result set_up(render_state *r, ec_cl *devices, uint32_t device_count, 
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
     if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, &r->past.allotment, err));
-    EC_TRY(ec_sources_open(&r->sources, r->options->seed, log, &r->source, r->stats, err));
+    EC_TRY(ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err));
     return choose_film(r, batch, log, err);
 }
 

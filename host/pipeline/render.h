@@ -123,8 +123,11 @@ typedef struct ec_render_stats {
     uint32_t instances;           /* of meshes that are kept once; 0: none, or they were written out */
     uint64_t triangles, stored_triangles; /* that rays can meet, and that take memory */
     uint64_t device_bytes;        /* peak of all buffers, on all devices */
+    uint64_t scene_bytes;         /* of what goes to each device, made of the scene */
     ec_render_share shares[EC_DEVICES_MOST]; /* by device, where there are several */
     uint32_t share_count;
+    uint32_t allies;              /* other processes that took part … */
+    double allied_batches;        /* … and what they took, in pieces that sum up to so many batches of all pixels */
     ec_render_effects effects;    /* which were called for, why, and what came of it */
     ec_content content;           /* with options.identify */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */

@@ -2,18 +2,21 @@
 
 #include <stdlib.h>
 
-ec_result ec_sources_pack(ec_cl *devices, uint32_t count, const ec_scene *scene, const ec_render_options *options, uint32_t batch, ec_sources *s,
-                          ec_render_stats *stats, ec_error *err)
+ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_sources *s, ec_render_stats *stats, ec_error *err)
 {
-    uint32_t kinds = 0;
     s->devices = devices;
     s->count = s->unloaded = count;
-    for (uint32_t i = 0; i < count; i++) {
-        EC_TRY(ec_pipeline_lanes(&devices[i], options->lanes, &stats->lanes, err)); /* before the work of what follows */
-        kinds |= 1u << ec_device_kind_of(&devices[i].info);
-    }
+    for (uint32_t i = 0; i < count; i++) EC_TRY(ec_pipeline_lanes(&devices[i], lanes, &stats->lanes, err)); /* before the work of what follows */
     s->recruits = calloc(count, sizeof *s->recruits);
-    if (!s->recruits) return ec_fail(err, "out of memory for %u devices", count);
+    return s->recruits ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
+}
+
+ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
+                          ec_sources *s, ec_render_stats *stats, ec_error *err)
+{
+    uint32_t kinds = for_all ? (1u << EC_KIND_COUNT) - 1 : 0;
+    EC_TRY(ec_sources_enlist(devices, count, options->lanes, s, stats, err));
+    for (uint32_t i = 0; i < count; i++) kinds |= 1u << ec_device_kind_of(&devices[i].info);
     return ec_cargo_make(scene, options, batch, kinds, &s->cargo, stats, err);
 }
 
@@ -30,22 +33,29 @@ static ec_result load(void *user, ec_batch_source **source, ec_error *err)
     return result == EC_OK ? r->source.base.turn_to(*source, 0, r->source.pipeline.params.height, err) : result;
 }
 
-static ec_result open_team(ec_sources *s, const ec_log *log, ec_error *err)
+static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log *log, ec_error *err)
 {
-    ec_team_recruit recruits[EC_DEVICES_MOST];
+    ec_team_recruit *recruits = calloc(s->count + allies->count, sizeof *recruits);
+    if (!recruits) return ec_fail(err, "out of memory for a team of %u", s->count + allies->count);
     pthread_mutex_init(&s->lock, NULL);
     for (uint32_t i = 0; i < s->count; i++) {
         s->recruits[i] = (ec_source_recruit){.all = s, .cl = &s->devices[i]};
         recruits[i] = (ec_team_recruit){.name = s->devices[i].info.name, .open = load, .user = &s->recruits[i]};
     }
-    return ec_team_open(recruits, s->count, s->cargo.head.params.width, s->cargo.head.params.height, log, &s->team, err);
+    for (uint32_t i = 0; i < allies->count; i++) s->allied += allies->recruit(allies->user, i, &recruits[s->count + s->allied]);
+    ec_result result = ec_team_open(recruits, s->count + s->allied, s->cargo.head.params.width, s->cargo.head.params.height, log, &s->team, err);
+    free(recruits);
+    return result;
 }
 
-ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_log *log, ec_batch_source **source, ec_render_stats *stats, ec_error *err)
+ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_allies *allies, const ec_log *log, ec_batch_source **source, ec_render_stats *stats,
+                          ec_error *err)
 {
+    const ec_allies none = {0};
     s->seed = seed;
-    if (s->count > 1) {
-        EC_TRY(open_team(s, log, err));
+    if (allies) EC_TRY(allies->send(allies->user, &s->cargo, seed, log, err));
+    if (s->count > 1 || allies) {
+        EC_TRY(open_team(s, allies ? allies : &none, log, err));
         *source = ec_team_source(s->team);
         return EC_OK;
     }
@@ -53,12 +63,15 @@ ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_log *log, ec_ba
     return ec_device_source_open(s->devices, &s->cargo, &s->cargo, seed, &s->recruits->source, stats, err);
 }
 
-const ec_pipeline *ec_sources_alone(const ec_sources *s) { return s->count == 1 ? &s->recruits->source.pipeline : NULL; }
+const ec_pipeline *ec_sources_alone(const ec_sources *s) { return s->team ? NULL : &s->recruits->source.pipeline; }
 
 static void tell_shares(const ec_sources *s, ec_render_stats *stats)
 {
     const double pixels = (double)s->cargo.head.params.width * s->cargo.head.params.height;
+    bool has_failed;
     stats->share_count = s->count;
+    stats->allies = s->allied;
+    for (uint32_t i = 0; i < s->allied; i++) stats->allied_batches += (double)ec_team_share(s->team, s->count + i, &has_failed) / pixels;
     for (uint32_t i = 0; i < s->count; i++) {
         const ec_render_stats *own = &s->recruits[i].stats;
         ec_render_share *share = &stats->shares[i];

@@ -19,12 +19,12 @@ uint64_t ec_strip_whole(const ec_render_options *o, bool shared)
     return (uint64_t)o->width * o->height * (n.host + (shared ? n.device : 0)) + o->width * n.column;
 }
 
-uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *devices, uint32_t count)
+uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *devices, uint32_t count, uint32_t allies)
 {
     const uint64_t pixels = (uint64_t)o->width * o->height;
     uint64_t bytes = ec_strip_whole(o, false);
     for (uint32_t i = 0; i < count; i++) bytes += devices[i].type & CL_DEVICE_TYPE_CPU ? pixels * ec_strip_needs(o).device : 0;
-    return count > 1 ? bytes + 12 * pixels * ec_team_window(count, pixels) : bytes;
+    return count + allies > 1 ? bytes + 12 * pixels * ec_team_window(count + allies, pixels) : bytes;
 }
 
 static uint64_t rows_in(uint64_t bytes, uint64_t width, uint64_t per_pixel) { return bytes / (width * per_pixel); }

@@ -111,6 +111,8 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
         fprintf(to, "device   %s, %u lanes: %.4g of %" PRIu32 " batches%s\n", report->device[i].name, share->lanes, share->batches, report->batches,
                 share->has_failed ? ", then it failed" : "");
     }
+    if (stats->allies)
+        fprintf(to, "ranks    %u more processes: %.4g of %" PRIu32 " batches\n", stats->allies, stats->allied_batches, report->batches);
     if (stats->share_count) fprintf(to, "memory   %s at the peak\n", memory);
     print_setup(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);

@@ -1,0 +1,128 @@
+#include "ranks/job.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "ranks/remote.h"
+
+/* Plain values: the ranks run one program on machines of one kind. Then follow the buffers, in order. */
+typedef struct sheet {
+    ec_cargo_head head;
+    uint64_t seed;
+    struct {
+        uint32_t arg, accel;
+        char label[48];
+        uint64_t bytes, slack;
+    } buffers[EC_CARGO_BUFFERS];
+} sheet;
+
+static void mix(uint64_t *hash, const char *text) /* FNV-1a */
+{
+    for (; *text; text++) *hash = (*hash ^ (uint8_t)*text) * 0x100000001b3;
+}
+
+/* Of what must be alike for the same bits, and for a sheet to be read. */
+static uint64_t program_hash(void)
+{
+    uint64_t hash = 0xcbf29ce484222325 ^ sizeof(sheet);
+    mix(&hash, ECLAT_VERSION);
+    for (const char *const *name = ec_kernel_source_names(); *name; name++) mix(&hash, ec_kernel_source(*name));
+    return hash;
+}
+
+static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, ec_error *err)
+{
+    sheet *s = calloc(1, sizeof *s);
+    if (!s) return ec_fail(err, "out of memory");
+    s->head = cargo->head;
+    s->seed = seed;
+    for (uint32_t i = 0; i < cargo->head.buffer_count; i++) {
+        const ec_cargo_buffer *b = &cargo->buffers[i];
+        s->buffers[i].arg = b->arg;
+        s->buffers[i].accel = b->accel;
+        memcpy(s->buffers[i].label, b->label, sizeof b->label);
+        s->buffers[i].bytes = b->bytes;
+        s->buffers[i].slack = b->slack;
+    }
+    ec_result result = ec_post_broadcast(r->post, s, sizeof *s, err);
+    for (uint32_t i = 0; result == EC_OK && i < cargo->head.buffer_count; i++)
+        result = ec_post_broadcast(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, err); /* from here: only read */
+    free(s);
+    return result;
+}
+
+/* What a rank says to the word: EC_READY_*, and a text. */
+enum { EC_READY = EC_WORD_HOME + 1, EC_READY_WITHOUT_DEVICE, EC_READY_OTHER_PROGRAM };
+
+static ec_result hear(ec_ranks *r, int rank, const ec_log *log, ec_error *err)
+{
+    ec_letter letter;
+    ec_remote *remote = &r->remotes[rank - 1];
+    EC_TRY(ec_post_receive(r->post, rank, EC_BOX_WORD, NULL, NULL, &letter, err));
+    const char *text = letter.body ? letter.body : "";
+    ec_result result = EC_OK;
+    *remote = (ec_remote){.ranks = r, .rank = rank, .is_ready = letter.kind == EC_READY};
+    snprintf(remote->name, sizeof remote->name, "rank %d on %s", rank, text);
+    if (letter.kind == EC_READY_WITHOUT_DEVICE) ec_warn(log, "rank %d on %s; the others go on without it", rank, text);
+    if (letter.kind == EC_READY_OTHER_PROGRAM)
+        result = ec_fail(err, "rank %d on %s runs another version of eclat: its samples would differ; install the same one everywhere", rank, text);
+    free(letter.body);
+    return result;
+}
+
+ec_result ec_job_send(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, const char *device, const ec_log *log, ec_error *err)
+{
+    ec_letter word = {.kind = EC_WORD_JOB, .box = EC_BOX_WORD, .bytes = device ? strlen(device) + 1 : 0, .body = (void *)device};
+    word.numbers[EC_JOB_PROGRAM] = program_hash();
+    if (!r->remotes) r->remotes = calloc((size_t)r->size, sizeof *r->remotes);
+    if (!r->remotes) return ec_fail(err, "out of memory");
+    for (int rank = 1; rank < r->size; rank++) EC_TRY(ec_post_send(r->post, rank, &word, err));
+    for (int rank = 1; rank < r->size; rank++) EC_TRY(hear(r, rank, log, err));
+    return send_sheet(r, cargo, seed, err);
+}
+
+static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_error *err)
+{
+    sheet *s = malloc(sizeof *s);
+    ec_result result = s ? ec_post_broadcast(r->post, s, sizeof *s, err) : ec_fail(err, "out of memory");
+    if (result == EC_OK) cargo->head = s->head, *seed = s->seed, cargo->head.buffer_count = 0;
+    for (uint32_t i = 0; result == EC_OK && i < s->head.buffer_count; i++) {
+        void *data = malloc(s->buffers[i].bytes + 1);
+        if (!data) result = ec_fail(err, "out of memory for %llu bytes of the scene's %s", (unsigned long long)s->buffers[i].bytes, s->buffers[i].label);
+        if (data) ec_cargo_add(cargo, s->buffers[i].arg, s->buffers[i].label, s->buffers[i].bytes, s->buffers[i].slack, data, data);
+        if (data) cargo->buffers[i].accel = s->buffers[i].accel, result = ec_post_broadcast(r->post, data, s->buffers[i].bytes, err);
+    }
+    free(s);
+    return result;
+}
+
+/* "host: text" */
+static ec_result say(ec_ranks *r, uint32_t kind, const char *text, ec_error *err)
+{
+    char host[256] = "", line[2400];
+    (void)gethostname(host, sizeof host - 1);
+    snprintf(line, sizeof line, "%s%s%s", host, *text ? ": " : "", text);
+    const ec_letter letter = {.kind = kind, .box = EC_BOX_WORD, .bytes = strlen(line) + 1, .body = line};
+    return ec_post_send(r->post, 0, &letter, err);
+}
+
+/* Ranks on one host share its devices out among them where --device names several. */
+static ec_result find_devices(const ec_ranks *r, const char *id, ec_device_info *devices, uint32_t *count, ec_error *err)
+{
+    uint32_t indices[EC_DEVICES_MOST];
+    EC_TRY(ec_device_find_several(id, devices, indices, EC_DEVICES_MOST, count, NULL, err));
+    ec_ranks_share_devices(r, devices, indices, count);
+    return EC_OK;
+}
+
+ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, uint64_t *seed, ec_device_info *devices, uint32_t *count, ec_error *err)
+{
+    ec_error why = {0};
+    *count = 0;
+    if (word->numbers[EC_JOB_PROGRAM] != program_hash()) return say(r, EC_READY_OTHER_PROGRAM, "", err);
+    if (find_devices(r, word->body, devices, count, &why) == EC_OK) EC_TRY(say(r, EC_READY, devices->name, err));
+    else EC_TRY(say(r, EC_READY_WITHOUT_DEVICE, why.text, err));
+    return receive_sheet(r, cargo, seed, err);
+}

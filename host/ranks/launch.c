@@ -1,0 +1,22 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "ranks/ranks.h"
+
+/* Open MPI; MPICH, Intel MPI and srun --mpi=pmi2; srun --mpi=pmix, which leaves the count to Slurm. Slurm's own variables alone are no
+ * sign: a job's script has them too. */
+bool ec_ranks_launched(void)
+{
+    const char *size = getenv("OMPI_COMM_WORLD_SIZE");
+    if (!size) size = getenv("PMI_SIZE");
+    if (!size && getenv("PMIX_RANK")) size = getenv("SLURM_STEP_NUM_TASKS");
+    return size && atoi(size) > 1;
+}
+
+bool ec_ranks_launched_first(void)
+{
+    static const char *const numbers[] = {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (getenv(numbers[i])) return !strcmp(getenv(numbers[i]), "0");
+    return true;
+}

@@ -1,0 +1,94 @@
+#include "ranks/plan.h"
+
+#include <math.h>
+
+#include "report/format.h"
+#include "report/json.h"
+
+static double bytes_per_second(const ec_plan *p) { return p->gbit * 1e9 / 8; }
+static double latency(const ec_plan *p) { return p->microseconds * 1e-6; }
+
+#define PIECE_SECONDS 1.0  /* at most: pipeline/team.h */
+#define IDLE_SECONDS 2e-3  /* of a rank between two pieces: both posts look every millisecond */
+
+static const char *largest_loss(double start, double messages, double end, double link, double sums)
+{
+    const double losses[] = {start, messages, end, link, sums};
+    static const char *const names[] = {"start", "messages between pieces", "the last pieces, which cannot be smaller", "rank 0's link", "rank 0's sums"};
+    int most = 0;
+    for (int i = 1; i < 5; i++)
+        if (losses[i] > losses[most]) most = i;
+    return names[most];
+}
+
+/* The scene goes along a binary tree, whole from one rank to the next. Batches are cut into pieces, which ranks ask for one after the other;
+ * all but rank 0's own come in through its link and are added up there while others render: what is slower decides. */
+ec_plan_row ec_plan_for(const ec_plan *p, uint32_t ranks)
+{
+    const bool alone = ranks == 1;
+    const double n = p->batches, pixels = (double)p->pixels, work = n * p->batch / ranks, a_byte = 1 / bytes_per_second(p);
+    const double piece = fmin(PIECE_SECONDS, p->batch), idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + 12 * pixels * piece / p->batch * a_byte;
+    const double messages = work * idle / piece, end = alone ? 0 : p->batch * fmin(1, (double)p->least / pixels) + idle;
+    const double link = (n - n / ranks) * 12 * pixels * a_byte, sums = alone ? 0 : n * p->add, intake = fmax(link, sums);
+    ec_plan_row row = {.ranks = ranks, .load = p->load, .render = work + messages + end};
+    row.send = p->start + ceil(log2(ranks)) * (latency(p) + (double)p->scene_bytes * a_byte);
+    row.wait = fmax(intake - row.render, 0) + (alone ? 0 : p->add);
+    row.seconds = row.load + row.send + row.render + row.wait;
+    row.efficiency = (p->load + p->start + n * p->batch) / (ranks * row.seconds);
+    row.held_by = row.efficiency > 0.95 ? "" : largest_loss((row.load + row.send) * (1 - 1.0 / ranks), messages, end, link > sums ? row.wait : 0,
+                                                            link > sums ? 0 : row.wait);
+    return row;
+}
+
+static uint32_t next_count(const ec_plan *p, uint32_t ranks)
+{
+    return ranks == p->ranks ? 0 : ranks < p->ranks / 2 + p->ranks % 2 ? 2 * ranks : p->ranks;
+}
+
+void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
+{
+    char scene[32], sums[32];
+    ec_format_bytes(p->scene_bytes, scene, sizeof scene);
+    ec_format_bytes(12 * p->pixels, sums, sizeof sums);
+    fprintf(to, "job         %.0f batches of %u samples a pixel%s, %llu pixels\n", p->batches, p->samples, p->batches_foretold ? " (foretold)" : "",
+            (unsigned long long)p->pixels);
+    fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, on %s\n", p->load, p->start, p->batch, p->add, device);
+    fprintf(to, "sent        scene: %s to each rank, along a binary tree; sums: %s a batch, to rank 0\n", scene, sums);
+    fprintf(to, "assumed     %g Gbit/s, %g us a message (--plan RANKS,GBIT,US); all ranks as fast as this one, started at once;\n"
+                "            pieces of up to %g s, of %llu pixels at least, %g ms between two of them; writing the picture left out\n\n",
+            p->gbit, p->microseconds, PIECE_SECONDS, (unsigned long long)p->least, 1e3 * IDLE_SECONDS);
+    fprintf(to, "%8s %10s %9s %11s   %s\n", "ranks", "seconds", "speed-up", "efficiency", "held back by");
+    const double alone = ec_plan_for(p, 1).seconds;
+    for (uint32_t ranks = 1; ranks; ranks = next_count(p, ranks)) {
+        const ec_plan_row row = ec_plan_for(p, ranks);
+        fprintf(to, "%8u %10.4g %9.4g %9.0f %%   %s\n", ranks, row.seconds, alone / row.seconds, 100 * row.efficiency, row.held_by);
+    }
+}
+
+ec_result ec_plan_json(const ec_plan *p, FILE *to, ec_error *err)
+{
+    cJSON *root = cJSON_CreateObject(), *rows = cJSON_AddArrayToObject(root, "plan");
+    ec_json_real(root, "load_seconds", p->load);
+    ec_json_real(root, "kernel_seconds", p->start);
+    ec_json_real(root, "batch_seconds", p->batch);
+    ec_json_real(root, "add_seconds", p->add);
+    ec_json_whole(root, "scene_bytes", p->scene_bytes);
+    ec_json_whole(root, "batch_bytes", 12 * p->pixels);
+    ec_json_real(root, "batches", p->batches);
+    ec_json_real(root, "gbit_per_second", p->gbit);
+    ec_json_real(root, "message_microseconds", p->microseconds);
+    for (uint32_t ranks = 1; ranks; ranks = next_count(p, ranks)) {
+        const ec_plan_row row = ec_plan_for(p, ranks);
+        cJSON *one = cJSON_CreateObject();
+        ec_json_whole(one, "ranks", ranks);
+        ec_json_real(one, "seconds", row.seconds);
+        ec_json_real(one, "efficiency", row.efficiency);
+        ec_json_real(one, "load_seconds", row.load);
+        ec_json_real(one, "send_seconds", row.send);
+        ec_json_real(one, "render_seconds", row.render);
+        ec_json_real(one, "wait_seconds", row.wait);
+        ec_json_text(one, "held_back_by", row.held_by);
+        cJSON_AddItemToArray(rows, one);
+    }
+    return ec_json_print(root, to, err);
+}

@@ -1,0 +1,51 @@
+/* Letters between the processes of an MPI job, its ranks. One thread owns MPI and all calls of it; others hand it letters and wait for
+ * some. It looks for them every millisecond rather than spin as MPI's own calls do: the processor is for the renders. Internal to ranks/. */
+#ifndef EC_RANKS_POST_H
+#define EC_RANKS_POST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+#define EC_LETTER_NUMBERS 12
+
+typedef struct ec_letter {
+    uint32_t kind;                        /* the sender's to choose; not EC_LETTER_ALIVE */
+    uint32_t box;                         /* of the receiver: who waits for it there */
+    uint64_t numbers[EC_LETTER_NUMBERS];
+    uint64_t bytes;                       /* of the body */
+    void *body;                           /* malloc'ed, the receiver's; NULL: none */
+} ec_letter;
+
+#define EC_LETTER_ALIVE UINT32_MAX
+
+typedef struct ec_post ec_post;
+
+/* Starts MPI, waits for all ranks. The post is to be closed on failure too, where it is not NULL. */
+ec_result ec_post_open(ec_post **post, ec_error *err);
+/* Ends MPI, together with the other ranks; gives up on that after a while where one was lost. NULL is fine. */
+void ec_post_close(ec_post *post);
+
+int ec_post_rank(const ec_post *post);
+int ec_post_size(const ec_post *post);
+int ec_post_local_rank(const ec_post *post); /* among those on this host */
+int ec_post_local_size(const ec_post *post);
+
+/* Returns when the letter and its body have been taken by MPI; they stay the caller's. Fails where the rank is lost. */
+ec_result ec_post_send(ec_post *post, int to, const ec_letter *letter, ec_error *err);
+
+/* Takes the body over and returns at once; whether it arrives shows in what the receiver does. */
+void ec_post_send_away(ec_post *post, int to, ec_letter *letter);
+
+/* The next letter of that rank in that box; waits for it, and fails where the rank is lost: MPI says so, or nothing has come of it for a minute; or
+ * where go_on (NULL: no matter), asked twenty times a second, says no. */
+ec_result ec_post_receive(ec_post *post, int from, uint32_t box, bool (*go_on)(void *user), void *user, ec_letter *letter, ec_error *err);
+
+/* Is there one in that box, or is the rank lost? */
+bool ec_post_has(ec_post *post, int from, uint32_t box);
+
+/* The same bytes on all ranks, from rank 0. All are to call it, and nothing else meanwhile. */
+ec_result ec_post_broadcast(ec_post *post, void *bytes, uint64_t count, ec_error *err);
+
+#endif

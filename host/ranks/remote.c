@@ -1,0 +1,96 @@
+#include "ranks/remote.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void end(ec_remote *m)
+{
+    const ec_letter over = {.kind = EC_ORDER_END, .box = EC_BOX_ORDERS};
+    if (!m->is_over) (void)ec_post_send(m->ranks->post, m->rank, &over, NULL);
+    m->is_over = true;
+}
+
+static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_letter *letter)
+{
+    const uint32_t *list = order->list ? order->list + order->done : NULL;
+    *letter = (ec_letter){.kind = EC_ORDER_BATCH, .box = EC_BOX_ORDERS, .body = (void *)list, .bytes = list ? 4ull * (order->count - order->done) : 0};
+    pthread_mutex_lock(&m->ranks->lock);
+    const uint32_t box = ++m->ranks->last_box; /* so that what was given up finds nobody */
+    pthread_mutex_unlock(&m->ranks->lock);
+    letter->numbers[EC_ORDER_BOX] = box;
+    letter->numbers[EC_ORDER_INDEX] = order->index;
+    letter->numbers[EC_ORDER_FROM] = order->done;
+    letter->numbers[EC_ORDER_TO] = order->count;
+    letter->numbers[EC_ORDER_FEATURES] = order->aov != NULL;
+    return box;
+}
+
+typedef struct waiting {
+    const ec_batch_order *order;
+    bool given_up;
+} waiting;
+
+static bool waits_on(void *user)
+{
+    waiting *w = user;
+    w->given_up = !w->order->go_on(w->order->user, w->order->done);
+    return !w->given_up;
+}
+
+/* Sends the order and waits for what comes of it; *complete false: it was given up. */
+static ec_result fetch(ec_remote *m, const ec_batch_order *order, ec_letter *back, bool *complete, ec_error *err)
+{
+    ec_letter letter;
+    waiting w = {.order = order};
+    const uint32_t box = write_order(m, order, &letter);
+    *complete = true;
+    EC_TRY(ec_post_send(m->ranks->post, m->rank, &letter, err));
+    ec_result result = ec_post_receive(m->ranks->post, m->rank, box, waits_on, &w, back, err);
+    if (w.given_up && result != EC_OK) {
+        end(m);
+        *complete = false;
+        return EC_OK;
+    }
+    EC_TRY(result);
+    if (back->kind == EC_RESULT_BATCH && back->body) return EC_OK;
+    ec_fail(err, "%s", back->body ? (const char *)back->body : "out of memory");
+    if (err) err->kind = EC_ERROR_DEVICE;
+    free(back->body);
+    return EC_FAILED;
+}
+
+static void count(ec_remote *m, const ec_letter *back)
+{
+    m->base.rays += back->numbers[EC_RESULT_RAYS];
+    m->base.least = (uint32_t)back->numbers[EC_RESULT_LEAST];
+    for (int i = 0; i < EC_STAGE_COUNT; i++) m->base.invalid[i] += (uint32_t)back->numbers[EC_RESULT_INVALID + i];
+}
+
+static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
+{
+    ec_remote *m = (ec_remote *)source;
+    const uint64_t first = order->done, positions = order->count - first;
+    ec_letter back;
+    EC_TRY(fetch(m, order, &back, complete, err));
+    if (!*complete) return EC_OK;
+    count(m, &back);
+    memcpy(order->into + 3 * first, back.body, 12 * positions);
+    if (order->aov) memcpy(order->aov + EC_AOV_FIELDS * first, (float *)back.body + 3 * positions, 4 * EC_AOV_FIELDS * positions);
+    free(back.body);
+    return EC_OK;
+}
+
+static void close_remote(ec_batch_source *source)
+{
+    end((ec_remote *)source);
+}
+
+ec_result ec_remote_open(void *user, ec_batch_source **source, ec_error *err)
+{
+    ec_remote *m = user;
+    (void)err;
+    m->base = (ec_batch_source){.take = take, .close = close_remote};
+    m->is_over = false;
+    *source = &m->base;
+    return EC_OK;
+}

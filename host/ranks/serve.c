@@ -1,0 +1,117 @@
+/* Ranks other than 0: one job after the other, until they are sent home. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/sources.h"
+#include "ranks/job.h"
+
+typedef struct server {
+    ec_ranks *ranks;
+    ec_sources sources;
+    ec_batch_source *source;  /* its devices */
+    uint64_t pixels;
+} server;
+
+/* Until a letter comes: that is the end of the job. */
+static bool goes_on(void *user, uint32_t done)
+{
+    const server *s = user;
+    (void)done;
+    return !ec_post_has(s->ranks->post, 0, EC_BOX_ORDERS);
+}
+
+/* The answer's body is malloc'ed. It stays NULL where the job was ended meanwhile. */
+static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, ec_error *err)
+{
+    ec_batch_source *source = s->source;
+    const uint32_t index = (uint32_t)letter->numbers[EC_ORDER_INDEX], from = (uint32_t)letter->numbers[EC_ORDER_FROM];
+    const uint32_t positions = (uint32_t)letter->numbers[EC_ORDER_TO] - from, first = letter->body ? 0 : from;
+    const uint64_t mean_bytes = 12ull * positions, features = letter->numbers[EC_ORDER_FEATURES] ? EC_AOV_FIELDS : 0;
+    float *aov = features ? malloc(4 * features * s->pixels) : NULL, *body = malloc(mean_bytes + 4 * features * positions);
+    ec_result result = body && (aov || !features) ? EC_OK : ec_fail(err, "out of memory for a batch of %u pixels", positions);
+    const ec_batch_order order = {.index = index, .end = index + 1, .list = letter->body, .done = first, .count = first + positions, .aov = aov,
+                                  .go_on = goes_on, .user = s};
+    const uint64_t rays = source->rays;
+    uint32_t invalid[EC_STAGE_COUNT];
+    bool complete = false;
+    memcpy(invalid, source->invalid, sizeof invalid);
+    if (result == EC_OK) result = source->take(source, &order, &complete, err);
+    answer->numbers[EC_RESULT_RAYS] = source->rays - rays;
+    answer->numbers[EC_RESULT_LEAST] = source->least;
+    for (int i = 0; i < EC_STAGE_COUNT; i++) answer->numbers[EC_RESULT_INVALID + i] = source->invalid[i] - invalid[i];
+    if (complete && result == EC_OK) {
+        memcpy(body, source->mean + 3 * (uint64_t)first, mean_bytes);
+        if (features) memcpy(body + 3 * (uint64_t)positions, aov + features * first, 4 * features * positions);
+        answer->body = body;
+        answer->bytes = mean_bytes + 4 * features * positions;
+        body = NULL;
+    }
+    free(body);
+    free(aov);
+    return result;
+}
+
+/* Its failure is rank 0's to judge. False: there is nothing to say. */
+static bool fill_answer(server *s, const ec_letter *letter, const ec_error *unfit, ec_letter *answer)
+{
+    ec_error why = *unfit;
+    *answer = (ec_letter){.kind = EC_RESULT_BATCH, .box = (uint32_t)letter->numbers[EC_ORDER_BOX]};
+    if (!*why.text && render(s, letter, answer, &why) == EC_OK) return answer->body != NULL;
+    answer->kind = EC_RESULT_FAILURE;
+    answer->body = strdup(why.text);
+    answer->bytes = answer->body ? strlen(why.text) + 1 : 0;
+    return true;
+}
+
+static ec_result take_orders(server *s, const ec_error *unfit, ec_error *err)
+{
+    for (;;) {
+        ec_letter letter, answer;
+        EC_TRY(ec_post_receive(s->ranks->post, 0, EC_BOX_ORDERS, NULL, NULL, &letter, err));
+        if (letter.kind == EC_ORDER_END) return EC_OK;
+        if (fill_answer(s, &letter, unfit, &answer)) ec_post_send_away(s->ranks->post, 0, &answer);
+        free(letter.body);
+    }
+}
+
+static ec_result open_devices(const ec_device_info *infos, uint32_t count, ec_cl *devices, ec_error *err)
+{
+    for (uint32_t i = 0; i < count; i++) EC_TRY(ec_cl_open(&infos[i], &devices[i], err));
+    return EC_OK;
+}
+
+static ec_result serve_job(ec_ranks *r, const ec_letter *word, ec_error *err)
+{
+    server s = {.ranks = r};
+    ec_cl devices[EC_DEVICES_MOST] = {0};
+    ec_device_info infos[EC_DEVICES_MOST];
+    ec_render_stats stats = {0};
+    ec_error why = {0};
+    uint32_t count;
+    uint64_t seed;
+    ec_result result = ec_job_receive(r, word, &s.sources.cargo, &seed, infos, &count, err);
+    if (result == EC_OK && count) {
+        const ec_params *params = &s.sources.cargo.head.params;
+        s.pixels = (uint64_t)params->width * params->height;
+        bool fit = open_devices(infos, count, devices, &why) == EC_OK &&
+                   ec_sources_enlist(devices, count, s.sources.cargo.head.lanes, &s.sources, &stats, &why) == EC_OK &&
+                   ec_sources_open(&s.sources, seed, NULL, NULL, &s.source, &stats, &why) == EC_OK &&
+                   (!s.source->turn_to || s.source->turn_to(s.source, 0, params->height, &why) == EC_OK);
+        if (!fit && !*why.text) ec_fail(&why, "its device failed");
+        result = take_orders(&s, &why, err);
+    }
+    ec_sources_close(&s.sources, &stats);
+    for (uint32_t i = 0; i < EC_DEVICES_MOST; i++) ec_cl_close(&devices[i]);
+    return result;
+}
+
+ec_result ec_ranks_serve(ec_ranks *r, ec_error *err)
+{
+    for (;;) {
+        ec_letter word;
+        EC_TRY(ec_post_receive(r->post, 0, EC_BOX_WORD, NULL, NULL, &word, err));
+        ec_result result = word.kind == EC_WORD_JOB ? serve_job(r, &word, err) : EC_OK;
+        free(word.body);
+        if (word.kind == EC_WORD_HOME || result != EC_OK) return result;
+    }
+}

@@ -1,0 +1,236 @@
+"""Processes of an MPI job make the picture that one makes, bit for bit, however many they are and wherever; and end well where something fails.
+Skipped where there is no mpirun, or eclat was built without MPI."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from hosts import Hosts
+from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, read_exr
+
+# As root, and more processes than processors: only here. Two threads a process are enough for pictures of 300 pixels.
+MPI = dict(ENVIRONMENT, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", PRTE_ALLOW_RUN_AS_ROOT="1", PRTE_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+           POCL_MAX_PTHREAD_COUNT="2")
+RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "batches", "invalid_samples", "allotment_gain"]
+JOB = [CORNELL, "--size", "20x18"]
+
+
+def mpirun(ranks, *arguments, env=None, timeout=200):
+    return subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", "-n", str(ranks), ECLAT, *arguments], env=dict(MPI, **(env or {})),
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=timeout)
+
+
+def without_mpi():
+    """Why there is nothing to test; None: there is."""
+    if not shutil.which("mpirun"):
+        return "no mpirun here"
+    return "this eclat was built without MPI" if "built without MPI" in mpirun(2, "--version").stderr else None
+
+
+def own_lines(run):
+    """What eclat says, without the launcher's words."""
+    return [line for line in run.stderr.splitlines() if "eclat: " in line]
+
+
+class Ranks(Case):
+    @classmethod
+    def setUpClass(cls):
+        if why := without_mpi():
+            raise unittest.SkipTest(why)
+
+    def render(self, *options, name="a.exr"):
+        run = self.assert_ok(eclat("render", *options, "--json", "-q", "-o", self.path(name)))
+        return json.loads(run.stdout), read_exr(self.path(name))[1]
+
+    def assert_same(self, job, counts=(2, 3, 5)):
+        whole, planes = self.render(*job)
+        for ranks in counts:
+            run = mpirun(ranks, "render", *job, "--json", "-q", "-o", self.path("b.exr"))
+            self.assert_ok(run)
+            report = json.loads(run.stdout)
+            self.assertEqual(report["ranks"], ranks)
+            self.assertEqual({key: whole[key] for key in RESULT}, {key: report[key] for key in RESULT}, ranks)
+            self.assertEqual(planes, read_exr(self.path("b.exr"))[1], ranks)
+            os.remove(self.path("b.exr"))
+
+    def test_a_number_of_samples(self):
+        self.assert_same([*JOB, "--spp", "70", "--batch", "2"])
+
+    def test_all_take_part(self):
+        run = self.assert_ok(mpirun(3, "render", CORNELL, "--size", "64x64", "--spp", "1024", "--batch", "16", "--json", "-q", "-o", self.path("b.exr")))
+        report = json.loads(run.stdout)
+        self.assertGreater(report["other_ranks_batches"], 0.2 * report["batches"])
+        self.assertLess(report["other_ranks_batches"], report["batches"])
+
+    def test_one_process(self):
+        self.assert_same([*JOB, "--spp", "16"], [1])
+
+    def test_more_ranks_than_batches(self):
+        self.assert_same([*JOB, "--spp", "4", "--batch", "2"], [5])
+
+    def test_an_error(self):
+        self.assert_same([*JOB, "--error", "60%", "--batch", "2"])
+
+    def test_more_samples_where_they_tell(self):
+        self.assert_same([*JOB, "--adaptive", "--spp", "48", "--batch", "2"])
+
+    def test_a_slice(self):
+        self.assert_same([*JOB, "--spp", "96", "--batch", "1", "--samples", "10:80"], [3])
+
+    def test_other_integrators(self):
+        self.assert_same([*JOB, "--integrator", "whitted", "--spp", "8", "--batch", "1"], [3])
+        self.assert_same([*JOB, "--integrator", "raster", "--spp", "8", "--batch", "1"], [3])
+
+    def test_going_on_with_other_ranks(self):
+        for options in [[], ["--adaptive"]]:
+            job = [*JOB, "--batch", "2", *options]
+            whole, planes = self.render(*job, "--spp", "90")
+            kept = self.path("kept.exr")
+            self.assert_ok(mpirun(3, "render", *job, "--spp", "34", "--checkpoint", kept, "-q", "-o", self.path("b.exr")))
+            self.assert_ok(mpirun(5, "render", "--resume", kept, "--spp", "60", "-q", "-o", self.path("b.exr")))
+            self.assert_ok(eclat("render", "--resume", kept, "--spp", "70", "-q", "-o", self.path("b.exr")))
+            run = self.assert_ok(mpirun(2, "render", "--resume", kept, "--spp", "90", "--json", "-q", "-o", self.path("b.exr")))
+            self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
+            self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
+            os.remove(kept)
+
+    def test_a_limit_of_time(self):
+        start = time.monotonic()
+        run = self.assert_ok(mpirun(3, "render", *JOB, "--time", "2s", "--json", "-q", "-o", self.path("a.exr")))
+        report = json.loads(run.stdout)
+        self.assertEqual(report["stopped_by"], "time")
+        self.assertLess(time.monotonic() - start, 40)  # where a rank waits for another, a minute
+        whole, _ = self.render(*JOB, "--spp", str(report["samples_per_pixel"]), "--batch", str(report["batch"]))
+        self.assertEqual(whole["image_sha256"], report["image_sha256"])
+
+    def test_what_fails_early_is_said_once(self):
+        for arguments, code, says in [(["render", self.path("none.gltf")], 1, "none.gltf"), (["render", CORNELL, "--spp", "x"], 2, "--spp"),
+                                      (["rendr", CORNELL], 2, "did you mean"), (["render", CORNELL, "-o", self.path("no", "a.exr")], 1, "No such file")]:
+            run = mpirun(3, *arguments, timeout=60)
+            self.assertEqual(run.returncode, code, run.stderr)
+            lines = own_lines(run)
+            self.assertEqual(len(lines), 1, run.stderr)
+            self.assertIn(says, lines[0])
+            self.assertEqual(run.stdout, "")
+
+    def test_other_commands(self):
+        run = self.assert_ok(mpirun(3, "info", CORNELL))
+        self.assertEqual(run.stdout.splitlines()[:3], self.assert_ok(eclat("info", CORNELL)).stdout.splitlines()[:3])
+        self.assertIn("rank 0 does this alone", run.stderr)
+
+    def start(self, ranks, *arguments, launcher=()):
+        return subprocess.Popen(["mpirun", "--oversubscribe", "--bind-to", "none", *launcher, "-n", str(ranks), ECLAT, "render", *arguments], env=MPI,
+                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+
+    def wait_for(self, path, process):
+        deadline = time.monotonic() + 60
+        while not os.path.exists(path) and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.02)
+        self.assertTrue(os.path.exists(path), "no checkpoint")
+
+    def ranks_of(self, process):
+        """Process numbers by rank."""
+        found = {}
+        for entry in os.listdir("/proc"):
+            try:
+                with open(f"/proc/{entry}/environ", "rb") as file:
+                    variables = dict(line.split(b"=", 1) for line in file.read().split(b"\0") if b"=" in line)
+                with open(f"/proc/{entry}/status", encoding="utf-8") as file:
+                    parent = next(int(line.split()[1]) for line in file if line.startswith("PPid:"))
+            except (OSError, ValueError):
+                continue
+            if parent == process.pid and b"OMPI_COMM_WORLD_RANK" in variables:
+                found[int(variables[b"OMPI_COMM_WORLD_RANK"])] = int(entry)
+        return found
+
+    def test_a_rank_that_is_killed(self):
+        """The checkpoint survives and can be gone on with; a line says how; the job fails."""
+        job = [*JOB, "--batch", "2"]
+        for victim in [2, 0]:
+            kept = self.path("kept.exr")
+            process = self.start(3, *job, "--spp", "200000", "--checkpoint", kept, "--every", "0.1s", "-o", self.path("b.exr"))
+            self.wait_for(kept, process)
+            os.kill(self.ranks_of(process)[victim], signal.SIGKILL)
+            _, error = process.communicate(timeout=60)
+            self.assertNotEqual(process.returncode, 0, error)
+            if victim:
+                self.assertIn(f"eclat render --resume {kept}", error)
+            run = self.assert_ok(eclat("render", "--resume", kept, "--spp", "1", "--json", "-q", "-o", self.path("b.exr")))
+            done = json.loads(run.stdout)["samples_per_pixel"]
+            whole, _ = self.render(*job, "--spp", str(done + 10))
+            run = self.assert_ok(mpirun(2, "render", "--resume", kept, "--spp", str(done + 10), "--json", "-q", "-o", self.path("b.exr")))
+            self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
+            os.remove(kept)
+
+    def render_with(self, on_rank_1, job):
+        """With three ranks, one of which has other variables."""
+        script = f'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then export {on_rank_1}; fi; exec "$@"'
+        run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", "-n", "3", "sh", "-c", script, "sh", ECLAT, "render", *job, "--json", "-o",
+                              self.path("b.exr")], env=MPI, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=100)
+        self.assert_ok(run)
+        whole, planes = self.render(*job)
+        self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
+        self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
+        return run
+
+    def test_a_rank_without_a_device(self):
+        """It says so and the others do its work."""
+        run = self.render_with("OCL_ICD_VENDORS=/nonexistent", [*JOB, "--spp", "40", "--batch", "1"])
+        self.assertRegex(run.stderr, "warning: rank 1 on .*; the others go on without it")
+
+    def test_a_rank_whose_device_fails(self):
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=60 FAULT_LOST=1"
+        run = self.render_with(fault, [CORNELL, "--size", "64x48", "--spp", "1024", "--batch", "4"])
+        self.assertRegex(run.stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
+
+    def test_cores(self):
+        """What a launcher binds to a core, as Open MPI does, is told of it."""
+        for binding, says in [("core", 1), ("none", 0)]:
+            run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", binding, "--mca", "hwloc_base_binding_policy",
+                                  f"{binding}:overload-allowed", "-n", "2", ECLAT, "render", *JOB, "--spp", "4", "-o", self.path("b.exr")], env=MPI, stdin=subprocess.DEVNULL, capture_output=True,
+                                 encoding="utf-8", timeout=60)
+            self.assertEqual(self.assert_ok(run).stderr.count("--bind-to none"), says, run.stderr)
+
+    def test_hosts(self):
+        """Only the first one has the scene, and the folder that the picture goes to."""
+        here = self.path("only-here")
+        shutil.copytree(os.path.dirname(CORNELL), here)
+        scene = os.path.join(here, os.path.basename(CORNELL))
+        try:
+            with Hosts(3, self.folder, here) as hosts:
+                job = [scene, "--size", "20x18", "--spp", "40", "--batch", "2"]
+                run = subprocess.run(hosts.mpirun(ECLAT, "render", *job, "--json", "-o", os.path.join(here, "b.exr")), env=MPI, stdin=subprocess.DEVNULL,
+                                     capture_output=True, encoding="utf-8", timeout=100)
+        except OSError as error:
+            self.skipTest(f"no network namespaces here: {error}")
+        self.assert_ok(run)
+        report, (whole, planes) = json.loads(run.stdout), self.render(*job)
+        self.assertEqual({key: whole[key] for key in RESULT}, {key: report[key] for key in RESULT})
+        self.assertEqual(planes, read_exr(os.path.join(here, "b.exr"))[1])
+
+    def test_a_plan(self):
+        run = self.assert_ok(eclat("render", *JOB, "--spp", "64", "--plan", "1000,100,2", "--json", "-q"))
+        plan = json.loads(run.stdout)
+        self.assertEqual([row["ranks"] for row in plan["plan"]], [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1000])
+        self.assertEqual((plan["batches"], plan["gbit_per_second"], plan["batch_bytes"]), (16, 100, 20 * 18 * 12))
+        self.assertGreater(plan["scene_bytes"], 1000)
+        for row in plan["plan"]:
+            self.assertAlmostEqual(row["seconds"], row["load_seconds"] + row["send_seconds"] + row["render_seconds"] + row["wait_seconds"], delta=1e-9)
+            self.assertAlmostEqual(row["efficiency"], plan["plan"][0]["seconds"] / row["seconds"] / row["ranks"], delta=1e-6)
+        self.assertAlmostEqual(plan["plan"][0]["render_seconds"], 16 * plan["batch_seconds"], delta=1e-9)
+        for row in plan["plan"]:
+            self.assertGreaterEqual(row["render_seconds"] * row["ranks"], 16 * plan["batch_seconds"] * (1 - 1e-9))
+        self.assertNotEqual(plan["plan"][-1]["held_back_by"], "")
+        text = self.assert_ok(eclat("render", *JOB, "--spp", "64", "--plan", "6", "-q")).stdout
+        self.assertEqual([line.split()[0] for line in text.splitlines()[-4:]], ["1", "2", "4", "6"])
+        for bad in ["0", "x", "4,0", "4,10,-1", "4,10,5,6"]:
+            self.assert_one_error(eclat("render", *JOB, "--plan", bad), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
