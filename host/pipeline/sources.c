@@ -30,7 +30,9 @@ static ec_result load(void *user, ec_batch_source **source, ec_error *err)
     pthread_mutex_lock(&s->lock);
     if (--s->unloaded == 0) ec_cargo_free(&s->cargo);
     pthread_mutex_unlock(&s->lock);
-    return result == EC_OK ? r->source.base.turn_to(*source, 0, r->source.pipeline.params.height, err) : result;
+    if (result == EC_OK) result = r->source.base.turn_to(*source, 0, r->source.pipeline.params.height, err);
+    r->stats.wave = r->source.pipeline.wave;
+    return result;
 }
 
 static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log *log, ec_error *err)
