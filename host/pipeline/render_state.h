@@ -1,0 +1,65 @@
+/* What the parts of ec_render share: render.c sets up, render_film.c takes batches until a limit is met, render_strips.c does so strip by strip,
+ * render_tell.c says how it goes. Inside host/pipeline/render*.c only. */
+#ifndef EC_PIPELINE_RENDER_STATE_H
+#define EC_PIPELINE_RENDER_STATE_H
+
+#include "pipeline/course.h"
+#include "pipeline/forecast.h"
+#include "pipeline/sources.h"
+
+typedef struct ec_render_state {
+    ec_sources sources;
+    ec_batch_source *source;
+    ec_params params;          /* width, height and batch are the render's */
+    const ec_render_options *options;
+    const ec_course *course;
+    ec_progress_fn progress;
+    void *user;
+    ec_film *film;
+    ec_render_stats *stats;
+    double start, render_start, last_report;
+    double batch_end;          /* of the last one; and the sums of so many times, the first left out */
+    double first_seconds, sum, squares, timed;
+    ec_forecast forecast;      /* of now; the pilot's is in stats */
+    uint32_t batches_wanted;   /* by --spp; 0 = no limit */
+    ec_film_error error;
+    ec_past past;              /* samples: in the film */
+    uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
+    ec_batch_order order;      /* the batch under way */
+    bool look_failed;          /* at what it has come to so far */
+    ec_error look_error;
+    double batches_before_it;
+    uint64_t under_way;        /* samples of the batch that is not there yet */
+    double kept_at;
+    uint32_t kept_next, kept_under_way;
+    float *aov;                /* of the first batch, until it is in the film */
+    const char *stopped_by;
+    uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
+    uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
+} ec_render_state;
+
+/* Of the film: the picture, or the strip under way. */
+static inline double ec_render_film_pixels(const ec_render_state *r) { return (double)r->film->width * r->film->height; }
+static inline double ec_render_picture_pixels(const ec_render_state *r) { return (double)r->options->width * r->options->height; }
+
+/* Batches a pixel, in the mean. */
+static inline double ec_render_batches_done(const ec_render_state *r)
+{
+    return (double)r->past.samples / r->params.batch / ec_render_film_pixels(r);
+}
+
+/* render_film.c: until a limit is met; what is there before stays in the film. */
+ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
+
+/* render_strips.c: all rows, or as many as there is memory for, into r->strip_rows. Small pictures do not ask. */
+ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error *err);
+ec_result ec_render_strips(ec_render_state *r, const ec_log *log, ec_error *err);
+
+/* render_tell.c: tells the caller; false means stop. batches counts the fraction of the one under way. */
+bool ec_render_tell(ec_render_state *r, double batches);
+/* After each batch: how long it will take. */
+void ec_render_look_ahead(ec_render_state *r, bool at_pilot);
+/* Asks nothing of the device, which may be lost. */
+void ec_render_finish_stats(ec_render_state *r);
+
+#endif
