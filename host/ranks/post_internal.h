@@ -1,0 +1,75 @@
+/* What the halves of the post share: post.c is called by those who write and read letters, post_thread.c owns MPI. Inside these two only. */
+#ifndef EC_RANKS_POST_INTERNAL_H
+#define EC_RANKS_POST_INTERNAL_H
+
+#include <pthread.h>
+#include <time.h>
+
+#include <mpi.h>
+
+#include "ranks/post.h"
+
+typedef struct head {
+    uint32_t kind, box;
+    uint64_t numbers[EC_LETTER_NUMBERS], bytes;
+} head;
+
+typedef struct outgoing {
+    int to;
+    head head;
+    void *body;
+    MPI_Request *requests;             /* the head's and the chunks' */
+    int request_count;
+    bool begun, done, failed, own;     /* own: nobody waits for it, the post frees it and its body */
+    struct outgoing *next;
+} outgoing;
+
+typedef struct incoming {
+    ec_letter letter;
+    struct incoming *next;
+} incoming;
+
+typedef struct peer {
+    incoming *first, *last;            /* whole letters, in order */
+    incoming *open;                    /* whose body is coming */
+    uint64_t filled;                   /* of it */
+    head head;                         /* of the next one */
+    MPI_Request request;
+    bool receiving;                    /* a message, by that request */
+    double heard;                      /* when */
+    bool lost;
+    pthread_cond_t news;
+} peer;
+
+struct ec_post {
+    pthread_t thread;
+    pthread_mutex_t lock;              /* of all that follows */
+    pthread_cond_t call, news;         /* to the thread; from it */
+    MPI_Comm comm;
+    int rank, size, local_rank, local_size;
+    peer *peers;                       /* by rank */
+    outgoing *to_send;
+    struct {
+        char *bytes;
+        uint64_t count;
+        bool wanted, failed;
+    } broadcast;
+    double said_alive;
+    bool open, closing, closed;
+    ec_error error;                    /* why it did not open */
+};
+
+/* The thread: starts MPI, carries letters until the post is closing and ends MPI. */
+void *ec_post_run(void *post);
+
+/* With the lock, which others may have meanwhile. */
+static inline void ec_post_wait(ec_post *p, pthread_cond_t *on, double seconds)
+{
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += (long)(seconds * 1e9);
+    if (until.tv_nsec >= 1000000000) until.tv_nsec -= 1000000000, until.tv_sec++;
+    pthread_cond_timedwait(on, &p->lock, &until);
+}
+
+#endif

@@ -1,0 +1,209 @@
+/* The thread that owns MPI. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "ranks/post_internal.h"
+
+enum { CHUNK = 64 << 20, TAG = 1 };   /* bytes of one message: MPI counts in int */
+#define IDLE_SECONDS 1e-3             /* between two looks … */
+#define BUSY_SECONDS 2e-5             /* … while something is under way */
+#define ALIVE_SECONDS 5.0             /* between two signs of life */
+#define LOST_SECONDS 60.0             /* without one */
+
+static uint64_t chunks_of(uint64_t bytes) { return (bytes + CHUNK - 1) / CHUNK; }
+static int chunk_bytes(uint64_t bytes, uint64_t i) { return bytes - i * CHUNK < CHUNK ? (int)(bytes - i * CHUNK) : CHUNK; }
+
+/* Rank 0 talks to all others, and they to it alone. */
+static bool is_peer(const ec_post *p, int rank) { return rank != p->rank && (p->rank == 0 || rank == 0); }
+
+/* With the lock. */
+static void lose(ec_post *p, int rank)
+{
+    p->peers[rank].lost = true;
+    pthread_cond_broadcast(&p->peers[rank].news);
+}
+
+static void begin_sending(ec_post *p, outgoing *o)
+{
+    uint64_t chunks = chunks_of(o->head.bytes);
+    o->begun = true;
+    o->requests = malloc((chunks + 1) * sizeof *o->requests);
+    o->failed = !o->requests || p->peers[o->to].lost;
+    if (!o->failed) o->failed = MPI_Isend(&o->head, (int)sizeof o->head, MPI_BYTE, o->to, TAG, p->comm, &o->requests[o->request_count++]) != MPI_SUCCESS;
+    for (uint64_t i = 0; i < chunks && !o->failed; i++)
+        o->failed = MPI_Isend((char *)o->body + i * CHUNK, chunk_bytes(o->head.bytes, i), MPI_BYTE, o->to, TAG, p->comm,
+                              &o->requests[o->request_count++]) != MPI_SUCCESS;
+}
+
+/* True where it is over, well or badly. */
+static bool test_sending(ec_post *p, outgoing *o)
+{
+    int all = 0;
+    if (!o->begun) begin_sending(p, o);
+    if (!o->failed) o->failed = MPI_Testall(o->request_count, o->requests, &all, MPI_STATUSES_IGNORE) != MPI_SUCCESS || (!all && p->peers[o->to].lost);
+    if (o->failed) lose(p, o->to);
+    return all || o->failed;
+}
+
+/* Returns whether something is still under way. With the lock. */
+static bool send_letters(ec_post *p)
+{
+    bool busy = false;
+    for (outgoing **at = &p->to_send; *at;) {
+        outgoing *o = *at;
+        if (!test_sending(p, o)) {
+            busy = true;
+            at = &o->next;
+            continue;
+        }
+        *at = o->next;
+        free(o->requests);
+        pthread_cond_broadcast(&p->peers[o->to].news);
+        if (o->own) free(o->body), free(o);
+        else o->done = true;
+    }
+    return busy;
+}
+
+static void deliver(peer *from)
+{
+    incoming *whole = from->open;
+    from->open = NULL;
+    if (whole->letter.kind == EC_LETTER_ALIVE) {
+        free(whole);
+        return;
+    }
+    if (from->last) from->last->next = whole;
+    else from->first = whole;
+    from->last = whole;
+    pthread_cond_broadcast(&from->news);
+}
+
+static bool take_head(peer *from)
+{
+    const head *h = &from->head;
+    incoming *in = calloc(1, sizeof *in);
+    if (!in) return false;
+    in->letter = (ec_letter){.kind = h->kind, .box = h->box, .bytes = h->bytes, .body = h->bytes ? malloc(h->bytes) : NULL};
+    memcpy(in->letter.numbers, h->numbers, sizeof h->numbers);
+    from->open = in;
+    from->filled = 0;
+    if (h->bytes == 0) deliver(from);
+    return !h->bytes || in->letter.body;
+}
+
+static void take_chunk(peer *from)
+{
+    const ec_letter *letter = &from->open->letter;
+    from->filled += (uint64_t)chunk_bytes(letter->bytes, from->filled / CHUNK);
+    if (from->filled == letter->bytes) deliver(from);
+}
+
+/* One step with one message of a peer; *moved: there was one. False where the peer is lost. */
+static bool receive_from(ec_post *p, int rank, bool *moved)
+{
+    peer *from = &p->peers[rank];
+    MPI_Message message;
+    int there = 0, whole = 0;
+    const ec_letter *letter = from->open ? &from->open->letter : NULL;
+    if (!from->receiving) {
+        if (MPI_Improbe(rank, TAG, p->comm, &there, &message, MPI_STATUS_IGNORE) != MPI_SUCCESS) return false;
+        if (!there) return true;
+        void *to = letter ? (char *)letter->body + from->filled : (void *)&from->head;
+        int count = letter ? chunk_bytes(letter->bytes, from->filled / CHUNK) : (int)sizeof from->head;
+        if (MPI_Imrecv(to, count, MPI_BYTE, &message, &from->request) != MPI_SUCCESS) return false;
+        from->receiving = true;
+    }
+    *moved = true;
+    if (MPI_Test(&from->request, &whole, MPI_STATUS_IGNORE) != MPI_SUCCESS) return false;
+    if (!whole) return true;
+    from->receiving = false;
+    from->heard = ec_now();
+    if (!letter) return take_head(from);
+    take_chunk(from);
+    return true;
+}
+
+/* Returns whether there was anything. With the lock. */
+static bool receive_letters(ec_post *p)
+{
+    bool any = false;
+    for (int r = 0; r < p->size; r++) {
+        if (!is_peer(p, r) || p->peers[r].lost) continue;
+        if (!receive_from(p, r, &any) || ec_now() - p->peers[r].heard > LOST_SECONDS) lose(p, r);
+    }
+    return any;
+}
+
+static void say_alive(ec_post *p)
+{
+    if (ec_now() - p->said_alive < ALIVE_SECONDS) return;
+    p->said_alive = ec_now();
+    for (int r = 0; r < p->size; r++) {
+        if (!is_peer(p, r) || p->peers[r].lost) continue;
+        outgoing *o = calloc(1, sizeof *o);
+        if (!o) return;
+        *o = (outgoing){.to = r, .head.kind = EC_LETTER_ALIVE, .own = true, .next = p->to_send};
+        p->to_send = o;
+    }
+}
+
+/* Blocks, and lets others have the lock: they wait for it all the same. */
+static void broadcast(ec_post *p)
+{
+    bool failed = false;
+    pthread_mutex_unlock(&p->lock);
+    for (uint64_t i = 0; i < chunks_of(p->broadcast.count) && !failed; i++)
+        failed = MPI_Bcast(p->broadcast.bytes + i * CHUNK, chunk_bytes(p->broadcast.count, i), MPI_BYTE, 0, p->comm) != MPI_SUCCESS;
+    pthread_mutex_lock(&p->lock);
+    p->broadcast.failed = failed;
+    p->broadcast.wanted = false;
+    for (int r = 0; r < p->size; r++) p->peers[r].heard = ec_now();
+    pthread_cond_broadcast(&p->news);
+}
+
+static void start(ec_post *p)
+{
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Comm local;
+    if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS || provided < MPI_THREAD_FUNNELED) {
+        ec_fail(&p->error, "this MPI cannot be used by a program with threads (MPI_THREAD_FUNNELED); use another one");
+        return;
+    }
+    MPI_Comm_dup(MPI_COMM_WORLD, &p->comm);
+    MPI_Comm_set_errhandler(p->comm, MPI_ERRORS_RETURN);
+    MPI_Comm_rank(p->comm, &p->rank);
+    MPI_Comm_size(p->comm, &p->size);
+    MPI_Comm_split_type(p->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &local);
+    MPI_Comm_rank(local, &p->local_rank);
+    MPI_Comm_size(local, &p->local_size);
+    MPI_Comm_free(&local);
+    p->peers = calloc((size_t)p->size, sizeof *p->peers);
+    p->open = p->peers != NULL;
+    if (!p->open) ec_fail(&p->error, "out of memory");
+    for (int r = 0; p->open && r < p->size; r++) p->peers[r].heard = ec_now(), pthread_cond_init(&p->peers[r].news, NULL);
+}
+
+void *ec_post_run(void *user)
+{
+    ec_post *p = user;
+    pthread_mutex_lock(&p->lock);
+    start(p);
+    pthread_cond_broadcast(&p->news);
+    while (p->open && (!p->closing || p->to_send)) {
+        if (p->broadcast.wanted && !p->to_send) broadcast(p);
+        say_alive(p);
+        bool busy = send_letters(p);
+        busy |= receive_letters(p);
+        ec_post_wait(p, &p->call, busy ? BUSY_SECONDS : IDLE_SECONDS);
+    }
+    pthread_mutex_unlock(&p->lock);
+    int is_there = 0;
+    if (MPI_Initialized(&is_there) == MPI_SUCCESS && is_there) MPI_Finalize();
+    pthread_mutex_lock(&p->lock);
+    p->closed = true;
+    pthread_cond_broadcast(&p->news);
+    pthread_mutex_unlock(&p->lock);
+    return NULL;
+}
