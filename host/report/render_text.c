@@ -112,7 +112,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
                 share->has_failed ? ", then it failed" : "");
     }
     if (stats->allies)
-        fprintf(to, "ranks    %u more processes: %.4g of %" PRIu32 " batches\n", stats->allies, stats->allied_batches, report->batches);
+        fprintf(to, "ranks    %u more: %.4g of %" PRIu32 " batches\n", stats->allies, stats->allied_batches, report->batches);
     if (stats->share_count) fprintf(to, "memory   %s at the peak\n", memory);
     print_setup(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);

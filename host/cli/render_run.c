@@ -1,0 +1,140 @@
+/* A job that is ready is rendered: on which devices, and what is said of it before. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cl/workarounds.h"
+#include "cli/defaults.h"
+#include "cli/progress.h"
+#include "cli/render_job.h"
+#include "cli/stop.h"
+
+/* Where a rank dies, mpirun ends all others: a signal is the last that rank 0 hears of it. */
+static void hint_at_resume(ec_render_job *job)
+{
+    const char *checkpoint = job->request->checkpoint;
+    if (checkpoint)
+        snprintf(job->hint, sizeof job->hint,
+                 "asked to stop, as mpirun asks all where one rank has died: 'eclat render --resume %s' goes on from the last checkpoint", checkpoint);
+    else
+        snprintf(job->hint, sizeof job->hint,
+                 "asked to stop, as mpirun asks all where one rank has died; with --checkpoint FILE it could be gone on with");
+    ec_stop_hint(job->hint);
+}
+
+/* ", with 3 more processes,": who renders beside the first device. */
+static void describe_helpers(const ec_render_job *job, char *text, size_t size)
+{
+    const int ranks = job->ranks ? ec_ranks_count(job->ranks) - 1 : 0;
+    int used = 0;
+    if (job->device_count > 1) used = snprintf(text, size, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
+    if (ranks) snprintf(text + used, size - (size_t)used, ", with %d more process%s,", ranks, ranks > 1 ? "es" : "");
+}
+
+static void announce(const ec_render_job *job, ec_console *console)
+{
+    const ec_render_options *options = &job->request->options;
+    char limits[160] = "", range[64] = "", more[64] = "";
+    int used = 0;
+    if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
+    if (options->time_limit > 0)
+        used += snprintf(limits + used, sizeof limits - (size_t)used, "%s%g s", used ? " or " : "", options->time_limit);
+    if (options->error_target > 0)
+        snprintf(limits + used, sizeof limits - (size_t)used, "%s%g %% error", used ? " or " : "",
+                 100 * options->error_target);
+    if (job->request->default_outputs && !job->share)
+        ec_console_say(console, "note: no -o given: the picture goes to %s and %s in the current directory",
+                       job->request->outputs.file[0].path, job->request->outputs.file[1].path);
+    if (job->request->has_slice)
+        snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
+    if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
+                                             (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
+    if (job->share)
+        snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place, job->frame.count, job->frame.seconds);
+    describe_helpers(job, more, sizeof more);
+    ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more,
+                   limits);
+}
+
+/* Bits are the same wherever division and square root are correctly rounded. */
+static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
+{
+    for (uint32_t i = 0; i < job->device_count; i++) {
+        const ec_device_info *one = &job->devices[i];
+        bool is_alike = true;
+        for (uint32_t k = 0; k < job->device_count; k++)
+            is_alike &= !strcmp(one->name, job->devices[k].name) && !strcmp(one->driver, job->devices[k].driver);
+        if (is_alike || ec_device_rounds(one)) continue;
+        ec_warn(log, "%s does not say that it rounds division and square root correctly: where it does not, the last bits are not those of one "
+                     "device", one->name);
+    }
+}
+
+/* Those that do not open are left out, if there are others. */
+static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *log, ec_error *err)
+{
+    uint32_t count = 0, wanted = job->device_count;
+    for (uint32_t i = 0; i < wanted; i++) {
+        ec_error why = {0};
+        if (ec_cl_open(&job->devices[i], &devices[count], &why) == EC_OK) {
+            job->devices[count] = job->devices[i];
+            job->device_indices[count++] = job->device_indices[i];
+        } else if (count || i + 1 < wanted) {
+            ec_warn(log, "%s is out, and the others take over its work: %s", job->devices[i].name, why.text);
+        } else if (err) {
+            *err = why;
+        }
+    }
+    job->device_count = count;
+    if (count) warn_of_rounding(job, log);
+    return count ? EC_OK : EC_FAILED;
+}
+
+/* Once for all frames, and again after one that failed; what does not open is out for the rest of them. */
+static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *err)
+{
+    ec_frame_share *share = job->share;
+    job->request->options.followed = &share->followed;
+    if (share->is_open) return EC_OK;
+    EC_TRY(open_devices(job, share->cl, log, err));
+    memcpy(share->devices, job->devices, sizeof share->devices);
+    memcpy(share->device_indices, job->device_indices, sizeof share->device_indices);
+    share->device_count = job->device_count;
+    for (uint32_t i = 0; i < share->device_count; i++) share->cl[i].keeps_programs = share->cl[i].keeps_buffers = true;
+    share->is_open = true;
+    return EC_OK;
+}
+
+void ec_frame_share_close(ec_frame_share *share)
+{
+    for (uint32_t i = 0; share->is_open && i < share->device_count; i++) ec_cl_close(&share->cl[i]);
+    share->is_open = false;
+}
+
+ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
+{
+    const ec_log log = ec_console_log(console);
+    ec_progress_view view = {.console = console, .options = &job->request->options,
+                             .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
+    const ec_course course = ec_render_job_course(job, console);
+    ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : own;
+    if (!job->share) EC_TRY(open_devices(job, devices, &log, err));
+    else EC_TRY(open_shared(job, &log, err));
+    ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
+    if (job->ranks) hint_at_resume(job);
+    if (job->ranks) ec_ranks_note_binding(job->devices, job->device_count, &log);
+    announce(job, console);
+    ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
+                                        &job->film, &job->stats, &log, err);
+    ec_console_erase(console);
+    for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
+    if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
+    const bool has_picture = job->film.batch_count || job->rows;
+    if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");
+    if (result != EC_OK && !has_picture && ec_stop_requested())
+        return ec_fail(err, "interrupted before there was a picture; nothing is written");
+    if (result == EC_OK && job->film.unsampled && job->request->checkpoint)
+        ec_warn(&log, "no checkpoint is written: the first batch was not complete");
+    if (view.cap_reached && !ec_stop_requested() && !strcmp(job->stats.stopped_by, "user"))
+        snprintf(job->stats.stopped_by, sizeof job->stats.stopped_by, "spp");
+    return result;
+}
