@@ -13,7 +13,7 @@ typedef struct sheet {
     uint64_t seed;
     struct {
         uint32_t arg, accel;
-        char label[48];
+        char label[sizeof((ec_cargo_buffer *)0)->label];
         uint64_t bytes, slack;
     } buffers[EC_CARGO_BUFFERS];
 } sheet;
