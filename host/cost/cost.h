@@ -1,7 +1,7 @@
 /* What buys accuracy cheapest on a scene: `eclat cost`. Every rung (a way to render the scene) is rendered in independent batches of
  * 1, 2, 4, … samples a pixel and compared with a reference of the whole scene, within a budget of time.
  *
- * Definitions, the same as README.md's. y is luminance, M the reference's mean of it, all errors are relative to M.
+ * Definitions, the same as host/README.md's. y is luminance, M the reference's mean of it, all errors are relative to M.
  *   error(n)   root of the mean over pixels of (y - reference)^2 for one picture of n samples a pixel, the reference's own variance
  *              subtracted; averaged over the independent pictures of that n
  *   relmse(n)  mean over pixels of (y - reference)^2 / (reference + 0.01)^2, likewise: dark pixels count as much as bright ones
