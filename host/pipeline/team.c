@@ -45,6 +45,7 @@ struct ec_team {
     pthread_cond_t work, news;        /* for members; for who takes batches */
     slot *slots;                      /* batch i is in slots[i % window] */
     uint32_t window, next, opened, end; /* [next, opened) are open; up to end they may be */
+    uint32_t taken;                   /* batches before this one have come out */
     uint64_t rays;                    /* in pieces that are over */
     bool stops;
 };
@@ -243,6 +244,7 @@ static void stop(ec_team *t)
 
 static ec_result open_ordered(ec_team *t, const ec_batch_order *order, ec_error *err)
 {
+    if (order->index < t->taken) t->opened = order->index; /* another piece of one that has come out */
     t->next = order->index;
     t->end = order->end;
     if (t->opened <= order->index) {
@@ -275,6 +277,7 @@ static ec_result wait_for(ec_team *t, const ec_batch_order *order, bool *complet
     }
     if (!*complete) stop(t);
     for (int i = 0; *complete && i < EC_STAGE_COUNT; i++) t->base.invalid[i] += s->invalid[i];
+    if (*complete) t->taken = order->index + 1;
     return EC_OK;
 }
 
