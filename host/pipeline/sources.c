@@ -7,7 +7,7 @@ ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_s
     s->devices = devices;
     s->count = s->unloaded = count;
     for (uint32_t i = 0; i < count; i++) EC_TRY(ec_pipeline_lanes(&devices[i], lanes, &stats->lanes, err)); /* before the work of what follows */
-    s->recruits = calloc(count, sizeof *s->recruits);
+    s->recruits = calloc(count + 1u, sizeof *s->recruits); /* there may be none, but allies */
     return s->recruits ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
 }
 
@@ -44,7 +44,8 @@ static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log 
         s->recruits[i] = (ec_source_recruit){.all = s, .cl = &s->devices[i]};
         recruits[i] = (ec_team_recruit){.name = s->devices[i].info.name, .open = load, .user = &s->recruits[i]};
     }
-    for (uint32_t i = 0; i < allies->count; i++) s->allied += allies->recruit(allies->user, i, &recruits[s->count + s->allied]);
+    for (uint32_t i = 0; i < allies->count; i++)
+        if (allies->recruit(allies->user, i, &recruits[s->count + s->allied])) s->allied_processes += recruits[s->count + s->allied++].processes;
     ec_result result = ec_team_open(recruits, s->count + s->allied, s->cargo.head.params.width, s->cargo.head.params.height, log, &s->team, err);
     free(recruits);
     return result;
@@ -72,7 +73,7 @@ static void tell_shares(const ec_sources *s, ec_render_stats *stats)
     const double pixels = (double)s->cargo.head.params.width * s->cargo.head.params.height;
     bool has_failed;
     stats->share_count = s->count;
-    stats->allies = s->allied;
+    stats->allies = s->allied_processes;
     for (uint32_t i = 0; i < s->allied; i++) stats->allied_batches += (double)ec_team_share(s->team, s->count + i, &has_failed) / pixels;
     for (uint32_t i = 0; i < s->count; i++) {
         const ec_render_stats *own = &s->recruits[i].stats;

@@ -34,7 +34,8 @@ typedef struct ec_sources {
     ec_team *team;                    /* NULL: one device alone */
     pthread_mutex_t lock;
     uint32_t unloaded;                /* that have not taken what they want of the cargo */
-    uint32_t allied;                  /* members of the team behind the devices */
+    uint32_t allied;                  /* members of the team behind the devices … */
+    uint32_t allied_processes;        /* … and how many processes they stand for */
 } ec_sources;
 
 /* The first step, where the cargo is there: these devices, with so many lanes (0: what suits each). To be closed on failure too. */

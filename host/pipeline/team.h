@@ -23,6 +23,7 @@ typedef struct ec_team_recruit {
     /* Called by the member's thread. *source is closed by the team, on failure too if it is not NULL. */
     ec_result (*open)(void *user, ec_batch_source **source, ec_error *err);
     void *user;
+    uint32_t processes;               /* that it stands for, beside this one */
 } ec_team_recruit;
 
 typedef struct ec_team ec_team;

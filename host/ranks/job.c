@@ -53,33 +53,63 @@ static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, e
     return result;
 }
 
-/* What a rank says to the word: EC_READY_*, and a text. */
+#define OTHER_PROGRAM "runs another version of eclat: its samples would differ; install the same one everywhere"
+
+/* What a rank says to the word: EC_READY_*, a number, and a text. */
+enum { EC_READY_RANKS };
 enum { EC_READY = EC_WORD_HOME + 1, EC_READY_WITHOUT_DEVICE, EC_READY_OTHER_PROGRAM };
 
-static ec_result hear(ec_ranks *r, int rank, const ec_log *log, ec_error *err)
+/* What comes up: of this rank and all below it. */
+typedef struct readiness {
+    uint32_t ranks;   /* that have a device */
+    uint32_t kind;    /* EC_READY if any of them has a device, EC_READY_OTHER_PROGRAM if any runs another */
+    char text[2400];  /* "host: device"; then lines, each of a rank that has none or another program */
+} readiness;
+
+static void add_line(readiness *all, const char *line)
+{
+    size_t used = strlen(all->text);
+    if (*line) snprintf(all->text + used, sizeof all->text - used, "\n%s", line);
+}
+
+static ec_result hear(ec_ranks *r, uint32_t child, readiness *all, ec_error *err)
 {
     ec_letter letter;
-    ec_remote *remote = &r->remotes[rank - 1];
+    ec_remote *remote = &r->remotes[child];
+    const int rank = ec_post_child(r->post, (int)child);
     EC_TRY(ec_post_receive(r->post, rank, EC_BOX_WORD, NULL, NULL, &letter, err));
-    const char *text = letter.body ? letter.body : "";
-    ec_result result = EC_OK;
-    *remote = (ec_remote){.ranks = r, .rank = rank, .is_ready = letter.kind == EC_READY};
+    char none[] = "", *text = letter.body ? letter.body : none, *more = strchr(text, '\n');
+    if (more) *more++ = 0;
+    *remote = (ec_remote){.ranks = r, .rank = rank, .is_ready = letter.kind == EC_READY, .ready = (uint32_t)letter.numbers[EC_READY_RANKS]};
+    all->ranks += remote->ready;
     snprintf(remote->name, sizeof remote->name, "rank %d on %s", rank, text);
-    if (letter.kind == EC_READY_WITHOUT_DEVICE) ec_warn(log, "rank %d on %s; the others go on without it", rank, text);
-    if (letter.kind == EC_READY_OTHER_PROGRAM)
-        result = ec_fail(err, "rank %d on %s runs another version of eclat: its samples would differ; install the same one everywhere", rank, text);
+    if (letter.kind == EC_READY_OTHER_PROGRAM || (letter.kind == EC_READY && all->kind == EC_READY_WITHOUT_DEVICE)) all->kind = letter.kind;
+    if (more) add_line(all, more);
     free(letter.body);
-    return result;
+    return EC_OK;
+}
+
+/* The word to the children, and what they answer. */
+static ec_result ask_below(ec_ranks *r, const ec_letter *word, readiness *all, ec_error *err)
+{
+    for (uint32_t i = 0; i < r->remote_count; i++) EC_TRY(ec_post_send(r->post, ec_post_child(r->post, (int)i), word, err));
+    for (uint32_t i = 0; i < r->remote_count; i++) EC_TRY(hear(r, i, all, err));
+    return EC_OK;
 }
 
 ec_result ec_job_send(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, const char *device, const ec_log *log, ec_error *err)
 {
     ec_letter word = {.kind = EC_WORD_JOB, .box = EC_BOX_WORD, .bytes = device ? strlen(device) + 1 : 0, .body = (void *)device};
     word.numbers[EC_JOB_PROGRAM] = program_hash();
-    if (!r->remotes) r->remotes = calloc((size_t)r->size, sizeof *r->remotes);
-    if (!r->remotes) return ec_fail(err, "out of memory");
-    for (int rank = 1; rank < r->size; rank++) EC_TRY(ec_post_send(r->post, rank, &word, err));
-    for (int rank = 1; rank < r->size; rank++) EC_TRY(hear(r, rank, log, err));
+    readiness all = {.kind = EC_READY};
+    EC_TRY(ask_below(r, &word, &all, err));
+    uint64_t go = all.kind != EC_READY_OTHER_PROGRAM;
+    char *rest = all.text, *line;
+    EC_TRY(ec_post_broadcast(r->post, &go, sizeof go, err));
+    while ((line = strsep(&rest, "\n"))) {
+        if (strstr(line, OTHER_PROGRAM)) return ec_fail(err, "%s", line);
+        if (*line) ec_warn(log, "%s", line);
+    }
     return send_sheet(r, cargo, seed, err);
 }
 
@@ -98,14 +128,16 @@ static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_
     return result;
 }
 
-/* "host: text" */
-static ec_result say(ec_ranks *r, uint32_t kind, const char *text, ec_error *err)
+/* What this rank itself has to say: "host: text", and where it cannot take part a line more for the root. */
+static void describe(const ec_ranks *r, uint32_t kind, const char *text, readiness *own)
 {
-    char host[256] = "", line[2400];
+    char host[256] = "", line[2000];
     (void)gethostname(host, sizeof host - 1);
-    snprintf(line, sizeof line, "%s%s%s", host, *text ? ": " : "", text);
-    const ec_letter letter = {.kind = kind, .box = EC_BOX_WORD, .bytes = strlen(line) + 1, .body = line};
-    return ec_post_send(r->post, 0, &letter, err);
+    own->kind = kind;
+    snprintf(own->text, sizeof own->text, "%s%s%.600s", host, *text ? ": " : "", text);
+    if (kind == EC_READY_WITHOUT_DEVICE) snprintf(line, sizeof line, "rank %d on %.900s; the others go on without it", r->rank, own->text);
+    if (kind == EC_READY_OTHER_PROGRAM) snprintf(line, sizeof line, "rank %d on %.900s " OTHER_PROGRAM, r->rank, own->text);
+    if (kind != EC_READY) add_line(own, line);
 }
 
 /* Ranks on one host share its devices out among them where --device names several. */
@@ -120,9 +152,20 @@ static ec_result find_devices(const ec_ranks *r, const char *id, ec_device_info 
 ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, uint64_t *seed, ec_device_info *devices, uint32_t *count, ec_error *err)
 {
     ec_error why = {0};
+    readiness all = {0};
     *count = 0;
-    if (word->numbers[EC_JOB_PROGRAM] != program_hash()) return say(r, EC_READY_OTHER_PROGRAM, "", err);
-    if (find_devices(r, word->body, devices, count, &why) == EC_OK) EC_TRY(say(r, EC_READY, devices->name, err));
-    else EC_TRY(say(r, EC_READY_WITHOUT_DEVICE, why.text, err));
-    return receive_sheet(r, cargo, seed, err);
+    if (word->numbers[EC_JOB_PROGRAM] != program_hash()) describe(r, EC_READY_OTHER_PROGRAM, "", &all);
+    else if (find_devices(r, word->body, devices, count, &why) == EC_OK) describe(r, EC_READY, devices->name, &all);
+    else describe(r, EC_READY_WITHOUT_DEVICE, why.text, &all), *count = 0;
+    all.ranks = *count > 0;
+    EC_TRY(ask_below(r, word, &all, err));
+    const ec_letter letter = {.kind = all.kind, .box = EC_BOX_WORD, .bytes = strlen(all.text) + 1, .body = all.text,
+                              .numbers = {[EC_READY_RANKS] = all.ranks}};
+    EC_TRY(ec_post_send(r->post, ec_post_parent(r->post), &letter, err));
+    uint64_t go = 0;
+    EC_TRY(ec_post_broadcast(r->post, &go, sizeof go, err));
+    if (go) return receive_sheet(r, cargo, seed, err);
+    *count = 0; /* the root says why, and sends all home */
+    for (uint32_t i = 0; i < r->remote_count; i++) r->remotes[i].is_ready = false;
+    return EC_OK;
 }

@@ -13,6 +13,15 @@ int ec_post_size(const ec_post *post) { return post->size; }
 int ec_post_local_rank(const ec_post *post) { return post->local_rank; }
 int ec_post_local_size(const ec_post *post) { return post->local_size; }
 
+int ec_post_parent(const ec_post *p) { return p->rank ? (p->rank - 1) / p->fanout : -1; }
+int ec_post_child(const ec_post *p, int i) { return p->rank * p->fanout + 1 + i; }
+
+int ec_post_children(const ec_post *p)
+{
+    const int64_t behind = (int64_t)p->size - 1 - (int64_t)p->rank * p->fanout;
+    return behind < 0 ? 0 : behind < p->fanout ? (int)behind : p->fanout;
+}
+
 static bool any_lost(const ec_post *p)
 {
     bool any = false;

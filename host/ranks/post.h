@@ -32,6 +32,13 @@ int ec_post_size(const ec_post *post);
 int ec_post_local_rank(const ec_post *post); /* among those on this host */
 int ec_post_local_size(const ec_post *post);
 
+/* Ranks are a tree with rank 0 at its root, so that nobody has more than EC_TREE_FANOUT + 1 others to talk to, however many there are: a rank
+ * exchanges letters with its parent and its children alone. ECLAT_RANK_FANOUT sets another number, the same for all: for tests. */
+#define EC_TREE_FANOUT 16
+int ec_post_parent(const ec_post *post);   /* -1: it is the root */
+int ec_post_child(const ec_post *post, int i);
+int ec_post_children(const ec_post *post); /* how many */
+
 /* Returns when the letter and its body have been taken by MPI; they stay the caller's. Fails where the rank is lost. */
 ec_result ec_post_send(ec_post *post, int to, const ec_letter *letter, ec_error *err);
 

@@ -46,7 +46,7 @@ struct ec_post {
     pthread_mutex_t lock;              /* of all that follows */
     pthread_cond_t call, news;         /* to the thread; from it */
     MPI_Comm comm;
-    int rank, size, local_rank, local_size;
+    int rank, size, local_rank, local_size, fanout;
     peer *peers;                       /* by rank */
     outgoing *to_send;
     struct {

@@ -14,8 +14,14 @@ enum { CHUNK = 64 << 20, TAG = 1 };   /* bytes of one message: MPI counts in int
 static uint64_t chunks_of(uint64_t bytes) { return (bytes + CHUNK - 1) / CHUNK; }
 static int chunk_bytes(uint64_t bytes, uint64_t i) { return bytes - i * CHUNK < CHUNK ? (int)(bytes - i * CHUNK) : CHUNK; }
 
-/* Rank 0 talks to all others, and they to it alone. */
-static bool is_peer(const ec_post *p, int rank) { return rank != p->rank && (p->rank == 0 || rank == 0); }
+static bool is_peer(const ec_post *p, int rank) { return rank == ec_post_parent(p) || (rank > 0 && (rank - 1) / p->fanout == p->rank); }
+
+static int fanout(void)
+{
+    const char *given = getenv("ECLAT_RANK_FANOUT");
+    const int n = given ? atoi(given) : EC_TREE_FANOUT;
+    return n > 0 ? n : EC_TREE_FANOUT;
+}
 
 /* With the lock. */
 static void lose(ec_post *p, int rank)
@@ -175,6 +181,7 @@ static void start(ec_post *p)
     MPI_Comm_set_errhandler(p->comm, MPI_ERRORS_RETURN);
     MPI_Comm_rank(p->comm, &p->rank);
     MPI_Comm_size(p->comm, &p->size);
+    p->fanout = fanout();
     MPI_Comm_split_type(p->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &local);
     MPI_Comm_rank(local, &p->local_rank);
     MPI_Comm_size(local, &p->local_size);

@@ -1,7 +1,7 @@
 /* The processes of an MPI job (mpirun -n 8 eclat render …), its ranks, as one renderer. Rank 0 reads the command line, loads the scene and
- * sends what a device is given of it to all others; they know no files. Batches are ordered from rank 0 as ranks get free, and what comes
- * back are their means: the picture has the same bits as that of one process. Without MPI at build time no_mpi.c takes the place of
- * all but launch.c and plan.c. */
+ * sends what a device is given of it to all others; they know no files. Pieces of batches go down a tree of ranks (post.h) as ranks get free: a
+ * rank is a team of its own devices and its children, and to its parent one source. What comes up are sums over a batch's samples: the picture has
+ * the same bits as that of one process. Without MPI at build time no_mpi.c takes the place of all but launch.c and plan.c. */
 #ifndef EC_RANKS_RANKS_H
 #define EC_RANKS_RANKS_H
 
@@ -21,14 +21,14 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err);
 int ec_ranks_number(const ec_ranks *ranks); /* this process' */
 int ec_ranks_count(const ec_ranks *ranks);
 
-/* The others as allies of a render (pipeline/sources.h), which find their devices by --device (NULL: not given). */
+/* On rank 0: the others as allies of a render (pipeline/sources.h), which find their devices by --device (NULL: not given). */
 ec_allies ec_ranks_allies(ec_ranks *ranks, const char *device);
 /* Leaves those that are this process', where several on one host are to use several devices: every n-th, or if there are fewer devices one. */
 void ec_ranks_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count);
 /* Where these are processors and the launcher lets this process use some of the cores only. */
 void ec_ranks_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log);
 
-void ec_ranks_leave(ec_ranks *ranks); /* on rank 0 it sends all others home. NULL is fine */
+void ec_ranks_leave(ec_ranks *ranks); /* sends all below home. NULL is fine */
 
 /* All that other ranks do: waits for rank 0's word, and renders as it says, if it does. */
 ec_result ec_ranks_serve(ec_ranks *ranks, ec_error *err);

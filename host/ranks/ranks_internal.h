@@ -13,17 +13,18 @@ struct ec_ranks {
     pthread_mutex_t lock;
     uint32_t last_box;  /* that was given to a result; with the lock */
     const char *device; /* --device */
-    struct ec_remote *remotes; /* rank 0: its sources, of ranks 1 on */
+    struct ec_remote *remotes; /* its children as sources */
+    uint32_t remote_count;
 };
 
-/* Boxes: rank 0's word to all, and the answers; its orders; and from then on one for the result of each order. */
+/* Boxes: the parent's word, and the answers; its orders; and from then on one for the result of each order. */
 enum { EC_BOX_WORD, EC_BOX_ORDERS, EC_BOX_RESULTS };
 
-/* Rank 0 to all: here is a job, and they answer; then it is broadcast (job.c). Or: that was all. */
+/* From the root down: here is a job, and answers come up; then it is broadcast (job.c). Or: that was all. */
 enum { EC_WORD_JOB, EC_WORD_HOME };
 enum { EC_JOB_PROGRAM };
 
-/* Rank 0 to one: positions [from, to) of batch `index` (batch_source.h); body: that part of the list, 4 bytes each, if there is one. Or: the job is
+/* A parent to one: positions [from, to) of batch `index` (batch_source.h); body: that part of the list, 4 bytes each, if there is one. Or: the job is
  * over; what is under way is given up. */
 enum { EC_ORDER_BATCH, EC_ORDER_END };
 enum { EC_ORDER_BOX, EC_ORDER_INDEX, EC_ORDER_FROM, EC_ORDER_TO, EC_ORDER_FEATURES };

@@ -1,14 +1,15 @@
-/* Ranks other than 0: one job after the other, until they are sent home. */
+/* Ranks other than 0: one job after the other, until they are sent home. A rank's devices and its children are a team. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "pipeline/sources.h"
 #include "ranks/job.h"
+#include "ranks/remote.h"
 
 typedef struct server {
     ec_ranks *ranks;
     ec_sources sources;
-    ec_batch_source *source;  /* its devices */
+    ec_batch_source *source;  /* its devices and all below */
     uint64_t pixels;
 } server;
 
@@ -17,7 +18,7 @@ static bool goes_on(void *user, uint32_t done)
 {
     const server *s = user;
     (void)done;
-    return !ec_post_has(s->ranks->post, 0, EC_BOX_ORDERS);
+    return !ec_post_has(s->ranks->post, ec_post_parent(s->ranks->post), EC_BOX_ORDERS);
 }
 
 /* The answer's body is malloc'ed. It stays NULL where the job was ended meanwhile. */
@@ -51,7 +52,7 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     return result;
 }
 
-/* Its failure is rank 0's to judge. False: there is nothing to say. */
+/* Its failure is the parent's to judge. False: there is nothing to say. */
 static bool fill_answer(server *s, const ec_letter *letter, const ec_error *unfit, ec_letter *answer)
 {
     ec_error why = *unfit;
@@ -65,11 +66,12 @@ static bool fill_answer(server *s, const ec_letter *letter, const ec_error *unfi
 
 static ec_result take_orders(server *s, const ec_error *unfit, ec_error *err)
 {
+    const int parent = ec_post_parent(s->ranks->post);
     for (;;) {
         ec_letter letter, answer;
-        EC_TRY(ec_post_receive(s->ranks->post, 0, EC_BOX_ORDERS, NULL, NULL, &letter, err));
+        EC_TRY(ec_post_receive(s->ranks->post, parent, EC_BOX_ORDERS, NULL, NULL, &letter, err));
         if (letter.kind == EC_ORDER_END) return EC_OK;
-        if (fill_answer(s, &letter, unfit, &answer)) ec_post_send_away(s->ranks->post, 0, &answer);
+        if (fill_answer(s, &letter, unfit, &answer)) ec_post_send_away(s->ranks->post, parent, &answer);
         free(letter.body);
     }
 }
@@ -78,6 +80,20 @@ static ec_result open_devices(const ec_device_info *infos, uint32_t count, ec_cl
 {
     for (uint32_t i = 0; i < count; i++) EC_TRY(ec_cl_open(&infos[i], &devices[i], err));
     return EC_OK;
+}
+
+/* They have the cargo already. */
+static ec_result send_nothing(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err)
+{
+    (void)user, (void)cargo, (void)seed, (void)log, (void)err;
+    return EC_OK;
+}
+
+static bool is_any_ready(const ec_ranks *r)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < r->remote_count; i++) any |= r->remotes[i].is_ready;
+    return any;
 }
 
 static ec_result serve_job(ec_ranks *r, const ec_letter *word, ec_error *err)
@@ -90,12 +106,15 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, ec_error *err)
     uint32_t count;
     uint64_t seed;
     ec_result result = ec_job_receive(r, word, &s.sources.cargo, &seed, infos, &count, err);
-    if (result == EC_OK && count) {
+    const bool is_inner = is_any_ready(r);
+    const ec_allies below = {.count = r->remote_count, .send = send_nothing, .recruit = ec_ranks_recruit, .user = r};
+    const ec_log silent = {0}; /* what is out below is not missed here: others take over, or the parent hears of the failure */
+    if (result == EC_OK && (count || is_inner)) {
         const ec_params *params = &s.sources.cargo.head.params;
         s.pixels = (uint64_t)params->width * params->height;
         bool fit = open_devices(infos, count, devices, &why) == EC_OK &&
                    ec_sources_enlist(devices, count, s.sources.cargo.head.lanes, &s.sources, &stats, &why) == EC_OK &&
-                   ec_sources_open(&s.sources, seed, NULL, NULL, &s.source, &stats, &why) == EC_OK &&
+                   ec_sources_open(&s.sources, seed, is_inner ? &below : NULL, is_inner ? &silent : NULL, &s.source, &stats, &why) == EC_OK &&
                    (!s.source->turn_to || s.source->turn_to(s.source, 0, params->height, &why) == EC_OK);
         if (!fit && !*why.text) ec_fail(&why, "its device failed");
         result = take_orders(&s, &why, err);
@@ -109,7 +128,7 @@ ec_result ec_ranks_serve(ec_ranks *r, ec_error *err)
 {
     for (;;) {
         ec_letter word;
-        EC_TRY(ec_post_receive(r->post, 0, EC_BOX_WORD, NULL, NULL, &word, err));
+        EC_TRY(ec_post_receive(r->post, ec_post_parent(r->post), EC_BOX_WORD, NULL, NULL, &word, err));
         ec_result result = word.kind == EC_WORD_JOB ? serve_job(r, &word, err) : EC_OK;
         free(word.body);
         if (word.kind == EC_WORD_HOME || result != EC_OK) return result;
