@@ -48,6 +48,7 @@ static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log 
         if (allies->recruit(allies->user, i, &recruits[s->count + s->allied])) s->allied_processes += recruits[s->count + s->allied++].processes;
     ec_result result = ec_team_open(recruits, s->count + s->allied, s->cargo.head.params.width, s->cargo.head.params.height, log, &s->team, err);
     free(recruits);
+    if (result == EC_OK) ec_team_wait(s->team, s->count); /* limits of time do not count compilers */
     return result;
 }
 

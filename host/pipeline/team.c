@@ -230,6 +230,19 @@ static ec_result tell_failures(ec_team *t, ec_error *err)
     return alive(t) ? EC_OK : EC_FAILED;
 }
 
+void ec_team_wait(ec_team *t, uint32_t count)
+{
+    bool waits = count > 0;
+    pthread_mutex_lock(&t->lock);
+    while (waits) {
+        bool any = false, all_failed = true;
+        for (uint32_t i = 0; i < count; i++) any |= t->members[i].is_ready, all_failed &= t->members[i].has_failed;
+        waits = !any && !all_failed;
+        if (waits) wait_for_news(t);
+    }
+    pthread_mutex_unlock(&t->lock);
+}
+
 /* Until nobody is at work. */
 static void stop(ec_team *t)
 {

@@ -154,8 +154,11 @@ class Study(Case):
         document, _ = quad_scene(material=plate)
         document["cameras"][0]["perspective"]["yfov"] = 0.01
         scene = write_gltf(self.path("plate.gltf"), document)
-        run = self.assert_ok(eclat("cost", scene, "--env", "1,1,1", "--size", "8x8", "--budget", "30s", "--json", "-", cwd=self.folder))
-        again = rung_of(json.loads(run.stdout), "scattering-multiple")
+        for _ in range(3):  # kernels that one study has compiled are there for the next
+            run = self.assert_ok(eclat("cost", scene, "--env", "1,1,1", "--size", "8x8", "--budget", "30s", "--json", "-", cwd=self.folder))
+            again = rung_of(json.loads(run.stdout), "scattering-multiple")
+            if again["state"] != "budget too small":
+                break
         self.assertEqual((again["state"], again["group"], again["settings"]["scattering"]), ("measured", "scattering", "multiple"), again["note"])
         self.assertTrue(again["biased"])
         self.assertAlmostEqual(again["error_floor"], 0.996 / (1 - math.log(2)) - 1, delta=0.02)

@@ -45,10 +45,10 @@ class Ranks(Case):
         run = self.assert_ok(eclat("render", *options, "--json", "-q", "-o", self.path(name)))
         return json.loads(run.stdout), read_exr(self.path(name))[1]
 
-    def assert_same(self, job, counts=(2, 3, 5)):
+    def assert_same(self, job, counts=(2, 3, 5), env=None, more=()):
         whole, planes = self.render(*job)
         for ranks in counts:
-            run = mpirun(ranks, "render", *job, "--json", "-q", "-o", self.path("b.exr"))
+            run = mpirun(ranks, "render", *job, *more, "--json", "-q", "-o", self.path("b.exr"), env=env, timeout=100)
             self.assert_ok(run)
             report = json.loads(run.stdout)
             self.assertEqual(report["ranks"], ranks)
@@ -64,6 +64,17 @@ class Ranks(Case):
         report = json.loads(run.stdout)
         self.assertGreater(report["other_ranks_batches"], 0.2 * report["batches"])
         self.assertLess(report["other_ranks_batches"], report["batches"])
+
+    def test_trees(self):
+        """A chain of five, and two levels of two: nobody but neighbours exchanges letters."""
+        for fanout in ["1", "2"]:
+            self.assert_same([*JOB, "--spp", "70", "--batch", "2"], [5], {"ECLAT_RANK_FANOUT": fanout})
+            self.assert_same([*JOB, "--adaptive", "--spp", "48", "--batch", "2"], [5], {"ECLAT_RANK_FANOUT": fanout})
+
+    def test_ranks_of_several_devices(self):
+        """Pieces of one batch reach the same rank one after the other."""
+        job = [CORNELL, "--size", "64x64", "--spp", "64", "--batch", "16", "--wave", "4096"]
+        self.assert_same(job, [2], {"POCL_DEVICES": "basic basic basic basic"}, ["--device", "all"])
 
     def test_one_process(self):
         self.assert_same([*JOB, "--spp", "16"], [1])
@@ -99,7 +110,7 @@ class Ranks(Case):
 
     def test_a_limit_of_time(self):
         start = time.monotonic()
-        run = self.assert_ok(mpirun(3, "render", *JOB, "--time", "2s", "--json", "-q", "-o", self.path("a.exr")))
+        run = self.assert_ok(mpirun(3, "render", *JOB, "--time", "4s", "--json", "-q", "-o", self.path("a.exr")))
         report = json.loads(run.stdout)
         self.assertEqual(report["stopped_by"], "time")
         self.assertLess(time.monotonic() - start, 40)  # where a rank waits for another, a minute
@@ -165,11 +176,12 @@ class Ranks(Case):
             self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
             os.remove(kept)
 
-    def render_with(self, on_rank_1, job):
+    def render_with(self, on_rank_1, job, env=None):
         """With three ranks, one of which has other variables."""
         script = f'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then export {on_rank_1}; fi; exec "$@"'
         run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", "-n", "3", "sh", "-c", script, "sh", ECLAT, "render", *job, "--json", "-o",
-                              self.path("b.exr")], env=MPI, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=100)
+                              self.path("b.exr")], env=dict(MPI, **(env or {})), stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
+                             timeout=100)
         self.assert_ok(run)
         whole, planes = self.render(*job)
         self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
@@ -177,16 +189,19 @@ class Ranks(Case):
         return run
 
     def test_a_rank_without_a_device(self):
-        """It says so and the others do its work."""
-        run = self.render_with("OCL_ICD_VENDORS=/nonexistent", [*JOB, "--spp", "40", "--batch", "1"])
-        self.assertRegex(run.stderr, "warning: rank 1 on .*; the others go on without it")
+        """It says so and the others do its work; in a chain it is still who the last one is reached by."""
+        for env in [{}, {"ECLAT_RANK_FANOUT": "1"}]:
+            run = self.render_with("OCL_ICD_VENDORS=/nonexistent", [*JOB, "--spp", "40", "--batch", "1"], env)
+            self.assertRegex(run.stderr, "warning: rank 1 on .*; the others go on without it")
+            self.assertEqual(json.loads(run.stdout)["ranks"], 2)
 
     def test_a_rank_whose_device_fails(self):
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=60 FAULT_LOST=1"
-        run = self.render_with(fault, [CORNELL, "--size", "64x48", "--spp", "1024", "--batch", "4"])
-        self.assertRegex(run.stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
+        job = [CORNELL, "--size", "64x48", "--spp", "1024", "--batch", "4"]
+        self.assertRegex(self.render_with(fault, job).stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
+        self.render_with(fault, job, {"ECLAT_RANK_FANOUT": "1"})  # it goes on with what the last rank does
 
     def test_cores(self):
         """What a launcher binds to a core, as Open MPI does, is told of it."""
