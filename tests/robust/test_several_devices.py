@@ -56,14 +56,14 @@ class Several(Case):
 
     def test_pieces_of_batches(self):
         """A wave is two rows of tiles of the seven: every batch is cut."""
-        several = self.assert_same("--spp", "64", "--batch", "16", "--wave", str(72 * 8 * 16 * 2))
+        several = self.assert_same("--spp", "1024", "--batch", "16", "--wave", str(72 * 8 * 16 * 2))
         self.assertTrue(all(one["batches"] > 0 for one in several["devices"]), several["devices"])
 
     def test_error(self):
         self.assertEqual(self.assert_same("--error", "12%", "--batch", "4")["stopped_by"], "error")
 
     def test_adaptive(self):
-        several = self.assert_same("--adaptive", "--spp", "64", "--batch", "4", "--wave", "4096")
+        several = self.assert_same("--adaptive", "--spp", "256", "--batch", "4", "--wave", "4096")
         self.assertLess(several["allotment_gain"], 1)  # it is not uniform all the same
         self.assertTrue(all(one["batches"] > 0 for one in several["devices"]), several["devices"])
         self.assert_same("--adaptive", "--error", "10%", "--batch", "4")
