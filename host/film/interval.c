@@ -109,8 +109,3 @@ uint64_t ec_film_interval_rows(const ec_film *film, uint32_t first, uint32_t row
         }
     return count;
 }
-
-uint64_t ec_film_intervals(const ec_film *film, float *low, float *high, float *heavy)
-{
-    return ec_film_interval_rows(film, 0, film->height, low, high, heavy);
-}

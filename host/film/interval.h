@@ -5,13 +5,12 @@
 
 #include "film/film.h"
 
-/* low and high: 3 floats a pixel, the interval's ends, 0 <= low <= mean <= high. heavy: 1 a pixel, 1 where the noise has too
+enum { EC_INTERVAL_REACH = 2 };
+
+/* Of rows [first, first + rows), whose first value comes first; they look at EC_INTERVAL_REACH rows above and below. low and high: 3 floats a
+ * pixel, the interval's ends, 0 <= low <= mean <= high. heavy: 1 a pixel, 1 where the noise has too
  * heavy a tail for its own estimate, so that the pixel's error is a lower bound; else 0. Any may be NULL. Returns the number
  * of heavy pixels. With fewer than two batches nothing is known: 0, infinity, and every pixel heavy. */
-uint64_t ec_film_intervals(const ec_film *film, float *low, float *high, float *heavy);
-
-/* The same of rows [first, first + rows) alone, whose first value comes first. They look at EC_INTERVAL_REACH rows above and below. */
-enum { EC_INTERVAL_REACH = 2 };
 uint64_t ec_film_interval_rows(const ec_film *film, uint32_t first, uint32_t rows, float *low, float *high, float *heavy);
 
 #endif

@@ -57,7 +57,7 @@ typedef struct intervals {
 static intervals of(ec_film *film)
 {
     static intervals i;
-    i.count = ec_film_intervals(film, i.low, i.high, i.heavy);
+    i.count = ec_film_interval_rows(film, 0, film->height, i.low, i.high, i.heavy);
     return i;
 }
 
@@ -157,7 +157,7 @@ static void without_batches_nothing_is_known(void)
         ec_film film = filled(batches, draw_normal, 0);
         intervals i = of(&film);
         CHECK(i.count == P && i.low[0] == 0 && isinf(i.high[0]) && i.heavy[3] == 1);
-        CHECK(ec_film_intervals(&film, NULL, NULL, NULL) == P);
+        CHECK(ec_film_interval_rows(&film, 0, film.height, NULL, NULL, NULL) == P);
         ec_film_destroy(&film);
     }
 }

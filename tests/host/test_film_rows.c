@@ -57,7 +57,7 @@ static void intervals_of_rows_are_those_of_the_whole(void)
 {
     static intervals all, some;
     ec_film whole = filled(0, H, 16);
-    uint64_t heavy = ec_film_intervals(&whole, all.low, all.high, all.heavy), sum = 0;
+    uint64_t heavy = ec_film_interval_rows(&whole, 0, whole.height, all.low, all.high, all.heavy), sum = 0;
     for (uint32_t first = 0, rows; first < H; first += rows) {
         rows = H - first < 7 ? H - first : 7;
         uint64_t p = (uint64_t)first * W;

@@ -28,7 +28,7 @@ static void count_values(const case_batches *batches, const ec_film *film, tally
     uint64_t values = batches->values;
     float *low = malloc(4 * values * sizeof *low), *high = low + values, *heavy = high + values, *se = heavy + values;
     double t = ec_student_t_quantile(0.975, film->batch_count - 1.0);
-    ec_film_intervals(film, low, high, heavy);
+    ec_film_interval_rows(film, 0, film->height, low, high, heavy);
     ec_film_resolve(film, NULL, se);
     for (uint64_t i = 0; i < values; i++) {
         double truth = case_truth_without(batches, film, i), mean = film->mean[i];
