@@ -22,6 +22,8 @@ static void look_at_self(uint64_t *space, uint64_t *resident)
     fclose(file);
 }
 
+uint64_t ec_memory_of_machine(void) { return (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE); }
+
 uint64_t ec_memory_resident(void)
 {
     uint64_t space, resident;

@@ -1,9 +1,10 @@
-/* How much memory this process has, and how much more it may take. */
+/* How much memory there is, how much of it this process has, and how much more it may take. */
 #ifndef EC_BASE_MEMORY_H
 #define EC_BASE_MEMORY_H
 
 #include <stdint.h>
 
+uint64_t ec_memory_of_machine(void); /* bytes, free or not */
 uint64_t ec_memory_resident(void); /* bytes that are the process's own and in memory now; 0: not known */
 
 /* Bytes that it may take beside them before the machine runs short, its control group (v2 or v1) ends it, or its address space (ulimit -v)

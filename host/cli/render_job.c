@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "cli/defaults.h"
 #include "cli/numbers.h"
 #include "cli/usage.h"
@@ -122,7 +122,7 @@ static ec_result check_memory(const ec_render_job *job, ec_error *err)
     const uint32_t allies = job->ranks ? (uint32_t)ec_ranks_count(job->ranks) - 1 : 0;
     const char *reason = job->device_count > 1 ? "more than one --device" : allies ? "an MPI job" : ec_render_whole_for(job->request);
     uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count, allies);
-    uint64_t present = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
+    uint64_t present = ec_memory_of_machine();
     int64_t budget = options->memory ? ec_strip_budget(options, 0) : (int64_t)present;
     if (reason && (int64_t)needed > budget) return ec_strip_refuse(options, needed, budget, reason, err);
     return EC_OK;

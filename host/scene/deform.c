@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+
+#include "base/memory.h"
 
 typedef struct deformer {
     ec_gltf *g;
@@ -34,7 +35,7 @@ static bool has_influences(const ec_gltf_mesh *mesh)
 /* A few bytes may stand for many vertices, and each node that deforms a mesh takes a copy of it. */
 static ec_result check_memory(deformer *d, const ec_gltf_primitive *p)
 {
-    uint64_t memory = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
+    uint64_t memory = ec_memory_of_machine();
     d->bytes += d->g->accessors[p->streams.position].count * 72;
     if (d->bytes <= memory) return EC_OK;
     return ec_fail(d->err, "%s: its deformed meshes need %llu MB, this machine has %llu MB", d->g->path,

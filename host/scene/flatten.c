@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+
+#include "base/memory.h"
 
 #define NO_VERTEX UINT32_MAX
 
@@ -71,7 +72,7 @@ static ec_result check_memory(const ec_flattener *f, const char *path)
     uint64_t per_vertex = 12u + 12u * f->has_normals + 16u * f->has_tangents + 16u * f->has_colors +
                           8u * f->has_uv[0] + 8u * f->has_uv[1];
     uint64_t bytes = f->vertex_bound * per_vertex + f->triangle_bound * 16;
-    uint64_t memory = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
+    uint64_t memory = ec_memory_of_machine();
     if (bytes <= memory) return EC_OK;
     return ec_fail(f->err, "%s: %llu triangles once all instances are counted need %llu MB, this machine has %llu MB",
                    path, (unsigned long long)f->triangle_bound, (unsigned long long)(bytes >> 20),

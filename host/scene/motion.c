@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+
+#include "base/memory.h"
 
 /* Powers of two of equal steps, keys of all counts among them: the first moments looked at, four for each way from keyframe to keyframe
  * within the shutter, on which a rotation turns by half a turn at most. */
@@ -99,7 +100,7 @@ static ec_result read_moment(ec_tracks *t, uint32_t moment, ec_error *err)
 static ec_result check_memory(const ec_tracks *t, uint32_t step, ec_error *err)
 {
     uint64_t bytes = (uint64_t)t->count * t->words * sizeof(float) * (EC_MOMENTS / step + 1);
-    uint64_t memory = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
+    uint64_t memory = ec_memory_of_machine();
     if (bytes <= memory / 2) return EC_OK;
     return ec_fail(err, "%s: %u vertices that may move, at %u moments, need %llu MB, and this machine has %llu MB; give a shorter --shutter",
                    t->base->path, t->count, EC_MOMENTS / step + 1, (unsigned long long)(bytes >> 20), (unsigned long long)(memory >> 20));

@@ -3,7 +3,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+
+#include "base/memory.h"
 
 static void write_vertices(const ec_scene *s, const ec_placed *p, ec_scene *w)
 {
@@ -72,7 +73,7 @@ ec_result ec_scene_write_out(const ec_scene *s, ec_scene *w, ec_error *err)
     w->placed = NULL;
     w->shape_count = w->placed_count = 0;
     /* What an accelerator adds is more than the soup itself: 200 bytes a triangle are little. */
-    uint64_t memory = (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE), needed = triangles * 200;
+    uint64_t memory = ec_memory_of_machine(), needed = triangles * 200;
     if (triangles > INT32_MAX || vertices > INT32_MAX || needed > memory || !allocate(s, vertices + 1, triangles + 1, w)) {
         ec_scene_written_free(w);
         return ec_fail(err, "%llu triangles of %u instances written out need %llu MB, and this machine has %llu MB; leave --accel out or take "
