@@ -2,8 +2,10 @@
 #ifndef EC_BASE_CLOCK_H
 #define EC_BASE_CLOCK_H
 #include <stdint.h>
+#include <time.h>
 
 double ec_now(void);                  /* seconds, monotonic, arbitrary origin */
+struct timespec ec_deadline(double seconds); /* so long from now, as pthread_cond_timedwait takes it */
 uint64_t ec_peak_memory_bytes(void);  /* peak resident set of this process, 0 if unknown */
 
 #endif

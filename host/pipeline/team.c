@@ -4,7 +4,6 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/clock.h"
 
@@ -210,11 +209,7 @@ static uint32_t done_of(const ec_team *t, const slot *s)
 
 static void wait_for_news(ec_team *t)
 {
-    struct timespec until;
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_nsec += 50000000; /* a tenth of a second is what progress is asked for */
-    until.tv_sec += until.tv_nsec / 1000000000;
-    until.tv_nsec %= 1000000000;
+    const struct timespec until = ec_deadline(0.05); /* half of the time between two words of progress */
     pthread_cond_timedwait(&t->news, &t->lock, &until);
 }
 

@@ -46,13 +46,11 @@ ec_result ec_post_open(ec_post **post, ec_error *err)
 void ec_post_close(ec_post *p)
 {
     if (!p) return;
-    struct timespec until;
     pthread_mutex_lock(&p->lock);
     p->closing = true;
     pthread_cond_signal(&p->call);
     bool may_hang = p->open && any_lost(p);
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_sec += (time_t)FINALIZE_SECONDS;
+    const struct timespec until = ec_deadline(FINALIZE_SECONDS);
     int waited = 0;
     while (!p->closed && waited != ETIMEDOUT) waited = may_hang ? pthread_cond_timedwait(&p->news, &p->lock, &until) : pthread_cond_wait(&p->news, &p->lock);
     bool closed = p->closed;

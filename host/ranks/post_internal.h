@@ -3,10 +3,10 @@
 #define EC_RANKS_POST_INTERNAL_H
 
 #include <pthread.h>
-#include <time.h>
 
 #include <mpi.h>
 
+#include "base/clock.h"
 #include "ranks/post.h"
 
 typedef struct head {
@@ -65,10 +65,7 @@ void *ec_post_run(void *post);
 /* With the lock, which others may have meanwhile. */
 static inline void ec_post_wait(ec_post *p, pthread_cond_t *on, double seconds)
 {
-    struct timespec until;
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_nsec += (long)(seconds * 1e9);
-    if (until.tv_nsec >= 1000000000) until.tv_nsec -= 1000000000, until.tv_sec++;
+    const struct timespec until = ec_deadline(seconds);
     pthread_cond_timedwait(on, &p->lock, &until);
 }
 

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "pack/pack.h"
 #include "view/shared.h"
 #include "view/watch.h"
@@ -173,22 +173,12 @@ static bool is_served(const loader *l, const ec_view_wish *wish)
     return second && is_made(l, EC_ROLE_PICTURE, wish->integrator, wish->without);
 }
 
-static struct timespec in_seconds(double seconds)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_REALTIME, &t);
-    double at = (double)t.tv_nsec * 1e-9 + seconds;
-    t.tv_sec += (time_t)at;
-    t.tv_nsec = (long)((at - floor(at)) * 1e9);
-    return t;
-}
-
 /* Until there is something to do, and for no reason else. true: it is time to look at the files. */
 static bool wait_for_work(loader *l, bool pending, ec_view_wish *wish, bool *quit)
 {
     ec_view *view = l->view;
     bool timed = pending || l->watch.is_deaf, late = false;
-    struct timespec until = in_seconds(pending ? SETTLES : DEAF_LOOKS);
+    struct timespec until = ec_deadline(pending ? SETTLES : DEAF_LOOKS);
     pthread_mutex_lock(&view->lock);
     while (!view->quit && !late && is_served(l, &view->wish) && l->reloads == view->wish.reloads && l->file_events == view->file_events)
         late = (timed ? pthread_cond_timedwait(&view->changed, &view->lock, &until) : pthread_cond_wait(&view->changed, &view->lock)) != 0;
