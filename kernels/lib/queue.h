@@ -32,6 +32,21 @@ EC_FN v3 queue_load_v3(global const float *queue, uint wave, uint field, uint i)
     return v3_make(queue_load_f(queue, wave, field, i), queue_load_f(queue, wave, field + 1, i),
                    queue_load_f(queue, wave, field + 2, i));
 }
+/* Entries that stand side by side from `first` on, or those of `order`. */
+typedef struct queue_packet {
+    uint first;
+    bool is_scattered;
+    lane_u at;
+} queue_packet;
+EC_FN lane_f packet_load_f(global const float *queue, uint wave, uint field, const queue_packet *q)
+{
+    return q->is_scattered ? gather_f(queue + field * wave, q->at) : queue_load_f(queue, wave, field, q->first);
+}
+EC_FN lane_u packet_load_u(global const float *queue, uint wave, uint field, const queue_packet *q) { return as_lane_u(packet_load_f(queue, wave, field, q)); }
+EC_FN v3 packet_load_v3(global const float *queue, uint wave, uint field, const queue_packet *q)
+{
+    return v3_make(packet_load_f(queue, wave, field, q), packet_load_f(queue, wave, field + 1, q), packet_load_f(queue, wave, field + 2, q));
+}
 EC_FN void queue_store_f(global float *queue, uint wave, uint field, uint i, lane_f v)
 {
     LANE_STORE(v, queue + field * wave + i);
@@ -41,6 +56,11 @@ EC_FN void queue_store_v3(global float *queue, uint wave, uint field, uint i, v3
     queue_store_f(queue, wave, field, i, v.x);
     queue_store_f(queue, wave, field + 1, i, v.y);
     queue_store_f(queue, wave, field + 2, i, v.z);
+}
+EC_FN void packet_store_f(global float *queue, uint wave, uint field, const queue_packet *q, lane_f v, uint bits)
+{
+    if (q->is_scattered) scatter_f(queue + field * wave, q->at, v, bits);
+    else queue_store_f(queue, wave, field, q->first, v);
 }
 /* Appends the lanes of `bits` at i, i + 1, … */
 EC_FN void queue_push_f(global float *queue, uint wave, uint field, uint i, lane_f v, uint bits)

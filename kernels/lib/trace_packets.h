@@ -6,6 +6,7 @@
 #include "film.h"
 #include "pane.h"
 #include "queue.h"
+#include "sort_rays.h"
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
 kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
@@ -14,31 +15,36 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
-    uint left = queue_left(counters->rays[step], params->part, i);
-    if (!left) return;
-    lane_i active = LANE_NUMBERS < left;
-    ray r = ray_make(queue_load_v3(paths, wave, EC_PATH_OX, i), queue_load_v3(paths, wave, EC_PATH_DX, i), params->scene_max);
-    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
-    lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i);
-    slot = active ? slot : U(0);
-    if (HAS_TIMES) filter.g.time = gather_f(times, slot);
-    if (HAS(ALPHA)) {
-        lane_u pixel, sample;
-        slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
-        filter.key = filter_key(seed, pixel, sample, bounce, false);
-    }
+    uint order[EC_SORTED];
+    bool sorts = LANES > 1 && bounce; /* camera rays lie side by side */
+    uint count = item_rays(counters->rays[step], paths, wave, params->part, EC_PATH_OX, EC_PATH_DX, i, sorts, order);
     const accel a = ACCEL_ARGUMENTS;
-    hit h = {active ? F(EC_HUGE) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
-    lane_u skip = queue_load_u(paths, wave, EC_PATH_PRIM, i);
-    EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, U(EC_NO_ID), false, &h);
-    queue_store_f(hits, wave, EC_HIT_PRIM, i, as_lane_f(h.prim));
-    queue_store_f(hits, wave, EC_HIT_B1, i, h.b1);
-    queue_store_f(hits, wave, EC_HIT_B2, i, h.b2);
+    for (uint k = 0; k < count; k += LANES) {
+        lane_i active = LANE_NUMBERS < count - k;
+        queue_packet at = {i + k, sorts, sorts ? LANE_LOAD(order + k) : U(0)};
+        ray r = ray_make(packet_load_v3(paths, wave, EC_PATH_OX, &at), packet_load_v3(paths, wave, EC_PATH_DX, &at), params->scene_max);
+        hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
+        lane_u slot = packet_load_u(paths, wave, EC_PATH_SLOT, &at);
+        slot = active ? slot : U(0);
+        if (HAS_TIMES) filter.g.time = gather_f(times, slot);
+        if (HAS(ALPHA)) {
+            lane_u pixel, sample;
+            slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
+            filter.key = filter_key(seed, pixel, sample, bounce, false);
+        }
+        hit h = {active ? F(EC_HUGE) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
+        lane_u skip = packet_load_u(paths, wave, EC_PATH_PRIM, &at);
+        EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, U(EC_NO_ID), false, &h);
+        uint bits = mask_bits(active);
+        packet_store_f(hits, wave, EC_HIT_PRIM, &at, as_lane_f(h.prim), bits);
+        packet_store_f(hits, wave, EC_HIT_B1, &at, h.b1, bits);
+        packet_store_f(hits, wave, EC_HIT_B2, &at, h.b2, bits);
 #ifdef PROBE
-    queue_store_f(hits, wave, EC_HIT_T, i, h.t);
-    queue_store_f(hits, wave, EC_HIT_NODES, i, as_lane_f(U(h.nodes)));
-    queue_store_f(hits, wave, EC_HIT_TESTS, i, as_lane_f(U(h.tests)));
+        packet_store_f(hits, wave, EC_HIT_T, &at, h.t, bits);
+        packet_store_f(hits, wave, EC_HIT_NODES, &at, as_lane_f(U(h.nodes)), bits);
+        packet_store_f(hits, wave, EC_HIT_TESTS, &at, as_lane_f(U(h.tests)), bits);
 #endif
+    }
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
@@ -49,45 +55,49 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
-    uint left = queue_left(counters->shadows[step], params->part, i);
-    if (!left) return;
-    lane_i active = LANE_NUMBERS < left;
-    ray r = ray_make(queue_load_v3(shadows, wave, EC_SHADOW_OX, i), queue_load_v3(shadows, wave, EC_SHADOW_DX, i),
-                     params->scene_max);
-    lane_u slot = queue_load_u(shadows, wave, EC_SHADOW_SLOT, i);
-    slot = active ? slot : U(0);
-    lane_i panes = !TRUE_MASK;
-    hit_filter filter = {FILTER_GEOMETRY, U(0), false, HAS(PANES) ? &panes : 0};
-    if (HAS_TIMES) filter.g.time = gather_f(times, slot);
-    if (HAS(ALPHA)) {
-        lane_u pixel, sample;
-        slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
-        filter.key = filter_key(seed, pixel, sample, bounce, true);
-    }
+    uint order[EC_SORTED];
+    bool sorts = LANES > 1 && bounce; /* camera rays lie side by side */
+    uint count = item_rays(counters->shadows[step], shadows, wave, params->part, EC_SHADOW_OX, EC_SHADOW_DX, i, sorts, order);
     const accel a = ACCEL_ARGUMENTS;
-    hit h = {active ? F(1.0f) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
-    lane_u skip = queue_load_u(shadows, wave, EC_SHADOW_PRIM, i), target = queue_load_u(shadows, wave, EC_SHADOW_TARGET, i);
-    EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, true, &h);
-    lane_i open = active & (h.prim == EC_NO_ID);
-    if (!any_lane(open)) return;
-    v3 light = queue_load_v3(shadows, wave, EC_SHADOW_LR, i);
-    if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
-        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion, filter.g.time};
-        v3 o = r.o, end = v3_add(o, r.d);
-        lane_i walks = open & panes;
-        filter.panes = 0;
-        for (uint left = panes_most(params, bounce); any_lane(walks); left--) {
-            h.t = walks ? F(1.0f) : F(-1.0f);
-            h.prim = U(EC_NO_ID);
-            EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, false, &h);
-            walks = walks & (h.prim != EC_NO_ID);
-            if (!any_lane(walks)) break;
-            light = v3_select(walks, v3_mul(light, pane_pass(&g, walks, h.prim, h.b1, h.b2, r.d, &o)), light);
-            if (!left) light = v3_select(walks, v3_zero(), light);
-            walks = walks & (v3_max_component(light) > 0.0f);
-            r = ray_make(o, v3_sub(end, o), params->scene_max);
-            skip = walks ? h.prim : skip;
+    for (uint k = 0; k < count; k += LANES) {
+        lane_i active = LANE_NUMBERS < count - k;
+        queue_packet at = {i + k, sorts, sorts ? LANE_LOAD(order + k) : U(0)};
+        ray r = ray_make(packet_load_v3(shadows, wave, EC_SHADOW_OX, &at), packet_load_v3(shadows, wave, EC_SHADOW_DX, &at),
+                         params->scene_max);
+        lane_u slot = packet_load_u(shadows, wave, EC_SHADOW_SLOT, &at);
+        slot = active ? slot : U(0);
+        lane_i panes = !TRUE_MASK;
+        hit_filter filter = {FILTER_GEOMETRY, U(0), false, HAS(PANES) ? &panes : 0};
+        if (HAS_TIMES) filter.g.time = gather_f(times, slot);
+        if (HAS(ALPHA)) {
+            lane_u pixel, sample;
+            slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
+            filter.key = filter_key(seed, pixel, sample, bounce, true);
         }
+        hit h = {active ? F(1.0f) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
+        lane_u skip = packet_load_u(shadows, wave, EC_SHADOW_PRIM, &at), target = packet_load_u(shadows, wave, EC_SHADOW_TARGET, &at);
+        EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, true, &h);
+        lane_i open = active & (h.prim == EC_NO_ID);
+        if (!any_lane(open)) continue;
+        v3 light = packet_load_v3(shadows, wave, EC_SHADOW_LR, &at);
+        if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
+            geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion, filter.g.time};
+            v3 o = r.o, end = v3_add(o, r.d);
+            lane_i walks = open & panes;
+            filter.panes = 0;
+            for (uint left = panes_most(params, bounce); any_lane(walks); left--) {
+                h.t = walks ? F(1.0f) : F(-1.0f);
+                h.prim = U(EC_NO_ID);
+                EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, false, &h);
+                walks = walks & (h.prim != EC_NO_ID);
+                if (!any_lane(walks)) break;
+                light = v3_select(walks, v3_mul(light, pane_pass(&g, walks, h.prim, h.b1, h.b2, r.d, &o)), light);
+                if (!left) light = v3_select(walks, v3_zero(), light);
+                walks = walks & (v3_max_component(light) > 0.0f);
+                r = ray_make(o, v3_sub(end, o), params->scene_max);
+                skip = walks ? h.prim : skip;
+            }
+        }
+        radiance_add(radiance, wave, slot, light, open, invalid + EC_STAGE_CONNECT);
     }
-    radiance_add(radiance, wave, slot, light, open, invalid + EC_STAGE_CONNECT);
 }

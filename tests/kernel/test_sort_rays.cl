@@ -1,0 +1,69 @@
+/* Rays by octants of their origins and directions. */
+#include "kernel_test.h"
+#include "lib/sort_rays.h"
+
+#define WAVE 640u
+#define PART (WAVE / 2u)
+
+static uint scrambled(uint x) { return (x * 747796405u + 2891336453u) ^ (x >> 3); }
+
+/* Six fields of numbers of both signs, in steps that make all bins uneven. */
+static void fill(global float *queue)
+{
+    for (uint i = 0; i < 6 * WAVE; i++) queue[i] = (float)(scrambled(i) >> 8) * 0x1p-24f - 0.4f;
+}
+static uint sign(global const float *queue, uint field, uint i) { return queue[field * WAVE + i] < 0.0f; }
+/* What the bin's Gray code is to be. */
+static uint signs(global const float *queue, uint i)
+{
+    uint bits = 0;
+    for (uint k = 0; k < 3; k++) bits |= sign(queue, k, i) << (3 + k) | sign(queue, 3 + k, i) << k;
+    return bits;
+}
+static uint bin_of(uint gray)
+{
+    uint bin = 0;
+    for (; gray; gray >>= 1) bin ^= gray;
+    return bin;
+}
+
+kernel void every_ray_is_there_once_by_bins(global test_result *result, global uint *scratch)
+{
+    global float *queue = (global float *)scratch;
+    uint order[EC_SORTED];
+    fill(queue);
+    const uint firsts[2] = {0, PART}, counts[5] = {1, 15, 16, 17, PART};
+    for (uint f = 0; f < 2; f++)
+        for (uint c = 0; c < 5; c++) {
+            uint first = firsts[f], count = counts[c], sum = 0, last = 0, bin = 0;
+            sort_rays(queue, WAVE, 0, 3, first, count, order);
+            for (uint i = 0; i < count; i++) {
+                CHECK(order[i] >= first && order[i] < first + count);
+                uint next = bin_of(signs(queue, order[i]));
+                if (i) CHECK_UINTS(next > bin || (next == bin && order[i] > last), bin, next, last, order[i]); /* so none is there twice */
+                sum += order[i];
+                last = order[i];
+                bin = next;
+            }
+            CHECK_EQUAL(sum, count * first + count * (count - 1) / 2);
+            for (uint i = count; i % LANES; i++) CHECK_EQUAL(order[i], first);
+        }
+}
+
+kernel void work_items_share_a_part(global test_result *result, global uint *scratch)
+{
+    global float *queue = (global float *)scratch;
+    global uint *ends = scratch + 6 * WAVE;
+    uint order[EC_SORTED], sorted = 0, plain = 0;
+    fill(queue);
+    ends[0] = 77;
+    ends[EC_PART_STRIDE] = PART;
+    for (uint i = 0; i < WAVE; i += LANES) {
+        plain += item_rays(ends, queue, WAVE, PART, 0, 3, i, false, order);
+        uint count = item_rays(ends, queue, WAVE, PART, 0, 3, i, true, order);
+        CHECK(count == 0 || i % PART == 0);
+        sorted += count;
+    }
+    CHECK_EQUAL(plain, 77u + PART);
+    CHECK_EQUAL(sorted, 77u + PART);
+}
