@@ -32,68 +32,119 @@ static const char *read_header(FILE *file, uint32_t *width, uint32_t *height)
     return NULL;
 }
 
-/* One component of a scan line, run-length encoded: a count above 128 repeats one byte, others precede as many bytes. */
-static const char *read_runs(FILE *file, uint8_t *rgbe, uint32_t width)
+/* What is left of a file, a block at a time: a call of the library for each byte would take as long as all the rest. */
+typedef struct source {
+    FILE *file;
+    size_t at, end;
+    uint8_t block[1 << 16];
+} source;
+
+/* EOF at the end. */
+static int next_byte(source *s)
 {
-    for (uint32_t x = 0; x < width;) {
-        int count = getc(file);
-        int repeat = count > 128;
-        if (repeat) count -= 128;
-        if (count == EOF) return cut_short;
-        if (count == 0 || (uint32_t)count > width - x) return "a run leaves its scan line";
-        int value = 0;
-        for (int i = 0; i < count; i++) {
-            if (i == 0 || !repeat) value = getc(file);
-            if (value == EOF) return cut_short;
-            rgbe[4 * x++] = (uint8_t)value;
-        }
+    if (s->at == s->end) {
+        s->at = 0;
+        s->end = fread(s->block, 1, sizeof s->block, s->file);
+        if (!s->end) return EOF;
+    }
+    return s->block[s->at++];
+}
+
+static const char *read_bytes(source *s, uint8_t *bytes, size_t count)
+{
+    while (count > 0) {
+        int first = next_byte(s);
+        if (first == EOF) return cut_short;
+        *bytes++ = (uint8_t)first;
+        size_t more = s->end - s->at < count - 1 ? s->end - s->at : count - 1;
+        memcpy(bytes, s->block + s->at, more);
+        s->at += more;
+        bytes += more;
+        count -= 1 + more;
     }
     return NULL;
 }
 
+/* One component of a scan line, run-length encoded: a count above 128 repeats one byte, others precede as many bytes. */
+static const char *read_runs(source *s, uint8_t *values, uint32_t width)
+{
+    for (uint32_t x = 0; x < width;) {
+        int count = next_byte(s);
+        int repeat = count > 128;
+        if (repeat) count -= 128;
+        if (count == EOF) return cut_short;
+        if (count == 0 || (uint32_t)count > width - x) return "a run leaves its scan line";
+        int value = repeat ? next_byte(s) : 0;
+        if (value == EOF) return cut_short;
+        if (repeat) memset(values + x, value, (size_t)count);
+        else if (read_bytes(s, values + x, (size_t)count)) return cut_short;
+        x += (uint32_t)count;
+    }
+    return NULL;
+}
+
+static void put(uint8_t *line, uint32_t width, uint32_t x, const uint8_t pixel[4])
+{
+    for (uint32_t k = 0; k < 4; k++) line[k * width + x] = pixel[k];
+}
+
 /* Plain pixels from `first` on; a pixel of mantissas 1, 1, 1 repeats its predecessor, by 8 more bits each time in a row. */
-static const char *read_plain(FILE *file, uint8_t *rgbe, uint32_t width, const uint8_t first[4])
+static const char *read_plain(source *s, uint8_t *line, uint32_t width, const uint8_t first[4])
 {
     int shift = 0;
-    uint8_t pixel[4];
+    uint8_t pixel[4], last[4] = {0};
     memcpy(pixel, first, 4);
     for (uint32_t x = 0; x < width;) {
         if (pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1) {
             uint64_t count = shift < 32 ? (uint64_t)pixel[3] << shift : UINT64_MAX;
             if (x == 0 || count > width - x) return "a run leaves its scan line";
-            for (; count > 0; count--, x++) memcpy(rgbe + 4 * x, rgbe + 4 * (x - 1), 4);
+            for (; count > 0; count--) put(line, width, x++, last);
             shift += 8;
         } else {
-            memcpy(rgbe + 4 * x++, pixel, 4);
+            memcpy(last, pixel, 4);
+            put(line, width, x++, pixel);
             shift = 0;
         }
-        if (x < width && fread(pixel, 1, 4, file) != 4) return cut_short;
+        if (x < width && read_bytes(s, pixel, 4)) return cut_short;
     }
     return NULL;
 }
 
-static const char *read_line(FILE *file, uint8_t *rgbe, uint32_t width)
+/* line: the four components, one after the other. */
+static const char *read_line(source *s, uint8_t *line, uint32_t width)
 {
     uint8_t start[4];
-    if (fread(start, 1, 4, file) != 4) return cut_short;
+    if (read_bytes(s, start, 4)) return cut_short;
     int encoded = width >= RLE_WIDTH_MIN && width <= RLE_WIDTH_MAX && start[0] == 2 && start[1] == 2 && start[2] < 128;
-    if (!encoded) return read_plain(file, rgbe, width, start);
+    if (!encoded) return read_plain(s, line, width, start);
     if (((uint32_t)start[2] << 8 | start[3]) != width) return "a scan line has the wrong width";
     const char *problem = NULL;
-    for (int component = 0; component < 4 && !problem; component++) problem = read_runs(file, rgbe + component, width);
+    for (size_t component = 0; component < 4 && !problem; component++) problem = read_runs(s, line + component * width, width);
     return problem;
+}
+
+/* scale: of each exponent. A mantissa of 8 bits times a power of two of 2^-135 or more is exact. */
+static void to_floats(const uint8_t *line, uint32_t width, const float scale[256], float *rgb)
+{
+    const uint8_t *exponent = line + 3 * (size_t)width;
+    for (uint32_t x = 0; x < width; x++)
+        for (size_t c = 0; c < 3; c++) rgb[3 * (size_t)x + c] = line[c * width + x] * scale[exponent[x]];
 }
 
 static const char *read_pixels(FILE *file, uint32_t width, uint32_t height, float *rgb)
 {
-    uint8_t *rgbe = malloc(4ul * width);
-    const char *problem = rgbe ? NULL : "out of memory";
+    float scale[256] = {0}; /* exponent 0 is black */
+    uint8_t *line = malloc(4ul * width);
+    source *s = malloc(sizeof *s);
+    const char *problem = line && s ? NULL : "out of memory";
+    for (int e = 1; e < 256; e++) scale[e] = ldexpf(1, e - 136);
+    if (s) s->file = file, s->at = s->end = 0;
     for (uint32_t y = 0; y < height && !problem; y++) {
-        problem = read_line(file, rgbe, width);
-        for (uint32_t x = 0; x < width && !problem; x++, rgb += 3)
-            for (int c = 0; c < 3; c++) rgb[c] = rgbe[4 * x + 3] ? ldexpf(rgbe[4 * x + c], rgbe[4 * x + 3] - 136) : 0;
+        problem = read_line(s, line, width);
+        if (!problem) to_floats(line, width, scale, rgb + 3 * (size_t)y * width);
     }
-    free(rgbe);
+    free(s);
+    free(line);
     return problem;
 }
 

@@ -1,5 +1,6 @@
 /* Linear radiance to 8-bit sRGB, and sRGB to linear. */
 #include <math.h>
+#include <pthread.h>
 
 #include "image/image.h"
 
@@ -34,6 +35,20 @@ static double expose(float value, double scale)
 {
     if (!isfinite(value) || value <= 0) return 0;
     return fmin(value * scale, 1e30);
+}
+
+static double srgb_bytes[256];
+
+static void fill_srgb_bytes(void)
+{
+    for (int i = 0; i < 256; i++) srgb_bytes[i] = ec_srgb_to_linear(i / 255.0);
+}
+
+const double *ec_srgb_bytes(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, fill_srgb_bytes);
+    return srgb_bytes;
 }
 
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap)

@@ -7,7 +7,7 @@
 #include "shared/scene_buffers.h"
 
 /* weights: n finite values >= 0, not all 0; n < 2^31. Fills the table and the probability with which the kernels pick each entry: its
- * share of the 32-bit numbers, 0 only where the weight is. Arrays hold n entries and are the caller's. */
+ * share of the 32-bit numbers, 0 only where the weight is. Arrays hold n entries and are the caller's; pmf may be the weights. */
 void ec_distribution_build(const double *weights, uint32_t n, ec_distribution_entry *table, double *pmf);
 
 #endif

@@ -17,56 +17,91 @@ static double sine_of_row(const ec_environment *e, uint32_t y)
     return sin(3.14159265358979323846 * (y + 0.5) / e->height);
 }
 
-/* Mean of the bilinear interpolant over a texel: [1 6 1] / 8 along each axis. Positive wherever the map is. */
-static double texel_mean(const ec_environment *e, uint32_t x, uint32_t y)
+/* Luminances of a texel and of those above and below it. */
+typedef struct column {
+    double at[3];
+} column;
+
+static column column_of(const ec_environment *e, uint32_t x, uint32_t y)
 {
-    static const double weight[3] = {0.125, 0.75, 0.125};
-    double sum = 0.0;
-    for (int j = -1; j <= 1; j++)
-        for (int i = -1; i <= 1; i++) {
-            uint32_t xi = (x + e->width + (uint32_t)i) % e->width;
-            int64_t yj = (int64_t)y + j;
-            yj = yj < 0 ? 0 : (yj >= e->height ? e->height - 1 : yj);
-            sum += weight[i + 1] * weight[j + 1] * luminance(e->rgb + 3 * ((size_t)yj * e->width + xi));
-        }
-    return sum;
+    const uint32_t above = y > 0 ? y - 1 : 0, below = y + 1 < e->height ? y + 1 : y;
+    return (column){{luminance(e->rgb + 3 * ((size_t)above * e->width + x)), luminance(e->rgb + 3 * ((size_t)y * e->width + x)),
+                     luminance(e->rgb + 3 * ((size_t)below * e->width + x))}};
 }
 
-/* Dim texels keep a twentieth of their share by solid angle, so that a hot one cannot starve them. */
-static ec_result build_table(const ec_environment *e, double *weights, double sum, double solid, ec_packed_map *map, ec_error *err)
+/* Means of the bilinear interpolant over the texels of a row, [1 6 1] / 8 along each axis, times the row's sine. Positive wherever the
+ * map is. */
+static void weigh_row(const ec_environment *e, uint32_t y, double *weights)
 {
-    const uint32_t width = e->width, height = e->height;
-    double *rows = calloc(height, sizeof *rows), *row_pmf = malloc(height * sizeof *row_pmf), *pmf = malloc(width * sizeof *pmf);
-    ec_distribution_entry *table = map->table;
-    bool has_memory = rows && row_pmf && pmf;
-    for (size_t i = 0; has_memory && i < (size_t)width * height; i++) {
-        double sine = sine_of_row(e, (uint32_t)(i / width));
-        if (weights[i] > 0.0) weights[i] = 0.95 * weights[i] / sum + 0.05 * sine / solid;
-        rows[i / width] += weights[i];
+    static const double weight[3] = {0.125, 0.75, 0.125};
+    const double sine = sine_of_row(e, y);
+    column c[3] = {column_of(e, e->width - 1, y), column_of(e, 0, y)};
+    for (uint32_t x = 0; x < e->width; x++) {
+        double sum = 0.0;
+        c[2] = column_of(e, x + 1 < e->width ? x + 1 : 0, y);
+        for (int j = 0; j < 3; j++)
+            for (int i = 0; i < 3; i++) sum += weight[i] * weight[j] * c[i].at[j];
+        weights[x] = sum * sine;
+        c[0] = c[1];
+        c[1] = c[2];
     }
-    if (has_memory) ec_distribution_build(rows, height, table, row_pmf);
-    for (uint32_t y = 0; has_memory && y < height; y++) {
-        ec_distribution_entry *row = table + height + (size_t)y * width;
-        memset(row, 0, width * sizeof *row); /* of a black row; nobody looks there */
-        if (!(rows[y] > 0.0)) continue;
-        ec_distribution_build(weights + (size_t)y * width, width, row, pmf);
-        for (uint32_t x = 0; x < width; x++) map->texels[4 * ((size_t)y * width + x) + 3] = (float)(row_pmf[y] * pmf[x]);
+}
+
+/* Over all texels. One after the other, whatever the number of threads: a sum's bits go by its order. */
+typedef struct map_sums {
+    double weight, solid, rgb[3];
+} map_sums;
+
+static map_sums sum_up(const ec_environment *e, const double *weights)
+{
+    map_sums sums = {0};
+    for (uint32_t y = 0; y < e->height; y++) {
+        const double sine = sine_of_row(e, y);
+        const float *rgb = e->rgb + 3 * (size_t)y * e->width;
+        const double *weight = weights ? weights + (size_t)y * e->width : NULL;
+        for (uint32_t x = 0; x < e->width; x++) {
+            for (int k = 0; k < 3; k++) sums.rgb[k] += sine * rgb[3 * (size_t)x + (size_t)k];
+            if (weight) sums.weight += weight[x];
+            sums.solid += sine;
+        }
     }
-    free(rows);
-    free(row_pmf);
-    free(pmf);
-    return has_memory ? EC_OK : ec_fail(err, "out of memory for an environment map of %u x %u", width, height);
+    return sums;
+}
+
+/* Texels and weights of a row; dim texels keep a twentieth of their share by solid angle, so that a hot one cannot starve them. The row's
+ * weight. */
+static double finish_row(const ec_environment *e, uint32_t y, const map_sums *sums, double *weights, float *texels)
+{
+    const double sine = sine_of_row(e, y);
+    const float *rgb = e->rgb + 3 * (size_t)y * e->width;
+    double all = 0.0;
+    for (uint32_t x = 0; x < e->width; x++) {
+        memcpy(texels + 4 * (size_t)x, rgb + 3 * (size_t)x, 3 * sizeof *rgb);
+        texels[4 * (size_t)x + 3] = 0.0f;
+        if (weights[x] > 0.0) weights[x] = 0.95 * weights[x] / sums->weight + 0.05 * sine / sums->solid;
+        all += weights[x];
+    }
+    return all;
+}
+
+/* A row's own table; weights become probabilities. Of a black row it says nothing: nobody looks there. */
+static void distribute_row(uint32_t width, double *weights, double row_weight, double row_pmf, ec_distribution_entry *table, float *texels)
+{
+    memset(table, 0, width * sizeof *table);
+    if (!(row_weight > 0.0)) return;
+    ec_distribution_build(weights, width, table, weights);
+    for (uint32_t x = 0; x < width; x++) texels[4 * (size_t)x + 3] = (float)(row_pmf * weights[x]);
+}
+
+static void mean_of(const map_sums *sums, float mean[3])
+{
+    for (int k = 0; k < 3; k++) mean[k] = (float)(sums->rgb[k] / sums->solid);
 }
 
 void ec_environment_mean(const ec_environment *e, float mean[3])
 {
-    double sum[3] = {0.0}, solid = 0.0;
-    for (size_t i = 0; i < (size_t)e->width * e->height; i++) {
-        double sine = sine_of_row(e, (uint32_t)(i / e->width));
-        for (int k = 0; k < 3; k++) sum[k] += sine * e->rgb[3 * i + k];
-        solid += sine;
-    }
-    for (int k = 0; k < 3; k++) mean[k] = (float)(sum[k] / solid);
+    const map_sums sums = sum_up(e, NULL);
+    mean_of(&sums, mean);
 }
 
 void ec_packed_map_free(ec_packed_map *map)
@@ -76,42 +111,43 @@ void ec_packed_map_free(ec_packed_map *map)
     *map = (ec_packed_map){0};
 }
 
+/* weights: as many as texels; rows, row_pmf: a row each. */
+static void fill_map(const ec_environment *e, double *weights, double *rows, double *row_pmf, ec_packed_map *map)
+{
+    const size_t width = e->width;
+    const bool parallel = width * e->height > 1u << 14;
+#pragma omp parallel for schedule(dynamic, 16) if (parallel)
+    for (uint32_t y = 0; y < e->height; y++) weigh_row(e, y, weights + y * width);
+    const map_sums sums = sum_up(e, weights);
+    mean_of(&sums, map->mean);
+    map->mean_luminance = sums.weight / sums.solid;
+#pragma omp parallel for schedule(dynamic, 16) if (parallel)
+    for (uint32_t y = 0; y < e->height; y++) rows[y] = finish_row(e, y, &sums, weights + y * width, map->texels + 4 * y * width);
+    if (!(sums.weight > 0.0)) {
+        free(map->table);
+        map->table = NULL; /* black: looked up, never sampled */
+        return;
+    }
+    ec_distribution_build(rows, e->height, map->table, row_pmf);
+#pragma omp parallel for schedule(dynamic, 16) if (parallel)
+    for (uint32_t y = 0; y < e->height; y++)
+        distribute_row(e->width, weights + y * width, rows[y], row_pmf[y], map->table + e->height + y * width, map->texels + 4 * y * width);
+}
+
 ec_result ec_pack_map(const ec_environment *e, ec_packed_map *map, ec_error *err)
 {
     *map = (ec_packed_map){.width = e->width, .height = e->height};
     size_t count = (size_t)e->width * e->height;
     if (count >= 1u << 26)
         return ec_fail(err, "the environment map has %u x %u pixels; at most 2^26 are handled: shrink it", e->width, e->height);
-    double *weights = malloc(count * sizeof *weights);
+    double *weights = malloc(count * sizeof *weights), *rows = malloc(2 * (size_t)e->height * sizeof *rows);
     map->texels = malloc(4 * count * sizeof(float));
     map->table = malloc((count + e->height) * sizeof *map->table);
     ec_result result = EC_OK;
-    if (!weights || !map->texels || !map->table) {
-        result = ec_fail(err, "out of memory for an environment map of %u x %u", e->width, e->height);
-        goto cleanup;
-    }
-    double sum = 0.0, solid = 0.0;
-    for (uint32_t y = 0; y < e->height; y++) {
-        double sine = sine_of_row(e, y);
-        for (uint32_t x = 0; x < e->width; x++) {
-            size_t i = (size_t)y * e->width + x;
-            weights[i] = texel_mean(e, x, y) * sine;
-            for (int k = 0; k < 3; k++) map->texels[4 * i + k] = e->rgb[3 * i + k];
-            map->texels[4 * i + 3] = 0.0f;
-            sum += weights[i];
-            solid += sine;
-        }
-    }
-    ec_environment_mean(e, map->mean);
-    if (sum > 0.0) {
-        map->mean_luminance = sum / solid;
-        result = build_table(e, weights, sum, solid, map, err);
-    } else {
-        free(map->table);
-        map->table = NULL; /* black: looked up, never sampled */
-    }
-cleanup:
+    if (weights && rows && map->texels && map->table) fill_map(e, weights, rows, rows + e->height, map);
+    else result = ec_fail(err, "out of memory for an environment map of %u x %u", e->width, e->height);
     free(weights);
+    free(rows);
     if (result != EC_OK) ec_packed_map_free(map);
     return result;
 }

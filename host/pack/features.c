@@ -250,12 +250,13 @@ static void scan_normals(const ec_scene *scene, ec_effects *effects)
     }
 }
 
-/* Of vertices that a triangle has. */
+/* Of vertices that a triangle has. Alpha counts where something is left open by it. */
 static void scan_colors(const ec_scene *scene, ec_effects *effects)
 {
     for (size_t i = 0; scene->colors && i < 3 * (size_t)scene->triangle_count; i++) {
         const float *c = scene->colors + 4 * (size_t)scene->indices[i];
-        if (c[0] == 1.0f && c[1] == 1.0f && c[2] == 1.0f && c[3] == 1.0f) continue;
+        bool covers = c[3] == 1.0f || scene->materials[scene->triangle_material[i / 3]].alpha_mode == EC_ALPHA_OPAQUE;
+        if (c[0] == 1.0f && c[1] == 1.0f && c[2] == 1.0f && covers) continue;
         char name[64];
         name_material(scene, scene->triangle_material[i / 3], name, sizeof name);
         ec_effects_call(effects, EC_FEATURE_VERTEX_COLORS, "the surface of %s has vertex colours", name);

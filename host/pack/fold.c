@@ -4,6 +4,7 @@
 
 #include "image/image.h"
 #include "pack/pack.h"
+#include "scene/texture_range.h"
 
 /* Which factor a texture's channel multiplies: R, G, B, A. A slot without a row stays as it is. */
 #define NO_FACTOR (-1)
@@ -36,10 +37,9 @@ static uint32_t texel(const ec_image *image, size_t at) { return image->rgba16 ?
 
 static bool is_constant(const ec_image *image, int channel)
 {
-    size_t count = (size_t)image->width * image->height;
-    for (size_t i = 1; i < count; i++)
-        if (texel(image, 4 * i + (size_t)channel) != texel(image, (size_t)channel)) return false;
-    return count > 0;
+    uint32_t least, most;
+    ec_image_range(image, channel, &least, &most);
+    return least == most && image->width && image->height;
 }
 
 static const factors *factors_of(int slot)

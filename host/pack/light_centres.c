@@ -180,6 +180,7 @@ ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *
         result = ec_fail(err, "out of memory for the centres of %u lights", count);
         goto cleanup;
     }
+#pragma omp parallel for schedule(dynamic, 64) if (count > 256)
     for (uint32_t i = 0; i < count; i++) lamps[i] = lamp_of(scene, &lights[i], i);
     uint32_t edge_count = list_edges(lights, count, edges);
     qsort(edges, edge_count, sizeof *edges, compare_edges);
@@ -192,9 +193,10 @@ ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *
         bool is_body = bodies[root].area > 0;
         if ((is_body ? root : lamps[i].flat) != i || (lights[i].kind & EC_LIGHT_KIND_MASK) == EC_KIND_ENVIRONMENT) continue;
         lights[kept] = lights[i];
+        const float *sent = lights[kept].emission;
         if (is_body) write_body(&scene->materials[scene->triangle_material[lights[i].prim]], &bodies[i], &lights[kept]);
         else if (is_triangle(&lights[i])) write_flat(&lamps[i], &lights[kept]);
-        kept++;
+        if (sent[0] > 0 || sent[1] > 0 || sent[2] > 0) kept++; /* where a texture is black: it would be summed over for nothing */
     }
     pack->light_count = kept;
 cleanup:

@@ -34,14 +34,15 @@ static void plain_transmission(const ec_scene *scene, ec_material *m)
     drop(m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR);
 }
 
-/* A film of no thickness, or of air, is none. */
+/* A film of no thickness, or of air, is none; one of the same thickness everywhere needs no texture. */
 static void plain_film(const ec_scene *scene, ec_material *m)
 {
-    const ec_texture_use *thickness = &m->textures[EC_SLOT_IRIDESCENCE_THICKNESS];
-    float low = 1.0f, high = 1.0f;
-    if (thickness->texture >= 0) ec_texture_range(scene, thickness, 1, &low, &high);
+    float low, high;
+    ec_texture_range(scene, &m->textures[EC_SLOT_IRIDESCENCE_THICKNESS], 1, &low, &high);
     bool thick = (m->film_least > 0.0f && low < 1.0f) || (m->film_most > 0.0f && high > 0.0f);
     if (m->film_ior == 1.0f || !thick) m->film = 0.0f;
+    if (low == high) m->film_most = low * m->film_most + (1.0f - low) * m->film_least;
+    if (low == high || m->film_least == m->film_most) drop(m, EC_SLOT_IRIDESCENCE_THICKNESS);
     if (m->film > 0.0f) return;
     drop(m, EC_SLOT_IRIDESCENCE);
     drop(m, EC_SLOT_IRIDESCENCE_THICKNESS);
@@ -56,15 +57,13 @@ static void plain_coat(ec_material *m)
     drop(m, EC_SLOT_CLEARCOAT_NORMAL);
 }
 
-/* At roughness 1 a lobe is as wide as it gets in all directions; glass is as rough in all directions anyway. */
+/* At roughness 1 a lobe is as wide as it gets in all directions. */
 static void plain_anisotropy(const ec_scene *scene, ec_material *m)
 {
     float least, most, unused;
     ec_texture_range(scene, &m->textures[EC_SLOT_ANISOTROPY], 2, &unused, &most);
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &unused);
-    bool is_glass = m->transmission > 0.0f && m->metallic < 1.0f && m->textures[EC_SLOT_TRANSMISSION].texture < 0 &&
-                    m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture < 0;
-    if (m->anisotropy * most > 0.0f && m->roughness * least < 1.0f && !is_glass) return;
+    if (m->anisotropy * most > 0.0f && m->roughness * least < 1.0f) return;
     m->anisotropy = 0.0f;
     drop(m, EC_SLOT_ANISOTROPY);
 }
@@ -95,11 +94,33 @@ static void plain_alpha(const ec_scene *scene, ec_material *m, const shown *s)
     if (hidden) plain_bare(m);
 }
 
+/* Brushed the same way and as much everywhere: that is a rotation and a strength, where the texture's right is the mesh's. */
+static void plain_direction(const ec_scene *scene, ec_material *m)
+{
+    const ec_texture_use *use = &m->textures[EC_SLOT_ANISOTROPY];
+    const float *t = use->transform;
+    const bool as_is = use->uv_set == 0 && t[0] == 1.0f && t[1] == 0.0f && t[3] == 0.0f && t[4] == 1.0f;
+    float low[3], high;
+    if (use->texture < 0 || !as_is) return;
+    for (int k = 0; k < 3; k++) {
+        ec_texture_range(scene, use, k, &low[k], &high);
+        if (low[k] != high) return;
+    }
+    m->anisotropy_rotation += atan2f(2.0f * low[1] - 1.0f, 2.0f * low[0] - 1.0f);
+    m->anisotropy *= low[2];
+    drop(m, EC_SLOT_ANISOTROPY);
+}
+
 static void plain_material(const ec_scene *scene, ec_material *m, const shown *s)
 {
     if (m->unlit) plain_bare(m);
     for (int slot = 0; slot < EC_SLOT_COUNT; slot++) ec_texture_fold(scene, m, slot);
+    plain_direction(scene, m);
     plain_alpha(scene, m, s);
+    if (m->alpha_mode == EC_ALPHA_OPAQUE) {
+        m->base_color[3] = 0.0f; /* nobody asks for it, so the texture's alpha may be anything */
+        ec_texture_fold(scene, m, EC_SLOT_BASE_COLOR);
+    }
     plain_transmission(scene, m);
     plain_coat(m);
     plain_film(scene, m);
@@ -113,7 +134,7 @@ static void look_at_triangles(const ec_scene *scene, shown *list)
 {
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         shown *s = &list[scene->triangle_material[t]];
-        if (!s->any) *s = (shown){true, 1.0f, 1.0f};
+        if (!s->any) *s = (shown){true, 1.0f, scene->colors ? 0.0f : 1.0f};
         if (!scene->colors) continue;
         for (int v = 0; v < 3; v++) {
             float alpha = scene->colors[4 * (size_t)scene->indices[3 * (size_t)t + (size_t)v] + 3];

@@ -1,14 +1,14 @@
 #include "pack/texture_mean.h"
 
 #include <math.h>
+#include <pthread.h>
 
 #include "image/image.h"
 #include "pack/pack.h"
 
-static double texel(const ec_image *image, size_t index, int channel)
+static double texel(const ec_image *image, const double *bytes, size_t index, int channel)
 {
-    return ec_srgb_to_linear(image->rgba16 ? image->rgba16[4 * index + channel] / 65535.0
-                                           : image->rgba8[4 * index + channel] / 255.0);
+    return image->rgba8 ? bytes[image->rgba8[4 * index + channel]] : ec_srgb_to_linear(image->rgba16[4 * index + channel] / 65535.0);
 }
 
 ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_use *use)
@@ -17,11 +17,12 @@ ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_us
     if (use->texture < 0) return mean;
     const ec_image *image = &scene->images[scene->textures[use->texture].image];
     size_t count = (size_t)image->width * image->height, step = count / 65536 + 1;
+    const double *bytes = ec_srgb_bytes();
     mean = (ec_texture_mean){{0.0, 0.0, 0.0}};
     for (int k = 0; k < 3; k++) {
         double most = 0.0;
-        for (size_t i = 0; i < count; i += step) mean.rgb[k] += texel(image, i, k);
-        for (size_t i = 0; i < count && mean.rgb[k] == 0.0 && most == 0.0; i++) most = texel(image, i, k);
+        for (size_t i = 0; i < count; i += step) mean.rgb[k] += texel(image, bytes, i, k);
+        for (size_t i = 0; i < count && mean.rgb[k] == 0.0 && most == 0.0; i++) most = texel(image, bytes, i, k);
         mean.rgb[k] = (mean.rgb[k] + most) / (double)((count + step - 1) / step); /* 0 only where every texel is */
     }
     return mean;
@@ -37,20 +38,37 @@ static uint32_t wrap(double u, uint32_t size, ec_wrap mode)
     return i < size ? i : size - 1;
 }
 
+/* Barycentric coordinates of the points that stand for a triangle. */
+enum { POINTS = 64 };
+static double points[POINTS][3];
+
+static void spread_points(void)
+{
+    for (int n = 0; n < POINTS; n++) {
+        double root = sqrt((n / 8 + 0.5) / 8.0), b1 = root * ((n % 8 + 0.5) / 8.0), b0 = 1.0 - root;
+        points[n][0] = b0;
+        points[n][1] = b1;
+        points[n][2] = 1.0 - b0 - b1;
+    }
+}
+
 void ec_texture_triangle_mean(const ec_scene *scene, const ec_texture_use *use, uint32_t prim, double rgb[3])
 {
     const ec_texture *texture = &scene->textures[use->texture];
     const ec_image *image = &scene->images[texture->image];
     const float *uv = scene->uv[use->uv_set ? 1 : 0], *m = use->transform;
     const uint32_t *i = scene->indices + 3 * (size_t)prim;
+    const double *bytes = ec_srgb_bytes();
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, spread_points);
     rgb[0] = rgb[1] = rgb[2] = 0.0;
-    for (int n = 0; n < 64; n++) {
-        double root = sqrt((n / 8 + 0.5) / 8.0), b1 = root * ((n % 8 + 0.5) / 8.0), b0 = 1.0 - root, b2 = 1.0 - b0 - b1;
+    for (int n = 0; n < POINTS; n++) {
+        const double b0 = points[n][0], b1 = points[n][1], b2 = points[n][2];
         double p[2] = {0.0, 0.0};
         for (int k = 0; uv && k < 2; k++)
             p[k] = b0 * uv[2 * (size_t)i[0] + k] + b1 * uv[2 * (size_t)i[1] + k] + b2 * uv[2 * (size_t)i[2] + k];
         uint32_t x = wrap(m[0] * p[0] + m[1] * p[1] + m[2], image->width, texture->wrap_s);
         uint32_t y = wrap(m[3] * p[0] + m[4] * p[1] + m[5], image->height, texture->wrap_t);
-        for (int k = 0; k < 3; k++) rgb[k] += texel(image, (size_t)y * image->width + x, k) / 64.0;
+        for (int k = 0; k < 3; k++) rgb[k] += texel(image, bytes, (size_t)y * image->width + x, k) / POINTS;
     }
 }

@@ -17,14 +17,30 @@ static size_t image_texels(const ec_image *image)
     return (size_t)image->width * image->height;
 }
 
-static void write_deep(const ec_image *image, int is_srgb, uint32_t *words)
+/* Both encodings, one after the other. linear: of each value that a 16-bit channel can have, read as sRGB. */
+static void write_deep(const ec_image *image, const float *linear, uint32_t *words)
 {
-    size_t count = image_texels(image);
-    for (size_t i = 0; i < 4 * count; i++) {
-        double v = image->rgba16[i] / 65535.0;
-        float linear = (float)(is_srgb && i % 4 != 3 ? ec_srgb_to_linear(v) : v);
-        memcpy(&words[i], &linear, sizeof linear);
+    const size_t count = 4 * image_texels(image);
+    for (size_t i = 0; i < count; i++) {
+        const float plain = (float)(image->rgba16[i] / 65535.0), *decoded = i % 4 == 3 ? &plain : &linear[image->rgba16[i]];
+        memcpy(&words[i], &plain, sizeof plain);
+        memcpy(&words[count + i], decoded, sizeof *decoded);
     }
+}
+
+/* Sixty thousand powers, where the image may have millions of texels. NULL: there is no memory. */
+static float *deep_to_linear(void)
+{
+    float *linear = malloc(65536 * sizeof *linear);
+    for (int i = 0; linear && i < 65536; i++) linear[i] = (float)ec_srgb_to_linear(i / 65535.0);
+    return linear;
+}
+
+/* linear: NULL where there is no deep image. */
+static void write_image(const ec_image *image, const float *linear, uint32_t *words)
+{
+    if (image->rgba16) write_deep(image, linear, words);
+    else memcpy(words, image->rgba8, 4 * image_texels(image)); /* little-endian words: R lowest */
 }
 
 /* Of materials that triangles show, through slots that the plain view has left. */
@@ -39,11 +55,12 @@ static void find_used(const ec_scene *scene, bool *used)
 
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
-    for (int i = 0; i < 256; i++) pack->srgb[i] = (float)ec_srgb_to_linear(i / 255.0);
+    for (int i = 0; i < 256; i++) pack->srgb[i] = (float)ec_srgb_bytes()[i];
     pack->texture_count = 2 * scene->texture_count;
     pack->textures = calloc(pack->texture_count ? pack->texture_count : 1, sizeof *pack->textures);
     size_t *offset = calloc(scene->image_count ? scene->image_count : 1, sizeof *offset);
-    bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used);
+    bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used), has_deep = false;
+    float *linear = NULL;
     ec_result result = EC_OK;
     if (!pack->textures || !offset || !used) {
         result = ec_fail(err, "out of memory for %u textures", scene->texture_count);
@@ -54,6 +71,7 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
         offset[i] = pack->texel_words;
         if (!used[i]) continue;
         /* Deep images stand twice: once as they are, once decoded from sRGB. */
+        has_deep |= scene->images[i].rgba16 != NULL;
         pack->texel_words += image_texels(&scene->images[i]) * (scene->images[i].rgba16 ? 8 : 1);
     }
     if (pack->texel_words > UINT32_MAX) {
@@ -62,20 +80,14 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
         goto cleanup;
     }
     pack->texels = malloc((pack->texel_words ? pack->texel_words : 1) * sizeof *pack->texels);
-    if (!pack->texels) {
+    if (has_deep) linear = deep_to_linear();
+    if (!pack->texels || (has_deep && !linear)) {
         result = ec_fail(err, "out of memory for %zu MB of texels", pack->texel_words * 4 / 1000000);
         goto cleanup;
     }
-    for (uint32_t i = 0; i < scene->image_count; i++) {
-        const ec_image *image = &scene->images[i];
-        if (!used[i]) continue;
-        if (image->rgba16) {
-            write_deep(image, 0, pack->texels + offset[i]);
-            write_deep(image, 1, pack->texels + offset[i] + 4 * image_texels(image));
-        } else if (image->rgba8) {
-            memcpy(pack->texels + offset[i], image->rgba8, 4 * image_texels(image)); /* little-endian words: R lowest */
-        }
-    }
+#pragma omp parallel for schedule(dynamic, 1)
+    for (uint32_t i = 0; i < scene->image_count; i++)
+        if (used[i]) write_image(&scene->images[i], linear, pack->texels + offset[i]);
     for (uint32_t t = 0; t < pack->texture_count; t++) {
         const ec_texture *texture = &scene->textures[t / 2];
         const ec_image *image = &scene->images[texture->image];
@@ -88,5 +100,6 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
 cleanup:
     free(offset);
     free(used);
+    free(linear);
     return result;
 }

@@ -2,6 +2,11 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "scene/gltf.h"
+
+enum { WIDTH_MOST = 4096 };
 
 /* A face's middle, and where its columns and rows run to. */
 static const struct {
@@ -87,4 +92,40 @@ void ec_cube_unroll(const ec_cube *cube, uint32_t width, uint32_t height, uint32
             }
             for (int k = 0; k < 3; k++) rgb[3 * ((size_t)y * width + x) + (size_t)k] = (float)(sum[k] / (samples * samples));
         }
+}
+
+static bool is_uniform(const ec_cube *cube)
+{
+    size_t values = 3 * (size_t)cube->size * cube->size;
+    for (int f = 0; f < 6; f++)
+        for (size_t i = 0; i < values; i++)
+            if (cube->face[f][i] != cube->face[0][i % 3]) return false;
+    return true;
+}
+
+static void turn(const double rotation[4], ec_environment *e)
+{
+    static const double nowhere[3] = {0}, as_is[3] = {1, 1, 1};
+    double matrix[16];
+    ec_gltf_compose(nowhere, rotation, as_is, matrix);
+    for (int i = 0; i < 9; i++) {
+        e->turn[i] = (float)matrix[4 * (i % 3) + i / 3];
+        if (e->turn[i] != (i % 4 == 0)) e->turned = true;
+    }
+}
+
+ec_result ec_cube_environment(const ec_cube *cube, const double rotation[4], ec_environment *e, ec_error *err)
+{
+    if (is_uniform(cube)) {
+        memcpy(e->constant, cube->face[0], sizeof e->constant);
+        return EC_OK;
+    }
+    uint32_t wanted = 4 * cube->size < 8 ? 8 : 4 * cube->size;
+    e->width = wanted < WIDTH_MOST ? wanted : WIDTH_MOST;
+    e->height = e->width / 2;
+    e->rgb = malloc(3 * (size_t)e->width * e->height * sizeof *e->rgb);
+    if (!e->rgb) return ec_fail(err, "out of memory for an environment of %u x %u pixels", e->width, e->height);
+    ec_cube_unroll(cube, e->width, e->height, 2 * (wanted / e->width), e->rgb);
+    turn(rotation, e);
+    return EC_OK;
 }

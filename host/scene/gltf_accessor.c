@@ -185,6 +185,13 @@ void ec_gltf_accessor_floats(const ec_gltf_accessor *a, uint64_t element, uint32
     }
     const uint8_t *p = a->data + element * a->stride;
     uint32_t size = component_size(a->component_type);
+    if (a->component_type == EC_GLTF_FLOAT) { /* nearly always: without a look at the type for each component */
+        for (uint32_t c = 0; c < count; c++) {
+            uint32_t word = load_index(p + 4 * c, EC_GLTF_UINT);
+            memcpy(&out[c], &word, sizeof word);
+        }
+        return;
+    }
     for (uint32_t c = 0; c < count; c++) out[c] = load_component(p + c * size, a->component_type, a->normalized);
 }
 

@@ -3,6 +3,7 @@
 #include "scene/gltf_shim.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <memory>
 
@@ -58,11 +59,16 @@ static bool write(json &root, const path &to, const json &value)
 {
     json *at = &root;
     for (size_t i = 0; i + 1 < to.size(); i++) {
-        bool make = i >= 2 && to[i] != "extensions" && to[i - 1] != "extensions";
+        bool make = i >= 2 && to[i] != "extensions" && to[i - 1] != "extensions" && !isdigit(to[i + 1][0]);
         at = step(*at, to[i], make);
         if (!at) return false;
     }
     const std::string &last = to.back();
+    if (at->is_array()) { /* one weight of many */
+        json *element = to[to.size() - 2] == "weights" ? step(*at, last, false) : nullptr;
+        if (element) *element = value;
+        return element;
+    }
     if (!at->is_object()) return false;
     if (to[0] == "nodes" && (last == "translation" || last == "rotation" || last == "scale")) at->erase("matrix");
     (*at)[last] = value;

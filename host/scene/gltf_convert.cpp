@@ -62,7 +62,18 @@ void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *
     }
 }
 
-void convert_lights(const tinygltf::Model &model, ec_gltf *gltf)
+static const double half_pi = 1.57079632679489662;
+
+/* Of what KHR_lights_punctual allows; colours over 1 do no harm. */
+static bool is_odd(const tinygltf::Light &light)
+{
+    const tinygltf::SpotLight &spot = light.spot;
+    bool colored = std::all_of(light.color.begin(), light.color.end(), [](double c) { return c >= 0; });
+    bool cone = spot.innerConeAngle >= 0 && spot.innerConeAngle <= spot.outerConeAngle && spot.outerConeAngle <= half_pi + 1e-6;
+    return !colored || light.intensity < 0 || light.range < 0 || (light.type == "spot" && !cone);
+}
+
+void convert_lights(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log)
 {
     gltf->lights = make_array<ec_light>(model.lights.size());
     for (const tinygltf::Light &in : model.lights) {
@@ -73,11 +84,12 @@ void convert_lights(const tinygltf::Model &model, ec_gltf *gltf)
             out.intensity[i] = float(std::min(std::max(value, 0.0), double(EC_RADIANCE_MOST)));
         }
         out.range = float(std::max(in.range, 0.0));
-        const double half_pi = 1.57079632679489662;
         double outer = std::min(std::max(in.spot.outerConeAngle, 0.0), half_pi);
         double inner = std::min(std::max(in.spot.innerConeAngle, 0.0), outer);
         out.cos_inner = float(std::cos(inner));
         out.cos_outer = float(std::cos(outer));
+        if (is_odd(in))
+            ec_warn(log, "%s: light %u has values out of KHR_lights_punctual's range; they are clamped", gltf->path, gltf->light_count - 1);
     }
 }
 

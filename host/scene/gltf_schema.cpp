@@ -145,9 +145,9 @@ static const field animation[] = {objects("channels", channel_s, required), obje
                                   plain("name", kind::text)};
 static const schema animation_s(animation);
 
-static const field perspective[] = {number("yfov", required), number("aspectRatio")};
+static const field perspective[] = {number("yfov", required), number("aspectRatio"), number("znear"), number("zfar")};
 static const schema perspective_s(perspective);
-static const field orthographic[] = {number("xmag", required), number("ymag", required)};
+static const field orthographic[] = {number("xmag", required), number("ymag", required), number("znear"), number("zfar")};
 static const schema orthographic_s(orthographic);
 static const field camera[] = {choice("type", "perspective orthographic", required), object("perspective", perspective_s),
                                object("orthographic", orthographic_s), plain("name", kind::text)};

@@ -212,7 +212,7 @@ static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
     tinygltf::Model model;
     parse_rest(root, model);
     convert_cameras(model, gltf, log);
-    convert_lights(model, gltf);
+    convert_lights(model, gltf, log);
     convert_textures(model, gltf);
     convert_materials(model, gltf, log);
 }

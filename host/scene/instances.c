@@ -39,6 +39,7 @@ static ec_result place(ec_gltf *g, uint32_t index, ec_placement_list *placements
     EC_TRY(open_attribute(g, node.node, of->translation, "TRANSLATION", 3, &count, err));
     EC_TRY(open_attribute(g, node.node, of->rotation, "ROTATION", 4, &count, err));
     EC_TRY(open_attribute(g, node.node, of->scale, "SCALE", 3, &count, err));
+    if (!count) return EC_OK; /* attributes of the application's own say nothing of places */
     placements->items[index].mesh = -1;
     for (uint64_t i = 0; i < count; i++) {
         double translation[3] = {0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1}, local[16];

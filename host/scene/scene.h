@@ -18,6 +18,8 @@ typedef struct ec_image {
     uint16_t *rgba16; /* 4 * width * height, owned; only where the file has more than 8 bits */
     char *name;       /* for messages, owned, may be NULL */
     bool lent;        /* all of it is an animation's, which outlives the scene */
+    bool has_range;   /* the next two are known (texture_range.h); else they are looked for where they are asked for */
+    uint16_t least[4], most[4]; /* of each channel, as stored */
 } ec_image;
 
 /* Radiance and intensity beyond this are taken as this, with a warning: what sampling divides by then stays within float. */

@@ -1,17 +1,31 @@
-/* The textures and images that the scene's triangles use; no others are opened. */
+/* The textures and images that the scene's triangles use; no others are opened. What is wanted is gathered first, then decoded by all
+ * threads, and taken in the order in which materials name it: what is said, and what is first, is the same for any number of threads. */
 #include "scene/flatten.h"
 #include "scene/image_decode.h"
+#include "scene/texture_range.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* An image of the file on its way into the scene. */
+typedef struct picture {
+    uint32_t index;               /* in the file */
+    const ec_gltf_texture *gloss; /* not NULL: it becomes metallic-roughness, by that texture's factor */
+    ec_image image;
+    ec_error err;                 /* why there is none, if ec_gltf_image_load failed */
+    bool failed;
+    int64_t place;                /* in the scene; UNSEEN or UNUSABLE */
+} picture;
+
 typedef struct table {
     ec_gltf *g;
     ec_scene *s;
     const ec_log *log;
-    int64_t *image;   /* glTF image -> scene image; UNSEEN or UNUSABLE */
-    int64_t *texture; /* likewise */
+    picture *pictures;
+    uint32_t picture_count;
+    int64_t *picture; /* of each image; then, where a texture has one for itself, of each texture; UNSEEN */
+    int64_t *texture; /* glTF texture -> scene texture; UNSEEN or UNUSABLE */
     ec_result result;
     ec_error *err;
 } table;
@@ -65,52 +79,67 @@ bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_erro
     return no_memory(where, err);
 }
 
-/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. One that there is no
- * memory for does. */
-static bool decode_now(table *t, uint32_t index, ec_image *out)
+/* Metallic-roughness of a picture whose alpha is glossiness: green 1 - factor x alpha, no metal. */
+static void make_roughness(ec_image *image, double glossiness)
 {
-    ec_error err;
-    if (ec_gltf_image_load(t->g, index, out, &err)) return true;
-    if (err.kind == EC_ERROR_HOST_MEMORY) t->result = ec_fail(t->err, "%s: %.1200s", t->g->path, err.text);
-    else ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, err.text);
-    return false;
+    for (size_t i = 0; i < 4 * (size_t)image->width * image->height; i += 4) {
+        double gloss = glossiness * (image->rgba8 ? image->rgba8[i + 3] / 255.0 : image->rgba16[i + 3] / 65535.0);
+        if (image->rgba8) image->rgba8[i + 1] = (uint8_t)(255 * (1 - gloss) + 0.5), image->rgba8[i + 2] = 0;
+        else image->rgba16[i + 1] = (uint16_t)(65535 * (1 - gloss) + 0.5), image->rgba16[i + 2] = 0;
+    }
 }
 
 /* Where an animation keeps them, the same pixels serve all its scenes. */
-static bool decode(table *t, uint32_t index, ec_image *out)
+static ec_image *kept_of(const table *t, const picture *p) { return t->g->decoded && !p->gloss ? &t->g->decoded[p->index] : NULL; }
+
+static void decode(const table *t, picture *p)
 {
-    ec_image *kept = t->g->decoded ? &t->g->decoded[index] : NULL;
-    if (!kept) return decode_now(t, index, out);
-    if (!kept->width && !decode_now(t, index, kept)) return false;
-    *out = *kept;
-    out->lent = true;
-    return true;
+    const ec_image *kept = kept_of(t, p);
+    if (kept && kept->width) {
+        p->image = *kept;
+        return;
+    }
+    p->failed = !ec_gltf_image_load(t->g, p->index, &p->image, &p->err);
+    if (p->failed) return;
+    if (p->gloss) make_roughness(&p->image, (double)p->gloss->glossiness);
+    ec_image_find_range(&p->image);
 }
 
-static int64_t map_image(table *t, int32_t index)
+/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. One that there is no
+ * memory for does. */
+static int64_t take_picture(table *t, picture *p)
 {
-    if (index < 0) return UNUSABLE;
-    if (t->image[index] != UNSEEN) return t->image[index];
-    ec_image *out = &t->s->images[t->s->image_count];
-    if (decode(t, (uint32_t)index, out)) {
-        t->image[index] = t->s->image_count++;
-    } else {
-        t->image[index] = UNUSABLE;
+    if (p->place != UNSEEN) return p->place;
+    ec_image *out = &t->s->images[t->s->image_count], *kept = kept_of(t, p);
+    if (p->failed) {
+        if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, p->err.text);
+        else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.1200s", t->g->path, p->err.text);
+        return p->place = UNUSABLE;
     }
-    return t->image[index];
+    *out = p->image;
+    if (kept) *kept = p->image, out->lent = true;
+    return p->place = t->s->image_count++;
 }
 
-/* Metallic-roughness of a picture whose alpha is glossiness: green 1 - factor x alpha, no metal. */
-static int64_t make_roughness(table *t, const ec_gltf_texture *in)
+static int64_t *picture_of(const table *t, int32_t texture)
 {
-    ec_image *out = &t->s->images[t->s->image_count];
-    if (in->image < 0 || !decode_now(t, (uint32_t)in->image, out)) return UNUSABLE;
-    for (size_t i = 0; i < 4 * (size_t)out->width * out->height; i += 4) {
-        double gloss = (double)in->glossiness * (out->rgba8 ? out->rgba8[i + 3] / 255.0 : out->rgba16[i + 3] / 65535.0);
-        if (out->rgba8) out->rgba8[i + 1] = (uint8_t)(255 * (1 - gloss) + 0.5), out->rgba8[i + 2] = 0;
-        else out->rgba16[i + 1] = (uint16_t)(65535 * (1 - gloss) + 0.5), out->rgba16[i + 2] = 0;
-    }
-    return t->s->image_count++;
+    const ec_gltf_texture *in = &t->g->textures[texture];
+    return in->is_gloss ? &t->picture[t->g->image_count + (uint32_t)texture] : &t->picture[in->image];
+}
+
+/* One that has been wanted before is decoded once. */
+static void want(table *t, bool drawn, ec_texture_use *use)
+{
+    if (use->texture < 0 || !drawn) return;
+    const ec_gltf_texture *in = &t->g->textures[use->texture];
+    if (in->image < 0) return;
+    int64_t *place = picture_of(t, use->texture);
+    if (*place != UNSEEN) return;
+    *place = t->picture_count;
+    picture *p = &t->pictures[t->picture_count++];
+    p->index = (uint32_t)in->image;
+    p->gloss = in->is_gloss ? in : NULL;
+    p->place = UNSEEN;
 }
 
 static int64_t map_texture(table *t, int32_t index)
@@ -119,7 +148,7 @@ static int64_t map_texture(table *t, int32_t index)
     const ec_gltf_texture *in = &t->g->textures[index];
     if (in->image < 0)
         ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; taken as white", t->g->path, index);
-    int64_t image = in->is_gloss ? make_roughness(t, in) : map_image(t, in->image);
+    int64_t image = in->image < 0 ? UNUSABLE : take_picture(t, &t->pictures[*picture_of(t, index)]);
     if (image < 0) return t->texture[index] = UNUSABLE;
     t->s->textures[t->s->texture_count] = (ec_texture){(uint32_t)image, in->wrap_s, in->wrap_t, in->nearest};
     return t->texture[index] = t->s->texture_count++;
@@ -132,15 +161,24 @@ static void map_use(table *t, bool drawn, ec_texture_use *use)
     use->texture = texture < 0 ? -1 : (int32_t)texture;
 }
 
-static void map_materials(table *t, const bool *drawn)
+/* drawn: by material. */
+static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, bool drawn, ec_texture_use *use))
 {
     for (uint32_t i = 0; i < t->s->material_count; i++) {
         ec_material *m = &t->s->materials[i];
         for (int k = 0; k < EC_SLOT_COUNT; k++) {
             bool shows = !m->unlit || k == EC_SLOT_BASE_COLOR || k == EC_SLOT_EMISSION;
-            map_use(t, drawn[i] && shows, &m->textures[k]);
+            look(t, drawn[i] && shows, &m->textures[k]);
         }
     }
+}
+
+static void load_all(table *t, const bool *drawn)
+{
+    for_each_use(t, drawn, want);
+#pragma omp parallel for schedule(dynamic, 1) if (t->picture_count > 1)
+    for (uint32_t i = 0; i < t->picture_count; i++) decode(t, &t->pictures[i]);
+    for_each_use(t, drawn, map_use);
 }
 
 /* By material: does a primitive that stands somewhere have it? */
@@ -157,20 +195,23 @@ static void mark_drawn(const ec_gltf *g, const ec_placement_list *placements, bo
 
 ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
+    const size_t most = (size_t)g->image_count + g->texture_count; /* pictures: the images, and roughness made of glossiness */
     table t = {.g = g, .s = s, .log = log, .err = err};
-    t.image = malloc(((size_t)g->image_count + 1) * sizeof *t.image);
+    t.pictures = calloc(most + 1, sizeof *t.pictures);
+    t.picture = malloc((most + 1) * sizeof *t.picture);
     t.texture = malloc(((size_t)g->texture_count + 1) * sizeof *t.texture);
-    s->images = calloc((size_t)g->image_count + g->texture_count + 1, sizeof *s->images); /* and roughness made of glossiness */
+    s->images = calloc(most + 1, sizeof *s->images);
     s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
     bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
-    bool ok = t.image && t.texture && s->images && s->textures && drawn;
+    bool ok = t.pictures && t.picture && t.texture && s->images && s->textures && drawn;
     if (ok) {
-        for (uint32_t i = 0; i < g->image_count; i++) t.image[i] = UNSEEN;
+        for (size_t i = 0; i < most; i++) t.picture[i] = UNSEEN;
         for (uint32_t i = 0; i < g->texture_count; i++) t.texture[i] = UNSEEN;
         mark_drawn(g, placements, drawn);
-        map_materials(&t, drawn);
+        load_all(&t, drawn);
     }
-    free(t.image);
+    free(t.pictures);
+    free(t.picture);
     free(t.texture);
     free(drawn);
     return ok ? t.result : ec_fail(err, "%s: out of memory for textures", g->path);

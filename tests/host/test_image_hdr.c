@@ -55,6 +55,40 @@ static void new_runs(void)
     CHECK(read_bytes(HEADER "-Y 1 +X 10\n", runs, sizeof runs) == EC_FAILED && strstr(err.text, "wrong width"));
 }
 
+/* Longer than what is read at once: runs and pixels lie across the seams. */
+static void many_blocks(void)
+{
+    enum { WIDTH = 613, HEIGHT = 300 };
+    static unsigned char file[HEIGHT * (4 + 8 * WIDTH)], values[HEIGHT][4][WIDTH];
+    unsigned char *out = file;
+    uint32_t noise = 1;
+    for (int y = 0; y < HEIGHT; y++) {
+        const unsigned char start[4] = {2, 2, WIDTH >> 8, WIDTH & 255};
+        memcpy(out, start, 4), out += 4;
+        for (int k = 0; k < 4; k++)
+            for (int x = 0, count; x < WIDTH; x += count) {
+                noise = noise * 1664525u + 1013904223u;
+                bool repeat = noise >> 31;
+                count = 1 + (int)(noise >> 24) % (repeat ? 127 : 128);
+                if (count > WIDTH - x) count = WIDTH - x;
+                *out++ = (unsigned char)(repeat ? 128 + count : count);
+                for (int i = 0; i < count; i++) {
+                    if (!repeat || i == 0) noise = noise * 1664525u + 1013904223u, *out++ = (unsigned char)(noise >> 24);
+                    values[y][k][x + i] = out[-1];
+                }
+            }
+    }
+    CHECK(out - file > 3 * 65536);
+    CHECK_OK(read_bytes(HEADER "-Y 300 +X 613\n", file, (size_t)(out - file)), err);
+    size_t wrong = 0;
+    for (int i = 0; rgb && i < 3 * WIDTH * HEIGHT; i++) {
+        const int x = i / 3 % WIDTH, y = i / 3 / WIDTH, e = values[y][3][x];
+        wrong += rgb[i] != (e ? ldexpf(values[y][i % 3][x], e - 136) : 0);
+    }
+    CHECK_MSG(width == WIDTH && height == HEIGHT && rgb && !wrong, "%zu values", wrong);
+    CHECK(read_bytes(HEADER "-Y 300 +X 613\n", file, (size_t)(out - file) - 1) == EC_FAILED && strstr(err.text, "too early"));
+}
+
 static void every_truncation_is_an_error(void)
 {
     for (size_t size = 0; size < sizeof runs; size++) {
@@ -125,6 +159,7 @@ int main(void)
     plain_pixels();
     old_runs();
     new_runs();
+    many_blocks();
     every_truncation_is_an_error();
     strange_headers_are_named();
     an_exr_is_known_by_its_content();

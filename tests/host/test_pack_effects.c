@@ -69,6 +69,8 @@ static void test_weights(void)
     PAIR(ANISOTROPY, (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1, USE(ANISOTROPY, WHITE)),
          (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1, USE(ANISOTROPY, GREEN))); /* strength is in blue */
     PAIR(ANISOTROPY, (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1), (m->roughness = 0.5f, m->anisotropy = 1));
+    PAIR(ANISOTROPY, (m->transmission = 1, m->roughness = 0.5f, m->anisotropy = 1), (m->transmission = m->roughness = m->anisotropy = 1));
+    PAIR(ANISOTROPY, (m->transmission = 1, m->volume = true, m->roughness = 0, m->anisotropy = 0.1f), (m->transmission = 1, m->volume = true, m->roughness = 0));
     PAIR(IRIDESCENCE, (m->film = 1, m->film_ior = 1.3f, m->film_most = 400), (m->film = 1, m->film_ior = 1.3f));
     PAIR(IRIDESCENCE, (m->film = 1, m->film_ior = 1.3f, m->film_most = 400), (m->film = 1, m->film_ior = 1, m->film_most = 400));
     PAIR(DIFFUSE_TRANSMISSION, m->seeps = 1, (m->seeps = 1, USE(DIFFUSE_TRANSMISSION, BLACK)));

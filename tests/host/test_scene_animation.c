@@ -92,6 +92,8 @@ static void test_rotation(void)
     expect_corner(cubic, &c, 1, 1, (double[3]){0, 1, 0});
 }
 
+#define POINTER(AT) "'path':'pointer','extensions':{'KHR_animation_pointer':{'pointer':'" AT "'}}"
+
 /* A matrix gives way to what is animated. Scale; two weights of morph targets at once, each of which adds the triangle to itself. */
 static void test_scale_and_weights(void)
 {
@@ -101,9 +103,11 @@ static void test_scale_and_weights(void)
     const char weights[] = ANIMATED("", NODE_0("weights"), "LINEAR", FLOATS("6", "SCALAR"), "");
     const keys w = {.times = {0, 2, 4}, .values = {0, 0, 1, 3, 0, 0}};
     expect_corner(weights, &w, 1, 1, (double[3]){1 + 0.5 + 1.5, 0, 0});
+    const char second[] = ANIMATED(",'weights':[0.5,9]", POINTER("/nodes/0/weights/1"), "LINEAR", FLOATS("3", "SCALAR"), "");
+    const keys one = {.times = {0, 2, 4}, .values = {0, 3, 0}};
+    expect_corner(second, &one, 1, 1, (double[3]){1 + 0.5 + 1.5, 0, 0});
 }
 
-#define POINTER(AT) "'path':'pointer','extensions':{'KHR_animation_pointer':{'pointer':'" AT "'}}"
 #define LAMP                                                                                                             \
     ",'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point','intensity':1}]}},"                                 \
     "'cameras':[{'type':'perspective','perspective':{'yfov':0.5}}],'materials':[{}]"
@@ -126,7 +130,8 @@ static void test_pointers(void)
     if (s) CHECK_NEAR(s->cameras[0].position[0] + s->center[0], 7, 1e-6);
     ec_scene_free(s);
     const char *elsewhere[] = {"/asset/version", "/accessors/0/count", "/nodes/7/translation", "/nodes/-1/translation", "/materials/0",
-                               "/materials/0/extensions/KHR_materials_unlit/x", "", "nodes/0/scale", "/nodes/00000000000000000000/scale", "/skins/0/joints"};
+                               "/materials/0/extensions/KHR_materials_unlit/x", "", "nodes/0/scale", "/nodes/00000000000000000000/scale", "/skins/0/joints", "/nodes/0/weights/0",
+                               "/materials/0/emissiveFactor/0"};
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
         char *json = replace(ANIMATED(LAMP_NODE, POINTER("@at@"), "LINEAR", FLOATS("3", "SCALAR"), LAMP), "@at@", elsewhere[i]);
         s = load_at(json, &k, 0);

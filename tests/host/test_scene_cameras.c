@@ -149,9 +149,34 @@ static void test_environment_picture(void)
     remove(path);
 }
 
+/* What KHR_lights_punctual does not allow is clamped, and told. */
+static void test_odd_lights(void)
+{
+    static const struct {
+        const char *good, *odd;
+        bool told;
+    } cases[] = {
+        {"'intensity':10", "'intensity':-10", true},      {"[1,0.5,0]", "[1,-0.5,0]", true}, {"[1,0.5,0]", "[1,0.5,2]", false},
+        {"'range':7", "'range':-7", true},                {"'range':7", "'range':0", false}, {"'outerConeAngle':0.4", "'outerConeAngle':1.6", true},
+        {"'innerConeAngle':0.2", "'innerConeAngle':0.5", true}, {"'innerConeAngle':0.2", "'innerConeAngle':0.4", false},
+        {"'innerConeAngle':0.2", "'innerConeAngle':-1", true},  {"'outerConeAngle':0.4", "'outerConeAngle':1.5707964", false},
+        {"'type':'point'", "'type':'point','spot':{'innerConeAngle':3}", false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *json = replace(CAMERAS, cases[i].good, cases[i].odd);
+        ec_error err;
+        ec_scene *s = load_text(json, triangle_blobs, &err);
+        CHECK_MSG(s != NULL, "%s", err.text);
+        CHECK_MSG((strstr(messages, "light 0 has values out of") != NULL) == cases[i].told, "%s: %s", cases[i].odd, messages);
+        ec_scene_free(s);
+        free(json);
+    }
+}
+
 int main(void)
 {
     test_cameras_and_lights();
+    test_odd_lights();
     test_environment_picture();
     test_framing();
     test_bad_cameras();
