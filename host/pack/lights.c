@@ -33,12 +33,14 @@ typedef struct light_list {
     uint32_t count;
 } light_list;
 
-static void add_triangle(const ec_scene *scene, const ec_pack *pack, uint32_t prim, const ec_texture_mean *whole, light_list *list)
+/* Makes *l the light that triangle l->prim is. Its power; 0 or less, or no number, of one that shines on nothing. */
+static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec_texture_mean *whole, ec_light_data *l)
 {
+    const uint32_t prim = l->prim;
     const ec_prim *p = &pack->prims[prim];
     const ec_material *m = &scene->materials[p->material];
     double mean[3];
-    textured_mean(scene, whole, m, prim, mean);
+    textured_mean(scene, &whole[p->material], m, prim, mean);
     double e[3], f[3];
     for (int k = 0; k < 3; k++) {
         e[k] = (double)p->v1[k] - p->v0[k];
@@ -47,19 +49,33 @@ static void add_triangle(const ec_scene *scene, const ec_pack *pack, uint32_t pr
     double n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
     double area = 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     double radiance[3] = {m->emission[0] * mean[0], m->emission[1] * mean[1], m->emission[2] * mean[2]};
-    double power = PI * area * luminance(radiance) * (m->double_sided ? 2.0 : 1.0);
-    if (!(power > 0.0) || !isfinite(power)) return;
-    ec_light_data *l = &list->lights[list->count];
     memset(l, 0, sizeof *l);
     memcpy(l->a, p->v0, sizeof l->a);
     memcpy(l->b, p->v1, sizeof l->b);
     memcpy(l->c, p->v2, sizeof l->c);
     memcpy(l->emission, m->emission, sizeof l->emission);
     l->kind = EC_KIND_TRIANGLE | (m->double_sided ? EC_LIGHT_TWO_SIDED : 0) |
-              (m->textures[EC_SLOT_EMISSION].texture >= 0 ? EC_LIGHT_TEXTURED : 0) | (m->coat > 0.0f ? EC_LIGHT_COATED : 0);
+              (m->textures[EC_SLOT_EMISSION].texture >= 0 ? EC_LIGHT_TEXTURED : 0) | (m->coat > 0.0f ? EC_LIGHT_COATED : 0) |
+              (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_LIGHT_OPEN : 0);
     l->prim = prim;
     l->pdf_a = (float)(1.0 / area); /* times pmf once that is known */
-    list->power[list->count++] = power;
+    return PI * area * luminance(radiance) * (m->double_sided ? 2.0 : 1.0);
+}
+
+/* Each of those that lie in one place once. whole: by material. */
+static void add_triangles(const ec_scene *scene, const ec_pack *pack, const bool *emits, const uint32_t *first, const ec_texture_mean *whole,
+                          light_list *list)
+{
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < pack->prim_count; p++)
+        if (emits[pack->prims[p].material] && first[p] == p) list->lights[count++].prim = p;
+#pragma omp parallel for schedule(dynamic, 64) if (count > 256)
+    for (uint32_t i = 0; i < count; i++) list->power[i] = fill_triangle(scene, pack, whole, &list->lights[i]);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(list->power[i] > 0.0) || !isfinite(list->power[i])) continue;
+        list->lights[list->count] = list->lights[i];
+        list->power[list->count++] = list->power[i];
+    }
 }
 
 double ec_pack_punctual_power(const ec_light *in, double scene_radius)
@@ -178,9 +194,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
     ec_result result = list.lights && list.power ? EC_OK : ec_fail(err, "out of memory for %u lights", most);
     if (result == EC_OK) result = ec_coincident_find(scene, pack, emits, &first, err);
     if (result == EC_OK) {
-        for (uint32_t p = 0; p < pack->prim_count; p++)
-            if (emits[pack->prims[p].material] && first[p] == p)
-                add_triangle(scene, pack, p, &mean[pack->prims[p].material], &list);
+        add_triangles(scene, pack, emits, first, mean, &list);
         for (uint32_t i = 0; i < scene->light_count; i++) add_punctual(&scene->lights[i], scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius, &list);
         if (environment_luminance > 0.0) {
             double r = pack->scene_radius;

@@ -36,9 +36,12 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
     return EC_OK;
 }
 
+/* A slot of no texture is that of none, whatever was there before: a turn that is left would turn tangents. */
 static void pack_slot(const ec_scene *scene, const ec_texture_use *use, int is_srgb, ec_texture_slot *slot)
 {
+    static const ec_texture_use none = {-1, 0, {1, 0, 0, 0, 1, 0}};
     slot->texture = ec_pack_texture_index(scene, use, is_srgb);
+    if (slot->texture < 0) use = &none;
     slot->uv_set = use->uv_set;
     memcpy(slot->transform, use->transform, sizeof slot->transform);
 }

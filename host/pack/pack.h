@@ -91,7 +91,8 @@ bool ec_pack_wants_light_tree(const ec_pack *pack);
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 
 /* Makes pack->lights those of integrators that sum over lights at their centres: triangles in one plane, edge to edge, as one;
- * small bodies as one point, with their radius in pdf_a; without the environment. Nothing samples them. */
+ * small bodies as one point, with their radius in pdf_a; without the environment, and without those of which nothing comes. Nothing samples
+ * them. */
 ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *err);
 
 /* Index into pack->textures of a texture in one encoding; -1 for none. Valid after ec_pack_textures. */

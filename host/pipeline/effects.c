@@ -7,7 +7,6 @@
 
 void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects)
 {
-    const uint64_t asked_for = EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER; /* and not called for by a scene */
     ec_effects *called = &effects->called;
     *called = pack->effects;
     if (options->scattering == EC_SCATTERING_MULTIPLE) ec_pack_rough(&pack->plain.scene, called);
@@ -18,7 +17,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     if (pack->light_node_count) ec_effects_call(called, EC_FEATURE_LIGHT_TREE, "%u lights are chosen among", pack->light_count);
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
-    effects->built = called->bits | (options->all_effects ? EC_FEATURE_ALL & ~asked_for : options->more_effects);
+    effects->built = called->bits | (options->all_effects ? EC_FEATURE_ALL & ~EC_FEATURE_SOBOL /* other random numbers, not more */ : options->more_effects);
     effects->built &= ~(effects->without & EC_FEATURE_PANES); /* paths through panes count on shadow rays to pass them too */
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
         if (ec_stages[id].integrators >> options->integrator & 1) effects->launched |= 1u << id;
@@ -32,11 +31,13 @@ bool ec_pipeline_joins(const ec_render_options *options, const ec_pack *pack)
     return pack->light_count && (asked || (pack->effects.bits & EC_FEATURE_PUNCTUAL_LIGHTS));
 }
 
-/* Alpha decides by base colour, panes by all of the surface; without them the traversal does not look at it. */
+/* Alpha decides by base colour, panes by all of the surface; without them the traversal does not look at it. Who shades looks at the
+ * alpha of lamps alone. */
 uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features)
 {
     uint64_t f = features & stage->features;
     const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
+    if (stage->features & EC_FEATURE_AREA_LIGHTS) return f & EC_FEATURE_AREA_LIGHTS ? f : f & ~EC_FEATURE_ALPHA;
     if (!(stage->features & EC_FEATURE_ALPHA) || (f & EC_FEATURE_PANES)) return f;
     return f & (EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | (f & EC_FEATURE_ALPHA ? EC_FEATURE_ALPHA | of_alpha : 0));
 }

@@ -38,10 +38,10 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_AR
 
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
 #define SHADING_FEATURES                                                                           \
-    (EC_FEATURE_ALL & ~(EC_FEATURE_ALPHA | EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | \
+    (EC_FEATURE_ALL & ~(EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | \
                         EC_FEATURE_PANES | EC_FEATURE_MOTION | CAMERA_FEATURES))
 /* Shadow rays look at surfaces where there are panes, else at no more than alpha: see ec_stage_features. */
-#define SHADOW_FEATURES (SHADING_FEATURES | EC_FEATURE_ALPHA | EC_FEATURE_PANES)
+#define SHADOW_FEATURES ((SHADING_FEATURES & ~EC_FEATURE_AREA_LIGHTS) | EC_FEATURE_PANES)
 
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE,

@@ -44,6 +44,7 @@
     CASE("camera/lens", false, ec_selftest_lens, "blur of another width than the thin lens's")                                    \
     CASE("camera/shutter", true, ec_selftest_shutter, "things that stand still for some rays while they move for others")           \
     CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")             \
+    CASE("environment/cube", false, ec_selftest_image_light, "image-based light mirrored, turned back to front, or seamed (EXT_lights_image_based)") \
     CASE("scatter/fresnel", false, ec_selftest_fresnel, "black or bright rims where total reflection sets in")                     \
     CASE("scatter/film", false, ec_selftest_film, "rainbows on films of nothing; black or bright rims")                            \
     CASE("scatter/ggx", false, ec_selftest_ggx, "narrow lobes from 1 - cos^2: no digit is left at roughness 0.01 (NUMERICS)")      \
@@ -52,6 +53,9 @@
     CASE("scatter/multiple", true, ec_selftest_multiple, "rough metal and glass that darken, or glow")                            \
     CASE("scatter/reciprocity", false, ec_selftest_reciprocity, "a picture that depends on the side paths start from")             \
     CASE("scatter/fuzz", false, ec_selftest_fuzz, "NaN and fireflies")                                                             \
+    CASE("scatter/fuzz, layers", true, ec_selftest_fuzz_layers, "NaN and fireflies where effects meet")                            \
+    CASE("scatter/brushed", true, ec_selftest_brushed, "stretched lobes that glow, or that lose their digits across")             \
+    CASE("scatter/coat", true, ec_selftest_coat, "lacquer that makes light, or goes black at its rim")                            \
     CASE("scatter/slab", false, ec_selftest_slabs, "glass that darkens or brightens what is behind it")                            \
     CASE("scatter/slab in slab", false, ec_selftest_slab_in_slab, "liquid in glass that refracts as if in air (Schmidt and Budge 2002)") \
     CASE("scatter/nested glass", false, ec_selftest_nested_glass, "black glass: paths lost at faces or by depth")                  \

@@ -4,8 +4,8 @@
  * Maps and textures have texels between 1 and 2: a rounding of u or v then moves a result by as many u as there are texels, and the
  * environment's 16 stand in its count.
  *
- * Left out: what only looks up, compares or counts (filter.h, queue.h, seen.h, tally.h, traverse_*.h), and hashes (sampler.h), which
- * are exact. */
+ * Left out: what only looks up, compares or counts (filter.h, queue.h, seen.h, sort_rays.h, tally.h, traverse_*.h), and hashes (sampler.h),
+ * which are exact. */
 #include <stddef.h>
 
 #include "selftest/precision_draw.h"
@@ -40,6 +40,8 @@ const ec_precision_case ec_precision_cases[] = {
     {"bsdf_fresnel, glass", "bsdf_fresnel", "bsdf.h", ec_inputs_off_glass, 16, 0, 0, 20, {EACH("F", 0, 3), SCALED("rest", 3, 1)}},
     {"ggx_d", "ggx_d", "ggx.h", ec_inputs_half_vector, 15, BIT(14), 0, 8, {EACH("D", 0, 1)}},
     {"ggx_lambda", "ggx_lambda", "ggx.h", ec_inputs_half_vector, 15, BIT(14), 0, 5, {EACH("lambda", 0, 1)}},
+    {"ggx_d, stretched", "ggx_d", "ggx.h", ec_inputs_brushed_half_vector, 19, BIT(14), 0, 12, {EACH("D", 0, 1)}},
+    {"ggx_lambda, stretched", "ggx_lambda", "ggx.h", ec_inputs_brushed_half_vector, 19, BIT(14), 0, 6, {EACH("lambda", 0, 1)}},
     {"coat_over", "coat_over", "coat.h", ec_inputs_opaque, 15, BIT(14), 0, 32, {EACH("f cos", 0, 1), EACH("pdf", 1, 1)}},
     {"sheen_over", "sheen_over", "sheen.h", ec_inputs_opaque, 15, BIT(14), 0, 60, {EACH("f cos", 0, 3), EACH("pdf", 3, 1), EACH("E", 4, 1)}},
     {"multiscatter_over, metal", "multiscatter_over", "multiscatter.h", ec_inputs_opaque, 15, BIT(14), 0, 40, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
@@ -51,9 +53,12 @@ const ec_precision_case ec_precision_cases[] = {
     {"bsdf_eval, into glass", "bsdf_eval", "bsdf.h", ec_inputs_into_glass, 15, 0, 0, 40, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
     {"bsdf_eval, off glass", "bsdf_eval", "bsdf.h", ec_inputs_off_glass, 15, 0, 0, 40, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
     {"bsdf_eval, thin wall", "bsdf_eval", "bsdf.h", ec_inputs_thin, 15, BIT(14), 0, 40, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
+    {"bsdf_eval, into brushed glass", "bsdf_eval", "bsdf.h", ec_inputs_into_brushed_glass, 19, 0, 0, 52, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
+    {"bsdf_eval, off brushed glass", "bsdf_eval", "bsdf.h", ec_inputs_off_brushed_glass, 19, 0, 0, 52, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
     {"ggx_sample", "ggx_sample", "ggx.h", ec_inputs_opaque, 18, BIT(14), BIT(15), 24, {EACH("m", 0, 3)}},
     {"bsdf_sample, opaque", "bsdf_sample", "bsdf.h", ec_inputs_opaque, 18, BIT(14), BIT(15), 60, {VECTOR("wi", 0), EACH("f cos / pdf", 3, 3)}},
     {"bsdf_sample, glass", "bsdf_sample", "bsdf.h", ec_inputs_off_glass, 18, 0, BIT(15), 90, {VECTOR("wi", 0), EACH("f cos / pdf", 3, 3)}},
+    {"bsdf_sample, brushed glass", "bsdf_sample", "bsdf.h", ec_inputs_off_brushed_glass, 19, 0, BIT(15), 90, {VECTOR("wi", 0), EACH("f cos / pdf", 3, 3)}},
     {"bsdf_sample, smooth glass", "bsdf_sample", "bsdf.h", ec_inputs_smooth_glass, 18, BIT(12), BIT(15), 30, {VECTOR("wi", 0), EACH("f cos / pdf", 3, 3)}},
     {"blind_sample", "blind_sample", "bsdf.h", ec_inputs_off_glass, 18, 0, BIT(15), 8, {EACH("wi", 0, 3)}},
     {"blinn_phong_eval", "blinn_phong_eval", "blinn_phong.h", ec_inputs_highlight, 15, BIT(14), 0, 24, {EACH("f cos", 0, 3)}},

@@ -12,7 +12,8 @@ ec_precision_inputs ec_inputs_turn, ec_inputs_exponent, ec_inputs_logarithm, ec_
 
 /* precision_inputs_bsdf.c */
 ec_precision_inputs ec_inputs_interface, ec_inputs_refraction, ec_inputs_opaque, ec_inputs_into_glass, ec_inputs_off_glass,
-    ec_inputs_thin, ec_inputs_smooth_glass, ec_inputs_highlight, ec_inputs_half_vector, ec_inputs_film, ec_inputs_dispersion;
+    ec_inputs_thin, ec_inputs_smooth_glass, ec_inputs_highlight, ec_inputs_half_vector, ec_inputs_film, ec_inputs_dispersion,
+    ec_inputs_into_brushed_glass, ec_inputs_off_brushed_glass, ec_inputs_brushed_half_vector;
 
 /* precision_inputs_scene.c: triangles, lights, maps, the camera */
 ec_precision_inputs ec_inputs_hit, ec_inputs_mapped_hit, ec_inputs_values, ec_inputs_offset, ec_inputs_box, ec_inputs_triangle,

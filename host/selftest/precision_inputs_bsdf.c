@@ -4,7 +4,7 @@
 #include "selftest/precision_draw.h"
 #include "selftest/precision_inputs.h"
 
-enum { WO = 0, WI = 3, BASE = 6, F0 = 9, F90, METALLIC, ALPHA, TRANSMISSION, ETA, U1, U2, U };
+enum { WO = 0, WI = 3, BASE = 6, F0 = 9, F90, METALLIC, ALPHA, TRANSMISSION, ETA, U1, U2, U, STRETCH };
 
 static double draw_grazing(uint64_t *random)
 {
@@ -53,17 +53,24 @@ static void draw_material(uint64_t *random, float *x)
     x[METALLIC] = (float)(0.5 * ec_draw_one(random, 3));
     x[ALPHA] = (float)(ec_random_unit(random) < 0.75 ? ec_draw_log(random, EC_SMOOTH_ALPHA, 1) : 1);
     x[TRANSMISSION] = 0;
-    x[ETA] = 1;
+    x[ETA] = x[STRETCH] = 1;
     for (int k = 0; k < 3; k++) x[U1 + k] = ec_draw_unit(random);
 }
 
-/* A normal out of the middle of a lobe of this width. */
-static void draw_normal(uint64_t *random, double alpha, double *m)
+/* A normal out of the middle of a lobe of these widths. */
+static void draw_normal(uint64_t *random, const float *x, double *m)
 {
-    double angle = ec_random_between(random, -M_PI, M_PI), r = alpha * ec_draw_log(random, 1e-2, 5), length = sqrt(1 + r * r);
-    m[0] = r * cos(angle) / length;
-    m[1] = r * sin(angle) / length;
+    double angle = ec_random_between(random, -M_PI, M_PI), r = x[ALPHA] * ec_draw_log(random, 1e-2, 5), along = r * cos(angle) * x[STRETCH];
+    double across = r * sin(angle), length = sqrt(1 + along * along + across * across);
+    m[0] = along / length;
+    m[1] = across / length;
     m[2] = 1 / length;
+}
+
+/* As wide along x as it gets, or between that and as across. */
+static void stretch(uint64_t *random, float *x)
+{
+    x[STRETCH] = (float)(ec_random_unit(random) < 0.5 ? 1 / x[ALPHA] : pow(1 / x[ALPHA], ec_random_unit(random)));
 }
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -76,7 +83,7 @@ static void draw_reflection(uint64_t *random, float *x)
     do {
         ec_draw_direction_at(random, draw_grazing(random), wo);
         ec_draw_direction_at(random, draw_grazing(random), wi);
-        draw_normal(random, x[ALPHA], m);
+        draw_normal(random, x, m);
         for (int k = 0; mirrored && k < 3; k++) wi[k] = 2 * dot(wo, m) * m[k] - wo[k];
     } while (wi[2] < 1e-8);
     ec_put(x + WO, wo);
@@ -111,13 +118,12 @@ static void draw_glass(uint64_t *random, float *x)
     x[F90] = 1;
 }
 
-void ec_inputs_into_glass(uint64_t *random, float *x)
+static void draw_into_glass(uint64_t *random, float *x)
 {
     double wo[3], wi[3], m[3], square;
-    draw_glass(random, x);
     do {
         ec_draw_direction_at(random, draw_grazing(random), wo);
-        draw_normal(random, x[ALPHA], m);
+        draw_normal(random, x, m);
         double om = dot(wo, m), eta = x[ETA];
         square = om * om + eta * eta - 1;
         for (int k = 0; k < 3; k++) wi[k] = ((om - sqrt(fmax(square, 0))) * m[k] - wo[k]) / eta;
@@ -126,9 +132,29 @@ void ec_inputs_into_glass(uint64_t *random, float *x)
     ec_put(x + WI, wi);
 }
 
+void ec_inputs_into_glass(uint64_t *random, float *x)
+{
+    draw_glass(random, x);
+    draw_into_glass(random, x);
+}
+
+void ec_inputs_into_brushed_glass(uint64_t *random, float *x)
+{
+    draw_glass(random, x);
+    stretch(random, x);
+    draw_into_glass(random, x);
+}
+
 void ec_inputs_off_glass(uint64_t *random, float *x)
 {
     draw_glass(random, x);
+    draw_reflection(random, x);
+}
+
+void ec_inputs_off_brushed_glass(uint64_t *random, float *x)
+{
+    draw_glass(random, x);
+    stretch(random, x);
     draw_reflection(random, x);
 }
 
@@ -170,11 +196,23 @@ void ec_inputs_dispersion(uint64_t *random, float *x)
 }
 
 /* A half vector in the place of wo. */
-void ec_inputs_half_vector(uint64_t *random, float *x)
+static void draw_half_vector(uint64_t *random, float *x)
 {
     double m[3];
-    draw_material(random, x);
-    draw_normal(random, x[ALPHA], m);
+    draw_normal(random, x, m);
     if (ec_random_unit(random) < 0.25) ec_draw_direction_at(random, draw_grazing(random), m);
     ec_put(x + WO, m);
+}
+
+void ec_inputs_half_vector(uint64_t *random, float *x)
+{
+    draw_material(random, x);
+    draw_half_vector(random, x);
+}
+
+void ec_inputs_brushed_half_vector(uint64_t *random, float *x)
+{
+    draw_material(random, x);
+    stretch(random, x);
+    draw_half_vector(random, x);
 }

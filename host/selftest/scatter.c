@@ -6,20 +6,20 @@
 
 #include "shared/features.h"
 
-ec_result ec_scatter_open_multiple(ec_selftest *t, bool multiple, ec_scatter_run *run, ec_error *err)
+ec_result ec_scatter_open_with(ec_selftest *t, const char *more, ec_scatter_run *run, ec_error *err)
 {
-    char options[128];
+    char options[400];
     *run = (ec_scatter_run){.in = calloc((size_t)EC_SCATTER_INS * EC_SCATTER_N, sizeof *run->in),
                             .out = calloc((size_t)EC_SCATTER_OUTS * EC_SCATTER_N, sizeof *run->out)};
     snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_SMOOTH+EC_FEATURE_TRANSMISSION%s)",
-             t->lanes, multiple ? "+EC_FEATURE_MULTISCATTER" : "");
+             t->lanes, more);
     ec_result result = run->in && run->out ? ec_program_build(t->cl, "scatter", ec_kernel_source("scatter"), options, &run->program, err)
                                            : ec_fail(err, "out of memory for directions");
     if (result != EC_OK) ec_scatter_close(run);
     return result;
 }
 
-ec_result ec_scatter_open(ec_selftest *t, ec_scatter_run *run, ec_error *err) { return ec_scatter_open_multiple(t, false, run, err); }
+ec_result ec_scatter_open(ec_selftest *t, ec_scatter_run *run, ec_error *err) { return ec_scatter_open_with(t, "", run, err); }
 
 void ec_scatter_close(ec_scatter_run *run)
 {
@@ -61,6 +61,7 @@ void ec_scatter_set(ec_scatter_run *run, uint32_t i, const ec_scatter_material *
     ec_scatter_put(run, EC_SCATTER_TRANSMISSION, i, m->transmission);
     ec_scatter_put(run, EC_SCATTER_ETA, i, m->eta);
     ec_scatter_put(run, EC_SCATTER_SMOOTH, i, m->smooth);
+    ec_scatter_put(run, EC_SCATTER_STRETCH, i, m->along > 0 ? m->along / m->alpha : 1);
 }
 
 void ec_scatter_put3(ec_scatter_run *run, int field, uint32_t i, double x, double y, double z)

@@ -18,7 +18,7 @@ typedef struct ec_scatter_run {
 } ec_scatter_run;
 
 ec_result ec_scatter_open(ec_selftest *t, ec_scatter_run *run, ec_error *err); /* on failure nothing is left to close */
-ec_result ec_scatter_open_multiple(ec_selftest *t, bool multiple, ec_scatter_run *run, ec_error *err); /* with what facets scatter again */
+ec_result ec_scatter_open_with(ec_selftest *t, const char *more, ec_scatter_run *run, ec_error *err); /* more: "+EC_FEATURE_…" */
 void ec_scatter_close(ec_scatter_run *run);
 ec_result ec_scatter_go(ec_selftest *t, ec_scatter_run *run, ec_error *err);
 ec_result ec_scatter_films(ec_selftest *t, ec_scatter_run *run, ec_error *err); /* three results: red, green, blue */
@@ -27,6 +27,7 @@ ec_result ec_scatter_films(ec_selftest *t, ec_scatter_run *run, ec_error *err); 
 typedef struct ec_scatter_material {
     double base, f0, metallic, alpha, transmission, eta; /* eta 1: thin, or opaque */
     bool smooth;
+    double along; /* the lobe's width along x, of kernels with ANISOTROPY; 0: alpha */
 } ec_scatter_material;
 /* A perfect metal, white glass. f0 of glass goes with its index. */
 ec_scatter_material ec_scatter_metal(double alpha);

@@ -90,16 +90,9 @@ static double coat(const double wo[3], const double wi[3], double half_cosine)
     return (fresnel * ec_exact_ggx(COAT_ALPHA, h) * visible + (1 - fresnel) / EC_PI_DOUBLE) * wi[2];
 }
 
-/* What smooth glass of index 1.5, half clear, scatters back into itself. */
-static double half_clear(const double wo[3], const double wi[3], double half_cosine)
-{
-    (void)wo;
-    return (1 - ec_exact_fresnel(half_cosine, 1 / 1.5)) * 0.5 / EC_PI_DOUBLE * wi[2];
-}
-
 /* A white base under a coat returns more than it gets at grazing angles: glTF takes from the base what the coat reflects by the half
- * vector's angle, not by either direction's. That is its model, so the expected value has it. Half-clear glass from inside, beyond
- * the critical angle, mirrors all, and scatters besides, by the same mix. */
+ * vector's angle, not by either direction's. That is its model, so the expected value has it. From inside half-clear glass there is no
+ * such mix, or light that is reflected totally again and again would grow: half meets the base, half the face. */
 static ec_result mixtures(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     static const double cosines[] = {1, 0.5, 0.1};
@@ -112,7 +105,7 @@ static ec_result mixtures(ec_selftest *t, ec_scatter_run *run, ec_error *err)
     m = ec_scatter_glass(1e-4, 1 / 1.5);
     m.smooth = true;
     m.transmission = 0.5;
-    return albedo_row(t, run, "half-clear glass from inside", &m, 0.5, 1 + albedo_of(half_clear, 0.5), err);
+    return albedo_row(t, run, "half-clear glass from inside", &m, 0.5, 1, err);
 }
 
 ec_result ec_selftest_energy(ec_selftest *t, ec_error *err)
@@ -131,7 +124,7 @@ static ec_result furnaces(ec_selftest *t, bool multiple, ec_error *err)
 {
     static const double cosines[] = {1, 0.3};
     ec_scatter_run run;
-    EC_TRY(ec_scatter_open_multiple(t, multiple, &run, err));
+    EC_TRY(ec_scatter_open_with(t, multiple ? "+EC_FEATURE_MULTISCATTER" : "", &run, err));
     ec_scatter_material metal = ec_scatter_metal(1);
     ec_result result = EC_OK;
     if (!multiple) result = albedo_row(t, &run, "metal of roughness 1, once", &metal, 1, 1 - 0.693147180559945309, err);

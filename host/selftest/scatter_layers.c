@@ -1,4 +1,4 @@
-/* Effects beyond glass and metal where they are hardest: sheen along the surface, light that seeps through, glass that disperses. They
+/* Effects beyond glass and metal where they are hardest: coats and sheen along the surface, light that seeps through, glass that disperses. They
  * share one build of kernels. */
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 static ec_render_options options(const ec_selftest *t, uint32_t spp)
 {
     ec_render_options o = ec_shot_options(t, 16, spp);
-    o.more_effects |= EC_FEATURE_SHEEN | EC_FEATURE_DIFFUSE_TRANSMISSION | EC_FEATURE_DISPERSION;
+    o.more_effects |= EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_DIFFUSE_TRANSMISSION | EC_FEATURE_DISPERSION;
     return o;
 }
 
@@ -91,6 +91,27 @@ ec_result ec_selftest_sheen(ec_selftest *t, ec_error *err)
         result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, 4 * shot.noise + (i / 3 ? 0.005 : 1e-4), err);
         ec_shot_free(&shot);
         EC_TRY(result);
+    }
+    return EC_OK;
+}
+
+/* A coat over black mirrors 0.04 + 0.96 (1 - c)^5, at the width that counts as smooth from either side too, where masking takes 1e-8;
+ * over white all that comes returns. */
+ec_result ec_selftest_coat(ec_selftest *t, ec_error *err)
+{
+    static const double cosines[] = {1, 0.1, 0.01};
+    for (int i = 0; i < 8; i++) {
+        double cosine = i < 6 ? cosines[i % 3] : 0.5, share = 0.04 + 0.96 * pow(1 - cosine, 5);
+        ec_material m = ec_material_lambert(i / 3 == 1, 0);
+        ec_render_options o = options(t, 1024);
+        ec_scene *scene;
+        char what[48];
+        m.coat = 1;
+        m.coat_roughness = i < 6 ? 0 : (float)sqrt(i == 6 ? 0.99e-4 : 1.01e-4);
+        EC_TRY(plate(&m, cosine, false, &scene, err));
+        if (i < 6) snprintf(what, sizeof what, "over %s, cos %g", i / 3 ? "white" : "black", cosine);
+        else snprintf(what, sizeof what, "of width %s", i == 6 ? "0.99e-4, smooth" : "1.01e-4, rough");
+        EC_TRY(ec_shot_only_row(t, what, scene, &o, i / 3 == 1 ? 1 : share, err));
     }
     return EC_OK;
 }

@@ -8,8 +8,8 @@
 /* What most cases call for. Textures, coverage and further lobes are left out: kernels with all effects take PoCL 20 s to build. */
 #define EC_SHOT_EFFECTS                                                                                                          \
     (EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | \
-     EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION | EC_FEATURE_NESTED |                \
-     EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_CULLING | EC_FEATURE_LENS)
+     EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION |      \
+     EC_FEATURE_NESTED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_CULLING | EC_FEATURE_LENS)
 
 void ec_shot_free(ec_shot *shot)
 {

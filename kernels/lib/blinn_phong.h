@@ -32,7 +32,7 @@ EC_FN v3 blinn_phong_eval(const bsdf *b, lane_i mirrors, v3 wi)
     /* cos^n by the sine too, which has the digits in narrow lobes. */
     lane_f log_cosine = 0.5f * log_unit(h.z * h.z, fma(h.x, h.x, h.y * h.y));
     lane_f lobe = (n + 8.0f) * (0.125f * EC_INV_PI) * exp_negative(n * log_cosine);
-    lane_f diffuse = rest * bsdf_scatters_back(b) * EC_INV_PI;
+    lane_f diffuse = bsdf_rest_scattered(b, rest) * bsdf_scatters_back(b) * EC_INV_PI;
     v3 f = v3_fma(fresnel, mirrors ? F(0.0f) : lobe, v3_scale(b->base, diffuse));
     return v3_select(above, v3_scale(f, wi.z), v3_zero());
 }
@@ -43,7 +43,7 @@ EC_FN v3 blinn_phong_albedo(const bsdf *b, lane_i mirrors)
     if (!HAS(SPECULAR)) return b->base;
     lane_f rest;
     v3 fresnel = bsdf_fresnel(b, F(1.0f), &rest);
-    return v3_fma(b->base, rest * bsdf_scatters_back(b), v3_select(mirrors, v3_zero(), fresnel));
+    return v3_fma(b->base, bsdf_rest_scattered(b, rest) * bsdf_scatters_back(b), v3_select(mirrors, v3_zero(), fresnel));
 }
 
 #endif

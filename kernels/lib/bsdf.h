@@ -4,6 +4,8 @@
  *   f = metallic F_m D V + (1 - metallic) (F_d D V + (1 - max F_d) ((1 - transmission) diffuse / pi + transmission base T))
  *
  * diffuse: base on wo's side, on the other the colour of diffuse transmission, in the shares 1 - t and t.
+ * From inside a body that is clear in part the base lies before the face that reflects: transmission (F D V + (1 - F) base T) +
+ * (1 - transmission) diffuse / pi, or light that is reflected totally again and again would be scattered each time besides.
  * Under a thin film (iridescence.h) both F are the film's. D, V: of GGX microfacets (ggx.h). T passes light on: through a thin wall by the same
  * lobe mirrored, into a body by the microfacet BTDF of Walter et al. 2007, eq. 21, between basic radiances L / n^2 (Nicodemus
  * 1963), so that no factor n^2 comes and goes with each body. A smooth surface has one direction of reflection and one of
@@ -28,6 +30,7 @@ typedef struct bsdf {
     lane_f p_specular;   /* probability of sampling what mirrors or passes, not the diffuse lobe */
     lane_f transmission, eta;
     lane_i refracts;
+    lane_i base_first;   /* light gets to the base before the face that reflects */
     lane_f seeps;        /* share of what is scattered diffusely that comes out on the other side */
     v3 below;            /* with this colour */
     lane_f p_below;      /* probability of that side, for the diffuse lobe */
@@ -58,6 +61,7 @@ EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *rest)
         dielectric = v3_select(w > 0.0f, v3_fma(over, w, v3_scale(dielectric, 1.0f - w)), dielectric);
         metal = v3_select(w > 0.0f, v3_fma(over_metal, w, v3_scale(metal, 1.0f - w)), metal);
     }
+    if (HAS(TRANSMISSION)) dielectric = v3_scale(dielectric, b->base_first ? b->transmission : F(1.0f));
     *rest = (1.0f - b->metallic) * left;
     return v3_fma(v3_sub(metal, dielectric), b->metallic, dielectric);
 }
@@ -69,6 +73,12 @@ EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest, lane_f *
     lane_f reflected = luminance(reflectance), passed = rest * b->transmission * luminance(b->base), sum = reflected + passed;
     *p_pass = sum > 0.0f ? passed / sum : F(0.0f);
     return sum > 0.0f ? reflected / sum : F(1.0f);
+}
+
+/* Of what goes to the base, the share that could be scattered there; rest: as bsdf_fresnel has it. */
+EC_FN lane_f bsdf_rest_scattered(const bsdf *b, lane_f rest)
+{
+    return HAS(TRANSMISSION) ? (b->base_first ? 1.0f - b->metallic : rest) : rest;
 }
 
 /* Of what the base gets, the share that it scatters back to this side. */
@@ -95,7 +105,8 @@ EC_FN multiscatter bsdf_scatter_again(const bsdf *b, lane_f albedo)
     return m;
 }
 
-EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
+/* multiple: do facets scatter more than once (MULTISCATTER)? */
+EC_FN bsdf bsdf_make(const surface *s, v3 wo_local, bool multiple)
 {
     bsdf b;
     b.wo = wo_local;
@@ -109,6 +120,7 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
     b.transmission = HAS(TRANSMISSION) ? s->transmission : F(0.0f);
     b.eta = s->eta;
     b.refracts = HAS(TRANSMISSION) ? s->refracts & (s->transmission > 0.0f) : !TRUE_MASK;
+    b.base_first = b.refracts & (b.eta < 1.0f);
     b.seeps = HAS(DIFFUSE_TRANSMISSION) ? s->seeps : F(0.0f);
     b.below = s->below;
     b.p_below = F(0.0f);
@@ -122,10 +134,10 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
             scattered = under + back;
             b.p_below = under > 0.0f ? (back > 0.0f ? min(max(under / scattered, F(0.1f)), F(0.9f)) : F(1.0f)) : F(0.0f);
         }
-        lane_f diffuse = rest * scattered;
+        lane_f diffuse = bsdf_rest_scattered(&b, rest) * scattered;
         lane_f most = (1.0f - b.metallic) * (1.0f - min(v3_max_component(b.f0), F(1.0f))) * scattered; /* diffuse, head-on */
         lane_i filmed = HAS(IRIDESCENCE) ? b.film.weight > 0.0f : !TRUE_MASK; /* which may reflect all or nothing at any angle */
-        most = filmed ? (1.0f - b.metallic) * scattered : most;
+        most = (filmed | b.base_first) ? (1.0f - b.metallic) * scattered : most;
         if (HAS(TRANSMISSION)) {
             specular = fma(passed, b.transmission, specular);
             diffuse = diffuse * (1.0f - b.transmission);
@@ -136,7 +148,8 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local)
         /* A lobe that matters at other angles must not starve. What is left for the base goes by the half vector's angle: there may
          * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing but a film reflects less than head-on. */
         b.p_specular = (((b.p_specular > 0.0f) | filmed) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
-        if (HAS(MULTISCATTER)) {
+        if (HAS(MULTISCATTER)) b.again.p = F(0.0f);
+        if (HAS(MULTISCATTER) && multiple) {
             b.again = bsdf_scatter_again(&b, sum);
             sum += b.again.albedo;
         }
@@ -178,7 +191,7 @@ EC_FN v3 bsdf_eval_seeping(const bsdf *b, v3 wi, lane_f *pdf)
     lane_f rest, spread = -wi.z * EC_INV_PI;
     bsdf_fresnel(b, min(sqrt(v3_dot(sum, sum)) * 0.5f, F(1.0f)), &rest);
     *pdf = (1.0f - b->p_specular) * b->p_below * spread;
-    return v3_scale(b->below, rest * (1.0f - b->transmission) * b->seeps * spread);
+    return v3_scale(b->below, bsdf_rest_scattered(b, rest) * (1.0f - b->transmission) * b->seeps * spread);
 }
 
 /* Of the surface without what lies over it. */
@@ -198,7 +211,7 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
     lane_f d = ggx_d(&b->facets, h);
     lane_f lambda_o = ggx_lambda(&b->facets, b->wo), lambda_i = ggx_lambda(&b->facets, wi);
     lane_f v_ni = 0.5f * ni / fma(ni, lambda_o, no * lambda_i); /* V cos, which stays finite at grazing angles */
-    lane_f diffuse = rest * ni * EC_INV_PI;
+    lane_f diffuse = bsdf_rest_scattered(b, rest) * ni * EC_INV_PI;
     lane_f specular = d * v_ni;
     /* Visible normals: D G1 / (4 no) without the quotient G1 / no (Heitz 2018). */
     lane_f pdf_specular = d * 0.5f / (no + lambda_o);
@@ -333,7 +346,8 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
     }
     lane_i again = !TRUE_MASK;
     lane_f u_again = F(0.0f);
-    if (HAS(MULTISCATTER) && HAS(SPECULAR)) {
+    const bool may_again = HAS(MULTISCATTER) && HAS(SPECULAR) && any_lane(b->again.p > 0.0f);
+    if (may_again) {
         again = u < b->again.p;
         u_again = u / b->again.p;
         u = min((u - b->again.p) / (1.0f - b->again.p), F(0.99999994f));
@@ -352,7 +366,7 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2
             single_weight = s.weight;
         }
     }
-    if (HAS(MULTISCATTER) && HAS(SPECULAR)) { /* of smooth surfaces its p is 0 */
+    if (may_again) { /* of smooth surfaces its p is 0 */
         v3 wi = multiscatter_sample(&b->again, cosine, sine, u2, u_again);
         r.wi = v3_select(blind ? !TRUE_MASK : again, wi, r.wi);
     }

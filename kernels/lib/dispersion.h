@@ -46,7 +46,8 @@ EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f u, s
     /* A colour of the reflectance that is cut at f90 stays cut. */
     v3 f0 = v3_scale(s->f0, r * r);
     s->f0 = v3_select(m, v3_make(min(f0.x, s->f90), min(f0.y, s->f90), min(f0.z, s->f90)), s->f0);
-    if (HAS(SMOOTH)) s->smooth = s->smooth | (m & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA));
+    if (HAS(ANISOTROPY)) surface_widen(m, s);
+    if (HAS(SMOOTH)) s->smooth = s->smooth | (m & (s->stretch == 1.0f) & surface_passes_singly(s));
 }
 
 #endif

@@ -47,12 +47,8 @@ EC_FN lane_i filter_hits(const hit_filter *f, lane_i m, lane_u prim, lane_f b1, 
         lane_i look = m & ((flags & EC_PRIM_ALPHA) != 0u);
         if (any_lane(look)) {
             hit_point h = hit_point_make(&f->g, id, b1, b2);
-            lane_f alpha = surface_base_color(&f->g, &h, look).a;
-            lane_i is_mask = (as_lane_u(material_quad(&f->g, &h, EC_MATERIAL_EMISSION).d) & EC_MATERIAL_MASK) != 0u;
-            lane_f cutoff = material_quad(&f->g, &h, EC_MATERIAL_METALLIC).d;
-            lane_f chance = to_unit(hash_u(f->key ^ hash_u(id)));
-            lane_i solid = is_mask ? alpha >= cutoff : chance < alpha;
-            m = m & (solid | !look);
+            lane_f chance = to_unit(hash_u(f->key ^ hash_u(id))); /* under 1 */
+            m = m & ((chance < surface_coverage(&f->g, &h, look)) | !look);
         }
     }
     return m;

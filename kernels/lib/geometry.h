@@ -198,6 +198,15 @@ EC_FN rgba surface_base_color(const geometry *g, const hit_point *h, lane_i m)
     return r;
 }
 
+/* Share of rays that meet the point, where coverage is looked up: alpha, or by a cutoff all or none. */
+EC_FN lane_f surface_coverage(const geometry *g, const hit_point *h, lane_i m)
+{
+    lane_f alpha = surface_base_color(g, h, m).a;
+    lane_i is_mask = (as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d) & EC_MATERIAL_MASK) != 0u;
+    lane_f cutoff = material_quad(g, h, EC_MATERIAL_METALLIC).d;
+    return is_mask ? (alpha >= cutoff ? F(1.0f) : F(0.0f)) : alpha;
+}
+
 /* Radiance leaving the front (a double-sided material: both sides) and the material's flags. */
 EC_FN v3 surface_emission(const geometry *g, const hit_point *h, lane_i m, quad emission)
 {

@@ -85,16 +85,17 @@ EC_FN v3 light_met_error(v3 reach, v3 towards)
     return v3_fma(way, beyond * EC_GAMMA(13), v3_scale(reach, F(EC_GAMMA(4))));
 }
 
-/* What the point at these barycentrics of a triangle sends along -wi. */
+/* What the point at these barycentrics of a triangle sends along -wi, in the mean over rays that meet it or go through. */
 EC_FN v3 light_radiance(const light_record *l, const geometry *g, lane_i m, lane_f b1, lane_f b2, v3 wi)
 {
     v3 radiance = l->emission;
-    if (!(HAS(EMISSION_TEXTURE) || HAS(CLEARCOAT))) return radiance;
+    if (!(HAS(EMISSION_TEXTURE) || HAS(CLEARCOAT) || HAS(ALPHA))) return radiance;
     lane_i textured = m & ((l->kind & EC_LIGHT_TEXTURED) != 0u), coated = m & ((l->kind & EC_LIGHT_COATED) != 0u);
-    lane_i looks = textured | coated;
+    lane_i open = m & ((l->kind & EC_LIGHT_OPEN) != 0u), looks = textured | coated | open;
     if (!any_lane(looks)) return radiance;
     hit_point h = hit_point_make(g, looks ? l->prim : U(0), b1, b2);
     if (HAS(EMISSION_TEXTURE)) radiance = v3_select(textured, v3_mul(radiance, material_texture(g, &h, textured, EC_SLOT_EMISSION, true).rgb), radiance);
+    if (HAS(ALPHA)) radiance = v3_scale(radiance, open ? surface_coverage(g, &h, open) : F(1.0f));
     return coat_emission(g, &h, coated, v3_negate(wi), radiance);
 }
 

@@ -40,7 +40,7 @@ EC_FN v3 pane_pass(const geometry *g, lane_i m, lane_u prim, lane_f b1, lane_f b
     surface_place(&h, wo, &s);
     surface_frame(g, &h, may, wo, &s);
     surface_material(g, &h, may, &s);
-    bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
+    bsdf b = bsdf_make(&s, surface_to_local(&s, wo), false);
     *o = v3_select(may, surface_offset(s.p, s.p_error, s.ng, d), *o);
     return v3_select(may, bsdf_straight(&b), v3_zero());
 }

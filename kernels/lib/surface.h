@@ -57,28 +57,52 @@ EC_FN v3 surface_offset(v3 p, v3 p_error, v3 n, v3 towards)
     return v3_fma(n, d, p);
 }
 
-/* Tangent and handedness of the normal map: the vertices' own, else dp/du of the triangle. Green points up in the texture,
- * towards smaller v: on a front face the uv triangle of an unmirrored map then runs clockwise. */
-EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, lane_f *handedness)
+/* What a picture's coordinates are of those of the mesh, by KHR_texture_transform and but for its offset: two rows. */
+EC_FN quad surface_turn(const geometry *g, const hit_point *h, uint slot)
 {
-    v3 tangent = v3_zero();
+    quad head = material_quad(g, h, EC_MATERIAL_SLOTS + slot * 8u), tail = material_quad(g, h, EC_MATERIAL_SLOTS + slot * 8u + 4u);
+    quad turn = {head.c, head.d, tail.b, tail.c};
+    return turn;
+}
+
+/* To where a picture that is turned or mirrored goes on: A being its turn, d/du' is (A22 d/du - A21 d/dv) / det A. */
+EC_FN v3 surface_turn_tangent(quad turn, v3 dpdu, v3 dpdv, lane_f *handedness)
+{
+    lane_f det = turn.a * turn.d - turn.b * turn.c;
+    lane_i turned = (det != 0.0f) & ((turn.c != 0.0f) | (turn.d < 0.0f) | (det < 0.0f));
+    if (!any_lane(turned)) return dpdu;
+    lane_f sign = det < 0.0f ? F(-1.0f) : F(1.0f);
+    v3 along = v3_fma(dpdv, -turn.c * sign, v3_scale(dpdu, turn.d * sign));
+    *handedness = turned ? *handedness * sign : *handedness;
+    return v3_select(turned, along, dpdu);
+}
+
+/* Tangent and handedness of a picture that is turned so on a surface of normal n: the vertices' own, else dp/du of the triangle. Green of a
+ * normal map points up in it, towards smaller v: on a front face the uv triangle of an unmirrored map then runs clockwise. */
+EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, quad turn, v3 n, lane_f *handedness)
+{
+    v3 tangent = v3_zero(), down = v3_zero();
     *handedness = F(1.0f);
     if (g->tangents) {
         lane_f hand;
         tangent = interpolate_tangent(g, h, &hand);
         *handedness = hand < 0.0f ? F(-1.0f) : F(1.0f);
+        down = v3_scale(v3_cross(tangent, n), *handedness);
     }
     lane_i missing = v3_dot(tangent, tangent) == 0.0f;
-    if (!any_lane(missing)) return tangent;
-    lane_f u0 = second ? h->uv0.c : h->uv0.a, v0 = second ? h->uv0.d : h->uv0.b;
-    lane_f du1 = (second ? h->uv1.c : h->uv1.a) - u0, dv1 = (second ? h->uv1.d : h->uv1.b) - v0;
-    lane_f du2 = (second ? h->uv2.c : h->uv2.a) - u0, dv2 = (second ? h->uv2.d : h->uv2.b) - v0;
-    v3 e1 = v3_sub(h->p1, h->p0), e2 = v3_sub(h->p2, h->p0);
-    lane_f det = du1 * dv2 - du2 * dv1;
-    v3 dpdu = v3_scale(v3_sub(v3_scale(e1, dv2), v3_scale(e2, dv1)), det < 0.0f ? F(-1.0f) : F(1.0f));
-    dpdu = v3_select(det != 0.0f, dpdu, v3_zero());
-    *handedness = missing ? (det < 0.0f ? F(1.0f) : F(-1.0f)) : *handedness;
-    return v3_select(missing, dpdu, tangent);
+    if (any_lane(missing)) {
+        lane_f u0 = second ? h->uv0.c : h->uv0.a, v0 = second ? h->uv0.d : h->uv0.b;
+        lane_f du1 = (second ? h->uv1.c : h->uv1.a) - u0, dv1 = (second ? h->uv1.d : h->uv1.b) - v0;
+        lane_f du2 = (second ? h->uv2.c : h->uv2.a) - u0, dv2 = (second ? h->uv2.d : h->uv2.b) - v0;
+        v3 e1 = v3_sub(h->p1, h->p0), e2 = v3_sub(h->p2, h->p0);
+        lane_f det = du1 * dv2 - du2 * dv1, sign = det < 0.0f ? F(-1.0f) : F(1.0f);
+        v3 dpdu = v3_scale(v3_sub(v3_scale(e1, dv2), v3_scale(e2, dv1)), sign);
+        v3 dpdv = v3_scale(v3_sub(v3_scale(e2, du1), v3_scale(e1, du2)), sign);
+        *handedness = missing ? -sign : *handedness;
+        tangent = v3_select(missing, v3_select(det != 0.0f, dpdu, v3_zero()), tangent);
+        down = v3_select(missing, dpdv, down);
+    }
+    return surface_turn_tangent(turn, tangent, down, handedness);
 }
 
 /* The normal n bent by the normal map in a slot, whose scale is the third of four words of the material. */
@@ -91,7 +115,7 @@ EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, 
     v3 texel = material_texture(g, h, m, map, false).rgb;
     lane_f x = fma(texel.x, F(2.0f), F(-1.0f)) * scale, y = fma(texel.y, F(2.0f), F(-1.0f)) * scale;
     lane_f z = fma(texel.z, F(2.0f), F(-1.0f));
-    v3 t = surface_tangent(g, h, as_lane_u(slot.b) != 0u, &handedness);
+    v3 t = surface_tangent(g, h, as_lane_u(slot.b) != 0u, surface_turn(g, h, map), n, &handedness);
     t = v3_fma(n, -v3_dot(n, t), t); /* Gram-Schmidt */
     lane_f t2 = v3_dot(t, t);
     t = v3_scale(t, 1.0f / sqrt(t2));
@@ -171,6 +195,22 @@ EC_FN void surface_displace(surface *s)
     s->eta = gone ? F(1.0f) : s->eta;
 }
 
+/* The lobe of what is bent has a width of about alpha |eta - 1|, and float half vectors have no more digits than that: what is narrower has
+ * one direction. */
+EC_FN lane_i surface_passes_singly(const surface *s) { return s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA); }
+
+/* A stretched lobe (lanes m) goes by its wide axis: across it is as wide as they resolve, the same from either side. */
+EC_FN void surface_widen(lane_i m, surface *s)
+{
+    lane_f along = s->alpha_ggx * s->stretch, least = EC_SMOOTH_ALPHA * max(s->eta, F(1.0f)) / fabs(s->eta - 1.0f);
+    m = m & s->refracts & (s->stretch > 1.0f);
+    lane_i single = m & !(least < along);
+    if (HAS(SMOOTH)) s->smooth = (s->smooth & !m) | single;
+    m = m & !single & (s->alpha_ggx < least);
+    s->alpha_ggx = m ? least : s->alpha_ggx;
+    s->stretch = m ? along / least : s->stretch;
+}
+
 /* KHR_materials_transmission, _ior and _volume. A body is entered through its front. Around it is air, where no bodies are nested. */
 EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
@@ -181,18 +221,18 @@ EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m,
     s->refracts = ((flags & EC_MATERIAL_REFRACTS) != 0u) & (s->transmission > 0.0f) & (s->metallic < 1.0f);
     s->eta = s->refracts ? (s->front ? index.a : 1.0f / index.a) : F(1.0f);
     if (HAS(NESTED)) surface_between(g, index, ((flags & EC_MATERIAL_NESTED) != 0u) & ((flags & EC_MATERIAL_REFRACTS) != 0u), s);
-    /* The lobe's width is about alpha |eta - 1|, and float half vectors have no more digits than that. */
-    if (HAS(SMOOTH)) s->smooth = s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);
+    if (HAS(SMOOTH)) s->smooth = surface_passes_singly(s);
 }
 
 /* KHR_materials_anisotropy: alpha along the direction is mix(alpha, 1, strength^2), across it stays. The frame's s goes along it; where
- * a mesh has no tangents, nor coordinates to make them of, and where light passes, the lobe stays round. */
+ * a mesh has no tangents, nor coordinates to make them of, the lobe stays round. */
 EC_FN void surface_anisotropy(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
     quad q = material_quad(g, h, EC_MATERIAL_ANISOTROPY);
     lane_f strength = q.a, x = q.b, y = q.c, handedness;
     lane_u second = U(0);
-    m = m & (strength > 0.0f) & ((s->transmission == 0.0f) | (s->metallic == 1.0f));
+    quad turn = {F(1.0f), F(0.0f), F(0.0f), F(1.0f)};
+    m = m & (strength > 0.0f);
     if (!any_lane(m)) return;
     if (HAS(ANISOTROPY_TEXTURE)) {
         v3 t = material_texture(g, h, m, EC_SLOT_ANISOTROPY, false).rgb;
@@ -203,8 +243,9 @@ EC_FN void surface_anisotropy(const geometry *g, const hit_point *h, lane_i m, s
         y = fma(q.c, u, q.b * v);
         strength *= t.z;
         second = textured ? as_lane_u(slot.b) : second;
+        turn = surface_turn(g, h, EC_SLOT_ANISOTROPY);
     }
-    v3 n = v3_select(s->front, s->ns, v3_negate(s->ns)), t = surface_tangent(g, h, second != 0u, &handedness);
+    v3 n = v3_select(s->front, s->ns, v3_negate(s->ns)), t = surface_tangent(g, h, second != 0u, turn, n, &handedness);
     t = v3_fma(n, -v3_dot(n, t), t);
     lane_f t2 = v3_dot(t, t);
     t = v3_scale(t, 1.0f / sqrt(t2));
@@ -214,6 +255,7 @@ EC_FN void surface_anisotropy(const geometry *g, const hit_point *h, lane_i m, s
     m = m & (stretch > 1.0f);
     s->stretch = m ? stretch : F(1.0f);
     if (HAS(SMOOTH)) s->smooth = s->smooth & !m;
+    if (HAS(TRANSMISSION)) surface_widen(m, s);
     s->s = v3_select(m, along, s->s);
     s->t = v3_select(m, v3_cross(s->ns, along), s->t);
 }

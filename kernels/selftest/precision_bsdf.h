@@ -6,7 +6,7 @@
 #include "../lib/dispersion.h"
 #include "precision.h"
 
-/* Words: wo 0, wi 3, base 6, f0 9, f90 10, metallic 11, alpha 12 (0: smooth), transmission 13, eta 14 (1: thin), u 15 to 17. */
+/* Words: wo 0, wi 3, base 6, f0 9, f90 10, metallic 11, alpha 12 (0: smooth), transmission 13, eta 14 (1: thin), u 15 to 17, stretch 18. */
 EC_FN surface material_of(global const float *in)
 {
     surface s;
@@ -19,7 +19,7 @@ EC_FN surface material_of(global const float *in)
     s.transmission = X(13);
     s.eta = X(14);
     s.refracts = s.eta != 1.0f;
-    s.stretch = F(1.0f);
+    s.stretch = X(18);
     s.coat = F(0.0f);
     s.sheen = v3_zero();
     s.film = s.seeps = F(0.0f);
@@ -29,7 +29,7 @@ EC_FN surface material_of(global const float *in)
 EC_FN bsdf bsdf_of(global const float *in)
 {
     surface s = material_of(in);
-    return bsdf_make(&s, V(0));
+    return bsdf_make(&s, V(0), false);
 }
 
 PRECISION(bsdf_make) { PUT(0, bsdf_of(in).p_specular); }

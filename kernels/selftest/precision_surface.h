@@ -60,8 +60,9 @@ PRECISION(surface_tangent)
 {
     hit_point h = hit_of(in);
     geometry g = geometry_of(in, memory);
+    quad as_is = {F(1.0f), F(0.0f), F(0.0f), F(1.0f)};
     lane_f handedness;
-    PUT_V(0, surface_tangent(&g, &h, !TRUE_MASK, &handedness));
+    PUT_V(0, surface_tangent(&g, &h, !TRUE_MASK, as_is, v3_zero(), &handedness));
     PUT(3, handedness);
 }
 /* Words 27: wo; 30: the first word of the material. */

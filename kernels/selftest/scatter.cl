@@ -19,8 +19,9 @@ kernel void ec_scatter(uint n, global const float *in, global float *out)
     s.transmission = IN(EC_SCATTER_TRANSMISSION);
     s.eta = IN(EC_SCATTER_ETA);
     s.refracts = s.eta != 1.0f;
+    s.stretch = IN(EC_SCATTER_STRETCH);
     s.smooth = IN(EC_SCATTER_SMOOTH) != 0.0f;
-    bsdf b = bsdf_make(&s, v3_make(IN(EC_SCATTER_WO), IN(EC_SCATTER_WO + 1), IN(EC_SCATTER_WO + 2)));
+    bsdf b = bsdf_make(&s, v3_make(IN(EC_SCATTER_WO), IN(EC_SCATTER_WO + 1), IN(EC_SCATTER_WO + 2)), true);
     v3 w = v3_make(IN(EC_SCATTER_W), IN(EC_SCATTER_W + 1), IN(EC_SCATTER_W + 2));
     lane_f pdf;
     PUT(EC_SCATTER_F, bsdf_eval(&b, w, &pdf).y);
@@ -85,6 +86,31 @@ EC_FN v3 stream_direction(stream *s)
     return v3_make(r * cosine, r * sine, z);
 }
 
+/* What lies over a surface, stretches its lobes or seeps through it. */
+EC_FN void stream_layers(stream *s, surface *r)
+{
+    r->s = v3_make(F(1.0f), F(0.0f), F(0.0f));
+    r->t = v3_make(F(0.0f), F(1.0f), F(0.0f));
+    r->ns = v3_make(F(0.0f), F(0.0f), F(1.0f));
+    v3 tilted = stream_direction(s);
+    r->coat_ns = v3_select((stream_bits(s) & 3u) != 0u, r->ns, tilted);
+    r->stretch = max(stream_scale(s, -9.3f, EC_SMOOTH_ALPHA) / r->alpha_ggx, F(1.0f));
+    r->smooth = r->smooth & (r->stretch == 1.0f);
+    surface_widen(r->refracts, r);
+    lane_f coat_alpha = stream_scale(s, -9.3f, EC_SMOOTH_ALPHA), roughness = stream_factor(s);
+    r->coat = stream_factor(s);
+    r->coat_alpha = coat_alpha;
+    r->coat_smooth = (coat_alpha == EC_SMOOTH_ALPHA) & ((stream_bits(s) & 1u) != 0u);
+    r->sheen = v3_make(stream_factor(s), stream_factor(s), stream_factor(s));
+    r->sheen_roughness = roughness;
+    r->film = stream_factor(s);
+    r->film_ior = 1.0f + stream_factor(s) * 3.0f;
+    r->film_thickness = stream_factor(s) / stream_scale(s, -9.3f, EC_SMOOTH_ALPHA) * 100.0f;
+    r->film = ((r->film_thickness > 0.0f) & (r->film_ior > 1.0f)) ? r->film : F(0.0f);
+    r->seeps = r->metallic < 1.0f ? stream_factor(s) : F(0.0f);
+    r->below = v3_make(stream_factor(s), stream_factor(s), stream_factor(s));
+}
+
 /* As kernels/lib/surface.h makes them of any material that a file can hold. */
 EC_FN surface stream_surface(stream *s)
 {
@@ -102,7 +128,8 @@ EC_FN surface stream_surface(stream *s)
     r.eta = r.refracts ? ((kind & 16u) != 0u ? index : 1.0f / index) : F(1.0f);
     r.alpha_ggx = stream_scale(s, -9.3f, EC_SMOOTH_ALPHA);
     r.smooth = (r.alpha_ggx == EC_SMOOTH_ALPHA) & ((kind & 32u) != 0u);
-    r.smooth = r.smooth | (r.refracts & (r.alpha_ggx * fabs(r.eta - 1.0f) < EC_SMOOTH_ALPHA));
+    r.smooth = r.smooth | surface_passes_singly(&r);
+    if (HAS(ANISOTROPY)) stream_layers(s, &r);
     return r;
 }
 
@@ -117,7 +144,7 @@ kernel void ec_scatter_fuzz(uint n, uint rounds, uint seed, global uint *counts)
     for (uint round = 0; round < rounds; round++) {
         stream random = {hash_u(hash_u(LANE_NUMBERS + at) ^ hash_scalar(seed + round)), 0};
         surface s = stream_surface(&random);
-        bsdf b = bsdf_make(&s, stream_direction(&random));
+        bsdf b = bsdf_make(&s, stream_direction(&random), true);
         v3 w = stream_direction(&random);
         w.z = (stream_bits(&random) & 1u) != 0u ? w.z : -w.z;
         lane_f pdf;
@@ -130,7 +157,7 @@ kernel void ec_scatter_fuzz(uint n, uint rounds, uint seed, global uint *counts)
         wrong[EC_FUZZ_NEGATIVE] += count_lanes(v3_is_negative(f) | (pdf < 0.0f) | ((d.pdf < 0.0f) & (d.pdf != -1.0f)) |
                                                (goes & v3_is_negative(d.weight)));
         wrong[EC_FUZZ_NOT_UNIT] += count_lanes(goes & !(fabs(v3_dot(d.wi, d.wi) - 1.0f) <= 32.0f * EC_ULP / min(s.eta, F(1.0f))));
-        wrong[EC_FUZZ_ASTRAY] += count_lanes(goes & (s.transmission == 0.0f) & !(d.wi.z > 0.0f));
+        wrong[EC_FUZZ_ASTRAY] += count_lanes(goes & (s.transmission == 0.0f) & !(d.wi.z > 0.0f) & !(HAS(DIFFUSE_TRANSMISSION) ? s.seeps > 0.0f : !TRUE_MASK));
         wrong[EC_FUZZ_HEAVY] += count_lanes(goes & (v3_max_component(d.weight) > EC_FUZZ_WEIGHT));
     }
     for (uint i = 0; i < EC_FUZZ_COUNTS; i++) counts[at / LANES * EC_FUZZ_COUNTS + i] = wrong[i];

@@ -47,8 +47,10 @@ typedef struct ec_params {
     ec_uint nested;               /* bodies may lie in one another: media are sets (lib/medium.h) */
     ec_uint camera_medium;        /* what the camera is inside of */
     ec_uint film_row;             /* the picture's row that the films begin with */
+    ec_uint terminator;           /* do rays leave from the smooth surface (lib/terminator.h)? */
+    ec_uint multiple;             /* do facets scatter more than once (lib/multiscatter.h)? */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 272);
+EC_ASSERT_SIZE(ec_params, 280);
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

@@ -132,7 +132,7 @@ enum ec_light_kind { EC_KIND_TRIANGLE, EC_KIND_POINT, EC_KIND_SPOT, EC_KIND_DIRE
 typedef struct ec_light_data {
     ec_float a[3], b[3], c[3];
     ec_float emission[3]; /* triangle: radiance factor; point, spot: W/sr; directional: W/m^2 */
-    ec_uint kind;         /* ec_light_kind | EC_LIGHT_TWO_SIDED | EC_LIGHT_TEXTURED | EC_LIGHT_COATED */
+    ec_uint kind;         /* ec_light_kind | EC_LIGHT_TWO_SIDED | EC_LIGHT_TEXTURED, … */
     ec_uint prim;         /* triangle: its id; else EC_NO_ID */
     ec_float pmf;         /* probability of choosing this light */
     ec_float pdf_a;       /* triangle: pmf / area */
@@ -145,6 +145,7 @@ EC_ASSERT_SIZE(ec_light_data, 64);
 #define EC_LIGHT_MOVES 32u /* punctual: prim is its number among the lights that move. A triangle that moves has its pmf for a density, here
                               and in ec_prim: the area is that at the path's time */
 #define EC_LIGHT_COATED 64u /* dimmed by a clear coat, which goes by the angle */
+#define EC_LIGHT_OPEN 128u  /* coverage leaves some of it open */
 
 /* Alias table entry (Walker 1977, Vose 1991) in integers, so that the probability is exactly the one sampled: a 32-bit
  * random number r picks column r * n >> 32; the low word of that product is compared with `threshold`. */

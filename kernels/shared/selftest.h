@@ -16,13 +16,14 @@ enum ec_scatter_in {
     EC_SCATTER_SMOOTH,       /* 0 or 1 */
     EC_SCATTER_WO,           /* x, y, z */
     EC_SCATTER_W = 13,       /* x, y, z */
-    EC_SCATTER_INS = 16
+    EC_SCATTER_STRETCH = 16, /* of the lobe along x, where kernels have ANISOTROPY */
+    EC_SCATTER_INS
 };
 enum ec_scatter_out {
     EC_SCATTER_F,            /* of direction w, green: with |cos| in it */
     EC_SCATTER_PDF,
     EC_SCATTER_D,            /* GGX's density, w as the microfacet's normal */
-    EC_SCATTER_LAMBDA,       /* masking, of w.z */
+    EC_SCATTER_LAMBDA,       /* masking, of w */
     EC_SCATTER_FRESNEL,      /* between dielectrics, of w.z */
     EC_SCATTER_WI,           /* x, y, z: sampled by w as random numbers */
     EC_SCATTER_WI_PDF = 8,

@@ -151,11 +151,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         sample_pair(random, pair + EC_PAIR_ROULETTE, &u_roulette, &u_channel);
         disperse(&g, &h, scatters, u_channel, &s, &beta);
     }
-    bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
+    bsdf b = bsdf_make(&s, surface_to_local(&s, wo), params->multiple != 0u);
 
     /* Where reflected rays start. Lights are looked for from there, so that a path that meets one finds the same density. */
     lane_i lifted = !TRUE_MASK;
-    v3 start = HAS(TERMINATOR) && normals ? terminator_origin(&g, &h, &s, &lifted) : s.p;
+    v3 start = HAS(TERMINATOR) && params->terminator && normals ? terminator_origin(&g, &h, &s, &lifted) : s.p;
     v3 above = surface_offset(start, s.p_error, s.ng, wo);
 
     lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */

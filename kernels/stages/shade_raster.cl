@@ -28,13 +28,14 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
 
     seen e = seen_surface(&g, found, prim, queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i), wo, U(0));
     surface s = e.s;
+    if (HAS(ANISOTROPY)) s.stretch = s.alpha_ggx < LEAST_ALPHA ? max(s.alpha_ggx * s.stretch / LEAST_ALPHA, F(1.0f)) : s.stretch;
     s.alpha_ggx = max(s.alpha_ggx, F(LEAST_ALPHA));
     s.smooth = !TRUE_MASK;
     if (HAS(CLEARCOAT)) {
         s.coat_alpha = max(s.coat_alpha, F(LEAST_ALPHA));
         s.coat_smooth = !TRUE_MASK;
     }
-    bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
+    bsdf b = bsdf_make(&s, surface_to_local(&s, wo), false);
     v3 direct = v3_zero();
     for (uint k = 0; (HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS)) && k < params->light_count; k++) {
         light_sample l = light_from_centre(light_table, k, &g, e.lit, s.p, params->scene_radius);

@@ -106,7 +106,7 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
         store_features(aov, wave, slot, v3_select(found, s->base, v3_zero()), v3_select(found, s->ns, v3_zero()),
                        found ? distance : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
 
-    bsdf b = bsdf_make(s, surface_to_local(s, wo));
+    bsdf b = bsdf_make(s, surface_to_local(s, wo), false);
     lane_i mirrors = whitted_mirrors(s), goes_on = e.lit & (depth + 3.0f <= (float)params->max_depth);
     v3 out = v3_add(seen_background(&env, active & !found, d), e.glow);
     if (HAS(ENVIRONMENT)) out = v3_add(out, v3_select(goes_on, light_ambient(params, blinn_phong_albedo(&b, mirrors)), v3_zero()));

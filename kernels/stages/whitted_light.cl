@@ -31,7 +31,7 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
     bool nested = MEDIA_NESTED(params);
     if (nested) s.bodies = lit ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
     surface_material(&g, &h, lit, &s);
-    bsdf b = bsdf_make(&s, surface_to_local(&s, wo));
+    bsdf b = bsdf_make(&s, surface_to_local(&s, wo), false);
     v3 wi_local = surface_to_local(&s, l.wi);
     v3 f = blinn_phong_eval(&b, whitted_mirrors(&s), wi_local);
     v3 arriving = v3_mul(v3_mul(beta, f), l.radiance);

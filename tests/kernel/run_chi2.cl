@@ -57,7 +57,7 @@ static bsdf make_bsdf(constant float *m)
     s.coat_alpha = F(m[PACKED_COAT_ALPHA]);
     float tilt = m[PACKED_COAT_TILT], cosine = m[PACKED_COSINE];
     s.coat_ns = v3_make(F(tilt), F(0.0f), F(sqrt(1.0f - tilt * tilt)));
-    return bsdf_make(&s, turned(v3_make(F(sqrt(max(1.0f - cosine * cosine, 0.0f))), F(0.0f), F(cosine)), m[PACKED_TURN]));
+    return bsdf_make(&s, turned(v3_make(F(sqrt(max(1.0f - cosine * cosine, 0.0f))), F(0.0f), F(cosine)), m[PACKED_TURN]), true);
 }
 
 /* m: packed_material.h. The fifth array is the weight, green. */

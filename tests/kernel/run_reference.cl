@@ -42,7 +42,7 @@ kernel void refract_of(uint n, global const float *w, global const float *m, glo
     store_v3(refract(load_v3(w + AT, n), load_v3(m + AT, n), LANE_LOAD(eta + AT)), out + AT, n);
 }
 
-/* White glass, of grey base. material: base, f0, alpha, transmission, eta (1: thin). */
+/* White glass, of grey base. material: base, f0, alpha, transmission, eta (1: thin), stretch along x. */
 static bsdf glass(uint n, global const float *wo, global const float *material, lane_i smooth)
 {
     surface s;
@@ -53,9 +53,10 @@ static bsdf glass(uint n, global const float *wo, global const float *material, 
     s.alpha_ggx = LANE_LOAD(material + 2 * n + AT);
     s.transmission = LANE_LOAD(material + 3 * n + AT);
     s.eta = LANE_LOAD(material + 4 * n + AT);
+    s.stretch = LANE_LOAD(material + 5 * n + AT);
     s.refracts = s.eta != 1.0f;
     s.smooth = smooth;
-    return bsdf_make(&s, load_v3(wo + AT, n));
+    return bsdf_make(&s, load_v3(wo + AT, n), true);
 }
 
 kernel void glass_of(uint n, global const float *wo, global const float *wi, global const float *material, global float *f, global float *pdf)
@@ -94,7 +95,7 @@ kernel void bsdf_of(uint n, global const float *wo, global const float *wi, glob
     s.metallic = LANE_LOAD(material + 7 * n + AT);
     s.alpha_ggx = LANE_LOAD(material + 8 * n + AT);
     opaque(&s);
-    bsdf b = bsdf_make(&s, load_v3(wo + AT, n));
+    bsdf b = bsdf_make(&s, load_v3(wo + AT, n), true);
     lane_f p;
     store_v3(bsdf_eval(&b, load_v3(wi + AT, n), &p), f + AT, n);
     LANE_STORE(p, pdf + AT);
@@ -112,7 +113,7 @@ kernel void albedo_of(uint count, global const float *cosine, global const float
     s.alpha_ggx = F(alpha[at]);
     opaque(&s);
     lane_f z = F(cosine[at]);
-    bsdf b = bsdf_make(&s, v3_make(sqrt(max(1.0f - z * z, F(0.0f))), F(0.0f), z));
+    bsdf b = bsdf_make(&s, v3_make(sqrt(max(1.0f - z * z, F(0.0f))), F(0.0f), z), true);
     lane_f total = F(0.0f), lost = F(0.0f);
     for (uint i = 0; i < count; i += LANES) {
         lane_u k = LANE_NUMBERS + i;

@@ -9,7 +9,7 @@ static cl_program programs[LANE_WIDTHS], glass_programs[LANE_WIDTHS], layered_pr
 #define RINGS 20
 #define SECTORS 24
 #define CELLS (RINGS * SECTORS) /* each side */
-#define FINE 12 /* points of a cell's integral: along the radius … */
+#define FINE 24 /* points of a cell's integral: along the radius, which the rims of stretched lobes cross, … */
 #define FINEST 96 /* … and around, where the horizon cuts cells in two */
 
 typedef struct material {
@@ -201,15 +201,17 @@ static void check_sheen(void)
         }
 }
 
-/* Lobes five times and twenty times as long as wide, along, across and askew. */
+/* Lobes five times and twenty times as long as wide, along, across and askew; of panes and of bodies from either side too. */
 static void check_anisotropy(void)
 {
-    static const float stretches[2] = {5, 20}, turns[3] = {0, 0.25f, 0.1f}, cosines[3] = {1, 0.5f, 0.1f};
+    static const float stretches[2] = {5, 20}, turns[3] = {0, 0.25f, 0.1f}, cosines[3] = {1, 0.5f, 0.1f}, etas[3] = {1, 1.5f, 1 / 1.5f};
     for (int s = 0; s < 2; s++)
         for (int a = 0; a < 3; a++) {
             const float over[PACKED_FIELDS] = {[PACKED_STRETCH] = stretches[s] - 1, [PACKED_TURN] = turns[a]};
             float alpha = s ? 0.05f : 0.15f;
             check_covered(layered_programs, (s + a) % LANE_WIDTHS, (material){a != 2, alpha, cosines[(s + a) % 3], a == 2 ? 0.8f : 1, 0, 1}, "anisotropy", over);
+            check_covered(layered_programs, (s + a) % LANE_WIDTHS, (material){0, alpha, cosines[a], 1, 1, etas[(s + a) % 3]}, "brushed glass", over);
+            check_covered(layered_programs, (s + a) % LANE_WIDTHS, (material){0, alpha, cosines[(a + 1) % 3], 1, 1, etas[(s + a + 1) % 3]}, "brushed glass", over);
         }
 }
 

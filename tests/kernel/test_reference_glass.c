@@ -2,7 +2,7 @@
  * Walter et al. 2007, and the single directions of smooth surfaces. Every lane width must give the same bits. */
 #include "kernel/kernel_reference.h"
 
-static float cosines[N], etas[N], values[N], pdf[N], wo[3 * N], wi[3 * N], there[3 * N], materials[5 * N];
+static float cosines[N], etas[N], values[N], pdf[N], wo[3 * N], wi[3 * N], there[3 * N], materials[6 * N];
 
 static void exponentials(void)
 {
@@ -143,12 +143,13 @@ static void refractions(void)
 /* ---- rough glass ---- */
 
 typedef struct glass {
-    double base, f0, alpha, transmission, eta;
+    double base, f0, alpha, transmission, eta, along; /* along: its width along x; across it is alpha */
 } glass;
 
 static glass glass_at(uint32_t i)
 {
-    return (glass){materials[i], materials[N + i], materials[2 * N + i], materials[3 * N + i], materials[4 * N + i]};
+    const float *m = materials + i;
+    return (glass){m[0], m[N], m[2 * N], m[3 * N], m[4 * N], m[2 * N] * (double)m[5 * N]};
 }
 
 /* Above an index of 2 + sqrt(3) the exact reflectance dips before it rises; ours stays at its value head-on (fresnel_rise). */
@@ -157,17 +158,17 @@ static double schlick_or_exact(const glass *g, double cosine)
     return g->eta == 1 ? g->f0 + (1 - g->f0) * pow(1 - cosine, 5) : fmax(fresnel(cosine, g->eta), g->f0);
 }
 
-/* GGX from tan^2 (Walter et al. 2007, eq. 33). */
-static double ggx(const double *h, double alpha)
+/* GGX from slopes (Walter et al. 2007, eq. 33; of two widths Heitz 2014, eq. 85). */
+static double ggx(const glass *g, const double *h)
 {
-    double tan2 = (h[0] * h[0] + h[1] * h[1]) / (h[2] * h[2]), a2 = alpha * alpha;
-    return 1 / (pi * a2 * pow(h[2], 4) * (1 + tan2 / a2) * (1 + tan2 / a2));
+    double x = h[0] / h[2] / g->along, y = h[1] / h[2] / g->alpha;
+    return 1 / (pi * g->along * g->alpha * pow(h[2], 4) * (1 + x * x + y * y) * (1 + x * x + y * y));
 }
 
-static double smith(double cosine, double alpha) /* Lambda (Heitz 2014, eq. 72) */
+static double smith(const glass *g, const double *w) /* Lambda (Heitz 2014, eq. 72 and 86) */
 {
-    double tan2 = (1 - cosine * cosine) / (cosine * cosine);
-    return (sqrt(1 + alpha * alpha * tan2) - 1) / 2;
+    double x = g->along * w[0] / w[2], y = g->alpha * w[1] / w[2];
+    return (sqrt(1 + x * x + y * y) - 1) / 2;
 }
 
 /* f |cos wi| for wi below the surface.
@@ -180,16 +181,17 @@ static double below(const glass *g, const double *o, const double *i, double *de
     bool thin = g->eta == 1;
     double h[3] = {o[0] + g->eta * i[0], o[1] + g->eta * i[1], thin ? o[2] - i[2] : o[2] + g->eta * i[2]}, length = sqrt(dot(h, h));
     for (int k = 0; k < 3; k++) h[k] /= h[2] < 0 ? -length : length;
-    double oh = dot(o, h), ih = thin ? oh : dot(i, h), masking = 1 / (1 + smith(o[2], g->alpha) + smith(-i[2], g->alpha));
+    double oh = dot(o, h), ih = thin ? oh : dot(i, h), masking = 1 / (1 + smith(g, o) + smith(g, i));
     *density = 0;
     if (oh <= 0 || (!thin && ih >= 0)) return 0;
-    double denominator = g->eta * ih + oh, D = ggx(h, g->alpha), passes = (1 - schlick_or_exact(g, oh)) * g->base * g->transmission;
+    double denominator = g->eta * ih + oh, D = ggx(g, h), passes = (1 - schlick_or_exact(g, oh)) * g->base * g->transmission;
     double jacobian = thin ? 1 / (4 * oh) : g->eta * g->eta * fabs(ih) / (denominator * denominator); /* eq. 17 */
-    *density = D * oh / o[2] / (1 + smith(o[2], g->alpha)) * jacobian;
+    *density = D * oh / o[2] / (1 + smith(g, o)) * jacobian;
     return thin ? passes * masking * D / (4 * o[2]) : fabs(ih) * oh / o[2] * g->eta * g->eta * passes * masking * D / (denominator * denominator);
 }
 
-static void make_glass(void)
+/* stretched: up to 300 times, and no further than to a width of 1; narrow lobes across keep 1e-3. */
+static void make_glass(bool stretched)
 {
     static const double alphas[6] = {1.0, 0.5, 0.1, 0.01, 1e-3, 0.3}, bodies[7] = {1, 1.5, 1 / 1.5, 1.33, 2.4, 1 / 2.4, 1.05};
     for (uint32_t i = 0; i < N; i++) {
@@ -199,12 +201,13 @@ static void make_glass(void)
         materials[2 * N + i] = (float)alpha;
         materials[3 * N + i] = i % 3 ? 1.0f : random_float(0, 1);
         materials[4 * N + i] = (float)eta;
+        materials[5 * N + i] = stretched ? (float)fmin(i % 2 ? 1 / alpha : pow(10, test_random_in(0, 2.5)), 1 / alpha) : 1;
         random_direction(wo + i, i % 4 ? test_random_in(1e-2, 1) : pow(10, test_random_in(-3, 0)));
         double h[3], o[3] = {wo[i], wo[N + i], wo[2 * N + i]}, t[3] = {0}, scale, angle;
         bool passes = false;
         for (int tries = 0; tries < 100 && !passes; tries++) { /* inside the lobe */
             scale = alpha * tan(test_random_in(0, 1.4)), angle = test_random_in(-pi, pi);
-            h[0] = scale * cos(angle), h[1] = scale * sin(angle), h[2] = 1;
+            h[0] = scale * cos(angle) * (double)materials[5 * N + i], h[1] = scale * sin(angle), h[2] = 1;
             double length = sqrt(dot(h, h));
             for (int k = 0; k < 3; k++) h[k] /= length;
             if (eta == 1)
@@ -227,10 +230,10 @@ static double glass_tolerance(const glass *g, const double *o, const double *i)
     return 1e-5 + 32 * U / g->alpha / length + 2 * fabs(passes - less) / fmax(passes, 1e-30) + 4 * U / fmax(passes, 1e-30);
 }
 
-static void glass_is_walter(void)
+static void glass_is_walter(bool stretched)
 {
-    make_glass();
-    if (!RUN_ALL("glass_of", 4, SCALAR(n), IN(wo, 3 * N), IN(wi, 3 * N), IN(materials, 5 * N), OUT(values, N), OUT(pdf, N))) return;
+    make_glass(stretched);
+    if (!RUN_ALL("glass_of", 4, SCALAR(n), IN(wo, 3 * N), IN(wi, 3 * N), IN(materials, 6 * N), OUT(values, N), OUT(pdf, N))) return;
     double worst = 0;
     uint32_t lit = 0, shown = 0;
     for (uint32_t i = 0; i < N && shown < 8; i++) {
@@ -246,32 +249,32 @@ static void glass_is_walter(void)
         if (g.transmission == 1) {
             double p = density * (1 - F) * g.base / (F + (1 - F) * g.base);
             right &= fabs(pdf[i] - p) <= tolerance * (p + 1e-6);
-            CHECK_MSG(right, "alpha %g eta %g, wo.z %g wi.z %g: f = %.8g, double gives %.8g; pdf %.8g, double gives %.8g", g.alpha, g.eta, o[2], l[2],
+            CHECK_MSG(right, "alpha %g x %g eta %g, wo.z %g wi.z %g: f = %.8g, double gives %.8g; pdf %.8g, double gives %.8g", g.along, g.alpha, g.eta, o[2], l[2],
                       (double)values[i], want, (double)pdf[i], p);
         } else {
-            CHECK_MSG(right, "alpha %g eta %g, wo.z %g wi.z %g: f = %.8g, double gives %.8g", g.alpha, g.eta, o[2], l[2], (double)values[i], want);
+            CHECK_MSG(right, "alpha %g x %g eta %g, wo.z %g wi.z %g: f = %.8g, double gives %.8g", g.along, g.alpha, g.eta, o[2], l[2], (double)values[i], want);
             CHECK_MSG((pdf[i] > 0) == (want > 0), "pdf %g where f is %g", (double)pdf[i], want);
         }
         shown += !right;
     }
-    printf("bsdf_eval below the surface: at most %.2f of the rounding allowed, %u of %u directions lit\n", worst, lit, N);
+    printf("bsdf_eval below the surface%s: at most %.2f of the rounding allowed, %u of %u directions lit\n", stretched ? ", stretched" : "", worst, lit, N);
     CHECK(lit > N / 2);
 }
 
 /* Between basic radiances light goes both ways alike per n^2 cos d omega (Nicodemus 1963; Veach 1997, 5.2): from the other side
  * eta is its inverse, up is down and f(o, i) / n_i^2 = f(i, o) / n_o^2. */
-static void glass_is_reciprocal(void)
+static void glass_is_reciprocal(bool stretched)
 {
-    make_glass();
+    make_glass(stretched);
     static float back[N];
-    if (!RUN_ALL("glass_of", 4, SCALAR(n), IN(wo, 3 * N), IN(wi, 3 * N), IN(materials, 5 * N), OUT(values, N), OUT(pdf, N))) return;
+    if (!RUN_ALL("glass_of", 4, SCALAR(n), IN(wo, 3 * N), IN(wi, 3 * N), IN(materials, 6 * N), OUT(values, N), OUT(pdf, N))) return;
     for (uint32_t i = 0; i < 3 * N; i++) {
         float sign = i >= 2 * N ? -1.0f : 1.0f, o = wo[i];
         wo[i] = sign * wi[i];
         there[i] = sign * o;
     }
     for (uint32_t i = 0; i < N; i++) materials[4 * N + i] = 1 / materials[4 * N + i];
-    if (!RUN_ALL("glass_of", 4, SCALAR(n), IN(wo, 3 * N), IN(there, 3 * N), IN(materials, 5 * N), OUT(back, N), OUT(pdf, N))) return;
+    if (!RUN_ALL("glass_of", 4, SCALAR(n), IN(wo, 3 * N), IN(there, 3 * N), IN(materials, 6 * N), OUT(back, N), OUT(pdf, N))) return;
     double worst = 0;
     uint32_t at = 0;
     for (uint32_t i = 0; i < N; i++) {
@@ -283,7 +286,7 @@ static void glass_is_reciprocal(void)
         double difference = fabs(a - b) / (fmax(a, b) + 1e-6) / (glass_tolerance(&g, o, l) + glass_tolerance(&front, ll, oo));
         if (difference > worst) worst = difference, at = i;
     }
-    printf("reciprocity of glass: at most %.2f of the rounding allowed\n", worst);
+    printf("reciprocity of glass%s: at most %.2f of the rounding allowed\n", stretched ? ", stretched" : "", worst);
     CHECK_MSG(worst < 1, "f / n^2 from either side differ by %g times what is allowed: %g and %g, alpha %g, eta %g", worst, (double)values[at], (double)back[at],
               (double)materials[2 * N + at], (double)materials[4 * N + at]);
 }
@@ -300,10 +303,11 @@ static void smooth_glass(void)
         materials[2 * N + i] = 1e-4f;
         materials[3 * N + i] = 1;
         materials[4 * N + i] = (float)eta;
+        materials[5 * N + i] = 1;
         u[i] = (float)(test_random_u64() >> 40) * 0x1p-24f;
         random_direction(wo + i, i % 3 ? test_random_in(1e-3, 1) : pow(10, test_random_in(-5, 0)));
     }
-    if (!RUN_ALL("smooth_of", 4, SCALAR(n), IN(wo, 3 * N), IN(materials, 5 * N), IN(u, N), OUT(wi, 3 * N), OUT(weight, N), OUT(pdf, N))) return;
+    if (!RUN_ALL("smooth_of", 4, SCALAR(n), IN(wo, 3 * N), IN(materials, 6 * N), IN(u, N), OUT(wi, 3 * N), OUT(weight, N), OUT(pdf, N))) return;
     uint32_t passed = 0;
     for (uint32_t i = 0; i < N; i++) {
         glass g = glass_at(i);
@@ -325,23 +329,40 @@ static void smooth_glass(void)
     CHECK(passed > N / 4 && passed < N);
 }
 
+static void build(const char *more)
+{
+    char options[160];
+    snprintf(options, sizeof options, "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH%s)", more);
+    for (int i = 0; i < kernel_widths(&cl); i++) programs[i] = kernel_build(&cl, "reference", lane_widths[i], options);
+}
+
+static void release(void)
+{
+    for (int i = 0; i < kernel_widths(&cl); i++)
+        if (programs[i]) clReleaseProgram(programs[i]);
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    for (int i = 0; i < kernel_widths(&cl); i++)
-        programs[i] = kernel_build(&cl, "reference", lane_widths[i], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
+    build("");
     if (!test_failures) {
         exponentials();
         reflectances();
         reflectance_rises();
         refractions();
-        glass_is_walter();
-        glass_is_reciprocal();
+        glass_is_walter(false);
+        glass_is_reciprocal(false);
         smooth_glass();
     }
-    for (int i = 0; i < kernel_widths(&cl); i++)
-        if (programs[i]) clReleaseProgram(programs[i]);
+    release();
+    build("+EC_FEATURE_ANISOTROPY");
+    if (!test_failures) {
+        glass_is_walter(true);
+        glass_is_reciprocal(true);
+    }
+    release();
     ec_cl_close(&cl);
     TEST_END();
 }

@@ -155,6 +155,17 @@ static void anisotropies(void)
                                   [PACKED_METALLIC] = 1, [PACKED_ETA] = 1, [PACKED_TURN] = 0.1f};
     furnace("white metal of anisotropy 0.5", white, PACKED_ALPHA, 0.5);
     furnace("white metal of anisotropy 1", white, PACKED_ALPHA, 1);
+    static const struct {
+        const char *what;
+        float eta, f0, strength;
+    } glass[] = {{"pane of anisotropy 0.5", 1, 0.04f, 0.5f}, {"pane of anisotropy 1", 1, 0.04f, 1}, {"glass of anisotropy 0.5", 1.5f, 0.04f, 0.5f},
+                 {"glass of anisotropy 1", 1.5f, 0.04f, 1}, {"glass of anisotropy 0.5 from inside", 1 / 1.5f, 0.04f, 0.5f},
+                 {"glass of anisotropy 1 from inside", 1 / 1.5f, 0.04f, 1}};
+    white[PACKED_METALLIC] = 0, white[PACKED_TRANSMISSION] = 1;
+    for (int i = 0; i < 6; i++) {
+        white[PACKED_ETA] = glass[i].eta, white[PACKED_F0] = glass[i].f0;
+        furnace(glass[i].what, white, PACKED_ALPHA, (double)glass[i].strength);
+    }
 }
 
 /* ---- KHR_materials_iridescence: both Fresnel terms become the film's ---- */

@@ -76,11 +76,16 @@ class Scene:
         return write_gltf(path, document)
 
 
-def one_pixel_png(rgb):
+def row_png(*texels):
+    """A picture of one row."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(b"\0" + bytes(rgb))) + chunk(b"IEND", b""))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 2, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(b"\0" + b"".join(map(bytes, texels)))) + chunk(b"IEND", b""))
+
+
+def one_pixel_png(rgb):
+    return row_png(rgb)
 
 
 def write_exr(path, width, height, rgb):

@@ -7,7 +7,7 @@
  * `lamps` has a bulb smaller than a pixel that lights a whole room from behind a shade: 14 pixels of 15 are flagged, and the few
  * others, of which no neighbour has met the worst paths, hold the truth less often: 91 %. That may not get worse.
  *
- * ctest label: slow */
+ * ctest label: long */
 #include "film/interval.h"
 #include "support/batches.h"
 

@@ -1,12 +1,12 @@
 /* Random scenes: does the scan miss an effect? A few tens of scenes of few sets of effects, half with multiple
- * scattering; test_effects_fuzz_many.c has more. */
+ * scattering and a smooth terminator; test_effects_fuzz_many.c has more. */
 #include "support/effect_fuzz.h"
 
 int main(void)
 {
     static const uint64_t sets[] = {
         EC_FEATURE_EMISSION | EC_FEATURE_SHEEN | EC_FEATURE_ALPHA | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_BASE_COLOR_TEXTURE |
-            EC_FEATURE_CULLING | EC_FEATURE_MOTION,
+            EC_FEATURE_CULLING | EC_FEATURE_MOTION | EC_FEATURE_SMOOTH_NORMALS,
         EC_FEATURE_ENVIRONMENT_MAP | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_TRANSMISSION | EC_FEATURE_SMOOTH |
             EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_UNLIT | EC_FEATURE_NORMAL_TEXTURE,
     };

@@ -5,7 +5,7 @@
  * against 320 others, 100 pairs, twenty to a reference. Over all scenes more than the stated share and three standard errors
  * would be a fault; in one scene 9 % below 0.05 and 4 % below 0.01, which 150 pairs exceed by chance in one case of 100.
  *
- * ctest label: slow */
+ * ctest label: long */
 #include "film/noise_test.h"
 #include "support/batches.h"
 

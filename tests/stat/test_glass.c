@@ -191,6 +191,19 @@ static void boxes_in_white(void)
     }
 }
 
+/* Half of it clear, half of it scattering, and reflecting nothing (KHR_materials_specular) but from inside beyond the critical angle: white
+ * too, however long light stays in there. */
+static void half_clear_box_in_white(void)
+{
+    gltf_writer *w = gltf_new();
+    int half = gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0},\"extensions\":{"
+                                       "\"KHR_materials_transmission\":{\"transmissionFactor\":0.5},\"KHR_materials_volume\":{\"thicknessFactor\":1},"
+                                       "\"KHR_materials_specular\":{\"specularFactor\":0}}}");
+    gltf_box(w, half, (double[3]){-1, -1, -1}, (double[3]){1, 1, 1});
+    gltf_camera(w, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.5);
+    expect(w, "half-clear-box-in-white", "1,1,1", (double[3]){1, 1, 1}, 5e-3, 2e-2);
+}
+
 /* A rough white body keeps what it does not lose between microfacets: never more than comes in. (Hardly anything of it is found
  * by uniform directions where it is smoothest.) */
 static void rough_boxes_in_white(void)
@@ -241,6 +254,7 @@ int main(void)
     slabs();
     within();
     boxes_in_white();
+    half_clear_box_in_white();
     rough_boxes_in_white();
     nothing_of_index_1();
     TEST_END();

@@ -12,6 +12,9 @@ static const char *const tiles[] = {
     "\"KHR_materials_iridescence\":{\"iridescenceFactor\":0.9,\"iridescenceIor\":1.5,\"iridescenceThicknessMaximum\":380}",
     "\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":0.6,\"diffuseTransmissionColorFactor\":[0.9,0.5,0.1]}",
     "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.7,\"anisotropyRotation\":0.6}",
+    "\"KHR_materials_transmission\":{\"transmissionFactor\":0.9},\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.9}",
+    "\"KHR_materials_transmission\":{\"transmissionFactor\":1},\"KHR_materials_volume\":{\"thicknessFactor\":1},"
+    "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.9,\"anisotropyRotation\":1}",
 };
 enum { TILES = sizeof tiles / sizeof *tiles };
 

@@ -38,6 +38,13 @@ static inline uint64_t ef_hash(const effect_draw *d, uint64_t purpose)
 }
 static inline float ef_real(const effect_draw *d, uint64_t purpose) { return (float)((double)(ef_hash(d, purpose ^ 0x5bd1u) >> 40) / (1 << 24)); }
 
+/* One of both ends of what a file may say as often as not, else between least and most. */
+static inline float ef_between(const effect_draw *d, uint64_t purpose, float low, float least, float most, float high)
+{
+    const uint64_t end = ef_hash(d, purpose ^ 0xe4d5u) % 4;
+    return end == 0 ? low : end == 1 ? high : least + (most - least) * ef_real(d, purpose);
+}
+
 /* Does the material have it? If not, may it nearly have it? */
 static inline bool ef_has(const effect_draw *d, uint64_t feature)
 {
@@ -117,7 +124,7 @@ static inline void ef_light(const effect_draw *d, ec_material *m)
 
 static inline void ef_gloss(const effect_draw *d, ec_material *m)
 {
-    m->roughness = EF_HAS(SMOOTH) ? 0 : 0.3f + 0.6f * ef_real(d, 130);
+    m->roughness = EF_HAS(SMOOTH) ? 0 : ef_between(d, 130, 0.15f, 0.3f, 0.9f, 1); /* times a texel of 0.39, glass of index 1.14 is smooth from 0.1 on */
     if (!(d->allowed & EC_FEATURE_SPECULAR)) {
         if (EF_NEARLY(SPECULAR)) m->metallic = 1, EF_USE(METALLIC_ROUGHNESS, GREEN);
         if (EF_NEARLY(SPECULAR)) m->specular = 1, EF_USE(SPECULAR, BLACK);
@@ -128,8 +135,9 @@ static inline void ef_gloss(const effect_draw *d, ec_material *m)
     else if (EF_NEARLY(METALLIC_ROUGHNESS_TEXTURE)) EF_USE(METALLIC_ROUGHNESS, WHITE);
     if (EF_HAS(SPECULAR_TEXTURE)) EF_USE(SPECULAR, NOISE), EF_USE(SPECULAR_COLOR, NOISE);
     else if (EF_NEARLY(SPECULAR_TEXTURE)) EF_USE(SPECULAR_COLOR, GREY);
-    for (int k = 0; k < 3; k++) m->specular_color[k] = ef_hash(d, 134) % 4 ? ef_real(d, 135 + (uint64_t)k) : 0;
+    for (int k = 0; k < 3; k++) m->specular_color[k] = ef_between(d, 135 + (uint64_t)k, 0, 0, 1, 1e4f);
     m->ior = ef_hash(d, 139) % 8 ? 1.2f + ef_real(d, 138) : 0;
+    if (EF_HAS(SMOOTH) && ef_hash(d, 137) % 8 == 0) m->ior = ef_hash(d, 137) % 16 ? 1 : 1.000001f; /* refracts in one direction alone */
 }
 
 static inline void ef_layers(const effect_draw *d, ec_material *m)
@@ -142,25 +150,25 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
         else if (EF_HAS(TRANSMISSION_TEXTURE)) EF_USE(TRANSMISSION, MIXED);
         else if (EF_NEARLY(TRANSMISSION_TEXTURE)) EF_USE(TRANSMISSION, GREY);
     }
-    if (EF_HAS(ABSORPTION) || (!glass && EF_NEARLY(ABSORPTION))) m->absorption[0] = 1, m->absorption[1] = ef_real(d, 142);
+    if (EF_HAS(ABSORPTION) || (!glass && EF_NEARLY(ABSORPTION))) m->absorption[0] = 1, m->absorption[1] = ef_between(d, 142, 0, 0, 1, 1e30f);
     if (coat || EF_NEARLY(CLEARCOAT)) {
         m->coat = 0.2f + 0.8f * ef_real(d, 143);
-        m->coat_roughness = EF_HAS(SMOOTH) ? 0 : 0.2f + 0.8f * ef_real(d, 144);
+        m->coat_roughness = EF_HAS(SMOOTH) ? 0 : ef_between(d, 144, 0.05f, 0.2f, 1, 1);
         if (!coat) EF_USE(CLEARCOAT, GREEN);
         else if (EF_HAS(CLEARCOAT_TEXTURE)) EF_USE(CLEARCOAT, MIXED), EF_USE(CLEARCOAT_ROUGHNESS, NOISE);
         if (!coat || EF_HAS(CLEARCOAT_NORMAL_TEXTURE)) EF_USE(CLEARCOAT_NORMAL, NOISE);
     }
     if (sheen || EF_NEARLY(SHEEN)) {
         for (int k = 0; k < 3; k++) m->sheen[k] = k == 1 && !sheen ? 0 : ef_real(d, 145 + (uint64_t)k);
-        m->sheen_roughness = ef_real(d, 148);
+        m->sheen_roughness = ef_between(d, 148, 0, 0, 1, 1);
         if (!sheen) EF_USE(SHEEN_COLOR, GREEN), EF_USE(SHEEN_ROUGHNESS, NOISE);
         else if (EF_HAS(SHEEN_TEXTURE)) EF_USE(SHEEN_COLOR, MIXED), EF_USE(SHEEN_ROUGHNESS, NOISE);
     }
-    if (EF_HAS(DISPERSION) || (!m->volume && EF_NEARLY(DISPERSION))) m->dispersion = ef_real(d, 151);
+    if (EF_HAS(DISPERSION) || (!m->volume && EF_NEARLY(DISPERSION))) m->dispersion = ef_between(d, 151, 1e-3f, 0, 1, 20);
     if (EF_HAS(IRIDESCENCE) || EF_NEARLY(IRIDESCENCE)) {
         m->film = 0.5f + 0.5f * ef_real(d, 152);
         m->film_ior = 1.3f;
-        m->film_most = EF_HAS(IRIDESCENCE) ? 200 + 300 * ef_real(d, 153) : 0;
+        m->film_most = EF_HAS(IRIDESCENCE) ? ef_between(d, 153, 1e-3f, 200, 500, 1e5f) : 0;
         if (EF_HAS(IRIDESCENCE) && EF_HAS(IRIDESCENCE_TEXTURE)) EF_USE(IRIDESCENCE_THICKNESS, NOISE);
     }
     if (EF_HAS(DIFFUSE_TRANSMISSION) || EF_NEARLY(DIFFUSE_TRANSMISSION)) {
@@ -170,7 +178,7 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
         else if (EF_HAS(DIFFUSE_TRANSMISSION_TEXTURE)) EF_USE(DIFFUSE_TRANSMISSION, NOISE);
     }
     if (brushed || EF_NEARLY(ANISOTROPY)) {
-        m->anisotropy = 0.2f + 0.8f * ef_real(d, 149);
+        m->anisotropy = ef_between(d, 149, 0.01f, 0.2f, 1, 1);
         m->anisotropy_rotation = 6 * ef_real(d, 150);
         if (!brushed) EF_USE(ANISOTROPY, GREEN);
         else if (EF_HAS(ANISOTROPY_TEXTURE)) EF_USE(ANISOTROPY, NOISE);
@@ -301,7 +309,7 @@ static inline ec_scene *ef_scene(uint64_t seed, effect_run run, uint64_t allowed
 
 /* Judging ---------------------------------------------------------------------------------------------------------------------- */
 
-static inline ec_render_options ef_options(ec_integrator integrator, ec_scattering scattering)
+static inline ec_render_options ef_options(ec_integrator integrator, ec_scattering scattering, ec_terminator terminator)
 {
     ec_render_options o = case_options(16, 12, 4);
     o.batch = 2;
@@ -310,6 +318,7 @@ static inline ec_render_options ef_options(ec_integrator integrator, ec_scatteri
     o.accel = "bvh8";
     o.integrator = integrator;
     o.scattering = scattering;
+    o.terminator = terminator;
     return o;
 }
 
@@ -321,6 +330,7 @@ static inline bool ef_same(const ec_scene *scene, ec_render_options o, uint64_t 
     o.all_effects = true;
     case_image full = case_render(scene, &o);
     bool same = case_same_bits(&special.film, &full.film);
+    CHECK_MSG(full.stats.effects.built == EC_FEATURE_ALL, "the full build leaves out %llx", (unsigned long long)(EC_FEATURE_ALL & ~full.stats.effects.built));
     *mean = full.mean[0] + full.mean[1] + full.mean[2];
     case_free(&special);
     case_free(&full);
@@ -347,14 +357,14 @@ static inline void ef_report(uint64_t seed, effect_run run, const ec_render_opti
     ec_scene_free(scene);
     ec_feature_names(allowed, names, sizeof names);
     ec_feature_names(mends, missed, sizeof missed);
-    fprintf(stderr, "seed %llu, integrator %d, scattering %d: a specialised build gives other bits with no more than: %s; any of these built in mends it: %s\n",
-            (unsigned long long)seed, (int)o->integrator, (int)o->scattering, names, *missed ? missed : "none alone");
+    fprintf(stderr, "seed %llu, integrator %d, scattering %d, terminator %d: a specialised build gives other bits with no more than: %s; any of these built in mends it: %s\n",
+            (unsigned long long)seed, (int)o->integrator, (int)o->scattering, (int)o->terminator, names, *missed ? missed : "none alone");
 }
 
-/* Scenes of seeds from `first` on; returns how many of them are lit. */
+/* Scenes of seeds from `first` on; returns how many of them are lit. With shared kernels both effects that options ask for are asked for,
+ * or neither; else also one alone. Built in they are in the full build all the same. */
 static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrator integrator, ec_scattering scattering, uint64_t wanted)
 {
-    const ec_render_options o = ef_options(integrator, scattering);
     const uint64_t allowed = ef_close(integrator == EC_INTEGRATOR_PATH ? wanted : wanted & ~EC_FEATURE_MOTION); /* others refuse that */
     int lit = 0;
     case_cl()->keeps_programs = true;
@@ -363,6 +373,8 @@ static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrato
         double mean;
         ec_effects called;
         ec_error err = {0};
+        const bool smooth = run == EF_SHARED ? scattering == EC_SCATTERING_MULTIPLE : seed / 2 % 2;
+        const ec_render_options o = ef_options(integrator, scattering, smooth ? EC_TERMINATOR_SMOOTH : EC_TERMINATOR_GEOMETRIC);
         ec_scene *scene = ef_scene(seed, run, allowed);
         CHECK_OK(ec_scene_calls(scene, &called, &err), err);
         ec_feature_names(called.bits & ~(allowed | ef_brought(allowed, called.bits)), names, sizeof names);
