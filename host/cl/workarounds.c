@@ -12,6 +12,7 @@
  * Of Intel's runtime and llvmpipe tests/kernel/test_rounding.c has seen that they round division and square root correctly. */
 #include "cl/workarounds.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const ec_workaround workarounds[] = {
@@ -35,4 +36,15 @@ bool ec_device_rounds(const ec_device_info *device)
 {
     const ec_workaround *driver = ec_workaround_for(device);
     return device->correctly_rounded_divide_sqrt || (driver && driver->rounds);
+}
+
+void ec_device_drivers(const ec_device_info *devices, uint32_t count, char *text, size_t size)
+{
+    text[0] = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        char one[520];
+        const size_t used = strlen(text);
+        snprintf(one, sizeof one, "%s (%s)", devices[i].name, devices[i].driver);
+        if (!strstr(text, one)) snprintf(text + used, size - used, "%s%s", used ? " + " : "", one);
+    }
 }

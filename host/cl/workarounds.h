@@ -20,4 +20,7 @@ const ec_workaround *ec_workaround_for(const ec_device_info *device);
 /* Does arithmetic give the same bits as on other devices of which this is true? */
 bool ec_device_rounds(const ec_device_info *device);
 
+/* What that may depend on: "pthread-… (3.1) + NVIDIA H100 (535.54)", each driver once. */
+void ec_device_drivers(const ec_device_info *devices, uint32_t count, char *text, size_t size);
+
 #endif

@@ -27,7 +27,7 @@ typedef struct merge_request {
 FLAG_SETTER(json, json)
 FLAG_SETTER(partial, partial)
 FLAG_SETTER(quiet, quiet)
-RANGE_SETTER(exposure, ec_parse_real, -100, 100, exposure)
+RANGE_SETTER(exposure, ec_parse_real, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST, exposure)
 CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
 
 SETTER(output)
@@ -53,6 +53,7 @@ static ec_result check_request(const merge_request *request, ec_error *err)
 static ec_result take_slices(const merge_request *request, ec_merge *merge, const ec_log *log, ec_error *err)
 {
     char missing[512];
+    EC_TRY(ec_merge_sort(request->paths, request->count, err));
     for (int i = 0; i < request->count; i++) EC_TRY(ec_merge_take(merge, request->paths[i], log, err));
     ec_film_show(&merge->all.film);
     if (!ec_merge_missing(merge, missing, sizeof missing)) return EC_OK;

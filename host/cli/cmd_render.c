@@ -115,7 +115,8 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (!as_given) return ec_fail(err, "out of memory");
     memcpy(as_given, argv, ((size_t)argc + 1) * sizeof *as_given);
     if (!getcwd(folder, sizeof folder)) folder[0] = 0;
-    ec_render_job job = {.request = &request, .takes_several = true, .ranks = cli->ranks, .command = cli->line, .job = {.argc = argc, .argv = as_given, .folder = folder}};
+    ec_render_job job = {.request = &request, .takes_several = true, .ranks = cli->ranks, .program = cli->argv[0], .command = cli->line,
+                         .job = {.argc = argc, .argv = as_given, .folder = folder}};
     ec_result result = EC_OK;
     EC_TRY_CLEANUP(ec_render_request_parse(argc, argv, &request, &done, err));
     if (done) goto cleanup;

@@ -118,19 +118,20 @@ static int follow(ec_ranks *ranks)
 {
     ec_error err = {0};
     ec_console console = {0};
+    const ec_log log = ec_console_log(&console);
     ec_stop_catch_signals(false);
-    if (ec_ranks_serve(ranks, &err) == EC_OK) {
+    if (ec_ranks_serve(ranks, &log, &err) == EC_OK) {
         ec_ranks_leave(ranks);
         return 0;
     }
-    ec_fail_more(&err, "; this was rank %d", ec_ranks_number(ranks));
+    ec_fail_more(&err, "; this was rank %d; eclat render --resume FILE goes on from what --checkpoint FILE has kept", ec_ranks_number(ranks));
     ec_console_error(&console, err.text);
     return EC_FAILED;
 }
 
 int ec_cli_main(int argc, char **argv)
 {
-    if (!ec_ranks_launched()) return lead(NULL, argc, argv);
+    if (ec_ranks_launched() < 2) return lead(NULL, argc, argv);
     ec_ranks *ranks = NULL;
     ec_error err = {0};
     ec_console console = {0};

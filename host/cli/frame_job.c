@@ -47,7 +47,7 @@ static bool is_among(const char *option, const char *const *names)
 }
 
 /* No picture depends on these, or the identity says it in other words. */
-static const char *const immaterial[] = {"accel", "device", "effects", "env", "fps", "frames", "grid-density", "json", "lanes", "output", "overwrite",
+static const char *const immaterial[] = {"accel", "device", "effects", "env", "fps", "frames", "grid-density", "json", "lanes", "memory", "output", "overwrite",
                                          "quiet", "verbose", "wave", NULL};
 
 static void add(ec_identity *identity, const char *name, const char *value)

@@ -78,10 +78,28 @@ bool ec_same_file(const char *a, const char *b)
     return stat(a, &sa) == 0 && stat(b, &sb) == 0 && sa.st_dev == sb.st_dev && sa.st_ino == sb.st_ino;
 }
 
+static void folder_of(const char *path, char folder[PATH_MAX])
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, PATH_MAX, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
+}
+
+bool ec_same_target(const char *a, const char *b)
+{
+    char folder_a[PATH_MAX], folder_b[PATH_MAX];
+    const char *slash_a = strrchr(a, '/'), *slash_b = strrchr(b, '/');
+    folder_of(a, folder_a);
+    folder_of(b, folder_b);
+    return ec_same_file(a, b) || (!strcmp(slash_a ? slash_a + 1 : a, slash_b ? slash_b + 1 : b) && ec_same_file(folder_a, folder_b));
+}
+
 ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err)
 {
     for (int i = 0; i < outputs->count; i++) {
         const char *path = outputs->file[i].path;
+        for (int k = 0; k < i; k++)
+            if (ec_same_target(path, outputs->file[k].path))
+                return ec_usage(err, "-o: '%s' and '%s' are the same file; leave one out", outputs->file[k].path, path);
         for (int k = 0; k < input_count; k++)
             if (inputs[k] && ec_same_file(path, inputs[k]))
                 return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
@@ -94,9 +112,8 @@ ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs,
 static uint64_t room_for(const char *path)
 {
     char folder[PATH_MAX];
-    const char *slash = strrchr(path, '/');
     struct statvfs disk;
-    snprintf(folder, sizeof folder, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
+    folder_of(path, folder);
     return statvfs(folder, &disk) == 0 ? (uint64_t)disk.f_bavail * disk.f_frsize : UINT64_MAX;
 }
 

@@ -34,7 +34,7 @@ ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t 
 /* The same for a frame: NAME.0007.exr and .png. */
 ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err);
 
-/* Before any work: can all be written, and would none overwrite an input? inputs may hold NULLs. */
+/* Before any work: can all be written, and would none overwrite another or an input? inputs may hold NULLs. */
 ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err);
 
 /* Warns where a disk has less room than the files may need; no more, since nobody knows how well they will compress. */
@@ -42,5 +42,7 @@ void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, cons
 
 /* Do two paths lead to one file that exists? */
 bool ec_same_file(const char *a, const char *b);
+/* The same, or to one that both would make? */
+bool ec_same_target(const char *a, const char *b);
 
 #endif

@@ -69,6 +69,5 @@ bool ec_progress_show(void *user, const ec_progress *progress)
         ec_console_draw(view->console, line);
         view->drawn_at = now;
     }
-    view->cap_reached = view->sample_cap > 0 && progress->samples_per_pixel >= view->sample_cap;
-    return !view->cap_reached && !ec_stop_requested();
+    return !ec_stop_requested();
 }

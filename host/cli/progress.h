@@ -13,12 +13,10 @@ typedef struct ec_progress_view {
     ec_console *console;
     const ec_render_options *options;
     bool foretold;         /* the forecast has been told */
-    uint64_t sample_cap;   /* stop at so many samples a pixel; 0 = none */
-    bool cap_reached;
     double drawn_at;       /* ec_now() of the last line */
 } ec_progress_view;
 
-/* An ec_progress_fn; user is an ec_progress_view. False on Ctrl-C and at the cap. */
+/* An ec_progress_fn; user is an ec_progress_view. False on Ctrl-C. */
 bool ec_progress_show(void *user, const ec_progress *progress);
 
 /* "[====   ] 37 %  0:12 left  96 spp  5.42 M samples/s  error 2.31 % (bound 2.40 %)"; the bar takes what the columns

@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cl/workarounds.h"
 #include "cli/command_line.h"
+#include "cli/defaults.h"
 #include "cli/render_job.h"
 #include "cli/write_report.h"
 
@@ -72,6 +74,20 @@ ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_er
     return EC_OK;
 }
 
+/* A render that is begun anew by mistake, where it was to be gone on with, would write over hours of samples: others' files are replaced like
+ * any output. */
+static void warn_of_older(const ec_render_job *job, const ec_log *log)
+{
+    const char *path = job->request->checkpoint;
+    char difference[1200];
+    ec_stored old = {0};
+    uint32_t first;
+    if (path && ec_store_peek(path, &old, &first) && !ec_identity_differs(&old.job.identity, &job->job.identity, difference, sizeof difference))
+        ec_warn(log, "'%s' has %llu samples a pixel of this render, which begins anew and writes over them; '--resume %s' goes on", path,
+                (unsigned long long)old.film.batch_count * old.film.samples_per_batch, path);
+    ec_stored_free(&old);
+}
+
 /* What is rendered is known: is it what was rendered before? */
 static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
 {
@@ -79,7 +95,10 @@ static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
     const ec_log log = ec_console_log(job->console);
     char difference[1200];
     ec_identity_of(&job->request->options, &stats->content, &job->job.identity);
-    if (!job->request->resume) return EC_OK;
+    if (!job->request->resume) {
+        warn_of_older(job, &log);
+        return EC_OK;
+    }
     if (ec_identity_differs(&job->stored.job.identity, &job->job.identity, difference, sizeof difference))
         return ec_fail(err, "cannot go on from '%s': %s; use the scene, options and version that it was made with, or start anew",
                        job->request->resume, difference);
@@ -101,6 +120,7 @@ static bool keep(void *user, const ec_film *film, const ec_past *past)
     ec_result result = ec_picture_resolve(film, false, &picture, &job->keep_error);
     if (result == EC_OK) result = ec_picture_write_exr(job->request->checkpoint, &picture, &style, &job->keep_error);
     ec_picture_free(&picture);
+    job->has_kept |= result == EC_OK;
     if (result != EC_OK) ec_warn(&log, "%s; the render goes on, and the checkpoint will be tried again", job->keep_error.text);
     return result == EC_OK;
 }
@@ -135,17 +155,11 @@ static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row,
     return result;
 }
 
-/* "pthread-… (3.1) + NVIDIA H100 (535.54)": what rounding may depend on. */
-static void describe_devices(ec_render_job *job)
+static bool all_round(const ec_render_job *job)
 {
-    char *text = job->device_text;
-    text[0] = 0;
-    for (uint32_t i = 0; i < job->device_count; i++) {
-        char one[520];
-        size_t used = strlen(text);
-        snprintf(one, sizeof one, "%s (%s)", job->devices[i].name, job->devices[i].driver);
-        if (!strstr(text, one)) snprintf(text + used, sizeof job->device_text - used, "%s%s", used ? " + " : "", one);
-    }
+    bool all = true;
+    for (uint32_t i = 0; i < job->device_count; i++) all &= ec_device_rounds(&job->devices[i]);
+    return all;
 }
 
 ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
@@ -153,8 +167,8 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
     ec_render_request *request = job->request;
     uint32_t batch = ec_render_batch(&request->options);
     job->console = console;
-    if (job->ranks) job->allies = ec_ranks_allies(job->ranks, request->device);
-    describe_devices(job);
+    ec_device_drivers(job->devices, job->device_count, job->device_text, sizeof job->device_text);
+    if (job->ranks) job->allies = ec_ranks_allies(job->ranks, request->device, job->device_text, all_round(job));
     job->job.device = job->device_text;
     job->job.spp = request->slice_of_any ? 0 : request->options.spp;
     job->job.error_target = request->options.error_target;
@@ -165,6 +179,7 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
                         .strip = ec_render_whole_for(request) ? NULL : take_strip,
                         .whole_for = ec_render_whole_for(request),
                         .every = request->every,
+                        .most = request->capped ? EC_SAFETY_SPP : 0,
                         .allies = job->ranks ? &job->allies : NULL,
                         .user = job};
     if (request->has_slice) {

@@ -28,7 +28,7 @@ static ec_result check_checkpoint(const ec_render_request *request, ec_error *er
     for (int i = 0; i < 2; i++)
         if (inputs[i] && ec_same_file(path, inputs[i])) return ec_fail(err, "'%s' is an input of this render; give --checkpoint another name", path);
     for (int i = 0; i < request->outputs.count; i++)
-        if (!strcmp(path, request->outputs.file[i].path) || ec_same_file(path, request->outputs.file[i].path))
+        if (ec_same_target(path, request->outputs.file[i].path))
             return ec_usage(err, "'%s' is both the checkpoint and the picture; give one of them another name", path);
     return ec_image_check_writable(path, err);
 }
@@ -36,7 +36,7 @@ static ec_result check_checkpoint(const ec_render_request *request, ec_error *er
 static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
 {
     ec_outputs *outputs = &request->outputs;
-    const char *inputs[] = {request->scene, request->environment};
+    const char *inputs[] = {request->scene, request->environment, request->resume};
     request->default_outputs = outputs->count == 0;
     if (request->default_outputs && request->has_slice)
         EC_TRY(ec_outputs_add_slice(outputs, request->scene, request->slice_first, request->slice_end, err));
@@ -44,7 +44,7 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
         EC_TRY(ec_outputs_add_default(outputs, request->scene, err));
     EC_TRY(check_slice_output(request, err));
     EC_TRY(check_checkpoint(request, err));
-    return ec_outputs_check(outputs, inputs, 2, err);
+    return ec_outputs_check(outputs, inputs, 3, err);
 }
 
 /* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */
@@ -120,11 +120,13 @@ static ec_result check_memory(const ec_render_job *job, ec_error *err)
 {
     const ec_render_options *options = &job->request->options;
     const uint32_t allies = job->ranks ? (uint32_t)ec_ranks_count(job->ranks) - 1 : 0;
-    const char *reason = job->device_count > 1 ? "more than one --device" : allies ? "an MPI job" : ec_render_whole_for(job->request);
+    const char *reason = ec_render_whole_for(job->request), *instead = "leave it out";
+    if (allies) reason = "an MPI job", instead = "start one process without mpirun";
+    if (job->device_count > 1) reason = "more than one --device", instead = "name one";
     uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count, allies);
     uint64_t present = ec_memory_of_machine();
     int64_t budget = options->memory ? ec_strip_budget(options, 0) : (int64_t)present;
-    if (reason && (int64_t)needed > budget) return ec_strip_refuse(options, needed, budget, reason, err);
+    if (reason && (int64_t)needed > budget) return ec_strip_refuse(options, needed, budget, reason, instead, err);
     return EC_OK;
 }
 

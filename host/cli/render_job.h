@@ -30,11 +30,11 @@ void ec_frame_share_close(ec_frame_share *share); /* the devices, with what they
 
 typedef struct ec_render_job {
     ec_render_request *request;
+    const char *program;         /* as it was called; NULL: the job has no checkpoint */
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
     ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
     ec_allies allies;            /* the same as the render has them */
-    char hint[600];              /* how to go on, for who is asked to stop */
     ec_frame_share *share;       /* NULL: it is no frame of a sequence */
     ec_frame_facts frame;        /* with that */
     bool takes_several;          /* devices; else a list of them is refused */
@@ -51,10 +51,11 @@ typedef struct ec_render_job {
     char image_sha256[EC_HASH_SIZE];
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
     ec_stored stored;            /* what is gone on from. Owned */
-    char device_text[1024];      /* of all of them, each driver once */
+    char device_text[1024];      /* their drivers: cl/workarounds.h */
     char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
     ec_console *console;
-    ec_error keep_error;         /* why the last checkpoint is not there; empty: it is, or none was wanted */
+    bool has_kept;               /* a checkpoint */
+    ec_error keep_error;         /* why the last one is not there; empty: it is, or none was wanted */
 } ec_render_job;
 
 /* All that can fail early does so here: outputs, device, scene, environment, camera. */

@@ -30,23 +30,51 @@ static bool watch(void *user, const ec_progress *progress)
     return done < PILOT_BATCHES && !suffices && !ec_stop_requested();
 }
 
+enum { TIMES = 3 }; /* and once before, which touches the memory */
+
 /* As the render does with each batch. */
-static ec_result time_sums(const ec_film *like, double *seconds, ec_error *err)
+static ec_result time_batches(ec_film *film, const float *batch, double *seconds, ec_error *err)
 {
-    enum { TIMES = 3 };
-    ec_film film = {0};
+    double start = 0;
+    for (uint32_t i = 0; i <= TIMES; i++) {
+        if (i == 1) start = ec_now();
+        EC_TRY(ec_film_add_at(film, i, batch, err));
+        (void)ec_film_estimate_error(film);
+    }
+    *seconds = (ec_now() - start) / TIMES;
+    return EC_OK;
+}
+
+/* And with each block. */
+static ec_result time_blocks(ec_film *film, const ec_film *like, double *seconds, ec_error *err)
+{
+    const ec_moments sums = {like->mean, like->m2, like->m34, like->largest};
+    const uint64_t pixels = (uint64_t)film->width * film->height;
+    *seconds = 0;
+    for (uint32_t i = 0; i <= TIMES; i++) {
+        ec_film_part part = {.first = EC_FILM_RADIX * i, .count = EC_FILM_RADIX};
+        if (!ec_moments_create(&part.sums, pixels)) return ec_fail(err, "out of memory for a block of batches");
+        ec_moments_copy(&part.sums, &sums, pixels);
+        const double start = ec_now();
+        EC_TRY(ec_film_insert(film, &part, err));
+        (void)ec_film_estimate_error(film);
+        if (i > 0) *seconds += (ec_now() - start) / TIMES;
+    }
+    return EC_OK;
+}
+
+static ec_result time_sums(const ec_film *like, ec_plan *plan, ec_error *err)
+{
+    ec_film batches = {0}, blocks = {0};
     float *batch = malloc((uint64_t)like->width * like->height * 3 * sizeof *batch);
     if (!batch) return ec_fail(err, "out of memory for a batch");
     ec_film_resolve(like, batch, NULL);
-    ec_result result = ec_film_create(&film, like->width, like->height, like->samples_per_batch, err);
-    double start = 0;
-    for (uint32_t i = 0; result == EC_OK && i <= TIMES; i++) {
-        if (i == 1) start = ec_now(); /* the first one touches the memory */
-        result = ec_film_add_at(&film, i, batch, err);
-        (void)ec_film_estimate_error(&film);
-    }
-    *seconds = (ec_now() - start) / TIMES;
-    ec_film_destroy(&film);
+    ec_result result = ec_film_create(&batches, like->width, like->height, like->samples_per_batch, err);
+    if (result == EC_OK) result = time_batches(&batches, batch, &plan->add, err);
+    ec_film_destroy(&batches);
+    if (result == EC_OK) result = ec_film_create(&blocks, like->width, like->height, like->samples_per_batch, err);
+    if (result == EC_OK) result = time_blocks(&blocks, like, &plan->add_block, err);
+    ec_film_destroy(&blocks);
     free(batch);
     return result;
 }
@@ -76,7 +104,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_console *console, ec_error *err)
     if (!isfinite(plan.batches)) return ec_fail(err, "--plan: how many samples it takes is not known; give --spp N, or an --error that a pilot can foretell");
     const uint64_t rows = 8ull * options.width, wave = s->wave / batch; /* as pipeline/team.c cuts them */
     plan.least = fmin(fmax(rows, wave), plan.pixels);
-    EC_TRY(time_sums(&job->film, &plan.add, err));
+    EC_TRY(time_sums(&job->film, &plan, err));
     if (job->request->json) return ec_plan_json(&plan, stdout, err);
     ec_plan_text(&plan, job->devices->name, stdout);
     return EC_OK;

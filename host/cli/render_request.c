@@ -95,7 +95,7 @@ RANGE_SETTER(filter_width, ec_parse_real, EC_FILTER_WIDTH_LEAST, EC_FILTER_WIDTH
 RANGE_SETTER(fps, ec_parse_real, EC_FPS_LEAST, EC_FPS_MOST, frames.fps)
 RANGE_SETTER(focus, ec_parse_real, EC_FOCUS_LEAST, EC_FOCUS_MOST, options.focus)
 RANGE_SETTER(fstop, ec_parse_real, EC_FSTOP_LEAST, EC_FSTOP_MOST, options.fstop)
-RANGE_SETTER(exposure, ec_parse_real, -100, 100, exposure)
+RANGE_SETTER(exposure, ec_parse_real, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST, exposure)
 RANGE_SETTER(spp, ec_parse_u32, 1, EC_MAX_SPP, options.spp)
 RANGE_SETTER(wave, ec_parse_u32, 1, 1u << 28, options.wave)
 
@@ -283,6 +283,8 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
         return ec_usage(err, "--samples %u:%u: slices begin and end with a batch, here every %u samples, as %u:%u; --batch sets that", a, b, batch,
                         a / batch * batch, (b + batch - 1) / batch * batch);
     if (b > all) return ec_usage(err, "--samples %u:%u reaches beyond the job's %llu samples a pixel; give the whole job's --spp", a, b, (unsigned long long)all);
+    o->slice_first = a / batch;
+    o->slice_end = b / batch;
     return EC_OK;
 }
 

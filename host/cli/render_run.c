@@ -1,24 +1,32 @@
 /* A job that is ready is rendered: on which devices, and what is said of it before. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cl/workarounds.h"
-#include "cli/defaults.h"
+#include "cli/command_line.h"
 #include "cli/progress.h"
 #include "cli/render_job.h"
 #include "cli/stop.h"
 
-/* Where a rank dies, mpirun ends all others: a signal is the last that rank 0 hears of it. */
-static void hint_at_resume(ec_render_job *job)
+/* What goes on from the checkpoint, to be typed as it is: malloc'ed. Said before there is one: a SIGKILL leaves no time for words. */
+static char *say_how_to_go_on(const ec_render_job *job, ec_console *console)
 {
-    const char *checkpoint = job->request->checkpoint;
-    if (checkpoint)
-        snprintf(job->hint, sizeof job->hint,
-                 "asked to stop, as mpirun asks all where one rank has died: 'eclat render --resume %s' goes on from the last checkpoint", checkpoint);
-    else
-        snprintf(job->hint, sizeof job->hint,
-                 "asked to stop, as mpirun asks all where one rank has died; with --checkpoint FILE it could be gone on with");
-    ec_stop_hint(job->hint);
+    char *words[] = {(char *)job->program, (char[]){"render"}, (char[]){"--resume"}, (char *)job->request->checkpoint};
+    char *command = job->request->checkpoint ? ec_command_line(4, words) : NULL;
+    if (command) ec_console_say(console, "should this be cut off, it goes on from the last checkpoint with: %s", command);
+    return command;
+}
+
+/* Where a rank dies, mpirun ends all others: a signal is the last that rank 0 hears of it. */
+static void hint_at_resume(bool is_frame, const char *command)
+{
+    static char hint[5000];
+    const char *how = is_frame ? "the same command goes on behind the frames that are done"
+                      : command ? "it goes on from the last checkpoint, alone or behind mpirun, with: "
+                                : "with --checkpoint FILE it could be gone on with";
+    snprintf(hint, sizeof hint, "asked to stop, as mpirun asks all where one rank has died; %s%s", how, command ? command : "");
+    ec_stop_hint(hint);
 }
 
 /* ", with 3 more processes,": who renders beside the first device. */
@@ -113,16 +121,20 @@ void ec_frame_share_close(ec_frame_share *share)
 ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *err)
 {
     const ec_log log = ec_console_log(console);
-    ec_progress_view view = {.console = console, .options = &job->request->options,
-                             .sample_cap = job->request->capped ? EC_SAFETY_SPP : 0};
+    ec_progress_view view = {.console = console, .options = &job->request->options};
     const ec_course course = ec_render_job_course(job, console);
     ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : own;
     if (!job->share) EC_TRY(open_devices(job, devices, &log, err));
     else EC_TRY(open_shared(job, &log, err));
     ec_stop_catch_signals(ec_console_wants_progress(console)); /* until here there is nothing to save */
-    if (job->ranks) hint_at_resume(job);
     if (job->ranks) ec_ranks_note_binding(job->devices, job->device_count, &log);
+    else if (!job->share && !job->request->has_slice && ec_ranks_apart() > 1)
+        ec_warn(&log, "srun started %d processes that know nothing of one another: each renders all of the picture; with 'srun --mpi=pmix', or what "
+                      "'srun --mpi=list' has, they render it together", ec_ranks_apart());
     announce(job, console);
+    char *going_on = say_how_to_go_on(job, console);
+    if (job->ranks) hint_at_resume(job->share != NULL, going_on);
+    free(going_on);
     ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
                                         &job->film, &job->stats, &log, err);
     ec_console_erase(console);
@@ -130,11 +142,11 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     const bool has_picture = job->film.batch_count || job->rows;
     if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");
+    if (result != EC_OK && !has_picture && ec_stop_requested() && job->has_kept)
+        return ec_fail(err, "interrupted before there was a picture; 'eclat render --resume %s' goes on", job->request->checkpoint);
     if (result != EC_OK && !has_picture && ec_stop_requested())
         return ec_fail(err, "interrupted before there was a picture; nothing is written");
-    if (result == EC_OK && job->film.unsampled && job->request->checkpoint)
-        ec_warn(&log, "no checkpoint is written: the first batch was not complete");
-    if (view.cap_reached && !ec_stop_requested() && !strcmp(job->stats.stopped_by, "user"))
-        snprintf(job->stats.stopped_by, sizeof job->stats.stopped_by, "spp");
+    if (result == EC_OK && job->film.unsampled && job->request->checkpoint && !job->has_kept && !*job->keep_error.text)
+        ec_warn(&log, "no checkpoint is written: there was no whole wave of samples yet");
     return result;
 }

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <sys/eventfd.h>
 
+#include "base/clock.h"
+
 /* The process's, as signals are. */
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
@@ -24,10 +26,17 @@ static void end(int signal_number)
     raise(signal_number);
 }
 
+#define ONE_WISH 0.5 /* seconds: schedulers and launchers signal a job's script and its processes, and the script may pass its own on */
+
 static void *watch(void *signals)
 {
+    double first = 0;
     for (int number; sigwait(signals, &number) == 0;) {
-        if (atomic_load(&manner) == ENDS || atomic_exchange(&requested, true)) end(number);
+        const bool again = atomic_load(&requested);
+        if (atomic_load(&manner) == ENDS || (again && ec_now() - first > ONE_WISH)) end(number);
+        if (again) continue;
+        first = ec_now();
+        atomic_store(&requested, true);
         if (told >= 0) eventfd_write(told, 1);
         if (atomic_load(&hint)) fprintf(stderr, "eclat: %s\n", atomic_load(&hint));
         if (atomic_load(&manner) == TELLS) fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);

@@ -1,4 +1,4 @@
-/* Ctrl-C: the first asks the render to stop, the second ends the process at once. */
+/* Ctrl-C: the first asks the render to stop, the second ends the process at once; what comes within half a second is the first one still. */
 #ifndef EC_CLI_STOP_H
 #define EC_CLI_STOP_H
 

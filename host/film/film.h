@@ -58,6 +58,9 @@ ec_result ec_film_add_at(ec_film *film, uint32_t index, const float *batch_mean,
 /* Adds a part, whose memory the film takes on success. */
 ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err);
 
+/* The sums of a film that is a single part, to be owned; the film is then fit to be destroyed only. */
+ec_moments ec_film_give_sums(ec_film *film);
+
 /* Adds all parts of another film of the same size, and its first-hit features where there are none; `from` is then fit to be destroyed
  * only. Fails where both have a batch, and then has changed nothing but for lack of memory. */
 ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err);

@@ -24,6 +24,13 @@ void ec_moments_destroy(ec_moments *m)
     *m = (ec_moments){0};
 }
 
+ec_moments ec_moments_in(void *memory, uint64_t pixels)
+{
+    double *mean = memory, *m2 = mean + 3 * pixels;
+    float *m34 = (float *)(m2 + 4 * pixels);
+    return (ec_moments){mean, m2, m34, m34 + 2 * pixels};
+}
+
 static inline void add_channel(double *mean, double *m2, double x, double n)
 {
     double delta = x - *mean;

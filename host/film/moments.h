@@ -25,6 +25,9 @@ static inline ec_moments ec_moments_from(const ec_moments *m, uint64_t first)
     return (ec_moments){m->mean + 3 * first, m->m2 + 4 * first, m->m34 + 2 * first, m->largest + first};
 }
 
+/* One after the other in memory that is owned by another, EC_MOMENTS_BYTES a pixel, aligned as malloc has it: as they are sent. */
+ec_moments ec_moments_in(void *memory, uint64_t pixels);
+
 /* Takes colours, 3 floats a pixel, in as the n-th values of so many pixels. What is not finite counts as 0; returns how many values are not. */
 uint64_t ec_moments_add(const ec_moments *moments, const float *colours, double n, uint64_t pixels);
 

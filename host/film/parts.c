@@ -37,6 +37,19 @@ uint32_t ec_film_copies(uint64_t batches)
     return levels == 1 ? 1 : levels + 1;
 }
 
+uint64_t ec_film_bytes(uint64_t first, uint64_t end)
+{
+    if (first == 0) return (uint64_t)EC_MOMENTS_BYTES * ec_film_copies(end);
+    if (first % EC_FILM_RADIX == 0 && end - first <= EC_FILM_RADIX) return EC_MOMENTS_BYTES;
+    uint64_t bytes = EC_MOMENTS_BYTES, below = 0, level = 0; /* what is shown; sums that one of this level is made of, one of each level */
+    for (uint64_t at = first, unit = 1; at < end; unit *= EC_FILM_RADIX, level++)
+        for (; at < end && at % (unit * EC_FILM_RADIX); at += unit) {
+            bytes += level ? EC_MOMENTS_BYTES : 3 * sizeof(float);
+            below = level > 1 ? level - 1 : 0;
+        }
+    return bytes + EC_MOMENTS_BYTES * below;
+}
+
 static uint64_t pixels_of(const ec_film *film) { return (uint64_t)film->width * film->height; }
 
 static ec_moments shown(const ec_film *film) { return (ec_moments){film->mean, film->m2, film->m34, film->largest}; }
@@ -159,9 +172,24 @@ static ec_result check_free(const ec_film *film, uint32_t first, uint32_t count,
     return EC_OK;
 }
 
+/* What `part` is joined to as it comes; NULL: it waits. */
+static ec_film_part *neighbour_of(const ec_film *film, const ec_film_part *part)
+{
+    const uint32_t before = parts_before(film, part->first);
+    ec_film_part *left = before > 0 ? &film->parts[before - 1] : NULL;
+    return left && ec_film_parts_fit(left, part) ? left : NULL;
+}
+
 ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err)
 {
     EC_TRY(check_free(film, part->first, part->count, err));
+    ec_film_part *left = neighbour_of(film, part);
+    if (left) {
+        join(film, left, part);
+        *part = (ec_film_part){0};
+        settle(film);
+        return EC_OK;
+    }
     EC_TRY(prepare_to_show(film, film->part_count + 1, err));
     ec_film_part *parts = realloc(film->parts, (film->part_count + 1) * sizeof *parts);
     if (!parts) return ec_fail(err, "out of memory");
@@ -205,10 +233,8 @@ static ec_result insert_batch(ec_film *film, uint32_t index, const float *batch,
 ec_result ec_film_add_at(ec_film *film, uint32_t index, const float *batch, ec_error *err)
 {
     EC_TRY(check_free(film, index, 1, err));
-    uint32_t before = parts_before(film, index);
-    ec_film_part *left = before > 0 ? &film->parts[before - 1] : NULL;
-    const ec_film_part one = {.first = index, .count = 1};
-    if (!left || !ec_film_parts_fit(left, &one)) return insert_batch(film, index, batch, err);
+    ec_film_part *left = neighbour_of(film, &(ec_film_part){.first = index, .count = 1});
+    if (!left) return insert_batch(film, index, batch, err);
     film->invalid_count += ec_moments_add(&left->sums, batch, left->count + 1.0, pixels_of(film));
     left->count++;
     settle(film);
@@ -226,6 +252,14 @@ ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err)
     film->aov = from->aov;
     from->aov = NULL;
     return EC_OK;
+}
+
+ec_moments ec_film_give_sums(ec_film *film)
+{
+    const ec_moments sums = film->parts[0].sums;
+    if (shows_part(film)) show(film, &(ec_moments){0});
+    film->parts[0].sums = (ec_moments){0};
+    return sums;
 }
 
 void ec_film_part_free(ec_film_part *part)

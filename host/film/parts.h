@@ -35,4 +35,7 @@ bool ec_film_part_is_sound(uint64_t first, uint64_t count);
 /* How many films' worth of memory batches 0 to `batches` take at most. */
 uint32_t ec_film_copies(uint64_t batches);
 
+/* Bytes a pixel that batches first to end, of a slice, take at most as they come in order. */
+uint64_t ec_film_bytes(uint64_t first, uint64_t end);
+
 #endif

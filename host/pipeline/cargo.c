@@ -121,7 +121,7 @@ static void set_environment(const ec_pack *pack, ec_params *params)
     memcpy(params->environment_mean, pack->environment_mean, sizeof pack->environment_mean);
 }
 
-static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack *pack, ec_params *params)
+static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack *pack, uint64_t called, ec_params *params)
 {
     const uint32_t unlimited = o->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
     params->width = o->width;
@@ -135,9 +135,32 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->light_count = ec_pipeline_joins(o, pack) ? pack->light_count : 0;
     set_environment(pack, params);
     params->nested = pack->bodies.count > 0;
+    params->terminator = (called & EC_FEATURE_TERMINATOR) != 0;
+    params->multiple = (called & EC_FEATURE_MULTISCATTER) != 0;
     params->light_tree_pmf = pack->light_tree_pmf;
     params->scene_radius = pack->scene_radius;
     params->scene_max = pack->scene_max;
+}
+
+/* Of a scene that is written out the one with its meshes kept once, so that the job is the same with any accelerator. */
+static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, uint32_t batch,
+                              ec_content *content, ec_error *err)
+{
+    if (!o->identify) return EC_OK;
+    if (scene == called_for) {
+        ec_cargo_content(&cargo->head, scene, &cargo->pack, content);
+        return EC_OK;
+    }
+    ec_pack kept = {0};
+    ec_cargo_head head = cargo->head;
+    ec_result result = fill_pack(called_for, called_for, o, &kept, err);
+    if (result == EC_OK) {
+        ec_pipeline_effects(o, &kept, &head.effects);
+        set_params(o, batch, &kept, head.effects.called.bits, &head.params);
+        ec_cargo_content(&head, called_for, &kept, content);
+    }
+    ec_pack_free(&kept);
+    return result;
 }
 
 static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, uint32_t batch,
@@ -147,11 +170,11 @@ static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_sce
     ec_cargo_head *head = &cargo->head;
     EC_TRY(fill_pack(scene, called_for, o, pack, err));
     ec_pipeline_effects(o, pack, &head->effects);
-    set_params(o, batch, pack, &head->params);
+    set_params(o, batch, pack, head->effects.called.bits, &head->params);
     head->bodies_too_many = pack->bodies.too_many;
     EC_TRY(ec_insides_make(pack, &cargo->insides, err));
     head->params.camera_medium = ec_insides_of(&cargo->insides, &scene->cameras[o->camera]);
-    if (o->identify) ec_cargo_content(head, scene, pack, &stats->content);
+    EC_TRY(tell_content(cargo, scene, called_for, o, batch, &stats->content, err));
     EC_TRY(ec_cargo_add_scene(cargo, scene, pack, err));
     EC_TRY(ec_cargo_add_camera(cargo, scene, o, err));
     return add_filter(cargo, o, err);

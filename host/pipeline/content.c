@@ -107,7 +107,7 @@ void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec
     for (int i = 0; i < EC_CONTENT_COUNT; i++) SHA256Init(&digests[i]);
     add_buffers(digests, scene, pack, head->effects);
     add_params(digests, head->params);
-    uint64_t called = head->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
+    const uint64_t called = content->called = head->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
     add(digests, EC_CONTENT_SETTINGS, &called, sizeof called);
     if (called & EC_FEATURE_MOTION) add_moving_cameras(digests, &scene->motion);
     add_kernels(digests);

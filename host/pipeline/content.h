@@ -2,6 +2,8 @@
 #ifndef EC_PIPELINE_CONTENT_H
 #define EC_PIPELINE_CONTENT_H
 
+#include <stdint.h>
+
 typedef enum ec_content_id {
     EC_CONTENT_CAMERA,
     EC_CONTENT_GEOMETRY,   /* triangles, their attributes, places of instances */
@@ -16,6 +18,7 @@ typedef enum ec_content_id {
 
 typedef struct ec_content {
     char digest[EC_CONTENT_COUNT][33]; /* the first 128 bits of SHA-256, in hexadecimal; empty: not known */
+    uint64_t called;                   /* EC_FEATURE_*: the effects */
 } ec_content;
 
 /* That of the kernels alone, which needs no render. */

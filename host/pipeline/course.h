@@ -19,7 +19,8 @@ typedef struct ec_past {
 } ec_past;
 
 typedef struct ec_course {
-    uint32_t first, end;              /* batches [first, end) of the job; end 0: whatever the limits say */
+    uint32_t first, end;              /* batches [first, end) of the job; end 0: whatever the limits say … */
+    uint32_t most;                    /* … but not beyond so many samples a pixel; 0: no matter */
     const ec_past *past;              /* of the film that ec_render_course is given; NULL: a new one. Memory is its owner's */
     /* Once the scene is on the device, stats->content is known and before the first sample. Its failure ends the render. NULL: no matter. */
     ec_result (*admit)(void *user, const ec_render_stats *stats, ec_error *err);
@@ -38,8 +39,8 @@ typedef struct ec_course {
 } ec_course;
 
 /* ec_render by a course, on all of these devices at once (1 to EC_DEVICES_MOST). One that fails is left out with a warning; only when there is
- * none left does the render fail. Host memory beside the film: one colour copy of 12 bytes a pixel with one device, else ec_team_window
- * of them (team.h). film must be zero-initialised, or with a past hold what was done, at options' size. */
+ * none left does the render fail. Host memory beside the film: one colour copy of 12 bytes a pixel with one device, else ec_team_bytes
+ * (team.h). film must be zero-initialised, or with a past hold what was done, at options' size. */
 ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene, const ec_render_options *options, const ec_course *course,
                            ec_progress_fn progress, void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err);
 

@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "pipeline/fold.h"
+
+#define FEATURE_BYTES (4ull * EC_AOV_FIELDS)
 
 /* They must differ in every bit. */
 uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch)
@@ -37,45 +40,49 @@ static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, e
     return ec_buffer_write(p->cl, *list, 4ull * order->done, 4ull * (order->count - order->done), order->list + order->done, err);
 }
 
+/* Where positions from `first` on go on the host: what an order brings is room for its own. */
+static float *place_of(const ec_device_source *s, const ec_batch_order *order, uint64_t first)
+{
+    return order->into ? order->into + 3 * (first - order->done) : s->own + 3 * first;
+}
+
 /* Where the batch goes on the host, and what of it is there. */
 static ec_result prepare(ec_device_source *s, const ec_batch_order *order, ec_error *err)
 {
-    ec_pipeline *p = &s->pipeline;
     if (!order->into && !s->own) s->own = malloc(pixels_of(s) * 12);
-    s->base.mean = order->into ? order->into : s->own;
-    if (!s->base.mean) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels_of(s));
-    if (!order->before) return EC_OK;
-    memcpy(s->base.mean, order->before, 12ull * order->count);
-    return ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, 12ull * order->count, s->base.mean, err);
+    s->base.mean = s->own;
+    if (!order->into && !s->own) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels_of(s));
+    if (order->before) memcpy(s->base.mean, order->before, 12ull * order->count);
+    if (!order->aov) return EC_OK;
+    return ec_buffer_zero(s->pipeline.cl, s->pipeline.buffers[EC_ARG_FEATURE_FILM], FEATURE_BYTES * order->done,
+                          FEATURE_BYTES * (order->count - order->done), err);
 }
 
 static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_error *err)
 {
     ec_device_source *s = (ec_device_source *)source;
     ec_pipeline *p = &s->pipeline;
-    uint64_t first = order->before ? 0 : order->done; /* pixels in number order are not those in row order: all of them, to be sure */
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 12 * first, 12 * (order->count - first), s->base.mean + 3 * first, err));
+    const uint64_t first = order->done;
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 12 * first, 12 * (order->count - first), place_of(s, order, first), err));
     s->base.rays = p->rays;
     s->base.clocked_seconds = p->clocked_seconds;
     s->base.clocked_rays = p->clocked_rays;
-    return ec_pipeline_read_invalid(p, s->base.invalid, err);
+    if (order->aov)
+        EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], FEATURE_BYTES * first, FEATURE_BYTES * (order->count - first),
+                              order->aov + EC_AOV_FIELDS * first, err));
+    EC_TRY(ec_pipeline_read_invalid(p, s->base.invalid, err));
+    s->base.invalid[EC_STAGE_ACCUMULATE] += s->unfit;
+    return EC_OK;
 }
 
-static ec_result read_features(ec_device_source *s, const ec_batch_order *order, ec_error *err)
-{
-    const uint64_t first = order->done, fields = EC_AOV_FIELDS;
-    if (!order->aov) return EC_OK;
-    return ec_buffer_read(s->pipeline.cl, s->pipeline.buffers[EC_ARG_FEATURE_FILM], 4 * fields * first, 4 * fields * (order->count - first),
-                          order->aov + fields * first, err);
-}
-
-static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
+static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     ec_device_source *s = (ec_device_source *)source;
     ec_pipeline *p = &s->pipeline;
     uint32_t per_wave = p->wave / p->params.batch, seed = ec_render_batch_seed(s->seed, order->index);
     const uint32_t before = order->list ? 0 : p->params.film_row * p->params.width; /* numbers of pixels above: rows of whole tiles */
     *complete = true;
+    s->base.batches = 1;
     EC_TRY(upload_list(s, order, err));
     EC_TRY(prepare(s, order, err));
     for (uint32_t first = order->done; first < order->count && *complete; first += per_wave) {
@@ -85,14 +92,25 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
         s->has_begun = true;
         *complete = order->go_on(order->user, first + count) || first + count >= order->count;
     }
-    EC_TRY(look(source, order, err));
-    return read_features(s, order, err);
+    return look(source, order, err);
+}
+
+static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
+{
+    ec_device_source *s = (ec_device_source *)source;
+    const uint32_t before = s->unfit;
+    if (order->batches <= 1) return take_batch(source, order, complete, err);
+    const ec_fold_parts one_by_one = {.batches = 1, .take = take_batch, .want_room = true};
+    EC_TRY(ec_fold_block(source, order, &one_by_one, &s->unfit, complete, err));
+    source->invalid[EC_STAGE_ACCUMULATE] += s->unfit - before;
+    return EC_OK;
 }
 
 static void close_device(ec_batch_source *source)
 {
     ec_device_source *s = (ec_device_source *)source;
     ec_pipeline_destroy(&s->pipeline);
+    ec_moments_destroy(&s->base.sums);
     free(s->own);
     s->own = s->base.mean = NULL;
 }

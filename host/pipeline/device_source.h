@@ -11,6 +11,7 @@ typedef struct ec_device_source {
     uint64_t seed;
     float *own;                       /* room for a batch, where orders bring none */
     uint32_t rows;                    /* that it renders: from params.film_row on */
+    uint32_t unfit;                   /* values of batches in blocks that were not finite */
     bool has_begun;
 } ec_device_source;
 

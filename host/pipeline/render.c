@@ -101,6 +101,7 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     uint32_t batch = ec_render_batch(options);
     r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
+    if (!options->spp && course->most) r.batches_wanted = (course->most + batch - 1) / batch;
     if (course->end) r.batches_wanted = course->end - course->first;
     ec_result result = set_up(&r, devices, device_count, scene, batch, log, err);
     if (result == EC_OK) {

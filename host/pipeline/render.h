@@ -63,6 +63,7 @@ typedef struct ec_render_options {
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
     uint64_t memory;            /* bytes that the process should not exceed: else it renders strips (strips.h); 0 = what is free */
+    uint32_t slice_first, slice_end; /* batches of a slice, for what they take of it; slice_end 0: it is none */
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */
@@ -127,7 +128,8 @@ typedef struct ec_render_stats {
     ec_render_share shares[EC_DEVICES_MOST]; /* by device, where there are several */
     uint32_t share_count;
     uint32_t allies;              /* other processes that took part … */
-    double allied_batches;        /* … and what they took, in pieces that sum up to so many batches of all pixels */
+    double allied_batches;        /* … what they took, in pieces that sum up to so many batches of all pixels … */
+    uint64_t allied_bytes;        /* … and what came of it to this process */
     ec_render_effects effects;    /* which were called for, why, and what came of it */
     ec_content content;           /* with options.identify */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */

@@ -21,7 +21,7 @@ typedef struct ec_render_state {
     double batch_end;          /* of the last one; and the sums of so many times, the first left out */
     double first_seconds, sum, squares, timed;
     ec_forecast forecast;      /* of now; the pilot's is in stats */
-    uint32_t batches_wanted;   /* by --spp; 0 = no limit */
+    uint32_t batches_wanted;   /* by --spp, or at most; 0 = no limit */
     ec_film_error error;
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */

@@ -46,10 +46,10 @@ bool ec_render_tell(ec_render_state *r, double batches)
 
 void ec_render_look_ahead(ec_render_state *r, bool at_pilot)
 {
-    double done = ec_render_batches_done(r), now = ec_now(), took = now - r->batch_end;
+    double done = ec_render_batches_done(r), now = ec_now(), took = now - r->batch_end, batches = fmax(r->source->batches, 1.0);
     r->batch_end = now;
     if (r->first_seconds == 0.0) r->first_seconds = now - r->render_start;
-    else if (at_pilot || !r->past.allotment.weight) r->sum += took, r->squares += took * took, r->timed++;
+    else if (at_pilot || !r->past.allotment.weight) r->sum += took, r->squares += took * took / batches, r->timed += batches;
     if (!ec_pilot_is_over(r->film->batch_count) || r->timed == 0.0) return;
     double mean = r->sum / r->timed, variance = fmax(r->squares / r->timed - mean * mean, 0.0);
     ec_pace pace = {now - r->render_start, r->first_seconds, r->timed > 1.0 ? sqrt(variance / (r->timed - 1.0)) / mean : 0.0};

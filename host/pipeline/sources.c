@@ -52,11 +52,15 @@ static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log 
     return result;
 }
 
+static uint64_t received(const ec_sources *s) { return s->allies.received ? s->allies.received(s->allies.user) : 0; }
+
 ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_allies *allies, const ec_log *log, ec_batch_source **source, ec_render_stats *stats,
                           ec_error *err)
 {
     const ec_allies none = {0};
     s->seed = seed;
+    s->allies = allies ? *allies : none;
+    s->received_before = received(s);
     if (allies) EC_TRY(allies->send(allies->user, &s->cargo, seed, log, err));
     if (s->count > 1 || allies) {
         EC_TRY(open_team(s, allies ? allies : &none, log, err));
@@ -75,6 +79,7 @@ static void tell_shares(const ec_sources *s, ec_render_stats *stats)
     bool has_failed;
     stats->share_count = s->count;
     stats->allies = s->allied_processes;
+    stats->allied_bytes = received(s) - s->received_before;
     for (uint32_t i = 0; i < s->allied; i++) stats->allied_batches += (double)ec_team_share(s->team, s->count + i, &has_failed) / pixels;
     for (uint32_t i = 0; i < s->count; i++) {
         const ec_render_stats *own = &s->recruits[i].stats;

@@ -15,6 +15,7 @@ typedef struct ec_allies {
     ec_result (*send)(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err);
     /* After that; false: number i does not take part. */
     bool (*recruit)(void *user, uint32_t i, ec_team_recruit *recruit);
+    uint64_t (*received)(void *user); /* bytes that have come from them, ever; NULL: not known */
     void *user;
 } ec_allies;
 
@@ -36,6 +37,8 @@ typedef struct ec_sources {
     uint32_t unloaded;                /* that have not taken what they want of the cargo */
     uint32_t allied;                  /* members of the team behind the devices … */
     uint32_t allied_processes;        /* … and how many processes they stand for */
+    ec_allies allies;
+    uint64_t received_before;
 } ec_sources;
 
 /* The first step, where the cargo is there: these devices, with so many lanes (0: what suits each). To be closed on failure too. */

@@ -9,7 +9,8 @@ ec_strip_need ec_strip_needs(const ec_render_options *o)
 {
     const uint64_t batch = ec_render_batch(o), batches = o->spp ? (o->spp + batch - 1) / batch : EC_FILM_RADIX;
     const uint64_t rows = 20 + 20, planes = 16 * (64 + 3), coded = 3 * 16 * 25 * 4; /* that wait, a band, and one being compressed: write_rows.c */
-    return (ec_strip_need){.host = EC_MOMENTS_BYTES * ec_film_copies(batches) + 12 + 32, .device = 12 + 32,
+    const uint64_t film = o->slice_end ? ec_film_bytes(o->slice_first, o->slice_end) : ec_film_bytes(0, batches);
+    return (ec_strip_need){.host = film + 12 + 32, .device = 12 + 32,
                            .column = rows * (EC_MOMENTS_BYTES + 32) + planes + coded};
 }
 
@@ -24,7 +25,7 @@ uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *de
     const uint64_t pixels = (uint64_t)o->width * o->height;
     uint64_t bytes = ec_strip_whole(o, false);
     for (uint32_t i = 0; i < count; i++) bytes += devices[i].type & CL_DEVICE_TYPE_CPU ? pixels * ec_strip_needs(o).device : 0;
-    return count + allies > 1 ? bytes + 12 * pixels * ec_team_window(count + allies, pixels) : bytes;
+    return count + allies > 1 ? bytes + ec_team_bytes(count + allies, pixels, allies > 0) : bytes;
 }
 
 static uint64_t rows_in(uint64_t bytes, uint64_t width, uint64_t per_pixel) { return bytes / (width * per_pixel); }
@@ -54,9 +55,9 @@ uint64_t ec_strip_least(const ec_render_options *o, bool shared)
     return ec_strip_whole(&one, shared);
 }
 
-ec_result ec_strip_refuse(const ec_render_options *o, uint64_t whole, int64_t budget, const char *whole_for, ec_error *err)
+ec_result ec_strip_refuse(const ec_render_options *o, uint64_t whole, int64_t budget, const char *whole_for, const char *instead, ec_error *err)
 {
     return ec_fail(err, "%ux%u pixels take %.0f MB and there are %.0f: they would be rendered in strips, one after the other, but %s is for pictures that "
-                        "are rendered whole; leave it out, or give more --memory or a smaller --size", o->width, o->height, (double)whole / 1e6,
-                   budget > 0 ? (double)budget / 1e6 : 0.0, whole_for ? whole_for : "this");
+                        "are rendered whole; %s, or give more --memory or a smaller --size", o->width, o->height, (double)whole / 1e6,
+                   budget > 0 ? (double)budget / 1e6 : 0.0, whole_for ? whole_for : "this", instead);
 }

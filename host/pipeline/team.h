@@ -4,8 +4,14 @@
  * A piece is what its source does in the time that the team takes for as many batches as it has members, a second at most, a wave at least:
  * whole batches where these are short, and fewer pixels for the slow. Towards the end pieces get smaller, so that nobody waits long.
  *
- * So that nobody waits for a batch that is late, so many may be open at once as there are members and one more, 12 bytes a pixel each; two
- * where that would be over EC_TEAM_ROOM.
+ * Where pieces come from afar and batches fast, a unit may be a block, of 16 or 256 batches (film/parts.h): a piece is then rows of all of them,
+ * what comes back are their sums, 68 bytes a pixel in place of 12 for each batch. A block is only begun where the paces that were measured say
+ * that it is over within the order's patience.
+ *
+ * A block that a team is ordered to take, as another's member, is made of units of a sixteenth of it.
+ *
+ * So that nobody waits for a unit that is late, so many may be open at once as there are members, with all the processes that they stand for,
+ * and one more, if they fit into EC_TEAM_ROOM, and two in any case: 12 bytes a pixel of a batch, 68 of a block. Pieces of blocks that are on their way take as much again.
  *
  * A member that fails is out, and its piece goes to another. */
 #ifndef EC_PIPELINE_TEAM_H
@@ -13,17 +19,19 @@
 
 #include "pipeline/batch_source.h"
 
-#define EC_TEAM_ROOM ((uint64_t)1 << 29) /* bytes */
+#define EC_TEAM_ROOM ((uint64_t)1 << 29)  /* bytes */
+#define EC_TEAM_PIECE ((uint64_t)1 << 25) /* of a block's, or one wave */
 
-/* How many batches of such an image a team of so many may have open. */
-uint32_t ec_team_window(uint32_t members, uint64_t pixels);
+/* How many batches, or blocks, of such an image a team of so many may have open; and bytes for them, where some of its pieces come from afar. */
+uint32_t ec_team_window(uint32_t members, uint64_t pixels, bool in_blocks);
+uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, bool from_afar);
 
 typedef struct ec_team_recruit {
     const char *name;                 /* for messages */
     /* Called by the member's thread. *source is closed by the team, on failure too if it is not NULL. */
     ec_result (*open)(void *user, ec_batch_source **source, ec_error *err);
     void *user;
-    uint32_t processes;               /* that it stands for, beside this one */
+    uint32_t processes;               /* that it stands for, beside this one: then its pieces come from afar */
 } ec_team_recruit;
 
 typedef struct ec_team ec_team;

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cl/workarounds.h"
 #include "ranks/remote.h"
 
 /* Plain values: the ranks run one program on machines of one kind. Then follow the buffers, in order. */
@@ -46,9 +47,9 @@ static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, e
         s->buffers[i].bytes = b->bytes;
         s->buffers[i].slack = b->slack;
     }
-    ec_result result = ec_post_broadcast(r->post, s, sizeof *s, err);
+    ec_result result = ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err);
     for (uint32_t i = 0; result == EC_OK && i < cargo->head.buffer_count; i++)
-        result = ec_post_broadcast(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, err); /* from here: only read */
+        result = ec_post_spread(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, EC_BOX_SCENE, err); /* from here: only read */
     free(s);
     return result;
 }
@@ -57,7 +58,7 @@ static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, e
 
 /* What a rank says to the word: EC_READY_*, a number, and a text. */
 enum { EC_READY_RANKS };
-enum { EC_READY = EC_WORD_HOME + 1, EC_READY_WITHOUT_DEVICE, EC_READY_OTHER_PROGRAM };
+enum { EC_READY = EC_WORD_OVER + 1, EC_READY_WITHOUT_DEVICE, EC_READY_OTHER_PROGRAM };
 
 /* What comes up: of this rank and all below it. */
 typedef struct readiness {
@@ -72,12 +73,19 @@ static void add_line(readiness *all, const char *line)
     if (*line) snprintf(all->text + used, sizeof all->text - used, "\n%s", line);
 }
 
-static ec_result hear(ec_ranks *r, uint32_t child, readiness *all, ec_error *err)
+static void hear(ec_ranks *r, uint32_t child, readiness *all)
 {
     ec_letter letter;
+    ec_error why;
     ec_remote *remote = &r->remotes[child];
     const int rank = ec_post_child(r->post, (int)child);
-    EC_TRY(ec_post_receive(r->post, rank, EC_BOX_WORD, NULL, NULL, &letter, err));
+    *remote = (ec_remote){.ranks = r, .rank = rank};
+    if (ec_post_receive(r->post, rank, EC_BOX_WORD, NULL, NULL, &letter, &why) != EC_OK) {
+        char line[sizeof why.text + 64];
+        snprintf(line, sizeof line, "%s; the others go on without it", why.text);
+        add_line(all, line);
+        return;
+    }
     char none[] = "", *text = letter.body ? letter.body : none, *more = strchr(text, '\n');
     if (more) *more++ = 0;
     *remote = (ec_remote){.ranks = r, .rank = rank, .is_ready = letter.kind == EC_READY, .ready = (uint32_t)letter.numbers[EC_READY_RANKS]};
@@ -86,26 +94,27 @@ static ec_result hear(ec_ranks *r, uint32_t child, readiness *all, ec_error *err
     if (letter.kind == EC_READY_OTHER_PROGRAM || (letter.kind == EC_READY && all->kind == EC_READY_WITHOUT_DEVICE)) all->kind = letter.kind;
     if (more) add_line(all, more);
     free(letter.body);
-    return EC_OK;
 }
 
-/* The word to the children, and what they answer. */
-static ec_result ask_below(ec_ranks *r, const ec_letter *word, readiness *all, ec_error *err)
+/* The word to the children, and what they answer. Who is lost has no answer. */
+static void ask_below(ec_ranks *r, const ec_letter *word, readiness *all)
 {
-    for (uint32_t i = 0; i < r->remote_count; i++) EC_TRY(ec_post_send(r->post, ec_post_child(r->post, (int)i), word, err));
-    for (uint32_t i = 0; i < r->remote_count; i++) EC_TRY(hear(r, i, all, err));
-    return EC_OK;
+    for (uint32_t i = 0; i < r->remote_count; i++) (void)ec_post_send(r->post, ec_post_child(r->post, (int)i), word, NULL);
+    for (uint32_t i = 0; i < r->remote_count; i++) hear(r, i, all);
 }
 
-ec_result ec_job_send(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, const char *device, const ec_log *log, ec_error *err)
+ec_result ec_job_send(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err)
 {
-    ec_letter word = {.kind = EC_WORD_JOB, .box = EC_BOX_WORD, .bytes = device ? strlen(device) + 1 : 0, .body = (void *)device};
-    word.numbers[EC_JOB_PROGRAM] = program_hash();
+    char text[4096];
+    const int used = snprintf(text, sizeof text, "%s%s%s", r->own, r->device ? "\n" : "", r->device ? r->device : "");
+    if (used >= (int)sizeof text) return ec_fail(err, "--device takes %zu letters at most in an MPI job", sizeof text - strlen(r->own) - 2);
+    const ec_letter word = {.kind = EC_WORD_JOB, .box = EC_BOX_WORD, .bytes = (uint64_t)used + 1, .body = text,
+                            .numbers = {[EC_JOB_PROGRAM] = program_hash(), [EC_JOB_ROUNDS] = r->own_round}};
     readiness all = {.kind = EC_READY};
-    EC_TRY(ask_below(r, &word, &all, err));
+    ask_below(r, &word, &all);
     uint64_t go = all.kind != EC_READY_OTHER_PROGRAM;
     char *rest = all.text, *line;
-    EC_TRY(ec_post_broadcast(r->post, &go, sizeof go, err));
+    EC_TRY(ec_post_spread(r->post, &go, sizeof go, EC_BOX_SCENE, err));
     while ((line = strsep(&rest, "\n"))) {
         if (strstr(line, OTHER_PROGRAM)) return ec_fail(err, "%s", line);
         if (*line) ec_warn(log, "%s", line);
@@ -116,13 +125,13 @@ ec_result ec_job_send(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, const c
 static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_error *err)
 {
     sheet *s = malloc(sizeof *s);
-    ec_result result = s ? ec_post_broadcast(r->post, s, sizeof *s, err) : ec_fail(err, "out of memory");
+    ec_result result = s ? ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err) : ec_fail(err, "out of memory");
     if (result == EC_OK) cargo->head = s->head, *seed = s->seed, cargo->head.buffer_count = 0;
     for (uint32_t i = 0; result == EC_OK && i < s->head.buffer_count; i++) {
         void *data = malloc(s->buffers[i].bytes + 1);
         if (!data) result = ec_fail(err, "out of memory for %llu bytes of the scene's %s", (unsigned long long)s->buffers[i].bytes, s->buffers[i].label);
         if (data) ec_cargo_add(cargo, s->buffers[i].arg, s->buffers[i].label, s->buffers[i].bytes, s->buffers[i].slack, data, data);
-        if (data) cargo->buffers[i].accel = s->buffers[i].accel, result = ec_post_broadcast(r->post, data, s->buffers[i].bytes, err);
+        if (data) cargo->buffers[i].accel = s->buffers[i].accel, result = ec_post_spread(r->post, data, s->buffers[i].bytes, EC_BOX_SCENE, err);
     }
     free(s);
     return result;
@@ -140,6 +149,21 @@ static void describe(const ec_ranks *r, uint32_t kind, const char *text, readine
     if (kind != EC_READY) add_line(own, line);
 }
 
+/* Where a device is not of rank 0's drivers, and one of the two is not known to round correctly, the root warns. */
+static void look_at_rounding(const ec_ranks *r, const ec_letter *word, const char *drivers, const ec_device_info *devices, uint32_t count,
+                             readiness *own)
+{
+    char driver[520], line[1000];
+    for (uint32_t i = 0; i < count; i++) {
+        ec_device_drivers(&devices[i], 1, driver, sizeof driver);
+        if (strstr(drivers, driver) || (word->numbers[EC_JOB_ROUNDS] && ec_device_rounds(&devices[i]))) continue;
+        snprintf(line, sizeof line, "rank %d has %s and rank 0 %.300s: where one of these does not round division and square root correctly, the "
+                                    "last bits are not those of one device", r->rank, driver, drivers);
+        add_line(own, line);
+        return;
+    }
+}
+
 /* Ranks on one host share its devices out among them where --device names several. */
 static ec_result find_devices(const ec_ranks *r, const char *id, ec_device_info *devices, uint32_t *count, ec_error *err)
 {
@@ -153,17 +177,21 @@ ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, ui
 {
     ec_error why = {0};
     readiness all = {0};
+    char none[] = "", *drivers = word->body ? word->body : none, *device = strchr(drivers, '\n');
     *count = 0;
+    if (device) *device++ = 0;
     if (word->numbers[EC_JOB_PROGRAM] != program_hash()) describe(r, EC_READY_OTHER_PROGRAM, "", &all);
-    else if (find_devices(r, word->body, devices, count, &why) == EC_OK) describe(r, EC_READY, devices->name, &all);
+    else if (find_devices(r, device, devices, count, &why) == EC_OK) describe(r, EC_READY, devices->name, &all);
     else describe(r, EC_READY_WITHOUT_DEVICE, why.text, &all), *count = 0;
+    look_at_rounding(r, word, drivers, devices, *count, &all);
+    if (device) device[-1] = '\n'; /* as it came, for those below */
     all.ranks = *count > 0;
-    EC_TRY(ask_below(r, word, &all, err));
+    ask_below(r, word, &all);
     const ec_letter letter = {.kind = all.kind, .box = EC_BOX_WORD, .bytes = strlen(all.text) + 1, .body = all.text,
                               .numbers = {[EC_READY_RANKS] = all.ranks}};
     EC_TRY(ec_post_send(r->post, ec_post_parent(r->post), &letter, err));
     uint64_t go = 0;
-    EC_TRY(ec_post_broadcast(r->post, &go, sizeof go, err));
+    EC_TRY(ec_post_spread(r->post, &go, sizeof go, EC_BOX_SCENE, err));
     if (go) return receive_sheet(r, cargo, seed, err);
     *count = 0; /* the root says why, and sends all home */
     for (uint32_t i = 0; i < r->remote_count; i++) r->remotes[i].is_ready = false;

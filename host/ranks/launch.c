@@ -5,12 +5,18 @@
 
 /* Open MPI; MPICH, Intel MPI and srun --mpi=pmi2; srun --mpi=pmix, which leaves the count to Slurm. Slurm's own variables alone are no
  * sign: a job's script has them too. */
-bool ec_ranks_launched(void)
+int ec_ranks_launched(void)
 {
     const char *size = getenv("OMPI_COMM_WORLD_SIZE");
     if (!size) size = getenv("PMI_SIZE");
     if (!size && getenv("PMIX_RANK")) size = getenv("SLURM_STEP_NUM_TASKS");
-    return size && atoi(size) > 1;
+    return size ? atoi(size) : 1;
+}
+
+int ec_ranks_apart(void)
+{
+    const char *tasks = getenv("SLURM_STEP_NUM_TASKS"), *number = getenv("SLURM_PROCID");
+    return tasks && number && !strcmp(number, "0") && ec_ranks_launched() < 2 ? atoi(tasks) : 1;
 }
 
 bool ec_ranks_launched_first(void)

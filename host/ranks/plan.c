@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "film/parts.h"
+#include "ranks/post.h"
 #include "report/format.h"
 #include "report/json.h"
 
@@ -21,17 +23,55 @@ static const char *largest_loss(double start, double messages, double end, doubl
     return names[most];
 }
 
-/* The scene goes along a binary tree, whole from one rank to the next. Batches are cut into pieces, which ranks ask for one after the other;
+#define PATIENCE_SECONDS 3.0 /* with a block, or … */
+#define PATIENCE_SHARE 0.01  /* … of the time so far: pipeline/render_film.c */
+
+/* How batches come in: so many of them one by one, in blocks of 16 and of 256. */
+typedef struct mixture {
+    double count[3];
+    double largest;           /* batches of a unit */
+} mixture;
+
+/* As pipeline/team_pieces.c chooses: not within the first batches, before all is aligned, and not towards the end, where pieces have to be small. */
+static mixture mixture_of(const ec_plan *p, uint32_t ranks)
+{
+    mixture m = {.largest = 1};
+    double left = p->batches;
+    for (int i = 2; i > 0 && ranks > 1; i--) {
+        const double block = pow(EC_FILM_RADIX, i), least = block * p->batch * fmin(1, (double)p->least / (double)p->pixels);
+        const double unit = block * p->batch / ranks, over = unit + fmax(fmin(unit * ranks, PIECE_SECONDS), least);
+        const double kept_back = block + 2 * least * ranks / p->batch;
+        const double share = over <= PATIENCE_SECONDS ? 1 : 1 - over / PATIENCE_SHARE / (p->batches * p->batch / ranks); /* of the job */
+        if (share <= 0 || left - kept_back < block) continue;
+        m.count[i] = (left - kept_back) * share;
+        left -= m.count[i];
+        m.largest = fmax(m.largest, block);
+    }
+    m.count[0] = left;
+    return m;
+}
+
+/* Down the tree of ranks, in parts that are handed on while the next ones come: what counts is how many copies one rank sends. */
+static double spread_seconds(const ec_plan *p, uint32_t ranks)
+{
+    const double copies = fmin(EC_TREE_FANOUT, ranks - 1), part = fmin((double)p->scene_bytes, EC_SPREAD_BYTES);
+    const double levels = ceil(log(ranks * (EC_TREE_FANOUT - 1.0) + 1) / log(EC_TREE_FANOUT) - 1 - 1e-9);
+    return (copies * (double)p->scene_bytes + fmax(levels - 1, 0) * copies * part) / bytes_per_second(p) + levels * latency(p);
+}
+
+/* Batches are cut into pieces, which ranks ask for one after the other;
  * all but rank 0's own come in through its link and are added up there while others render: what is slower decides. */
 ec_plan_row ec_plan_for(const ec_plan *p, uint32_t ranks)
 {
     const bool alone = ranks == 1;
     const double n = p->batches, pixels = (double)p->pixels, work = n * p->batch / ranks, a_byte = 1 / bytes_per_second(p);
-    const double piece = fmin(PIECE_SECONDS, p->batch), idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + 12 * pixels * piece / p->batch * a_byte;
+    const mixture m = mixture_of(p, ranks);
+    const double blocks = m.count[1] / 16 + m.count[2] / 256, bytes = pixels * (12 * m.count[0] + EC_MOMENTS_BYTES * blocks);
+    const double piece = fmin(PIECE_SECONDS, m.largest * p->batch), idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + bytes / n * piece / p->batch * a_byte;
     const double messages = work * idle / piece, end = alone ? 0 : p->batch * fmin(1, (double)p->least / pixels) + idle;
-    const double link = (n - n / ranks) * 12 * pixels * a_byte, sums = alone ? 0 : n * p->add, intake = fmax(link, sums);
-    ec_plan_row row = {.ranks = ranks, .load = p->load, .render = work + messages + end};
-    row.send = p->start + ceil(log2(ranks)) * (latency(p) + (double)p->scene_bytes * a_byte);
+    const double link = bytes * (1 - 1.0 / ranks) * a_byte, sums = alone ? 0 : m.count[0] * p->add + blocks * p->add_block, intake = fmax(link, sums);
+    ec_plan_row row = {.ranks = ranks, .load = p->load, .render = work + messages + end, .received = bytes * (1 - 1.0 / ranks)};
+    row.send = p->start + spread_seconds(p, ranks);
     row.wait = fmax(intake - row.render, 0) + (alone ? 0 : p->add);
     row.seconds = row.load + row.send + row.render + row.wait;
     row.efficiency = (p->load + p->start + n * p->batch) / (ranks * row.seconds);
@@ -47,21 +87,27 @@ static uint32_t next_count(const ec_plan *p, uint32_t ranks)
 
 void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
 {
-    char scene[32], sums[32];
+    char scene[32], sums[32], block[32];
     ec_format_bytes(p->scene_bytes, scene, sizeof scene);
     ec_format_bytes(12 * p->pixels, sums, sizeof sums);
+    ec_format_bytes(EC_MOMENTS_BYTES * p->pixels, block, sizeof block);
     fprintf(to, "job         %.0f batches of %u samples a pixel%s, %llu pixels\n", p->batches, p->samples, p->batches_foretold ? " (foretold)" : "",
             (unsigned long long)p->pixels);
-    fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, on %s\n", p->load, p->start, p->batch, p->add, device);
-    fprintf(to, "sent        scene: %s to each rank, along a binary tree; sums: %s a batch, to rank 0\n", scene, sums);
+    fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, a block %.3g s, on %s\n", p->load, p->start, p->batch, p->add,
+            p->add_block, device);
+    fprintf(to, "sent        scene: %s to each rank, down a tree of %d to one; sums, to rank 0: %s a batch, or %s a block of 16 or 256\n", scene, EC_TREE_FANOUT, sums,
+            block);
     fprintf(to, "assumed     %g Gbit/s, %g us a message (--plan RANKS,GBIT,US); all ranks as fast as this one, started at once;\n"
-                "            pieces of up to %g s, of %llu pixels at least, %g ms between two of them; writing the picture left out\n\n",
-            p->gbit, p->microseconds, PIECE_SECONDS, (unsigned long long)p->least, 1e3 * IDLE_SECONDS);
-    fprintf(to, "%8s %10s %9s %11s   %s\n", "ranks", "seconds", "speed-up", "efficiency", "held back by");
+                "            pieces of up to %g s, of %llu pixels at least, %g ms between two of them; blocks where they take all ranks\n"
+                "            up to %g s, or %g %% of the time so far, with their last piece, not at the beginning and the end;\n"
+            "            writing the picture left out\n\n",
+            p->gbit, p->microseconds, PIECE_SECONDS, (unsigned long long)p->least, 1e3 * IDLE_SECONDS, PATIENCE_SECONDS, 100 * PATIENCE_SHARE);
+    fprintf(to, "%8s %10s %9s %11s %10s   %s\n", "ranks", "seconds", "speed-up", "efficiency", "sums", "held back by");
     const double alone = ec_plan_for(p, 1).seconds;
     for (uint32_t ranks = 1; ranks; ranks = next_count(p, ranks)) {
         const ec_plan_row row = ec_plan_for(p, ranks);
-        fprintf(to, "%8u %10.4g %9.4g %9.0f %%   %s\n", ranks, row.seconds, alone / row.seconds, 100 * row.efficiency, row.held_by);
+        ec_format_bytes((uint64_t)row.received, sums, sizeof sums);
+        fprintf(to, "%8u %10.4g %9.4g %9.0f %% %10s   %s\n", ranks, row.seconds, alone / row.seconds, 100 * row.efficiency, sums, row.held_by);
     }
 }
 
@@ -72,6 +118,7 @@ ec_result ec_plan_json(const ec_plan *p, FILE *to, ec_error *err)
     ec_json_real(root, "kernel_seconds", p->start);
     ec_json_real(root, "batch_seconds", p->batch);
     ec_json_real(root, "add_seconds", p->add);
+    ec_json_real(root, "add_block_seconds", p->add_block);
     ec_json_whole(root, "scene_bytes", p->scene_bytes);
     ec_json_whole(root, "batch_bytes", 12 * p->pixels);
     ec_json_real(root, "batches", p->batches);
@@ -87,6 +134,7 @@ ec_result ec_plan_json(const ec_plan *p, FILE *to, ec_error *err)
         ec_json_real(one, "send_seconds", row.send);
         ec_json_real(one, "render_seconds", row.render);
         ec_json_real(one, "wait_seconds", row.wait);
+        ec_json_real(one, "received_bytes", row.received);
         ec_json_text(one, "held_back_by", row.held_by);
         cJSON_AddItemToArray(rows, one);
     }

@@ -18,7 +18,7 @@ typedef struct ec_plan {
     double load;                   /* reading and packing the scene: rank 0 alone, once */
     double start;                  /* kernels: each rank, at the same time */
     double batch;                  /* of rendering one on this device */
-    double add;                    /* of taking one into the picture, and its error: rank 0 */
+    double add, add_block;         /* of taking one, or a block (batch_source.h), into the picture, and its error: rank 0 */
     uint64_t scene_bytes;          /* that go to each rank */
     uint64_t pixels, least;        /* of the picture; of a piece of a batch, at least */
     double batches;                /* of the whole job */
@@ -34,6 +34,7 @@ typedef struct ec_plan_row {
     double seconds;
     double efficiency;             /* seconds of one rank over ranks times these */
     double load, send, render, wait; /* of these: until the scene is there; sending it, kernels; rendering; until rank 0 has taken all in */
+    double received;               /* bytes of sums, by rank 0 */
     const char *held_by;           /* what most of the loss is; "" where there is hardly any */
 } ec_plan_row;
 

@@ -22,13 +22,6 @@ int ec_post_children(const ec_post *p)
     return behind < 0 ? 0 : behind < p->fanout ? (int)behind : p->fanout;
 }
 
-static bool any_lost(const ec_post *p)
-{
-    bool any = false;
-    for (int r = 0; r < p->size; r++) any |= p->peers[r].lost;
-    return any;
-}
-
 ec_result ec_post_open(ec_post **post, ec_error *err)
 {
     ec_post *p = *post = calloc(1, sizeof *p);
@@ -43,13 +36,13 @@ ec_result ec_post_open(ec_post **post, ec_error *err)
     return p->open ? EC_OK : ec_fail(err, "%s", p->error.text);
 }
 
-void ec_post_close(ec_post *p)
+void ec_post_close(ec_post *p, bool is_any_lost)
 {
     if (!p) return;
     pthread_mutex_lock(&p->lock);
     p->closing = true;
     pthread_cond_signal(&p->call);
-    bool may_hang = p->open && any_lost(p);
+    const bool may_hang = p->open && is_any_lost;
     const struct timespec until = ec_deadline(FINALIZE_SECONDS);
     int waited = 0;
     while (!p->closed && waited != ETIMEDOUT) waited = may_hang ? pthread_cond_timedwait(&p->news, &p->lock, &until) : pthread_cond_wait(&p->news, &p->lock);
@@ -149,15 +142,28 @@ bool ec_post_has(ec_post *p, int from, uint32_t box)
     return has;
 }
 
-ec_result ec_post_broadcast(ec_post *p, void *bytes, uint64_t count, ec_error *err)
+uint64_t ec_post_received(ec_post *p)
 {
     pthread_mutex_lock(&p->lock);
-    p->broadcast.bytes = bytes;
-    p->broadcast.count = count;
-    p->broadcast.wanted = true;
-    pthread_cond_signal(&p->call);
-    while (p->broadcast.wanted) pthread_cond_wait(&p->news, &p->lock);
-    bool failed = p->broadcast.failed;
+    const uint64_t received = p->received;
     pthread_mutex_unlock(&p->lock);
-    return failed ? ec_fail(err, "MPI could not broadcast %llu bytes", (unsigned long long)count) : EC_OK;
+    return received;
+}
+
+ec_result ec_post_spread(ec_post *p, void *bytes, uint64_t count, uint32_t box, ec_error *err)
+{
+    for (uint64_t at = 0; at < count; at += EC_SPREAD_BYTES) {
+        ec_letter part = {.box = box, .bytes = count - at < EC_SPREAD_BYTES ? count - at : EC_SPREAD_BYTES, .body = (char *)bytes + at};
+        if (p->rank > 0) {
+            ec_letter come;
+            EC_TRY(ec_post_receive(p, ec_post_parent(p), box, NULL, NULL, &come, err));
+            const bool fits = come.bytes == part.bytes;
+            if (fits) memcpy(part.body, come.body, come.bytes);
+            free(come.body);
+            if (!fits) return ec_fail(err, "rank %d sent %llu bytes in place of %llu", ec_post_parent(p), (unsigned long long)come.bytes,
+                                      (unsigned long long)part.bytes);
+        }
+        for (int i = 0; i < ec_post_children(p); i++) (void)ec_post_send(p, ec_post_child(p, i), &part, NULL); /* who is lost is found so later */
+    }
+    return EC_OK;
 }

@@ -3,6 +3,7 @@
 #define EC_RANKS_POST_INTERNAL_H
 
 #include <pthread.h>
+#include <sys/types.h>
 
 #include <mpi.h>
 
@@ -37,6 +38,7 @@ typedef struct peer {
     MPI_Request request;
     bool receiving;                    /* a message, by that request */
     double heard;                      /* when */
+    pid_t process;                     /* of this host; 0: it is elsewhere, or not to be seen from here */
     bool lost;
     pthread_cond_t news;
 } peer;
@@ -49,12 +51,8 @@ struct ec_post {
     int rank, size, local_rank, local_size, fanout;
     peer *peers;                       /* by rank */
     outgoing *to_send;
-    struct {
-        char *bytes;
-        uint64_t count;
-        bool wanted, failed;
-    } broadcast;
-    double said_alive;
+    uint64_t received;                 /* bytes */
+    double said_alive, lost_after;     /* seconds */
     bool open, closing, closed;
     ec_error error;                    /* why it did not open */
 };

@@ -1,6 +1,11 @@
 /* The thread that owns MPI. */
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/clock.h"
 #include "ranks/post_internal.h"
@@ -8,8 +13,8 @@
 enum { CHUNK = 64 << 20, TAG = 1 };   /* bytes of one message: MPI counts in int */
 #define IDLE_SECONDS 1e-3             /* between two looks … */
 #define BUSY_SECONDS 2e-5             /* … while something is under way */
-#define ALIVE_SECONDS 5.0             /* between two signs of life */
-#define LOST_SECONDS 60.0             /* without one */
+#define ALIVE_SECONDS 5.0             /* between two signs of life, at most */
+#define ALIVE_SIGNS 6                 /* in the time after which a rank is lost */
 
 static uint64_t chunks_of(uint64_t bytes) { return (bytes + CHUNK - 1) / CHUNK; }
 static int chunk_bytes(uint64_t bytes, uint64_t i) { return bytes - i * CHUNK < CHUNK ? (int)(bytes - i * CHUNK) : CHUNK; }
@@ -21,6 +26,13 @@ static int fanout(void)
     const char *given = getenv("ECLAT_RANK_FANOUT");
     const int n = given ? atoi(given) : EC_TREE_FANOUT;
     return n > 0 ? n : EC_TREE_FANOUT;
+}
+
+static double lost_after(void)
+{
+    const char *given = getenv("ECLAT_RANK_LOST");
+    const double seconds = given ? atof(given) : EC_LOST_SECONDS;
+    return seconds > 0 ? seconds : EC_LOST_SECONDS;
 }
 
 /* With the lock. */
@@ -126,10 +138,14 @@ static bool receive_from(ec_post *p, int rank, bool *moved)
     if (!whole) return true;
     from->receiving = false;
     from->heard = ec_now();
+    p->received += letter ? (uint64_t)chunk_bytes(letter->bytes, from->filled / CHUNK) : sizeof from->head;
     if (!letter) return take_head(from);
     take_chunk(from);
     return true;
 }
+
+/* It has nothing left to say, then: one of this host need not be waited for. */
+static bool has_ended(const peer *from) { return from->process && kill(from->process, 0) != 0 && errno == ESRCH; }
 
 /* Returns whether there was anything. With the lock. */
 static bool receive_letters(ec_post *p)
@@ -137,14 +153,17 @@ static bool receive_letters(ec_post *p)
     bool any = false;
     for (int r = 0; r < p->size; r++) {
         if (!is_peer(p, r) || p->peers[r].lost) continue;
-        if (!receive_from(p, r, &any) || ec_now() - p->peers[r].heard > LOST_SECONDS) lose(p, r);
+        bool moved = false;
+        const bool is_over = has_ended(&p->peers[r]); /* before the look, which then finds what it said last */
+        if (!receive_from(p, r, &moved) || (is_over && !moved) || ec_now() - p->peers[r].heard > p->lost_after) lose(p, r);
+        any |= moved;
     }
     return any;
 }
 
 static void say_alive(ec_post *p)
 {
-    if (ec_now() - p->said_alive < ALIVE_SECONDS) return;
+    if (ec_now() - p->said_alive < fmin(ALIVE_SECONDS, p->lost_after / ALIVE_SIGNS)) return;
     p->said_alive = ec_now();
     for (int r = 0; r < p->size; r++) {
         if (!is_peer(p, r) || p->peers[r].lost) continue;
@@ -155,18 +174,17 @@ static void say_alive(ec_post *p)
     }
 }
 
-/* Blocks, and lets others have the lock: they wait for it all the same. */
-static void broadcast(ec_post *p)
+/* Which processes of this host the ranks on it are, where all count processes alike: in one namespace. */
+static void find_processes(ec_post *p, MPI_Comm local)
 {
-    bool failed = false;
-    pthread_mutex_unlock(&p->lock);
-    for (uint64_t i = 0; i < chunks_of(p->broadcast.count) && !failed; i++)
-        failed = MPI_Bcast(p->broadcast.bytes + i * CHUNK, chunk_bytes(p->broadcast.count, i), MPI_BYTE, 0, p->comm) != MPI_SUCCESS;
-    pthread_mutex_lock(&p->lock);
-    p->broadcast.failed = failed;
-    p->broadcast.wanted = false;
-    for (int r = 0; r < p->size; r++) p->peers[r].heard = ec_now();
-    pthread_cond_broadcast(&p->news);
+    struct stat space = {0};
+    (void)stat("/proc/self/ns/pid", &space);
+    const uint64_t own[3] = {(uint64_t)p->rank, (uint64_t)getpid(), space.st_ino};
+    uint64_t(*all)[3] = malloc((size_t)p->local_size * sizeof own);
+    if (!all || MPI_Allgather(own, sizeof own, MPI_BYTE, all, sizeof own, MPI_BYTE, local) != MPI_SUCCESS) p->open = false;
+    for (int i = 0; p->open && i < p->local_size; i++)
+        if (space.st_ino && all[i][2] == own[2]) p->peers[all[i][0]].process = (pid_t)all[i][1];
+    free(all);
 }
 
 static void start(ec_post *p)
@@ -182,12 +200,14 @@ static void start(ec_post *p)
     MPI_Comm_rank(p->comm, &p->rank);
     MPI_Comm_size(p->comm, &p->size);
     p->fanout = fanout();
+    p->lost_after = lost_after();
     MPI_Comm_split_type(p->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &local);
     MPI_Comm_rank(local, &p->local_rank);
     MPI_Comm_size(local, &p->local_size);
-    MPI_Comm_free(&local);
     p->peers = calloc((size_t)p->size, sizeof *p->peers);
     p->open = p->peers != NULL;
+    if (p->open) find_processes(p, local);
+    MPI_Comm_free(&local);
     if (!p->open) ec_fail(&p->error, "out of memory");
     for (int r = 0; p->open && r < p->size; r++) p->peers[r].heard = ec_now(), pthread_cond_init(&p->peers[r].news, NULL);
 }
@@ -199,7 +219,6 @@ void *ec_post_run(void *user)
     start(p);
     pthread_cond_broadcast(&p->news);
     while (p->open && (!p->closing || p->to_send)) {
-        if (p->broadcast.wanted && !p->to_send) broadcast(p);
         say_alive(p);
         bool busy = send_letters(p);
         busy |= receive_letters(p);

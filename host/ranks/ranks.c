@@ -1,7 +1,21 @@
 #include <stdlib.h>
+#include <string.h>
+
+#include <mpi.h>
 
 #include "ranks/job.h"
 #include "ranks/remote.h"
+
+/* Each would be rank 0 of one. */
+static ec_result fail_of_launcher(int size, ec_error *err)
+{
+    char library[MPI_MAX_LIBRARY_VERSION_STRING];
+    int length;
+    MPI_Get_library_version(library, &length);
+    library[strcspn(library, ",\n")] = 0;
+    return ec_fail(err, "%d processes were started, but each finds %d: the launcher is of another MPI than this eclat (%s); use the mpirun of that "
+                        "one, or build eclat with the launcher's (cmake -DMPI_C_COMPILER=MPICC)", ec_ranks_launched(), size, library);
+}
 
 ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err)
 {
@@ -12,6 +26,7 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err)
     r->size = ec_post_size(r->post);
     r->last_box = EC_BOX_RESULTS;
     r->remote_count = (uint32_t)ec_post_children(r->post);
+    if (r->size != ec_ranks_launched()) return fail_of_launcher(r->size, err);
     r->remotes = calloc(r->remote_count + 1, sizeof *r->remotes);
     pthread_mutex_init(&r->lock, NULL);
     return r->remotes ? EC_OK : ec_fail(err, "out of memory for %u ranks", r->remote_count);
@@ -34,8 +49,10 @@ void ec_ranks_share_devices(const ec_ranks *r, ec_device_info *devices, uint32_t
 static ec_result send_job(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err)
 {
     ec_ranks *r = user;
-    return ec_job_send(r, cargo, seed, r->device, log, err);
+    return ec_job_send(r, cargo, seed, log, err);
 }
+
+static uint64_t received(void *user) { return ec_post_received(((const ec_ranks *)user)->post); }
 
 bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit)
 {
@@ -44,26 +61,43 @@ bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit)
     return m->is_ready;
 }
 
-ec_allies ec_ranks_allies(ec_ranks *r, const char *device)
+ec_allies ec_ranks_allies(ec_ranks *r, const char *device, const char *own, bool own_round)
 {
     r->device = device;
-    return (ec_allies){.count = r->remote_count, .send = send_job, .recruit = ec_ranks_recruit, .user = r};
+    r->own = own;
+    r->own_round = own_round;
+    return (ec_allies){.count = r->remote_count, .send = send_job, .recruit = ec_ranks_recruit, .received = received, .user = r};
 }
 
-/* What a rank sent last may still be on its way, and MPI does not end before it is taken: so they say farewell, behind all else. */
+/* The next word of that rank that ends something: the parent's, or a child's answer. Whether anybody was lost. */
+static bool hear_end(ec_ranks *r, int from, uint32_t kind)
+{
+    ec_letter letter;
+    do {
+        if (ec_post_receive(r->post, from, EC_BOX_WORD, NULL, NULL, &letter, NULL) != EC_OK) return true;
+        free(letter.body);
+    } while (letter.kind != kind);
+    return letter.numbers[EC_END_LOST];
+}
+
+static bool say_end(ec_ranks *r, int to, uint32_t kind, bool lost)
+{
+    const ec_letter letter = {.kind = kind, .box = EC_BOX_WORD, .numbers = {[EC_END_LOST] = lost}};
+    return ec_post_send(r->post, to, &letter, NULL) != EC_OK;
+}
+
+/* What a rank sent last may still be on its way, and MPI does not end before it is taken: so they say farewell, behind all else. And it does not
+ * end at all where one is lost, of whom only some know: so the farewells say that, and the root tells all. */
 void ec_ranks_leave(ec_ranks *r)
 {
     if (!r) return;
-    const ec_letter home = {.kind = EC_WORD_HOME, .box = EC_BOX_WORD};
-    const int children = (int)r->remote_count;
-    for (int i = 0; i < children; i++) (void)ec_post_send(r->post, ec_post_child(r->post, i), &home, NULL);
-    for (int i = 0; i < children; i++) {
-        ec_letter farewell = {.kind = EC_WORD_JOB};
-        while (farewell.kind != EC_WORD_HOME && ec_post_receive(r->post, ec_post_child(r->post, i), EC_BOX_WORD, NULL, NULL, &farewell, NULL) == EC_OK)
-            free(farewell.body);
-    }
-    if (r->rank > 0) (void)ec_post_send(r->post, ec_post_parent(r->post), &home, NULL);
-    ec_post_close(r->post);
+    const int children = (int)r->remote_count, parent = r->rank > 0 ? ec_post_parent(r->post) : -1;
+    bool lost = false;
+    for (int i = 0; i < children; i++) lost |= say_end(r, ec_post_child(r->post, i), EC_WORD_HOME, false);
+    for (int i = 0; i < children; i++) lost |= hear_end(r, ec_post_child(r->post, i), EC_WORD_HOME);
+    if (parent >= 0) lost |= say_end(r, parent, EC_WORD_HOME, lost) || hear_end(r, parent, EC_WORD_OVER);
+    for (int i = 0; i < children; i++) lost |= say_end(r, ec_post_child(r->post, i), EC_WORD_OVER, lost);
+    ec_post_close(r->post, lost);
     free(r->remotes);
     pthread_mutex_destroy(&r->lock);
     free(r);

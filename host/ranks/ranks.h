@@ -1,7 +1,7 @@
 /* The processes of an MPI job (mpirun -n 8 eclat render …), its ranks, as one renderer. Rank 0 reads the command line, loads the scene and
  * sends what a device is given of it to all others; they know no files. Pieces of batches go down a tree of ranks (post.h) as ranks get free: a
- * rank is a team of its own devices and its children, and to its parent one source. What comes up are sums over a batch's samples: the picture has
- * the same bits as that of one process. Without MPI at build time no_mpi.c takes the place of all but launch.c and plan.c. */
+ * rank is a team of its own devices and its children, and to its parent one source. What comes up are sums over the samples of a batch, or of a
+ * block of batches where they come fast: the picture has the same bits as that of one process. Without MPI at build time no_mpi.c takes the place of all but launch.c and plan.c. */
 #ifndef EC_RANKS_RANKS_H
 #define EC_RANKS_RANKS_H
 
@@ -10,9 +10,11 @@
 
 #include "pipeline/sources.h"
 
-/* launch.c: was this process started as one of several, by an MPI launcher? And as the first of them? Tells by its environment, without MPI. */
-bool ec_ranks_launched(void);
+/* launch.c: as one of how many was this process started, by an MPI launcher? And as the first of them? Tells by its environment, without MPI. */
+int ec_ranks_launched(void);
 bool ec_ranks_launched_first(void);
+/* The same of processes that srun started without MPI, so that each does all of the work: how many; 1 for all but the first of them. */
+int ec_ranks_apart(void);
 
 typedef struct ec_ranks ec_ranks;
 
@@ -21,8 +23,9 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err);
 int ec_ranks_number(const ec_ranks *ranks); /* this process' */
 int ec_ranks_count(const ec_ranks *ranks);
 
-/* On rank 0: the others as allies of a render (pipeline/sources.h), which find their devices by --device (NULL: not given). */
-ec_allies ec_ranks_allies(ec_ranks *ranks, const char *device);
+/* On rank 0: the others as allies of a render (pipeline/sources.h), which find their devices by --device (NULL: not given). Where one has other
+ * devices than rank 0, `own` by ec_device_drivers, a text that stays, and not all round alike (own_round: these do), there is a warning. */
+ec_allies ec_ranks_allies(ec_ranks *ranks, const char *device, const char *own, bool own_round);
 /* Leaves those that are this process', where several on one host are to use several devices: every n-th, or if there are fewer devices one. */
 void ec_ranks_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count);
 /* Where these are processors and the launcher lets this process use some of the cores only. */
@@ -30,7 +33,7 @@ void ec_ranks_note_binding(const ec_device_info *devices, uint32_t count, const 
 
 void ec_ranks_leave(ec_ranks *ranks); /* sends all below home. NULL is fine */
 
-/* All that other ranks do: waits for rank 0's word, and renders as it says, if it does. */
-ec_result ec_ranks_serve(ec_ranks *ranks, ec_error *err);
+/* All that other ranks do: waits for rank 0's word, and renders as it says, if it does. log is told which devices and ranks below are out. */
+ec_result ec_ranks_serve(ec_ranks *ranks, const ec_log *log, ec_error *err);
 
 #endif

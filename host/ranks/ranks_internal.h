@@ -12,24 +12,28 @@ struct ec_ranks {
     int rank, size;
     pthread_mutex_t lock;
     uint32_t last_box;  /* that was given to a result; with the lock */
-    const char *device; /* --device */
+    const char *device, *own; /* --device; rank 0's drivers */
+    bool own_round;
     struct ec_remote *remotes; /* its children as sources */
     uint32_t remote_count;
 };
 
-/* Boxes: the parent's word, and the answers; its orders; and from then on one for the result of each order. */
-enum { EC_BOX_WORD, EC_BOX_ORDERS, EC_BOX_RESULTS };
+/* Boxes: the parent's word, and the answers; the scene; its orders; and from then on one for the result of each order. */
+enum { EC_BOX_WORD, EC_BOX_SCENE, EC_BOX_ORDERS, EC_BOX_RESULTS };
 
-/* From the root down: here is a job, and answers come up; then it is broadcast (job.c). Or: that was all. */
-enum { EC_WORD_JOB, EC_WORD_HOME };
-enum { EC_JOB_PROGRAM };
+/* From the root down: here is a job, and answers come up; then it is spread (job.c). Or: that was all, which comes up too, with whether anybody
+ * was lost; and then down again, over all ranks. */
+enum { EC_WORD_JOB, EC_WORD_HOME, EC_WORD_OVER };
+enum { EC_END_LOST };
+enum { EC_JOB_PROGRAM, EC_JOB_ROUNDS }; /* its text: rank 0's drivers; then --device, if it was given */
 
-/* A parent to one: positions [from, to) of batch `index` (batch_source.h); body: that part of the list, 4 bytes each, if there is one. Or: the job is
+/* A parent to one: positions [from, to) of batch `index`, or of a block of so many from there on (batch_source.h); body: that part of the list, 4 bytes each, if there is one. Or: the job is
  * over; what is under way is given up. */
 enum { EC_ORDER_BATCH, EC_ORDER_END };
-enum { EC_ORDER_BOX, EC_ORDER_INDEX, EC_ORDER_FROM, EC_ORDER_TO, EC_ORDER_FEATURES };
+enum { EC_ORDER_BOX, EC_ORDER_INDEX, EC_ORDER_BATCHES, EC_ORDER_FROM, EC_ORDER_TO, EC_ORDER_FEATURES };
 
-/* Its answer: 12 bytes a position, its mean over the batch's samples, then 32 a position of features if they were asked for. Of a failure: a text. */
+/* Its answer: 12 bytes a position, its mean over the batch's samples, then 32 a position of features if they were asked for;
+ * of a block the sums (ec_moments_in), 68 bytes a position. Of a failure: a text. */
 enum { EC_RESULT_BATCH, EC_RESULT_FAILURE };
 enum { EC_RESULT_RAYS, EC_RESULT_LEAST, EC_RESULT_INVALID }; /* the last by ec_stage */
 

@@ -19,6 +19,7 @@ static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_letter
     pthread_mutex_unlock(&m->ranks->lock);
     letter->numbers[EC_ORDER_BOX] = box;
     letter->numbers[EC_ORDER_INDEX] = order->index;
+    letter->numbers[EC_ORDER_BATCHES] = order->batches;
     letter->numbers[EC_ORDER_FROM] = order->done;
     letter->numbers[EC_ORDER_TO] = order->count;
     letter->numbers[EC_ORDER_FEATURES] = order->aov != NULL;
@@ -74,7 +75,12 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
     EC_TRY(fetch(m, order, &back, complete, err));
     if (!*complete) return EC_OK;
     count(m, &back);
-    memcpy(order->into + 3 * first, back.body, 12 * positions);
+    if (order->batches > 1) {
+        const ec_moments sums = ec_moments_in(back.body, positions);
+        ec_moments_copy(order->sums, &sums, positions);
+    } else {
+        memcpy(order->into, back.body, 12 * positions);
+    }
     if (order->aov) memcpy(order->aov + EC_AOV_FIELDS * first, (float *)back.body + 3 * positions, 4 * EC_AOV_FIELDS * positions);
     free(back.body);
     return EC_OK;

@@ -8,6 +8,7 @@
 
 typedef struct server {
     ec_ranks *ranks;
+    const ec_log *log;
     ec_sources sources;
     ec_batch_source *source;  /* its devices and all below */
     uint64_t pixels;
@@ -21,17 +22,33 @@ static bool goes_on(void *user, uint32_t done)
     return !ec_post_has(s->ranks->post, ec_post_parent(s->ranks->post), EC_BOX_ORDERS);
 }
 
+/* What an order asks for, of the positions from `first` on, as it is sent. */
+static void write_body(const server *s, const ec_batch_order *order, const float *aov, void *body)
+{
+    const ec_batch_source *source = s->source;
+    const uint64_t first = order->done, positions = order->count - first;
+    if (order->batches > 1) {
+        const ec_moments sums = ec_moments_in(body, positions);
+        ec_moments_copy(&sums, &source->sums, positions);
+        return;
+    }
+    memcpy(body, source->mean + 3 * first, 12 * positions);
+    if (aov) memcpy((float *)body + 3 * positions, aov + EC_AOV_FIELDS * first, 4 * EC_AOV_FIELDS * positions);
+}
+
 /* The answer's body is malloc'ed. It stays NULL where the job was ended meanwhile. */
 static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, ec_error *err)
 {
     ec_batch_source *source = s->source;
     const uint32_t index = (uint32_t)letter->numbers[EC_ORDER_INDEX], from = (uint32_t)letter->numbers[EC_ORDER_FROM];
+    const uint32_t batches = (uint32_t)letter->numbers[EC_ORDER_BATCHES];
     const uint32_t positions = (uint32_t)letter->numbers[EC_ORDER_TO] - from, first = letter->body ? 0 : from;
-    const uint64_t mean_bytes = 12ull * positions, features = letter->numbers[EC_ORDER_FEATURES] ? EC_AOV_FIELDS : 0;
-    float *aov = features ? malloc(4 * features * s->pixels) : NULL, *body = malloc(mean_bytes + 4 * features * positions);
+    const uint64_t features = letter->numbers[EC_ORDER_FEATURES] ? EC_AOV_FIELDS : 0;
+    const uint64_t bytes = (batches > 1 ? EC_MOMENTS_BYTES : 12 + 4 * features) * positions;
+    float *aov = features ? malloc(4 * features * s->pixels) : NULL, *body = malloc(bytes);
     ec_result result = body && (aov || !features) ? EC_OK : ec_fail(err, "out of memory for a batch of %u pixels", positions);
-    const ec_batch_order order = {.index = index, .end = index + 1, .list = letter->body, .done = first, .count = first + positions, .aov = aov,
-                                  .go_on = goes_on, .user = s};
+    const ec_batch_order order = {.index = index, .end = index + batches, .batches = batches, .list = letter->body, .done = first,
+                                  .count = first + positions, .aov = aov, .go_on = goes_on, .user = s};
     const uint64_t rays = source->rays;
     uint32_t invalid[EC_STAGE_COUNT];
     bool complete = false;
@@ -41,10 +58,9 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     answer->numbers[EC_RESULT_LEAST] = source->least;
     for (int i = 0; i < EC_STAGE_COUNT; i++) answer->numbers[EC_RESULT_INVALID + i] = source->invalid[i] - invalid[i];
     if (complete && result == EC_OK) {
-        memcpy(body, source->mean + 3 * (uint64_t)first, mean_bytes);
-        if (features) memcpy(body + 3 * (uint64_t)positions, aov + features * first, 4 * features * positions);
+        write_body(s, &order, aov, body);
         answer->body = body;
-        answer->bytes = mean_bytes + 4 * features * positions;
+        answer->bytes = bytes;
         body = NULL;
     }
     free(body);
@@ -76,10 +92,25 @@ static ec_result take_orders(server *s, const ec_error *unfit, ec_error *err)
     }
 }
 
-static ec_result open_devices(const ec_device_info *infos, uint32_t count, ec_cl *devices, ec_error *err)
+/* Nobody else hears of what this rank can do without. */
+static void pass_on(void *user, ec_severity severity, const char *text)
 {
-    for (uint32_t i = 0; i < count; i++) EC_TRY(ec_cl_open(&infos[i], &devices[i], err));
-    return EC_OK;
+    const server *s = user;
+    if (severity == EC_WARNING) ec_warn(s->log, "told by rank %d: %s", s->ranks->rank, text);
+}
+
+/* Those that open; none: fails with the last one's reason, unless there are others below. */
+static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_cl *devices, bool is_inner, const ec_log *log, ec_error *err)
+{
+    uint32_t opened = 0;
+    for (uint32_t i = 0; i < *count; i++) {
+        ec_error why = {0};
+        if (ec_cl_open(&infos[i], &devices[opened], &why) == EC_OK) opened++;
+        else if (opened || is_inner || i + 1 < *count) ec_warn(log, "%s is out, and the others take over its work: %s", infos[i].name, why.text);
+        else *err = why;
+    }
+    *count = opened;
+    return opened || is_inner ? EC_OK : EC_FAILED;
 }
 
 /* They have the cargo already. */
@@ -96,9 +127,9 @@ static bool is_any_ready(const ec_ranks *r)
     return any;
 }
 
-static ec_result serve_job(ec_ranks *r, const ec_letter *word, ec_error *err)
+static ec_result serve_job(ec_ranks *r, const ec_letter *word, const ec_log *log, ec_error *err)
 {
-    server s = {.ranks = r};
+    server s = {.ranks = r, .log = log};
     ec_cl devices[EC_DEVICES_MOST] = {0};
     ec_device_info infos[EC_DEVICES_MOST];
     ec_render_stats stats = {0};
@@ -108,13 +139,13 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, ec_error *err)
     ec_result result = ec_job_receive(r, word, &s.sources.cargo, &seed, infos, &count, err);
     const bool is_inner = is_any_ready(r);
     const ec_allies below = {.count = r->remote_count, .send = send_nothing, .recruit = ec_ranks_recruit, .user = r};
-    const ec_log silent = {0}; /* what is out below is not missed here: others take over, or the parent hears of the failure */
+    const ec_log told = {pass_on, &s};
     if (result == EC_OK && (count || is_inner)) {
         const ec_params *params = &s.sources.cargo.head.params;
         s.pixels = (uint64_t)params->width * params->height;
-        bool fit = open_devices(infos, count, devices, &why) == EC_OK &&
+        bool fit = open_devices(infos, &count, devices, is_inner, &told, &why) == EC_OK &&
                    ec_sources_enlist(devices, count, s.sources.cargo.head.lanes, &s.sources, &stats, &why) == EC_OK &&
-                   ec_sources_open(&s.sources, seed, is_inner ? &below : NULL, is_inner ? &silent : NULL, &s.source, &stats, &why) == EC_OK &&
+                   ec_sources_open(&s.sources, seed, is_inner ? &below : NULL, &told, &s.source, &stats, &why) == EC_OK &&
                    (!s.source->turn_to || s.source->turn_to(s.source, 0, params->height, &why) == EC_OK);
         if (!fit && !*why.text) ec_fail(&why, "its device failed");
         result = take_orders(&s, &why, err);
@@ -124,12 +155,12 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, ec_error *err)
     return result;
 }
 
-ec_result ec_ranks_serve(ec_ranks *r, ec_error *err)
+ec_result ec_ranks_serve(ec_ranks *r, const ec_log *log, ec_error *err)
 {
     for (;;) {
         ec_letter word;
         EC_TRY(ec_post_receive(r->post, ec_post_parent(r->post), EC_BOX_WORD, NULL, NULL, &word, err));
-        ec_result result = word.kind == EC_WORD_JOB ? serve_job(r, &word, err) : EC_OK;
+        ec_result result = word.kind == EC_WORD_JOB ? serve_job(r, &word, log, err) : EC_OK;
         free(word.body);
         if (word.kind == EC_WORD_HOME || result != EC_OK) return result;
     }

@@ -48,14 +48,21 @@ void ec_effects_line(const ec_render_effects *effects, char *text, size_t size)
     snprintf(text, size, "%u of %u%s%s", built, ec_feature_count, built ? ": " : "", names);
 }
 
-static void print_row(const ec_effect_row *row, FILE *to)
+void ec_effect_made(const ec_effect_row *row, char *text, size_t size)
 {
     char bytes[32];
-    fprintf(to, "  %-26s %s", row->name, row->called ? row->why : row->left_out ? "left out: --without" : "nothing calls for it: --effects all");
-    if (*row->kernels) fprintf(to, "; in %s", row->kernels);
+    size_t used = 0;
+    text[0] = 0;
+    if (*row->kernels) used = (size_t)snprintf(text, size, "; in %s", row->kernels);
     ec_format_bytes(row->bytes, bytes, sizeof bytes);
-    if (*row->buffers) fprintf(to, "; %s, %s", row->buffers, bytes);
-    fputc('\n', to);
+    if (*row->buffers && used < size) snprintf(text + used, size - used, "; %s, %s", row->buffers, bytes);
+}
+
+static void print_row(const ec_effect_row *row, FILE *to)
+{
+    char made[EC_EFFECT_MADE];
+    ec_effect_made(row, made, sizeof made);
+    fprintf(to, "  %-26s %s%s\n", row->name, row->called ? row->why : row->left_out ? "left out: --without" : "nothing calls for it: --effects all", made);
 }
 
 void ec_effects_text(const ec_render_effects *effects, FILE *to, int width)

@@ -11,6 +11,9 @@
 void ec_effects_json(cJSON *root, const ec_render_effects *effects);
 /* A line for each effect that is built in, and the names of all others; titles are as wide as `width`. */
 void ec_effects_text(const ec_render_effects *effects, FILE *to, int width);
+/* "; in shade; texels, 4 KB": the kernels that an effect is built into, its buffers; empty where there are none. */
+enum { EC_EFFECT_MADE = 384 };
+void ec_effect_made(const ec_effect_row *row, char *text, size_t size);
 /* "4 of 30: emission area-lights culling sobol-sampler" */
 void ec_effects_line(const ec_render_effects *effects, char *text, size_t size);
 

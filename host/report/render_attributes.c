@@ -4,6 +4,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "report/effects_report.h"
 #include "report/format.h"
 #include "report/names.h"
 #include "report/render_report.h"
@@ -97,6 +98,22 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_text(attributes, "eclat.png.tonemap", ec_tonemap_names[report->tonemap]);
 }
 
+/* "sheen; in shade; texels, 4 KB" in lines. */
+static void add_built(ec_report_attributes *attributes, const ec_render_effects *effects)
+{
+    char text[EC_EFFECT_BITS * (EC_EFFECT_MADE + 64)];
+    size_t used = 0;
+    text[0] = 0;
+    for (uint32_t i = 0; i < ec_feature_count && used < sizeof text; i++) {
+        char made[EC_EFFECT_MADE];
+        ec_effect_row row = ec_effect_describe(effects, i);
+        ec_effect_made(&row, made, sizeof made);
+        if (row.built || row.left_out)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s%s%s", used ? "\n" : "", row.name, row.left_out ? "; left out" : "", made);
+    }
+    add_made(attributes, "eclat.effects.built", "%s", text);
+}
+
 /* "sheen: material 1 "Velvet" has sheen" in lines. */
 static void add_effects(ec_report_attributes *attributes, const ec_render_effects *effects)
 {
@@ -111,6 +128,7 @@ static void add_effects(ec_report_attributes *attributes, const ec_render_effect
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s: %s", used ? "\n" : "", row.name, row.why);
     }
     add_made(attributes, "eclat.effects.why", "%s", text);
+    add_built(attributes, effects);
     ec_effects_kernels(effects, text, sizeof text);
     add_made(attributes, "eclat.kernels", "%s", text);
 }

@@ -171,6 +171,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     add_shares(root, report);
     ec_json_whole(root, "ranks", report->stats->allies + 1);
     ec_json_real(root, "other_ranks_batches", report->stats->allied_batches);
+    ec_json_whole(root, "received_bytes", report->stats->allied_bytes);
     cJSON *outputs = cJSON_AddArrayToObject(root, "outputs");
     for (int i = 0; i < report->output_count; i++) ec_json_text(outputs, NULL, report->outputs[i]);
     return ec_json_print(root, to, err);

@@ -55,7 +55,7 @@ enum { EC_REPORT_ATTRIBUTES_MAX = 80 };
 typedef struct ec_report_attributes {
     ec_attribute list[EC_REPORT_ATTRIBUTES_MAX];
     uint32_t count;
-    char text[16384]; /* strings made for the occasion; list points into it */
+    char text[32768]; /* strings made for the occasion; list points into it */
     size_t text_used;
 } ec_report_attributes;
 /* `attributes` must not be moved or copied afterwards. */

@@ -89,11 +89,12 @@ static const char *stop_in_words(const char *stopped_by)
 void ec_render_report_text(const ec_render_report *report, FILE *to)
 {
     const ec_render_stats *stats = report->stats;
-    char summary[256], rays[32], memory[32];
+    char summary[256], rays[32], memory[32], received[32];
     for (int i = 0; i < report->output_count; i++) fprintf(to, "picture  %s\n", report->outputs[i]);
     ec_render_report_summary(report, summary, sizeof summary);
     ec_format_count(stats->rays_per_second, rays, sizeof rays);
     ec_format_bytes(report->peak_memory_bytes, memory, sizeof memory);
+    ec_format_bytes(stats->allied_bytes, received, sizeof received);
     fprintf(to, "result   %s, %s rays/s\n", summary, rays);
     if (stats->forecast.pilot_samples) {
         char forecast[256];
@@ -112,7 +113,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
                 share->has_failed ? ", then it failed" : "");
     }
     if (stats->allies)
-        fprintf(to, "ranks    %u more: %.4g of %" PRIu32 " batches\n", stats->allies, stats->allied_batches, report->batches);
+        fprintf(to, "ranks    %u more: %.4g of %" PRIu32 " batches, %s received\n", stats->allies, stats->allied_batches, report->batches, received);
     if (stats->share_count) fprintf(to, "memory   %s at the peak\n", memory);
     print_setup(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);

@@ -5,6 +5,35 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef struct place {
+    char *path;
+    uint32_t first;
+    int given; /* which of the files it was */
+} place;
+
+static int compare_places(const void *a, const void *b)
+{
+    const place *left = a, *right = b;
+    if (left->first != right->first) return left->first < right->first ? -1 : 1;
+    return left->given - right->given;
+}
+
+ec_result ec_merge_sort(char **paths, int count, ec_error *err)
+{
+    place *places = malloc(((size_t)count + 1) * sizeof *places);
+    if (!places) return ec_fail(err, "out of memory");
+    for (int i = 0; i < count; i++) {
+        ec_stored stored;
+        places[i] = (place){.path = paths[i], .given = i};
+        (void)ec_store_peek(paths[i], &stored, &places[i].first); /* who reads it says why not */
+        ec_stored_free(&stored);
+    }
+    qsort(places, (size_t)count, sizeof *places, compare_places);
+    for (int i = 0; i < count; i++) paths[i] = places[i].path;
+    free(places);
+    return EC_OK;
+}
+
 static ec_result check_same_job(const ec_merge *merge, const ec_stored *next, const char *path, const ec_log *log, ec_error *err)
 {
     const ec_job *here = &merge->all.job, *there = &next->job;
@@ -65,6 +94,10 @@ ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec
     ec_stored next;
     ec_result result;
     EC_TRY(ec_store_read(path, &next, err));
+    if (next.film.batch_count == 0) {
+        result = ec_fail(err, "'%s' was cut off within its first batch, and has none to merge; leave it out, or go on with --resume", path);
+        goto cleanup;
+    }
     if (!merge->first_path) {
         result = note_ranges(merge, &next.film, path, err);
         if (result != EC_OK) goto cleanup;
@@ -94,18 +127,23 @@ __attribute__((format(printf, 3, 4))) static void append(char *text, size_t size
     va_end(args);
 }
 
+enum { FOR_THE_REST = 80 }; /* bytes: of one range, and how many more there are */
+
 bool ec_merge_missing(const ec_merge *merge, char *text, size_t size)
 {
     const ec_film *film = &merge->all.film;
     uint64_t batch = film->samples_per_batch, at = 0, end = (merge->all.job.spp + batch - 1) / batch;
+    uint32_t untold = 0;
     text[0] = 0;
     if (film->counts) return false;
     for (uint32_t i = 0; i <= film->part_count; i++) {
-        bool is_last = i == film->part_count;
+        bool is_last = i == film->part_count, has_room = strlen(text) + FOR_THE_REST < size;
         uint64_t next = is_last ? end : film->parts[i].first;
-        if (next > at) append(text, size, "%s%llu:%llu", *text ? ", " : "", (unsigned long long)(at * batch), (unsigned long long)(next * batch));
+        if (next > at && has_room) append(text, size, "%s%llu:%llu", *text ? ", " : "", (unsigned long long)(at * batch), (unsigned long long)(next * batch));
+        untold += next > at && !has_room;
         if (!is_last) at = (uint64_t)film->parts[i].first + film->parts[i].count;
     }
+    if (untold) append(text, size, " and %u more ranges", untold);
     return *text != 0;
 }
 

@@ -17,10 +17,15 @@ typedef struct ec_merge {
     uint32_t range_count;
 } ec_merge;
 
+/* Sorts files by their first batches, the order in which fewest sums wait for others: those of a whole job never take more than ec_film_copies
+ * films, and the file that is read. Any other order comes to the same bits. Fails where there is no memory. */
+ec_result ec_merge_sort(char **paths, int count, ec_error *err);
+
 /* Adds a file's film. Refuses one of another job, of batches that are there already, and adaptive ones beside others. path must last. */
 ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec_error *err);
 
-/* "0:64 and 128:192": samples between 0 and the end of the job, as far as that is known, that no file has. False where none are missing. */
+/* "0:64, 128:192": samples between 0 and the end of the job, as far as that is known, that no file has; where they are too many for the text,
+ * "0:64, 128:192 and 3 more ranges". False where none are missing. */
 bool ec_merge_missing(const ec_merge *merge, char *text, size_t size);
 
 void ec_merge_free(ec_merge *merge); /* zero-initialised is fine */

@@ -1,6 +1,7 @@
 #include <float.h>
 #include <stdlib.h>
 
+#include "image/exr_header.h"
 #include "store/layout.h"
 
 enum { CHANNELS_MOST = EC_SUM_CHANNELS };
@@ -135,6 +136,19 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     ec_exr_close(file);
     if (result != EC_OK) ec_stored_free(s);
     return result;
+}
+
+bool ec_store_peek(const char *path, ec_stored *s, uint32_t *first)
+{
+    ec_state_film film = {0};
+    *s = (ec_stored){0};
+    char *text = ec_exr_whole_text(path, "eclat.state");
+    bool can_be_read = text && ec_state_read(text, path, s, &film, NULL) == EC_OK;
+    *first = can_be_read && film.part_count ? film.parts[0].first : 0;
+    if (can_be_read) s->film.samples_per_batch = film.samples_per_batch, s->film.batch_count = film.batch_count;
+    free(text);
+    free(film.parts);
+    return can_be_read;
 }
 
 void ec_stored_free(ec_stored *s)

@@ -162,7 +162,8 @@ static void read_past(reader *r, ec_past *past)
     past->allotment.level = number(r, "level", 1e12);
 }
 
-static void read_film(reader *r, ec_state_film *film)
+/* A checkpoint within the first batch has no parts yet. */
+static void read_film(reader *r, const ec_past *past, ec_state_film *film)
 {
     const cJSON *item, *parts = cJSON_GetObjectItemCaseSensitive(r->state, "parts");
     film->samples_per_batch = whole(r, "batch");
@@ -172,7 +173,9 @@ static void read_film(reader *r, ec_state_film *film)
     film->invalid_count = count(r, "invalidValues");
     int most = cJSON_GetArraySize(parts);
     film->parts = calloc((size_t)most + 1, sizeof *film->parts);
-    r->is_wrong |= !film->parts || film->samples_per_batch == 0 || film->batch_count == 0 || (most == 0) != film->has_counts;
+    const bool is_empty = film->batch_count == 0;
+    r->is_wrong |= !film->parts || film->samples_per_batch == 0 || (is_empty && (film->has_counts || !past->under_way)) ||
+                   (most == 0) != (film->has_counts || is_empty);
     if (r->is_wrong) return;
     cJSON_ArrayForEach(item, parts) {
         ec_film_part *part = &film->parts[film->part_count++];
@@ -194,7 +197,7 @@ ec_result ec_state_read(const char *text, const char *path, ec_stored *s, ec_sta
     } else {
         read_job(&r, &s->job);
         read_past(&r, &s->past);
-        read_film(&r, film);
+        read_film(&r, &s->past, film);
         if (r.is_wrong)
             result = ec_fail(err, "cannot read '%s': what it says of its sums makes no sense; take an older file or render it again", path);
     }

@@ -31,6 +31,9 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
 
 /* Fails with one line for whatever is not as it was written. */
 ec_result ec_store_read(const char *path, ec_stored *stored, ec_error *err);
+/* By its header alone: job, past, and of the film how many batches of how many samples; its first batch. False where it cannot be read, which
+ * ec_store_read would give a reason for. Free it in either case. */
+bool ec_store_peek(const char *path, ec_stored *stored, uint32_t *first);
 void ec_stored_free(ec_stored *stored); /* zero-initialised is fine */
 
 #endif

@@ -30,7 +30,7 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
     const ec_channel weight = {"weight", past->allotment.weight, 1, false};
     ec_channel batch[3];
     ec_exr_part *parts = calloc(sums + 3, sizeof *parts);
-    sum_part *rooms = calloc(sums, sizeof *rooms);
+    sum_part *rooms = calloc(sums + 1, sizeof *rooms);
     ec_attribute *attributes = calloc(picture->attribute_count + 1, sizeof *attributes);
     char *state = ec_state_write(job, film, past);
     ec_result result = EC_OK;

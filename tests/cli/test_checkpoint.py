@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, read_exr
+from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, quad_scene, read_exr, write_gltf
 
 SIZE = ["--size", "20x18"]
 RESULT = ["image_sha256", "samples", "rays", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "batches"]
@@ -76,6 +76,25 @@ class Checkpoint(Case):
             self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
             os.remove(self.kept)
 
+    def test_within_the_first_batch(self):
+        """It is cut as any other, first-hit features and all: on large pictures it takes minutes."""
+        for options in [["--spp", "2048", "--batch", "1024"], ["--spp", "2048", "--batch", "1024", "--samples", "1024:2048"]]:
+            job = [CORNELL, "--size", "40x36", "--wave", "4096", *options]  # a checkpoint after each of 360 waves
+            whole = self.render(*job)
+            planes = read_exr(self.path("a.exr"))[1]
+            for number in [signal.SIGKILL, signal.SIGINT]:
+                process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
+                _, said = self.stop(process, number)
+                self.assertEqual("goes on" in said, number == signal.SIGINT and "--samples" in options, said)
+                state = json.loads(read_exr(self.kept)[0]["eclat.state"])
+                self.assertEqual((state["batches"], state["parts"], state["underWay"] > 0), (0, [], True))
+                error = self.assert_one_error(eclat("merge", self.kept, "-o", self.path("m.exr")), 1)
+                self.assertIn("was cut off within its first batch", error)
+                again = self.render("--resume", self.kept)
+                self.assertEqual((whole["image_sha256"], whole["samples"]), (again["image_sha256"], again["samples"]))
+                self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
+                os.remove(self.kept)
+
     def test_until_an_error(self):
         job = ["--batch", "2"]
         self.assert_same([*job, "--spp", "12"], [*job, "--error", "60%"], ["--error", "60%"])
@@ -124,6 +143,13 @@ class Checkpoint(Case):
         self.assertEqual(read_exr(self.path("x.exr"))[0]["eclat.samplesPerPixel"], 20)
         self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {20.0})
 
+    def test_begun_anew_where_it_was_to_be_gone_on_with(self):
+        job = ["render", CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept, "-q", "-o", self.path("a.exr")]
+        self.assertEqual(self.assert_ok(eclat(*job)).stderr, "")
+        self.assertEqual(self.assert_ok(eclat(*job)).stderr, f"eclat: warning: '{self.kept}' has 16 samples a pixel of this render, which begins anew "
+                         f"and writes over them; '--resume {self.kept}' goes on\n")
+        self.assertEqual(self.assert_ok(eclat(*job, "--seed", "1")).stderr, "")
+
     def test_time_counts_on(self):
         self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
         again = self.render("--resume", self.kept, "--time", "0.001s")
@@ -133,6 +159,7 @@ class Checkpoint(Case):
         self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
         for options, says in [(["--seed", "2"], "--seed is 0 there and 2 here"), (["--size", "20x17"], "--size is 20x18 there and 20x17 here"),
                               (["--batch", "2"], "--batch is 1 there and 2 here"), (["--adaptive"], "--adaptive is off there and on here"),
+                              (["--light-choice", "tree"], "--light-choice is power there and tree here"),
                               (["--integrator", "raster"], "--integrator is path there and raster here"), (["--rr", "0.5"], "--rr is"),
                               (["--camera", "0", "--filter", "blackman-harris"], "--filter is box there"), ([RING], "not the same are the scene's camera, geometry")]:
             run = eclat("render", "--resume", self.kept, *options, "--spp", "32", "-q", "-o", self.path("b.exr"))
@@ -140,6 +167,29 @@ class Checkpoint(Case):
             self.assertIn(f"cannot go on from '{self.kept}': ", error)
             self.assertIn(says, error)
             self.assertFalse(os.path.exists(self.path("b.exr")))
+
+    def test_meshes_that_are_kept_once_and_written_out(self):
+        """Accelerators that know no instances have other triangles, and the same samples."""
+        scene, _ = quad_scene(material={"doubleSided": True})
+        scene["nodes"] += [{"mesh": 0, "translation": [k, 0.5, -k]} for k in range(3)]
+        scene["scenes"][0]["nodes"] += [2, 3, 4]
+        job = [write_gltf(self.path("many.gltf"), scene), *SIZE, "--batch", "2", "--instancing", "on"]
+        whole = self.render(*job, "--spp", "12")
+        self.assertGreater(whole["instances"], 1)
+        for first, then in [("auto", "bvh8"), ("grid", "twolevel")]:
+            self.render(*job, "--spp", "8", "--accel", first, "--checkpoint", self.kept)
+            again = self.render("--resume", self.kept, "--accel", then, "--spp", "12")
+            self.assertEqual(whole["image_sha256"], again["image_sha256"])
+        error = self.assert_one_error(eclat("render", "--resume", self.kept, "--instancing", "off", "-q", "-o", self.path("b.exr")), 1)
+        self.assertIn("not the same are the scene's geometry", error)
+
+    def test_what_a_scene_does_not_call_for_makes_no_difference(self):
+        self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
+        self.render("--resume", self.kept, "--scattering", "multiple")
+        rough = write_gltf(self.path("rough.gltf"), quad_scene(material={"pbrMetallicRoughness": {"roughnessFactor": 0.5}})[0])
+        self.render(rough, *SIZE, "--spp", "16", "--checkpoint", self.kept)
+        error = self.assert_one_error(eclat("render", "--resume", self.kept, "--scattering", "multiple", "-q", "-o", self.path("b.exr")), 1)
+        self.assertIn("--scattering is single there and multiple here", error)
 
     def test_a_scene_that_was_changed_or_moved(self):
         folder = os.path.dirname(CORNELL)
@@ -165,6 +215,9 @@ class Checkpoint(Case):
         refuse("--every belongs to --checkpoint", CORNELL, "--every", "5s")
         refuse("must be named NAME.exr", CORNELL, "--checkpoint", "kept")
         refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", "a.exr", "-o", "a.exr")
+        for name in ["./a.exr", os.path.join(os.getcwd(), "a.exr")]:
+            refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", name, "-o", "a.exr")
+            refuse("are the same file; leave one out", CORNELL, "-o", "a.exr", "-o", name)
         refuse("cannot open", "--resume", self.path("none.exr"), code=1)
         refuse("No such file or directory", CORNELL, "--checkpoint", self.path("none", "kept.exr"), "-o", self.path("a.exr"), code=1)
 

@@ -1,4 +1,5 @@
 """The scripts for Slurm and for machines reached by ssh, with stand-ins for both: the bits of one render."""
+import glob
 import os
 import signal
 import subprocess
@@ -31,41 +32,78 @@ class Farm(Case):
         for number in [3, 0, 4, 1]:
             self.assert_ok(self.task(number))
         self.assert_ok(self.task(2, tasks=1, TASKS="5"))  # submitted again, alone
-        slices = sorted(os.listdir(self.folder))
+        with open(self.path("cornell-box.8.checkpoint.exr"), "w", encoding="utf-8"):
+            pass  # of a task that is to run again: no slice
+        slices = sorted(os.path.basename(path) for path in glob.glob(self.path("cornell-box.*-*.exr")))
         self.assertEqual(slices, ["cornell-box.0-8.exr", "cornell-box.16-28.exr", "cornell-box.28-36.exr", "cornell-box.36-48.exr", "cornell-box.8-16.exr"])
         self.assert_ok(eclat("merge", *map(self.path, slices), "-q", "-o", self.path("all.exr")))
         self.assert_one_render(self.path("all.exr"))
 
-    def test_a_task_that_is_run_again(self):
-        big = [CORNELL, "8000", "--size", "64x64", "--max-depth", "3"]
-        process = subprocess.Popen([os.path.join(SOURCE, "tools", "farm", "array.sbatch"), *big, "--every", "0.05s"], cwd=self.folder,
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                   env=dict(self.environment, SLURM_ARRAY_TASK_ID="1", SLURM_ARRAY_TASK_COUNT="2"))
-        kept = self.path("cornell-box.4000-8000.checkpoint.exr")
-        deadline = time.monotonic() + 60
-        while not os.path.exists(kept) and time.monotonic() < deadline:
-            time.sleep(0.02)
-        process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(60), 143)
-        self.assertEqual(os.listdir(self.folder), [os.path.basename(kept)])
-        before = max(read_exr(kept)[1]["samples"])
-        self.assertGreater(before, 0)
-        resumed = self.run_script("array.sbatch", *big, SLURM_ARRAY_TASK_ID="1", SLURM_ARRAY_TASK_COUNT="2", ECLAT=self.wrapper())
-        self.assert_ok(resumed)
-        self.assertIn("--resume cornell-box.4000-8000.checkpoint.exr", resumed.stdout)
+    def test_numbers_that_are_no_tasks(self):
+        for variables, says in [({"TASK_ID": "7", "TASK_COUNT": "1", "TASK_MIN": "7"}, "count from 0"),
+                                ({"TASK_ID": "1", "TASK_COUNT": "16", "TASK_MIN": "1"}, "count from 0"),
+                                ({"TASK_ID": "2", "TASK_COUNT": "2", "TASK_MIN": "0"}, "count from 0"), ({}, "a task of an array")]:
+            run = self.run_script("array.sbatch", CORNELL, "48", **{"SLURM_ARRAY_" + key: value for key, value in variables.items()})
+            self.assertEqual((run.returncode, run.stdout), (2, ""))
+            self.assertIn(says, run.stderr)
+        for arguments, says in [((CORNELL,), "usage:"), ((CORNELL, "--size"), "no samples a pixel")]:
+            self.assertIn(says, self.run_script("array.sbatch", *arguments, SLURM_ARRAY_TASK_ID="0", SLURM_ARRAY_TASK_COUNT="1").stderr)
+        self.assertIn("name the program", self.task(0, ECLAT="no-such-eclat").stderr)
+        self.assertEqual(os.listdir(self.folder), [])
 
-    def wrapper(self):
-        """Says what it was asked for, and writes what a render would have."""
-        path = self.path("wrapper")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write('#!/bin/sh\necho "$@"\nfor last; do :; done\n: >"$last"\n')
-        os.chmod(path, 0o755)
-        return path
+    def test_a_task_that_is_run_again(self):
+        """Cut off it leaves a checkpoint, and out of time it asks for a place in the queue too."""
+        big = [CORNELL, "8000000", "--size", "32x32", "--max-depth", "3"]
+        task = {"SLURM_ARRAY_JOB_ID": "77", "SLURM_ARRAY_TASK_ID": "1", "SLURM_ARRAY_TASK_COUNT": "2"}
+        kept, asked, before = self.path("cornell-box.4000000.checkpoint.exr"), self.path("asked"), 0
+        self.program("scontrol", f'echo "$@" >{asked}')
+        path = self.folder + ":" + os.environ["PATH"]
+        for number, code in [(signal.SIGTERM, 143), (signal.SIGUSR1, 0)]:
+            written = self.written(kept)
+            process = subprocess.Popen([os.path.join(SOURCE, "tools", "farm", "array.sbatch"), *big, "--every", "0.5s"], cwd=self.folder,
+                                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                       env=dict(self.environment, PATH=path, **task))
+            deadline = time.monotonic() + 60
+            while self.written(kept) == written and time.monotonic() < deadline:
+                time.sleep(0.02)
+            process.send_signal(number)
+            self.assertEqual(process.wait(60), code)
+            samples = sum(read_exr(kept)[1]["samples"])
+            self.assertGreater(samples, before)
+            before = samples
+            self.assertEqual(os.path.exists(asked), number == signal.SIGUSR1)
+            self.assertEqual(glob.glob(self.path("cornell-box.*-*.exr")) + glob.glob(self.path("*.part.exr")), [])
+        with open(asked, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "requeue 77_1\n")
+        wrapper = self.program("wrapper", 'echo "$@"; for last; do :; done; : >"$last"')  # writes what a render would have
+        resumed = self.run_script("array.sbatch", *big, ECLAT=wrapper, **task)
+        self.assert_ok(resumed)
+        self.assertIn("--resume cornell-box.4000000.checkpoint.exr", resumed.stdout)
+        self.assertEqual(glob.glob(self.path("cornell-box.*.exr")), [self.path("cornell-box.4000000-8000000.exr")])
+
+    def test_time_that_is_too_short(self):
+        """What has rendered nothing is not put into the queue for ever."""
+        self.program("scontrol", "echo asked >&2")
+        sleeper = self.program("sleeper", 'trap "exit 0" TERM; kill -USR1 $PPID; sleep 20 & wait')
+        run = self.run_script("array.sbatch", CORNELL, "48", ECLAT=sleeper, PATH=self.folder + ":" + os.environ["PATH"], SLURM_ARRAY_JOB_ID="77",
+                              SLURM_ARRAY_TASK_ID="0", SLURM_ARRAY_TASK_COUNT="1")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("give --time more", run.stderr)
+        self.assertNotIn("asked", run.stderr)
+
+    @staticmethod
+    def written(path):
+        """When."""
+        return os.stat(path).st_mtime_ns if os.path.exists(path) else None
+
+    def program(self, name, script):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write("#!/bin/sh\n" + script + "\n")
+        os.chmod(self.path(name), 0o755)
+        return self.path(name)
 
     def test_a_farm(self):
-        with open(self.path("ssh"), "w", encoding="utf-8") as file:  # one of the machines is down
-            file.write('#!/bin/sh\n[ "$1" != down ] || exit 255\nshift\nexec sh -c "$*"\n')
-        os.chmod(self.path("ssh"), 0o755)
+        self.program("ssh", '[ "$1" != down ] || exit 255\nshift\nexec sh -c "$*"')  # one of the machines is down
         run = self.run_script("farm", "here down there", CORNELL, "48", "all.exr", *SIZE, FARM_SSH=self.path("ssh"), SLICES="5")
         self.assert_ok(run)
         self.assertIn("farm: down failed at samples", run.stderr)
@@ -74,7 +112,22 @@ class Farm(Case):
         run = self.run_script("farm", "down", CORNELL, "48", "all.exr", *SIZE, FARM_SSH=self.path("ssh"), SLICES="2")
         self.assertEqual(run.returncode, 1)
         self.assertIn("farm: no machine could render a slice", run.stderr)
-        self.assertEqual(sorted(os.listdir(self.folder)), ["ssh", "whole.exr"])
+        self.assertEqual(sorted(os.listdir(self.folder)), ["all.exr.farm", "ssh", "whole.exr"])
+
+    def test_a_farm_that_goes_on(self):
+        """The machine renders two slices and is gone; the same command renders the other three."""
+        farm = ["farm", "here", CORNELL, "48", "all.exr", *SIZE, "--seed", "0"]
+        stop = dict(FARM_SSH=self.path("ssh"), SLICES="5")
+        self.program("ssh", 'shift\n[ ! -e gone ] || exit 255\necho >>rendered\n[ "$(wc -l <rendered)" != 2 ] || : >gone\nexec sh -c "$*"')
+        self.assertEqual(self.run_script(*farm, **stop).returncode, 1)
+        other = self.run_script(*farm[:-1], "1", **stop)
+        self.assertIn("farm: all.exr.farm is of another job", other.stderr)
+        os.remove(self.path("gone"))
+        self.assert_ok(self.run_script(*farm, **stop))
+        with open(self.path("rendered"), encoding="utf-8") as file:
+            self.assertEqual(len(file.readlines()), 5)
+        self.assert_one_render(self.path("all.exr"))
+        self.assertFalse(os.path.exists(self.path("all.exr.farm")))
 
 
 if __name__ == "__main__":

@@ -216,7 +216,7 @@ class Going(FramesCase):
     def test_what_does_not_matter_is_not_compared(self):
         scene = self.sliding()
         self.frames(scene=scene)
-        _, last = self.frames("--lanes", "4", "--wave", "2048", "--accel", "kdtree", "--effects", "all", scene=scene)
+        _, last = self.frames("--lanes", "4", "--wave", "2048", "--accel", "kdtree", "--effects", "all", "--memory", "2G", scene=scene)
         self.assertEqual(last["skipped"], 4)
 
     def test_half_a_file_and_a_strange_one(self):

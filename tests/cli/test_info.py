@@ -189,7 +189,10 @@ class Info(Case):
         long, textured, blue, yellow = "anisotropy", "anisotropy-texture", [(0, 0, 255)], [(255, 255, 0)]
         cases = [(set(), {}), (set(), {"anisotropyRotation": 1}), (set(), one)]
         self.check_layers("KHR_materials_anisotropy", {long, textured}, cases)  # at roughness 1
-        for expected, members, *texels in [({long}, one), ({long, textured}, {**one, "anisotropyTexture": {"index": 0}}, blue),
+        turned = {"index": 0, "extensions": {"KHR_texture_transform": {"rotation": 1}}}
+        for expected, members, *texels in [({long}, one), ({long, textured}, {**one, "anisotropyTexture": {"index": 0}}, blue + [(0, 9, 255)]),
+                                           ({long}, {**one, "anisotropyTexture": {"index": 0}}, blue),  # one direction is a rotation
+                                           ({long, textured}, {**one, "anisotropyTexture": turned}, blue),
                                            (set(), {**one, "anisotropyTexture": {"index": 0}}, yellow)]:
             found = self.layers({"KHR_materials_anisotropy": members}, *texels, roughness=0.5)
             self.assertEqual(found & {long, textured}, expected)
@@ -259,10 +262,12 @@ class Info(Case):
             # the weight is in red, thickness in green
             (set(), {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, green),
             ({film, textured}, {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, white),
-            ({film, textured}, thickness, black),
+            ({film, textured}, thickness, white),
+            ({film}, thickness, black),  # one thickness is a factor
+            ({film}, {**thickness, "iridescenceThicknessMinimum": 400}, white),
             (set(), {**thickness, "iridescenceThicknessMinimum": 0}, black),
             (set(), {**thickness, "iridescenceThicknessMaximum": 0}, green),
-            ({film, textured}, {**thickness, "iridescenceThicknessMinimum": 0}, green),
+            ({film}, {**thickness, "iridescenceThicknessMinimum": 0}, green),
         ])
 
     def test_diffuse_transmission_calls_for_what_it_has(self):
@@ -290,6 +295,31 @@ class Info(Case):
         for expected, extensions in [({"dispersion"}, {**glass, **body, **parts}), (set(), {**glass, **body, **none}), (set(), {**glass, **parts}),
                                      (set(), {**glass, **body, **flat, **parts}), (set(), {**body, **parts})]:
             self.assertEqual(self.layers(extensions) & {"dispersion"}, expected)
+
+    def test_alpha_of_what_is_opaque_is_nobodys(self):
+        varied = [(9, 99, 200, 255), (9, 99, 200, 5)]
+        for mode, expected in ("OPAQUE", set()), ("BLEND", {"alpha", "base-color-texture"}):
+            scene, _ = quad_scene(material={"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "alphaMode": mode})
+            scene["images"], scene["textures"] = [{"uri": png(*varied)}], [{"source": 0}]
+            scene["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC2"})
+            scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+            found = set(self.info(write_gltf(self.path("alpha.gltf"), scene))["effects"])
+            self.assertEqual(found & {"alpha", "base-color-texture"}, expected, mode)
+
+    def test_vertex_colours_call_for_what_they_change(self):
+        names = {"alpha", "vertex-colors", "sheen"}
+        for mode, rgba, expected in [
+                ("OPAQUE", (1, 1, 1, 1), {"sheen"}), ("OPAQUE", (1, 1, 1, 0.5), {"sheen"}), ("OPAQUE", (1, 0.5, 1, 1), {"sheen", "vertex-colors"}),
+                ("BLEND", (1, 1, 1, 1), {"sheen"}), ("BLEND", (1, 1, 1, 0.5), names),
+                ("BLEND", (1, 1, 1, 0), {"alpha", "vertex-colors"}), ("MASK", (1, 1, 1, 0.4), {"alpha", "vertex-colors"})]:  # nothing shows
+            scene, buffer = quad_scene(material={"alphaMode": mode, "extensions": {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]}}})
+            buffer += struct.pack("<16f", *rgba * 4)
+            scene["buffers"][0] = {"byteLength": len(buffer), "uri": data_uri(buffer)}
+            scene["bufferViews"].append({"buffer": 0, "byteOffset": 60, "byteLength": 64})
+            scene["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC4"})
+            scene["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 2
+            found = set(self.info(write_gltf(self.path("colours.gltf"), scene))["effects"])
+            self.assertEqual(found & names, expected, (mode, rgba))
 
     def test_text(self):
         run = self.assert_ok(eclat("info", CORNELL))

@@ -2,6 +2,7 @@
 Skipped where there is no mpirun, or eclat was built without MPI."""
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -118,7 +119,9 @@ class Ranks(Case):
         self.assertEqual(whole["image_sha256"], report["image_sha256"])
 
     def test_what_fails_early_is_said_once(self):
-        for arguments, code, says in [(["render", self.path("none.gltf")], 1, "none.gltf"), (["render", CORNELL, "--spp", "x"], 2, "--spp"),
+        large = ["render", CORNELL, "--size", "4096x4096", "--spp", "4", "--memory", "300M", "-o", self.path("a.exr")]
+        for arguments, code, says in [(large, 1, "an MPI job is for pictures that are rendered whole; start one process without mpirun, or"),
+                                      (["render", self.path("none.gltf")], 1, "none.gltf"), (["render", CORNELL, "--spp", "x"], 2, "--spp"),
                                       (["rendr", CORNELL], 2, "did you mean"), (["render", CORNELL, "-o", self.path("no", "a.exr")], 1, "No such file")]:
             run = mpirun(3, *arguments, timeout=60)
             self.assertEqual(run.returncode, code, run.stderr)
@@ -127,13 +130,28 @@ class Ranks(Case):
             self.assertIn(says, lines[0])
             self.assertEqual(run.stdout, "")
 
+    def test_another_launcher(self):
+        """MPI finds one process where that of another MPI started three: each would render all of the picture."""
+        for number, lines in [("0", 1), ("1", 0)]:
+            run = eclat("render", *JOB, "--spp", "4", "-o", self.path("a.exr"), env=dict(MPI, PMI_SIZE="3", PMI_RANK=number), timeout=60)
+            self.assertEqual(run.returncode, 1)
+            self.assertEqual([line[:60] for line in own_lines(run)], ["eclat: error: 3 processes were started, but each finds 1: the la"[:60]] * lines)
+        self.assertFalse(os.path.exists(self.path("a.exr")))
+
+    def test_srun_without_mpi(self):
+        """Only the first process says so; a slice, which may be one of many, is no matter."""
+        for number, more, says in [("0", [], 1), ("1", [], 0), ("0", ["--samples", "0:4"], 0)]:
+            env = {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": number}
+            run = eclat("render", *JOB, "--spp", "8", "--batch", "1", *more, "-o", self.path("a.exr"), env=env)
+            self.assertEqual(self.assert_ok(run).stderr.count("srun started 2 processes that know nothing of one another"), says, run.stderr)
+
     def test_other_commands(self):
         run = self.assert_ok(mpirun(3, "info", CORNELL))
         self.assertEqual(run.stdout.splitlines()[:3], self.assert_ok(eclat("info", CORNELL)).stdout.splitlines()[:3])
         self.assertIn("rank 0 does this alone", run.stderr)
 
-    def start(self, ranks, *arguments, launcher=()):
-        return subprocess.Popen(["mpirun", "--oversubscribe", "--bind-to", "none", *launcher, "-n", str(ranks), ECLAT, "render", *arguments], env=MPI,
+    def start(self, ranks, *arguments, launcher=(), env=None):
+        return subprocess.Popen(["mpirun", "--oversubscribe", "--bind-to", "none", *launcher, "-n", str(ranks), ECLAT, "render", *arguments], env=dict(MPI, **(env or {})),
                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 
     def wait_for(self, path, process):
@@ -167,8 +185,9 @@ class Ranks(Case):
             os.kill(self.ranks_of(process)[victim], signal.SIGKILL)
             _, error = process.communicate(timeout=60)
             self.assertNotEqual(process.returncode, 0, error)
-            if victim:
-                self.assertIn(f"eclat render --resume {kept}", error)
+            goes_on = f"{ECLAT} render --resume {kept}\n"  # to be typed as it is; said before, and where there is a rank 0 to say it, again
+            self.assertEqual((error.count("from the last checkpoint with: " + goes_on), error.count("behind mpirun, with: " + goes_on)),
+                             (1, 1 if victim else 0), error)
             run = self.assert_ok(eclat("render", "--resume", kept, "--spp", "1", "--json", "-q", "-o", self.path("b.exr")))
             done = json.loads(run.stdout)["samples_per_pixel"]
             whole, _ = self.render(*job, "--spp", str(done + 10))
@@ -176,11 +195,67 @@ class Ranks(Case):
             self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
             os.remove(kept)
 
-    def render_with(self, on_rank_1, job, env=None):
+    def test_ranks_that_are_lost(self):
+        """Where the launcher lets the others live: one below another, whose loss is told all the same; and one that hangs, for which the launcher
+        says that not all ended as they should."""
+        job = [*JOB, "--spp", "4000", "--batch", "4"]
+        whole, planes = self.render(*job)
+        for victim, number, env, launcher in [(5, signal.SIGKILL, {"ECLAT_RANK_FANOUT": "2"}, ["--enable-recovery"]), (2, signal.SIGSTOP, {}, [])]:
+            kept = self.path("kept.exr")
+            process = self.start(6, *job, "--checkpoint", kept, "--every", "0.1s", "--json", "-q", "-o", self.path("b.exr"), launcher=launcher,
+                                 env=dict(env, ECLAT_RANK_LOST="4"))
+            self.wait_for(kept, process)
+            lost = self.ranks_of(process)[victim]
+            os.kill(lost, number)
+            out, error = process.communicate(timeout=120)
+            if number == signal.SIGSTOP and os.path.exists(f"/proc/{lost}"):
+                os.kill(lost, signal.SIGKILL)
+            told = "told by rank 2: " if victim == 5 else ""
+            self.assertRegex(error, f"warning: {told}rank {victim} on .* is out, and the others take over its work: rank {victim} is lost")
+            self.assertEqual(json.JSONDecoder().raw_decode(out)[0]["image_sha256"], whole["image_sha256"])
+            self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
+            if number == signal.SIGKILL:
+                self.assertEqual(process.returncode, 0, error)
+            os.remove(kept)
+
+    def test_a_rank_that_is_lost_before_the_scene_comes(self):
+        """It dies as it looks for devices: the others neither wait for it nor go without the scene."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clGetDeviceInfo FAULT_SIGNAL=9"
+        run = self.render_with(fault, [*JOB, "--spp", "70", "--batch", "2"], launcher=["--enable-recovery"])
+        self.assertRegex(run.stderr, "warning: rank 1 is lost: it has ended or cannot be reached; the others go on without it")
+        self.assertEqual(json.loads(run.stdout)["ranks"], 2)
+
+    def test_devices_of_ranks_that_round_otherwise(self):
+        """Rank 1's driver is another one, and says last how it rounds; where it is that of rank 0, there is nothing to warn of."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        counts, shim = self.path("counts"), f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']}"
+        self.assert_ok(eclat("render", *JOB, "--spp", "4", "-q", "-o", self.path("a.exr"),
+                             env=dict(word.split("=", 1) for word in [shim, "POCL_DEVICES=basic", "FAULT_COUNTS=" + counts])))
+        with open(counts, encoding="utf-8") as file:
+            last = dict(line.split() for line in file)["clGetDeviceInfo"]
+        for fault, warns in [(f"{shim} FAULT_CALL=clGetDeviceInfo FAULT_AT={last}", 1), ("", 0)]:
+            run = self.render_with(f"POCL_DEVICES=basic {fault}", [*JOB, "--spp", "40", "--batch", "1"], {"POCL_DEVICES": "pthread"})
+            self.assertEqual(len(re.findall("warning: rank 1 has basic-.* and rank 0 pthread-.*: where one of these does not round", run.stderr)), warns,
+                             run.stderr)
+
+    def test_a_device_of_a_rank_that_does_not_open(self):
+        """It is told of, and the rank goes on with the other one."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        job = [CORNELL, "--size", "64x48", "--spp", "512", "--batch", "4"]
+        fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clCreateCommandQueue POCL_DEVICES='basic basic basic basic basic basic'"
+        run = self.render_with(fault, job, {"POCL_DEVICES": "basic basic basic basic basic basic"}, ["--device", "all"])
+        self.assertRegex(run.stderr, "warning: told by rank 1: basic-.* is out, and the others take over its work: clCreateCommandQueue")
+        self.assertEqual(json.loads(run.stdout)["ranks"], 3)
+
+    def render_with(self, on_rank_1, job, env=None, more=(), launcher=()):
         """With three ranks, one of which has other variables."""
         script = f'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then export {on_rank_1}; fi; exec "$@"'
-        run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", "-n", "3", "sh", "-c", script, "sh", ECLAT, "render", *job, "--json", "-o",
-                              self.path("b.exr")], env=dict(MPI, **(env or {})), stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
+        run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", *launcher, "-n", "3", "sh", "-c", script, "sh", ECLAT, "render", *job, *more,
+                              "--json", "-o", self.path("b.exr")], env=dict(MPI, **(env or {})), stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
                              timeout=100)
         self.assert_ok(run)
         whole, planes = self.render(*job)

@@ -50,6 +50,9 @@ class Files(Render):
         self.assertEqual(attributes["eclat.effects"].split(), report["effects"])
         self.assertEqual(attributes["eclat.effects.why"].splitlines(), [f"{row['name']}: {row['why']}" for row in rows])
         self.assertEqual(attributes["eclat.kernels"].split(", "), report["kernels"])
+        built = [line.split("; ") for line in attributes["eclat.effects.built"].splitlines()]
+        self.assertEqual([(name, kernels) for name, kernels, *_ in built], [(row["name"], "in " + ", ".join(row["kernels"])) for row in rows])
+        self.assertEqual([made[0].rsplit(", ", 1)[0].split(", ") if made else [] for _, _, *made in built], [row["buffers"] for row in rows])
         for option, pattern in [("-q", r"\A\Z"), ("-v", r'(?m)^  emission +material 3 "lamp" emits; in shade$'),
                                 ("--exposure=0", r"(?m)^effects  4 of \d+: emission area-lights back-face-culling sobol-sampler$")]:
             run = self.assert_ok(eclat("render", CORNELL, *SMALL, option, "-o", "a.exr", cwd=self.folder))
@@ -59,6 +62,7 @@ class Files(Render):
         report = self.render(*SMALL, "-o", "a.exr", "--without", "emission", "--without", "sheen", scene=CORNELL)
         left_out = [row["name"] for row in report["effect_list"] if row["left_out"]]
         self.assertEqual(left_out, ["emission", "sheen"])
+        self.assertLessEqual({"emission; left out", "sheen; left out"}, set(read_exr(self.path("a.exr"))[0]["eclat.effects.built"].splitlines()))
         self.assertEqual(report["effects"], ["back-face-culling", "sobol-sampler"])
         self.assertEqual(report["mean_luminance"], 0)  # the lamp was all its light
         run = self.assert_ok(eclat("render", CORNELL, *SMALL, "-v", "-o", "a.exr", "--without", "emission", "--without", "sheen", cwd=self.folder))

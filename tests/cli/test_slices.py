@@ -3,10 +3,12 @@ import itertools
 import json
 import os
 import random
+import re
 import shutil
+import subprocess
 import unittest
 
-from support import CORNELL, RING, Case, eclat, read_exr
+from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, read_exr
 
 SIZE = ["--size", "20x18"]
 
@@ -80,6 +82,19 @@ class Slices(Case):
         self.assertEqual(run.stderr, "")
         self.assertEqual(os.listdir(self.folder), ["cornell-box.8-16.exr"])
 
+    def peak(self, *slices):
+        process = subprocess.Popen([ECLAT, "merge", *slices, "-q", "-o", self.path("all.exr")], env=ENVIRONMENT)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 0)
+        return usage.ru_maxrss
+
+    def test_memory_does_not_go_by_the_order(self):
+        """Sums whose left neighbours come later would wait, 6 of them here, 11 MB each."""
+        slices = [self.render(f"s{a}.exr", "--size", "400x400", "--spp", "192", "--batch", "1", "--samples", f"{a}:{a + 16}", "--integrator", "raster")
+                  for a in range(0, 192, 16)]
+        self.assertLess(self.peak(*slices[1::2], *slices[::2]), 1.1 * self.peak(*slices))
+
     def test_gaps_are_named(self):
         a, _, c, _ = self.cut(["--spp", "32", "--batch", "2"], [0, 8, 12, 24, 32])
         error = self.assert_one_error(self.merge(a, c), 1)
@@ -88,6 +103,14 @@ class Slices(Case):
         run = self.assert_ok(self.merge(c, a, "--partial"))
         self.assertEqual(run.stderr, "eclat: warning: samples 8:12, 24:32 are missing: the picture is of the others\n")
         self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {20.0})
+
+    def test_many_gaps_are_named_or_counted(self):
+        slices = [self.render(f"s{a}.exr", "--spp", "2000000", "--batch", "1", "--samples", f"{a}:{a + 1}") for a in range(1000000, 1000060, 2)]
+        error = self.assert_one_error(self.merge(*slices), 1)
+        named, more = re.search("samples (.*) and ([0-9]+) more ranges are missing; ", error).groups()
+        self.assertEqual(named.split(", ")[:2], ["0:1000000", "1000001:1000002"])
+        self.assertEqual(len(named.split(", ")) + int(more), 31)
+        self.assertTrue(named.endswith(f"{999999 + 2 * (31 - int(more) - 1)}:{999999 + 2 * (31 - int(more) - 1) + 1}"), named)
 
     def test_nothing_twice(self):
         job = ["--spp", "32", "--batch", "2"]

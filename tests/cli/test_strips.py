@@ -72,6 +72,17 @@ class Strips(Case):
             self.assertRegex(line, r"4096x4096 pixels take [\d.]+ MB and there are [\d.]+")
             self.assertEqual(os.listdir(self.folder), [])
 
+    def test_slices_whose_sums_wait(self):
+        """14 sums of 16 batches, whose left neighbours are in other slices, 68 bytes a pixel each: more than the picture from its beginning."""
+        job = ["--size", "256x256", "--spp", "256", "--batch", "1", "--integrator", "raster"]
+        path = self.path("s.exr")
+        self.assert_ok(eclat("render", CORNELL, "-q", *job, "--samples", "0:16", "-o", path))  # compiles
+        least = [float(re.search(r"take ([\d.]+) MB", self.assert_one_error(eclat("render", CORNELL, "-q", *job, "--samples", samples, "--memory", "1M", "-o", path), 1)).group(1))
+                 for samples in ["0:224", "16:240"]]
+        self.assertGreater(least[1] - least[0], 11 * 68 * 65536 / 1e6)
+        run = self.assert_ok(eclat("render", CORNELL, "-q", "--json", *job, "--samples", "16:240", "--memory", f"{300 + int(least[1])}M", "-o", path))
+        self.assertLess(json.loads(run.stdout)["peak_memory_bytes"], 1e6 * (300 + least[1]))
+
     def test_amounts(self):
         for text in ["4", "G", "-1G", "0M", "1K", "4X", "4GBs", "1e30G", "nan", "4 G", ""]:
             run = eclat("render", CORNELL, "--memory", text, cwd=self.folder)

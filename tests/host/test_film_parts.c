@@ -138,6 +138,44 @@ static void what_is_shown(void)
     ec_film_destroy(&gaps);
 }
 
+/* Blocks of 16 and 256 that others have added up, a few pixels each (as ranks do), among batches one by one. */
+static void blocks_of_batches(void)
+{
+    enum { N = 700, CUT = 4 };
+    ec_film in_order = slice(0, N), mixed = empty();
+    ec_error err;
+    mixed.shows_late = true;
+    for (uint32_t k = 0, count; k < N; k += count) {
+        count = k >= 16 && k + 16 <= N ? k == 256 ? 256 : 16 : 1;
+        if (count == 1) {
+            CHECK_OK(ec_film_add_at(&mixed, k, batch_of(k), &err), err);
+            continue;
+        }
+        ec_film_part part = {.first = k, .count = count};
+        CHECK(ec_moments_create(&part.sums, P));
+        for (uint32_t first = 0, end; first < P; first = end) {
+            ec_film piece;
+            end = first ? P : CUT;
+            CHECK_OK(ec_film_create(&piece, end - first, 1, 4, &err), err);
+            piece.shows_late = true;
+            for (uint32_t i = 0; i < count; i++) CHECK_OK(ec_film_add_at(&piece, k + i, batch_of(k + i) + 3 * first, &err), err);
+            ec_moments sums = ec_film_give_sums(&piece), here = ec_moments_from(&part.sums, first);
+            double memory[EC_MOMENTS_BYTES * P / sizeof(double) + 1]; /* as it is sent */
+            const ec_moments sent = ec_moments_in(memory, end - first);
+            ec_moments_copy(&sent, &sums, end - first);
+            ec_moments_copy(&here, &sent, end - first);
+            ec_moments_destroy(&sums);
+            ec_film_destroy(&piece);
+        }
+        CHECK_OK(ec_film_insert(&mixed, &part, &err), err);
+        CHECK(!part.sums.mean && mixed.part_count + (mixed.part_count > 1) <= ec_film_copies(k + count));
+    }
+    ec_film_show(&mixed);
+    CHECK(same(&in_order, &mixed) && in_order.part_count == mixed.part_count);
+    ec_film_destroy(&in_order);
+    ec_film_destroy(&mixed);
+}
+
 static void nothing_twice(void)
 {
     ec_film film = slice(0, 40), other = slice(39, 60);
@@ -184,6 +222,26 @@ static void shown_late_is_the_same(void)
     ec_film_destroy(&late);
 }
 
+/* Within the bound at any moment, and not far below it. */
+static void memory_of_slices_is_bounded(void)
+{
+    const uint32_t firsts[] = {0, 1, 5, 15, 16, 17, 32, 200, 240, 256, 257, 300, 512, 4095, 4096};
+    for (size_t i = 0; i < sizeof firsts / sizeof *firsts; i++) {
+        ec_film film = empty();
+        ec_error err;
+        uint64_t worst = 0;
+        for (uint32_t k = firsts[i]; k < firsts[i] + 600; k++) {
+            CHECK_OK(ec_film_add_at(&film, k, batch_of(k), &err), err);
+            uint64_t now = film.part_count == 1 && !film.parts[0].batch ? 0 : EC_MOMENTS_BYTES;
+            for (uint32_t p = 0; p < film.part_count; p++) now += film.parts[p].batch ? 12 : EC_MOMENTS_BYTES;
+            worst = now > worst ? now : worst;
+            const uint64_t most = ec_film_bytes(firsts[i], k + 1);
+            CHECK(worst <= most && most <= worst + 2 * EC_MOMENTS_BYTES);
+        }
+        ec_film_destroy(&film);
+    }
+}
+
 static void broken_values_are_counted_once(void)
 {
     const float broken[3 * P] = {NAN, 1, INFINITY};
@@ -199,8 +257,10 @@ int main(void)
     any_order_of_batches();
     any_slices();
     what_is_shown();
+    blocks_of_batches();
     nothing_twice();
     memory_is_bounded();
+    memory_of_slices_is_bounded();
     shown_late_is_the_same();
     broken_values_are_counted_once();
     TEST_END();

@@ -46,7 +46,7 @@ static void read_state(const uint8_t *data, size_t size)
 static void judge_film(const ec_film *film)
 {
     uint64_t end = 0, batches = 0;
-    PROMISE(film->samples_per_batch && film->batch_count, "%u batches of %u", film->batch_count, film->samples_per_batch);
+    PROMISE(film->samples_per_batch, "batches of no samples");
     for (uint32_t i = 0; i < film->part_count; i++) {
         PROMISE(film->parts[i].first >= end, "part %u begins with batch %u, not after %llu", i, film->parts[i].first, (unsigned long long)end);
         end = (uint64_t)film->parts[i].first + film->parts[i].count;

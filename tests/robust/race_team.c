@@ -1,11 +1,13 @@
 /* A team of sources under ThreadSanitizer (test_races.py): batches that sources of different speed make up, one of which fails on the way and
- * one at once; what comes out is checked to the last position, in order, with and without pixel lists. With an argument the sources commit a
- * race of their own, which must be found. */
+ * one at once; what comes out is checked to the last position, in order, with and without pixel lists, and with blocks of batches. With an argument
+ * the sources commit a race of their own, which must be found. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "film/film.h"
+#include "pipeline/fold.h"
 #include "pipeline/team.h"
 
 enum { WIDTH = 40, HEIGHT = 37, PIXELS = WIDTH * HEIGHT, MEMBERS = 5, BATCHES = 60 };
@@ -16,6 +18,7 @@ static uint64_t raced;
 typedef struct fake {
     ec_batch_source base;
     uint32_t index, taken, pause; /* microseconds every 64 pixels */
+    bool is_quick;
 } fake;
 
 static float value(uint32_t batch, uint32_t pixel) { return (float)(batch * 4096 + pixel); }
@@ -23,16 +26,18 @@ static float value(uint32_t batch, uint32_t pixel) { return (float)(batch * 4096
 static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     fake *f = (fake *)source;
+    float *into = order->into;
     *complete = true;
-    for (uint32_t i = order->done; i < order->count; i++) order->into[3 * i] = 777; /* of an older batch */
-    if (f->index == 1 && f->taken++ == 7) return ec_fail(err, "it is over");
+    const ec_fold_parts parts = {.batches = 1, .take = take, .want_room = true};
+    if (order->batches > 1) return ec_fold_block(source, order, &parts, &source->invalid[1], complete, err);
+    for (uint32_t i = order->done; i < order->count; i++) into[3 * (i - order->done)] = 777; /* of an older batch */
+    if (f->index == 1 && f->taken++ == (f->is_quick ? 200 : 7)) return ec_fail(err, "it is over");
     for (uint32_t i = order->done; i < order->count && *complete; i++) {
-        for (uint32_t k = 0; k < 3; k++) order->into[3 * i + k] = value(order->index, order->list ? order->list[i] : i);
+        for (uint32_t k = 0; k < 3; k++) into[3 * (i - order->done) + k] = value(order->index, order->list ? order->list[i] : i);
         if (f->pause && i % 64 == 0) usleep(f->pause);
         if (i % 64 == 0) *complete = order->go_on(order->user, i + 1) || i + 1 == order->count;
     }
-    f->base.mean = order->into;
-    usleep(f->index == 2 ? 4000 : 300);
+    usleep(f->is_quick ? 1 : f->index == 2 ? 4000 : 300);
     if (races) raced++;
     source->rays += order->count - order->done;
     source->invalid[0] += 2;
@@ -82,6 +87,61 @@ static int check_marked(const ec_team_recruit *recruits)
     }
     ec_team_free(team);
     return wrong || reached == PIXELS;
+}
+
+static uint32_t whole(const void *user, uint32_t index)
+{
+    (void)user, (void)index;
+    return UINT32_MAX;
+}
+
+enum { MOST = 1000 };
+
+/* As a rank is ordered to take them. */
+static uint32_t ordered(uint32_t b)
+{
+    if (b % 256 == 0 && b + 256 <= MOST) return 256;
+    return b % 16 == 0 && b + 16 <= MOST ? 16 : 1;
+}
+
+/* A film of what a team takes, in blocks as it is told or where it likes, of which one member fails in the middle, has the bits of one batch by batch. */
+static int check_blocks(ec_team_recruit *recruits, bool is_told)
+{
+    static float batch[3 * PIXELS];
+    uint32_t done = 0, blocks = 0, took;
+    ec_team *team;
+    ec_film alone, film;
+    ec_error err = {0};
+    bool complete;
+    for (uint32_t i = 0; i < MEMBERS; i++) recruits[i].processes = 1;
+    if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, NULL, &team, &err) != EC_OK || ec_film_create(&film, WIDTH, HEIGHT, 1, &err) != EC_OK ||
+        ec_film_create(&alone, WIDTH, HEIGHT, 1, &err) != EC_OK)
+        return 1;
+    ec_batch_source *source = ec_team_source(team);
+    alone.shows_late = film.shows_late = true;
+    for (uint32_t b = 0; b < MOST; b += took) {
+        const uint32_t told = is_told ? ordered(b) : 0;
+        const ec_batch_order order = {.index = b, .batches = told, .end = told ? b + told : MOST, .count = PIXELS, .whole = whole, .patience = 100,
+                                      .until = 1e300, .go_on = go_on, .user = &done};
+        if (source->take(source, &order, &complete, &err) != EC_OK || !complete) return 1;
+        took = source->batches;
+        ec_film_part part = {.first = b, .count = took, .sums = source->sums};
+        if (took > 1) source->sums = (ec_moments){0}, blocks++;
+        if ((took > 1 ? ec_film_insert(&film, &part, &err) : ec_film_add_at(&film, b, source->mean, &err)) != EC_OK) return 1;
+    }
+    for (uint32_t b = 0; b < MOST; b++) {
+        for (uint32_t i = 0; i < 3 * PIXELS; i++) batch[i] = value(b, i / 3);
+        if (ec_film_add_at(&alone, b, batch, &err) != EC_OK) return 1;
+    }
+    ec_team_free(team);
+    ec_film_show(&film);
+    ec_film_show(&alone);
+    const bool same = !memcmp(film.mean, alone.mean, 24 * PIXELS) && !memcmp(film.m2, alone.m2, 32 * PIXELS) && !memcmp(film.m34, alone.m34, 8 * PIXELS) &&
+                      film.batch_count == MOST;
+    ec_film_destroy(&film);
+    ec_film_destroy(&alone);
+    printf("%u blocks, %s\n", blocks, same ? "the same bits" : "other bits");
+    return !same || blocks < 10;
 }
 
 static void count_warning(void *user, ec_severity severity, const char *text)
@@ -136,7 +196,11 @@ int main(int argc, char **argv)
     ec_team_free(team);
     printf("%d batches of %d sources, %d wrong, %d warnings, %s\n", BATCHES - 3, MEMBERS, wrong, warnings,
            shares == (uint64_t)PIXELS * (BATCHES - 3) - 200 ? "all pixels once" : "not all pixels once");
-    for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].pause = 20000;
+    for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].taken = 0, fakes[i].is_quick = true;
+    wrong += check_blocks(recruits, false);
+    fakes[1].taken = 0;
+    wrong += check_blocks(recruits, true);
+    for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].pause = 20000, fakes[i].is_quick = false;
     const int unmarked = check_marked(recruits);
     if (unmarked) printf("not marked\n");
     return wrong || unmarked;

@@ -45,6 +45,7 @@ class CheckpointFaults(FaultCase):
         start = time.monotonic()
         self.run_with(f"timed{seed}", "--checkpoint", kept, "--every", "0.001s", spp=32)
         took = time.monotonic() - start
+        os.remove(kept)
         while kills < KILLS // CHAINS:
             process, _ = self.start(f"run{seed}-{kills}", "--resume", kept, "--every", "0.001s", spp=1000000) if done else \
                 self.start(f"run{seed}-{kills}", "--checkpoint", kept, "--every", "0.001s", spp=1000000)
@@ -56,7 +57,8 @@ class CheckpointFaults(FaultCase):
                 self.assertRegex(name, rf"kept\.exr|{STRAY}")
             now = self.samples(kept)
             self.assertGreaterEqual(now, done)
-            os.remove(kept + ".merged.exr")
+            if now:
+                os.remove(kept + ".merged.exr")
             done, kills = now, kills + 1
         self.assertGreater(done, 32)
         again, whole = self.finish(kept, done + 5)

@@ -80,9 +80,11 @@ class Signals(FaultCase):
 
     def test_the_second_signal_ends_even_a_device_that_hangs(self):
         process, folder = self.start("hangs", call="clEnqueueNDRangeKernel", at=30, sleep=100)
-        time.sleep(2)
+        time.sleep(5)
         process.send_signal(signal.SIGINT)
-        time.sleep(0.2)
+        time.sleep(0.02)
+        process.send_signal(signal.SIGTERM)  # the same wish, told twice
+        time.sleep(0.8)
         self.assertIsNone(process.poll())
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=20)

@@ -1,8 +1,9 @@
-"""ThreadSanitizer watches four threads build every acceleration structure, and five sources of batches work as a team. clang with its
-own OpenMP run-time (libomp), whose libarcher tells the sanitizer of OpenMP's barriers and tasks; gcc's libgomp does not, and every
-barrier would be a finding."""
+"""ThreadSanitizer watches four threads build every acceleration structure, decode pictures and weigh a map, and five sources of batches
+work as a team. clang with its own OpenMP run-time (libomp), whose libarcher tells the sanitizer of OpenMP's barriers and tasks; gcc's
+libgomp does not, and every barrier would be a finding."""
 import glob
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -11,6 +12,7 @@ import unittest
 from support import SOURCE
 
 CLANG = shutil.which("clang")
+TEAM = ["pipeline/team*.c", "pipeline/fold.c", "film/film.c", "film/parts.c", "film/moments.c"]
 
 
 class Races(unittest.TestCase):
@@ -21,7 +23,7 @@ class Races(unittest.TestCase):
         cls.folder = tempfile.mkdtemp(prefix="eclat-races-")
         cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
 
-    def compile(self, name, *files):
+    def compile(self, name, files, libraries):
         program = os.path.join(self.folder, name)
         sources = [os.path.join(SOURCE, "tests", "robust", name + ".c")]
         for pattern in [*files, "base/*.c"]:
@@ -29,7 +31,7 @@ class Races(unittest.TestCase):
         build = subprocess.run(
             [CLANG, "-std=c11", "-g", "-O1", "-fsanitize=thread", "-fopenmp", "-ffp-contract=off", "-D_POSIX_C_SOURCE=200809L",
              "-D_DEFAULT_SOURCE", "-I", os.path.join(SOURCE, "host"), "-I", os.path.join(SOURCE, "kernels"), *sources, "-o",
-             program, "-lm"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", timeout=600)
+             program, *libraries, "-lm"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", timeout=600)
         if build.returncode:
             missing = [line for line in build.stdout.splitlines() if "libclang_rt.tsan" in line or "omp.h" in line or "-lomp" in line]
             if missing:
@@ -42,21 +44,34 @@ class Races(unittest.TestCase):
         return subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               encoding="utf-8", errors="replace", timeout=600)
 
-    def check(self, name, expected, *files):
-        program = self.compile(name, *files)
+    @staticmethod
+    def findings(text):
+        """Reports on memory that is the program's own. libomp keeps the records of its tasks in pieces of its own memory and hands an ended
+        one's to the next by atomics that the sanitizer does not see: what a task was given seems to race with what another was."""
+        reports = re.findall(r"WARNING: ThreadSanitizer.*?(?=\n=+\n|\Z)", text, re.S)
+        runtime = re.compile(r"Location is heap block .*\n *#0 malloc .*\n *#1 <null> <null> \(libomp\.")
+        return [report for report in reports if not runtime.search(report)]
+
+    def check(self, name, expected, *files, libraries=()):
+        program = self.compile(name, files, libraries)
         run = self.watch(program, "race")
         self.assertEqual(run.returncode, 66, run.stdout)
-        self.assertIn("WARNING: ThreadSanitizer: data race", run.stdout)
-        self.assertIn(name + ".c", run.stdout)
+        self.assertTrue(any("data race" in report and name + ".c" in report for report in self.findings(run.stdout)), run.stdout[:4000])
         run = self.watch(program)
-        self.assertEqual(run.returncode, 0, run.stdout[:4000])
+        self.assertIn(run.returncode, [0, 66], run.stdout[:4000])
+        self.assertEqual(self.findings(run.stdout)[:2], [])
         self.assertIn(expected, run.stdout)
 
     def test_builders(self):
         self.check("race_accel", "5 structures of 80000 triangles by 4 threads, 2 refitted", "accel/*.c")
 
+    def test_loading(self):
+        self.check("race_load", "12 of 16 pictures by 4 threads, 4 warnings, chances sum to 1.0000", "scene/textures.c", "scene/texture_range.c",
+                   "scene/image_decode.c", "scene/image_png.c", "scene/image_jpeg.c", "scene/codecs/no_webp.c", "scene/gltf_uri.c",
+                   "pack/environment.c", "pack/distribution.c", libraries=["-lpng", "-ljpeg"])
+
     def test_teams(self):
-        self.check("race_team", "57 batches of 5 sources, 0 wrong, 2 warnings, all pixels once", "pipeline/team.c")
+        self.check("race_team", "57 batches of 5 sources, 0 wrong, 2 warnings, all pixels once", *TEAM)
 
 
 if __name__ == "__main__":

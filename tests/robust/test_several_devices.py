@@ -87,8 +87,30 @@ class Several(Case):
             whole = self.render(CORNELL, *SIZE, "--spp", "96", "--batch", "4", *job, device="0")
             for first, then in [("all", "all"), ("0", "all")]:
                 self.render(CORNELL, *SIZE, "--spp", "40", "--batch", "4", *job, "--checkpoint", kept, device=first)
-                again = self.render("--resume", kept, "--spp", "96", device=None, env=dict(TWO, ECLAT_DEVICE=then))
+                again = self.render("--resume", kept, "--spp", "96", device=then)
                 self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
+
+    def test_going_on_within_a_batch_of_one_device(self):
+        """Its waves end anywhere in a row of tiles, pieces of several devices at their ends."""
+        kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "4096", "--batch", "1024", "--wave", "131072"]
+        whole = self.render(*job, device="0")
+        planes = read_exr(self.path("a.exr"))[1]
+        for wanted in [0, 2]:  # in the first batch, and later
+            process = subprocess.Popen([ECLAT, "render", *job, "--device", "0", "--checkpoint", kept, "--every", "0.0000001", "-q", "-o", self.path("b.exr")],
+                                       env=dict(ENVIRONMENT, **TWO))
+            state = {"batches": -1}
+            while process.poll() is None and (state["batches"] < wanted or state["underWay"] % (72 * 8) == 0):
+                time.sleep(0.01)
+                if os.path.exists(kept):
+                    state = json.loads(read_exr(kept)[0]["eclat.state"])
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            state = json.loads(read_exr(kept)[0]["eclat.state"])
+            self.assertGreater(state["underWay"], 0)
+            again = self.render("--resume", kept)
+            self.assertEqual(again["image_sha256"], whole["image_sha256"])
+            self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
+            os.remove(kept)
 
     def test_killed(self):
         """The last checkpoint stands, holds no hole, and is not older than an interval and what a write and the pieces under way take."""
@@ -138,6 +160,8 @@ class Several(Case):
         for device, words in [("0,0", "twice; name each once"), ("0,,1", "has an empty place"), ("0,no-such", "--device no-such: no such device"),
                               ("0,7", "--device 7: no such device")]:
             self.assertIn(words, self.assert_one_error(eclat("render", CORNELL, "--device", device, env=TWO, cwd=self.folder), 1))
+        large = eclat("render", CORNELL, "--size", "4096x4096", "--spp", "4", "--memory", "300M", "--device", "all", env=TWO, cwd=self.folder)
+        self.assertIn("more than one --device is for pictures that are rendered whole; name one, or give more", self.assert_one_error(large, 1))
         for command in [["cost", CORNELL], ["selftest"], ["info", CORNELL, "--accel", "bvh2"], ["view", CORNELL]]:
             for device in ["0,1", "all"]:
                 run = eclat(*command, "--device", device, env=TWO, cwd=self.folder)

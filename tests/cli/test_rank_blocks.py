@@ -1,0 +1,139 @@
+"""Only sums travel: where batches come fast, ranks send the sum of 16 or 256 batches in place of each of them, to the same bits. Skipped where there
+is no mpirun, or eclat was built without MPI."""
+import json
+import os
+import signal
+import time
+import unittest
+
+import test_ranks
+from support import CORNELL, Case, eclat, read_exr
+
+SIZE = ["--size", "20x18"]
+MANY = [CORNELL, *SIZE, "--batch", "1", "--spp", "2048"]
+PIXELS = 20 * 18
+
+
+def bytes_of_each(report):
+    """That reached rank 0, for a pixel of a batch that another rank took."""
+    return report["received_bytes"] / (PIXELS * report["other_ranks_batches"])
+
+
+class RankBlocks(Case):
+    render = test_ranks.Ranks.render
+    render_with = test_ranks.Ranks.render_with
+    start = test_ranks.Ranks.start
+    wait_for = test_ranks.Ranks.wait_for
+
+    @classmethod
+    def setUpClass(cls):
+        if why := test_ranks.without_mpi():
+            raise unittest.SkipTest(why)
+
+    def render_on(self, ranks, *job, env=None):
+        run = self.assert_ok(test_ranks.mpirun(ranks, "render", *job, "--json", "-q", "-o", self.path("b.exr"), env=env))
+        return json.loads(run.stdout), read_exr(self.path("b.exr"))[1]
+
+    def assert_same(self, one, other):
+        self.assertEqual({key: one[0][key] for key in test_ranks.RESULT}, {key: other[0][key] for key in test_ranks.RESULT})
+        self.assertEqual(one[1], other[1])
+
+    def test_traffic(self):
+        """A mean of each batch would be 12 bytes a pixel, the sums of 16 are 68 / 16. Batches by themselves: the first, the last, and until all know
+        their pace."""
+        whole = self.render(*MANY)
+        for ranks, fanout in [(2, ""), (3, ""), (5, ""), (5, "2"), (3, "1")]:
+            report, planes = self.render_on(ranks, *MANY, env={"ECLAT_RANK_FANOUT": fanout})
+            self.assert_same(whole, (report, planes))
+            self.assertGreater(report["other_ranks_batches"], 100)
+            self.assertLess(bytes_of_each(report), 12 / 1.5)
+
+    def test_until_an_error(self):
+        """The same batch ends it, wherever they were rendered; it is looked at every 16th from 256 on, every 32nd from 512."""
+        job = [CORNELL, *SIZE, "--batch", "1"]
+        past = self.render(*job, "--spp", "900")[0]["error_bound"]
+        job += ["--error", f"{100 * past}%"]
+        whole = self.render(*job)
+        self.assertEqual(whole[0]["stopped_by"], "error")
+        self.assertGreater(whole[0]["batches"], 512)
+        self.assertEqual(whole[0]["batches"] % 32, 0)
+        for ranks in [2, 3]:
+            self.assert_same(whole, self.render_on(ranks, *job))
+        kept = self.path("kept.exr")
+        self.render_on(3, *job, "--spp", "523", "--checkpoint", kept)
+        self.assertEqual(whole[0]["image_sha256"], self.render("--resume", kept, "--error", f"{100 * past}%", "--spp", "4000")[0]["image_sha256"])
+        self.assertEqual(whole[0]["image_sha256"], self.render_on(2, "--resume", kept, "--error", f"{100 * past}%", "--spp", "4000")[0]["image_sha256"])
+
+    def test_going_on(self):
+        """A job that is stopped again and again, at any batch, on other ranks each time."""
+        job, kept = [*MANY[:-1], "6000"], self.path("kept.exr")
+        whole = self.render(*job)
+        now, stops = job, 0
+        for ranks in [2, 3, 2, 3]:
+            process = self.start(ranks, *now, "--checkpoint", kept, "--every", "1s", "-q", "-o", self.path("b.exr"))
+            self.wait_for(kept, process)
+            time.sleep(0.7)
+            stops += process.poll() is None
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+            now = ["--resume", kept]
+        self.assertGreater(stops, 0)
+        self.assert_same(whole, self.render_on(3, "--resume", kept))
+
+    def test_several_devices(self):
+        job = [*MANY, "--device", "all"]
+        env = {"POCL_DEVICES": "basic basic"}
+        whole = self.render(*MANY)
+        report, planes = self.render_on(2, *job, env=env)
+        self.assert_same(whole, (report, planes))
+        self.assertLess(bytes_of_each(report), 12 / 1.5)
+
+    def test_a_device_that_fails(self):
+        """In the middle of a block: others take its piece."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=9000 FAULT_LOST=1"
+        self.assertRegex(self.render_with(fault, MANY).stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
+        self.render_with(fault, MANY, {"ECLAT_RANK_FANOUT": "1"})  # it goes on with what the last rank does
+
+    def test_a_rank_that_is_killed(self):
+        """Where the launcher lets the others live they see at once that it has ended, and take its piece over."""
+        job = [*MANY[:-1], "9000"]
+        whole = self.render(*job)
+        for victim, env in [(2, ""), (1, "1")]:
+            process = self.start(3, *job, "--checkpoint", self.path("kept.exr"), "--every", "1s", "--json", "-o", self.path("b.exr"),
+                                 launcher=["--enable-recovery", "-x", f"ECLAT_RANK_FANOUT={env}"])
+            self.wait_for(self.path("kept.exr"), process)
+            os.kill(test_ranks.Ranks.ranks_of(self, process)[victim], signal.SIGKILL)
+            killed = time.monotonic()
+            output, error = process.communicate(timeout=100)
+            self.assertLess(time.monotonic() - killed, 40)  # before it was noticed that nothing comes of it, a minute
+            self.assertIn(f"rank {victim} is lost", error)
+            self.assertEqual(whole[0]["image_sha256"], json.loads(output)["image_sha256"])
+            os.remove(self.path("kept.exr"))
+
+    def test_a_limit_of_time(self):
+        start = time.monotonic()
+        report, _ = self.render_on(3, CORNELL, *SIZE, "--batch", "1", "--time", "3s")
+        self.assertEqual(report["stopped_by"], "time")
+        self.assertLess(report["seconds"], 4)
+        self.assertLess(time.monotonic() - start, 40)
+        whole, _ = self.render(CORNELL, *SIZE, "--batch", "1", "--spp", str(report["samples_per_pixel"]))
+        self.assertEqual(whole["image_sha256"], report["image_sha256"])
+
+    def test_a_plan(self):
+        """The model knows blocks: not at the beginning and the end, and not where a block takes long."""
+        plan = json.loads(self.assert_ok(eclat("render", CORNELL, *SIZE, "--batch", "1", "--spp", "65536", "--plan", "1000", "--json", "-q")).stdout)
+        rows = {row["ranks"]: row for row in plan["plan"]}
+        self.assertEqual(rows[1]["received_bytes"], 0)
+        each = {ranks: row["received_bytes"] / (PIXELS * 65536 * (1 - 1 / ranks)) for ranks, row in rows.items() if ranks > 1}
+        self.assertLess(each[8], 12 / 2.5)
+        self.assertGreaterEqual(min(each.values()), 68 / 256)
+        self.assertLessEqual(max(each.values()), 12)
+        self.assertGreater(plan["add_block_seconds"], 0)
+        slow = json.loads(self.assert_ok(eclat("render", CORNELL, "--size", "256x256", "--spp", "64", "--plan", "4", "--json", "-q")).stdout)
+        self.assertAlmostEqual(slow["plan"][1]["received_bytes"], 256 * 256 * 12 * 16 / 2, delta=1)
+
+
+if __name__ == "__main__":
+    unittest.main()
