@@ -1,16 +1,14 @@
 /* eclat view SCENE: a window that shows the render; what it saves is what `eclat render` would have written. */
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/cli.h"
-#include "cli/combinations.h"
-#include "cli/command_line.h"
 #include "cli/defaults.h"
 #include "cli/render_job.h"
 #include "cli/setters.h"
 #include "cli/stop.h"
+#include "cli/view_command.h"
 #include "cli/write_report.h"
 #include "pack/view.h"
 #include "report/names.h"
@@ -23,10 +21,7 @@ typedef struct view_job {
     ec_render_request render; /* first: the setters of its options are used */
     const char *against, *script;
     bool stats;
-    struct {
-        const char *option, *value;
-    } kept[EC_OPTIONS_MAX];   /* as they were given, for the command that repeats a picture */
-    int kept_count;
+    ec_kept_options kept;     /* for the command that repeats a picture */
     ec_console *console;
     ec_device_info device;
     uint32_t device_index;
@@ -36,6 +31,7 @@ typedef struct view_job {
     uint32_t camera;          /* of the options, once loaded */
     ec_viewpoint viewpoint;   /* its */
     int saved;
+    ec_error unsaved;         /* of the last save, if it failed: who looked elsewhere, or is a script, is told at the end */
 } view_job;
 
 #define REQUEST ((view_job *)target)
@@ -48,7 +44,7 @@ static const char *why_foreign(const char *name)
 {
     static const char *const lasting = "a window keeps no checkpoints and renders no slices", *const moving = "a window shows one moment";
     static const char *const talking = "a window reports to who looks at it";
-    static const char *const names[][2] = {{"adaptive", "the window's samples are the same in all pixels"}, {"checkpoint", lasting}, {"every", lasting},
+    static const char *const names[][2] = {{"adaptive", "a window takes as many samples in every pixel"}, {"checkpoint", lasting}, {"every", lasting},
                                             {"fps", moving}, {"frames", moving}, {"json", talking}, {"memory", "a window's picture is held whole"},
                                             {"overwrite", moving}, {"plan", "a window is one process"}, {"resume", lasting}, {"samples", lasting},
                                             {"verbose", talking}};
@@ -73,14 +69,6 @@ static bool is_ours(const char *name)
     return false;
 }
 
-static bool is_camera(const char *name)
-{
-    static const char *const names[] = {"camera", "eye", "fov", "look-at", "parallel", "up"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (!strcmp(names[i], name)) return true;
-    return false;
-}
-
 static ec_result set_and_keep(void *target, const char *option, const char *value, ec_error *err)
 {
     view_job *job = target;
@@ -88,10 +76,7 @@ static ec_result set_and_keep(void *target, const char *option, const char *valu
         if (strcmp(ec_render_rows[i].name, option)) continue;
         EC_TRY(ec_render_rows[i].set(&job->render, option, value, err));
         if (is_ours(option)) return EC_OK;
-        for (int k = 0; k < job->kept_count; k++)
-            if (!strcmp(job->kept[k].option, option)) job->kept[k] = job->kept[--job->kept_count]; /* the last one counts */
-        job->kept[job->kept_count].option = ec_render_rows[i].name;
-        job->kept[job->kept_count++].value = value;
+        ec_kept_options_add(&job->kept, ec_render_rows[i].name, value);
         return EC_OK;
     }
     return EC_OK;
@@ -147,85 +132,6 @@ static void number_outputs(ec_outputs *outputs, int number)
     }
 }
 
-typedef struct words {
-    char *argv[4 * EC_OPTIONS_MAX + 4 * EC_OUTPUTS_MAX + 64];
-    char text[16384];
-    int count;
-    size_t used;
-} words;
-
-__attribute__((format(printf, 2, 3))) static void add(words *w, const char *format, ...)
-{
-    size_t room = sizeof w->text - w->used;
-    va_list args;
-    va_start(args, format);
-    int size = vsnprintf(w->text + w->used, room, format, args);
-    va_end(args);
-    if (size < 0 || (size_t)size >= room || w->count == (int)(sizeof w->argv / sizeof w->argv[0])) return;
-    w->argv[w->count++] = w->text + w->used;
-    w->used += (size_t)size + 1;
-}
-
-static void add_triple(words *w, const char *option, const double xyz[3])
-{
-    add(w, "--%s=%.9g,%.9g,%.9g", option, xyz[0], xyz[1], xyz[2]);
-}
-
-/* The camera that the window moved; or one of the scene's, the one that the options ask for as they ask for it. */
-static void add_camera(words *w, const view_job *job, const ec_view_shot *shot)
-{
-    const ec_viewpoint *v = &shot->viewpoint;
-    if (!shot->moved && shot->options->camera == job->camera) return;
-    if (!shot->moved) {
-        add(w, "--camera=%u", shot->options->camera);
-        return;
-    }
-    add_triple(w, "eye", v->eye);
-    add_triple(w, "look-at", v->target);
-    add_triple(w, "up", v->up);
-    if (v->fov > 0) add(w, "--fov=%.9g", v->fov);
-    else add(w, "--parallel=%.9g", v->tall);
-}
-
-static bool is_kept(const view_job *job, const char *option, const char *value, const ec_view_shot *shot)
-{
-    ec_integrator integrator = shot->options->integrator;
-    bool asked = !shot->moved && shot->options->camera == job->camera;
-    if (!ec_combinations_belongs(option, integrator) || (is_camera(option) && !asked)) return false;
-    bool deep = !strcmp(option, "max-depth") && (!strcmp(value, "inf") || atoi(value) > EC_WHITTED_DEPTH_MOST);
-    return !(integrator == EC_INTEGRATOR_WHITTED && deep);
-}
-
-static char *command_of(const view_job *job, const ec_view_shot *shot, const ec_outputs *outputs)
-{
-    words w = {.count = 0};
-    const ec_render_options *o = shot->options;
-    add(&w, "eclat");
-    add(&w, "render");
-    add(&w, "%s", job->render.scene);
-    for (int i = 0; i < job->kept_count; i++) {
-        const char *option = job->kept[i].option, *value = job->kept[i].value;
-        if (!is_kept(job, option, value ? value : "", shot)) continue;
-        if (value) add(&w, "--%s=%s", option, value);
-        else add(&w, "--%s", option);
-    }
-    add(&w, "--size=%ux%u", o->width, o->height);
-    add_camera(&w, job, shot);
-    if (o->integrator != EC_INTEGRATOR_PATH) add(&w, "--integrator=%s", ec_integrator_names[o->integrator]);
-    if (shot->env_degrees != 0) add(&w, "--env-rotate=%.9g", shot->env_degrees);
-    for (uint32_t i = 0; i < ec_feature_count; i++)
-        if (o->without & ec_features[i].bit) add(&w, "--without=%s", ec_features[i].name);
-    add(&w, "--spp=%u", o->spp);
-    add(&w, "--batch=%u", o->batch);
-    if (shot->exposure != 0) add(&w, "--exposure=%.9g", shot->exposure);
-    if (shot->tonemap != EC_TONEMAP_NEUTRAL) add(&w, "--tonemap=%s", ec_tonemap_names[shot->tonemap]);
-    for (int i = 0; i < outputs->count; i++) {
-        add(&w, "-o");
-        add(&w, "%s", outputs->file[i].path);
-    }
-    return ec_command_line(w.count, w.argv);
-}
-
 static ec_viewpoint viewpoint_of(const view_job *job, const ec_view_shot *shot)
 {
     ec_viewpoint v = shot->viewpoint;
@@ -235,16 +141,20 @@ static ec_viewpoint viewpoint_of(const view_job *job, const ec_view_shot *shot)
     return v;
 }
 
-static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
+static ec_result check_outputs(const view_job *job, const ec_outputs *outputs, ec_error *err)
 {
-    view_job *job = user;
+    const char *inputs[] = {job->render.scene, job->render.environment};
+    return ec_outputs_check(outputs, inputs, 2, err);
+}
+
+static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
+{
     ec_outputs outputs = job->render.outputs;
     char sha256[EC_HASH_SIZE], camera[256] = "of the preview window", environment[320];
     if (outputs.count == 0) EC_TRY(ec_outputs_add_default(&outputs, job->render.scene, err));
     number_outputs(&outputs, job->saved + 1);
-    const char *inputs[] = {job->render.scene, job->render.environment};
-    EC_TRY(ec_outputs_check(&outputs, inputs, 2, err));
-    char *command = command_of(job, shot, &outputs);
+    EC_TRY(check_outputs(job, &outputs, err));
+    char *command = ec_view_command(&job->render, &job->kept, job->camera, shot, &outputs);
     if (!command) return ec_fail(err, "out of memory for a command line");
     if (!shot->moved) ec_camera_describe(shot->scene, shot->options->camera, camera, sizeof camera);
     snprintf(environment, sizeof environment, "%s", job->environment);
@@ -270,6 +180,14 @@ static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t s
     return result;
 }
 
+static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
+{
+    view_job *job = user;
+    ec_result result = write_shot(job, shot, told, size, err);
+    job->unsaved = result == EC_OK ? (ec_error){.kind = EC_ERROR_OTHER} : *err;
+    return result;
+}
+
 ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
     view_job job = {.console = &cli->console};
@@ -278,11 +196,13 @@ ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
     if (done) return EC_OK;
     cli->console.quiet = job.render.quiet;
     EC_TRY(ec_view_available(err));
+    EC_TRY(check_outputs(&job, &job.render.outputs, err));
     EC_TRY(ec_device_find(job.render.device, &job.device, &job.device_index, &job.device_why, err));
     if (job.against) {
-        ec_exr exr = {0};
-        EC_TRY(ec_exr_read(job.against, &exr, err));
-        ec_exr_free(&exr);
+        uint32_t width, height;
+        float *rgb;
+        EC_TRY(ec_image_read_rgb(job.against, &width, &height, &rgb, err));
+        free(rgb);
     }
     const ec_view_request request = {
         .device = job.device, .options = job.render.options, .env_degrees = job.render.env_degrees, .exposure = job.render.exposure,
@@ -290,5 +210,6 @@ ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
         .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_descriptor(),
     };
     ec_stop_catch_signals(false);
-    return ec_view_run(&request, err);
+    EC_TRY(ec_view_run(&request, err));
+    return *job.unsaved.text ? ec_fail(err, "%s", job.unsaved.text) : EC_OK;
 }

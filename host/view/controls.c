@@ -79,7 +79,7 @@ static void on_scroll(GLFWwindow *glfw, double x, double y)
 {
     ec_window *w = of(glfw);
     (void)x;
-    if (w->input.facts.serial) ec_view_input_wheel(&w->input, y);
+    if (w->input.facts.serial && y != 0) ec_view_input_wheel(&w->input, y); /* sideways it does nothing */
     w->dirty = true;
 }
 
@@ -91,7 +91,7 @@ static void on_char(GLFWwindow *glfw, unsigned code)
     const char name[2] = {(char)code, 0};
     w->told_at = 0;
     w->dirty = true;
-    if (w->input.effects && code >= '1' && code <= '9') ec_view_input_digit(&w->input, (int)code - '0');
+    if (w->input.effects && code >= '0' && code <= '9') ec_view_input_digit(&w->input, (int)code - '0');
     else ec_view_input_do(&w->input, ec_view_action_of(name));
 }
 
@@ -176,8 +176,7 @@ static void on_refresh(GLFWwindow *glfw) { of(glfw)->dirty = true; }
 
 static void on_scale(GLFWwindow *glfw, float x, float y)
 {
-    of(glfw)->scale = (double)fmaxf(x, y);
-    of(glfw)->dirty = true;
+    ec_window_rescale(of(glfw), (double)fmaxf(x, y));
 }
 
 void ec_window_listen(ec_window *w)

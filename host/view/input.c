@@ -35,6 +35,17 @@ static void moved(ec_view_input *in)
     in->moved_at = ec_now();
 }
 
+/* In radii of the scene, as far as floats tell eye and target apart and the scene from a point; from beyond it goes only back. */
+static void dolly(ec_view_input *in, double factor)
+{
+    const double least = 1e-6 * in->facts.radius, most = 1e4 * in->facts.radius;
+    ec_viewpoint *v = take_camera(in);
+    double now = v->fov > 0 ? ec_orbit_distance(v) : v->tall, wanted = now * factor;
+    if (wanted < least) wanted = fmin(least, now);
+    if (wanted > most) wanted = fmax(most, now);
+    ec_orbit_dolly(v, wanted / now);
+}
+
 static void frame(ec_view_input *in)
 {
     const ec_view_probe *node = in->selected.node >= 0 ? &in->selected : &in->under;
@@ -85,8 +96,8 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_INTEGRATOR_PATH:
     case EC_DO_INTEGRATOR_WHITTED:
     case EC_DO_INTEGRATOR_RASTER: w->integrator = (ec_integrator)(action - EC_DO_INTEGRATOR_PATH); break;
-    case EC_DO_BRIGHTER: w->exposure = round(3 * w->exposure + 1) / 3; break;
-    case EC_DO_DARKER: w->exposure = round(3 * w->exposure - 1) / 3; break;
+    case EC_DO_BRIGHTER: w->exposure = fmin(round(3 * w->exposure + 1) / 3, EC_EXPOSURE_MOST); break;
+    case EC_DO_DARKER: w->exposure = fmax(round(3 * w->exposure - 1) / 3, -EC_EXPOSURE_MOST); break;
     case EC_DO_TONEMAP: w->tonemap = w->tonemap == EC_TONEMAP_NEUTRAL ? EC_TONEMAP_NONE : EC_TONEMAP_NEUTRAL; break;
     case EC_DO_ENV_LEFT: turn_environment(in, -5); break;
     case EC_DO_ENV_RIGHT: turn_environment(in, 5); break;
@@ -97,7 +108,7 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_LAYOUT: in->layout = (ec_view_layout)((in->layout + 1) % EC_LAYOUT_COUNT); break;
     case EC_DO_RUNG: w->rung = (ec_integrator)((w->rung + 1) % EC_INTEGRATOR_COUNT); break;
     case EC_DO_LINES: in->lines = (ec_view_lines)((in->lines + 1) % EC_LINES_COUNT); break;
-    case EC_DO_EFFECTS: in->effects = !in->effects, in->help = false; break;
+    case EC_DO_EFFECTS: in->effects = !in->effects, in->effects_page = 0, in->help = false; break;
     case EC_DO_MORE: w->more++; break;
     case EC_DO_SAVE: w->saves++; break;
     case EC_DO_RELOAD: w->reloads++; break;
@@ -119,7 +130,7 @@ void ec_view_input_drag(ec_view_input *in, ec_view_drag drag, double dx, double 
     switch (drag) { /* what is under the hand follows it */
     case EC_DRAG_ORBIT: ec_orbit_turn(v, -half_turn * dx, half_turn * dy); break;
     case EC_DRAG_PAN: ec_orbit_pan(v, -dx, dy); break;
-    case EC_DRAG_DOLLY: ec_orbit_dolly(v, exp(3 * dy)); break;
+    case EC_DRAG_DOLLY: dolly(in, exp(3 * dy)); break;
     case EC_DRAG_LOOK: ec_orbit_look(v, half_turn / 2 * dx, -half_turn / 2 * dy); break;
     }
     moved(in);
@@ -127,7 +138,7 @@ void ec_view_input_drag(ec_view_input *in, ec_view_drag drag, double dx, double 
 
 void ec_view_input_wheel(ec_view_input *in, double clicks)
 {
-    ec_orbit_dolly(take_camera(in), pow(0.9, clicks));
+    dolly(in, pow(0.9, clicks));
     moved(in);
 }
 
@@ -140,5 +151,6 @@ void ec_view_input_fly(ec_view_input *in, double forward, double right, double u
 
 void ec_view_input_digit(ec_view_input *in, int digit)
 {
-    in->wish.without ^= ec_view_effect_of_digit(&in->facts, digit);
+    if (digit) in->wish.without ^= ec_view_effect_of_digit(&in->facts, in->effects_page, digit);
+    else in->effects_page++;
 }

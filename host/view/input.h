@@ -12,6 +12,7 @@ typedef struct ec_view_input {
     ec_view_layout layout;
     ec_view_lines lines;     /* over the picture */
     bool help, effects;      /* lists that are open */
+    uint32_t effects_page;
     bool fullscreen, quit;   /* asked for */
     ec_view_probe under, selected; /* the cursor's, and that of the click; node >= 0: there is one */
     double moved_at;         /* ec_now of the last move */

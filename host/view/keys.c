@@ -20,7 +20,7 @@ const ec_view_key ec_view_keys[] = {
     {{"t", "T"}, EC_DO_TONEMAP, "T", "next tone mapper"},
     {{",", NULL}, EC_DO_ENV_LEFT, ",", "turn the environment by -5 degrees"},
     {{".", NULL}, EC_DO_ENV_RIGHT, ".", "turn the environment by 5 degrees"},
-    {{"x", "X"}, EC_DO_EFFECTS, "X", "effects: list; then a digit switches one off or on"},
+    {{"x", "X"}, EC_DO_EFFECTS, "X", "effects: list; then a digit switches one off or on, 0 shows more"},
     {{"v", "V"}, EC_DO_LAYOUT, "V", "one picture, wipe at the cursor, side by side"},
     {{"Tab", NULL}, EC_DO_SECOND, "Tab", "second picture: error, samples, another rung, --against"},
     {{"g", "G"}, EC_DO_RUNG, "G", "which rung that is"},

@@ -36,28 +36,28 @@ static void say_loading(ec_view *view, const char *what)
     pthread_mutex_unlock(&view->lock);
 }
 
-/* A first load that fails ends the program; later ones leave the last picture. */
-static void say_failure(ec_view *view, const ec_error *err, bool is_first)
+/* What fails at first ends the program; later it leaves the last picture. */
+static void say_failure(ec_view *view, ec_view_trouble whose, const ec_error *err, bool is_first)
 {
     pthread_mutex_lock(&view->lock);
     if (is_first) view->fatal = *err, view->failed = true;
-    snprintf(view->status.failure, sizeof view->status.failure, "%s", err->text);
-    ec_view_post(view);
     pthread_mutex_unlock(&view->lock);
+    ec_view_say_trouble(view, whose, err);
 }
 
-static void find_facts(const ec_view_scene *s, ec_view_facts *f)
+static ec_result find_facts(ec_view_scene *s, ec_view_facts *f, ec_error *err)
 {
     const ec_scene *scene = s->scene;
     ec_effects effects;
     *f = (ec_view_facts){.serial = s->serial, .camera = s->options.camera, .width = s->options.width, .height = s->options.height,
-                         .has_map = scene->environment.rgb != NULL};
-    f->camera_count = scene->camera_count < EC_VIEW_CAMERAS ? scene->camera_count : EC_VIEW_CAMERAS;
+                         .camera_count = scene->camera_count, .has_map = scene->environment.rgb != NULL, .scene = s};
+    f->cameras = s->cameras = calloc(scene->camera_count, sizeof *s->cameras);
+    if (!s->cameras) return ec_fail(err, "out of memory for %u cameras", scene->camera_count);
     for (uint32_t i = 0; i < f->camera_count; i++) {
         const ec_camera *camera = &scene->cameras[i];
         double reach = ec_camera_reach(scene, camera);
         if (i == f->camera) reach = fmin(reach, ec_view_pick(scene, camera, 1, 1, 0, 0).distance); /* what one looks at */
-        ec_camera_viewpoint(camera, scene->center, reach, &f->cameras[i]);
+        ec_camera_viewpoint(camera, scene->center, reach, &s->cameras[i]);
     }
     for (int k = 0; k < 3; k++) {
         double half = 0.5 * ((double)scene->bounds_max[k] - scene->bounds_min[k]);
@@ -66,6 +66,7 @@ static void find_facts(const ec_view_scene *s, ec_view_facts *f)
     }
     f->radius = f->radius > 0 ? sqrt(f->radius) : 1;
     if (ec_scene_calls(scene, &effects, NULL) == EC_OK) f->optional = effects.bits & ec_effects_optional;
+    return EC_OK;
 }
 
 /* A camera that nobody moved stays where it was too, whatever the file says now. */
@@ -91,20 +92,21 @@ static ec_result load(loader *l, ec_error *err)
     if (!s) return ec_fail(err, "out of memory for a scene");
     *s = (ec_view_scene){.users = 1, .serial = ++l->loads, .options = request->options};
     ec_result result = request->load(request->user, &s->scene, &s->options, err);
+    ec_view_facts facts;
+    if (result == EC_OK) result = find_facts(s, &facts, err);
     if (result != EC_OK) {
-        free(s);
+        ec_view_scene_release(view, s);
         return result;
     }
-    ec_view_facts facts;
-    find_facts(s, &facts);
-    ec_view_scene_release(view, l->scene);
-    l->scene = s;
+    ec_view_scene *old = l->scene;
     pthread_mutex_lock(&view->lock);
     keep_camera(view, &facts);
     view->facts = facts;
-    view->status.failure[0] = 0;
+    l->scene = s;
     ec_view_post(view);
     pthread_mutex_unlock(&view->lock);
+    ec_view_scene_release(view, old);
+    ec_view_say_trouble(view, EC_TROUBLE_FILES, NULL);
     return EC_OK;
 }
 
@@ -126,9 +128,10 @@ static bool set_up(loader *l, uint32_t role, ec_integrator integrator, uint64_t 
     bool is_first = l->made[role].serial == 0 && role == EC_ROLE_PICTURE;
     l->made[role] = (made_for){l->scene->serial, integrator, without};
     if (ec_view_setup_make(l->view, l->scene, integrator, without, &setup, &err) != EC_OK) {
-        say_failure(l->view, &err, is_first);
+        say_failure(l->view, EC_TROUBLE_SETUP, &err, is_first);
         return false;
     }
+    ec_view_say_trouble(l->view, EC_TROUBLE_SETUP, NULL);
     hand_over(l->view, role, setup);
     return true;
 }
@@ -144,7 +147,7 @@ static bool is_made(const loader *l, uint32_t role, ec_integrator integrator, ui
 static void wait_for_light(ec_view *view)
 {
     pthread_mutex_lock(&view->lock);
-    while (!view->quit && view->status.pictures == 0 && !*view->status.failure && !view->wish.paused)
+    while (!view->quit && view->status.pictures == 0 && !*view->status.trouble[EC_TROUBLE_CAMERA] && !view->wish.paused)
         pthread_cond_wait(&view->changed, &view->lock);
     pthread_mutex_unlock(&view->lock);
 }
@@ -201,7 +204,7 @@ static void reload_if_changed(loader *l, bool *pending)
     *pending = false;
     ec_error err = {0};
     say_loading(l->view, "loading");
-    if (load(l, &err) != EC_OK) say_failure(l->view, &err, false);
+    if (load(l, &err) != EC_OK) say_failure(l->view, EC_TROUBLE_FILES, &err, false);
     say_loading(l->view, "");
 }
 
@@ -213,7 +216,7 @@ void *ec_view_loader(void *argument)
     bool pending = false;
     say_loading(view, "loading");
     bool loaded = load(&l, &err) == EC_OK;
-    if (!loaded) say_failure(view, &err, true);
+    if (!loaded) say_failure(view, EC_TROUBLE_FILES, &err, true);
     for (bool quit = !loaded; !quit;) {
         ec_view_wish wish;
         bool look = wait_for_work(&l, pending, &wish, &quit);

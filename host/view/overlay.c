@@ -24,14 +24,12 @@ static void format_seconds(double seconds, char *text, size_t size)
 static void format_prediction(const ec_view_overlay *o, char *text, size_t size)
 {
     const ec_view_status *s = o->status;
-    const ec_render_options *limits = &o->request->options;
     char target[96] = "", left[32];
-    double factor = ldexp(1, -(int)o->wish->more);
-    if (limits->error_target > 0) snprintf(target, sizeof target, "error %.3g %%", 100 * limits->error_target * factor);
+    if (s->error_limit > 0) snprintf(target, sizeof target, "error %.3g %%", 100 * s->error_limit);
     size_t used = strlen(target);
-    if (limits->spp) snprintf(target + used, sizeof target - used, "%s%.0f spp", used ? " or " : "", limits->spp / factor / factor);
+    if (s->spp_limit > 0) snprintf(target + used, sizeof target - used, "%s%.0f spp", used ? " or " : "", s->spp_limit);
     used = strlen(target);
-    if (limits->time_limit > 0) snprintf(target + used, sizeof target - used, "%s%.3g s", used ? " or " : "", limits->time_limit / factor / factor);
+    if (s->time_limit > 0) snprintf(target + used, sizeof target - used, "%s%.3g s", used ? " or " : "", s->time_limit);
     format_seconds(fmax(s->forecast.seconds - s->seconds, 0), left, sizeof left);
     if (s->done) snprintf(text, size, "done by %s (M: more)", s->stopped_by);
     else if (s->forecast.pilot_samples) snprintf(text, size, "%s left to %s", left, target);
@@ -80,7 +78,7 @@ static void draw_messages(const ec_view_overlay *o, const ec_view_text *text, do
     char line[80];
     ec_view_block b;
     ec_block_start(&b, text, width, height - foot);
-    ec_block_add(&b, s->failure, 2, red);
+    for (int i = 0; i < EC_TROUBLE_COUNT; i++) ec_block_add(&b, s->trouble[i], 2, red);
     if (*s->loading) snprintf(line, sizeof line, "%s ...", s->loading), ec_block_add(&b, line, 2, yellow);
     if (o->message) ec_block_add(&b, s->told, 2, yellow);
     ec_block_draw(&b, 0, height, width);
@@ -122,6 +120,7 @@ static void draw_label(const ec_view_overlay *o, const ec_view_text *text, doubl
     }
     ec_block_start(&b, text, 0.5 * width, height);
     ec_block_add(&b, line, 2, white);
+    if (!o->has_second) ec_block_add(&b, "not there yet", 2, yellow);
     ec_block_draw(&b, width - ec_block_width(&b), height, width);
 }
 
@@ -133,6 +132,6 @@ void ec_view_overlay_draw(const ec_view_overlay *o, const ec_view_text *text, do
     }
     double foot = o->lines != EC_LINES_NONE ? draw_foot(o, text, width, height) : 0;
     if (o->layout != EC_LAYOUT_ONE && o->lines != EC_LINES_NONE) draw_label(o, text, width, o->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
-    if (o->effects) ec_view_effects_draw(o->facts, o->wish->without, text, width, height);
+    if (o->effects) ec_view_effects_draw(o->facts, o->effects_page, o->wish->without, text, width, height);
     else draw_messages(o, text, width, height, foot);
 }

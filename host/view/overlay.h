@@ -13,7 +13,9 @@ typedef struct ec_view_overlay {
     ec_view_layout layout;
     ec_view_lines lines;
     bool help, effects;     /* lists that are open */
+    uint32_t effects_page;
     bool message;           /* what was told of the last save is still shown */
+    bool has_second;        /* the one that is wished is there */
     const ec_view_probe *selected; /* node < 0: nothing */
     const ec_view_text *small;     /* that of the help */
 } ec_view_overlay;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "pipeline/forecast.h"
+#include "pipeline/looks.h"
 #include "view/slice.h"
 
 #define BATCH_SECONDS 0.5
@@ -63,7 +64,8 @@ static void judge(ec_view_picture *p)
     if (p->film.batch_count >= 2) p->error = ec_film_estimate_error(&p->film);
     look_ahead(p);
     if (o->spp && (uint64_t)p->film.batch_count * o->batch >= o->spp) p->stopped_by = "spp";
-    else if (o->error_target > 0 && p->film.batch_count >= 4 && p->error.error_bound <= o->error_target) p->stopped_by = "error";
+    else if (o->error_target > 0 && p->film.batch_count >= 4 && ec_look_is_due(p->film.batch_count) && p->error.error_bound <= o->error_target)
+        p->stopped_by = "error";
     else if (o->time_limit > 0 && p->seconds >= o->time_limit) p->stopped_by = "time";
 }
 

@@ -20,12 +20,8 @@ static bool same_tones(const ec_view_wish *a, const ec_view_wish *b)
 
 static void fail(ec_renderer *r, const ec_error *err)
 {
-    ec_view *view = r->view;
     r->broken = true;
-    pthread_mutex_lock(&view->lock);
-    snprintf(view->status.failure, sizeof view->status.failure, "%s", err->text);
-    ec_view_post(view);
-    pthread_mutex_unlock(&view->lock);
+    ec_view_say_trouble(r->view, EC_TROUBLE_CAMERA, err);
 }
 
 static bool is_final(const ec_renderer *r)
@@ -33,7 +29,7 @@ static bool is_final(const ec_renderer *r)
     return r->setup[EC_ROLE_PICTURE]->options.integrator == r->wish.integrator;
 }
 
-typedef enum duty { QUIT, WAIT, PREVIEW, SAVE, SECOND, BATCH, SHOW } duty;
+typedef enum duty { QUIT, WAIT, REST, PREVIEW, SAVE, SECOND, BATCH, SHOW } duty;
 
 static duty choose(const ec_renderer *r)
 {
@@ -46,7 +42,8 @@ static duty choose(const ec_renderer *r)
     if (has_film && w->saves != r->saves) return SAVE;
     if (r->broken) return WAIT;
     if (has_film && needs_rung && r->setup[EC_ROLE_SECOND]) return SECOND;
-    return r->picture.stopped_by ? WAIT : BATCH;
+    if (!r->picture.stopped_by) return BATCH;
+    return needs_rung || w->moving || r->setup[EC_ROLE_PICTURE]->without != w->without ? WAIT : REST;
 }
 
 /* Copies the wish; other cameras, sessions and tones than before mean other work. */
@@ -70,7 +67,7 @@ static duty take_wish(ec_renderer *r, ec_error *err)
     bool afresh = swapped || !ec_view_same_camera(&wish, &r->wish), rested = r->wish.moving && !wish.moving;
     bool repaint = !same_tones(&wish, &r->wish), more = wish.more != r->wish.more;
     r->wish = wish;
-    if (swapped) r->broken = false;
+    if (afresh) r->broken = false; /* of that camera, or device: the next may do */
     if (!r->setup[EC_ROLE_PICTURE] || !wish.width) return WAIT;
     if (afresh && ec_renderer_start_afresh(r, err) != EC_OK) {
         fail(r, err);
@@ -91,7 +88,19 @@ static ec_result do_duty(ec_renderer *r, duty d, ec_error *err)
     if (d == SECOND) return ec_renderer_take_second(r, err);
     if (d == SHOW) ec_renderer_show(r);
     if (d == SAVE) ec_renderer_save(r);
+    if (d == SHOW && !r->broken) ec_view_say_trouble(r->view, EC_TROUBLE_CAMERA, NULL);
     return EC_OK;
+}
+
+static void settle(const ec_renderer *r)
+{
+    ec_view_status *s = &r->view->status;
+    pthread_mutex_lock(&r->view->lock);
+    if (s->settled != r->wish.serial) {
+        s->settled = r->wish.serial;
+        ec_view_post(r->view);
+    }
+    pthread_mutex_unlock(&r->view->lock);
 }
 
 static void wait_for_events(ec_view *view, uint64_t *seen)
@@ -109,7 +118,8 @@ void *ec_view_renderer(void *argument)
     uint64_t seen = 0;
     ec_view_others_open(&r.others, r.view->request->against);
     for (duty d; (d = take_wish(&r, &err)) != QUIT;) {
-        if (d == WAIT) wait_for_events(r.view, &seen);
+        if (d == REST) settle(&r);
+        if (d == WAIT || d == REST) wait_for_events(r.view, &seen);
         else if (do_duty(&r, d, &err) != EC_OK) fail(&r, &err);
         else if (r.dirty && d == SHOW) wait_for_events(r.view, &seen); /* all slots are on their way */
     }

@@ -14,7 +14,7 @@ typedef struct ec_renderer {
     uint32_t previews;
     bool aside;                 /* the session looks where a preview was taken, not where the film is */
     bool dirty;                 /* the film's picture is to be shown (again) */
-    bool broken;                /* the device failed: waits for another setup */
+    bool broken;                /* camera or device failed: waits for another */
     bool looked_away;           /* the probe was of another camera */
     ec_view_picture picture;
     ec_view_others others;

@@ -35,6 +35,29 @@ void ec_view_post(ec_view *view)
     if (view->has_window && !pthread_equal(pthread_self(), view->window)) glfwPostEmptyEvent();
 }
 
+void ec_view_say_trouble(ec_view *view, ec_view_trouble whose, const ec_error *err)
+{
+    char *said = view->status.trouble[whose];
+    pthread_mutex_lock(&view->lock);
+    bool other = strcmp(said, err ? err->text : "") != 0;
+    snprintf(said, sizeof view->status.trouble[whose], "%s", err ? err->text : "");
+    if (other) ec_view_post(view);
+    pthread_mutex_unlock(&view->lock);
+}
+
+/* Of another scene, if there is one. That of before, which is to be released once the lock is. */
+static ec_view_scene *learn(ec_window *w)
+{
+    ec_view *view = w->view;
+    ec_view_wish *wish = &w->input.wish;
+    ec_view_scene *before = w->input.facts.scene;
+    if (view->facts.serial == w->input.facts.serial) return NULL;
+    if (view->wish.moved && !wish->moved && before) wish->moved = true, wish->viewpoint = view->wish.viewpoint; /* keep_camera of loader.c */
+    view->facts.scene->users++;
+    ec_view_input_learn(&w->input, &view->facts);
+    return before;
+}
+
 /* Tells the others what is wished now, and learns what there is. */
 static void exchange(ec_window *w)
 {
@@ -46,13 +69,10 @@ static void exchange(ec_window *w)
     wish->paused = w->iconified;
     pthread_mutex_lock(&view->lock);
     uint32_t saved = w->status.saves_done;
-    w->stopped = view->stopped;
-    if (view->wish.moved && !w->input.wish.moved && view->facts.serial != w->input.facts.serial && w->input.facts.serial) { /* keep_camera of loader.c */
-        wish->moved = true;
-        wish->viewpoint = view->wish.viewpoint;
-    }
-    if (view->facts.serial != w->input.facts.serial) ec_view_input_learn(&w->input, &view->facts);
+    w->stopped = view->stopped || view->failed;
+    ec_view_scene *before = learn(w);
     if (memcmp(&view->wish, wish, sizeof *wish)) {
+        wish->serial++;
         view->wish = *wish;
         ec_view_post(view);
     }
@@ -61,6 +81,7 @@ static void exchange(ec_window *w)
         w->dirty = true;
     }
     pthread_mutex_unlock(&view->lock);
+    ec_view_scene_release(view, before);
     if (w->status.saves_done != saved) w->told_at = ec_now();
     if (w->selecting && w->status.probe.serial == w->selecting) {
         w->input.selected = w->status.probe;
@@ -83,20 +104,29 @@ static double time_to_wait(const ec_window *w, double last)
     return w->telling ? fmax(w->told_at + TOLD_FOR - ec_now(), 0) + 0.001 : INFINITY;
 }
 
-/* Until the scene is there, or long enough. */
-static void wait_for_size(ec_window *w, uint32_t *width, uint32_t *height)
+/* Until the scene is there, or long enough. false: there will be none. */
+static bool wait_for_size(ec_window *w, uint32_t *width, uint32_t *height)
 {
     ec_view *view = w->view;
     double until = ec_now() + PATIENCE;
+    bool failed = false;
     for (bool known = false; !known && ec_now() < until;) {
         pthread_mutex_lock(&view->lock);
-        known = view->facts.serial || view->failed;
+        failed = view->failed;
+        known = view->facts.serial || failed;
         *width = view->facts.width;
         *height = view->facts.height;
         pthread_mutex_unlock(&view->lock);
         if (!known) usleep(2000);
     }
     if (*width == 0) *width = 16 * 60, *height = 9 * 60;
+    return !failed;
+}
+
+/* NULL, or why no picture will come. */
+static const char *why_stuck(const ec_view_status *s)
+{
+    return *s->trouble[EC_TROUBLE_CAMERA] ? s->trouble[EC_TROUBLE_CAMERA] : *s->trouble[EC_TROUBLE_SETUP] ? s->trouble[EC_TROUBLE_SETUP] : NULL;
 }
 
 static void loop(ec_window *w)
@@ -104,9 +134,9 @@ static void loop(ec_window *w)
     ec_view *view = w->view;
     double last = ec_now(), tick = last;
     uint32_t width = 0, height = 0;
-    wait_for_size(w, &width, &height);
-    if (!view->failed) ec_window_size(w, width, height);
-    for (bool over = view->failed; !over;) {
+    bool over = !wait_for_size(w, &width, &height);
+    if (!over) ec_window_size(w, width, height);
+    while (!over) {
         double wait = time_to_wait(w, last);
         if (isfinite(wait)) glfwWaitEventsTimeout(wait);
         else glfwWaitEvents();
@@ -117,6 +147,7 @@ static void loop(ec_window *w)
             tick = now;
             w->dirty = true;
         }
+        ec_window_follow_monitors(w);
         if (w->input.fullscreen != w->is_full) ec_window_fullscreen(w, w->input.fullscreen);
         exchange(w);
         w->dirty |= ec_view_textures_take(&w->textures, view);
@@ -127,9 +158,30 @@ static void loop(ec_window *w)
             last = now;
         }
         if (glfwWindowShouldClose(w->glfw)) w->input.quit = true;
-        bool saving = w->input.wish.saves != w->status.saves_done && w->status.samples > 0 && !w->iconified && !*w->status.failure;
-        over = view->failed || (w->input.quit && !saving) || w->stopped;
+        bool saving = w->input.wish.saves != w->status.saves_done && w->status.samples > 0 && !w->iconified && !why_stuck(&w->status);
+        over = (w->input.quit && !saving) || w->stopped || (view->request->script && why_stuck(&w->status));
     }
+}
+
+static ec_result start_threads(ec_view *view, ec_error *err)
+{
+    void *(*const work[EC_VIEW_THREADS])(void *) = {ec_view_loader, ec_view_renderer, ec_view_watcher};
+    for (; view->threads < EC_VIEW_THREADS; view->threads++)
+        if (pthread_create(&view->thread[view->threads], NULL, work[view->threads], view) != 0)
+            return ec_fail(err, "no thread for the preview window: end other programs, or raise `ulimit -u`");
+    return EC_OK;
+}
+
+/* Those that there are; each at the end of what it is at. */
+static void end_threads(ec_view *view)
+{
+    pthread_mutex_lock(&view->lock);
+    view->quit = true;
+    view->has_window = false;
+    ec_view_post(view);
+    pthread_mutex_unlock(&view->lock);
+    eventfd_write(view->leave, 1);
+    while (view->threads) pthread_join(view->thread[--view->threads], NULL);
 }
 
 static ec_result run_window(ec_view *view, ec_error *err)
@@ -145,17 +197,12 @@ static ec_result run_window(ec_view *view, ec_error *err)
         view->has_window = true;
         pthread_mutex_unlock(&view->lock);
         loop(&w);
+        const char *stuck = why_stuck(&w.status);
+        if (request->script && stuck) result = ec_fail(err, "%s", stuck);
     }
-    pthread_mutex_lock(&view->lock);
-    view->quit = true;
-    view->has_window = false;
-    ec_view_post(view);
-    pthread_mutex_unlock(&view->lock);
     if (w.glfw) glfwHideWindow(w.glfw); /* a kernel that is being compiled is waited for out of sight */
-    eventfd_write(view->leave, 1);
-    pthread_join(view->watcher, NULL);
-    pthread_join(view->loader, NULL);
-    pthread_join(view->renderer, NULL);
+    end_threads(view);
+    ec_view_scene_release(view, w.input.facts.scene);
     if (request->stats && result == EC_OK && !view->failed) ec_frames_print(&w.frames, view->status.first_light, stdout);
     ec_window_close(&w);
     return result;
@@ -166,18 +213,19 @@ ec_result ec_view_run(const ec_view_request *request, ec_error *err)
     ec_view view = {.request = request, .start = ec_now(), .window = pthread_self()};
     view.wish = (ec_view_wish){.integrator = request->options.integrator, .rung = EC_INTEGRATOR_RASTER, .without = request->options.without,
                                .exposure = request->exposure, .tonemap = request->tonemap, .env_degrees = request->env_degrees};
+    view.facts.width = request->options.width; /* as --size asks, until the scene is there */
+    view.facts.height = request->options.height;
     view.status.probe.material = view.status.probe.node = -1;
     view.status.error = view.status.error_bound = INFINITY;
+    view.status.second = EC_SECOND_COUNT;
     pthread_mutex_init(&view.lock, NULL);
     pthread_cond_init(&view.changed, NULL);
-    ec_result result = EC_OK;
     view.files = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     view.leave = eventfd(0, EFD_CLOEXEC);
     if (view.leave < 0) return ec_fail(err, "no descriptor for the preview window");
-    if (pthread_create(&view.loader, NULL, ec_view_loader, &view) != 0) return ec_fail(err, "no thread for the preview window");
-    if (pthread_create(&view.renderer, NULL, ec_view_renderer, &view) != 0) return ec_fail(err, "no thread for the preview window");
-    if (pthread_create(&view.watcher, NULL, ec_view_watcher, &view) != 0) return ec_fail(err, "no thread for the preview window");
-    result = run_window(&view, err);
+    ec_result result = start_threads(&view, err);
+    if (result == EC_OK) result = run_window(&view, err);
+    else end_threads(&view);
     if (view.files >= 0) close(view.files);
     close(view.leave);
     for (int role = 0; role < EC_ROLE_COUNT; role++) ec_view_setup_free(&view, view.incoming[role]);

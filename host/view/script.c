@@ -62,7 +62,7 @@ static void do_part(const ec_script_step *step, ec_view_input *in, double share)
 static bool is_over(const ec_script_step *step, ec_view_input *in, const ec_view_status *status)
 {
     bool saving = in->wish.saves != status->saves_done;
-    if (!strcmp(step->verb, "settle")) return status->done && !status->preview && !in->wish.moving && !saving && !*status->loading;
+    if (!strcmp(step->verb, "settle")) return status->settled == in->wish.serial && !saving && !*status->loading;
     if (!strcmp(step->verb, "quit")) in->quit = !saving;
     if (!strcmp(step->verb, "key")) ec_view_input_do(in, ec_view_action_of(step->key));
     return strcmp(step->verb, "quit") || in->quit;
@@ -83,10 +83,10 @@ void ec_script_run(ec_script *s, ec_view_input *in, const ec_view_status *status
         } else if (!is_over(step, in, status)) {
             return;
         }
-        bool timed = step->seconds > 0;
+        bool does = step->seconds > 0 || !strcmp(step->verb, "key");
         s->at++;
         s->done = 0;
-        if (timed) return;
+        if (does) return; /* what comes of it is known in the next frame */
     }
     in->quit = in->wish.saves == status->saves_done;
 }

@@ -94,6 +94,11 @@ static void fill_samples(const void *user, uint8_t *bytes)
     for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_batches(m->film, p) / most, bytes + 3 * p);
 }
 
+bool ec_view_others_has(const ec_view_others *o, ec_view_second second)
+{
+    return second == EC_SECOND_RUNG ? o->rung != NULL : second == EC_SECOND_FILE ? o->file != NULL : true;
+}
+
 bool ec_view_others_show(ec_view_others *o, ec_view *view, const ec_view_wish *wish, const ec_film *film, const float *mean)
 {
     const maps m = {film, mean};

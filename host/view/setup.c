@@ -15,6 +15,7 @@ void ec_view_scene_release(ec_view *view, ec_view_scene *scene)
     pthread_mutex_unlock(&view->lock);
     if (!last) return;
     ec_scene_free(scene->scene);
+    free(scene->cameras);
     free(scene);
 }
 
@@ -44,8 +45,9 @@ ec_result ec_view_setup_make(ec_view *view, ec_view_scene *scene, ec_integrator 
     s->options = view->request->options;
     s->options.camera = scene->options.camera;
     s->options.integrator = integrator;
-    s->options.without = without;
+    s->options.without = s->without = without;
     drop_foreign(&s->options);
+    if (integrator != EC_INTEGRATOR_PATH && scene->scene->motion.segments) s->options.without |= EC_FEATURE_MOTION; /* the moment in the middle */
     if (scene->scene->environment.rgb) s->options.more_effects |= EC_FEATURE_ENVIRONMENT_TURN;
     pthread_mutex_lock(&view->lock);
     s->scene = scene;

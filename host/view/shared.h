@@ -14,6 +14,7 @@ typedef enum ec_view_lines { EC_LINES_ALL, EC_LINES_ONE, EC_LINES_NONE, EC_LINES
 
 /* What the user wants: written by the window, read by the others. */
 typedef struct ec_view_wish {
+    uint32_t serial;              /* counts changes */
     bool moved;                   /* the camera is `viewpoint`; else the scene's number `camera` */
     ec_viewpoint viewpoint;       /* of numbers of nine digits */
     uint32_t camera;
@@ -43,31 +44,38 @@ typedef struct ec_view_probe {
     double center[3], radius;     /* around that node's triangles, in the file's coordinates; 0: there are none */
 } ec_view_probe;
 
+/* Who has failed, as long as he has: the last load of the files, the last set-up, the camera that is looked through. */
+typedef enum ec_view_trouble { EC_TROUBLE_FILES, EC_TROUBLE_SETUP, EC_TROUBLE_CAMERA, EC_TROUBLE_COUNT } ec_view_trouble;
+
 /* What there is to tell: written by renderer and loader, read by the window. */
 typedef struct ec_view_status {
     double first_light;           /* seconds from ec_view_run; 0: not yet */
     uint64_t pictures;            /* shown so far */
     uint32_t preview;             /* pixels of a side that one sample stands for; 0: the film itself is shown */
     ec_integrator integrator;     /* of what is shown */
+    ec_view_second second;        /* what is beside it, of the same camera; EC_SECOND_COUNT: nothing yet */
+    ec_integrator rung;           /* if it is one */
     uint64_t samples;             /* a pixel, of the film */
     double seconds, error, error_bound;
+    double spp_limit, time_limit, error_limit; /* as raised so far; 0: none */
     ec_forecast forecast;
     bool done;                    /* a limit is reached */
+    uint32_t settled;             /* serial of the last wish with which nothing was left to do */
     char stopped_by[16];
     uint32_t saves_done;
     char told[2300];              /* of the last save, or failure */
-    char failure[2300];           /* of the last load; empty: it went well */
+    char trouble[EC_TROUBLE_COUNT][2300]; /* empty: it went well */
     char loading[64];             /* what the loader is at; empty: nothing */
     char effects[1024];           /* active ones, by name */
     ec_view_probe probe;
 } ec_view_status;
 
 /* Of the scene, for the window. */
-enum { EC_VIEW_CAMERAS = 64 };
 typedef struct ec_view_facts {
     uint32_t serial;              /* 0: not loaded yet */
     uint32_t camera, camera_count, width, height; /* by default */
-    ec_viewpoint cameras[EC_VIEW_CAMERAS];
+    const ec_viewpoint *cameras;  /* of `scene`, which whoever keeps the facts is a user of */
+    struct ec_view_scene *scene;
     double center[3], radius;
     bool has_map;                 /* an environment that can be turned */
     uint64_t optional;            /* effects that it calls for and that can be left out */
@@ -76,6 +84,7 @@ typedef struct ec_view_facts {
 /* A loaded scene, shared by sessions. */
 typedef struct ec_view_scene {
     ec_scene *scene;
+    ec_viewpoint *cameras;        /* owned, one for each of the scene's */
     uint32_t users, serial;
     ec_render_options options;    /* camera and size by default */
 } ec_view_scene;
@@ -85,6 +94,7 @@ typedef struct ec_view_setup {
     ec_cl cl;
     ec_view_scene *scene;
     ec_session *session;
+    uint64_t without;             /* as wished; options may leave out more */
     ec_render_options options;
     ec_render_stats stats;
 } ec_view_setup;
@@ -100,10 +110,12 @@ typedef struct ec_view_slot {
     uint64_t serial;
 } ec_view_slot;
 
+enum { EC_VIEW_THREADS = 3 };
 typedef struct ec_view {
     const ec_view_request *request;
     double start;
-    pthread_t window, loader, renderer, watcher;
+    pthread_t window, thread[EC_VIEW_THREADS];
+    uint32_t threads;             /* that are running */
     bool has_window;              /* GLFW can be told of changes */
     int files, leave;             /* descriptors: of inotify; readable once the watcher is to end. -1: none */
     pthread_mutex_t lock;         /* guards all below */
@@ -123,6 +135,9 @@ typedef struct ec_view {
 
 /* Tells the other threads, and the window. With the lock held. */
 void ec_view_post(ec_view *view);
+
+/* NULL: it goes well (again). */
+void ec_view_say_trouble(ec_view *view, ec_view_trouble whose, const ec_error *err);
 
 /* setup.c: scenes are shared under the view's lock; setups belong to one thread at a time */
 void ec_view_scene_release(ec_view *view, ec_view_scene *scene);

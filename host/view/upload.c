@@ -43,6 +43,7 @@ ec_result ec_view_textures_make(ec_view_textures *t, ec_error *err)
 /* The renderer takes slots under the lock only, so what is free here stays so. */
 void ec_view_textures_fit(ec_view_textures *t, ec_view *view, size_t bytes)
 {
+    bool any = false;
     pthread_mutex_lock(&view->lock);
     for (int i = 0; i < EC_VIEW_SLOTS; i++) {
         ec_view_slot *slot = &view->slots[i];
@@ -50,8 +51,9 @@ void ec_view_textures_fit(ec_view_textures *t, ec_view *view, size_t bytes)
         unmap(slot, t->buffer[i]);
         slot->capacity = bytes;
         map(slot, t->buffer[i]);
+        any = true;
     }
-    ec_view_post(view);
+    if (any) ec_view_post(view);
     pthread_mutex_unlock(&view->lock);
 }
 

@@ -4,6 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -31,10 +32,11 @@ ec_result ec_window_open(ec_window *w, ec_view *view, ec_error *err)
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE); /* full screen stays while one works on another monitor */
     w->glfw = glfwCreateWindow(640, 480, "eclat", NULL, NULL);
     if (!w->glfw) return glfw_failed("cannot open one with OpenGL 2.1", err);
     glfwMakeContextCurrent(w->glfw);
-    glfwSwapInterval(1);
+    glfwSwapInterval(getenv("WAYLAND_DISPLAY") ? 0 : 1); /* Wayland tears nothing, and does not let go where nobody sees the window */
     float x, y;
     glfwGetWindowContentScale(w->glfw, &x, &y);
     w->scale = (double)fmaxf(x, y);
@@ -53,71 +55,36 @@ void ec_window_fit(ec_window *w, int width, int height)
 
 void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
 {
-    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
     char title[300];
-    int x = 0, y = 0, most_width = 0, most_height = 0, across, down;
+    int across, down;
     snprintf(title, sizeof title, "%s - eclat", w->view->request->scene);
     glfwSetWindowTitle(w->glfw, title);
-    glfwShowWindow(w->glfw);
-    if (monitor) glfwGetMonitorWorkarea(monitor, &x, &y, &most_width, &most_height);
-    glfwGetWindowSize(w->glfw, &across, &down);
-    int framebuffer_width, framebuffer_height;
-    glfwGetFramebufferSize(w->glfw, &framebuffer_width, &framebuffer_height);
-    double density = across > 0 && framebuffer_width > 0 ? (double)framebuffer_width / across : 1, shrink = 1;
-    if (most_width > 0) shrink = fmin(1, fmin(most_width * density / width, most_height * density / height));
-    across = (int)fmax(round(width * shrink / density), 1);
-    down = (int)fmax(round(height * shrink / density), 1);
-    glfwSetWindowSize(w->glfw, across, down);
-    glfwPollEvents();
-    glfwGetFramebufferSize(w->glfw, &framebuffer_width, &framebuffer_height);
-    ec_window_fit(w, framebuffer_width, framebuffer_height);
-    w->shown = w->dirty = true;
+    ec_window_stand(w, width, height);
+    glfwGetFramebufferSize(w->glfw, &across, &down);
+    ec_window_fit(w, across, down);
+    w->dirty = true;
 }
 
-/* The monitor that has most of the window. */
-static GLFWmonitor *monitor_of(GLFWwindow *glfw)
+/* What is wished beside the picture, and no other or older one. */
+static bool has_second(const ec_window *w)
 {
-    int count, x, y, width, height, most = -1;
-    GLFWmonitor **monitors = glfwGetMonitors(&count), *best = NULL;
-    glfwGetWindowPos(glfw, &x, &y);
-    glfwGetWindowSize(glfw, &width, &height);
-    for (int i = 0; i < count; i++) {
-        int mx, my;
-        const GLFWvidmode *mode = glfwGetVideoMode(monitors[i]);
-        glfwGetMonitorPos(monitors[i], &mx, &my);
-        int wide = (int)(fmin(x + width, mx + mode->width) - fmax(x, mx)), high = (int)(fmin(y + height, my + mode->height) - fmax(y, my));
-        int area = wide > 0 && high > 0 ? wide * high : 0;
-        if (area > most) best = monitors[i], most = area;
-    }
-    return best;
-}
-
-void ec_window_fullscreen(ec_window *w, bool on)
-{
-    GLFWmonitor *monitor = monitor_of(w->glfw);
-    if (on == w->is_full || !monitor) return;
-    const GLFWvidmode *mode = glfwGetVideoMode(monitor);
-    if (on) {
-        glfwGetWindowPos(w->glfw, &w->old_x, &w->old_y);
-        glfwGetWindowSize(w->glfw, &w->old_width, &w->old_height);
-        glfwSetWindowMonitor(w->glfw, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
-    } else {
-        glfwSetWindowMonitor(w->glfw, NULL, w->old_x, w->old_y, w->old_width, w->old_height, 0);
-    }
-    w->is_full = on;
+    const ec_view_wish *wish = &w->input.wish;
+    const ec_view_status *s = &w->status;
+    bool there = w->textures.width[EC_ROLE_SECOND] && s->second == wish->second && (wish->second != EC_SECOND_RUNG || s->rung == wish->rung);
+    return w->input.layout != EC_LAYOUT_ONE && there;
 }
 
 static void draw_pictures(const ec_window *w, double width, double height)
 {
     const ec_view_textures *t = &w->textures;
-    bool second = w->input.layout != EC_LAYOUT_ONE && t->width[EC_ROLE_SECOND];
+    bool second = has_second(w);
     double wipe = fmin(fmax(w->cursor_x, 0), width);
-    if (second && w->input.layout == EC_LAYOUT_BESIDE) {
+    if (w->input.layout == EC_LAYOUT_BESIDE) {
         double shown = 0.5 * height, foot = 0.25 * height; /* as wide as half the window, in proportion */
         glPushMatrix();
         glTranslated(0, foot, 0);
         ec_view_textures_draw(t, EC_ROLE_PICTURE, 0, 0.5 * width, shown, 0, 1);
-        ec_view_textures_draw(t, EC_ROLE_SECOND, 0.5 * width, width, shown, 0, 1);
+        if (second) ec_view_textures_draw(t, EC_ROLE_SECOND, 0.5 * width, width, shown, 0, 1);
         glPopMatrix();
         return;
     }
@@ -131,7 +98,7 @@ static void draw_overlay(const ec_window *w, double width, double height)
 {
     const ec_view_overlay overlay = {.wish = &w->input.wish, .status = &w->status, .facts = &w->input.facts, .request = w->view->request,
                                      .layout = w->input.layout, .lines = w->input.lines, .help = w->input.help, .effects = w->input.effects,
-                                     .message = w->telling,
+                                     .effects_page = w->input.effects_page, .message = w->telling, .has_second = has_second(w),
                                      .selected = &w->input.selected, .small = &w->small};
     ec_view_overlay_draw(&overlay, &w->text, width, height);
 }

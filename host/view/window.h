@@ -10,6 +10,11 @@
 
 struct GLFWwindow;
 
+/* In screen coordinates, without the frame. */
+typedef struct ec_window_place {
+    int x, y, width, height;
+} ec_window_place;
+
 typedef struct ec_window {
     ec_view *view;
     struct GLFWwindow *glfw;
@@ -30,18 +35,28 @@ typedef struct ec_window {
     double flown;               /* ec_now of the last step of flight */
     double told_at;             /* when a save was told */
     bool telling;               /* it still is */
-    bool iconified, shown, dirty, is_full, stopped;
+    bool iconified, dirty, is_full, stopped;
     int drawn_width, drawn_height; /* of the last frame */
-    int old_x, old_y, old_width, old_height; /* before full screen */
+    ec_window_place before;     /* full screen */
+    bool restores;              /* it was full screen when its monitor went */
+    unsigned monitor_changes;   /* that have been seen */
+    double monitors_settle;     /* ec_now when window managers are done with the last */
+    uint32_t asked_width, asked_height; /* pixels at first */
+    double opens_until;         /* ec_now: then it has them, or the user what he made of it */
 } ec_window;
 
 ec_result ec_window_open(ec_window *window, ec_view *view, ec_error *err); /* hidden */
 void ec_window_size(ec_window *window, uint32_t width, uint32_t height); /* in pixels, as far as the monitor has room; and shows it */
 void ec_window_fit(ec_window *window, int width, int height);             /* the picture to the framebuffer */
-void ec_window_fullscreen(ec_window *window, bool on);
 void ec_window_fly(ec_window *window);    /* by the keys that are held */
 void ec_window_draw(ec_window *window);
 void ec_window_close(ec_window *window);  /* half-open ones are fine */
+
+/* place.c: where it stands */
+void ec_window_stand(ec_window *window, uint32_t width, uint32_t height); /* shows it for the first time: so large, as far as its monitor has room */
+void ec_window_rescale(ec_window *window, double scale);                  /* the monitor's, or another monitor's */
+void ec_window_fullscreen(ec_window *window, bool on);                    /* input.fullscreen says what came of it */
+void ec_window_follow_monitors(ec_window *window);                        /* where one has come or gone since the last time */
 
 /* controls.c: GLFW's callbacks */
 void ec_window_listen(ec_window *window);

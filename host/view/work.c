@@ -7,7 +7,7 @@
 #include "view/renderer.h"
 #include "view/slice.h"
 
-static void tell(ec_renderer *r, uint32_t preview)
+static void tell(ec_renderer *r, uint32_t preview, bool has_second)
 {
     const ec_view_picture *p = &r->picture;
     pthread_mutex_lock(&r->view->lock);
@@ -19,6 +19,11 @@ static void tell(ec_renderer *r, uint32_t preview)
     s->error = p->film.batch_count ? p->error.error : INFINITY;
     s->error_bound = p->film.batch_count ? p->error.error_bound : INFINITY;
     s->forecast = p->forecast;
+    s->spp_limit = p->limits.spp;
+    s->time_limit = p->limits.time_limit;
+    s->error_limit = p->limits.error_target;
+    if (!preview || s->second != EC_SECOND_FILE) s->second = has_second ? r->wish.second : EC_SECOND_COUNT; /* a file's is of any camera */
+    if (r->setup[EC_ROLE_SECOND]) s->rung = r->setup[EC_ROLE_SECOND]->options.integrator;
     s->done = p->film.batch_count && p->stopped_by;
     ec_renderer_read_pixel(&p->film, &s->probe);
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", p->stopped_by ? p->stopped_by : "");
@@ -91,7 +96,7 @@ ec_result ec_renderer_preview(ec_renderer *r, ec_error *err)
     EC_TRY(ec_session_take(session, &batch, err));
     if (!batch.complete) return EC_OK;
     ec_view_show(r->view, &r->wish, EC_ROLE_PICTURE, r->mean, width, height);
-    tell(r, r->level);
+    tell(r, r->level, false);
     if (!r->wish.moving) r->level = r->level > 3 ? r->level / 2 : 0;
     return EC_OK;
 }
@@ -127,7 +132,8 @@ void ec_renderer_show(ec_renderer *r)
     ec_view_wish *wish = &r->wish;
     ec_film_resolve(&r->picture.film, r->mean, NULL);
     bool shown = ec_view_show(r->view, wish, EC_ROLE_PICTURE, r->mean, wish->width, wish->height);
-    if (wish->has_second) shown &= ec_view_others_show(&r->others, r->view, wish, &r->picture.film, r->mean);
+    bool has_second = wish->has_second && ec_view_others_has(&r->others, wish->second);
+    if (has_second) shown &= ec_view_others_show(&r->others, r->view, wish, &r->picture.film, r->mean);
     if (shown) r->dirty = false;
-    tell(r, 0);
+    tell(r, 0, has_second);
 }

@@ -4,6 +4,7 @@ import pty
 import re
 import signal
 import subprocess
+import time
 import unittest
 
 from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, png_size
@@ -82,6 +83,7 @@ class Interrupt(Case):
     def test_second_signal_aborts(self):
         process = self.start()
         process.send_signal(signal.SIGINT)
+        time.sleep(0.6)
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=45)
         self.assertIn(process.returncode, (0, -signal.SIGTERM, -signal.SIGINT))  # 0: it was done in between

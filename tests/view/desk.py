@@ -1,6 +1,9 @@
 """A screen without a monitor, eclat's window on it, and a hand. Xvfb with Mesa's software OpenGL; xdotool; ImageMagick's import;
-openbox where windows are to be minimised."""
+openbox where windows are to be minimised; Xorg with its dummy driver where there are to be several monitors."""
+import glob
 import os
+import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -8,9 +11,9 @@ import tempfile
 import time
 import unittest
 
-from support import CORNELL, ECLAT, ENVIRONMENT, Case
+from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, read_exr
 
-TOOLS = ["Xvfb", "xdotool", "import", "convert", "xrdb", "xprop", "xrandr", "setxkbmap", "openbox"]
+TOOLS = ["Xvfb", "xdotool", "import", "convert", "xrdb", "xprop", "xrandr", "xwininfo", "setxkbmap", "openbox"]
 
 
 def why_not():
@@ -27,9 +30,12 @@ class Screen:
     windows have neither frames nor icons."""
 
     def __init__(self, size="1280x1024", dpi=None, managed=False):
+        self.start(["Xvfb", "-screen", "0", size + "x24"], dpi, managed)
+
+    def start(self, server, dpi=None, managed=False):
         read, write = os.pipe()
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp", "-noreset"],
-                                       pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.server = subprocess.Popen([*server, "-displayfd", str(write), "-nolisten", "tcp", "-noreset"], pass_fds=[write],
+                                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as pipe:
             self.display = ":" + pipe.readline().strip()
@@ -38,12 +44,15 @@ class Screen:
         if dpi:
             subprocess.run(["xrdb", "-merge", "-"], input=f"Xft.dpi: {dpi}\n", text=True, env=self.environment, check=True)
         if managed:
-            self.manager = subprocess.Popen(["openbox", "--config-file", "/dev/null"], env=self.environment, stdout=subprocess.DEVNULL,
-                                            stderr=subprocess.DEVNULL)
-            until = time.monotonic() + 20
-            while "window id" not in self.run("xprop", "-root", "_NET_SUPPORTING_WM_CHECK"):
-                assert time.monotonic() < until, "openbox does not manage windows"
-                time.sleep(0.05)
+            self.manage()
+
+    def manage(self):
+        self.manager = subprocess.Popen(["openbox", "--config-file", "/dev/null"], env=self.environment, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL)
+        until = time.monotonic() + 20
+        while "window id" not in self.run("xprop", "-root", "_NET_SUPPORTING_WM_CHECK"):
+            assert time.monotonic() < until, "openbox does not manage windows"
+            time.sleep(0.05)
 
     def run(self, *arguments):
         return subprocess.run(arguments, env=self.environment, capture_output=True, text=True, check=True).stdout
@@ -54,6 +63,64 @@ class Screen:
             self.manager.wait()
         self.server.terminate()
         self.server.wait()
+
+
+XORG = """
+Section "ServerFlags"
+    Option "AutoAddDevices" "false"
+    Option "AutoAddGPU" "false"
+EndSection
+Section "Device"
+    Identifier "card"
+    Driver "dummy"
+    VideoRam 65536
+EndSection
+Section "Screen"
+    Identifier "screen"
+    Device "card"
+    SubSection "Display"
+        Depth 24
+        Virtual 2048 1024
+    EndSubSection
+EndSection
+"""
+
+
+class Monitors(Screen):
+    """One server with several outputs, DUMMY0 and so on, from left to right; self.places: (x, y, width, height) of each."""
+
+    def __init__(self, *sizes, managed=False):
+        self.folder = tempfile.mkdtemp(prefix="eclat-xorg-")
+        config = os.path.join(self.folder, "xorg.conf")
+        with open(config, "w", encoding="utf-8") as file:
+            file.write(XORG)
+        self.start(["Xorg", "-config", config, "-logfile", os.path.join(self.folder, "log"), "-sharevts", "-novtswitch"])
+        self.places = []
+        try:
+            for i, size in enumerate(sizes):
+                self.add(i, *size)
+        except subprocess.CalledProcessError:
+            self.close()
+            raise
+        if managed:
+            self.manage()
+
+    def add(self, i, width, height):
+        """By a modeline that no monitor would sync to; a dummy does."""
+        mode = f"dummy{width}x{height}"
+        self.places.append((sum(place[2] for place in self.places), 0, width, height))
+        self.run("xrandr", "--newmode", mode, "50", *(str(width + k) for k in [0, 8, 16, 24]), *(str(height + k) for k in range(4)))
+        self.run("xrandr", "--addmode", f"DUMMY{i}", mode)
+        self.output(i, True)
+
+    def output(self, i, on):
+        x, y, width, height = self.places[i]
+        self.run("xrandr", "--output", f"DUMMY{i}", *(["--mode", f"dummy{width}x{height}", "--pos", f"{x}x{y}"] if on else ["--off"]))
+        self.run("xrandr")  # looks at what is connected: a dummy is as long as it has a mode
+
+    def close(self):
+        super().close()
+        shutil.rmtree(self.folder, ignore_errors=True)
 
 
 class Window:
@@ -67,6 +134,7 @@ class Window:
         self.folder = folder
         self.process = subprocess.Popen([*prefix, ECLAT, "view", *arguments], cwd=folder, env=self.environment, stdin=subprocess.DEVNULL,
                                         stdout=self.out, stderr=self.err)
+        self.name = os.path.basename(arguments[0]) + " - eclat"
         self.id = None
 
     def text(self, which="out"):
@@ -86,21 +154,25 @@ class Window:
             time.sleep(every)
 
     def appear(self):
-        found = self.wait_until(lambda: self.tool("search", "--onlyvisible", "--name", " - eclat"))
+        found = self.wait_until(lambda: self.tool("search", "--onlyvisible", "--name", self.name))
         assert found, self.text("err")
         self.id = found.split()[0]
         self.tool("windowfocus", "--sync", self.id)
         return self
 
+    def place(self):
+        """(x, y, width, height) on the screen, without the frame."""
+        text = self.screen.run("xwininfo", "-id", self.id)
+        return tuple(int(re.search(rf"{what}: *(-?\d+)", text)[1]) for what in ["left X", "left Y", "Width", "Height"])
+
     def size(self):
-        lines = self.tool("getwindowgeometry", "--shell", self.id).split()
-        values = dict(line.split("=") for line in lines)
-        return int(values["WIDTH"]), int(values["HEIGHT"])
+        return self.place()[2:]
 
     def key(self, *names):
-        """By the server, as a keyboard does it; events sent to the window itself carry no time, and some get lost."""
+        """By the server, as a keyboard does it; events sent to the window itself carry no time, and some get lost. No quicker than a hand:
+        GLFW takes what goes up and down within 20 ms for a key that repeats itself."""
         for name in names:
-            self.tool("key", name)
+            subprocess.run(["xdotool", "key", name, "sleep", "0.03"], env=self.environment, check=True)
 
     def hold(self, name, seconds):
         self.tool("keydown", name)
@@ -154,8 +226,18 @@ class Window:
         try:
             self.key("q")
             return self.process.wait(60)
+        except subprocess.TimeoutExpired:
+            raise AssertionError(f"Q does not end it; the keyboard is with {self.tool('getwindowfocus').strip()}, not {self.id}?\n"
+                                 + "\n".join(self.threads()) + "\n" + self.text("err")) from None
         finally:
             self.kill()
+
+    def threads(self):
+        """A line for each: its state and what it waits for in the kernel."""
+        for task in sorted(glob.glob(f"/proc/{self.process.pid}/task/*"), key=len):
+            with open(task + "/status", encoding="utf-8") as status, open(task + "/wchan", encoding="utf-8") as wchan:
+                lines = status.read().splitlines()
+                yield " ".join([*(line.split(":", 1)[1].strip() for line in lines if line.split(":")[0] in ("Name", "State")), wchan.read()])
 
     def kill(self):
         if self.process.poll() is None:
@@ -207,3 +289,29 @@ class ViewCase(Case):
         window = Window(self.screen, tempfile.mkdtemp(dir=self.folder), *arguments, **options)
         self.addCleanup(window.kill)
         return window.appear()
+
+    def repeat(self, command, folder):
+        """Runs the command that the window printed, in another folder; {name: path} of its pictures."""
+        words = shlex.split(command)
+        self.assertEqual(words[:2], ["eclat", "render"])
+        os.makedirs(folder)
+        self.assert_ok(eclat(*words[1:], cwd=folder))
+        return {name: os.path.join(folder, name) for name in os.listdir(folder)}
+
+    def assert_repeats(self, window, command):
+        attributes, planes = read_exr(os.path.join(window.folder, re.search(r"-o (\S+\.exr)", command)[1]))
+        pictures = self.repeat(command, self.path(f"again{time.monotonic_ns()}"))
+        for name, path in pictures.items():
+            if name.endswith(".png"):
+                with open(path, "rb") as a, open(os.path.join(window.folder, name), "rb") as b:
+                    self.assertEqual(a.read(), b.read())
+            else:
+                theirs, again = read_exr(path)
+                for channel in planes:
+                    self.assertEqual(planes[channel], again[channel], channel)
+                for key in theirs:
+                    if key.startswith("eclat.camera.") or key in ("eclat.imageSha256", "eclat.batch", "eclat.samplesPerPixel"):
+                        self.assertEqual(attributes[key], theirs[key], key)
+        self.assertEqual(len(pictures), 2)
+        self.assertEqual(attributes["eclat.command"], command)
+        return attributes

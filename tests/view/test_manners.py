@@ -119,7 +119,7 @@ class Keyboards(ViewCase):
 class Broken(ViewCase):
     def test_files_that_go_are_told_of_and_come_back(self):
         sky = write_exr(self.path("sky.exr"), 2, 2, {"R": [1.0] * 4, "G": [1.0] * 4, "B": [1.0] * 4})
-        window = self.open(self.scene, *SIZE, "--spp", "4", "--env", sky)
+        window = self.open(self.scene, *SIZE, "--spp", "4", "--batch", "1", "--env", sky)
         window.rest()
         plain = window.picture()
 

@@ -2,46 +2,18 @@
 ctest label: slow"""
 import os
 import re
-import shlex
 import subprocess
 import time
 import unittest
 
 from desk import ViewCase, mean_difference, pixels
-from support import CORNELL, ENVIRONMENT, eclat, png_size, read_exr, write_exr
+from support import CORNELL, ENVIRONMENT, eclat, png_size, write_exr
 
 SIZE = ["--size", "200x150"]
 PLAIN = "200x90+0+0"  # above the overlay's lines
 
 
-def repeat(case, command, folder):
-    """Runs the command that the window printed, in another folder; {name: path} of its pictures."""
-    words = shlex.split(command)
-    case.assertEqual(words[:2], ["eclat", "render"])
-    os.makedirs(folder)
-    case.assert_ok(eclat(*words[1:], cwd=folder))
-    return {name: os.path.join(folder, name) for name in os.listdir(folder)}
-
-
 class View(ViewCase):
-    def assert_repeats(self, window, command):
-        attributes, planes = read_exr(os.path.join(window.folder, re.search(r"-o (\S+\.exr)", command)[1]))
-        pictures = repeat(self, command, self.path(f"again{time.monotonic_ns()}"))
-        for name, path in pictures.items():
-            if name.endswith(".png"):
-                with open(path, "rb") as a, open(os.path.join(window.folder, name), "rb") as b:
-                    self.assertEqual(a.read(), b.read())
-            else:
-                theirs, again = read_exr(path)
-                for channel in planes:
-                    self.assertEqual(planes[channel], again[channel], channel)
-                for key in theirs:
-                    if key.startswith("eclat.camera.") or key in ("eclat.imageSha256", "eclat.batch", "eclat.samplesPerPixel"):
-                        self.assertEqual(attributes[key], theirs[key], key)
-        self.assertEqual(len(pictures), 2)
-        self.assertEqual(attributes["eclat.command"], command)
-        return attributes
-
     def test_shows_what_render_makes_after_an_orbit_and_repeats_it(self):
         window = self.open(self.scene, *SIZE, "--spp", "64")
         window.drag(1, 100, 75, 130, 60)
@@ -50,7 +22,7 @@ class View(ViewCase):
         self.assert_repeats(window, command)
         # What is on the screen is that picture too, but for the noise of other samples.
         settled = re.sub(r"--spp=\d+", "--spp=64", command) + " --seed 5"
-        reference = repeat(self, settled, self.path("other-seed"))["box.png"]
+        reference = self.repeat(settled, self.path("other-seed"))["box.png"]
         window.tool("mousemove", "--window", window.id, 190, 140)
         window.key("i", "i")  # no lines over the picture
         shot = None

@@ -1,0 +1,36 @@
+"""A scene that takes longer to read than a window waits for.
+ctest label: slow"""
+import unittest
+
+from desk import ViewCase
+
+WIDTH, HEIGHT = 8192, 4096
+
+
+class Slow(ViewCase):
+    def grey_map(self):
+        """A large one, in few bytes: 400 MB once read. --env-strength goes over each of its values once more."""
+        row = b"".join(bytes([128 + min(127, WIDTH - x), value]) for value in (128, 128, 128, 129) for x in range(0, WIDTH, 127))
+        path = self.path("grey.hdr")
+        with open(path, "wb") as file:
+            file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (HEIGHT, WIDTH))
+            file.write((bytes([2, 2, WIDTH >> 8, WIDTH & 255]) + row) * HEIGHT)
+        return path
+
+    def test_the_window_is_there_first_and_as_large_as_asked_for(self):
+        window = self.open(self.scene, "--size", "300x200", "--spp", "2", "--env", self.grey_map(), "--env-strength", "1.5")
+        self.assertEqual(window.size(), (300, 200))
+
+        def lit():
+            values = window.picture()[2]
+            return sum(value > 100 for value in values) / len(values)
+        seen = []
+        window.wait_until(lambda: seen.append(lit()) or seen[-1] > 0.2, 60, 0.05)
+        self.assertTrue(any(0.005 < share < 0.1 for share in seen), f"no words before the picture: {seen}")
+        self.assertGreater(seen[-1], 0.2, "no picture")
+        self.assertEqual(window.size(), (300, 200))
+        self.assertEqual(window.close(), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
