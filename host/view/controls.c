@@ -87,7 +87,7 @@ static void on_scroll(GLFWwindow *glfw, double x, double y)
 static void on_char(GLFWwindow *glfw, unsigned code)
 {
     ec_window *w = of(glfw);
-    if (code > 126 || !w->input.facts.serial) return;
+    if (code > 126) return;
     const char name[2] = {(char)code, 0};
     w->told_at = 0;
     w->dirty = true;
@@ -131,7 +131,7 @@ static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods
         w->s_down = 0;
         if (tapped) ec_view_input_do(&w->input, ec_view_action_of("Save"));
     }
-    if (action != GLFW_PRESS || (!w->input.facts.serial && key != GLFW_KEY_ESCAPE)) return;
+    if (action != GLFW_PRESS) return;
     for (size_t i = 0; i < sizeof named / sizeof named[0]; i++)
         if (named[i].key == key) ec_view_input_do(&w->input, ec_view_action_of(named[i].name));
 }

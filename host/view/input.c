@@ -90,6 +90,8 @@ static void turn_environment(ec_view_input *in, double degrees)
 void ec_view_input_do(ec_view_input *in, ec_view_action action)
 {
     ec_view_wish *w = &in->wish;
+    bool of_scene = action == EC_DO_CAMERA || action == EC_DO_FRAME || action == EC_DO_RESET;
+    if (of_scene && !in->facts.serial) return; /* it is being loaded; all else is for it to be seen so */
     switch (action) {
     case EC_DO_NOTHING: break;
     case EC_DO_HELP: in->help = !in->help, in->effects = false; break;

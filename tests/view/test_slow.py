@@ -31,6 +31,17 @@ class Slow(ViewCase):
         self.assertEqual(window.size(), (300, 200))
         self.assertEqual(window.close(), 0)
 
+    def test_keys_count_before_the_scene_is_there(self):
+        slow = ["--size", "300x200", "--spp", "2", "--env", self.grey_map(), "--env-strength", "1.5"]
+        window = self.open(self.scene, *slow)
+        window.key("3", "c", "f", "r", "comma", "x", "1", "x", "E", "F5")  # some need the scene, and do nothing; none is in the way
+        window.rest()
+        command = window.save()
+        self.assertIn("--integrator=raster", command)
+        self.assertIn("--exposure=0.333", command)
+        self.assertEqual(window.close(), 0)
+        self.assertEqual(self.open(self.scene, *slow).close(), 0)
+
 
 if __name__ == "__main__":
     unittest.main()
