@@ -30,11 +30,11 @@ typedef struct ec_pipeline {
         bool in_use;
         cl_mem buffers[EC_ACCEL_BUFFERS];
         cl_kernel kernels[2];     /* [0] intersect, [1] connect, as everywhere */
-        /* Where several are in use, all give the same hits: rays a second of each, the best trial at each bounce. */
+        /* Where there are several ways, all give the same hits: rays a second of each, the best trial at each bounce. */
         struct {
             double best_rate;
             uint32_t trials;
-        } tuning[2][EC_TUNED_BOUNCES];
+        } tuning[2][EC_TUNED_BOUNCES][2]; /* rays as they come, and sorted */
     } accels[EC_ACCEL_COUNT];
     uint64_t rays;                /* traced so far, shadow rays included */
     double clocked_seconds, clocked_rays; /* of trials (trace.c) */
@@ -76,7 +76,7 @@ ec_result ec_pipeline_unload(ec_pipeline *pipeline, ec_cargo *cargo, ec_error *e
 typedef struct ec_upload {
     ec_arg arg;
     const void *data; /* NULL: made as it is uploaded */
-    uint64_t slack;   /* spare bytes behind the end, for streams that are read in fours of words but not made of them */
+    uint64_t slack;   /* spare bytes behind the end, for streams that are read in more words than they are made of */
     ec_scene_buffer buffer;
 } ec_upload;
 uint32_t ec_upload_plan(const ec_scene *scene, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects);
@@ -91,8 +91,8 @@ ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
 /* launch.c */
 ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
 ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
-/* trace.c: the closest hits or the shadow rays of a bounce, through the accelerator that has proved the fastest there. */
-ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce, const uint32_t *scalars, ec_error *err);
+/* trace.c: the closest hits or the shadow rays of a bounce, in the way that has proved the fastest there; sets EC_ARG_SORTS. */
+ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce, uint32_t *scalars, ec_error *err);
 
 /* effects.c: which are called for, built and launched; which can change a stage's code; is light looked for by shadow rays? */
 void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects);

@@ -14,12 +14,12 @@
 
 static const ec_arg generate[] = {EC_ARG_PARAMS,     EC_ARG_SEED,  EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_PIXEL_FILTER,
                                   EC_ARG_PATH_COUNT, EC_ARG_PATHS, EC_ARG_RADIANCE, EC_ARG_CAMERA_KEYS, EC_ARG_MOTION,    EC_ARG_TIMES};
-static const ec_arg intersect[] = {WAVE_ARGS, EC_ARG_PATHS, EC_ARG_HITS, ACCEL_ARGS, FILTER_ARGS};
+static const ec_arg intersect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_PATHS, EC_ARG_HITS, ACCEL_ARGS, FILTER_ARGS};
 static const ec_arg shade[] = {WAVE_ARGS,          EC_ARG_INVALID, EC_ARG_PATHS, EC_ARG_HITS,        EC_ARG_NEXT,
                                EC_ARG_SHADOWS,     EC_ARG_RADIANCE, EC_ARG_AOV,  SURFACE_ARGS,       EC_ARG_MOTION, EC_ARG_TIMES, EC_ARG_LIGHT_TABLE,
                                EC_ARG_LIGHT_ALIAS, EC_ARG_ENVIRONMENT_TEXELS,    EC_ARG_ENVIRONMENT_TABLE,
                                EC_ARG_LIGHT_TREE,  EC_ARG_LIGHT_TRAILS};
-static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
+static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
                                  EC_ARG_NORMALS, EC_ARG_TANGENTS};
 static const ec_arg raster_setup[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_PRIMS, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS};
 static const ec_arg raster_fill[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS, EC_ARG_TILE_LIST};

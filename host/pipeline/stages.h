@@ -15,6 +15,7 @@ typedef enum ec_arg {
     EC_ARG_FIRST_PIXEL,
     EC_ARG_BOUNCE,
     EC_ARG_STEP,
+    EC_ARG_SORTS,      /* do packets sort their rays (lib/sort_rays.h)? */
     EC_ARG_PATH_COUNT,
     EC_ARG_PIXEL_COUNT,
     EC_ARG_TRIANGLE_COUNT,

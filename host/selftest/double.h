@@ -58,6 +58,17 @@ EC_FN quad gather_quad(const float *p, lane_u i)
     quad q = {p[i], p[i + 1], p[i + 2], p[i + 3]};
     return q;
 }
+EC_FN bool all_same(lane_u v) { return false; }
+EC_FN lane_u divide(lane_u n, uint d) { return n / d; }
+EC_FN quad gather_quad_if(bool is_same, const float *p, lane_u i) { return gather_quad(p, i); }
+typedef struct pair {
+    lane_u a, b;
+} pair;
+EC_FN pair gather_pair(const uint32_t *p, lane_u i)
+{
+    pair r = {p[i], p[i + 1]};
+    return r;
+}
 EC_FN void scatter_f(double *p, lane_u i, lane_f v, uint bits)
 {
     (void)bits;

@@ -135,7 +135,7 @@ ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *er
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = r->largest};
     ec_counters counters = {.rays = {{count}}};
     const ec_array arrays[] = {EC_IN(&params, 1), EC_SCALAR(zero), EC_SCALAR(zero), NO_BUFFER, EC_SCALAR(zero), EC_SCALAR(zero),
-                               EC_IN(&counters, 1), EC_IN(r->paths, EC_PATH_FIELDS * wave), EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave),
+                               EC_IN(&counters, 1), EC_SCALAR(zero), EC_IN(r->paths, EC_PATH_FIELDS * wave), EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave),
                                BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3), BUFFER(4),
                                NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER,
                                NO_BUFFER};

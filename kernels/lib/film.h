@@ -13,7 +13,7 @@
 EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, global const uint *pixel_list, lane_u slot, lane_u *pixel,
                          lane_u *sample)
 {
-    lane_u local_pixel = slot / params->batch;
+    lane_u local_pixel = divide(slot, params->batch);
     *sample = slot - local_pixel * params->batch;
     *pixel = local_pixel + first_pixel;
     if (pixel_list) *pixel = gather_u(pixel_list, *pixel);
@@ -23,15 +23,15 @@ EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, global co
  * right). */
 EC_FN void pixel_to_xy(constant ec_params *params, lane_u pixel, lane_u *x, lane_u *y)
 {
-    uint width = params->width, height = params->height;
-    pixel = pixel - pixel / (width * height) * (width * height);
-    lane_u tile_row = pixel / (width * EC_TILE);
+    uint width = params->width, height = params->height, low = height % EC_TILE, narrow = width % EC_TILE;
+    pixel = pixel - divide(pixel, width * height) * (width * height);
+    lane_u tile_row = divide(pixel, width * EC_TILE);
     lane_u in_row = pixel - tile_row * (width * EC_TILE);
     lane_u rows = min(U(EC_TILE), height - tile_row * EC_TILE);
-    lane_u tile = in_row / (rows * EC_TILE);
+    lane_u tile = rows < EC_TILE ? divide(in_row, max(low, 1u) * EC_TILE) : in_row / (EC_TILE * EC_TILE);
     lane_u in_tile = in_row - tile * rows * EC_TILE;
     lane_u columns = min(U(EC_TILE), width - tile * EC_TILE);
-    lane_u line = in_tile / columns;
+    lane_u line = columns < EC_TILE ? divide(in_tile, max(narrow, 1u)) : in_tile / EC_TILE;
     *x = tile * EC_TILE + (in_tile - line * columns);
     *y = tile_row * EC_TILE + line;
 }

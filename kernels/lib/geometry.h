@@ -28,6 +28,7 @@ typedef struct hit_point {
     lane_u i0, i1, i2;   /* vertex indices; set when any attribute is needed */
     quad uv, uv0, uv1, uv2; /* both uv sets: at the hit, at the vertices */
     lane_u material;     /* first word of its material */
+    bool is_one_material; /* with textures, which read much of it: is it the same on all lanes? */
     lane_f light_pdf_a;
     lane_i placed;       /* with INSTANCES: on one of them, … */
     lane_u place;        /* … whose ec_place is at this word */
@@ -87,6 +88,7 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
     h.p1 = v3_make(v1.a, v1.b, v1.c);
     h.p2 = v3_make(v2.a, v2.b, v2.c);
     h.material = as_lane_u(v0.d) * EC_MATERIAL_WORDS;
+    h.is_one_material = HAS_TEXTURES && all_same(h.material);
     h.light_pdf_a = v1.d;
     if (HAS(INSTANCES) && any_lane(h.placed)) {
         v3 p1 = v3_select(h.turned, h.p2, h.p1), p2 = v3_select(h.turned, h.p1, h.p2);
@@ -162,7 +164,13 @@ EC_FN v3 interpolate_tangent(const geometry *g, const hit_point *h, lane_f *hand
 
 EC_FN quad material_quad(const geometry *g, const hit_point *h, uint word)
 {
-    return gather_quad(g->materials, h->material + word);
+    return gather_quad_if(h->is_one_material, g->materials, h->material + word);
+}
+
+/* The entry in the table of textures of id, valid on the lanes of m. */
+EC_FN quad texture_entry(const geometry *g, const hit_point *h, lane_i m, lane_i id)
+{
+    return gather_quad_if(h->is_one_material, g->tex.table, int_to_lane_u(h->is_one_material ? id : m ? id : I(0)) * 4u);
 }
 
 /* A material's texture at the hit; white where it has none. */
@@ -177,7 +185,7 @@ EC_FN rgba material_texture(const geometry *g, const hit_point *h, lane_i m, uin
     lane_i second = as_lane_u(head.b) != 0u;
     lane_f u = second ? h->uv.c : h->uv.a, v = second ? h->uv.d : h->uv.b;
     lane_f tu = fma(head.c, u, fma(head.d, v, tail.a)), tv = fma(tail.b, u, fma(tail.c, v, tail.d));
-    return texture_sample(g->tex, m, id, tu, tv, is_srgb);
+    return texture_sample(g->tex, m, texture_entry(g, h, m, id), tu, tv, is_srgb);
 }
 
 /* Base colour and coverage. */

@@ -105,6 +105,19 @@ EC_FN bool any_lane(lane_i m) { return mask_bits(m) != 0u; }
 EC_FN bool all_lanes(lane_i m) { return mask_bits(m) == (uint)((1ul << LANES) - 1ul); }
 EC_FN uint count_lanes(lane_i m) { return popcount(mask_bits(m)); }
 
+/* n / d, d the same of all lanes: by a product (Granlund and Montgomery 1994, figure 4.1), since CPUs have no division of integer vectors. */
+EC_FN lane_u divide(lane_u n, uint d)
+{
+#if LANES == 1
+    return n / d;
+#else
+    if (d == 1u) return n;
+    uint bits = 32u - clz(d - 1u);
+    lane_u t = mul_hi(n, U((uint)((((1ul << bits) - d) << 32) / d) + 1u));
+    return (t + ((n - t) >> 1)) >> (bits - 1u);
+#endif
+}
+
 /* Gathers: element i of each lane. Lanes that are off must hold an index that may be read. */
 EC_FN lane_f gather_f(global const float *restrict p, lane_u i)
 {
@@ -166,6 +179,48 @@ EC_FN quad gather_quad(global const float *restrict p, lane_u i)
 {
     quad q = {gather_f(p, i), gather_f(p, i + 1u), gather_f(p, i + 2u), gather_f(p, i + 3u)};
     return q;
+}
+#endif
+
+/* Is it the same on all lanes? Then one load will do for them. */
+EC_FN bool all_same(lane_u v) { return LANES > 1 && all_lanes(v == LANE(v, 0)); }
+EC_FN quad gather_quad_if(bool is_same, global const float *restrict p, lane_u i)
+{
+    if (!is_same) return gather_quad(p, i);
+    float4 v = vload4(0, p + LANE(i, 0));
+    quad q = {F(v.x), F(v.y), F(v.z), F(v.w)};
+    return q;
+}
+
+/* Two consecutive words at p + i of each lane. */
+typedef struct pair {
+    lane_u a, b;
+} pair;
+
+#if LANES > 4 && __has_builtin(__builtin_shufflevector)
+#define PAIR(k) vload2(0, p + i.s##k)
+#if LANES == 16
+#define PAIR_LOAD                                                                                  \
+    lane_u r0 = (lane_u)(PAIR(0), PAIR(1), PAIR(2), PAIR(3), PAIR(4), PAIR(5), PAIR(6), PAIR(7)),  \
+           r1 = (lane_u)(PAIR(8), PAIR(9), PAIR(a), PAIR(b), PAIR(c), PAIR(d), PAIR(e), PAIR(f))
+#define PAIR_EVEN 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30
+#define PAIR_ODD 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31
+#else
+#define PAIR_LOAD lane_u r0 = (lane_u)(PAIR(0), PAIR(1), PAIR(2), PAIR(3)), r1 = (lane_u)(PAIR(4), PAIR(5), PAIR(6), PAIR(7))
+#define PAIR_EVEN 0, 2, 4, 6, 8, 10, 12, 14
+#define PAIR_ODD 1, 3, 5, 7, 9, 11, 13, 15
+#endif
+EC_FN pair gather_pair(global const uint *restrict p, lane_u i)
+{
+    PAIR_LOAD;
+    pair r = {__builtin_shufflevector(r0, r1, PAIR_EVEN), __builtin_shufflevector(r0, r1, PAIR_ODD)};
+    return r;
+}
+#else
+EC_FN pair gather_pair(global const uint *restrict p, lane_u i)
+{
+    pair r = {gather_u(p, i), gather_u(p, i + 1u)};
+    return r;
 }
 #endif
 

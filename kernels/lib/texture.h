@@ -32,17 +32,24 @@ EC_FN rgba texel_bytes(textures t, lane_u word, bool is_srgb)
     return r;
 }
 
-EC_FN rgba texture_texel(textures t, lane_u offset, lane_u index, lane_i is_float, bool is_srgb)
+/* The texels `first` and `second` of a row that starts at `row`. Mostly they stand side by side: a load fetches both, and a word more than
+ * the buffer has texels. */
+EC_FN void texture_row(textures t, lane_u offset, lane_u row, lane_u first, lane_u second, lane_i is_float, bool is_srgb, rgba *a, rgba *b)
 {
-    if (!HAS(FLOAT_TEXTURE)) return texel_bytes(t, gather_u(t.texels, offset + index), is_srgb);
-    lane_u at = offset + (is_float ? index * 4u : index);
-    rgba r = texel_bytes(t, gather_u(t.texels, at), is_srgb);
-    if (any_lane(is_float)) {
-        quad q = gather_quad((global const float *)t.texels, is_float ? at : U(0));
-        r.rgb = v3_select(is_float, v3_make(q.a, q.b, q.c), r.rgb);
-        r.a = is_float ? q.d : r.a;
-    }
-    return r;
+    lane_u at = offset + row + first;
+    pair words = gather_pair(t.texels, at);
+    lane_i seam = second < first;
+    words.b = second == first ? words.a : words.b;
+    if (any_lane(seam)) words.b = seam ? gather_u(t.texels, offset + row + second) : words.b;
+    *a = texel_bytes(t, words.a, is_srgb);
+    *b = texel_bytes(t, words.b, is_srgb);
+    if (!HAS(FLOAT_TEXTURE) || !any_lane(is_float)) return;
+    quad qa = gather_quad((global const float *)t.texels, is_float ? offset + (row + first) * 4u : U(0));
+    quad qb = gather_quad((global const float *)t.texels, is_float ? offset + (row + second) * 4u : U(0));
+    a->rgb = v3_select(is_float, v3_make(qa.a, qa.b, qa.c), a->rgb);
+    b->rgb = v3_select(is_float, v3_make(qb.a, qb.b, qb.c), b->rgb);
+    a->a = is_float ? qa.d : a->a;
+    b->a = is_float ? qb.d : b->a;
 }
 
 /* Wraps a coordinate into [0, 1]: repeat (0), clamp (1), mirrored repeat (2). */
@@ -70,21 +77,18 @@ EC_FN void texture_axis(lane_f u, lane_i size, lane_u wrap, lane_i is_nearest, l
     *weight = is_nearest ? F(0.0f) : x - base;
 }
 
-/* Texture `id` (lane-wise, valid on the lanes of m) at (u, v); white elsewhere. */
-EC_FN rgba texture_sample(textures t, lane_i m, lane_i id, lane_f u, lane_f v, bool is_srgb)
+/* The texture of a table's entry at (u, v); white off the lanes of m. */
+EC_FN rgba texture_sample(textures t, lane_i m, quad entry, lane_f u, lane_f v, bool is_srgb)
 {
-    lane_u entry = int_to_lane_u(m ? id : I(0)) * 4u;
-    quad row = gather_quad(t.table, entry);
-    lane_u offset = as_lane_u(row.a), width = as_lane_u(row.b), height = as_lane_u(row.c), flags = as_lane_u(row.d);
+    lane_u offset = as_lane_u(entry.a), width = as_lane_u(entry.b), height = as_lane_u(entry.c), flags = as_lane_u(entry.d);
     lane_i is_nearest = (flags & EC_TEXTURE_NEAREST) != 0u, is_float = (flags & EC_TEXTURE_FLOAT) != 0u;
     lane_u x0, x1, y0, y1;
     lane_f fx, fy;
     texture_axis(u, uint_to_lane_i(width), flags & 3u, is_nearest, &x0, &x1, &fx);
     texture_axis(v, uint_to_lane_i(height), (flags >> EC_TEXTURE_WRAP_T) & 3u, is_nearest, &y0, &y1, &fy);
-    rgba a = texture_texel(t, offset, y0 * width + x0, is_float, is_srgb);
-    rgba b = texture_texel(t, offset, y0 * width + x1, is_float, is_srgb);
-    rgba c = texture_texel(t, offset, y1 * width + x0, is_float, is_srgb);
-    rgba d = texture_texel(t, offset, y1 * width + x1, is_float, is_srgb);
+    rgba a, b, c, d;
+    texture_row(t, offset, y0 * width, x0, x1, is_float, is_srgb, &a, &b);
+    texture_row(t, offset, y1 * width, x0, x1, is_float, is_srgb, &c, &d);
     lane_f gx = 1.0f - fx, gy = 1.0f - fy;
     lane_f wa = gx * gy, wb = fx * gy, wc = gx * fy, wd = fx * fy;
     rgba r;

@@ -8,20 +8,21 @@
 #include "queue.h"
 #include "sort_rays.h"
 
+#define SORTS (LANES > 1 && sorts)
+
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
 kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                                         global const ec_counters *counters, global const float *paths, global float *hits,
+                                         global const ec_counters *counters, uint sorts, global const float *paths, global float *hits,
                                          ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
     uint order[EC_SORTED];
-    bool sorts = LANES > 1 && bounce; /* camera rays lie side by side */
-    uint count = item_rays(counters->rays[step], paths, wave, params->part, EC_PATH_OX, EC_PATH_DX, i, sorts, order);
+    uint count = item_rays(counters->rays[step], paths, wave, params->part, EC_PATH_OX, EC_PATH_DX, i, SORTS, order);
     const accel a = ACCEL_ARGUMENTS;
     for (uint k = 0; k < count; k += LANES) {
         lane_i active = LANE_NUMBERS < count - k;
-        queue_packet at = {i + k, sorts, sorts ? LANE_LOAD(order + k) : U(0)};
+        queue_packet at = {i + k, SORTS, SORTS ? LANE_LOAD(order + k) : U(0)};
         ray r = ray_make(packet_load_v3(paths, wave, EC_PATH_OX, &at), packet_load_v3(paths, wave, EC_PATH_DX, &at), params->scene_max);
         hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
         lane_u slot = packet_load_u(paths, wave, EC_PATH_SLOT, &at);
@@ -49,19 +50,18 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
 kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                                       global const ec_counters *counters, volatile global uint *invalid,
+                                       global const ec_counters *counters, uint sorts, volatile global uint *invalid,
                                        global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS,
                                        global const float *normals, global const float *tangents)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
     uint order[EC_SORTED];
-    bool sorts = LANES > 1 && bounce; /* camera rays lie side by side */
-    uint count = item_rays(counters->shadows[step], shadows, wave, params->part, EC_SHADOW_OX, EC_SHADOW_DX, i, sorts, order);
+    uint count = item_rays(counters->shadows[step], shadows, wave, params->part, EC_SHADOW_OX, EC_SHADOW_DX, i, SORTS, order);
     const accel a = ACCEL_ARGUMENTS;
     for (uint k = 0; k < count; k += LANES) {
         lane_i active = LANE_NUMBERS < count - k;
-        queue_packet at = {i + k, sorts, sorts ? LANE_LOAD(order + k) : U(0)};
+        queue_packet at = {i + k, SORTS, SORTS ? LANE_LOAD(order + k) : U(0)};
         ray r = ray_make(packet_load_v3(shadows, wave, EC_SHADOW_OX, &at), packet_load_v3(shadows, wave, EC_SHADOW_DX, &at),
                          params->scene_max);
         lane_u slot = packet_load_u(shadows, wave, EC_SHADOW_SLOT, &at);

@@ -10,7 +10,7 @@
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
 kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                                         global const ec_counters *counters, global const float *paths, global float *hits,
+                                         global const ec_counters *counters, uint sorts, global const float *paths, global float *hits,
                                          ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
     uint i = get_global_id(0), wave = params->wave;
@@ -40,7 +40,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
 kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                                       global const ec_counters *counters, volatile global uint *invalid,
+                                       global const ec_counters *counters, uint sorts, volatile global uint *invalid,
                                        global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS,
                                        global const float *normals, global const float *tangents)
 {

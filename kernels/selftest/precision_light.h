@@ -93,7 +93,7 @@ PRECISION(environment_sample_constant)
 PRECISION(texture_sample)
 {
     geometry g = geometry_of(in, memory);
-    rgba t = texture_sample(g.tex, TRUE_MASK, uint_to_lane_i(BITS(0)), X(1), X(2), false);
+    rgba t = texture_sample(g.tex, TRUE_MASK, gather_quad(g.tex.table, BITS(0) * 4u), X(1), X(2), false);
     PUT_V(0, t.rgb);
 }
 PRECISION(camera_sample)

@@ -11,6 +11,7 @@
 EC_FN hit_point hit_of(global const float *in)
 {
     hit_point h;
+    h.is_one_material = false;
     h.p0 = V(0);
     h.p1 = V(3);
     h.p2 = V(6);

@@ -7,7 +7,7 @@ kernel void sample(uint n, uint is_srgb, global const int *id, global const floa
     uint at = get_global_id(0) * LANES;
     textures t = {table, texels, srgb};
     lane_i m = LANE_LOAD(on + at) != 0u;
-    rgba r = texture_sample(t, m, LANE_LOAD(id + at), LANE_LOAD(u + at), LANE_LOAD(v + at), is_srgb != 0u);
+    rgba r = texture_sample(t, m, gather_quad(table, int_to_lane_u(m ? LANE_LOAD(id + at) : I(0)) * 4u), LANE_LOAD(u + at), LANE_LOAD(v + at), is_srgb != 0u);
     LANE_STORE(r.rgb.x, out + at);
     LANE_STORE(r.rgb.y, out + n + at);
     LANE_STORE(r.rgb.z, out + 2 * n + at);

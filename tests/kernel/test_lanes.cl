@@ -80,6 +80,22 @@ kernel void select_takes_a_where_the_mask_is_set(global test_result *result)
     }
 }
 
+kernel void division_is_exact(global test_result *result)
+{
+    for (uint i = 0; i < 4096; i++) {
+        /* Small ones, powers of two and their neighbours, the largest, any. */
+        uint d = i < 300 ? i + 1u : i < 396 ? (1u << (i / 3u % 32u)) + i % 3u - 1u : i < 400 ? 0u - (i - 395u) : scrambled(i) >> (i % 31u);
+        d = max(d, 1u);
+        uint q[16], n[16], good = 1;
+        lane_u near = d * (scrambled(i + 77u) / d) + LANE_NUMBERS - LANES / 2u; /* about a multiple, and about 0 where that wraps */
+        lane_u numbers = i % 3u ? near : 0u - LANE_NUMBERS * (i % 5u);
+        LANE_STORE(numbers, n);
+        LANE_STORE(divide(numbers, d), q);
+        for (uint k = 0; k < LANES; k++) good &= q[k] == n[k] / d;
+        CHECK_UINTS(good, d, n[0], q[0], 0);
+    }
+}
+
 kernel void conversions(global test_result *result)
 {
     int n[16];

@@ -86,13 +86,12 @@ static float nothing[256];
 #define NO_ATTRIBUTES IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 64), IN(nothing, 16), \
     IN(nothing, 16), IN(nothing, 256), {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}
 #define ALL_PIXELS {NULL, 0, KERNEL_IN}
-#define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), ALL_PIXELS, SCALAR(zero), SCALAR(zero), IN(&counters, 1)
+#define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), ALL_PIXELS, SCALAR(zero), SCALAR(zero), IN(&counters, 1), SCALAR(sorts)
 #define BUFFER(k) {a->buffers[k].data, a->buffers[k].data ? a->buffers[k].bytes : 0, KERNEL_IN}
 #define BUFFERS BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3), BUFFER(4)
 
-/* Closest hits of the first `count` of `wave` paths, EC_HIT_PROBE_FIELDS each. */
-static inline bool intersect(const set *s, const tracer *t, const ec_accel *a, uint32_t wave, uint32_t count, const float *paths,
-                             float *hits)
+static inline bool intersect_in_order(const set *s, const tracer *t, const ec_accel *a, uint32_t wave, uint32_t count, const float *paths,
+                                      uint32_t sorts, float *hits)
 {
     char name[64];
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
@@ -102,9 +101,8 @@ static inline bool intersect(const set *s, const tracer *t, const ec_accel *a, u
                        OUT(hits, EC_HIT_PROBE_FIELDS * (size_t)wave), BUFFERS, NO_ATTRIBUTES);
 }
 
-/* What arrives of shadow rays that carry light, in three colours. */
-static inline bool connect(const set *s, const tracer *t, const ec_accel *a, uint32_t wave, uint32_t count, const float *shadows,
-                           float *radiance)
+static inline bool connect_in_order(const set *s, const tracer *t, const ec_accel *a, uint32_t wave, uint32_t count, const float *shadows,
+                                    uint32_t sorts, float *radiance)
 {
     char name[64];
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
@@ -117,6 +115,40 @@ static inline bool connect(const set *s, const tracer *t, const ec_accel *a, uin
                             IN(nothing, 16), IN(nothing, 16));
     for (int i = 0; i < EC_STAGE_COUNT; i++) CHECK(invalid[i] == 0);
     return good;
+}
+
+/* Packets give the same bits whether or not they sort their rays: of each field, the first `count` values. */
+static inline void same_sorted(const tracer *t, const float *plain, const float *sorted, size_t fields, uint32_t wave, uint32_t count)
+{
+    for (size_t f = 0; f < fields; f++)
+        CHECK_MSG(!memcmp(plain + f * wave, sorted + f * wave, count * sizeof *plain), "%s: field %zu is another where rays are sorted", t->label, f);
+}
+
+/* Closest hits of the first `count` of `wave` paths, EC_HIT_PROBE_FIELDS each. */
+static inline bool intersect(const set *s, const tracer *t, const ec_accel *a, uint32_t wave, uint32_t count, const float *paths, float *hits)
+{
+    if (t->lanes > 1) {
+        float *sorted = malloc(EC_HIT_PROBE_FIELDS * (size_t)wave * sizeof *sorted);
+        memcpy(sorted, hits, EC_HIT_PROBE_FIELDS * (size_t)wave * sizeof *sorted);
+        bool good = intersect_in_order(s, t, a, wave, count, paths, 1, sorted) && intersect_in_order(s, t, a, wave, count, paths, 0, hits);
+        if (good) same_sorted(t, hits, sorted, EC_HIT_T + 1, wave, count);
+        free(sorted);
+        return good;
+    }
+    return intersect_in_order(s, t, a, wave, count, paths, 0, hits);
+}
+
+/* What arrives of shadow rays that carry light, in three colours. */
+static inline bool connect(const set *s, const tracer *t, const ec_accel *a, uint32_t wave, uint32_t count, const float *shadows, float *radiance)
+{
+    if (t->lanes > 1) {
+        float *sorted = malloc(3 * (size_t)wave * sizeof *sorted);
+        bool good = connect_in_order(s, t, a, wave, count, shadows, 1, sorted) && connect_in_order(s, t, a, wave, count, shadows, 0, radiance);
+        if (good) same_sorted(t, radiance, sorted, 3, wave, wave);
+        free(sorted);
+        return good;
+    }
+    return connect_in_order(s, t, a, wave, count, shadows, 0, radiance);
 }
 
 static inline void print_ray(const set *s, const float *queue, uint32_t rays, uint32_t i, uint32_t prim)
