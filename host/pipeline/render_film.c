@@ -6,12 +6,13 @@
 #include "pipeline/adaptive.h"
 #include "pipeline/looks.h"
 #include "pipeline/render_state.h"
+#include "pipeline/team.h"
 
 /* With blocks of batches, since one that is given up is lost, and nothing of it is kept before it is whole: seconds, or a share of the time so far;
  * and not longer than between two checkpoints. */
 static double patience(const ec_render_state *r)
 {
-    const double seconds = fmax(3.0, 0.01 * (ec_now() - r->render_start));
+    const double seconds = fmax(EC_TEAM_PATIENCE_SECONDS, EC_TEAM_PATIENCE_SHARE * (ec_now() - r->render_start));
     return r->course->keep ? fmin(r->course->every, seconds) : seconds;
 }
 

@@ -11,7 +11,8 @@
  * A block that a team is ordered to take, as another's member, is made of units of a sixteenth of it.
  *
  * So that nobody waits for a unit that is late, so many may be open at once as there are members, with all the processes that they stand for,
- * and one more, if they fit into EC_TEAM_ROOM, and two in any case: 12 bytes a pixel of a batch, 68 of a block. Pieces of blocks that are on their way take as much again.
+ * and one more, if they fit into EC_TEAM_ROOM, and two in any case: 12 bytes a pixel of a batch, 68 of a block. Pieces of blocks that are on
+ * their way take as much again.
  *
  * A member that fails is out, and its piece goes to another. */
 #ifndef EC_PIPELINE_TEAM_H
@@ -21,6 +22,9 @@
 
 #define EC_TEAM_ROOM ((uint64_t)1 << 29)  /* bytes */
 #define EC_TEAM_PIECE ((uint64_t)1 << 25) /* of a block's, or one wave */
+#define EC_TEAM_PIECE_SECONDS 1.0         /* at most, but for a wave */
+#define EC_TEAM_PATIENCE_SECONDS 3.0      /* with a block, or … */
+#define EC_TEAM_PATIENCE_SHARE 0.01       /* … of the time so far */
 
 /* How many batches, or blocks, of such an image a team of so many may have open; and bytes for them, where some of its pieces come from afar. */
 uint32_t ec_team_window(uint32_t members, uint64_t pixels, bool in_blocks);

@@ -8,8 +8,6 @@
 #include "pipeline/fold.h"
 #include "pipeline/team_internal.h"
 
-#define LONGEST_PIECE 1.0 /* seconds */
-
 uint32_t ec_team_window(uint32_t members, uint64_t pixels, bool in_blocks)
 {
     const uint64_t unit = pixels * (in_blocks ? EC_MOMENTS_BYTES : 12), fit = unit ? EC_TEAM_ROOM / unit : members;
@@ -57,7 +55,7 @@ static double least_seconds(const ec_team *t, uint32_t batches)
 static bool is_soon(const ec_team *t, uint32_t index, uint32_t batches)
 {
     const double batch = batch_seconds(t), unit = batches * batch, least = least_seconds(t, batches);
-    const double piece = fmax(fmin(unit * ec_team_alive(t), LONGEST_PIECE), least), over = unit + piece;
+    const double piece = fmax(fmin(unit * ec_team_alive(t), EC_TEAM_PIECE_SECONDS), least), over = unit + piece;
     return batch > 0 && over <= t->patience && ec_now() + over <= t->until && 2 * least <= (double)(t->end - index) * batch;
 }
 
@@ -141,7 +139,7 @@ static uint32_t piece_of(const member *m, const slot *s)
 {
     const ec_team *t = m->team;
     const uint32_t left = s->count - s->handed, unit = s->list ? 1 : EC_TILE_ROWS * t->width, alive = ec_team_alive(t);
-    double seconds = s->batches * batch_seconds(t) * alive, size = m->rate / s->batches * fmin(seconds > 0 ? seconds : LONGEST_PIECE, LONGEST_PIECE);
+    double seconds = s->batches * batch_seconds(t) * alive, size = m->rate / s->batches * fmin(seconds > 0 ? seconds : EC_TEAM_PIECE_SECONDS, EC_TEAM_PIECE_SECONDS);
     if (t->from >= t->end) size = fmin(size, left / (2.0 * alive));
     if (s->batches > 1) size = fmin(size, EC_TEAM_PIECE / EC_MOMENTS_BYTES);
     size = ceil(fmax(fmax(size, m->source->least), 1) / unit) * unit;

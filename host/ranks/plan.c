@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "film/parts.h"
+#include "pipeline/team.h"
 #include "ranks/post.h"
 #include "report/format.h"
 #include "report/json.h"
@@ -10,7 +11,6 @@
 static double bytes_per_second(const ec_plan *p) { return p->gbit * 1e9 / 8; }
 static double latency(const ec_plan *p) { return p->microseconds * 1e-6; }
 
-#define PIECE_SECONDS 1.0  /* at most: pipeline/team.h */
 #define IDLE_SECONDS 2e-3  /* of a rank between two pieces: both posts look every millisecond */
 
 static const char *largest_loss(double start, double messages, double end, double link, double sums)
@@ -22,9 +22,6 @@ static const char *largest_loss(double start, double messages, double end, doubl
         if (losses[i] > losses[most]) most = i;
     return names[most];
 }
-
-#define PATIENCE_SECONDS 3.0 /* with a block, or … */
-#define PATIENCE_SHARE 0.01  /* … of the time so far: pipeline/render_film.c */
 
 /* How batches come in: so many of them one by one, in blocks of 16 and of 256. */
 typedef struct mixture {
@@ -39,9 +36,9 @@ static mixture mixture_of(const ec_plan *p, uint32_t ranks)
     double left = p->batches;
     for (int i = 2; i > 0 && ranks > 1; i--) {
         const double block = pow(EC_FILM_RADIX, i), least = block * p->batch * fmin(1, (double)p->least / (double)p->pixels);
-        const double unit = block * p->batch / ranks, over = unit + fmax(fmin(unit * ranks, PIECE_SECONDS), least);
+        const double unit = block * p->batch / ranks, over = unit + fmax(fmin(unit * ranks, EC_TEAM_PIECE_SECONDS), least);
         const double kept_back = block + 2 * least * ranks / p->batch;
-        const double share = over <= PATIENCE_SECONDS ? 1 : 1 - over / PATIENCE_SHARE / (p->batches * p->batch / ranks); /* of the job */
+        const double share = over <= EC_TEAM_PATIENCE_SECONDS ? 1 : 1 - over / EC_TEAM_PATIENCE_SHARE / (p->batches * p->batch / ranks); /* of the job */
         if (share <= 0 || left - kept_back < block) continue;
         m.count[i] = (left - kept_back) * share;
         left -= m.count[i];
@@ -67,7 +64,7 @@ ec_plan_row ec_plan_for(const ec_plan *p, uint32_t ranks)
     const double n = p->batches, pixels = (double)p->pixels, work = n * p->batch / ranks, a_byte = 1 / bytes_per_second(p);
     const mixture m = mixture_of(p, ranks);
     const double blocks = m.count[1] / 16 + m.count[2] / 256, bytes = pixels * (12 * m.count[0] + EC_MOMENTS_BYTES * blocks);
-    const double piece = fmin(PIECE_SECONDS, m.largest * p->batch), idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + bytes / n * piece / p->batch * a_byte;
+    const double piece = fmin(EC_TEAM_PIECE_SECONDS, m.largest * p->batch), idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + bytes / n * piece / p->batch * a_byte;
     const double messages = work * idle / piece, end = alone ? 0 : p->batch * fmin(1, (double)p->least / pixels) + idle;
     const double link = bytes * (1 - 1.0 / ranks) * a_byte, sums = alone ? 0 : m.count[0] * p->add + blocks * p->add_block, intake = fmax(link, sums);
     ec_plan_row row = {.ranks = ranks, .load = p->load, .render = work + messages + end, .received = bytes * (1 - 1.0 / ranks)};
@@ -101,7 +98,7 @@ void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
                 "            pieces of up to %g s, of %llu pixels at least, %g ms between two of them; blocks where they take all ranks\n"
                 "            up to %g s, or %g %% of the time so far, with their last piece, not at the beginning and the end;\n"
             "            writing the picture left out\n\n",
-            p->gbit, p->microseconds, PIECE_SECONDS, (unsigned long long)p->least, 1e3 * IDLE_SECONDS, PATIENCE_SECONDS, 100 * PATIENCE_SHARE);
+            p->gbit, p->microseconds, EC_TEAM_PIECE_SECONDS, (unsigned long long)p->least, 1e3 * IDLE_SECONDS, EC_TEAM_PATIENCE_SECONDS, 100 * EC_TEAM_PATIENCE_SHARE);
     fprintf(to, "%8s %10s %9s %11s %10s   %s\n", "ranks", "seconds", "speed-up", "efficiency", "sums", "held back by");
     const double alone = ec_plan_for(p, 1).seconds;
     for (uint32_t ranks = 1; ranks; ranks = next_count(p, ranks)) {

@@ -65,13 +65,11 @@ EC_FN quad surface_turn(const geometry *g, const hit_point *h, uint slot)
     return turn;
 }
 
+EC_FN lane_f surface_turn_det(quad turn) { return turn.a * turn.d - turn.b * turn.c; }
 /* To where a picture that is turned or mirrored goes on: A being its turn, d/du' is (A22 d/du - A21 d/dv) / det A. */
-EC_FN v3 surface_turn_tangent(quad turn, v3 dpdu, v3 dpdv, lane_f *handedness)
+EC_FN v3 surface_turn_tangent(lane_i turned, quad turn, v3 dpdu, v3 dpdv, lane_f *handedness)
 {
-    lane_f det = turn.a * turn.d - turn.b * turn.c;
-    lane_i turned = (det != 0.0f) & ((turn.c != 0.0f) | (turn.d < 0.0f) | (det < 0.0f));
-    if (!any_lane(turned)) return dpdu;
-    lane_f sign = det < 0.0f ? F(-1.0f) : F(1.0f);
+    lane_f sign = surface_turn_det(turn) < 0.0f ? F(-1.0f) : F(1.0f);
     v3 along = v3_fma(dpdv, -turn.c * sign, v3_scale(dpdu, turn.d * sign));
     *handedness = turned ? *handedness * sign : *handedness;
     return v3_select(turned, along, dpdu);
@@ -81,13 +79,16 @@ EC_FN v3 surface_turn_tangent(quad turn, v3 dpdu, v3 dpdv, lane_f *handedness)
  * normal map points up in it, towards smaller v: on a front face the uv triangle of an unmirrored map then runs clockwise. */
 EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, quad turn, v3 n, lane_f *handedness)
 {
-    v3 tangent = v3_zero(), down = v3_zero();
+    v3 tangent = v3_zero(), down = v3_zero(); /* down: d/dv, wanted for turned pictures alone */
+    lane_f turn_det = surface_turn_det(turn);
+    lane_i turned = (turn_det != 0.0f) & ((turn.c != 0.0f) | (turn.d < 0.0f) | (turn_det < 0.0f));
+    bool turns = any_lane(turned);
     *handedness = F(1.0f);
     if (g->tangents) {
         lane_f hand;
         tangent = interpolate_tangent(g, h, &hand);
         *handedness = hand < 0.0f ? F(-1.0f) : F(1.0f);
-        down = v3_scale(v3_cross(tangent, n), *handedness);
+        if (turns) down = v3_scale(v3_cross(tangent, n), *handedness);
     }
     lane_i missing = v3_dot(tangent, tangent) == 0.0f;
     if (any_lane(missing)) {
@@ -97,12 +98,11 @@ EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, q
         v3 e1 = v3_sub(h->p1, h->p0), e2 = v3_sub(h->p2, h->p0);
         lane_f det = du1 * dv2 - du2 * dv1, sign = det < 0.0f ? F(-1.0f) : F(1.0f);
         v3 dpdu = v3_scale(v3_sub(v3_scale(e1, dv2), v3_scale(e2, dv1)), sign);
-        v3 dpdv = v3_scale(v3_sub(v3_scale(e2, du1), v3_scale(e1, du2)), sign);
+        if (turns) down = v3_select(missing, v3_scale(v3_sub(v3_scale(e2, du1), v3_scale(e1, du2)), sign), down);
         *handedness = missing ? -sign : *handedness;
         tangent = v3_select(missing, v3_select(det != 0.0f, dpdu, v3_zero()), tangent);
-        down = v3_select(missing, dpdv, down);
     }
-    return surface_turn_tangent(turn, tangent, down, handedness);
+    return turns ? surface_turn_tangent(turned, turn, tangent, down, handedness) : tangent;
 }
 
 /* The normal n bent by the normal map in a slot, whose scale is the third of four words of the material. */
