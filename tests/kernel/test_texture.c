@@ -38,6 +38,7 @@ static void make_images(void)
     add_image(1, 1, 0, 0, false, false);
     add_image(1, 5, 2, 1, false, false);
     add_image(64, 128, 0, 0, false, false);
+    for (uint32_t s = 0; s < 3; s++) add_image(2, 2, s, s, false, false); /* across the seam stands the texel before */
     for (int i = 0; i < 256; i++) srgb[i] = (float)ec_srgb_to_linear(i / 255.0);
 }
 
