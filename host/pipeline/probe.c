@@ -94,7 +94,7 @@ static ec_result build(ec_pipeline *p, uint32_t which, bool count, ec_error *err
 
 static ec_result count(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, ec_error *err)
 {
-    const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
+    const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1, [EC_ARG_SORTS] = 1};
     uint32_t lanes = p->lanes, *counts = malloc(2 * EC_PROBE_RAYS * sizeof *counts);
     uint64_t sums[2] = {0};
     if (!counts) return ec_fail(err, "out of memory for %u rays", EC_PROBE_RAYS);
@@ -113,7 +113,7 @@ static ec_result count(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, ec
 
 static ec_result measure(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, ec_error *err)
 {
-    const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
+    const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1, [EC_ARG_SORTS] = 1};
     EC_TRY(build(p, which, false, err));
     for (int run = 0; run < RUNS; run++) {
         EC_TRY(ec_cl_finish(p->cl, err));

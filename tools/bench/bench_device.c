@@ -163,7 +163,7 @@ static ec_result launch(bench_device *d, const bench_kernels *k, uint32_t accel,
     cl_kernel kernel = k->kernels[accel][kind == BENCH_SHADOW];
     memcpy(&d->buffers[EC_ARG_ACCEL], d->accel_buffers[accel], sizeof d->accel_buffers[accel]);
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
-    scalars[EC_ARG_BOUNCE] = kind == BENCH_CAMERA ? 0 : 1;
+    scalars[EC_ARG_BOUNCE] = scalars[EC_ARG_SORTS] = kind == BENCH_CAMERA ? 0 : 1;
     scalars[EC_ARG_PATH_COUNT] = d->counts[kind];
     for (uint32_t i = 0; i < stage->argument_count; i++) {
         ec_arg arg = stage->arguments[i];
