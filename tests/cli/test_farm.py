@@ -103,8 +103,8 @@ class Farm(Case):
         return self.path(name)
 
     def test_a_farm(self):
-        self.program("ssh", '[ "$1" != down ] || exit 255\nshift\nexec sh -c "$*"')  # one of the machines is down
-        run = self.run_script("farm", "here down there", CORNELL, "48", "all.exr", *SIZE, FARM_SSH=self.path("ssh"), SLICES="5")
+        self.program("ssh", '[ "$1" != down ] || { sleep 1; exit 255; }\nshift\nexec sh -c "$*"')  # one of the machines is down
+        run = self.run_script("farm", "down here there", CORNELL, "48", "all.exr", *SIZE, FARM_SSH=self.path("ssh"), SLICES="5")
         self.assert_ok(run)
         self.assertIn("farm: down failed at samples", run.stderr)
         self.assert_one_render(self.path("all.exr"))
