@@ -299,7 +299,7 @@ class ViewCase(Case):
         return {name: os.path.join(folder, name) for name in os.listdir(folder)}
 
     def assert_repeats(self, window, command):
-        attributes, planes = read_exr(os.path.join(window.folder, re.search(r"-o (\S+\.exr)", command)[1]))
+        attributes, planes = read_exr(os.path.join(window.folder, next(word for word in shlex.split(command) if word.endswith(".exr"))))
         pictures = self.repeat(command, self.path(f"again{time.monotonic_ns()}"))
         for name, path in pictures.items():
             if name.endswith(".png"):

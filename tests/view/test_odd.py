@@ -12,6 +12,18 @@ from support import ECLAT, data_uri, quad_scene, write_exr, write_gltf
 SIZE = ["--size", "200x150", "--batch", "1"]  # batches else are as the device is fast
 
 
+def moving_quad():
+    """It goes a unit to the right and half a one up within a second."""
+    scene, _ = quad_scene()
+    times = struct.pack("<2f3f3f", 0, 1, 0, 0, 0, 1, 0.5, 0)
+    scene["buffers"].append({"byteLength": len(times), "uri": data_uri(times)})
+    scene["bufferViews"] += [{"buffer": 1, "byteLength": 8}, {"buffer": 1, "byteOffset": 8, "byteLength": 24}]
+    scene["accessors"] += [{"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                           {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}]
+    scene["animations"] = [{"samplers": [{"input": 2, "output": 3}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]
+    return scene
+
+
 class Odd(ViewCase):
     def script(self, scene, lines, *arguments):
         """Runs a script to its end."""
@@ -91,13 +103,7 @@ class Odd(ViewCase):
         self.assertIn("orthographic", self.assert_one_error(run, 1))
 
     def test_blurred_scenes_by_integrators_that_do_not_blur(self):
-        scene, _ = quad_scene()
-        times = struct.pack("<2f3f3f", 0, 1, 0, 0, 0, 1, 0.5, 0)
-        scene["buffers"].append({"byteLength": len(times), "uri": data_uri(times)})
-        scene["bufferViews"] += [{"buffer": 1, "byteLength": 8}, {"buffer": 1, "byteOffset": 8, "byteLength": 24}]
-        scene["accessors"] += [{"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
-                               {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}]
-        scene["animations"] = [{"samplers": [{"input": 2, "output": 3}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]
+        scene = moving_quad()
         window = self.open(write_gltf(self.path("moves.gltf"), scene), *SIZE, "--spp", "4", "--shutter", "0.5:1")
         window.rest()
         commands = [window.save()]
@@ -108,6 +114,23 @@ class Odd(ViewCase):
         for command, words in zip(commands, ["--shutter=0.5:1 ", "--at=0.75 --integrator=whitted", "--integrator=raster"]):
             self.assertTrue(all(word in command for word in words.split()), command)
             self.assert_repeats(window, command)
+        self.assertEqual(window.close(), 0)
+
+    def test_commands_say_what_of_the_file_is_shown(self):
+        scene = moving_quad()
+        scene["scenes"].append({"name": "both", "nodes": [0, 1, 2]})
+        scene["nodes"].append({"mesh": 0, "translation": [0.5, 0.5, -1]})
+        scene["materials"].append({"emissiveFactor": [1, 0, 0]})
+        scene["extensionsUsed"] = ["KHR_materials_variants"]
+        scene["extensions"] = {"KHR_materials_variants": {"variants": [{"name": "white"}, {"name": "the red one"}]}}
+        scene["meshes"][0]["primitives"][0]["extensions"] = {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [1]}]}}
+        shown = ["--scene", "both", "--variant", "the red one", "--at", "0.5"]
+        window = self.open(write_gltf(self.path("some of all.gltf"), scene), *SIZE, "--spp", "4", *shown)
+        window.rest()
+        command = window.save()
+        for word in ["--scene=both", "'--variant=the red one'", "--at=0.5"]:
+            self.assertIn(word, command)
+        self.assert_repeats(window, command)
         self.assertEqual(window.close(), 0)
 
     def test_more_effects_than_digits(self):
