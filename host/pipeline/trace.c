@@ -33,6 +33,7 @@ static way choose(const ec_pipeline *p, int connect, uint32_t bounce, bool *is_t
     for (uint32_t b = 0; b <= bounce && b < EC_TUNED_BOUNCES; b++) {
         uint32_t count = list_ways(p, b, ways);
         double best_rate = -1.0;
+        best = ways[0]; /* where there is no other */
         for (uint32_t w = 0; w < count && count > 1; w++) {
             uint32_t trials = p->accels[ways[w].accel].tuning[connect][b][ways[w].sorts].trials;
             double rate = p->accels[ways[w].accel].tuning[connect][b][ways[w].sorts].best_rate;
@@ -42,7 +43,6 @@ static way choose(const ec_pipeline *p, int connect, uint32_t bounce, bool *is_t
             }
             if (rate > best_rate) best = ways[w], best_rate = rate;
         }
-        if (count == 1) best = ways[0];
         if (!is_packets(best.accel)) return best;
     }
     return best;

@@ -65,11 +65,10 @@ EC_FN quad surface_turn(const geometry *g, const hit_point *h, uint slot)
     return turn;
 }
 
-EC_FN lane_f surface_turn_det(quad turn) { return turn.a * turn.d - turn.b * turn.c; }
 /* To where a picture that is turned or mirrored goes on: A being its turn, d/du' is (A22 d/du - A21 d/dv) / det A. */
-EC_FN v3 surface_turn_tangent(lane_i turned, quad turn, v3 dpdu, v3 dpdv, lane_f *handedness)
+EC_FN v3 surface_turn_tangent(lane_i turned, quad turn, lane_f det, v3 dpdu, v3 dpdv, lane_f *handedness)
 {
-    lane_f sign = surface_turn_det(turn) < 0.0f ? F(-1.0f) : F(1.0f);
+    lane_f sign = det < 0.0f ? F(-1.0f) : F(1.0f);
     v3 along = v3_fma(dpdv, -turn.c * sign, v3_scale(dpdu, turn.d * sign));
     *handedness = turned ? *handedness * sign : *handedness;
     return v3_select(turned, along, dpdu);
@@ -80,7 +79,7 @@ EC_FN v3 surface_turn_tangent(lane_i turned, quad turn, v3 dpdu, v3 dpdv, lane_f
 EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, quad turn, v3 n, lane_f *handedness)
 {
     v3 tangent = v3_zero(), down = v3_zero(); /* down: d/dv, wanted for turned pictures alone */
-    lane_f turn_det = surface_turn_det(turn);
+    lane_f turn_det = turn.a * turn.d - turn.b * turn.c;
     lane_i turned = (turn_det != 0.0f) & ((turn.c != 0.0f) | (turn.d < 0.0f) | (turn_det < 0.0f));
     bool turns = any_lane(turned);
     *handedness = F(1.0f);
@@ -102,7 +101,7 @@ EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, q
         *handedness = missing ? -sign : *handedness;
         tangent = v3_select(missing, v3_select(det != 0.0f, dpdu, v3_zero()), tangent);
     }
-    return turns ? surface_turn_tangent(turned, turn, tangent, down, handedness) : tangent;
+    return turns ? surface_turn_tangent(turned, turn, turn_det, tangent, down, handedness) : tangent;
 }
 
 /* The normal n bent by the normal map in a slot, whose scale is the third of four words of the material. */
