@@ -22,16 +22,13 @@ class Strips(Case):
         return int(re.search(r"give (\d+)M or more", line).group(1))
 
     def in_strips(self, name, *options, scene=CORNELL):
-        """The least memory differs a little from run to run: where it has grown, again with what the program then asks for."""
-        least = self.least(*options, scene=scene)
-        for _ in range(3):
-            run = self.run_to(name, *options, "--memory", f"{least + 1}M", scene=scene)
-            if run.returncode == 0:
-                break
-            least = int(re.search(r"give (\d+)M or more", self.assert_one_error(run, 1)).group(1))
-        report = json.loads(self.assert_ok(run).stdout)
-        self.assertGreater(report["strips"], 1)
-        return report
+        """The least memory differs from run to run, by a few MB or by a compiler that has run: again where that made it too little, or enough for
+        the whole."""
+        for _ in range(4):
+            run = self.run_to(name, *options, "--memory", f"{self.least(*options, scene=scene) + 2}M", scene=scene)
+            if run.returncode == 0 and json.loads(run.stdout)["strips"] > 1:
+                return json.loads(run.stdout)
+        self.fail(run.stderr or "always rendered whole")
 
     def assert_same(self, whole, strips):
         a, b = self.path(whole + ".exr"), self.path(strips + ".exr")
@@ -46,9 +43,9 @@ class Strips(Case):
 
     def test_the_bits_of_the_whole(self):
         """Odd sizes: tiles and blocks of an EXR end where they will. One batch, several, and sums of 16 joined."""
-        for i, options in enumerate([["--size", "256x256", "--spp", "2"], ["--size", "301x155", "--spp", "1"],
-                                     ["--size", "97x250", "--spp", "20", "--batch", "1"], ["--size", "90x203", "--spp", "40", "--batch", "2", "--filter", "blackman-harris"],
-                                     ["--size", "200x120", "--spp", "2", "--integrator", "whitted"], ["--size", "200x120", "--spp", "2", "--integrator", "raster"]]):
+        for i, options in enumerate([["--size", "256x356", "--spp", "2"], ["--size", "301x355", "--spp", "1"],
+                                     ["--size", "97x450", "--spp", "20", "--batch", "1"], ["--size", "90x403", "--spp", "40", "--batch", "2", "--filter", "blackman-harris"],
+                                     ["--size", "200x420", "--spp", "2", "--integrator", "whitted"], ["--size", "200x420", "--spp", "2", "--integrator", "raster"]]):
             with self.subTest(options=options):
                 whole = self.render(f"whole{i}", *options)
                 strips = self.in_strips(f"strips{i}", *options)
@@ -58,7 +55,7 @@ class Strips(Case):
                     self.assertEqual(whole[name], strips[name], name)
 
     def test_lanes_and_waves(self):
-        options = ["--size", "128x200", "--spp", "4"]
+        options = ["--size", "128x600", "--spp", "4"]
         for lanes, wave in [("1", "4096"), ("8", "70000")]:
             self.render("whole", *options, "--lanes", lanes, "--wave", "9999", scene=RING)
             self.in_strips("strips", *options, "--lanes", lanes, "--wave", wave, scene=RING)

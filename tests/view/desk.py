@@ -299,7 +299,8 @@ class ViewCase(Case):
         return {name: os.path.join(folder, name) for name in os.listdir(folder)}
 
     def assert_repeats(self, window, command):
-        attributes, planes = read_exr(os.path.join(window.folder, next(word for word in shlex.split(command) if word.endswith(".exr"))))
+        words = shlex.split(command)
+        attributes, planes = read_exr(os.path.join(window.folder, next(path for o, path in zip(words, words[1:]) if o == "-o" and path.endswith(".exr"))))
         pictures = self.repeat(command, self.path(f"again{time.monotonic_ns()}"))
         for name, path in pictures.items():
             if name.endswith(".png"):
