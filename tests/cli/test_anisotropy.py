@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
 from hard_scene import NORMAL, QUAD, UV, Scene, row_png
-from support import Case, eclat, read_exr
+from support import QUICK, Case, eclat, read_exr
 
 ANISOTROPY, LIGHTS = "KHR_materials_anisotropy", "KHR_lights_punctual"
 PANE = {"KHR_materials_transmission": {"transmissionFactor": 1}}
@@ -40,7 +40,7 @@ class Direction(Case):
         if texture:
             scene.texture(row_png(*texture))
         out = self.path("out.exr")
-        self.assert_ok(eclat("render", scene.write(self.path("scene.gltf")), "-q", "--size", "8x8", "--spp", "4", "--max-depth", "2", "-o", out))
+        self.assert_ok(eclat("render", scene.write(self.path("scene.gltf")), "-q", *QUICK, "--size", "8x8", "--spp", "4", "--max-depth", "2", "-o", out))
         return read_exr(out)[1]["R"]
 
     def assert_alike(self, a, b, delta, what):

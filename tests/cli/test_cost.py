@@ -134,7 +134,7 @@ class Study(Case):
                                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
         self.addCleanup(process.kill)
         process.stderr.readline()
-        time.sleep(20)
+        time.sleep(10)
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 0)

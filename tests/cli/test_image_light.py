@@ -3,7 +3,7 @@ import struct
 import unittest
 import zlib
 
-from support import Case, data_uri, eclat, quad_scene, read_exr, write_gltf
+from support import QUICK, Case, data_uri, eclat, quad_scene, read_exr, write_gltf
 
 EXTENSION = "EXT_lights_image_based"
 # +x, -x, +y, -y, +z, -z
@@ -66,7 +66,7 @@ class ImageLight(Case):
     def colour(self, scene, camera, *options):
         """Mean radiance of what a camera sees."""
         out = self.path("out.exr")
-        self.assert_ok(eclat("render", "-q", "--size", "4x4", "--spp", "16", "--camera", str(camera), "-o", out, *options,
+        self.assert_ok(eclat("render", "-q", *QUICK, "--size", "4x4", "--spp", "16", "--camera", str(camera), "-o", out, *options,
                              write_gltf(self.path("scene.gltf"), scene)))
         return [sum(read_exr(out)[1][c]) / 16 for c in "RGB"]
 
@@ -200,7 +200,7 @@ class ImageLight(Case):
 
     def test_another_size_than_stated_is_a_warning(self):
         scene = write_gltf(self.path("scene.gltf"), lit_scene([png(8, lambda x, y: (9, 9, 9))] * 6, size=256))
-        run = self.assert_ok(eclat("render", "-q", "--size", "4x4", "--spp", "4", "-o", self.path("a.exr"), scene))
+        run = self.assert_ok(eclat("render", "-q", *QUICK, "--size", "4x4", "--spp", "4", "-o", self.path("a.exr"), scene))
         self.assertIn("says that its faces have 256 pixels a side; they have 8", run.stderr)
 
 

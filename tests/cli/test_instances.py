@@ -44,7 +44,7 @@ class Instances(Case):
             json.dump(document, file)
 
     def render(self, *options):
-        run = self.assert_ok(eclat("render", self.scene, "--json", "--quiet", "--size", "40x30", "--spp", "8", "--env", "0.3,0.4,0.5", *options,
+        run = self.assert_ok(eclat("render", self.scene, "--lanes", "8", "--json", "--quiet", "--size", "40x30", "--spp", "8", "--env", "0.3,0.4,0.5", *options,
                                    cwd=self.folder))
         return json.loads(run.stdout)
 

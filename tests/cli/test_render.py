@@ -266,7 +266,7 @@ class SameBits(Render):
         options = ["--size", "33x17", "--spp", "8", "--max-depth", "5"]
         first = self.render(*options, scene=CORNELL)["image_sha256"]
         for change in [[], ["--lanes", "1"], ["--lanes", "4"], ["--lanes", "8"], ["--lanes", "16"], ["--wave", "1000"],
-                       ["--wave", "100000"], ["--effects", "all"], ["--accel", "bvh2"], ["--accel", "bvh8"],
+                       ["--wave", "100000"], ["--effects", "all", "--lanes", "4"], ["--accel", "bvh2"], ["--accel", "bvh8"],
                        ["--accel", "grid"], ["--accel", "kdtree"], ["--accel", "none"],
                        ["--accel", "twolevel"], ["--instancing", "on"]]:
             with self.subTest(change=change):

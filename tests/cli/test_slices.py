@@ -132,7 +132,7 @@ class Slices(Case):
             self.assertIn(says, error)
         b = self.render("b.exr", "--spp", "32", "--samples", "16:32", scene=RING)
         self.assertRegex(self.assert_one_error(self.merge(a, b), 1), "not the same are the scene's camera, geometry, ")
-        c = self.render("c.exr", "--spp", "32", "--samples", "16:32", "--lanes", "4", "--wave", "2048", "--effects", "all", "--accel", "kdtree",
+        c = self.render("c.exr", "--spp", "32", "--samples", "16:32", "--lanes", "4", "--wave", "2048", "--effects", "all",
                         "--exposure", "1", "--light-choice", "power")
         self.assert_ok(self.merge(a, c))
 

@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
 from hard_scene import NORMAL, QUAD, Scene, one_pixel_png
-from support import Case, eclat, read_exr
+from support import QUICK, Case, eclat, read_exr
 
 LIGHTS, TRANSFORM = "KHR_lights_punctual", "KHR_texture_transform"
 METAL = {"roughnessFactor": 0.4}
@@ -45,7 +45,7 @@ class Turned(Case):
         streams = [NORMAL, uv] + ([("TANGENT", 4, tangent * 6)] if tangent else [])
         scene.add(QUAD, streams=streams).node(rotation=[-0.3, 0.35, 0, math.sqrt(1 - 0.3 ** 2 - 0.35 ** 2)], extensions={LIGHTS: {"light": 0}})
         out = self.path("out.exr")
-        self.assert_ok(eclat("render", scene.write(self.path("scene.gltf")), "-q", "--size", "8x8", "--spp", "4", "--max-depth", "2", "-o", out))
+        self.assert_ok(eclat("render", scene.write(self.path("scene.gltf")), "-q", *QUICK, "--size", "8x8", "--spp", "4", "--max-depth", "2", "-o", out))
         return read_exr(out)[1]["R"]
 
     def check(self, kind):

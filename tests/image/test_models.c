@@ -26,7 +26,7 @@ static int render_model(const char *path, bool all_effects)
     if (!ec_scene_has_light(scene) && ec_scene_set_environment(scene, "1,1,1", NULL, &err) != EC_OK) return BAD;
     ec_render_options o = case_options(SIZE, SIZE, 4);
     o.camera = scene->default_camera;
-    o.all_effects = all_effects;
+    if (all_effects) o = case_with_all_effects(o);
     case_image image;
     if (case_try(scene, &o, &image, &err) != EC_OK) {
         fprintf(stderr, "%s\n", err.text);

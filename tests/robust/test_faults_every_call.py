@@ -1,4 +1,4 @@
-"""test_faults_device.py's sweep with ten times the moments. ctest label: slow"""
+"""test_faults_device.py's sweep with ten times the moments. ctest label: long"""
 import unittest
 
 import test_faults_device

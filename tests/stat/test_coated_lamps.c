@@ -18,7 +18,7 @@ static int coated(gltf_writer *w, double radiance, double coat, const char *more
 
 static case_image picture(gltf_writer *w, const char *name, ec_integrator integrator, ec_sample sample, uint32_t spp)
 {
-    ec_render_options o = case_options(8, 8, spp);
+    ec_render_options o = case_quick(case_options(8, 8, spp));
     o.max_depth = 2;
     o.integrator = integrator;
     o.sample = sample;

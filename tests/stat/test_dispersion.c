@@ -61,7 +61,7 @@ static void prism(double n, double dispersion)
     gltf_camera(w, (double[3]){foot[0] - 10 * cos(into), foot[1] - 10 * sin(into), 0}, (double[3]){foot[0], foot[1], 0}, 1e-5);
     ec_scene *scene = case_load(gltf_write(w, "prism"), "0,0,0");
     free(w);
-    ec_render_options o = case_options(16, 16, 512);
+    ec_render_options o = case_quick(case_options(16, 16, 512));
     o.max_depth = 3;
     case_image image = case_render(scene, &o);
     for (int k = 0; k < 3; k++) {
@@ -92,7 +92,7 @@ static ec_scene *balls(double ior, double dispersion)
 
 static case_image picture(const ec_scene *scene, uint32_t spp, uint64_t seed, ec_sample sample, uint32_t lanes)
 {
-    ec_render_options o = case_random(16, spp, sample, seed);
+    ec_render_options o = case_quick(case_random(16, spp, sample, seed));
     o.max_depth = 6;
     o.lanes = lanes;
     return case_render(scene, &o);
@@ -133,7 +133,7 @@ static void reflects_no_more(void)
                          "{\"dispersion\":2},\"KHR_materials_specular\":{\"specularColorFactor\":[25,25,25]}}}");
     gltf_box(w, glass, (double[3]){-1, -1, -1}, (double[3]){1, 1, 1});
     gltf_camera(w, (double[3]){0, 0, 5}, (double[3]){0.2, 0.3, 0}, 1e-5);
-    ec_render_options o = case_options(8, 8, 4096);
+    ec_render_options o = case_quick(case_options(8, 8, 4096));
     case_image image = case_render_file(gltf_write(w, "reflects-all"), "1,1,1", &o);
     for (int k = 0; k < 3; k++) printf("reflecting glass, channel %d: %.5f +- %.5f\n", k, image.mean[k], image.mean_se[k]);
     CASE_NEAR(&image, 1.0, 4, 0.01);

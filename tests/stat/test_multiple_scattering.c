@@ -27,7 +27,7 @@ static const char *boxes(void)
 
 static case_image picture(const ec_scene *scene, ec_sample sample, ec_scattering scattering, uint32_t spp)
 {
-    ec_render_options o = case_random(16, spp, sample, (uint64_t)sample + 7);
+    ec_render_options o = case_quick(case_random(16, spp, sample, (uint64_t)sample + 7));
     o.max_depth = 5;
     o.scattering = scattering;
     return case_render(scene, &o);

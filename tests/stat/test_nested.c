@@ -67,7 +67,7 @@ static void add_camera(gltf_writer *w, double angle)
 
 static ec_render_options options_for(int sample, uint32_t spp)
 {
-    ec_render_options o = case_options(16, 16, spp);
+    ec_render_options o = case_quick(case_options(16, 16, spp));
     o.sample = (ec_sample)sample;
     return o;
 }
@@ -264,7 +264,7 @@ static void not_seen(void)
         gltf_box(w, gltf_add_glass(w, &glass), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1});
         if (i) add_ball(w, gltf_add_glass(w, &same), 0.8);
         gltf_camera(w, (double[3]){0, 0.7, 4}, (double[3]){0, 0, 0}, 0.8);
-        ec_render_options o = case_random(16, 4096, EC_SAMPLE_MIS, (uint64_t)i);
+        ec_render_options o = case_quick(case_random(16, 4096, EC_SAMPLE_MIS, (uint64_t)i));
         image[i] = case_render_file(gltf_write(w, "nested-not-seen"), NULL, &o);
         free(w);
     }

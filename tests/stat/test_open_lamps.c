@@ -19,7 +19,7 @@ static void lit(const char *name, const char *mode, double factor, double left, 
         float colors[16];
         for (int k = 0; k < 16; k++) colors[k] = k % 4 == 3 ? (float)alpha[k / 4] : 1;
         gltf_quad_with(w, lamp, (double[3]){-500, 1, -500}, (double[3]){1000, 0, 0}, (double[3]){0, 0, 1000}, colors, NULL);
-        ec_render_options o = case_options(8, 8, 4096);
+        ec_render_options o = case_quick(case_options(8, 8, 4096));
         o.max_depth = 2;
         o.sample = (ec_sample)s;
         case_image image = case_render_file(gltf_write(w, "open-lamp"), "0,0,0", &o);
@@ -38,7 +38,7 @@ static double by_centre(ec_integrator integrator, double alpha, uint32_t lanes)
     gltf_camera(w, (double[3]){0, 0.2, 0}, (double[3]){0, 0, 0}, 1e-5);
     int lamp = gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,%g]},\"emissiveFactor\":[1,1,1],\"alphaMode\":\"BLEND\"}", alpha);
     gltf_quad(w, lamp, (double[3]){-1, 1, -1}, (double[3]){2, 0, 0}, (double[3]){0, 0, 2});
-    ec_render_options o = case_options(8, 8, 16);
+    ec_render_options o = case_quick(case_options(8, 8, 16));
     o.integrator = integrator;
     o.lanes = lanes;
     case_image image = case_render_file(gltf_write(w, "open-lamp"), "0,0,0", &o);

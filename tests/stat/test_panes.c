@@ -49,7 +49,7 @@ static void expect(gltf_writer *w, const char *name, ec_integrator integrator, i
 {
     char file[96];
     snprintf(file, sizeof file, "panes-%s", name);
-    ec_render_options o = case_options(8, 8, spp);
+    ec_render_options o = case_quick(case_options(8, 8, spp));
     o.integrator = integrator;
     o.sample = (ec_sample)sample;
     o.max_depth = depth;
@@ -143,7 +143,7 @@ static void colours(void)
             gltf_writer *w = floor_scene(0.2);
             int material = tinted(w);
             char name[32];
-            ec_render_options o = case_options(8, 8, lights[kind] ? 16 : 4096);
+            ec_render_options o = case_quick(case_options(8, 8, lights[kind] ? 16 : 4096));
             double want[3];
             if (!lights[kind] && n > 1) {
                 free(w);
@@ -191,7 +191,7 @@ static void textured_alpha(void)
                     scene->materials[m].textures[EC_SLOT_BASE_COLOR] = (ec_texture_use){0, 0, {1, 0, 0, 0, 1, 0}};
             double want = INTENSITY / (sun ? 1 : 4) * cosine * 0.6 / PI * cases[i].left, all[3] = {want, want, want};
             char name[48];
-            ec_render_options o = case_options(8, 8, 4096);
+            ec_render_options o = case_quick(case_options(8, 8, 4096));
             o.max_depth = 2;
             snprintf(name, sizeof name, "alpha of a texture, %s %g", cases[i].mode, cases[i].cutoff);
             expect_colour(scene, name, &o, all, 6e-3);

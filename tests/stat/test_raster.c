@@ -8,7 +8,7 @@ enum { SIZE = 256 };
 
 static case_image render(const ec_scene *scene, ec_integrator integrator, uint32_t camera, uint32_t spp)
 {
-    ec_render_options o = case_options(SIZE, SIZE, spp);
+    ec_render_options o = case_with_all_effects(case_options(SIZE, SIZE, spp));
     o.batch = 1;
     o.max_depth = 1;
     o.camera = camera;

@@ -51,7 +51,7 @@ static void check_scene(const char *what, const ec_scene *scene, bool exhaustive
         check_one(scene, &expected, &o, what);
     }
     o = base_options();
-    o.all_effects = true;
+    o = case_with_all_effects(o);
     check_one(scene, &expected, &o, what);
     o = base_options();
     o.seed = 6; /* and the comparison can see a difference */

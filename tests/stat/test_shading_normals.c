@@ -37,7 +37,7 @@ static int clay(gltf_writer *w)
 
 static case_image picture(const ec_scene *scene, ec_sample sample, ec_terminator terminator, uint32_t size, uint32_t spp)
 {
-    ec_render_options o = case_random(size, spp, sample, (uint64_t)sample + 5);
+    ec_render_options o = case_quick(case_random(size, spp, sample, (uint64_t)sample + 5));
     o.terminator = terminator;
     return case_render(scene, &o);
 }
@@ -107,7 +107,7 @@ static void check_strategies(void)
     static const uint32_t lanes[4] = {1, 4, 8, 16};
     case_image first = {0};
     for (int i = 0; i < 4; i++) {
-        ec_render_options o = case_options(16, 16, 16);
+        ec_render_options o = case_quick(case_options(16, 16, 16));
         o.terminator = EC_TERMINATOR_SMOOTH;
         o.lanes = lanes[i];
         case_image one = case_render(scene, &o);

@@ -16,9 +16,8 @@ static uint64_t with(uint64_t bit)
 int main(void)
 {
     ec_scene *scene = em_everything();
-    ec_render_options o = case_options(48, 48, 4);
+    ec_render_options o = case_with_all_effects(case_options(48, 48, 4));
     o.max_depth = 5;
-    o.all_effects = true;
     case_cl()->keeps_programs = true;
     case_image whole = case_render(scene, &o), again = case_render(scene, &o);
     CHECK(case_same_bits(&whole.film, &again.film));
