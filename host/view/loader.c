@@ -82,6 +82,13 @@ static void keep_camera(ec_view *view, const ec_view_facts *now)
     wish->moved = true;
 }
 
+/* A picture that is whole is not given for one with white in the place of an image. */
+static ec_result check_images(const loader *l, const ec_scene *scene, ec_error *err)
+{
+    bool was_whole = l->scene && !l->scene->scene->lost_image;
+    return was_whole && scene->lost_image ? ec_fail(err, "%s: %.1200s", l->view->request->scene, scene->lost_image) : EC_OK;
+}
+
 static ec_result load(loader *l, ec_error *err)
 {
     ec_view *view = l->view;
@@ -93,6 +100,7 @@ static ec_result load(loader *l, ec_error *err)
     *s = (ec_view_scene){.users = 1, .serial = ++l->loads, .options = request->options};
     ec_result result = request->load(request->user, &s->scene, &s->options, err);
     ec_view_facts facts;
+    if (result == EC_OK) result = check_images(l, s->scene, err);
     if (result == EC_OK) result = find_facts(s, &facts, err);
     if (result != EC_OK) {
         ec_view_scene_release(view, s);
@@ -106,7 +114,9 @@ static ec_result load(loader *l, ec_error *err)
     ec_view_post(view);
     pthread_mutex_unlock(&view->lock);
     ec_view_scene_release(view, old);
-    ec_view_say_trouble(view, EC_TROUBLE_FILES, NULL);
+    ec_error lost = {0};
+    if (s->scene->lost_image) ec_fail(&lost, "%s: %.1200s; taken as white", request->scene, s->scene->lost_image);
+    ec_view_say_trouble(view, EC_TROUBLE_FILES, &lost);
     return EC_OK;
 }
 
