@@ -13,7 +13,7 @@ void ec_view_input_learn(ec_view_input *in, const ec_view_facts *facts)
 {
     bool first = in->facts.serial == 0;
     in->facts = *facts;
-    if (first) in->wish.camera = facts->camera;
+    if (first) in->wish.camera = in->asked.camera = facts->camera;
     if (in->wish.camera >= facts->camera_count) in->wish.camera = 0;
     in->wish.without &= facts->optional;
     if (!in->wish.moved) in->wish.viewpoint = facts->cameras[in->wish.camera];
@@ -112,7 +112,7 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_LINES: in->lines = (ec_view_lines)((in->lines + 1) % EC_LINES_COUNT); break;
     case EC_DO_EFFECTS: in->effects = !in->effects, in->effects_page = 0, in->help = false; break;
     case EC_DO_MORE: w->more++; break;
-    case EC_DO_SAVE: w->saves++; break;
+    case EC_DO_SAVE: w->saves++, in->asked = *w; break;
     case EC_DO_RELOAD: w->reloads++; break;
     case EC_DO_FULLSCREEN: in->fullscreen = !in->fullscreen; break;
     case EC_DO_QUIT: in->quit = true; break;

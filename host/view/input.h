@@ -7,7 +7,7 @@
 
 typedef struct ec_view_input {
     const ec_view_request *request;
-    ec_view_wish wish;
+    ec_view_wish wish, asked; /* asked: as it was at the last S */
     ec_view_facts facts;
     ec_view_layout layout;
     ec_view_lines lines;     /* over the picture */

@@ -74,7 +74,7 @@ static void keep_camera(ec_view *view, const ec_view_facts *now)
 {
     const ec_view_facts *old = &view->facts;
     ec_view_wish *wish = &view->wish;
-    if (!old->serial) wish->camera = now->camera;
+    if (!old->serial) wish->camera = view->asked.camera = now->camera;
     if (!old->serial || wish->moved) return;
     const ec_viewpoint *was = &old->cameras[wish->camera];
     if (wish->camera < now->camera_count && !memcmp(was, &now->cameras[wish->camera], sizeof *was)) return;

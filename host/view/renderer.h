@@ -36,7 +36,7 @@ ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err);
 ec_result ec_renderer_take_second(ec_renderer *r, ec_error *err); /* the other rung */
 void ec_renderer_show(ec_renderer *r);
 
-/* save.c: the film to files, by the request's own function */
-void ec_renderer_save(ec_renderer *r);
+/* save.c: what the last S asked for, as soon as there is a film of it, whatever is wished since; given up where there will be none. */
+void ec_renderer_serve_save(ec_renderer *r, const ec_view_wish *now, const ec_view_wish *asked);
 
 #endif

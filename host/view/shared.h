@@ -64,6 +64,7 @@ typedef struct ec_view_status {
     char stopped_by[16];
     uint32_t saves_done;
     char told[2300];              /* of the last save, or failure */
+    char unsaved[256];            /* why the last save was given up; empty: it was not */
     char trouble[EC_TROUBLE_COUNT][2300]; /* empty: it went well */
     char loading[64];             /* what the loader is at; empty: nothing */
     char effects[1024];           /* active ones, by name */
@@ -125,7 +126,7 @@ typedef struct ec_view {
     uint32_t file_events;         /* something happened beside the scene's files */
     ec_error fatal;
     bool failed;
-    ec_view_wish wish;
+    ec_view_wish wish, asked;     /* asked: as it was at the last S */
     ec_view_status status;
     ec_view_facts facts;
     ec_view_setup *incoming[EC_ROLE_COUNT]; /* from loader to renderer */
