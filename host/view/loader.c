@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "pack/pack.h"
+#include "view/orbit.h"
 #include "view/shared.h"
 #include "view/watch.h"
 
@@ -79,6 +80,7 @@ static void keep_camera(ec_view *view, const ec_view_facts *now)
     const ec_viewpoint *was = &old->cameras[wish->camera];
     if (wish->camera < now->camera_count && !memcmp(was, &now->cameras[wish->camera], sizeof *was)) return;
     wish->viewpoint = *was;
+    ec_orbit_round(&wish->viewpoint); /* as the command prints it */
     wish->moved = true;
 }
 
