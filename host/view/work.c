@@ -133,7 +133,7 @@ void ec_renderer_show(ec_renderer *r)
     ec_view_wish *wish = &r->wish;
     ec_film_resolve(&r->picture.film, r->mean, NULL);
     bool shown = ec_view_show(r->view, wish, EC_ROLE_PICTURE, r->mean, wish->width, wish->height);
-    bool has_second = wish->has_second && ec_view_others_has(&r->others, wish->second);
+    bool has_second = wish->has_second && ec_view_others_has(&r->others, wish->second, &r->picture.film);
     if (has_second) shown &= ec_view_others_show(&r->others, r->view, wish, &r->picture.film, r->mean);
     if (shown) r->dirty = false;
     tell(r, 0, has_second);
