@@ -15,7 +15,6 @@ void ec_view_input_learn(ec_view_input *in, const ec_view_facts *facts)
     in->facts = *facts;
     if (first) in->wish.camera = in->asked.camera = facts->camera;
     if (in->wish.camera >= facts->camera_count) in->wish.camera = 0;
-    in->wish.without &= facts->optional;
     if (!in->wish.moved) in->wish.viewpoint = facts->cameras[in->wish.camera];
     in->selected.node = -1;
 }

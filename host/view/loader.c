@@ -66,7 +66,7 @@ static ec_result find_facts(ec_view_scene *s, ec_view_facts *f, ec_error *err)
         f->radius += half * half;
     }
     f->radius = f->radius > 0 ? sqrt(f->radius) : 1;
-    if (ec_scene_calls(scene, &effects, NULL) == EC_OK) f->optional = effects.bits & ec_effects_optional;
+    if (ec_scene_calls(scene, &effects, NULL) == EC_OK) f->optional = s->optional = effects.bits & ec_effects_optional;
     return EC_OK;
 }
 

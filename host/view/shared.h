@@ -21,7 +21,7 @@ typedef struct ec_view_wish {
     uint32_t width, height;       /* of the picture; 0: no window yet */
     double env_degrees;
     ec_integrator integrator, rung; /* rung: of the second picture */
-    uint64_t without;
+    uint64_t without;             /* also what the scene calls for none of now: another one may */
     double exposure;
     ec_tonemap tonemap;
     ec_view_second second;
@@ -79,7 +79,7 @@ typedef struct ec_view_facts {
     struct ec_view_scene *scene;
     double center[3], radius;
     bool has_map;                 /* an environment that can be turned */
-    uint64_t optional;            /* effects that it calls for and that can be left out */
+    uint64_t optional;            /* the scene's */
 } ec_view_facts;
 
 /* A loaded scene, shared by sessions. */
@@ -87,6 +87,7 @@ typedef struct ec_view_scene {
     ec_scene *scene;
     ec_viewpoint *cameras;        /* owned, one for each of the scene's */
     uint32_t users, serial;
+    uint64_t optional;            /* effects that it calls for and that can be left out */
     ec_render_options options;    /* camera and size by default */
 } ec_view_scene;
 
@@ -95,7 +96,7 @@ typedef struct ec_view_setup {
     ec_cl cl;
     ec_view_scene *scene;
     ec_session *session;
-    uint64_t without;             /* as wished; options may leave out more */
+    uint64_t without;             /* as wished; options have what the scene calls for, and may leave out more */
     ec_render_options options;
     ec_render_stats stats;
 } ec_view_setup;
