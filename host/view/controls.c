@@ -91,8 +91,7 @@ static void on_char(GLFWwindow *glfw, unsigned code)
     const char name[2] = {(char)code, 0};
     w->told_at = 0;
     w->dirty = true;
-    if (w->input.effects && code >= '0' && code <= '9') ec_view_input_digit(&w->input, (int)code - '0');
-    else ec_view_input_do(&w->input, ec_view_action_of(name));
+    ec_view_input_key(&w->input, name);
 }
 
 /* The small Latin letter on a key; 0: none. Where a keyboard has other letters, the one at its place on a US keyboard: *is_other. */

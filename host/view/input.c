@@ -150,8 +150,19 @@ void ec_view_input_fly(ec_view_input *in, double forward, double right, double u
     moved(in);
 }
 
-void ec_view_input_digit(ec_view_input *in, int digit)
+static bool is_digit(const char *name)
 {
-    if (digit) in->wish.without ^= ec_view_effect_of_digit(&in->facts, in->effects_page, digit);
-    else in->effects_page++;
+    return name[0] >= '0' && name[0] <= '9' && !name[1];
+}
+
+bool ec_view_input_knows(const char *name)
+{
+    return is_digit(name) || ec_view_action_of(name) != EC_DO_NOTHING;
+}
+
+void ec_view_input_key(ec_view_input *in, const char *name)
+{
+    if (!in->effects || !is_digit(name)) ec_view_input_do(in, ec_view_action_of(name));
+    else if (name[0] == '0') in->effects_page++;
+    else in->wish.without ^= ec_view_effect_of_digit(&in->facts, in->effects_page, name[0] - '0');
 }
