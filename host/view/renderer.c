@@ -80,7 +80,7 @@ static duty take_wish(ec_renderer *r, ec_error *err)
     if (more && r->picture.film.batch_count) ec_view_picture_limit(&r->picture, &r->setup[EC_ROLE_PICTURE]->options, wish.more);
     if (repaint && r->picture.film.batch_count) r->dirty = true;
     else if (repaint && !r->level) r->level = 1;
-    if (wish.probes != view->status.probe.serial || (r->looked_away && !wish.moving)) ec_renderer_probe(r, &wish);
+    ec_renderer_probe(r, &wish);
     return choose(r);
 }
 

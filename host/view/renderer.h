@@ -25,7 +25,7 @@ typedef struct ec_renderer {
 
 bool ec_view_same_camera(const ec_view_wish *a, const ec_view_wish *b);
 
-/* probe.c: pixel, surface and node under the cursor */
+/* probe.c: pixel, surface and node under the cursor, and under the last click; as far as that is not known */
 void ec_renderer_probe(ec_renderer *r, const ec_view_wish *wish);
 void ec_renderer_read_pixel(const ec_film *film, ec_view_probe *probe); /* anew, as the film goes on */
 

@@ -84,9 +84,9 @@ static void exchange(ec_window *w)
     pthread_mutex_unlock(&view->lock);
     ec_view_scene_release(view, before);
     if (w->status.saves_done != saved) w->told_at = ec_now();
-    if (w->selecting && w->status.probe.serial == w->selecting) {
-        w->input.selected = w->status.probe;
-        w->selecting = 0;
+    if (w->status.clicked.serial != w->selected_by) {
+        w->input.selected = w->status.clicked;
+        w->selected_by = w->status.clicked.serial;
         w->dirty = true;
     }
     bool telling = w->told_at > 0 && ec_now() - w->told_at < TOLD_FOR;
@@ -155,6 +155,7 @@ static void loop(ec_window *w)
         }
         ec_window_follow_monitors(w);
         if (w->input.fullscreen != w->is_full) ec_window_fullscreen(w, w->input.fullscreen);
+        ec_window_point(w);
         exchange(w);
         w->dirty |= ec_view_textures_take(&w->textures, view);
         ec_view_textures_fit(&w->textures, view, (size_t)w->input.wish.width * w->input.wish.height * 3);

@@ -31,11 +31,12 @@ typedef struct ec_view_wish {
     uint32_t more;                /* times the limits were raised */
     uint32_t saves, reloads;      /* asked for so far */
     uint32_t probes;              /* changes of the place: */
-    uint32_t probe_x, probe_y;    /* pixel of the picture */
+    uint32_t probe_x, probe_y;    /* pixel of the picture; UINT32_MAX: none */
+    uint32_t clicks, click_x, click_y; /* the same, of what was clicked at */
 } ec_view_wish;
 
 typedef struct ec_view_probe {
-    uint32_t serial;              /* of wish.probes */
+    uint32_t serial;              /* of wish.probes, or wish.clicks */
     bool is_inside, has_film, has_error, has_surface;
     uint32_t x, y;
     double rgb[3], se[3], depth;
@@ -68,7 +69,7 @@ typedef struct ec_view_status {
     char trouble[EC_TROUBLE_COUNT][2300]; /* empty: it went well */
     char loading[64];             /* what the loader is at; empty: nothing */
     char effects[1024];           /* active ones, by name */
-    ec_view_probe probe;
+    ec_view_probe probe, clicked;
 } ec_view_status;
 
 /* Of the scene, for the window. */

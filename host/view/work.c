@@ -74,13 +74,12 @@ static bool go_on(void *user)
     ec_renderer *r = user;
     ec_view *view = r->view;
     pthread_mutex_lock(&view->lock);
-    const ec_view_wish wish = view->wish, asked_for = view->asked;
+    const ec_view_wish wish = view->wish, asked = view->asked;
     bool other = view->quit || view->incoming[EC_ROLE_PICTURE] || wish.paused || !ec_view_same_camera(&wish, &r->wish);
-    bool asked = wish.probes != view->status.probe.serial;
     pthread_mutex_unlock(&view->lock);
-    if (r->picture.film.batch_count) ec_renderer_serve_save(r, &wish, &asked_for);
+    if (r->picture.film.batch_count) ec_renderer_serve_save(r, &wish, &asked);
     if (other) return false;
-    if (asked) ec_renderer_probe(r, &wish);
+    ec_renderer_probe(r, &wish);
     return true;
 }
 
