@@ -329,7 +329,7 @@ static const char help_view[] =
     "      --script FILE          moves the camera and presses keys by a script, then closes; orbit: once around. Lines:\n"
     "                             turn YAW PITCH SECONDS (degrees), pan RIGHT UP SECONDS (picture heights),\n"
     "                             dolly FACTOR SECONDS, wait SECONDS, settle (until the limit is met), key NAME\n"
-    "                             (e, E, 1, Tab, Save, ...), quit\n"
+    "                             (e, E, 1, Tab, Save, ...; after X digits switch effects), quit; 0 SECONDS: at once\n"
     "      --stats                at the end say when there was first light, and how long frames took while the camera moved\n"
     "  -h, --help                 show this\n"
     "      --size WxH             of the window at first (default: 600 high)\n"

@@ -42,6 +42,12 @@ __attribute__((format(printf, 2, 3))) static void add(words *w, const char *form
     w->incomplete |= !fits;
 }
 
+/* A name that no option is taken for. */
+static void add_file(words *w, const char *path)
+{
+    add(w, "%s%s", *path == '-' ? "./" : "", path);
+}
+
 static void add_triple(words *w, const char *option, const double xyz[3])
 {
     add(w, "--%s=%.9g,%.9g,%.9g", option, xyz[0], xyz[1], xyz[2]);
@@ -81,7 +87,7 @@ char *ec_view_command(const ec_render_request *request, const ec_kept_options *k
     const uint64_t without = is_still ? o->without & ~EC_FEATURE_MOTION : o->without;
     add(&w, "eclat");
     add(&w, "render");
-    add(&w, "%s", request->scene);
+    add_file(&w, request->scene);
     for (int i = 0; i < kept->count; i++) {
         const char *option = kept->row[i].option, *value = kept->row[i].value;
         if (!is_kept(camera, option, value ? value : "", shot)) continue;
@@ -101,7 +107,7 @@ char *ec_view_command(const ec_render_request *request, const ec_kept_options *k
     if (shot->tonemap != EC_TONEMAP_NEUTRAL) add(&w, "--tonemap=%s", ec_tonemap_names[shot->tonemap]);
     for (int i = 0; i < outputs->count; i++) {
         add(&w, "-o");
-        add(&w, "%s", outputs->file[i].path);
+        add_file(&w, outputs->file[i].path);
     }
     char *line = w.incomplete ? NULL : ec_command_line(w.count, w.argv);
     while (w.count) free(w.argv[--w.count]);

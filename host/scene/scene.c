@@ -42,6 +42,7 @@ void ec_scene_free(ec_scene *s)
     ec_motion_free(&s->motion);
     free_strings(s->extensions_used, s->extension_count);
     free_strings(s->extensions_ignored, s->extension_ignored_count);
+    free(s->lost_image);
     ec_scene_contents_free(&s->contents);
     free(s);
 }

@@ -201,6 +201,7 @@ typedef struct ec_scene {
     uint32_t extension_count;
     char **extensions_ignored;     /* used by the file, not supported here; owned strings */
     uint32_t extension_ignored_count;
+    char *lost_image;              /* owned: why the first of those that are taken as white could not be read; NULL: all could */
     ec_scene_contents contents;
 } ec_scene;
 

@@ -114,6 +114,7 @@ static int64_t take_picture(table *t, picture *p)
     if (p->failed) {
         if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, p->err.text);
         else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.1200s", t->g->path, p->err.text);
+        if (!t->s->lost_image) t->s->lost_image = strdup(p->err.text);
         return p->place = UNUSABLE;
     }
     *out = p->image;

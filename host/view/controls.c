@@ -22,25 +22,22 @@ static double pixels_a_unit(GLFWwindow *glfw)
     return width > 0 ? (double)across / width : 1;
 }
 
-static void probe(ec_window *w)
+/* The picture's, under the cursor; UINT32_MAX: none. */
+static void find_pixel(const ec_window *w, uint32_t *px, uint32_t *py)
 {
-    ec_view_wish *wish = &w->input.wish;
+    const ec_view_wish *wish = &w->input.wish;
     int width, height;
     glfwGetFramebufferSize(w->glfw, &width, &height);
     double x = w->cursor_x * wish->width / fmax(width, 1), y = w->cursor_y * wish->height / fmax(height, 1), half = 0.5 * wish->width;
     if (w->input.layout == EC_LAYOUT_BESIDE) x = 2 * (x < half ? x : x - half), y = 2 * y - 0.5 * wish->height; /* window.c has them so */
-    bool inside = x >= 0 && y >= 0 && x < wish->width && y < wish->height;
-    wish->probe_x = inside ? (uint32_t)x : UINT32_MAX;
-    wish->probe_y = inside ? (uint32_t)y : UINT32_MAX;
-    wish->probes++;
+    bool inside = w->points && x >= 0 && y >= 0 && x < wish->width && y < wish->height;
+    *px = inside ? (uint32_t)x : UINT32_MAX;
+    *py = inside ? (uint32_t)y : UINT32_MAX;
 }
 
 static void on_enter(GLFWwindow *glfw, int inside)
 {
-    ec_window *w = of(glfw);
-    if (inside) return;
-    w->input.wish.probe_x = w->input.wish.probe_y = UINT32_MAX;
-    w->input.wish.probes++;
+    of(glfw)->points = inside;
 }
 
 static void on_cursor(GLFWwindow *glfw, double x, double y)
@@ -50,8 +47,7 @@ static void on_cursor(GLFWwindow *glfw, double x, double y)
     double height = fmax(w->input.wish.height, 1);
     w->cursor_x = x * scale;
     w->cursor_y = y * scale;
-    w->dirty = true;
-    probe(w);
+    w->points = w->dirty = true;
     w->drag_path += fabs(dx) + fabs(dy);
     if (w->drag < 0 || w->drag_path <= CLICK || !w->input.facts.serial) return;
     bool shift = glfwGetKey(glfw, GLFW_KEY_LEFT_SHIFT) || glfwGetKey(glfw, GLFW_KEY_RIGHT_SHIFT);
@@ -59,6 +55,21 @@ static void on_cursor(GLFWwindow *glfw, double x, double y)
     ec_view_drag drag = w->drag == GLFW_MOUSE_BUTTON_RIGHT ? EC_DRAG_LOOK
                         : w->drag == GLFW_MOUSE_BUTTON_MIDDLE || shift ? EC_DRAG_PAN : control ? EC_DRAG_DOLLY : EC_DRAG_ORBIT;
     ec_view_input_drag(&w->input, drag, dx / height, dy / height);
+}
+
+void ec_window_point(ec_window *w)
+{
+    ec_view_wish *wish = &w->input.wish;
+    uint32_t x, y;
+    double at_x, at_y;
+    glfwGetCursorPos(w->glfw, &at_x, &at_y);
+    bool at_corner = at_x == 0 && at_y == 0 && glfwGetWindowAttrib(w->glfw, GLFW_HOVERED); /* of which GLFW's X11 tells nobody */
+    if (at_corner && (w->cursor_x != 0 || w->cursor_y != 0 || !w->points)) on_cursor(w->glfw, 0, 0);
+    find_pixel(w, &x, &y);
+    if (x == wish->probe_x && y == wish->probe_y) return;
+    wish->probe_x = x;
+    wish->probe_y = y;
+    wish->probes++;
 }
 
 static void on_button(GLFWwindow *glfw, int button, int action, int mods)
@@ -70,7 +81,10 @@ static void on_button(GLFWwindow *glfw, int button, int action, int mods)
         w->drag = button;
         w->drag_path = 0;
     } else if (action == GLFW_RELEASE && button == w->drag) {
-        if (button == GLFW_MOUSE_BUTTON_LEFT && w->drag_path <= CLICK) w->selecting = w->input.wish.probes;
+        if (button == GLFW_MOUSE_BUTTON_LEFT && w->drag_path <= CLICK) {
+            find_pixel(w, &w->input.wish.click_x, &w->input.wish.click_y);
+            w->input.wish.clicks++;
+        }
         w->drag = -1;
     }
 }
@@ -87,12 +101,11 @@ static void on_scroll(GLFWwindow *glfw, double x, double y)
 static void on_char(GLFWwindow *glfw, unsigned code)
 {
     ec_window *w = of(glfw);
-    if (code > 126) return;
+    if (code > 126 || glfwGetKey(glfw, GLFW_KEY_LEFT_SUPER) || glfwGetKey(glfw, GLFW_KEY_RIGHT_SUPER)) return;
     const char name[2] = {(char)code, 0};
     w->told_at = 0;
     w->dirty = true;
-    if (w->input.effects && code >= '0' && code <= '9') ec_view_input_digit(&w->input, (int)code - '0');
-    else ec_view_input_do(&w->input, ec_view_action_of(name));
+    ec_view_input_key(&w->input, name);
 }
 
 /* The small Latin letter on a key; 0: none. Where a keyboard has other letters, the one at its place on a US keyboard: *is_other. */
@@ -120,6 +133,7 @@ static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods
         const char *name;
     } named[] = {{GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_TAB, "Tab"}, {GLFW_KEY_F5, "F5"}, {GLFW_KEY_F11, "F11"}};
     bool is_other;
+    if (action == GLFW_PRESS && (mods & GLFW_MOD_SUPER)) return; /* the desktop's */
     char letter = letter_of(key, scancode, &is_other);
     bool is_s = letter == 's';
     hold(w, letter, action);

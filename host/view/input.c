@@ -13,9 +13,8 @@ void ec_view_input_learn(ec_view_input *in, const ec_view_facts *facts)
 {
     bool first = in->facts.serial == 0;
     in->facts = *facts;
-    if (first) in->wish.camera = facts->camera;
+    if (first) in->wish.camera = in->asked.camera = facts->camera;
     if (in->wish.camera >= facts->camera_count) in->wish.camera = 0;
-    in->wish.without &= facts->optional;
     if (!in->wish.moved) in->wish.viewpoint = facts->cameras[in->wish.camera];
     in->selected.node = -1;
 }
@@ -112,7 +111,7 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_LINES: in->lines = (ec_view_lines)((in->lines + 1) % EC_LINES_COUNT); break;
     case EC_DO_EFFECTS: in->effects = !in->effects, in->effects_page = 0, in->help = false; break;
     case EC_DO_MORE: w->more++; break;
-    case EC_DO_SAVE: w->saves++; break;
+    case EC_DO_SAVE: w->saves++, in->asked = *w; break;
     case EC_DO_RELOAD: w->reloads++; break;
     case EC_DO_FULLSCREEN: in->fullscreen = !in->fullscreen; break;
     case EC_DO_QUIT: in->quit = true; break;
@@ -151,8 +150,19 @@ void ec_view_input_fly(ec_view_input *in, double forward, double right, double u
     moved(in);
 }
 
-void ec_view_input_digit(ec_view_input *in, int digit)
+static bool is_digit(const char *name)
 {
-    if (digit) in->wish.without ^= ec_view_effect_of_digit(&in->facts, in->effects_page, digit);
-    else in->effects_page++;
+    return name[0] >= '0' && name[0] <= '9' && !name[1];
+}
+
+bool ec_view_input_knows(const char *name)
+{
+    return is_digit(name) || ec_view_action_of(name) != EC_DO_NOTHING;
+}
+
+void ec_view_input_key(ec_view_input *in, const char *name)
+{
+    if (!in->effects || !is_digit(name)) ec_view_input_do(in, ec_view_action_of(name));
+    else if (name[0] == '0') in->effects_page++;
+    else in->wish.without ^= ec_view_effect_of_digit(&in->facts, in->effects_page, name[0] - '0');
 }

@@ -7,7 +7,7 @@
 
 typedef struct ec_view_input {
     const ec_view_request *request;
-    ec_view_wish wish;
+    ec_view_wish wish, asked; /* asked: as it was at the last S */
     ec_view_facts facts;
     ec_view_layout layout;
     ec_view_lines lines;     /* over the picture */
@@ -22,7 +22,9 @@ typedef struct ec_view_input {
 void ec_view_input_learn(ec_view_input *input, const ec_view_facts *facts);
 
 void ec_view_input_do(ec_view_input *input, ec_view_action action);
-void ec_view_input_digit(ec_view_input *input, int digit); /* where the list of effects is open */
+/* A character or a name of keys.h; where the list of effects is open a digit is its. */
+void ec_view_input_key(ec_view_input *input, const char *name);
+bool ec_view_input_knows(const char *name);
 
 typedef enum ec_view_drag { EC_DRAG_ORBIT, EC_DRAG_PAN, EC_DRAG_DOLLY, EC_DRAG_LOOK } ec_view_drag;
 /* dx, dy: heights of the picture, to the right and down. */

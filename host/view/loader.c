@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "pack/pack.h"
+#include "view/orbit.h"
 #include "view/shared.h"
 #include "view/watch.h"
 
@@ -65,7 +66,7 @@ static ec_result find_facts(ec_view_scene *s, ec_view_facts *f, ec_error *err)
         f->radius += half * half;
     }
     f->radius = f->radius > 0 ? sqrt(f->radius) : 1;
-    if (ec_scene_calls(scene, &effects, NULL) == EC_OK) f->optional = effects.bits & ec_effects_optional;
+    if (ec_scene_calls(scene, &effects, NULL) == EC_OK) f->optional = s->optional = effects.bits & ec_effects_optional;
     return EC_OK;
 }
 
@@ -74,12 +75,20 @@ static void keep_camera(ec_view *view, const ec_view_facts *now)
 {
     const ec_view_facts *old = &view->facts;
     ec_view_wish *wish = &view->wish;
-    if (!old->serial) wish->camera = now->camera;
+    if (!old->serial) wish->camera = view->asked.camera = now->camera;
     if (!old->serial || wish->moved) return;
     const ec_viewpoint *was = &old->cameras[wish->camera];
     if (wish->camera < now->camera_count && !memcmp(was, &now->cameras[wish->camera], sizeof *was)) return;
     wish->viewpoint = *was;
+    ec_orbit_round(&wish->viewpoint); /* as the command prints it */
     wish->moved = true;
+}
+
+/* A picture that is whole is not given for one with white in the place of an image. */
+static ec_result check_images(const loader *l, const ec_scene *scene, ec_error *err)
+{
+    bool was_whole = l->scene && !l->scene->scene->lost_image;
+    return was_whole && scene->lost_image ? ec_fail(err, "%s: %.1200s", l->view->request->scene, scene->lost_image) : EC_OK;
 }
 
 static ec_result load(loader *l, ec_error *err)
@@ -93,6 +102,7 @@ static ec_result load(loader *l, ec_error *err)
     *s = (ec_view_scene){.users = 1, .serial = ++l->loads, .options = request->options};
     ec_result result = request->load(request->user, &s->scene, &s->options, err);
     ec_view_facts facts;
+    if (result == EC_OK) result = check_images(l, s->scene, err);
     if (result == EC_OK) result = find_facts(s, &facts, err);
     if (result != EC_OK) {
         ec_view_scene_release(view, s);
@@ -106,7 +116,9 @@ static ec_result load(loader *l, ec_error *err)
     ec_view_post(view);
     pthread_mutex_unlock(&view->lock);
     ec_view_scene_release(view, old);
-    ec_view_say_trouble(view, EC_TROUBLE_FILES, NULL);
+    ec_error lost = {0};
+    if (s->scene->lost_image) ec_fail(&lost, "%s: %.1200s; taken as white", request->scene, s->scene->lost_image);
+    ec_view_say_trouble(view, EC_TROUBLE_FILES, &lost);
     return EC_OK;
 }
 

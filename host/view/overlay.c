@@ -65,7 +65,7 @@ static void format_settings(const ec_view_overlay *o, char *text, size_t size)
     const ec_view_wish *w = o->wish;
     char turned[48] = "", without[300] = "", camera[32] = "moved";
     if (w->env_degrees != 0) snprintf(turned, sizeof turned, "  environment %g deg", w->env_degrees);
-    if (w->without) ec_feature_names(w->without, without, sizeof without);
+    ec_feature_names(w->without & o->facts->optional, without, sizeof without);
     if (!w->moved) snprintf(camera, sizeof camera, "%u", w->camera);
     snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", o->request->device.name, camera, w->exposure,
              ec_tonemap_names[w->tonemap], turned, *without ? "  without " : "", without);

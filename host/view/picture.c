@@ -9,13 +9,20 @@
 
 #define BATCH_SECONDS 0.5
 #define BATCH_MOST 16u
+#define BATCHES_LEAST 4u /* as many as an error limit is judged by */
+
+/* Does spp part into whole batches, and into enough of them for an error? */
+static bool parts(uint32_t spp, uint32_t batch)
+{
+    return !spp || (spp % batch == 0 && spp / batch >= BATCHES_LEAST);
+}
 
 /* A power of two, and a divisor of spp, so that the limit is met exactly. */
 static uint32_t choose_batch(const ec_render_options *o, double pixels, double rate)
 {
     uint32_t batch = 1;
     if (o->batch) return o->batch;
-    while (batch < BATCH_MOST && 2 * batch * pixels <= rate * BATCH_SECONDS && (!o->spp || o->spp % (2 * batch) == 0)) batch *= 2;
+    while (batch < BATCH_MOST && 2 * batch * pixels <= rate * BATCH_SECONDS && parts(o->spp, 2 * batch)) batch *= 2;
     return batch;
 }
 
@@ -38,7 +45,7 @@ ec_result ec_view_picture_start(ec_view_picture *p, const ec_render_options *opt
     ec_view_picture_stop(p);
     p->limits.batch = choose_batch(options, (double)width * height, rate);
     ec_view_picture_limit(p, options, more);
-    p->error = (ec_film_error){.error = INFINITY, .error_bound = INFINITY};
+    p->error = (ec_film_error){.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
     p->forecast = (ec_forecast){.seconds = INFINITY};
     return ec_film_create(&p->film, width, height, p->limits.batch, err);
 }

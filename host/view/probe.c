@@ -17,12 +17,11 @@ void ec_renderer_read_pixel(const ec_film *film, ec_view_probe *probe)
     }
 }
 
-void ec_renderer_probe(ec_renderer *r, const ec_view_wish *wish)
+static ec_view_probe look_at(const ec_renderer *r, uint32_t serial, uint32_t x, uint32_t y)
 {
     const ec_scene *scene = r->setup[EC_ROLE_PICTURE]->scene->scene;
-    ec_view_probe probe = {.serial = wish->probes, .x = wish->probe_x, .y = wish->probe_y, .material = -1, .node = -1};
+    ec_view_probe probe = {.serial = serial, .x = x, .y = y, .material = -1, .node = -1};
     probe.is_inside = probe.x < r->wish.width && probe.y < r->wish.height;
-    r->looked_away = false;
     if (probe.is_inside) {
         ec_view_hit hit = ec_view_pick(scene, &r->camera, r->wish.width, r->wish.height, probe.x, probe.y);
         probe.has_surface = isfinite(hit.distance);
@@ -40,8 +39,20 @@ void ec_renderer_probe(ec_renderer *r, const ec_view_wish *wish)
             ec_view_node_sphere(scene, (uint32_t)probe.node, probe.center, &probe.radius);
         }
     }
+    return probe;
+}
+
+void ec_renderer_probe(ec_renderer *r, const ec_view_wish *wish)
+{
+    ec_view_status *s = &r->view->status;
+    bool points = wish->probes != s->probe.serial || (r->looked_away && !wish->moving), clicks = wish->clicks != s->clicked.serial;
+    ec_view_probe probe, clicked;
+    if (!points && !clicks) return;
+    if (points) probe = look_at(r, wish->probes, wish->probe_x, wish->probe_y), r->looked_away = false;
+    if (clicks) clicked = look_at(r, wish->clicks, wish->click_x, wish->click_y);
     pthread_mutex_lock(&r->view->lock);
-    r->view->status.probe = probe;
+    if (points) s->probe = probe;
+    if (clicks) s->clicked = clicked;
     ec_view_post(r->view);
     pthread_mutex_unlock(&r->view->lock);
 }

@@ -29,7 +29,7 @@ static bool is_final(const ec_renderer *r)
     return r->setup[EC_ROLE_PICTURE]->options.integrator == r->wish.integrator;
 }
 
-typedef enum duty { QUIT, WAIT, REST, PREVIEW, SAVE, SECOND, BATCH, SHOW } duty;
+typedef enum duty { QUIT, WAIT, REST, PREVIEW, SECOND, BATCH, SHOW } duty;
 
 static duty choose(const ec_renderer *r)
 {
@@ -39,7 +39,6 @@ static duty choose(const ec_renderer *r)
     if (r->level) return r->broken ? WAIT : PREVIEW;
     if (!is_final(r)) return WAIT;
     if (r->dirty) return SHOW;
-    if (has_film && w->saves != r->saves) return SAVE;
     if (r->broken) return WAIT;
     if (has_film && needs_rung && r->setup[EC_ROLE_SECOND]) return SECOND;
     if (!r->picture.stopped_by) return BATCH;
@@ -52,7 +51,13 @@ static duty take_wish(ec_renderer *r, ec_error *err)
     ec_view *view = r->view;
     ec_view_setup *old[EC_ROLE_COUNT] = {NULL};
     pthread_mutex_lock(&view->lock);
-    bool quit = view->quit, swapped = view->incoming[EC_ROLE_PICTURE] != NULL;
+    const ec_view_wish wish = view->wish, asked = view->asked;
+    bool quit = view->quit;
+    pthread_mutex_unlock(&view->lock);
+    if (quit) return QUIT;
+    ec_renderer_serve_save(r, &wish, &asked);
+    pthread_mutex_lock(&view->lock);
+    bool swapped = view->incoming[EC_ROLE_PICTURE] != NULL;
     for (int role = 0; role < EC_ROLE_COUNT; role++) {
         if (!view->incoming[role]) continue;
         old[role] = r->setup[role];
@@ -60,10 +65,8 @@ static duty take_wish(ec_renderer *r, ec_error *err)
         view->incoming[role] = NULL;
         if (role == EC_ROLE_SECOND) ec_view_others_forget(&r->others);
     }
-    ec_view_wish wish = view->wish;
     pthread_mutex_unlock(&view->lock);
     for (int role = 0; role < EC_ROLE_COUNT; role++) ec_view_setup_free(view, old[role]);
-    if (quit) return QUIT;
     bool afresh = swapped || !ec_view_same_camera(&wish, &r->wish), rested = r->wish.moving && !wish.moving;
     bool repaint = !same_tones(&wish, &r->wish), more = wish.more != r->wish.more;
     r->wish = wish;
@@ -77,7 +80,7 @@ static duty take_wish(ec_renderer *r, ec_error *err)
     if (more && r->picture.film.batch_count) ec_view_picture_limit(&r->picture, &r->setup[EC_ROLE_PICTURE]->options, wish.more);
     if (repaint && r->picture.film.batch_count) r->dirty = true;
     else if (repaint && !r->level) r->level = 1;
-    if (wish.probes != view->status.probe.serial || (r->looked_away && !wish.moving)) ec_renderer_probe(r, &wish);
+    ec_renderer_probe(r, &wish);
     return choose(r);
 }
 
@@ -87,7 +90,6 @@ static ec_result do_duty(ec_renderer *r, duty d, ec_error *err)
     if (d == BATCH) return ec_renderer_take_batch(r, err);
     if (d == SECOND) return ec_renderer_take_second(r, err);
     if (d == SHOW) ec_renderer_show(r);
-    if (d == SAVE) ec_renderer_save(r);
     if (d == SHOW && !r->broken) ec_view_say_trouble(r->view, EC_TROUBLE_CAMERA, NULL);
     return EC_OK;
 }

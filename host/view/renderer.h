@@ -25,7 +25,7 @@ typedef struct ec_renderer {
 
 bool ec_view_same_camera(const ec_view_wish *a, const ec_view_wish *b);
 
-/* probe.c: pixel, surface and node under the cursor */
+/* probe.c: pixel, surface and node under the cursor, and under the last click; as far as that is not known */
 void ec_renderer_probe(ec_renderer *r, const ec_view_wish *wish);
 void ec_renderer_read_pixel(const ec_film *film, ec_view_probe *probe); /* anew, as the film goes on */
 
@@ -36,7 +36,7 @@ ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err);
 ec_result ec_renderer_take_second(ec_renderer *r, ec_error *err); /* the other rung */
 void ec_renderer_show(ec_renderer *r);
 
-/* save.c: the film to files, by the request's own function */
-void ec_renderer_save(ec_renderer *r);
+/* save.c: what the last S asked for, as soon as there is a film of it, whatever is wished since; given up where there will be none. */
+void ec_renderer_serve_save(ec_renderer *r, const ec_view_wish *now, const ec_view_wish *asked);
 
 #endif

@@ -74,6 +74,7 @@ static void exchange(ec_window *w)
     if (memcmp(&view->wish, wish, sizeof *wish)) {
         wish->serial++;
         view->wish = *wish;
+        view->asked = w->input.asked;
         ec_view_post(view);
     }
     if (memcmp(&w->status, &view->status, sizeof w->status)) {
@@ -83,9 +84,9 @@ static void exchange(ec_window *w)
     pthread_mutex_unlock(&view->lock);
     ec_view_scene_release(view, before);
     if (w->status.saves_done != saved) w->told_at = ec_now();
-    if (w->selecting && w->status.probe.serial == w->selecting) {
-        w->input.selected = w->status.probe;
-        w->selecting = 0;
+    if (w->status.clicked.serial != w->selected_by) {
+        w->input.selected = w->status.clicked;
+        w->selected_by = w->status.clicked.serial;
         w->dirty = true;
     }
     bool telling = w->told_at > 0 && ec_now() - w->told_at < TOLD_FOR;
@@ -129,6 +130,11 @@ static const char *why_stuck(const ec_view_status *s)
     return *s->trouble[EC_TROUBLE_CAMERA] ? s->trouble[EC_TROUBLE_CAMERA] : *s->trouble[EC_TROUBLE_SETUP] ? s->trouble[EC_TROUBLE_SETUP] : NULL;
 }
 
+static bool is_saving(const ec_window *w)
+{
+    return w->input.wish.saves != w->status.saves_done;
+}
+
 static void loop(ec_window *w)
 {
     ec_view *view = w->view;
@@ -149,6 +155,7 @@ static void loop(ec_window *w)
         }
         ec_window_follow_monitors(w);
         if (w->input.fullscreen != w->is_full) ec_window_fullscreen(w, w->input.fullscreen);
+        ec_window_point(w);
         exchange(w);
         w->dirty |= ec_view_textures_take(&w->textures, view);
         ec_view_textures_fit(&w->textures, view, (size_t)w->input.wish.width * w->input.wish.height * 3);
@@ -158,7 +165,7 @@ static void loop(ec_window *w)
             last = now;
         }
         if (glfwWindowShouldClose(w->glfw)) w->input.quit = true;
-        bool saving = w->input.wish.saves != w->status.saves_done && w->status.samples > 0 && !w->iconified && !why_stuck(&w->status);
+        bool saving = is_saving(w) && !w->iconified && !why_stuck(&w->status);
         over = (w->input.quit && !saving) || w->stopped || (view->request->script && why_stuck(&w->status));
     }
 }
@@ -202,6 +209,8 @@ static ec_result run_window(ec_view *view, ec_error *err)
     }
     if (w.glfw) glfwHideWindow(w.glfw); /* a kernel that is being compiled is waited for out of sight */
     end_threads(view);
+    const char *unsaved = is_saving(&w) ? "not saved: the window was closed before the picture's first samples were there" : w.status.unsaved;
+    if (result == EC_OK && !view->failed && *unsaved) result = ec_fail(err, "%s", unsaved);
     ec_view_scene_release(view, w.input.facts.scene);
     if (request->stats && result == EC_OK && !view->failed) ec_frames_print(&w.frames, view->status.first_light, stdout);
     ec_window_close(&w);

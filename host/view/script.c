@@ -1,7 +1,9 @@
 #include "view/script.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct {
@@ -17,7 +19,7 @@ static bool read_step(const char *line, ec_script_step *step)
     if (sscanf(line, "%15s", step->verb) != 1) return false;
     for (size_t i = 0; i < sizeof verbs / sizeof verbs[0]; i++) {
         if (strcmp(verbs[i].verb, step->verb)) continue;
-        if (verbs[i].numbers < 0) return sscanf(line, "%*s %15s %7s", step->key, rest) == 1 && ec_view_action_of(step->key) != EC_DO_NOTHING;
+        if (verbs[i].numbers < 0) return sscanf(line, "%*s %15s %7s", step->key, rest) == 1 && ec_view_input_knows(step->key);
         if (sscanf(line, "%*s %lf %lf %lf", &n[0], &n[1], &n[2]) != verbs[i].numbers && verbs[i].numbers > 0) return false;
         step->seconds = verbs[i].numbers ? n[verbs[i].numbers - 1] : 0;
         step->a = verbs[i].numbers > 1 ? n[0] : 0;
@@ -29,27 +31,30 @@ static bool read_step(const char *line, ec_script_step *step)
 
 ec_result ec_script_read(ec_script *s, const char *name, ec_error *err)
 {
-    char line[256];
+    char *line = NULL;
+    size_t room = 0;
     *s = (ec_script){.count = 0};
     if (!strcmp(name, "orbit")) {
         s->steps[s->count++] = (ec_script_step){.verb = "turn", .a = 360, .seconds = 6};
         return EC_OK;
     }
     FILE *file = fopen(name, "r");
-    if (!file) return ec_fail(err, "cannot read the script '%s'", name);
+    if (!file) return ec_fail(err, "cannot read the script '%s': %s", name, strerror(errno));
     ec_result result = EC_OK;
-    for (int number = 1; result == EC_OK && fgets(line, sizeof line, file); number++) {
+    for (int number = 1; result == EC_OK && getline(&line, &room, file) >= 0; number++) {
         line[strcspn(line, "#\n")] = 0;
         if (!line[strspn(line, " \t\r")]) continue;
         if (s->count == EC_SCRIPT_STEPS) result = ec_fail(err, "%s:%d: more than %d steps", name, number, EC_SCRIPT_STEPS);
-        else if (!read_step(line, &s->steps[s->count])) result = ec_fail(err, "%s:%d: '%s' is no step; see 'eclat view --help'", name, number, line);
+        else if (!read_step(line, &s->steps[s->count])) result = ec_fail(err, "%s:%d: '%.200s' is no step; see 'eclat view --help'", name, number, line);
         else s->count++;
     }
+    if (result == EC_OK && ferror(file)) result = ec_fail(err, "cannot read the script '%s': %s", name, strerror(errno));
+    free(line);
     fclose(file);
     return result;
 }
 
-/* The part of a step that `share` of its time does; false: it goes on. */
+/* The part of a move that `share` of its time does. */
 static void do_part(const ec_script_step *step, ec_view_input *in, double share)
 {
     const double degree = M_PI / 180;
@@ -58,13 +63,19 @@ static void do_part(const ec_script_step *step, ec_view_input *in, double share)
     if (!strcmp(step->verb, "dolly")) ec_view_input_wheel(in, log(step->a) * share / log(0.9));
 }
 
-/* Of those without a time. */
+static bool is_move(const ec_script_step *step)
+{
+    return !strcmp(step->verb, "turn") || !strcmp(step->verb, "pan") || !strcmp(step->verb, "dolly");
+}
+
+/* Of those that take no time. */
 static bool is_over(const ec_script_step *step, ec_view_input *in, const ec_view_status *status)
 {
     bool saving = in->wish.saves != status->saves_done;
     if (!strcmp(step->verb, "settle")) return status->settled == in->wish.serial && !saving && !*status->loading;
     if (!strcmp(step->verb, "quit")) in->quit = !saving;
-    if (!strcmp(step->verb, "key")) ec_view_input_do(in, ec_view_action_of(step->key));
+    if (!strcmp(step->verb, "key")) ec_view_input_key(in, step->key);
+    if (is_move(step)) do_part(step, in, 1);
     return strcmp(step->verb, "quit") || in->quit;
 }
 
@@ -83,7 +94,7 @@ void ec_script_run(ec_script *s, ec_view_input *in, const ec_view_status *status
         } else if (!is_over(step, in, status)) {
             return;
         }
-        bool does = step->seconds > 0 || !strcmp(step->verb, "key");
+        bool does = step->seconds > 0 || is_move(step) || !strcmp(step->verb, "key");
         s->at++;
         s->done = 0;
         if (does) return; /* what comes of it is known in the next frame */

@@ -1,10 +1,10 @@
 /* A scripted hand, for measuring and for tests. A line each, # begins a comment:
- *     turn YAW PITCH SECONDS     around the target, degrees
+ *     turn YAW PITCH SECONDS     around the target, degrees; 0 seconds: at once, as all moves
  *     pan RIGHT UP SECONDS       heights of the picture
  *     dolly FACTOR SECONDS       of the distance
  *     wait SECONDS
  *     settle                     until the limit of the render is met
- *     key NAME                   as in the help: e, E, 1, Tab, F5, Save
+ *     key NAME                   as in the help: e, E, 1, Tab, F5, Save; digits switch effects while their list is open (X)
  *     quit                       also at the end
  * "orbit" stands for a turn of 360 degrees in 6 seconds. */
 #ifndef EC_VIEW_SCRIPT_H

@@ -79,7 +79,7 @@ static void fill_error(const void *user, uint8_t *bytes)
     float off[3];
     for (uint64_t p = 0; p < pixels; p++) {
         double n = ec_film_batches(m->film, p);
-        for (int c = 0; c < 3; c++) off[c] = m->mean[3 * p + c] + (n > 1 ? (float)sqrt(m->film->m2[4 * p + c] / (n * (n - 1))) : 0);
+        for (int c = 0; c < 3; c++) off[c] = m->mean[3 * p + c] + (float)sqrt(m->film->m2[4 * p + c] / (n * (n - 1)));
         ec_error_map(off, m->mean + 3 * p, 1, bytes + 3 * p);
     }
 }
@@ -94,9 +94,14 @@ static void fill_samples(const void *user, uint8_t *bytes)
     for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_batches(m->film, p) / most, bytes + 3 * p);
 }
 
-bool ec_view_others_has(const ec_view_others *o, ec_view_second second)
+bool ec_view_others_has(const ec_view_others *o, ec_view_second second, const ec_film *film)
 {
-    return second == EC_SECOND_RUNG ? o->rung != NULL : second == EC_SECOND_FILE ? o->file != NULL : true;
+    switch (second) {
+    case EC_SECOND_ERROR: return film->batch_count > 1;
+    case EC_SECOND_RUNG: return o->rung != NULL;
+    case EC_SECOND_FILE: return o->file != NULL;
+    default: return true;
+    }
 }
 
 bool ec_view_others_show(ec_view_others *o, ec_view *view, const ec_view_wish *wish, const ec_film *film, const float *mean)

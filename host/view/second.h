@@ -20,8 +20,8 @@ void ec_view_others_forget(ec_view_others *others); /* the camera has moved */
 ec_result ec_view_others_render(ec_view_others *others, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user),
                                 void *user, ec_error *err);
 
-/* Is there one? */
-bool ec_view_others_has(const ec_view_others *others, ec_view_second second);
+/* Is there one? An error takes two batches. */
+bool ec_view_others_has(const ec_view_others *others, ec_view_second second, const ec_film *film);
 
 /* That which is wished, as far as there is one; mean: the film's. false: ask again. */
 bool ec_view_others_show(ec_view_others *others, ec_view *view, const ec_view_wish *wish, const ec_film *film, const float *mean);

@@ -45,7 +45,8 @@ ec_result ec_view_setup_make(ec_view *view, ec_view_scene *scene, ec_integrator 
     s->options = view->request->options;
     s->options.camera = scene->options.camera;
     s->options.integrator = integrator;
-    s->options.without = s->without = without;
+    s->without = without;
+    s->options.without = without & scene->optional;
     drop_foreign(&s->options);
     if (integrator != EC_INTEGRATOR_PATH && scene->scene->motion.segments) s->options.without |= EC_FEATURE_MOTION; /* the moment in the middle */
     if (scene->scene->environment.rgb) s->options.more_effects |= EC_FEATURE_ENVIRONMENT_TURN;

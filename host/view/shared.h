@@ -21,7 +21,7 @@ typedef struct ec_view_wish {
     uint32_t width, height;       /* of the picture; 0: no window yet */
     double env_degrees;
     ec_integrator integrator, rung; /* rung: of the second picture */
-    uint64_t without;
+    uint64_t without;             /* also what the scene calls for none of now: another one may */
     double exposure;
     ec_tonemap tonemap;
     ec_view_second second;
@@ -31,11 +31,12 @@ typedef struct ec_view_wish {
     uint32_t more;                /* times the limits were raised */
     uint32_t saves, reloads;      /* asked for so far */
     uint32_t probes;              /* changes of the place: */
-    uint32_t probe_x, probe_y;    /* pixel of the picture */
+    uint32_t probe_x, probe_y;    /* pixel of the picture; UINT32_MAX: none */
+    uint32_t clicks, click_x, click_y; /* the same, of what was clicked at */
 } ec_view_wish;
 
 typedef struct ec_view_probe {
-    uint32_t serial;              /* of wish.probes */
+    uint32_t serial;              /* of wish.probes, or wish.clicks */
     bool is_inside, has_film, has_error, has_surface;
     uint32_t x, y;
     double rgb[3], se[3], depth;
@@ -64,10 +65,11 @@ typedef struct ec_view_status {
     char stopped_by[16];
     uint32_t saves_done;
     char told[2300];              /* of the last save, or failure */
+    char unsaved[256];            /* why the last save was given up; empty: it was not */
     char trouble[EC_TROUBLE_COUNT][2300]; /* empty: it went well */
     char loading[64];             /* what the loader is at; empty: nothing */
     char effects[1024];           /* active ones, by name */
-    ec_view_probe probe;
+    ec_view_probe probe, clicked;
 } ec_view_status;
 
 /* Of the scene, for the window. */
@@ -78,7 +80,7 @@ typedef struct ec_view_facts {
     struct ec_view_scene *scene;
     double center[3], radius;
     bool has_map;                 /* an environment that can be turned */
-    uint64_t optional;            /* effects that it calls for and that can be left out */
+    uint64_t optional;            /* the scene's */
 } ec_view_facts;
 
 /* A loaded scene, shared by sessions. */
@@ -86,6 +88,7 @@ typedef struct ec_view_scene {
     ec_scene *scene;
     ec_viewpoint *cameras;        /* owned, one for each of the scene's */
     uint32_t users, serial;
+    uint64_t optional;            /* effects that it calls for and that can be left out */
     ec_render_options options;    /* camera and size by default */
 } ec_view_scene;
 
@@ -94,7 +97,7 @@ typedef struct ec_view_setup {
     ec_cl cl;
     ec_view_scene *scene;
     ec_session *session;
-    uint64_t without;             /* as wished; options may leave out more */
+    uint64_t without;             /* as wished; options have what the scene calls for, and may leave out more */
     ec_render_options options;
     ec_render_stats stats;
 } ec_view_setup;
@@ -125,7 +128,7 @@ typedef struct ec_view {
     uint32_t file_events;         /* something happened beside the scene's files */
     ec_error fatal;
     bool failed;
-    ec_view_wish wish;
+    ec_view_wish wish, asked;     /* asked: as it was at the last S */
     ec_view_status status;
     ec_view_facts facts;
     ec_view_setup *incoming[EC_ROLE_COUNT]; /* from loader to renderer */

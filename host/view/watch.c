@@ -10,8 +10,10 @@
 #include <sys/inotify.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
+#include <unistd.h>
 
 #define LARGEST_JSON (256u << 20)
+#define LINKS_MOST 40
 
 /* One number that another size, time or file changes. 0: there is none. */
 static uint64_t state_of(const char *path)
@@ -43,17 +45,28 @@ static bool hear_folder(int events, const char *path)
     return is_told_of(folder) && inotify_add_watch(events, folder, mask) >= 0;
 }
 
-/* A link's own folder, and that of the file which it leads to. */
-static bool hear(int events, const char *path)
+/* The file's folder, and those of all links on the way to it; depth: as many as may follow one another. */
+static bool hear(int events, const char *path, int depth)
 {
-    char real[PATH_MAX];
-    return hear_folder(events, path) && (!realpath(path, real) || hear_folder(events, real));
+    char link[PATH_MAX], target[PATH_MAX], next[2 * PATH_MAX];
+    for (const char *end = path; *end && depth; end++) {
+        int length = (int)(end - path) + 1;
+        if ((end[1] && end[1] != '/') || snprintf(link, sizeof link, "%.*s", length, path) >= (int)sizeof link) continue;
+        ssize_t size = readlink(link, target, sizeof target - 1);
+        if (size < 0) continue;
+        target[size] = 0;
+        const char *slash = strrchr(link, '/');
+        int folder = *target == '/' || !slash ? 0 : (int)(slash - link) + 1;
+        int used = snprintf(next, sizeof next, "%.*s%s%s", folder, link, target, path + length);
+        return hear_folder(events, link) && used < PATH_MAX && hear(events, next, depth - 1);
+    }
+    return depth && hear_folder(events, path);
 }
 
 static void add(ec_watch *w, const char *path, int events)
 {
     if (w->count == EC_WATCH_MOST || !(w->paths[w->count] = strdup(path))) return;
-    w->is_deaf |= !hear(events, path);
+    w->is_deaf |= !hear(events, path, LINKS_MOST);
     w->seen[w->count++] = state_of(path);
 }
 

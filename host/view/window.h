@@ -26,8 +26,9 @@ typedef struct ec_window {
     ec_frames frames;
     double scale;               /* of text: the monitor's */
     double cursor_x, cursor_y;  /* pixels of the framebuffer, from the top left */
+    bool points;                /* the cursor is in the window */
     int drag;                   /* mouse button that is down, or -1 */
-    uint32_t selecting;         /* the probe that a click waits for; 0: none */
+    uint32_t selected_by;       /* which click */
     double drag_path;           /* how far it went: a click does not move */
     double s_down;              /* ec_now when S went down; 0: it is up */
     bool s_flew;                /* and is no tap */
@@ -60,5 +61,6 @@ void ec_window_follow_monitors(ec_window *window);                        /* whe
 
 /* controls.c: GLFW's callbacks */
 void ec_window_listen(ec_window *window);
+void ec_window_point(ec_window *window); /* what is under the cursor, wherever a picture is shown now */
 
 #endif

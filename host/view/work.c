@@ -53,12 +53,12 @@ static ec_result make_room(ec_renderer *r, ec_error *err)
 
 ec_result ec_renderer_start_afresh(ec_renderer *r, ec_error *err)
 {
+    ec_view_picture_stop(&r->picture);
+    ec_view_others_forget(&r->others);
     const ec_scene *scene = r->setup[EC_ROLE_PICTURE]->scene->scene;
     uint32_t index = r->wish.camera < scene->camera_count ? r->wish.camera : scene->default_camera;
     r->camera = scene->cameras[index];
     if (r->wish.moved) EC_TRY(ec_camera_look(&r->wish.viewpoint, scene->center, &r->camera, err));
-    ec_view_picture_stop(&r->picture);
-    ec_view_others_forget(&r->others);
     r->looked_away = true;
     double rate = ec_session_rate(r->setup[EC_ROLE_PICTURE]->session), pixels = (double)r->wish.width * r->wish.height;
     double level = rate > 0 ? ceil(sqrt(pixels / (rate * EC_VIEW_FOLLOWS))) : EC_VIEW_COARSEST / 2;
@@ -68,18 +68,18 @@ ec_result ec_renderer_start_afresh(ec_renderer *r, ec_error *err)
     return make_room(r, err);
 }
 
-/* Between waves: is what is being done still wanted? Cursors are answered by the way. */
+/* Between waves: is what is being done still wanted? Cursors and saves are answered by the way. */
 static bool go_on(void *user)
 {
     ec_renderer *r = user;
     ec_view *view = r->view;
     pthread_mutex_lock(&view->lock);
-    ec_view_wish wish = view->wish;
+    const ec_view_wish wish = view->wish, asked = view->asked;
     bool other = view->quit || view->incoming[EC_ROLE_PICTURE] || wish.paused || !ec_view_same_camera(&wish, &r->wish);
-    bool asked = wish.probes != view->status.probe.serial;
     pthread_mutex_unlock(&view->lock);
+    if (r->picture.film.batch_count) ec_renderer_serve_save(r, &wish, &asked);
     if (other) return false;
-    if (asked) ec_renderer_probe(r, &wish);
+    ec_renderer_probe(r, &wish);
     return true;
 }
 
@@ -132,7 +132,7 @@ void ec_renderer_show(ec_renderer *r)
     ec_view_wish *wish = &r->wish;
     ec_film_resolve(&r->picture.film, r->mean, NULL);
     bool shown = ec_view_show(r->view, wish, EC_ROLE_PICTURE, r->mean, wish->width, wish->height);
-    bool has_second = wish->has_second && ec_view_others_has(&r->others, wish->second);
+    bool has_second = wish->has_second && ec_view_others_has(&r->others, wish->second, &r->picture.film);
     if (has_second) shown &= ec_view_others_show(&r->others, r->view, wish, &r->picture.film, r->mean);
     if (shown) r->dirty = false;
     tell(r, 0, has_second);

@@ -95,6 +95,22 @@ class Keys(ViewCase):
             self.press("f")
             for a, b in zip(self.target(), expected):
                 self.assertAlmostEqual(a, b, delta=1e-3, msg=f"{place} {click}")
+        self.press("r")
+        self.point(0, 0)  # from the block to the wall's very corner
+        self.press("f")
+        self.assertGreater(abs(self.target()[2] - TALL[2]), 0.01)
+        self.press("r")
+        self.window.tool("mousemove", "--window", self.window.id, 80, 110, "click", 1, "mousemove", 198, 2)  # without a rest
+        self.press("f")
+        self.assertAlmostEqual(self.target()[2], TALL[2], delta=1e-3)
+        self.window.tool("click", 1)  # on nothing
+        self.press("r")
+        self.point(40, 105)
+        self.press("v", "v")  # beside another picture it is half as wide; what is under the resting mouse is the block now
+        self.window.tool("click", 1)
+        self.point(198, 2)
+        self.press("v", "f")
+        self.assertAlmostEqual(self.target()[2], TALL[2], delta=1e-3)
         self.window.tool("click", 1)  # on nothing
         self.window.rest()
         self.press("r", "f")

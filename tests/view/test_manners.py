@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 from desk import ViewCase, mean_difference
-from support import write_exr
+from support import quad_scene, write_exr, write_gltf
 
 SIZE = ["--size", "200x150"]
 
@@ -95,6 +95,7 @@ class Keyboards(ViewCase):
         self.assertGreater(self.eye(window)[0], 0.28)  # it looks along +z: left is +x
         window.key("E", "E", "E")
         self.assertIn("--exposure=1 ", window.save())
+        window.key("super+q")  # a window manager's
         shown = window.picture()
         window.key("question")
         window.rest()
@@ -136,6 +137,76 @@ class Broken(ViewCase):
             self.assertTrue(window.wait_until(lambda: window.rest() or differs() < 1, 20))
         shutil.copy(write_exr(self.path("green.exr"), 2, 2, {"R": [0.0] * 4, "G": [9.0] * 4, "B": [0.0] * 4}), sky)
         self.assertTrue(window.wait_until(lambda: differs() > 5, 20))
+        self.assertEqual(window.close(), 0)
+
+    def test_a_lost_texture_keeps_the_picture_and_is_told_of(self):
+        scene, _ = quad_scene(material={"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}})
+        attributes = scene["meshes"][0]["primitives"][0]["attributes"]
+        attributes["TEXCOORD_0"] = attributes["POSITION"]
+        scene["accessors"].append(dict(scene["accessors"][0], type="VEC2"))
+        scene["accessors"][2].pop("min"), scene["accessors"][2].pop("max")
+        attributes["TEXCOORD_0"] = 2
+        scene.update(textures=[{"source": 0}], images=[{"uri": "red.png"}])
+        path, red = write_gltf(self.path("red.gltf"), scene), self.path("red.png")
+        subprocess.run(["convert", "-size", "2x2", "xc:#c00000", red], check=True)
+        arguments = [path, *SIZE, "--spp", "1", "--integrator", "raster"]
+        window = self.open(*arguments)
+        window.rest()
+        window.key("i", "i")
+        window.rest()
+        plain, low = window.picture(), window.picture("60x40+70+100")
+
+        def tells():
+            return mean_difference(window.picture("200x40+0+0"), (200, 40, plain[2][:3 * 200 * 40])) > 1
+        for spoil in [lambda: os.truncate(red, 40), lambda: os.remove(red)]:
+            with open(red, "rb") as file:
+                whole = file.read()
+            spoil()
+            self.assertTrue(window.wait_until(tells, 20), "not told of")
+            window.rest()
+            self.assertEqual(window.picture("60x40+70+100"), low)
+            with open(red, "wb") as file:
+                file.write(whole)
+            self.assertTrue(window.wait_until(lambda: window.picture() == plain, 20))
+        self.assertEqual(window.close(), 0)
+        os.remove(red)
+        window = self.open(*arguments)  # what it shows then is white, and says so
+        window.key("i", "i")
+        window.rest()
+        self.assertTrue(tells(), "not told of at first")
+        self.assertNotEqual(window.picture("60x40+70+100"), low)
+        with open(red, "wb") as file:
+            file.write(whole)
+        self.assertTrue(window.wait_until(lambda: window.picture() == plain, 20))
+        self.assertEqual(window.close(), 0)
+
+    def test_effects_that_were_left_out_stay_so_over_a_scene_without_them(self):
+        window = self.open(self.scene, *SIZE, "--spp", "1", "--integrator", "raster", "--without", "emission")
+        window.rest()
+        with open(self.scene, encoding="utf-8") as file:
+            text = file.read()
+        for changed, says in [(re.sub(r'"emissiveFactor":\s*\[[^]]*\]', '"emissiveFactor":[0,0,0]', text), False), (text, True)]:
+            with open(self.scene, "w", encoding="utf-8") as file:
+                file.write(changed)
+            self.assertTrue(window.wait_until(lambda: ("--without=emission" in window.save()) == says, 20, 0.5), window.text())
+        self.assertEqual(window.close(), 0)
+
+    def test_a_folder_that_is_a_link_to_another_is_followed(self):
+        for name, light in [("one", "[9,9,9]"), ("two", "[0,0,0.05]")]:
+            shutil.copytree(self.folder, self.path(name), ignore=shutil.ignore_patterns("*.txt", "one", "tmp*"))
+            with open(self.path(name, "box.gltf"), encoding="utf-8") as file:
+                text = file.read()
+            with open(self.path(name, "box.gltf"), "w", encoding="utf-8") as file:
+                file.write(re.sub(r'"emissiveFactor":\s*\[[^]]*\]', f'"emissiveFactor":{light}', text))
+        os.mkdir(self.path("links"))
+        os.symlink("one", self.path("now"))
+        os.symlink("../now", self.path("links", "shown"))
+        window = self.open(self.path("links", "shown", "box.gltf"), *SIZE, "--spp", "1", "--integrator", "raster")
+        window.rest()
+        lit = window.picture("200x60+0+0")
+        os.symlink("two", self.path("next"))
+        os.rename(self.path("next"), self.path("now"))
+        self.assertTrue(window.wait_until(lambda: mean_difference(window.picture("200x60+0+0"), lit) > 5, 10))
         self.assertEqual(window.close(), 0)
 
     def test_a_lost_device_is_told_of_and_closes(self):

@@ -7,9 +7,10 @@ import struct
 import subprocess
 
 from desk import ViewCase, mean_difference
-from support import ECLAT, data_uri, quad_scene, write_exr, write_gltf
+from support import ECLAT, data_uri, eclat, quad_scene, read_exr, write_exr, write_gltf
 
 SIZE = ["--size", "200x150", "--batch", "1"]  # batches else are as the device is fast
+SMALL = ["--size", "16x16", "--spp", "1", "--integrator", "raster"]
 
 
 def moving_quad():
@@ -168,20 +169,24 @@ class Odd(ViewCase):
         window = self.open(self.scene, *SIZE, "--spp", "1")
         window.key("i", "i")
         window.rest()
-        window.tool("mousemove", "--window", window.id, 0, 75)
-        window.key("v")  # all of it: the error, which of one sample is nothing
+        window.tool("mousemove", "--window", window.id, 2, 75)
         window.rest()
-        crop = "200x90+10+0"
+        crop = "190x90+10+0"
+        plain = window.picture(crop)
+        window.key("v")  # the error, which one sample has none of
+        window.rest()
+        self.assertEqual(window.picture(crop), plain)
 
-        def is_dark():
-            return max(window.picture(crop)[2]) < 16
-
-        self.assertTrue(window.wait_until(is_dark, 10), "no error of one sample")
+        def is_even():
+            values = window.picture(crop)[2]
+            return values == values[:3] * (len(values) // 3)
+        window.key("Tab", "i", "i", "i")  # how many samples
+        self.assertTrue(window.wait_until(is_even, 10), "not as many samples everywhere")
         window.tool("keydown", "d")
-        self.assertTrue(window.wait_until(lambda: sum(window.picture(crop)[2]) > 10 * 3 * 200 * 90, 10, 0.05), "an error of another camera")
+        self.assertTrue(window.wait_until(lambda: not is_even(), 10, 0.05), "samples of another camera")
         window.tool("keyup", "d")
         window.rest()
-        self.assertTrue(window.wait_until(is_dark, 10), "no error of one sample, again")
+        self.assertTrue(window.wait_until(is_even, 10), "not as many samples everywhere, again")
         self.assertEqual(window.close(), 0)
 
     def test_a_script_settles_on_what_its_keys_asked_for(self):
@@ -192,6 +197,56 @@ class Odd(ViewCase):
         self.assertIn("--integrator=raster --spp=64 ", raster)
         self.assertIn("--spp=64 ", path)
         self.assertNotIn("--integrator", path)
+
+    def test_what_is_saved_is_what_was_shown(self):
+        run = self.script(self.scene, ["settle", "key M", "wait 0.2", "key Save", "key e", "turn 40 0 0.2", "quit"], "--size", "200x150", "--spp",
+                          "64", "--batch", "64")
+        self.assertEqual((run.returncode, run.stderr, run.stdout.count("\n")), (0, "", 1))
+        self.assertNotIn("--eye", run.stdout)
+        self.assertNotIn("--exposure", run.stdout)
+        run = self.script(self.scene, ["key Save", "turn 40 0 0", "settle", "quit"], "--size", "200x150", "--spp", "64", "--batch", "64")
+        self.assertIn("moved", self.assert_one_error(run, 1))  # before it was there
+        self.assertEqual(run.stdout, "")
+
+    def test_a_picture_that_is_asked_for_as_one_leaves_is_waited_for(self):
+        window = self.open(self.scene, "--size", "300x200", "--spp", "64", "--batch", "64")
+        window.key("s", "q")
+        self.assertEqual((window.process.wait(60), window.text("err")), (0, ""))
+        self.assertIn("--size=300x200", window.text())
+
+    def test_few_samples_have_an_error_too(self):
+        files = {}
+        for spp in [1, 4]:
+            run = self.script(self.scene, ["settle", "key Save"], "--size", "16x16", "--spp", str(spp), "-o", self.path(f"{spp}.exr"))
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+            files[spp] = read_exr(self.path(f"{spp}.exr"))[0]
+        self.assertEqual(files[1]["eclat.relMSE"], float("inf"))
+        self.assertGreaterEqual(4 // files[4]["eclat.batch"], 2)
+        self.assertLess(files[4]["eclat.error"], 10)
+
+    def test_the_camera_that_a_changed_file_left_behind_repeats_too(self):
+        def stand(*place):  # near the middle floats have more digits than in the file's coordinates
+            self.change_scene(lambda scene: next(n for n in scene["nodes"] if "camera" in n).update(translation=place))
+        stand(0.2781234567, 0.2731234567, -0.8)
+        window = self.open(self.scene, *SIZE, "--spp", "1")
+        before = window.save()
+        stand(0.2, 0.3, -0.9)
+        after = window.wait_until(lambda: (lambda c: c if "--eye" in c else None)(window.save()), 20, 0.5)
+        self.assertNotIn("--eye", before)
+        self.assert_repeats(window, after)
+        self.assertEqual(window.close(), 0)
+
+    def test_a_script_is_a_hand(self):
+        run = self.script(self.scene, ["# " + "a long word " * 30, "turn 90 0 0", "key x", "key 1", "key x", "settle", "key Save"], *SMALL)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        for word in ["--eye=", "--integrator=raster", "--without=emission"]:
+            self.assertIn(word, run.stdout)
+
+    def test_names_that_look_like_options(self):
+        shutil.copy(self.scene, self.path("-box.gltf"))
+        run = self.script("--size=16x16", ["settle", "key Save"], *SMALL[2:], "--", "-box.gltf")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assert_ok(eclat(*run.stdout.split()[1:], cwd=self.folder))
 
     def test_what_could_not_be_saved_is_told_of_at_the_end(self):
         os.mkdir(self.path("away"))

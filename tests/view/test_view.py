@@ -172,6 +172,7 @@ class Refusals(ViewCase):
         run.stderr = "".join(line + "\n" for line in run.stderr.splitlines() if not line.startswith("libGL error:"))  # Mesa's own
         self.assertIn("OpenGL", self.assert_one_error(run, 1))
         for arguments, says, code in [(["no.gltf"], "no.gltf", 1), ([CORNELL, "--script", "no.txt"], "no.txt", 1),
+                                      ([CORNELL, "--script", self.folder], self.folder, 1),
                                       ([CORNELL, "--against", "no.exr"], "no.exr", 1), ([CORNELL, "--json"], "--json", 2),
                                       ([CORNELL, "--adaptive"], "--adaptive is for 'eclat render'", 2)]:
             run = eclat("view", *arguments, env={"DISPLAY": self.screen.display, "LIBGL_ALWAYS_SOFTWARE": "1"})
