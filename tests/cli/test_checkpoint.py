@@ -142,6 +142,8 @@ class Checkpoint(Case):
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--spp", "20", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.path("x.exr"))[0]["eclat.samplesPerPixel"], 20)
         self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {20.0})
+        plan = eclat("render", "--resume", "kept.exr", "--plan", "3", cwd=self.folder)
+        self.assertIn("--plan and --resume: ", self.assert_one_error(plan, 2))
 
     def test_begun_anew_where_it_was_to_be_gone_on_with(self):
         job = ["render", CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept, "-q", "-o", self.path("a.exr")]
