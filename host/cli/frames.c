@@ -47,6 +47,7 @@ static ec_result look_around(sequence *s, ec_error *err)
 {
     const ec_render_request *r = s->request;
     const char *inputs[] = {r->scene, r->environment};
+    const ec_log log = ec_console_log(s->console);
     char difference[PATH_MAX + 1400];
     ec_outputs outputs;
     ec_identity identity;
@@ -57,6 +58,7 @@ static ec_result look_around(sequence *s, ec_error *err)
         ec_frame_identify(&s->identity, r, frame, &identity);
         s->states[i] = ec_frame_look(&outputs, &identity, difference, sizeof difference);
         if (s->states[i] != EC_FRAME_DONE) EC_TRY(ec_outputs_check(&outputs, inputs, 2, err));
+        if (s->states[i] == EC_FRAME_DAMAGED) ec_warn(&log, "%s: frame %u is rendered again", difference, frame);
         if (s->states[i] == EC_FRAME_OTHER && !r->overwrite && others++ == 0) ec_fail(err, "%s", difference);
     }
     if (!others) return EC_OK;

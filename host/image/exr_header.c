@@ -46,7 +46,7 @@ static int is_whole(const char *path, exr_context_t context)
            last.data_offset + last.packed_size <= (uint64_t)file.st_size;
 }
 
-char *ec_exr_whole_text(const char *path, const char *attribute)
+static char *text_of(const char *path, const char *attribute, int whole_only)
 {
     ec_exr_stream stream = {0};
     exr_context_t context = open_header(path, &stream);
@@ -54,11 +54,16 @@ char *ec_exr_whole_text(const char *path, const char *attribute)
     int32_t size = 0;
     char *copy = NULL;
     if (!context) return NULL;
-    if (is_whole(path, context) && exr_attr_get_string(context, 0, attribute, &size, &text) == EXR_ERR_SUCCESS && text)
+    if ((!whole_only || is_whole(path, context)) &&
+        exr_attr_get_string(context, 0, attribute, &size, &text) == EXR_ERR_SUCCESS && text)
         copy = strndup(text, (size_t)size);
     exr_finish(&context);
     return copy;
 }
+
+char *ec_exr_header_text(const char *path, const char *attribute) { return text_of(path, attribute, 0); }
+
+char *ec_exr_whole_text(const char *path, const char *attribute) { return text_of(path, attribute, 1); }
 
 int ec_exr_is_half(const char *path, const char *channel)
 {

@@ -225,13 +225,36 @@ class Going(FramesCase):
         for name in ("f.0001.exr", "f.2.png"):
             with open(self.path(name), "rb") as file:
                 whole = file.read()
-            for bytes_there in (whole[:len(whole) * 3 // 4], b"", b"nothing"):
+            for bytes_there in (whole[:100], b"", b"nothing"):
                 with open(self.path(name), "wb") as file:
                     file.write(bytes_there)
-                self.refuse(scene, f"'{name}' is there already: it is no whole frame", "--frames", "0:3", "-o", "f.%04d.exr", "-o", "f.%d.png", code=1)
+                self.refuse(scene, f"'{name}' is there already: it is no frame", "--frames", "0:3", "-o", "f.%04d.exr",
+                            "-o", "f.%d.png", code=1)
             with open(self.path(name), "wb") as file:
                 file.write(whole)
         self.assertEqual(self.frames("-o", "f.%d.png", scene=scene)[1]["skipped"], 4)
+
+    def test_damaged_frames_are_rendered_again(self):
+        scene, outputs = self.sliding(), ["-o", "f.%d.png"]
+        hashes = [row["image_sha256"] for row in self.frames(*outputs, scene=scene)[0]]
+        names = ["f.0000.exr", "f.0001.exr", "f.0002.exr", "f.3.png"]
+        whole = {}
+        for name in names:
+            with open(self.path(name), "rb") as file:
+                whole[name] = file.read()
+        third, flipped = len(whole[names[0]]) // 3, bytearray(whole[names[1]])
+        flipped[-third] ^= 1
+        damaged = [whole[names[0]][:-third] + b"\xff" * third, bytes(flipped), whole[names[2]][:-third],
+                   whole[names[3]][:-30]]
+        for name, content in zip(names, damaged):
+            with open(self.path(name), "wb") as file:
+                file.write(content)
+        run = self.render(scene, "--frames", "0:3", "-o", "f.%04d.exr", *outputs)
+        self.assertEqual(rows_of(run)[1]["rendered"], 4)
+        self.assertEqual(run.stderr.splitlines(), [f"eclat: warning: '{name}' is damaged: frame {i} is rendered again"
+                                                   for i, name in enumerate(names)])
+        self.assertEqual([read_exr(self.path(name))[0]["eclat.imageSha256"] for name in names[:3]], hashes[:3])
+        self.assertEqual(self.frames(*outputs, scene=scene)[1]["skipped"], 4)
 
     def test_pictures_alone_know_what_they_are_of(self):
         scene = self.sliding()
