@@ -142,6 +142,12 @@ class Checkpoint(Case):
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--spp", "20", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.path("x.exr"))[0]["eclat.samplesPerPixel"], 20)
         self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {20.0})
+        before = os.stat(self.kept).st_mtime_ns
+        self.assert_ok(eclat("render", "--resume", "kept.exr", "-q", cwd=self.folder))
+        self.assertEqual(os.stat(self.kept).st_mtime_ns, before)  # it has all that there is
+        self.assert_ok(eclat("render", "--resume", "kept.exr", "--checkpoint", "other.exr", "-q", cwd=self.folder))
+        self.assertEqual(read_exr(self.kept)[1], read_exr(self.path("other.exr"))[1])
+        self.assert_ok(eclat("render", "--resume", "other.exr", "-q", cwd=self.folder))
         plan = eclat("render", "--resume", "kept.exr", "--plan", "3", cwd=self.folder)
         self.assertIn("--plan and --resume: ", self.assert_one_error(plan, 2))
 
