@@ -144,7 +144,9 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
     }
     if (s->skipped) ec_console_say(s->console, "%u of %u frames were there already", s->skipped, s->count);
     if (stopped) return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there, s->count);
-    if (s->failed) return ec_fail(err, "%u of %u frames failed; the same command tries them again", s->failed, s->count);
+    if (s->failed)
+        return ec_fail(err, "%u of %u frames failed; the same command renders only those once that is mended",
+                       s->failed, s->count);
     return EC_OK;
 }
 

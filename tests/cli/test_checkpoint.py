@@ -143,7 +143,10 @@ class Checkpoint(Case):
         self.assertEqual(read_exr(self.path("x.exr"))[0]["eclat.samplesPerPixel"], 20)
         self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {20.0})
         before = os.stat(self.kept).st_mtime_ns
-        self.assert_ok(eclat("render", "--resume", "kept.exr", "-q", cwd=self.folder))
+        for limit in [[], ["--spp", "8"]]:
+            run = self.assert_ok(eclat("render", "--resume", "kept.exr", *limit, cwd=self.folder))
+            self.assertEqual(run.stderr, "eclat: 'kept.exr' has 20 samples a pixel already, and "
+                             f"{(limit or ['--spp', '20'])[1]} are asked for: the picture is written as it is\n")
         self.assertEqual(os.stat(self.kept).st_mtime_ns, before)  # it has all that there is
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--checkpoint", "other.exr", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.kept)[1], read_exr(self.path("other.exr"))[1])

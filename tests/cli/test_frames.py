@@ -315,7 +315,7 @@ class Going(FramesCase):
         self.assertIn("NaN", rows[1]["error"])
         self.assertEqual((last["rendered"], last["failed"]), (2, 1))
         self.assertIn("eclat: error: frame 1: ", run.stderr)
-        self.assertIn("1 of 3 frames failed", run.stderr.splitlines()[-1])
+        self.assertIn("1 of 3 frames failed; the same command renders only those once", run.stderr.splitlines()[-1])
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith("exr")), ["x.0.exr", "x.2.exr"])
 
 
