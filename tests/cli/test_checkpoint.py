@@ -229,6 +229,10 @@ class Checkpoint(Case):
         for name in ["./a.exr", os.path.join(os.getcwd(), "a.exr")]:
             refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", name, "-o", "a.exr")
             refuse("are the same file; leave one out", CORNELL, "-o", "a.exr", "-o", name)
+        link, end = self.path("b.exr"), self.path("a.exr")
+        os.symlink("a.exr", link)  # to what is not there yet
+        refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", end, "-o", link)
+        refuse("are the same file; leave one out", CORNELL, "-o", link, "-o", end)
         refuse("cannot open", "--resume", self.path("none.exr"), code=1)
         refuse("No such file or directory", CORNELL, "--checkpoint", self.path("none", "kept.exr"), "-o", self.path("a.exr"), code=1)
 
