@@ -102,16 +102,15 @@ bool ec_same_target(const char *a, const char *b)
     return is_same || ec_same_file(a, b);
 }
 
-ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err)
+ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_error *err)
 {
     for (int i = 0; i < outputs->count; i++) {
         const char *path = outputs->file[i].path;
         for (int k = 0; k < i; k++)
             if (ec_same_target(path, outputs->file[k].path))
                 return ec_usage(err, "-o: '%s' and '%s' are the same file; leave one out", outputs->file[k].path, path);
-        for (int k = 0; k < input_count; k++)
-            if (inputs[k] && ec_same_file(path, inputs[k]))
-                return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
+        if (ec_inputs_have(inputs, path))
+            return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
         EC_TRY(ec_image_check_writable(path, err));
     }
     return EC_OK;

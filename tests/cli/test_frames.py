@@ -419,6 +419,12 @@ class CommandLine(FramesCase):
         self.refuse(scene, "--fps belongs to --frames", "--fps", "24")
         self.refuse(scene, "--overwrite belongs to --frames", "--overwrite")
         self.refuse(scene, "--fps", *frames, "--fps", "0")
+        with open(scene, encoding="utf-8") as file:
+            textured = dict(json.load(file), images=[{"uri": "map1.png"}])
+        with open(self.path("map1.png"), "wb") as file:
+            file.write(b"precious")
+        self.refuse(write_gltf(self.path("textured.gltf"), textured), "'map1.png' is an input", "--frames", "0:2",
+                    "-o", "map%d.png", "--overwrite", code=1)
         still = Builder()
         still.add(GLOW)
         self.refuse(still.write(self.path("still.gltf")), "no animation", *frames, code=1)
