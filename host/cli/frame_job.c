@@ -76,6 +76,7 @@ static ec_result add_environment(ec_identity *identity, const char *environment,
         add(identity, "--env", environment);
         return EC_OK;
     }
+    EC_TRY(ec_image_check_regular(environment, err));
     char *hex = SHA256File(environment, NULL);
     if (!hex) return ec_fail(err, "cannot read '%s'", environment);
     snprintf(text, sizeof text, "the file of SHA-256 %s", hex);
@@ -137,7 +138,12 @@ char *ec_frame_command(const ec_given_options *given, const ec_render_request *r
 
 static ec_frame_state look_at(const ec_output *output, const ec_identity *identity, char *difference, size_t size)
 {
+    ec_error why;
     if (access(output->path, F_OK) != 0) return EC_FRAME_MISSING;
+    if (ec_image_check_regular(output->path, &why) != EC_OK) {
+        snprintf(difference, size, "%s", why.text);
+        return EC_FRAME_OTHER;
+    }
     ec_identity there;
     char what[1200];
     bool is_whole = false;

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "image/exr_context.h"
+#include "image/image.h"
 
 /* NULL where the file cannot be read; whoever reads its pixels says why. */
 static exr_context_t open_header(const char *path, ec_exr_stream *stream)
@@ -13,6 +14,7 @@ static exr_context_t open_header(const char *path, ec_exr_stream *stream)
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = ec_exr_keep_message;
     setup.user_data = stream;
+    if (ec_image_check_regular(path, NULL) != EC_OK) return NULL;
     return exr_start_read(&context, path, &setup) == EXR_ERR_SUCCESS ? context : NULL;
 }
 

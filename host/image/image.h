@@ -101,6 +101,9 @@ char *ec_png_text_of(const char *path, const char *keyword, bool *is_whole);
 /* In memory; *bytes is malloc'ed. */
 ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t **bytes, size_t *size, ec_error *err);
 
+/* Before a file is opened for reading: a pipe could block for ever, a device have no end. What is not there passes. */
+ec_result ec_image_check_regular(const char *path, ec_error *err);
+
 /* Before a long render: can this file be written here? Leaves nothing behind. */
 ec_result ec_image_check_writable(const char *path, ec_error *err);
 

@@ -158,6 +158,18 @@ class BadRequests(BadInput):
                 self.assertEqual(file.read(), content)
         self.assertEqual(len(os.listdir(self.folder)), 5)
 
+    def test_pipes_and_folders_instead_of_pictures(self):
+        """Nobody writes into the pipe: whoever opened it would wait for ever."""
+        pipe, folder, other = self.path("pipe.exr"), self.path("folder.exr"), self.path("a.exr")
+        os.mkfifo(pipe)
+        os.mkdir(folder)
+        for path, says in [(pipe, "it is not a regular file"), (folder, "it is a folder")]:
+            for command in [["render", "--resume", path], ["merge", path, "-o", other], ["compare", path, other],
+                            ["render", self.quad(), "--env", path, "-o", other]]:
+                with self.subTest(command=command):
+                    line = self.assert_one_error(eclat(*command, "-q", timeout=20), 1)
+                    self.assertIn(f"'{path}': {says}", line)
+
     def test_unknown_device(self):
         self.refuse(self.quad(), "--device", "no such device", says="no such device")
         self.refuse(self.quad(), "--device", "999", says="999")

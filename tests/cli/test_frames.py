@@ -425,6 +425,9 @@ class CommandLine(FramesCase):
             file.write(b"precious")
         self.refuse(write_gltf(self.path("textured.gltf"), textured), "'map1.png' is an input", "--frames", "0:2",
                     "-o", "map%d.png", "--overwrite", code=1)
+        os.mkfifo(self.path("pipe0.exr"))
+        for more in [["-o", "pipe%d.exr"], [*frames[2:], "--env", "pipe0.exr"]]:
+            self.refuse(scene, "'pipe0.exr': it is not a regular file", "--frames", "0", *more, code=1)
         still = Builder()
         still.add(GLOW)
         self.refuse(still.write(self.path("still.gltf")), "no animation", *frames, code=1)
