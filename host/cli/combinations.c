@@ -64,8 +64,8 @@ static ec_result check_plan(const ec_option *options, int count, const bool *giv
     static const char *const others[] = {"frames", "resume", "samples", NULL};
     for (const char *const *other = others; *other && is_given("plan", options, count, given); other++)
         if (is_given(*other, options, count, given))
-            return ec_usage(err, "--plan and --%s: a plan is of one whole picture, from its first sample on; leave --%s "
-                                 "out", *other, *other);
+            return ec_usage(err, "--plan and --%s: a plan is of one whole picture, from its first sample on; leave "
+                                 "--%s out", *other, *other);
     return EC_OK;
 }
 

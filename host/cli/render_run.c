@@ -75,8 +75,8 @@ static void announce(const ec_render_job *job, ec_console *console)
         snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
     const unsigned long long there = samples_there(job);
     if (is_complete(job)) {
-        ec_console_say(console, "'%s' has %llu samples a pixel already, and %u are asked for: the picture is written as "
-                       "it is", job->request->resume, there, samples_asked(job->request));
+        ec_console_say(console, "'%s' has %llu samples a pixel already, and %u are asked for: the picture is written "
+                       "as it is", job->request->resume, there, samples_asked(job->request));
         return;
     }
     if (job->request->resume)
