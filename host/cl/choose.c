@@ -1,4 +1,5 @@
 /* The rule by which one device of the list is taken. Pure: tests hand it lists that no machine has. */
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,19 +26,38 @@ static void list_names(const ec_device_info *devices, uint32_t count, char *text
         used += (size_t)snprintf(text + used, size - used, "%s%u: %s", i ? ", " : "", i, devices[i].name);
 }
 
-/* A number is an index if there is one like it, else part of a name such as "3090". The platform's name counts too, but
- * after the devices' own: "pocl" and "intel" mean something to users. */
+/* Does this number stand in the name, as 3090 does? One of a digit or two is an index or nothing: "Ryzen 7",
+ * "8-Core". */
+static bool has_number(const char *name, const char *number)
+{
+    const size_t length = strlen(number);
+    for (size_t run; length > 2 && *(name += strcspn(name, "0123456789")); name += run) {
+        run = strspn(name, "0123456789");
+        if (run == length && !memcmp(name, number, run)) return true;
+    }
+    return false;
+}
+
+static bool has_letter(const char *text)
+{
+    while (*text && !isalpha((unsigned char)*text)) text++;
+    return *text;
+}
+
+/* By an index, else by a part of the name. The platform's name counts too, but after the devices' own: "pocl" and
+ * "intel" mean something to users; the numbers that are in its version do not. */
 static bool find(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index)
 {
-    char *end;
-    unsigned long number = strtoul(id, &end, 10);
-    if (id[0] >= '0' && id[0] <= '9' && *end == 0 && number < count) {
+    const bool is_number = *id && !id[strspn(id, "0123456789")];
+    unsigned long number = is_number ? strtoul(id, NULL, 10) : count;
+    if (number < count) {
         *index = (uint32_t)number;
         return true;
     }
+    if (!is_number && !has_letter(id)) return false;
     for (*index = 0; *index < count; ++*index)
-        if (contains(devices[*index].name, id)) return true;
-    for (*index = 0; *index < count; ++*index)
+        if (is_number ? has_number(devices[*index].name, id) : contains(devices[*index].name, id)) return true;
+    for (*index = 0; !is_number && *index < count; ++*index)
         if (contains(devices[*index].platform_name, id) || contains(devices[*index].platform_version, id)) return true;
     return false;
 }
@@ -59,26 +79,50 @@ static const char *asked_for(const char *id, const char **from)
 
 static bool is_all(const char *id) { return !strcasecmp(id, "all"); }
 
+/* A name may have a comma in it. */
+static bool is_list(const ec_device_info *devices, uint32_t count, const char *id)
+{
+    uint32_t index;
+    return is_all(id) || (strchr(id, ',') && !find(devices, count, id, &index));
+}
+
+enum { ID_SIZE = 256 };
+
+/* Blanks around it do not count. */
+static void trim(const char *id, size_t size, char one[ID_SIZE])
+{
+    while (size && isspace((unsigned char)*id)) id++, size--;
+    while (size && isspace((unsigned char)id[size - 1])) size--;
+    snprintf(one, ID_SIZE, "%.*s", (int)size, id);
+}
+
+static ec_result choose_named(const ec_device_info *devices, uint32_t count, const char *from, const char *id,
+                              uint32_t *index, ec_error *err)
+{
+    char names[1024];
+    if (!find(devices, count, id, index)) {
+        list_names(devices, count, names, sizeof names);
+        return ec_fail(err, "%s %s: no such device; there %s %s (an index or a part of the name)", from, id,
+                       count == 1 ? "is" : "are", names);
+    }
+    if (usable(&devices[*index])) return EC_OK;
+    return ec_fail(err, "%s %s: %s is not available or has no compiler; see eclat devices", from, id,
+                   devices[*index].name);
+}
+
 ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index,
                            const char **why, ec_error *err) {
     const char *from, *unused;
     if (!why) why = &unused;
     id = asked_for(id, &from);
     if (id) {
-        bool found = find(devices, count, id, index);
-        if (is_all(id) || (!found && strchr(id, ',')))
-            return ec_fail(err, "%s %s: this takes one device, only eclat render takes several; name one of them", from, id);
-        if (!found) {
-            char names[1024];
-            list_names(devices, count, names, sizeof names);
-            return ec_fail(err, "%s %s: no such device; there %s %s (an index or a part of the name)", from, id,
-                           count == 1 ? "is" : "are", names);
-        }
-        if (!usable(&devices[*index]))
-            return ec_fail(err, "%s %s: %s is not available or has no compiler; see eclat devices", from, id,
-                           devices[*index].name);
         *why = from[0] == '-' ? "chosen by --device" : "chosen by ECLAT_DEVICE";
-        return EC_OK;
+        if (is_list(devices, count, id))
+            return ec_fail(err, "%s %s: this takes one device, only eclat render takes several; name one of them", from,
+                           id);
+        char one[ID_SIZE];
+        trim(id, strlen(id), one);
+        return choose_named(devices, count, from, one, index, err);
     }
     if (first_of(devices, count, CL_DEVICE_TYPE_GPU, index)) *why = "first GPU";
     else if (first_of(devices, count, CL_DEVICE_TYPE_CPU, index)) *why = "first CPU";
@@ -95,12 +139,16 @@ static ec_result choose_all(const ec_device_info *devices, uint32_t count, uint3
     return *chosen ? EC_OK : ec_fail(err, "none of the %u OpenCL devices is available and has a compiler; see eclat devices", count);
 }
 
-static ec_result choose_next(const ec_device_info *devices, uint32_t count, const char *list, const char *id, uint32_t *indices, uint32_t most,
-                             uint32_t *chosen, ec_error *err)
+static ec_result choose_next(const ec_device_info *devices, uint32_t count, const char *from, const char *list,
+                             const char *id, uint32_t *indices, uint32_t most, uint32_t *chosen, ec_error *err)
 {
-    if (!*id) return ec_fail(err, "the list of devices '%s' has an empty place; give numbers or names with commas between them", list);
+    if (!*id)
+        return ec_fail(err, "the list of devices '%s' has an empty place; give numbers or names with commas between",
+                       list);
+    if (is_all(id))
+        return ec_fail(err, "the list of devices '%s' has 'all' in it; give all alone, or numbers and names", list);
     if (*chosen == most) return ec_fail(err, "the list of devices '%s' is too long; name %u at most", list, most);
-    EC_TRY(ec_device_choose(devices, count, id, &indices[*chosen], NULL, err));
+    EC_TRY(choose_named(devices, count, from, id, &indices[*chosen], err));
     for (uint32_t i = 0; i < *chosen; i++)
         if (indices[i] == indices[*chosen])
             return ec_fail(err, "the list of devices '%s' has device %u (%s) twice; name each once", list, indices[i], devices[indices[i]].name);
@@ -114,16 +162,15 @@ ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count
     const char *from;
     const char *list = asked_for(id, &from);
     *chosen = 1;
-    bool is_list = list && strchr(list, ',') && !find(devices, count, list, indices);
-    if (list && (is_all(list) || is_list) && why) *why = from[0] == '-' ? "chosen by --device" : "chosen by ECLAT_DEVICE";
-    if (list && is_all(list)) return choose_all(devices, count, indices, most, chosen, err);
-    if (!is_list) return ec_device_choose(devices, count, id, indices, why, err);
+    if (!list || !is_list(devices, count, list)) return ec_device_choose(devices, count, id, indices, why, err);
+    if (why) *why = from[0] == '-' ? "chosen by --device" : "chosen by ECLAT_DEVICE";
+    if (is_all(list)) return choose_all(devices, count, indices, most, chosen, err);
     *chosen = 0;
     for (const char *at = list, *end; at; at = *end ? end + 1 : NULL) {
-        char one[256];
+        char one[ID_SIZE];
         end = at + strcspn(at, ",");
-        snprintf(one, sizeof one, "%.*s", (int)(end - at), at);
-        EC_TRY(choose_next(devices, count, list, one, indices, most, chosen, err));
+        trim(at, (size_t)(end - at), one);
+        EC_TRY(choose_next(devices, count, from, list, one, indices, most, chosen, err));
     }
     return EC_OK;
 }

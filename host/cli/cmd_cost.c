@@ -16,14 +16,17 @@
 static ec_result check_outputs(const ec_cost_request *request, ec_error *err)
 {
     ec_outputs outputs = {0};
-    const char *files[] = {request->html, request->json}, *inputs[] = {request->render.scene, request->render.environment, request->reference};
+    const char *files[] = {request->html, request->json}, *inputs[] = {request->render.environment, request->reference};
+    ec_inputs all = {.scene = request->render.scene, .files = inputs, .file_count = 2};
     for (int i = 0; i < 2; i++) {
         if (!files[i] || (i == 1 && files[i][0] == '-' && !files[i][1])) continue;
         ec_output *output = &outputs.file[outputs.count++];
         if (snprintf(output->path, sizeof output->path, "%s", files[i]) >= (int)sizeof output->path)
             return ec_usage(err, "the path '%.40s…' is too long", files[i]);
     }
-    return ec_outputs_check(&outputs, inputs, 3, err);
+    ec_result result = ec_outputs_check(&outputs, &all, err);
+    ec_inputs_free(&all);
+    return result;
 }
 
 /* Without --size the study is as large as its reference. */

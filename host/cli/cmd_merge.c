@@ -47,7 +47,8 @@ static ec_result check_request(const merge_request *request, ec_error *err)
         for (int k = 0; k < i; k++)
             if (ec_same_file(request->paths[i], request->paths[k]))
                 return ec_fail(err, "'%s' and '%s' are the same slice; leave one out", request->paths[k], request->paths[i]);
-    return ec_outputs_check(&request->outputs, (const char *const *)request->paths, request->count, err);
+    ec_inputs inputs = {.files = (const char *const *)request->paths, .file_count = request->count};
+    return ec_outputs_check(&request->outputs, &inputs, err);
 }
 
 static ec_result take_slices(const merge_request *request, ec_merge *merge, const ec_log *log, ec_error *err)

@@ -126,7 +126,7 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
         result = ec_frames_render(&cli->console, &request, job.ranks, argc, as_given, start, err);
         goto cleanup;
     }
-    if (request.plan_ranks) job.takes_several = false, job.ranks = NULL; /* of one device and one process: what all of them are taken to be */
+    if (request.plan_ranks) job.ranks = NULL; /* of one process and its device: what all of them are taken to be */
     result = request.plan_ranks ? ec_render_job_load(&job, &cli->console, err) : ec_render_job_prepare(&job, &cli->console, err);
     if (result == EC_FAILED && request.resume && strcmp(folder, job.job.folder)) ec_fail_more(err, "; the job was begun in '%s'", job.job.folder);
     if (result != EC_OK) goto cleanup;

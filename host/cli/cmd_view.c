@@ -143,8 +143,10 @@ static ec_viewpoint viewpoint_of(const view_job *job, const ec_view_shot *shot)
 
 static ec_result check_outputs(const view_job *job, const ec_outputs *outputs, ec_error *err)
 {
-    const char *inputs[] = {job->render.scene, job->render.environment};
-    return ec_outputs_check(outputs, inputs, 2, err);
+    ec_inputs inputs = {.scene = job->render.scene, .files = &job->render.environment, .file_count = 1};
+    ec_result result = ec_outputs_check(outputs, &inputs, err);
+    ec_inputs_free(&inputs);
+    return result;
 }
 
 static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told, size_t size, ec_error *err)

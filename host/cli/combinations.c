@@ -52,6 +52,23 @@ static ec_result check_owner(const char *option, ec_integrator integrator, ec_er
     return EC_OK;
 }
 
+static bool is_given(const char *name, const ec_option *options, int count, const bool *given)
+{
+    for (int i = 0; i < count; i++)
+        if (given[i] && !strcmp(options[i].name, name)) return true;
+    return false;
+}
+
+static ec_result check_plan(const ec_option *options, int count, const bool *given, ec_error *err)
+{
+    static const char *const others[] = {"frames", "resume", "samples", NULL};
+    for (const char *const *other = others; *other && is_given("plan", options, count, given); other++)
+        if (is_given(*other, options, count, given))
+            return ec_usage(err, "--plan and --%s: a plan is of one whole picture, from its first sample on; leave "
+                                 "--%s out", *other, *other);
+    return EC_OK;
+}
+
 ec_result ec_combinations_check_grid(double density, const char *accel, bool takes_all, ec_error *err)
 {
     bool fits = accel && (!strcmp(accel, "grid") || (takes_all && !strcmp(accel, "all")));
@@ -70,6 +87,7 @@ ec_result ec_combinations_check(const ec_option *options, int count, const bool 
 {
     for (int i = 0; i < count; i++)
         if (given[i]) EC_TRY(check_owner(options[i].name, asked->integrator, err));
+    EC_TRY(check_plan(options, count, given, err));
     if (asked->integrator == EC_INTEGRATOR_WHITTED && asked->max_depth > EC_WHITTED_DEPTH_MOST)
         return ec_usage(err, "--integrator whitted: a --max-depth of %u is too deep for trees that keep every branch; give at most %u",
                         asked->max_depth, EC_WHITTED_DEPTH_MOST);

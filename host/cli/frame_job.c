@@ -10,6 +10,7 @@
 
 #include "cli/command_line.h"
 #include "image/exr_header.h"
+#include "image/seal.h"
 #include "pipeline/content.h"
 #include "store/identity_text.h"
 
@@ -75,6 +76,7 @@ static ec_result add_environment(ec_identity *identity, const char *environment,
         add(identity, "--env", environment);
         return EC_OK;
     }
+    EC_TRY(ec_image_check_regular(environment, err));
     char *hex = SHA256File(environment, NULL);
     if (!hex) return ec_fail(err, "cannot read '%s'", environment);
     snprintf(text, sizeof text, "the file of SHA-256 %s", hex);
@@ -136,14 +138,25 @@ char *ec_frame_command(const ec_given_options *given, const ec_render_request *r
 
 static ec_frame_state look_at(const ec_output *output, const ec_identity *identity, char *difference, size_t size)
 {
+    ec_error why;
     if (access(output->path, F_OK) != 0) return EC_FRAME_MISSING;
-    char *text = output->kind == EC_OUTPUT_EXR ? ec_exr_whole_text(output->path, EC_FRAME_ATTRIBUTE) : ec_png_whole_text(output->path, EC_FRAME_ATTRIBUTE);
+    if (ec_image_check_regular(output->path, &why) != EC_OK) {
+        snprintf(difference, size, "%s", why.text);
+        return EC_FRAME_OTHER;
+    }
     ec_identity there;
     char what[1200];
+    bool is_whole = false;
+    char *text = output->kind == EC_OUTPUT_EXR ? ec_exr_header_text(output->path, EC_FRAME_ATTRIBUTE)
+                                               : ec_png_text_of(output->path, EC_FRAME_ATTRIBUTE, &is_whole);
     bool is_frame = text && ec_identity_read(text, &there);
     free(text);
-    if (is_frame && !ec_identity_differs(&there, identity, what, sizeof what)) return EC_FRAME_DONE;
-    if (!is_frame) snprintf(what, sizeof what, "it is no whole frame of a sequence");
+    if (is_frame && !ec_identity_differs(&there, identity, what, sizeof what)) {
+        if (output->kind == EC_OUTPUT_EXR) is_whole = ec_seal_check(output->path, NULL) == EC_OK;
+        if (!is_whole) snprintf(difference, size, "'%s' is damaged", output->path);
+        return is_whole ? EC_FRAME_DONE : EC_FRAME_DAMAGED;
+    }
+    if (!is_frame) snprintf(what, sizeof what, "it is no frame of a sequence, or damaged");
     snprintf(difference, size, "'%s' is there already: %s", output->path, what);
     return EC_FRAME_OTHER;
 }
@@ -151,10 +164,9 @@ static ec_frame_state look_at(const ec_output *output, const ec_identity *identi
 ec_frame_state ec_frame_look(const ec_outputs *outputs, const ec_identity *identity, char *difference, size_t size)
 {
     ec_frame_state state = EC_FRAME_DONE;
-    for (int i = 0; i < outputs->count; i++) {
+    for (int i = 0; i < outputs->count && state != EC_FRAME_OTHER; i++) {
         ec_frame_state one = look_at(&outputs->file[i], identity, difference, size);
-        if (one == EC_FRAME_OTHER) return one;
-        if (one == EC_FRAME_MISSING) state = one;
+        if (one > state) state = one;
     }
     return state;
 }

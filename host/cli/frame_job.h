@@ -24,8 +24,9 @@ void ec_frame_identify(const ec_identity *all, const ec_render_request *request,
 /* The command that renders this frame alone to the same bits; malloc'ed, NULL when out of memory. */
 char *ec_frame_command(const ec_given_options *given, const ec_render_request *request, const ec_outputs *outputs, uint32_t frame);
 
-typedef enum ec_frame_state { EC_FRAME_MISSING, EC_FRAME_DONE, EC_FRAME_OTHER } ec_frame_state;
-/* Are its files there, whole and of this job? EC_FRAME_OTHER: difference says which one is not, and why. */
+typedef enum ec_frame_state { EC_FRAME_DONE, EC_FRAME_MISSING, EC_FRAME_DAMAGED, EC_FRAME_OTHER } ec_frame_state;
+/* Are its files there, as they were written and of this job? The worst of them counts; difference says which one is
+ * damaged or other, and how. */
 ec_frame_state ec_frame_look(const ec_outputs *outputs, const ec_identity *identity, char *difference, size_t size);
 
 #define EC_FRAME_ATTRIBUTE "eclat.frame.job" /* of an EXR, and the keyword of a text in a PNG */

@@ -43,10 +43,10 @@ static ec_scene_choice choice_of(const sequence *s, uint32_t frame)
 }
 
 /* Before anything is rendered: names, folders, what is there already. */
-static ec_result look_around(sequence *s, ec_error *err)
+static ec_result look_around(sequence *s, ec_inputs *inputs, ec_error *err)
 {
     const ec_render_request *r = s->request;
-    const char *inputs[] = {r->scene, r->environment};
+    const ec_log log = ec_console_log(s->console);
     char difference[PATH_MAX + 1400];
     ec_outputs outputs;
     ec_identity identity;
@@ -56,7 +56,8 @@ static ec_result look_around(sequence *s, ec_error *err)
         EC_TRY(outputs_of(s, frame, &outputs, err));
         ec_frame_identify(&s->identity, r, frame, &identity);
         s->states[i] = ec_frame_look(&outputs, &identity, difference, sizeof difference);
-        if (s->states[i] != EC_FRAME_DONE) EC_TRY(ec_outputs_check(&outputs, inputs, 2, err));
+        if (s->states[i] != EC_FRAME_DONE) EC_TRY(ec_outputs_check(&outputs, inputs, err));
+        if (s->states[i] == EC_FRAME_DAMAGED) ec_warn(&log, "%s: frame %u is rendered again", difference, frame);
         if (s->states[i] == EC_FRAME_OTHER && !r->overwrite && others++ == 0) ec_fail(err, "%s", difference);
     }
     if (!others) return EC_OK;
@@ -142,7 +143,9 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
     }
     if (s->skipped) ec_console_say(s->console, "%u of %u frames were there already", s->skipped, s->count);
     if (stopped) return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there, s->count);
-    if (s->failed) return ec_fail(err, "%u of %u frames failed; the same command tries them again", s->failed, s->count);
+    if (s->failed)
+        return ec_fail(err, "%u of %u frames failed; the same command renders only those once that is mended",
+                       s->failed, s->count);
     return EC_OK;
 }
 
@@ -170,7 +173,10 @@ static ec_result begin(sequence *s, ec_error *err)
     EC_TRY(ec_animation_open(r->scene, &first, &s->share.animation, &log, err));
     ec_animation_digest(s->share.animation, files);
     EC_TRY(ec_frames_identify(&s->given, r, files, &s->identity, err));
-    return look_around(s, err);
+    ec_inputs inputs = {.scene = r->scene, .files = &r->environment, .file_count = 1};
+    ec_result result = look_around(s, &inputs, err);
+    ec_inputs_free(&inputs);
+    return result;
 }
 
 static ec_result render_all(sequence *s, double start, ec_error *err)

@@ -1,20 +1,26 @@
 #include "cli/outputs.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 
 #include "cli/usage.h"
+#include "image/atomic_file.h"
 #include "image/image.h"
 #include "report/format.h"
 
-static bool kind_of(const char *path, ec_output_kind *kind)
+static const char *name_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
+    return slash ? slash + 1 : path;
+}
+
+static bool kind_of(const char *path, ec_output_kind *kind)
+{
+    const char *name = name_of(path), *dot = strrchr(name, '.');
     if (!dot || dot == name) return false;
     *kind = strcasecmp(dot, ".png") == 0 ? EC_OUTPUT_PNG : EC_OUTPUT_EXR;
     return *kind == EC_OUTPUT_PNG || strcasecmp(dot, ".exr") == 0;
@@ -41,9 +47,7 @@ ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
 static ec_result add_named(ec_outputs *outputs, const char *scene, const char *ending, ec_error *err)
 {
     char path[PATH_MAX];
-    const char *slash = strrchr(scene, '/');
-    const char *name = slash ? slash + 1 : scene;
-    const char *dot = strrchr(name, '.');
+    const char *name = name_of(scene), *dot = strrchr(name, '.');
     int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
     int size = snprintf(path, sizeof path, "%.*s%s", stem, name, ending);
     if (stem == 0 || size >= (int)sizeof path) return ec_usage(err, "'%s' gives the picture no name: add -o FILE", scene);
@@ -86,23 +90,27 @@ static void folder_of(const char *path, char folder[PATH_MAX])
 
 bool ec_same_target(const char *a, const char *b)
 {
-    char folder_a[PATH_MAX], folder_b[PATH_MAX];
-    const char *slash_a = strrchr(a, '/'), *slash_b = strrchr(b, '/');
-    folder_of(a, folder_a);
-    folder_of(b, folder_b);
-    return ec_same_file(a, b) || (!strcmp(slash_a ? slash_a + 1 : a, slash_b ? slash_b + 1 : b) && ec_same_file(folder_a, folder_b));
+    char folder_a[PATH_MAX], folder_b[PATH_MAX], *end_a = ec_link_end(a), *end_b = ec_link_end(b);
+    bool is_same = false;
+    if (end_a && end_b) {
+        folder_of(end_a, folder_a);
+        folder_of(end_b, folder_b);
+        is_same = !strcmp(name_of(end_a), name_of(end_b)) && ec_same_file(folder_a, folder_b);
+    }
+    free(end_a);
+    free(end_b);
+    return is_same || ec_same_file(a, b);
 }
 
-ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err)
+ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_error *err)
 {
     for (int i = 0; i < outputs->count; i++) {
         const char *path = outputs->file[i].path;
         for (int k = 0; k < i; k++)
             if (ec_same_target(path, outputs->file[k].path))
                 return ec_usage(err, "-o: '%s' and '%s' are the same file; leave one out", outputs->file[k].path, path);
-        for (int k = 0; k < input_count; k++)
-            if (inputs[k] && ec_same_file(path, inputs[k]))
-                return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
+        if (ec_inputs_have(inputs, path))
+            return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
         EC_TRY(ec_image_check_writable(path, err));
     }
     return EC_OK;

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "cli/inputs.h"
 
 typedef enum ec_output_kind { EC_OUTPUT_EXR, EC_OUTPUT_PNG } ec_output_kind;
 
@@ -34,8 +35,8 @@ ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t 
 /* The same for a frame: NAME.0007.exr and .png. */
 ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err);
 
-/* Before any work: can all be written, and would none overwrite another or an input? inputs may hold NULLs. */
-ec_result ec_outputs_check(const ec_outputs *outputs, const char *const *inputs, int input_count, ec_error *err);
+/* Before any work: can all be written, and would none overwrite another or an input? */
+ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_error *err);
 
 /* Warns where a disk has less room than the files may need; no more, since nobody knows how well they will compress. */
 void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log);

@@ -188,6 +188,7 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
     }
     if (!request->resume) return course;
     course.past = &job->stored.past;
+    course.past_is_kept = ec_same_file(request->checkpoint, request->resume);
     job->film = job->stored.film;
     job->stored.film = (ec_film){0};
     return course;

@@ -21,30 +21,40 @@ static ec_result check_slice_output(const ec_render_request *request, ec_error *
     return has_exr ? EC_OK : ec_usage(err, "--samples: a slice is an .exr, which eclat merge adds to others; give -o NAME.exr");
 }
 
-static ec_result check_checkpoint(const ec_render_request *request, ec_error *err)
+static ec_result check_checkpoint(const ec_render_request *request, ec_inputs *inputs, ec_error *err)
 {
-    const char *path = request->checkpoint, *inputs[] = {request->scene, request->environment};
+    const char *path = request->checkpoint;
     if (!path) return EC_OK;
-    for (int i = 0; i < 2; i++)
-        if (inputs[i] && ec_same_file(path, inputs[i])) return ec_fail(err, "'%s' is an input of this render; give --checkpoint another name", path);
+    if (ec_inputs_have(inputs, path))
+        return ec_fail(err, "'%s' is an input of this render; give --checkpoint another name", path);
     for (int i = 0; i < request->outputs.count; i++)
         if (ec_same_target(path, request->outputs.file[i].path))
             return ec_usage(err, "'%s' is both the checkpoint and the picture; give one of them another name", path);
     return ec_image_check_writable(path, err);
 }
 
+/* What is gone on from may be the next checkpoint, but no picture. */
+static ec_result check_files(const ec_render_request *request, ec_error *err)
+{
+    const char *const files[] = {request->environment, request->resume};
+    ec_inputs inputs = {.scene = request->scene, .files = files, .file_count = 1};
+    ec_result result = check_checkpoint(request, &inputs, err);
+    inputs.file_count = 2;
+    if (result == EC_OK) result = ec_outputs_check(&request->outputs, &inputs, err);
+    ec_inputs_free(&inputs);
+    return result;
+}
+
 static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
 {
     ec_outputs *outputs = &request->outputs;
-    const char *inputs[] = {request->scene, request->environment, request->resume};
     request->default_outputs = outputs->count == 0;
     if (request->default_outputs && request->has_slice)
         EC_TRY(ec_outputs_add_slice(outputs, request->scene, request->slice_first, request->slice_end, err));
     else if (request->default_outputs)
         EC_TRY(ec_outputs_add_default(outputs, request->scene, err));
     EC_TRY(check_slice_output(request, err));
-    EC_TRY(check_checkpoint(request, err));
-    return ec_outputs_check(outputs, inputs, 3, err);
+    return check_files(request, err);
 }
 
 /* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */
@@ -146,6 +156,8 @@ ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
     job->device_count = 1;
     if (!job->takes_several) return ec_device_find(wanted, job->devices, job->device_indices, &job->device_why, err);
     EC_TRY(ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count, &job->device_why, err));
+    if (job->request->plan_ranks && job->device_count > 1)
+        return ec_fail(err, "--plan takes one device, which stands for those of all machines; name one with --device");
     if (job->ranks) ec_ranks_share_devices(job->ranks, job->devices, job->device_indices, &job->device_count);
     return EC_OK;
 }

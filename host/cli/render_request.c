@@ -279,10 +279,12 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
     if (o->spp == 0) o->spp = EC_DEFAULT_SPP;
     uint32_t batch = ec_render_batch(o), a = request->slice_first, b = request->slice_end;
     uint64_t all = (uint64_t)(o->spp + batch - 1) / batch * batch;
+    if (b > all)
+        return ec_usage(err, "--samples %u:%u reaches beyond the job's %llu samples a pixel; give the whole job's "
+                             "--spp", a, b, (unsigned long long)all);
     if (a % batch || b % batch)
         return ec_usage(err, "--samples %u:%u: slices begin and end with a batch, here every %u samples, as %u:%u; --batch sets that", a, b, batch,
                         a / batch * batch, (b + batch - 1) / batch * batch);
-    if (b > all) return ec_usage(err, "--samples %u:%u reaches beyond the job's %llu samples a pixel; give the whole job's --spp", a, b, (unsigned long long)all);
     o->slice_first = a / batch;
     o->slice_end = b / batch;
     return EC_OK;

@@ -9,11 +9,30 @@
 #include "cli/render_job.h"
 #include "cli/stop.h"
 
+/* Samples a pixel that a checkpoint has; 0: there is none. */
+static uint64_t samples_there(const ec_render_job *job)
+{
+    const ec_render_options *options = &job->request->options;
+    return job->stored.past.samples / ((uint64_t)options->width * options->height);
+}
+
+/* The most that are asked for; 0: other limits end the render. */
+static uint32_t samples_asked(const ec_render_request *request)
+{
+    return request->has_slice ? request->slice_end - request->slice_first : request->options.spp;
+}
+
+static bool is_complete(const ec_render_job *job)
+{
+    const uint32_t asked = samples_asked(job->request);
+    return asked && samples_there(job) >= asked;
+}
+
 /* What goes on from the checkpoint, to be typed as it is: malloc'ed. Said before there is one: a SIGKILL leaves no time for words. */
 static char *say_how_to_go_on(const ec_render_job *job, ec_console *console)
 {
     char *words[] = {(char *)job->program, (char[]){"render"}, (char[]){"--resume"}, (char *)job->request->checkpoint};
-    char *command = job->request->checkpoint ? ec_command_line(4, words) : NULL;
+    char *command = job->request->checkpoint && !is_complete(job) ? ec_command_line(4, words) : NULL;
     if (command) ec_console_say(console, "should this be cut off, it goes on from the last checkpoint with: %s", command);
     return command;
 }
@@ -54,8 +73,14 @@ static void announce(const ec_render_job *job, ec_console *console)
                        job->request->outputs.file[0].path, job->request->outputs.file[1].path);
     if (job->request->has_slice)
         snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
-    if (job->request->resume) ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume,
-                                             (unsigned long long)(job->stored.past.samples / ((uint64_t)options->width * options->height)));
+    const unsigned long long there = samples_there(job);
+    if (is_complete(job)) {
+        ec_console_say(console, "'%s' has %llu samples a pixel already, and %u are asked for: the picture is written "
+                       "as it is", job->request->resume, there, samples_asked(job->request));
+        return;
+    }
+    if (job->request->resume)
+        ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume, there);
     if (job->share)
         snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place, job->frame.count, job->frame.seconds);
     describe_helpers(job, more, sizeof more);

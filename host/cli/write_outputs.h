@@ -44,6 +44,7 @@ typedef struct ec_picture_style {
     const ec_attribute *attributes; /* EXR only */
     uint32_t attribute_count;
     ec_png_text text; /* PNG: kept in it by ec_row_writer */
+    bool is_sealed;   /* EXR, by ec_row_writer: damage is to be known */
     /* EXR only: with sums, to go on from or to merge; all NULL: a picture alone */
     const ec_job *job;
     const ec_film *film;

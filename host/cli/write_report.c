@@ -41,7 +41,8 @@ ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, const
                                     .tonemap = report->tonemap,
                                     .attributes = attributes.list,
                                     .attribute_count = attributes.count,
-                                    .text = {EC_FRAME_ATTRIBUTE, report->frame ? report->frame->job : NULL}};
+                                    .text = {EC_FRAME_ATTRIBUTE, report->frame ? report->frame->job : NULL},
+                                    .is_sealed = report->frame != NULL};
     ec_result result = ec_row_writer_open(writer, outputs, film, height, &style, room, err);
     report->image_sha256 = "";
     return result;

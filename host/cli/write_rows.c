@@ -83,7 +83,7 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
         return EC_FAILED;
     }
     w->part = (ec_exr_part){.name = "", .channels = w->channels.list, .channel_count = w->channels.count, .attributes = style->attributes,
-                            .attribute_count = style->attribute_count};
+                            .attribute_count = style->attribute_count, .is_sealed = style->is_sealed};
     for (int i = 0; i < outputs->count; i++) {
         ec_error why = {0};
         const char *path = outputs->file[i].path;

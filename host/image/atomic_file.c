@@ -51,6 +51,24 @@ static int folder_length(const char *path)
     return slash ? (int)(slash - path) + 1 : 0;
 }
 
+char *ec_link_end(const char *path)
+{
+    enum { LINKS_MOST = 40 }; /* as the kernel has it */
+    char *at = strdup(path);
+    for (int i = 0; at && i < LINKS_MOST; i++) {
+        char to[PATH_MAX], next[2 * PATH_MAX];
+        ssize_t size = readlink(at, to, sizeof to);
+        if (size < 0) return at; /* no link, or nothing there */
+        int folder = to[0] == '/' ? 0 : folder_length(at);
+        snprintf(next, sizeof next, "%.*s%.*s", folder, at, (int)size, to);
+        free(at);
+        at = strdup(next);
+    }
+    errno = at ? ELOOP : ENOMEM;
+    free(at);
+    return NULL;
+}
+
 static int link_descriptor(int fd, const char *name)
 {
     char descriptor[64];
@@ -115,8 +133,7 @@ ec_result ec_atomic_open(ec_atomic_file *file, const char *path, ec_error *err)
     EC_TRY(check_replaceable(path, err));
     signal(SIGXFSZ, SIG_IGN); /* a driver's compiler may have taken it since the program began: `ulimit -f` is to be an error like others */
 
-    file->target = realpath(path, NULL); /* so that a symbolic link stays one; fails when there is nothing yet */
-    if (!file->target) file->target = strdup(path);
+    file->target = ec_link_end(path); /* so that a symbolic link stays one */
     size_t size = file->target ? strlen(file->target) + 64 : 0;
     file->temporary = size ? malloc(size) : NULL;
     file->temporary_size = size;

@@ -23,6 +23,10 @@ void ec_atomic_abort(ec_atomic_file *file);
 /* All of it at once. */
 ec_result ec_atomic_write(const char *path, const void *bytes, size_t size, ec_error *err);
 
+/* Where a file of this name is, or would come to be: the last of its symbolic links may lead to what is not there yet.
+ * malloc'ed; NULL: they lead nowhere, or out of memory. */
+char *ec_link_end(const char *path);
+
 /* EC_FAILED with "cannot write 'path': reason; how to mend it" for an errno value. */
 ec_result ec_write_failed(ec_error *err, const char *path, int error_number);
 

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "image/exr_context.h"
+#include "image/image.h"
 
 /* NULL where the file cannot be read; whoever reads its pixels says why. */
 static exr_context_t open_header(const char *path, ec_exr_stream *stream)
@@ -13,6 +14,7 @@ static exr_context_t open_header(const char *path, ec_exr_stream *stream)
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = ec_exr_keep_message;
     setup.user_data = stream;
+    if (ec_image_check_regular(path, NULL) != EC_OK) return NULL;
     return exr_start_read(&context, path, &setup) == EXR_ERR_SUCCESS ? context : NULL;
 }
 
@@ -46,7 +48,7 @@ static int is_whole(const char *path, exr_context_t context)
            last.data_offset + last.packed_size <= (uint64_t)file.st_size;
 }
 
-char *ec_exr_whole_text(const char *path, const char *attribute)
+static char *text_of(const char *path, const char *attribute, int whole_only)
 {
     ec_exr_stream stream = {0};
     exr_context_t context = open_header(path, &stream);
@@ -54,11 +56,16 @@ char *ec_exr_whole_text(const char *path, const char *attribute)
     int32_t size = 0;
     char *copy = NULL;
     if (!context) return NULL;
-    if (is_whole(path, context) && exr_attr_get_string(context, 0, attribute, &size, &text) == EXR_ERR_SUCCESS && text)
+    if ((!whole_only || is_whole(path, context)) &&
+        exr_attr_get_string(context, 0, attribute, &size, &text) == EXR_ERR_SUCCESS && text)
         copy = strndup(text, (size_t)size);
     exr_finish(&context);
     return copy;
 }
+
+char *ec_exr_header_text(const char *path, const char *attribute) { return text_of(path, attribute, 0); }
+
+char *ec_exr_whole_text(const char *path, const char *attribute) { return text_of(path, attribute, 1); }
 
 int ec_exr_is_half(const char *path, const char *channel)
 {

@@ -174,6 +174,7 @@ ec_result ec_exr_read(const char *path, ec_exr *exr, ec_error *err) { return ec_
 ec_result ec_exr_read_some(const char *path, const char *const *wanted, ec_exr *exr, ec_error *err)
 {
     *exr = (ec_exr){0};
+    EC_TRY(ec_image_check_regular(path, err));
     exr_source source = {.path = path};
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = ec_exr_keep_message;

@@ -273,7 +273,9 @@ ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uin
         part.attribute_count = attribute_count;
         result = write_header_again(rows, &part, err);
     }
-    if (result == EC_OK && rows->part_count > 1 && (rows->write_error = ec_seal(rows->file.fd)) != 0) result = failed(rows, code, err);
+    const bool is_sealed = rows->part_count > 1 || rows->parts[0].is_sealed;
+    if (result == EC_OK && is_sealed && (rows->write_error = ec_seal(rows->file.fd)) != 0)
+        result = failed(rows, code, err);
     if (result == EC_OK) result = ec_atomic_commit(&rows->file, err);
     ec_exr_rows_abort(rows);
     return result;
@@ -292,7 +294,8 @@ void ec_exr_rows_abort(ec_exr_rows *rows)
 ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const ec_channel *channels,
                        uint32_t channel_count, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err)
 {
-    const ec_exr_part part = {"", channels, channel_count, attributes, attribute_count, false};
+    const ec_exr_part part = {.name = "", .channels = channels, .channel_count = channel_count,
+                              .attributes = attributes, .attribute_count = attribute_count};
     return ec_exr_write_parts(path, width, height, &part, 1, err);
 }
 

@@ -36,6 +36,7 @@ typedef struct ec_exr_part {
     const ec_attribute *attributes;
     uint32_t attribute_count;
     bool is_plain;      /* not compressed: for what hardly gets smaller */
+    bool is_sealed;     /* of the first part: the file is, though it has no other; see seal.h */
 } ec_exr_part;
 ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts, uint32_t part_count, ec_error *err);
 
@@ -94,11 +95,14 @@ ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *rgb, uint32_t count,
 ec_result ec_png_rows_end(ec_png_rows *rows, ec_error *err); /* the file gets its name; after a failure there is none. Frees rows */
 void ec_png_rows_abort(ec_png_rows *rows);                   /* leaves nothing; frees rows; NULL is fine */
 
-/* What a PNG keeps under that keyword, malloc'ed; NULL where there is none, or the file is not whole. */
-char *ec_png_whole_text(const char *path, const char *keyword);
+/* What a PNG keeps under that keyword before its picture, malloc'ed; NULL where there is none. */
+char *ec_png_text_of(const char *path, const char *keyword, bool *is_whole);
 
 /* In memory; *bytes is malloc'ed. */
 ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t **bytes, size_t *size, ec_error *err);
+
+/* Before a file is opened for reading: a pipe could block for ever, a device have no end. What is not there passes. */
+ec_result ec_image_check_regular(const char *path, ec_error *err);
 
 /* Before a long render: can this file be written here? Leaves nothing behind. */
 ec_result ec_image_check_writable(const char *path, ec_error *err);

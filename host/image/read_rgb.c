@@ -35,6 +35,7 @@ ec_result ec_image_read_rgb(const char *path, uint32_t *width, uint32_t *height,
 {
     static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};
     *rgb = NULL;
+    EC_TRY(ec_image_check_regular(path, err));
     FILE *file = fopen(path, "rb");
     if (!file) return ec_fail(err, "cannot open '%s': %s", path, strerror(errno));
     unsigned char start[4] = {0};

@@ -11,6 +11,8 @@
 
 #include <sha2.h>
 
+#include "image/image.h"
+
 static const char mark[] = "eclat: sealed by SHA-256\n";
 enum { MARK_SIZE = sizeof mark - 1, SEAL_SIZE = MARK_SIZE + SHA256_DIGEST_LENGTH, AT_ONCE = 1 << 20 };
 
@@ -66,6 +68,7 @@ static ec_result check(int fd, const char *path, ec_error *err)
 
 ec_result ec_seal_check(const char *path, ec_error *err)
 {
+    EC_TRY(ec_image_check_regular(path, err));
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0) return ec_fail(err, "cannot open '%s': %s; check the path and its permissions", path, strerror(errno));
     ec_result result = check(fd, path, err);

@@ -27,6 +27,7 @@ typedef struct ec_course {
     /* Between two waves, every so many seconds, and at the end; once the film has a batch. False where it
      * could not: the render goes on, and tries again. NULL: never. */
     bool (*keep)(void *user, const ec_film *film, const ec_past *past);
+    bool past_is_kept;                /* where `keep` keeps: it has no need to before there is more */
     double every;
     /* Where the picture does not fit into memory it is rendered in strips (strips.h): each that is complete, from the top, with its first row
      * and what is known so far; samples are those of strips before it too. Its failure ends the render. The film is then made anew; in the

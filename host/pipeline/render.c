@@ -52,7 +52,7 @@ static void take_up(ec_render_state *r, const ec_past *past)
     r->past.allotment.weight = NULL;
     r->rays_before = past->rays;
     memcpy(r->invalid_before, past->invalid, sizeof r->invalid_before);
-    r->kept_next = past->next;
+    r->kept_next = r->course->past_is_kept ? past->next : UINT32_MAX; /* of which there is no batch: all is new */
     r->kept_under_way = past->under_way;
 }
 

@@ -202,6 +202,7 @@ void ec_gltf_compose(const double translation[3], const double rotation[4], cons
 
 /* gltf_uri.c */
 ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err); /* leaves the folder? */
+char *ec_gltf_uri_file(const char *uri); /* malloc'ed, relative to the folder; NULL: none that would be read */
 ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *uri, uint8_t **bytes, uint64_t *length,
                            ec_error *err);
 ec_result ec_gltf_file_load(const char *file, uint8_t **bytes, uint64_t *length, ec_error *err);

@@ -109,6 +109,12 @@ ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err)
     return EC_OK;
 }
 
+char *ec_gltf_uri_file(const char *uri)
+{
+    char *path;
+    return is_data_uri(uri) || decode_file_uri("", uri, &path, NULL) != EC_OK ? NULL : path;
+}
+
 static int base64_value(char c)
 {
     if (c >= 'A' && c <= 'Z') return c - 'A';

@@ -224,6 +224,15 @@ typedef struct ec_scene_choice {
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
 ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
 
+/* The files that it is read from, whether they are there or not: itself first, then the buffers and images that it
+ * names. Of a broken one what can be told. */
+typedef struct ec_scene_files {
+    char **paths; /* owned */
+    uint32_t count;
+} ec_scene_files;
+void ec_scene_files_list(const char *scene, ec_scene_files *files);
+void ec_scene_files_free(ec_scene_files *files);
+
 /* A file of which many moments are shown: read and decoded once. choice: animated, a frame; its moment is the first one shown. */
 typedef struct ec_animation ec_animation;
 ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_animation **animation, const ec_log *log, ec_error *err);

@@ -1,7 +1,5 @@
 #include "view/watch.h"
 
-#include <cjson/cJSON.h>
-#include <ctype.h>
 #include <limits.h>
 #include <linux/magic.h>
 #include <stdio.h>
@@ -12,7 +10,8 @@
 #include <sys/vfs.h>
 #include <unistd.h>
 
-#define LARGEST_JSON (256u << 20)
+#include "scene/scene.h"
+
 #define LINKS_MOST 40
 
 /* One number that another size, time or file changes. 0: there is none. */
@@ -70,61 +69,14 @@ static void add(ec_watch *w, const char *path, int events)
     w->seen[w->count++] = state_of(path);
 }
 
-static void decode_percent(char *text)
-{
-    char *out = text, hex[3] = "";
-    for (const char *in = text; *in; in++) {
-        bool escape = *in == '%' && isxdigit((unsigned char)in[1]) && isxdigit((unsigned char)in[2]);
-        if (escape) hex[0] = in[1], hex[1] = in[2];
-        *out++ = escape ? (char)strtol(hex, NULL, 16) : *in;
-        if (escape) in += 2;
-    }
-    *out = 0;
-}
-
-static void add_uris(ec_watch *w, const cJSON *list, const char *folder, int folder_length, int events)
-{
-    char path[4096];
-    const cJSON *item;
-    cJSON_ArrayForEach(item, list)
-    {
-        const char *uri = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(item, "uri"));
-        if (!uri || !strncmp(uri, "data:", 5)) continue;
-        snprintf(path, sizeof path, "%.*s%s", folder_length, folder, uri);
-        decode_percent(path + folder_length);
-        add(w, path, events);
-    }
-}
-
-/* The JSON of a .gltf, or the first chunk of a .glb. malloc'ed; NULL: none to be had. */
-static char *read_json(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file) return NULL;
-    uint8_t head[20] = {0};
-    size_t got = fread(head, 1, sizeof head, file), size = 0;
-    bool is_glb = got == sizeof head && !memcmp(head, "glTF", 4);
-    if (is_glb) size = head[12] | (size_t)head[13] << 8 | (size_t)head[14] << 16 | (size_t)head[15] << 24;
-    else if (fseek(file, 0, SEEK_END) == 0 && ftell(file) > 0) size = (size_t)ftell(file), rewind(file);
-    char *text = size && size < LARGEST_JSON ? calloc(size + 1, 1) : NULL;
-    if (text && fread(text, 1, size, file) == 0) text[0] = 0;
-    fclose(file);
-    return text;
-}
-
 void ec_watch_start(ec_watch *w, const char *scene, const char *environment, int events)
 {
     *w = (ec_watch){.count = 0};
-    add(w, scene, events);
+    ec_scene_files files;
+    ec_scene_files_list(scene, &files);
     if (environment) add(w, environment, events);
-    char *text = read_json(scene);
-    const char *slash = strrchr(scene, '/');
-    int folder_length = slash ? (int)(slash - scene) + 1 : 0;
-    cJSON *json = text ? cJSON_Parse(text) : NULL;
-    add_uris(w, cJSON_GetObjectItemCaseSensitive(json, "buffers"), scene, folder_length, events);
-    add_uris(w, cJSON_GetObjectItemCaseSensitive(json, "images"), scene, folder_length, events);
-    cJSON_Delete(json);
-    free(text);
+    for (uint32_t i = 0; i < files.count; i++) add(w, files.paths[i], events);
+    ec_scene_files_free(&files);
 }
 
 void ec_watch_stop(ec_watch *w)

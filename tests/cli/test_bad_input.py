@@ -138,6 +138,38 @@ class BadRequests(BadInput):
         with open(self.path("map.exr"), "rb") as file:
             self.assertEqual(file.read(), b"precious")
 
+    def test_output_over_a_file_that_the_scene_is_read_from(self):
+        """By any of its names, and whichever option gives it."""
+        scene = quad_scene(uri="quad%20data.exr")[0]
+        scene["images"] = [{"uri": "./map.png"}, {"uri": data_uri(b"")}, {"uri": "missing.png"}]
+        scene = write_gltf(self.path("scene.gltf"), scene)
+        contents = {"quad data.exr": quad_scene()[1], "map.png": b"precious"}
+        for name, content in contents.items():
+            with open(self.path(name), "wb") as file:
+                file.write(content)
+        os.symlink("map.png", self.path("link.png"))
+        for option, name in [("-o", "quad data.exr"), ("-o", "map.png"), ("-o", "link.png"),
+                             ("--checkpoint", "quad data.exr")]:
+            self.refuse(scene, option, self.path(name), says=f"{name}' is an input of this render; ")
+        run = eclat("cost", scene, "--json", self.path("map.png"))
+        self.assertIn("is an input of this render", self.assert_one_error(run, 1))
+        for name, content in contents.items():
+            with open(self.path(name), "rb") as file:
+                self.assertEqual(file.read(), content)
+        self.assertEqual(len(os.listdir(self.folder)), 5)
+
+    def test_pipes_and_folders_instead_of_pictures(self):
+        """Nobody writes into the pipe: whoever opened it would wait for ever."""
+        pipe, folder, other = self.path("pipe.exr"), self.path("folder.exr"), self.path("a.exr")
+        os.mkfifo(pipe)
+        os.mkdir(folder)
+        for path, says in [(pipe, "it is not a regular file"), (folder, "it is a folder")]:
+            for command in [["render", "--resume", path], ["merge", path, "-o", other], ["compare", path, other],
+                            ["render", self.quad(), "--env", path, "-o", other]]:
+                with self.subTest(command=command):
+                    line = self.assert_one_error(eclat(*command, "-q", timeout=20), 1)
+                    self.assertIn(f"'{path}': {says}", line)
+
     def test_unknown_device(self):
         self.refuse(self.quad(), "--device", "no such device", says="no such device")
         self.refuse(self.quad(), "--device", "999", says="999")

@@ -142,6 +142,17 @@ class Checkpoint(Case):
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--spp", "20", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.path("x.exr"))[0]["eclat.samplesPerPixel"], 20)
         self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {20.0})
+        before = os.stat(self.kept).st_mtime_ns
+        for limit in [[], ["--spp", "8"]]:
+            run = self.assert_ok(eclat("render", "--resume", "kept.exr", *limit, cwd=self.folder))
+            self.assertEqual(run.stderr, "eclat: 'kept.exr' has 20 samples a pixel already, and "
+                             f"{(limit or ['--spp', '20'])[1]} are asked for: the picture is written as it is\n")
+        self.assertEqual(os.stat(self.kept).st_mtime_ns, before)  # it has all that there is
+        self.assert_ok(eclat("render", "--resume", "kept.exr", "--checkpoint", "other.exr", "-q", cwd=self.folder))
+        self.assertEqual(read_exr(self.kept)[1], read_exr(self.path("other.exr"))[1])
+        self.assert_ok(eclat("render", "--resume", "other.exr", "-q", cwd=self.folder))
+        plan = eclat("render", "--resume", "kept.exr", "--plan", "3", cwd=self.folder)
+        self.assertIn("--plan and --resume: ", self.assert_one_error(plan, 2))
 
     def test_begun_anew_where_it_was_to_be_gone_on_with(self):
         job = ["render", CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept, "-q", "-o", self.path("a.exr")]
@@ -218,6 +229,10 @@ class Checkpoint(Case):
         for name in ["./a.exr", os.path.join(os.getcwd(), "a.exr")]:
             refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", name, "-o", "a.exr")
             refuse("are the same file; leave one out", CORNELL, "-o", "a.exr", "-o", name)
+        link, end = self.path("b.exr"), self.path("a.exr")
+        os.symlink("a.exr", link)  # to what is not there yet
+        refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", end, "-o", link)
+        refuse("are the same file; leave one out", CORNELL, "-o", link, "-o", end)
         refuse("cannot open", "--resume", self.path("none.exr"), code=1)
         refuse("No such file or directory", CORNELL, "--checkpoint", self.path("none", "kept.exr"), "-o", self.path("a.exr"), code=1)
 

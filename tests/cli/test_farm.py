@@ -46,7 +46,8 @@ class Farm(Case):
             run = self.run_script("array.sbatch", CORNELL, "48", **{"SLURM_ARRAY_" + key: value for key, value in variables.items()})
             self.assertEqual((run.returncode, run.stdout), (2, ""))
             self.assertIn(says, run.stderr)
-        for arguments, says in [((CORNELL,), "usage:"), ((CORNELL, "--size"), "no samples a pixel")]:
+        for arguments, says in [((CORNELL,), "usage:"), ((CORNELL, "--size"), "no samples a pixel"),
+                                ((CORNELL, "0"), "no samples a pixel")]:
             self.assertIn(says, self.run_script("array.sbatch", *arguments, SLURM_ARRAY_TASK_ID="0", SLURM_ARRAY_TASK_COUNT="1").stderr)
         self.assertIn("name the program", self.task(0, ECLAT="no-such-eclat").stderr)
         self.assertEqual(os.listdir(self.folder), [])
@@ -113,6 +114,24 @@ class Farm(Case):
         self.assertEqual(run.returncode, 1)
         self.assertIn("farm: no machine could render a slice", run.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["all.exr.farm", "ssh", "whole.exr"])
+
+    def test_a_farm_of_nothing(self):
+        """Refused before anything is there that the right command would stumble over."""
+        wrong = [("", "48", {}, "no hosts"), (" ", "48", {}, "no hosts")]
+        wrong += [("here", spp, {}, f"'{spp}' are no samples") for spp in ["0", "00", "abc", "", "4.5"]]
+        wrong += [("here", "48", {name: value}, name) for name, value in [("BATCH", "0"), ("SLICES", "x")]]
+        for hosts, spp, variables, says in wrong:
+            run = self.run_script("farm", hosts, CORNELL, spp, "all.exr", *SIZE, FARM_SSH="false", **variables)
+            self.assertEqual((run.returncode, run.stdout), (1, ""), run.stderr)
+            self.assertRegex(run.stderr, r"\Afarm: .*\n\Z")
+            self.assertIn(says, run.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+        os.makedirs(self.path("all.exr.farm", "todo"))  # of a command that came to nothing: another begins anew
+        with open(self.path("all.exr.farm", "job"), "w", encoding="utf-8") as file:
+            file.write("another\n")
+        run = self.run_script("farm", "down", CORNELL, "48", "all.exr", *SIZE, FARM_SSH="false", SLICES="2")
+        self.assertIn("farm: no machine could render a slice", run.stderr)
+        self.assertEqual(len(os.listdir(self.path("all.exr.farm", "todo"))), 2)
 
     def test_a_farm_that_goes_on(self):
         """The machine renders two slices and is gone; the same command renders the other three."""

@@ -225,13 +225,36 @@ class Going(FramesCase):
         for name in ("f.0001.exr", "f.2.png"):
             with open(self.path(name), "rb") as file:
                 whole = file.read()
-            for bytes_there in (whole[:len(whole) * 3 // 4], b"", b"nothing"):
+            for bytes_there in (whole[:100], b"", b"nothing"):
                 with open(self.path(name), "wb") as file:
                     file.write(bytes_there)
-                self.refuse(scene, f"'{name}' is there already: it is no whole frame", "--frames", "0:3", "-o", "f.%04d.exr", "-o", "f.%d.png", code=1)
+                self.refuse(scene, f"'{name}' is there already: it is no frame", "--frames", "0:3", "-o", "f.%04d.exr",
+                            "-o", "f.%d.png", code=1)
             with open(self.path(name), "wb") as file:
                 file.write(whole)
         self.assertEqual(self.frames("-o", "f.%d.png", scene=scene)[1]["skipped"], 4)
+
+    def test_damaged_frames_are_rendered_again(self):
+        scene, outputs = self.sliding(), ["-o", "f.%d.png"]
+        hashes = [row["image_sha256"] for row in self.frames(*outputs, scene=scene)[0]]
+        names = ["f.0000.exr", "f.0001.exr", "f.0002.exr", "f.3.png"]
+        whole = {}
+        for name in names:
+            with open(self.path(name), "rb") as file:
+                whole[name] = file.read()
+        third, flipped = len(whole[names[0]]) // 3, bytearray(whole[names[1]])
+        flipped[-third] ^= 1
+        damaged = [whole[names[0]][:-third] + b"\xff" * third, bytes(flipped), whole[names[2]][:-third],
+                   whole[names[3]][:-30]]
+        for name, content in zip(names, damaged):
+            with open(self.path(name), "wb") as file:
+                file.write(content)
+        run = self.render(scene, "--frames", "0:3", "-o", "f.%04d.exr", *outputs)
+        self.assertEqual(rows_of(run)[1]["rendered"], 4)
+        self.assertEqual(run.stderr.splitlines(), [f"eclat: warning: '{name}' is damaged: frame {i} is rendered again"
+                                                   for i, name in enumerate(names)])
+        self.assertEqual([read_exr(self.path(name))[0]["eclat.imageSha256"] for name in names[:3]], hashes[:3])
+        self.assertEqual(self.frames(*outputs, scene=scene)[1]["skipped"], 4)
 
     def test_pictures_alone_know_what_they_are_of(self):
         scene = self.sliding()
@@ -292,7 +315,7 @@ class Going(FramesCase):
         self.assertIn("NaN", rows[1]["error"])
         self.assertEqual((last["rendered"], last["failed"]), (2, 1))
         self.assertIn("eclat: error: frame 1: ", run.stderr)
-        self.assertIn("1 of 3 frames failed", run.stderr.splitlines()[-1])
+        self.assertIn("1 of 3 frames failed; the same command renders only those once", run.stderr.splitlines()[-1])
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith("exr")), ["x.0.exr", "x.2.exr"])
 
 
@@ -396,6 +419,15 @@ class CommandLine(FramesCase):
         self.refuse(scene, "--fps belongs to --frames", "--fps", "24")
         self.refuse(scene, "--overwrite belongs to --frames", "--overwrite")
         self.refuse(scene, "--fps", *frames, "--fps", "0")
+        with open(scene, encoding="utf-8") as file:
+            textured = dict(json.load(file), images=[{"uri": "map1.png"}])
+        with open(self.path("map1.png"), "wb") as file:
+            file.write(b"precious")
+        self.refuse(write_gltf(self.path("textured.gltf"), textured), "'map1.png' is an input", "--frames", "0:2",
+                    "-o", "map%d.png", "--overwrite", code=1)
+        os.mkfifo(self.path("pipe0.exr"))
+        for more in [["-o", "pipe%d.exr"], [*frames[2:], "--env", "pipe0.exr"]]:
+            self.refuse(scene, "'pipe0.exr': it is not a regular file", "--frames", "0", *more, code=1)
         still = Builder()
         still.add(GLOW)
         self.refuse(still.write(self.path("still.gltf")), "no animation", *frames, code=1)

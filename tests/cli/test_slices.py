@@ -163,6 +163,8 @@ class Slices(Case):
             self.assertIn(says, self.assert_one_error(eclat("render", CORNELL, *options), 2))
         refuse("slices begin and end with a batch, here every 16 samples, as 0:32; --batch sets that", "--samples", "10:20")
         refuse("reaches beyond the job's 64 samples", "--spp", "64", "--samples", "0:68")
+        refuse("reaches beyond the job's 64 samples", "--spp", "64", "--batch", "2", "--samples", "0:65")
+        refuse("here every 2 samples, as 0:64; ", "--spp", "64", "--batch", "2", "--samples", "0:63")
         for text in ["5", ":5", "5:", "a:b", "1:2:3", "-1:4"]:
             refuse("--samples", "--samples", text)
         refuse("holds no samples", "--samples", "4:4")

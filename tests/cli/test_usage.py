@@ -141,6 +141,10 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "--focus", "2", says="give --fstop too")
         self.usage("render", "s.gltf", "--fstop", "2", "--focus", "1", "--integrator", "raster", says="belongs to --integrator path or whitted;")
 
+    def test_a_plan_is_of_one_whole_picture(self):
+        for option, value in [("--frames", "0:1"), ("--samples", "0:16")]:
+            self.usage("render", "s.gltf", "--plan", "3", option, value, says=f"--plan and {option}: ")
+
     def test_a_box_has_one_width(self):
         for rest in [[], ["--filter", "box"]]:
             self.usage("render", "s.gltf", "--filter-width", "2", *rest, says="--filter-width belongs to --filter blackman-harris;")

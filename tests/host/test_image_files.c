@@ -159,6 +159,24 @@ static void files_get_the_usual_mode(kind k)
     for (int i = 0; i < 4; i++) unlink(in_folder(names[i]));
 }
 
+/* To where there is nothing yet, by a link that leads on, and round in a circle. */
+static void links_that_lead_nowhere(kind k)
+{
+    struct stat info;
+    mkdir(in_folder("sub"), 0777);
+    CHECK(symlink("sub/step", in_folder("way")) == 0 && symlink("../end", in_folder("sub/step")) == 0);
+    CHECK(symlink("none/end", in_folder("astray")) == 0 && symlink("circle", in_folder("circle")) == 0);
+    CHECK_OK(write_kind(k, in_folder("way")), err);
+    CHECK((access(in_folder("end"), F_OK) == 0) == (k != CHECK_ONLY));
+    CHECK(lstat(in_folder("way"), &info) == 0 && S_ISLNK(info.st_mode));
+    CHECK(lstat(in_folder("sub/step"), &info) == 0 && S_ISLNK(info.st_mode));
+    CHECK_REFUSED(k, in_folder("astray"), "create its folder");
+    CHECK_REFUSED(k, in_folder("circle"), "symbolic links");
+    const char *const names[] = {"way", "sub/step", "end", "astray", "circle"};
+    for (int i = 0; i < 5; i++) unlink(in_folder(names[i]));
+    rmdir(in_folder("sub"));
+}
+
 static void checking_leaves_nothing(void)
 {
     put("old", "old", 0600);
@@ -179,6 +197,7 @@ int main(void)
         permissions_are_respected(k);
         if (k != CHECK_ONLY) a_full_disk_leaves_the_old_file(k);
         if (k != CHECK_ONLY) files_get_the_usual_mode(k);
+        links_that_lead_nowhere(k);
     }
     checking_leaves_nothing();
     CHECK(entries() == 0);

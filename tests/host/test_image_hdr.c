@@ -113,7 +113,8 @@ static void strange_headers_are_named(void)
     CHECK(read_bytes(HEADER "-Y 9999999 +X 9\n", runs, sizeof runs) == EC_FAILED && strstr(err.text, "size"));
     CHECK(read_bytes("GIF89a", runs, sizeof runs) == EC_FAILED && strstr(err.text, "neither"));
     CHECK(read_bytes("", NULL, 0) == EC_FAILED && strstr(err.text, "empty"));
-    CHECK(ec_image_read_rgb(ECLAT_TEST_OUT, &width, &height, &rgb, &err) == EC_FAILED && strstr(err.text, "irectory"));
+    CHECK(ec_image_read_rgb(ECLAT_TEST_OUT, &width, &height, &rgb, &err) == EC_FAILED &&
+          strstr(err.text, "it is a folder"));
     CHECK(ec_image_read_rgb(ECLAT_TEST_OUT "/none.hdr", &width, &height, &rgb, &err) == EC_FAILED);
     CHECK_MSG(strstr(err.text, "none.hdr': No such file") != NULL, "%s", err.text);
 }

@@ -52,6 +52,11 @@ static void device_rule(void)
     CHECK(strstr(err.text, "--device radeon") && strstr(err.text, "0: pthread-EPYC") && strstr(err.text, "3: NVIDIA"));
     CHECK(chosen("4", 4, &why, &err) == -1);
     CHECK(chosen("1x", 4, &why, &err) == -1);
+    static const char *const nothing[] = {"1", "3", "7", " 3", "30", "090", "3.0", " ", "-", ","};
+    for (size_t i = 0; i < sizeof nothing / sizeof nothing[0]; i++) /* in a name or the platform's version, by chance */
+        CHECK_MSG(chosen(nothing[i], 1, &why, &err) == -1, "'%s'", nothing[i]);
+    CHECK(chosen("30", 4, &why, &err) == -1 && chosen("090", 4, &why, &err) == -1);
+    CHECK(chosen(" 1 ", 4, &why, &err) == 1);
     setenv("ECLAT_DEVICE", "1", 1);
     CHECK(chosen(NULL, 4, &why, &err) == 1 && strstr(why, "ECLAT_DEVICE"));
     CHECK(chosen("0", 4, &why, &err) == 0);
@@ -85,13 +90,23 @@ static void lists_of_devices(void)
     CHECK(!strcmp(several("0,pthread", &why, &err), "") && strstr(err.text, "'0,pthread' has device 0 (pthread-EPYC) twice"));
     CHECK(!strcmp(several("0,", &why, &err), "") && strstr(err.text, "empty place"));
     CHECK(!strcmp(several("0,2", &why, &err), "") && strstr(err.text, "not available"));
-    CHECK(!strcmp(several("0,all", &why, &err), "") && strstr(err.text, "all"));
+    CHECK(!strcmp(several("0,all", &why, &err), ""));
+    CHECK_MSG(strstr(err.text, "'0,all' has 'all' in it; give all alone, or numbers and names"), "%s", err.text);
+    CHECK(!strcmp(several("0,7", &why, &err), ""));
+    CHECK_MSG(strstr(err.text, "--device 7: no such device; there are 0: pthread-EPYC"), "%s", err.text);
+    CHECK(!strcmp(several("3, 1", &why, &err), "31") && !strcmp(several(" pocl ,\tnvidia ", &why, &err), "03"));
+    static const char *const gaps[] = {",", "0, ", " ,0", "0,,1"};
+    for (size_t i = 0; i < sizeof gaps / sizeof gaps[0]; i++)
+        CHECK_MSG(!strcmp(several(gaps[i], &why, &err), "") && strstr(err.text, "empty place"), "'%s': %s", gaps[i],
+                  err.text);
     CHECK(!strcmp(several("0,1,3,0", &why, &err), "") && strstr(err.text, "too long; name 3 at most"));
     CHECK(chosen("all", 4, &why, &err) == -1 && strstr(err.text, "--device all: this takes one device"));
     CHECK(chosen("0,1", 4, &why, &err) == -1 && strstr(err.text, "--device 0,1: this takes one device"));
     setenv("ECLAT_DEVICE", "ALL", 1);
     CHECK(!strcmp(several(NULL, &why, &err), "013") && strstr(why, "ECLAT_DEVICE"));
     CHECK(chosen(NULL, 4, &why, &err) == -1 && strstr(err.text, "ECLAT_DEVICE ALL: this takes one device"));
+    setenv("ECLAT_DEVICE", "0,radeon", 1);
+    CHECK(!strcmp(several(NULL, &why, &err), "") && strstr(err.text, "ECLAT_DEVICE radeon: no such device"));
     unsetenv("ECLAT_DEVICE");
 }
 

@@ -160,6 +160,9 @@ class Several(Case):
         for device, words in [("0,0", "twice; name each once"), ("0,,1", "has an empty place"), ("0,no-such", "--device no-such: no such device"),
                               ("0,7", "--device 7: no such device")]:
             self.assertIn(words, self.assert_one_error(eclat("render", CORNELL, "--device", device, env=TWO, cwd=self.folder), 1))
+        plan = eclat("render", CORNELL, "--plan", "3", "--device", "0,1", env=TWO, cwd=self.folder)
+        self.assertIn("--plan takes one device, which stands for those of all machines; name one with --device",
+                      self.assert_one_error(plan, 1))
         large = eclat("render", CORNELL, "--size", "4096x4096", "--spp", "4", "--memory", "300M", "--device", "all", env=TWO, cwd=self.folder)
         self.assertIn("more than one --device is for pictures that are rendered whole; name one, or give more", self.assert_one_error(large, 1))
         for command in [["cost", CORNELL], ["selftest"], ["info", CORNELL, "--accel", "bvh2"], ["view", CORNELL]]:
