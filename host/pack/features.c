@@ -161,10 +161,22 @@ static void scan_specular(scan *s)
     scan_anisotropy(s);
 }
 
+static void scan_base_color(scan *s)
+{
+    bool colors = false;
+    if (!has_texture(s, EC_SLOT_BASE_COLOR)) return;
+    for (int k = 0; k < 3; k++) {
+        float least, most;
+        ec_texture_range(s->scene, &s->m->textures[EC_SLOT_BASE_COLOR], k, &least, &most);
+        colors |= least != most;
+    }
+    call(s, EC_FEATURE_BASE_COLOR_TEXTURE, colors ? "has a base colour texture" : "has alpha in its base colour texture");
+}
+
 static void scan_material(scan *s)
 {
     const ec_material *m = s->m;
-    if (has_texture(s, EC_SLOT_BASE_COLOR)) call(s, EC_FEATURE_BASE_COLOR_TEXTURE, "has a base colour texture");
+    scan_base_color(s);
     if (!m->double_sided && !ec_refracts(m) && !ec_bounds(m)) call(s, EC_FEATURE_CULLING, "is single-sided");
     if (m->alpha_mode != EC_ALPHA_OPAQUE) call(s, EC_FEATURE_ALPHA, "leaves open what its alpha says");
     if (m->unlit) {
