@@ -177,8 +177,8 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
 static ec_result allocate(ec_flattener *f, const char *path)
 {
     ec_scene *s = f->scene;
-    size_t v = f->vertex_bound, t = f->triangle_bound;
-    f->remap = malloc(f->remap_size * sizeof *f->remap);
+    size_t v = f->vertex_bound + 1, t = f->triangle_bound + 1; /* there may be none */
+    f->remap = malloc((f->remap_size + 1) * sizeof *f->remap);
     s->positions = malloc(v * 3 * sizeof(float));
     s->indices = malloc(t * 3 * sizeof(uint32_t));
     s->triangle_material = malloc(t * sizeof(uint32_t));
@@ -227,8 +227,6 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     ec_scene *s = f->scene;
     EC_TRY(for_each_draw(f, g, placements, ec_flattener_count));
     EC_TRY(ec_keep_count(keeping, f));
-    if (!f->triangle_bound)
-        return ec_fail(f->err, "%s: nothing to render: the scene has no triangles", g->path);
     EC_TRY(check_memory(f, g->path));
     EC_TRY(for_each_draw(f, g, placements, measure_draw));
     EC_TRY(ec_keep_measure(keeping, f));
@@ -239,7 +237,7 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     free(g->sources);
     g->sources = NULL;
     if (g->blurs) {
-        f->sources = g->sources = malloc(f->vertex_bound * sizeof *g->sources);
+        f->sources = g->sources = malloc((f->vertex_bound + 1) * sizeof *g->sources);
         if (!f->sources) return ec_fail(f->err, "%s: out of memory for %llu vertices", g->path, (unsigned long long)f->vertex_bound);
     }
     EC_TRY(for_each_draw(f, g, placements, ec_flattener_fill));
@@ -248,9 +246,11 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     f->node = -1;
     f->sources = NULL; /* meshes kept once stand still */
     EC_TRY(ec_keep_fill(keeping, f));
-    if (!s->triangle_count)
-        return ec_fail(f->err, "%s: nothing to render: of %llu triangles %u have no area and %u have NaN or infinite positions",
-                       g->path, (unsigned long long)f->triangle_bound, s->dropped_degenerate, s->dropped_nonfinite);
+    if (!s->triangle_count) {
+        memset(s->bounds_min, 0, sizeof s->bounds_min);
+        memset(s->bounds_max, 0, sizeof s->bounds_max);
+        return ec_flatten_empty(f, g, placements);
+    }
     trim(s);
     return EC_OK;
 }

@@ -52,4 +52,7 @@ void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3]);
 /* Appends a vertex with all of its streams; `position` is the recentred one. Returns its index. */
 uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t vertex, const float position[3]);
 
+/* empty.c: no triangle is left. Says why, or fails. */
+ec_result ec_flatten_empty(const ec_flattener *f, const ec_gltf *g, const ec_placement_list *placements);
+
 #endif

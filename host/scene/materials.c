@@ -84,5 +84,6 @@ ec_result ec_gltf_materials_assign(ec_gltf *g, ec_scene *s, const ec_log *log, e
         }
     }
     free(variants);
+    if (result == EC_OK && !s->material_count) result = append(s, ec_material_default(), err);
     return result;
 }

@@ -115,7 +115,7 @@ static ec_result check_cameras_and_lights(const ec_scene *s, ec_error *err)
 
 ec_result ec_scene_validate(const ec_scene *s, ec_error *err)
 {
-    if (!s->material_count || !s->triangle_count) return ec_fail(err, "internal error: an empty scene");
+    if (!s->material_count) return ec_fail(err, "internal error: a scene without a material");
     EC_TRY(check_vertices(s, err));
     EC_TRY(check_triangles(s, err));
     for (uint32_t i = 0; i < s->material_count; i++) EC_TRY(check_material(s, &s->materials[i], err));
