@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/text.h"
 #include "pack/pack.h"
 #include "scene/texture_range.h"
 
@@ -58,7 +59,7 @@ typedef struct scan {
 static void name_material(const ec_scene *scene, uint32_t index, char *text, size_t size)
 {
     const char *name = scene->materials[index].name;
-    if (name && *name) snprintf(text, size, "material %u \"%.36s\"", index, name);
+    if (name && *name) snprintf(text, size, "material %u \"%.*s\"", index, EC_CUT(name, 36));
     else snprintf(text, size, "material %u", index);
 }
 
@@ -282,7 +283,7 @@ static void scan_lights(const ec_scene *scene, ec_effects *effects)
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const ec_light *light = &scene->lights[i];
         ec_effects one = {0};
-        if (light->name) ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light \"%.60s\"", types[light->type], light->name);
+        if (light->name) ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light \"%.*s\"", types[light->type], EC_CUT(light->name, 60));
         else ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light %u", types[light->type], i);
         ec_effects_add(effects, &one);
     }

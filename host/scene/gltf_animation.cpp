@@ -144,8 +144,8 @@ static bool apply(json &root, const json &animation, const std::string &name, co
         path to = split(pointer);
         const field *target = find_target(root, to);
         if (!target) {
-            ec_warn(log, "%s: %s moves %.200s, which eclat does not; it is left out", gltf->path, where.c_str(),
-                    printable(pointer).c_str());
+            ec_warn(log, "%s: %s moves %s, which eclat does not; it is left out", gltf->path, where.c_str(),
+                    shortened(printable(pointer), 200).c_str());
             continue;
         }
         write(root, to, sample(gltf, samplers[sampler], to, target->type, choice, where));

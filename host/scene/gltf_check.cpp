@@ -176,8 +176,8 @@ class checker {
         if (is_among(value, f.detail)) return true;
         std::string text = text_of(value);
         if (f.required) fail(where, "is " + text + ", not one of: " + f.detail);
-        ec_warn(log, "%s: %s is %.80s, not one of: %s; using the default", path, printable(where).c_str(),
-                printable(text).c_str(), f.detail);
+        ec_warn(log, "%s: %s is %s, not one of: %s; using the default", path, printable(where).c_str(),
+                shortened(printable(text), 80).c_str(), f.detail);
         return false;
     }
 };

@@ -71,9 +71,9 @@ static void check_version(const json &root)
     };
     std::string version = text("version"), minimum = text("minVersion");
     if (!version.empty() && version.compare(0, 2, "2.") != 0)
-        throw bad_file("glTF version " + version.substr(0, 20) + " is not supported; convert the file to glTF 2.0");
+        throw bad_file("glTF version " + shortened(version, 20) + " is not supported; convert the file to glTF 2.0");
     if (!minimum.empty() && minimum != "2.0")
-        throw bad_file("the file needs glTF " + minimum.substr(0, 20) + "; eclat reads glTF 2.0");
+        throw bad_file("the file needs glTF " + shortened(minimum, 20) + "; eclat reads glTF 2.0");
 }
 
 static std::set<std::string> string_set(const json &root, const char *key)
@@ -87,7 +87,7 @@ static std::set<std::string> string_set(const json &root, const char *key)
 static std::string comma_list(const std::set<std::string> &names)
 {
     std::string list;
-    for (const std::string &name : names) list += (list.empty() ? "" : ", ") + name.substr(0, 100);
+    for (const std::string &name : names) list += (list.empty() ? "" : ", ") + shortened(name, 100);
     return printable(list);
 }
 

@@ -9,6 +9,7 @@
 #include <tiny_gltf.h>
 
 extern "C" {
+#include "base/text.h"
 #include "scene/gltf.h"
 }
 
@@ -85,6 +86,8 @@ inline std::string printable(std::string text)
         if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
     return text;
 }
+/* Of bytes at most so many. */
+inline std::string shortened(const std::string &text, int most) { return text.substr(0, size_t(ec_text_cut(text.c_str(), most))); }
 inline char *copy_string(const std::string &name)
 {
     return name.empty() ? nullptr : copy_bytes(printable(name));

@@ -1,5 +1,6 @@
 /* Walks the node tree without recursion: a file may be a chain of a million nodes. */
 #include "scene/gltf_tree.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +10,8 @@
 void ec_gltf_describe_node(const ec_gltf *g, int32_t node, char text[128])
 {
     const char *name = g->nodes[node].name;
-    snprintf(text, 128, name ? "nodes[%d] \"%.80s\"" : "nodes[%d]", node, name);
+    int used = snprintf(text, 128, "nodes[%d]", node);
+    if (name) snprintf(text + used, 128 - (size_t)used, " \"%.*s\"", EC_CUT(name, 80));
 }
 
 /* parent[i] = -1 for roots. */

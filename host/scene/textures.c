@@ -1,5 +1,6 @@
 /* The textures and images that the scene's triangles use; no others are opened. What is wanted is gathered first, then decoded by all
  * threads, and taken in the order in which materials name it: what is said, and what is first, is the same for any number of threads. */
+#include "base/text.h"
 #include "scene/flatten.h"
 #include "scene/image_decode.h"
 #include "scene/texture_range.h"
@@ -59,7 +60,8 @@ bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_erro
 {
     const ec_gltf_image *in = &g->images[index];
     char where[160];
-    snprintf(where, sizeof where, in->name ? "images[%u] \"%.80s\"" : "images[%u]", index, in->name);
+    int used = snprintf(where, sizeof where, "images[%u]", index);
+    if (in->name) snprintf(where + used, sizeof where - (size_t)used, " \"%.*s\"", EC_CUT(in->name, 80));
     const uint8_t *bytes = NULL;
     uint8_t *owned = NULL;
     uint64_t length = 0;

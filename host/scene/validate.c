@@ -1,5 +1,6 @@
 /* The promises of scene.h, checked. */
 #include "scene/validate.h"
+#include "base/text.h"
 
 #include <math.h>
 
@@ -29,8 +30,8 @@ void ec_scene_clamp_materials(ec_scene *s, const char *path, const ec_log *log)
         for (int slot = 0; slot < EC_SLOT_COUNT; slot++)
             for (int k = 0; k < 6; k++) changed |= clamp(&m->textures[slot].transform[k], -EC_UV_MOST, EC_UV_MOST);
         if (changed)
-            ec_warn(log, "%s: materials[%u] \"%.80s\" has factors out of glTF's range; they are clamped", path, i,
-                    m->name ? m->name : "");
+            ec_warn(log, "%s: materials[%u] \"%.*s\" has factors out of glTF's range; they are clamped", path, i,
+                    EC_CUT(m->name ? m->name : "", 80));
     }
 }
 

@@ -278,6 +278,24 @@ static void test_without(void)
     ec_scene_free(scene);
 }
 
+static void test_names(void)
+{
+    effect_model e = em_new();
+    ec_material m = em_plain();
+    m.double_sided = false;
+    em_quad(&e, em_material(&e, &m), NULL);
+    ec_scene *scene = em_scene(&e);
+    ec_effects called;
+    ec_error err = {0};
+    char why[EC_EFFECT_WHY + 24];
+    free(scene->materials[0].name);
+    scene->materials[0].name = strdup("aéééééééééééééééééééé"); /* 36 bytes end within one */
+    CHECK_OK(ec_scene_calls(scene, &called, &err), err);
+    ec_effects_why(&called, EC_FEATURE_CULLING, why, sizeof why);
+    CHECK_MSG(!strcmp(why, "material 0 \"aééééééééééééééééé\" is single-sided"), "%s", why);
+    ec_scene_free(scene);
+}
+
 /* Asked for by an option: of what shows, rough metal and glass. */
 static void check_rough(const ec_material *m, bool expected, int line)
 {
@@ -332,6 +350,7 @@ int main(void)
     test_unused();
     test_vertices();
     test_without();
+    test_names();
     test_rough();
     TEST_END();
 }
