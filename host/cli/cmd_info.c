@@ -57,7 +57,7 @@ static ec_result measure(ec_scene_report *report, ec_error *err)
 {
     const ec_scene *scene = report->scene;
     ec_bvh bvh = {0};
-    ec_scene_report_count(report);
+    EC_TRY(ec_scene_report_count(report, err));
     EC_TRY(ec_bvh_build(scene->positions, scene->indices, ec_scene_flat_count(scene), 0, &bvh, &report->bvh, err));
     ec_bvh_free(&bvh);
     ec_scene lit = *scene;

@@ -73,10 +73,14 @@ static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *
     } else if (environment) {
         if (job->scene->has_environment) ec_note(log, "--env takes the place of the image-based light that the scene has");
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
-    } else if (!ec_scene_has_light(job->scene) && !job->request->adjusts_env) {
-        ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");
-        environment = "1,1,1";
-        EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
+    } else if (!job->request->adjusts_env) {
+        ec_scene_light light;
+        EC_TRY(ec_scene_find_light(job->scene, &light, err));
+        if (!light.any) {
+            ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");
+            environment = "1,1,1";
+            EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
+        }
     }
     if (job->request->adjusts_env && !(job->share && job->share->environment_known)) {
         if (!environment && !job->scene->has_environment)

@@ -14,7 +14,7 @@ ec_result ec_scene_view_make(const ec_scene *scene, ec_scene_view *view, ec_erro
         ec_scene_view_free(view);
         return ec_fail(err, "out of memory for %u materials", scene->material_count);
     }
-    memcpy(view->scene.materials, scene->materials, scene->material_count * sizeof *view->scene.materials);
+    if (scene->material_count) memcpy(view->scene.materials, scene->materials, scene->material_count * sizeof *view->scene.materials);
     if (scene->light_count) memcpy(view->scene.lights, scene->lights, scene->light_count * sizeof *view->scene.lights);
     return EC_OK;
 }

@@ -33,7 +33,7 @@ typedef struct ec_scene_report {
 } ec_scene_report;
 
 /* Fills what can be counted in the scene. */
-void ec_scene_report_count(ec_scene_report *report);
+ec_result ec_scene_report_count(ec_scene_report *report, ec_error *err);
 
 void ec_scene_report_text(const ec_scene_report *report, FILE *to);
 ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error *err);

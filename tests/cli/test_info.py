@@ -393,6 +393,32 @@ class Info(Case):
         camera = self.info(write_gltf(self.path("orthographic.gltf"), scene))["cameras"][0]
         self.assertEqual([camera["xmag"], camera["ymag"]], [3, 2])
 
+    def test_what_only_looks_like_a_light(self):
+        """A cone without an opening, a lamp that vertex alpha hides, one with a black picture: as if there were none."""
+        black = {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}
+        hidden = {"emissiveFactor": [1, 1, 1], "alphaMode": "BLEND"}
+        spot = {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": 0}}]}}
+        for what, material, alpha, lights, lit in (("spot", {}, 1, spot, False), ("alpha", hidden, 0, None, False), ("alpha", hidden, 1, None, True),
+                                                   ("black", black, 1, None, False),
+                                                   ("unlit", {"extensions": {"KHR_materials_unlit": {}}}, 1, None, True),
+                                                   ("black unlit", {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]},
+                                                                    "extensions": {"KHR_materials_unlit": {}}}, 1, None, False)):
+            scene, buffer = quad_scene(material=material)
+            buffer += struct.pack("<16f", *[1, 1, 1, alpha] * 4)
+            scene["bufferViews"].append({"buffer": 0, "byteOffset": 60, "byteLength": 64})
+            scene["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC4"})
+            scene["accessors"].append({"componentType": 5126, "count": 4, "type": "VEC2"})
+            scene["meshes"][0]["primitives"][0]["attributes"].update(COLOR_0=2, TEXCOORD_0=3)
+            scene["buffers"] = [{"byteLength": len(buffer), "uri": data_uri(buffer)}]
+            scene["images"], scene["textures"] = [{"uri": png((0, 0, 0))}], [{"source": 0}]
+            if lights:
+                scene["extensions"] = lights
+                scene["nodes"][0]["extensions"] = {"KHR_lights_punctual": {"light": 0}}
+            with self.subTest(what, alpha=alpha):
+                report = self.info(write_gltf(self.path("quad.gltf"), scene))
+                self.assertEqual((report["lights"]["any"], report["lights"]["emissive_triangles"]), (lit, 2 * lit))
+                self.assertEqual("environment" in report["effects"], not lit)
+
     def test_no_light_and_no_camera_are_told(self):
         scene, _ = quad_scene(material={})
         del scene["cameras"], scene["nodes"][1]["camera"]

@@ -1,5 +1,6 @@
 /* Cameras, punctual lights, the environment. */
 #include "image/image.h"
+#include "support/light.h"
 #include "test_scene_files.h"
 
 #define CAMERAS                                                                                                        \
@@ -39,7 +40,7 @@ static void check_lights(const ec_scene *s)
     CHECK_NEAR(point->range, 0, 0);
     check_vector(sun->direction, 0, 0, -1);
     check_vector(sun->intensity, 3, 3, 3);
-    CHECK(ec_scene_has_light(s));
+    CHECK(has_light(s));
 }
 
 static void test_cameras_and_lights(void)
@@ -116,9 +117,9 @@ static void test_environment(void)
 {
     ec_scene s = {0};
     ec_error err;
-    CHECK(!ec_scene_has_light(&s));
+    CHECK(!has_light(&s));
     CHECK_OK(ec_scene_set_environment(&s, "1,0.5, 2e-1", NULL, &err), err);
-    CHECK(s.has_environment && !s.environment.rgb && s.environment.constant[1] == 0.5f && ec_scene_has_light(&s));
+    CHECK(s.has_environment && !s.environment.rgb && s.environment.constant[1] == 0.5f && has_light(&s));
     CHECK_NEAR(s.environment.constant[2], 0.2, 1e-7);
     const char *wrong[] = {"1,2", "1,2,3,4", "1,,2", "-1,1,1", "1,1,1e99", ","};
     for (int i = 0; i < 6; i++) {

@@ -1,4 +1,5 @@
 /* What is not seen is not there: nodes by KHR_node_visibility with all below them, surfaces whose alpha is 0 everywhere. */
+#include "support/light.h"
 #include "test_scene_files.h"
 
 /* Node 0 over node 1, each with the triangle and a lamp; node 2 beside them; a camera, which is never hidden, below node 0. */
@@ -150,7 +151,7 @@ static void test_dark_lamps(void)
         char *json = replace(surfaces, "@material@", cases[i].material);
         ec_scene *s = load_text(json, blobs, &err);
         CHECK_MSG(s != NULL, "%s", err.text);
-        if (s) CHECK_MSG(ec_scene_has_light(s) == cases[i].lit, "%s", cases[i].material);
+        if (s) CHECK_MSG(has_light(s) == cases[i].lit, "%s", cases[i].material);
         ec_scene_free(s);
         free(json);
     }

@@ -1,4 +1,5 @@
 /* Materials, textures, images and extensions. */
+#include "support/light.h"
 #include "textured_triangle.h"
 
 static void test_defaults(void)
@@ -11,7 +12,7 @@ static void test_defaults(void)
     CHECK(s->material_count == 1 && m->base_color[3] == 1 && m->metallic == 1 && m->roughness == 1);
     CHECK(m->specular == 1 && m->specular_color[2] == 1 && m->normal_scale == 1 && m->alpha_cutoff == 0.5f);
     CHECK(m->alpha_mode == EC_ALPHA_OPAQUE && !m->double_sided && !m->unlit && m->textures[EC_SLOT_BASE_COLOR].texture == -1);
-    CHECK(!ec_scene_has_light(s));
+    CHECK(!has_light(s));
     ec_scene_free(s);
     s = load(TEXTURED("", ""));
     m = s->materials;
@@ -41,13 +42,13 @@ static void test_factors(void)
     CHECK_NEAR(m->emission[1], 4e9, 1e3);
     CHECK(m->specular == 0 && m->specular_color[0] == 2 && m->specular_color[2] == 0.5f);
     CHECK(m->textures[EC_SLOT_SPECULAR].texture >= 0 && m->textures[EC_SLOT_NORMAL].texture >= 0);
-    CHECK(ec_scene_has_light(s));
+    CHECK(!has_light(s)); /* 0.4 is less than the cutoff */
     CHECK(s->extension_count == 2 && s->extension_ignored_count == 1);
     CHECK(!strcmp(s->extensions_ignored[0], "KHR_materials_unknown"));
     CHECK_MSG(strstr(messages, "KHR_materials_unknown") != NULL, "%s", messages);
     ec_scene_free(s);
     s = load(TEXTURED(",'extensions':{'KHR_materials_unlit':{}},'alphaMode':'BLEND'", ""));
-    CHECK(s->materials->unlit && s->materials->alpha_mode == EC_ALPHA_BLEND && ec_scene_has_light(s));
+    CHECK(s->materials->unlit && s->materials->alpha_mode == EC_ALPHA_BLEND && has_light(s));
     ec_scene_free(s);
     s = load(TEXTURED(",'pbrMetallicRoughness':{'metallicFactor':7,'roughnessFactor':-1},'alphaMode':'ODD'", ""));
     CHECK(s->materials->metallic == 1 && s->materials->roughness == 0 && s->materials->alpha_mode == EC_ALPHA_OPAQUE);
