@@ -62,7 +62,7 @@ static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error 
     return EC_OK;
 }
 
-static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *err)
+ec_result ec_render_job_light(ec_render_job *job, const ec_log *log, ec_error *err)
 {
     const char *environment = job->request->environment;
     bool is_of_all = environment || job->scene->has_environment;
@@ -173,7 +173,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
     double start = ec_now();
     if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, &log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, &log, err));
-    EC_TRY(prepare_light(job, &log, err));
+    EC_TRY(ec_render_job_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
     return check_memory(job, err);

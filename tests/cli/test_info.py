@@ -221,6 +221,31 @@ class Info(Case):
         self.assertIsNone(rows["clearcoat"]["why"])
         self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "connect", "accumulate", "features"])
 
+    def test_an_option_that_calls_for_an_effect_says_so(self):
+        metal = write_gltf(self.path("metal.gltf"), quad_scene(material={"pbrMetallicRoughness": {"roughnessFactor": 0.5}})[0])
+        def rows(*options, scene=metal):
+            report = json.loads(self.assert_ok(eclat("info", "--json", scene, *options)).stdout)
+            return report, {row["name"]: row for row in report["effect_list"]}
+        for options, effect, why in ((["--fstop", "2", "--focus", "3"], "depth-of-field", "--fstop 2"),
+                                     (["--filter", "blackman-harris", "--filter-width", "2"], "pixel-filter", "--filter"),
+                                     (["--scattering", "multiple"], "multiple-scattering", "material 0 is metal of roughness 0.5"),
+                                     (["--env", "0,1,0"], "environment", "the environment shines")):
+            with self.subTest(effect):
+                self.assertEqual(rows(*options)[1][effect]["why"], why)
+        self.assertIsNone(rows("--sampler", "independent")[1]["sobol-sampler"]["why"])
+        self.assertIsNone(rows("--env", "0,0,0")[1]["environment"]["why"])
+        self.assertIn("raster", rows("--integrator", "raster")[0]["kernels"])
+        self.assertIn("sheen", rows("--effects", "all")[0]["effects"])
+        less, without = rows("--without", "emission", "--without", "back-face-culling", scene=CORNELL)
+        self.assertEqual([name for name, row in without.items() if row["left_out"]], ["emission", "back-face-culling"])
+        self.assertEqual(less["effects"], ["sobol-sampler"])
+        run = self.assert_ok(eclat("info", CORNELL, "--light-choice", "tree"))
+        self.assertRegex(run.stdout, r"(?m)^  light-tree +\d+ lights are chosen among")
+        for options, says in ((["--fstop", "2"], "go together"), (["--without", "sheep"], "can be left out"), (["--env-strength", "2"], "no environment"),
+                              (["--filter-width", "2"], "--filter-width belongs"), (["--shutter", "0:1", "--at", "1"], "give one of them")):
+            run = eclat("info", metal, *options)
+            self.assertIn(says, self.assert_one_error(run, run.returncode))
+
     def test_lights_by_their_nodes(self):
         scene, _ = quad_scene(material={})
         light = [{"type": "point"}, {"type": "spot"}]
