@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #define NO_VERTEX UINT32_MAX
 
@@ -23,6 +24,7 @@ ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, con
                             ec_draw_function function)
 {
     ec_draw d = ec_draw_of(g, at, center);
+    d.mesh = mesh;
     for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
         d.p = &g->meshes[mesh].primitives[k];
         if (d.p->drawn) EC_TRY(function(f, &d));
@@ -255,6 +257,14 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     return EC_OK;
 }
 
+static void warn_odd(const struct ec_odd_values *odd, const ec_gltf *g, const char *what, const ec_log *log)
+{
+    if (!odd->count) return;
+    const char *name = g->meshes[odd->mesh].name;
+    ec_warn(log, "%s: %llu %s, the first in meshes[%d]%s%.*s%s; they are clamped", g->path, (unsigned long long)odd->count, what, odd->mesh,
+            name ? " \"" : "", EC_CUT(name ? name : "", 80), name ? "\"" : "");
+}
+
 ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
     ec_flattener f = {.scene = s, .log = log, .err = err, .low = {INFINITY, INFINITY, INFINITY},
@@ -270,8 +280,7 @@ ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *
         ec_warn(log, "%s: %u triangles with NaN or infinite positions are left out", g->path, s->dropped_nonfinite);
     if (s->dropped_degenerate)
         ec_note(log, "%s: %u triangles without area are left out", g->path, s->dropped_degenerate);
-    if (f.odd_values)
-        ec_warn(log, "%s: %llu texture coordinates or colours are NaN, beyond 1e18 or (colours) out of 0..1; they are clamped",
-                g->path, (unsigned long long)f.odd_values);
+    warn_odd(&f.odd_uv, g, "texture coordinates are NaN or beyond 1e18", log);
+    warn_odd(&f.odd_colors, g, "values of vertex colours are NaN or out of 0..1", log);
     return EC_OK;
 }

@@ -212,7 +212,7 @@ static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
     tinygltf::Model model;
     parse_rest(root, model);
     convert_cameras(model, gltf, log);
-    convert_lights(model, gltf, log);
+    convert_lights(model, root, gltf, log);
     convert_textures(model, gltf);
     convert_materials(model, gltf, log);
 }
@@ -252,7 +252,7 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice 
     convert_skins(list_of(root, "skins"), gltf);
     convert_nodes(list_of(root, "nodes"), gltf);
     set_roots(root, gltf);
-    convert_image_light(root, gltf);
+    convert_image_light(root, gltf, log);
     convert_looks(root, gltf, log);
     gltf->stored_accessors = gltf->accessor_count;
     gltf->stored_meshes = gltf->mesh_count;

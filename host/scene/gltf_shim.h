@@ -57,9 +57,9 @@ bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations,
 
 /* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);
-void convert_image_light(const nlohmann::json &root, ec_gltf *gltf); /* the shown scene's */
+void convert_image_light(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log); /* the shown scene's */
 void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
-void convert_lights(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
+void convert_lights(const tinygltf::Model &model, const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
 
 /* gltf_material.cpp */
 void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);

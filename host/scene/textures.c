@@ -27,6 +27,7 @@ typedef struct table {
     uint32_t picture_count;
     int64_t *picture; /* of each image; then, where a texture has one for itself, of each texture; UNSEEN */
     int64_t *texture; /* glTF texture -> scene texture; UNSEEN or UNUSABLE */
+    int slot;         /* whose use is looked at */
     ec_result result;
     ec_error *err;
 } table;
@@ -107,15 +108,21 @@ static void decode(const table *t, picture *p)
     ec_image_find_range(&p->image);
 }
 
-/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. One that there is no
- * memory for does. */
+/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white, or without it where it
+ * holds directions. One that there is no memory for does. */
+static const char *instead_of(const table *t)
+{
+    bool directions = t->slot == EC_SLOT_NORMAL || t->slot == EC_SLOT_CLEARCOAT_NORMAL || t->slot == EC_SLOT_ANISOTROPY;
+    return directions ? "the map is left out" : "taken as white";
+}
+
 static int64_t take_picture(table *t, picture *p)
 {
     if (p->place != UNSEEN) return p->place;
     ec_image *out = &t->s->images[t->s->image_count], *kept = kept_of(t, p);
     if (p->failed) {
-        if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, p->err.text);
-        else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.1200s", t->g->path, p->err.text);
+        if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.*s; %s", t->g->path, EC_CUT(p->err.text, 1200), instead_of(t));
+        else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.*s", t->g->path, EC_CUT(p->err.text, 1200));
         return p->place = UNUSABLE;
     }
     *out = p->image;
@@ -149,7 +156,7 @@ static int64_t map_texture(table *t, int32_t index)
     if (t->texture[index] != UNSEEN) return t->texture[index];
     const ec_gltf_texture *in = &t->g->textures[index];
     if (in->image < 0)
-        ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; taken as white", t->g->path, index);
+        ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; %s", t->g->path, index, instead_of(t));
     int64_t image = in->image < 0 ? UNUSABLE : take_picture(t, &t->pictures[*picture_of(t, index)]);
     if (image < 0) return t->texture[index] = UNUSABLE;
     t->s->textures[t->s->texture_count] = (ec_texture){(uint32_t)image, in->wrap_s, in->wrap_t, in->nearest};
@@ -170,6 +177,7 @@ static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, boo
         ec_material *m = &t->s->materials[i];
         for (int k = 0; k < EC_SLOT_COUNT; k++) {
             bool shows = !m->unlit || k == EC_SLOT_BASE_COLOR || k == EC_SLOT_EMISSION;
+            t->slot = k;
             look(t, drawn[i] && shows, &m->textures[k]);
         }
     }

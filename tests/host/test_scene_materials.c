@@ -2,6 +2,13 @@
 #include "support/light.h"
 #include "textured_triangle.h"
 
+static int count_of(const char *text, const char *words)
+{
+    int count = 0;
+    while ((text = strstr(text, words))) count++, text += strlen(words);
+    return count;
+}
+
 static void test_defaults(void)
 {
     ec_error err;
@@ -175,6 +182,7 @@ static void test_images(void)
     CHECK(m->textures[EC_SLOT_EMISSION].texture == 0 && s->texture_count == 1);
     CHECK_MSG(strstr(messages, "images[2] \"broken\" cannot be decoded") && strstr(messages, "textures[3] has no image") &&
               strstr(messages, "missing.png: cannot open"), "%s", messages);
+    CHECK_MSG(count_of(messages, "; taken as white\n") == 2 && count_of(messages, "; the map is left out\n") == 1, "%s", messages);
     ec_scene_free(s);
     expect_failure(TEXTURED(",'emissiveTexture':{'index':6}", ""), textured_blobs,
                    "materials[0].emissiveTexture.index is 6 but the file has 6 textures");
