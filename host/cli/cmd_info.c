@@ -33,8 +33,9 @@ SETTER(accel)
 
 /* Of `render`, those that have a say in what is built for a scene. */
 static const char *const of_render[] = {
-    "animation", "at", "device", "effects", "env", "env-rotate", "env-strength", "filter", "filter-width", "focus", "fstop", "instancing",
-    "integrator", "json", "light-choice", "quiet", "sample", "sampler", "scattering", "scene", "shutter", "terminator", "variant", "without"};
+    "animation", "at", "device", "effects", "env", "env-rotate", "env-strength", "filter", "filter-width", "focus",
+    "fstop", "instancing", "integrator", "json", "light-choice", "quiet", "sample", "sampler", "scattering", "scene",
+    "shutter", "terminator", "variant", "without"};
 
 static ec_result parse(int argc, char **argv, info_request *request, bool *done, ec_error *err)
 {

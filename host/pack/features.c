@@ -171,7 +171,8 @@ static void scan_base_color(scan *s)
         ec_texture_range(s->scene, &s->m->textures[EC_SLOT_BASE_COLOR], k, &least, &most);
         colors |= least != most;
     }
-    call(s, EC_FEATURE_BASE_COLOR_TEXTURE, colors ? "has a base colour texture" : "has alpha in its base colour texture");
+    const char *has = colors ? "has a base colour texture" : "has alpha in its base colour texture";
+    call(s, EC_FEATURE_BASE_COLOR_TEXTURE, "%s", has);
 }
 
 static void scan_material(scan *s)
@@ -283,8 +284,9 @@ static void scan_lights(const ec_scene *scene, ec_effects *effects)
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const ec_light *light = &scene->lights[i];
         ec_effects one = {0};
-        if (light->name) ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light \"%.*s\"", types[light->type], EC_CUT(light->name, 60));
-        else ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light %u", types[light->type], i);
+        const char *type = types[light->type], *name = light->name;
+        if (name) ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light \"%.*s\"", type, EC_CUT(name, 60));
+        else ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light %u", type, i);
         ec_effects_add(effects, &one);
     }
     const ec_environment *e = &scene->environment;

@@ -32,7 +32,8 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
         pack->scene_max = fmaxf(pack->scene_max, extent);
         pack->scene_radius += extent * extent;
     }
-    pack->scene_radius = pack->prim_count ? sqrtf(pack->scene_radius) * 1.001f : 1.0f; /* else a sky around nothing had no power */
+    pack->scene_radius = sqrtf(pack->scene_radius) * 1.001f;
+    if (!pack->prim_count) pack->scene_radius = 1.0f; /* or a sky around nothing had no power */
     return EC_OK;
 }
 

@@ -14,12 +14,13 @@ ec_result ec_scene_view_make(const ec_scene *scene, ec_scene_view *view, ec_erro
         ec_scene_view_free(view);
         return ec_fail(err, "out of memory for %u materials", scene->material_count);
     }
-    if (scene->material_count) memcpy(view->scene.materials, scene->materials, scene->material_count * sizeof *view->scene.materials);
+    if (scene->material_count)
+        memcpy(view->scene.materials, scene->materials, scene->material_count * sizeof *view->scene.materials);
     if (scene->light_count) memcpy(view->scene.lights, scene->lights, scene->light_count * sizeof *view->scene.lights);
     return EC_OK;
 }
 
-/* Room for a bleached copy of everything: of number i it is i further on, with no pixels before somebody asks for it. */
+/* Room for a bleached copy of each: as many further on as there are, with no pixels before somebody asks for it. */
 static ec_result make_room(ec_scene_view *view, ec_error *err)
 {
     ec_scene *s = &view->scene;
@@ -45,7 +46,8 @@ static ec_result make_room(ec_scene_view *view, ec_error *err)
 
 static ec_result bleach_image(const ec_image *from, ec_image *to, ec_error *err)
 {
-    const size_t count = 4 * (size_t)from->width * from->height, size = from->rgba16 ? sizeof *from->rgba16 : sizeof *from->rgba8;
+    const size_t count = 4 * (size_t)from->width * from->height;
+    const size_t size = from->rgba16 ? sizeof *from->rgba16 : sizeof *from->rgba8;
     void *pixels = malloc(count ? count * size : 1);
     if (!pixels) return ec_fail(err, "out of memory for an image of %u x %u", from->width, from->height);
     *to = (ec_image){.width = from->width, .height = from->height};

@@ -6,7 +6,7 @@
 
 typedef struct ec_scene_view {
     ec_scene scene;          /* its materials and lights are owned; their names are not */
-    uint32_t first_bleached; /* its image from which on they are owned, as are both lists of images and textures; 0: none is */
+    uint32_t first_bleached; /* 0: no image is; else those from here on are owned, and the lists of images and textures */
 } ec_scene_view;
 
 ec_result ec_scene_view_make(const ec_scene *scene, ec_scene_view *view, ec_error *err);

@@ -52,7 +52,8 @@ static ec_result without(const ec_scene *scene, uint64_t off, ec_scene_view *vie
     if (off & EC_FEATURE_ALPHA) m->alpha_mode = EC_ALPHA_OPAQUE;
     for (size_t i = 0; i < sizeof textured / sizeof *textured; i++) {
         if (!(off & textured[i].effect)) continue;
-        if (textured[i].slot == EC_SLOT_BASE_COLOR && m->alpha_mode != EC_ALPHA_OPAQUE) EC_TRY(without_color(scene, view, m, err));
+        bool covers = textured[i].slot == EC_SLOT_BASE_COLOR && m->alpha_mode != EC_ALPHA_OPAQUE;
+        if (covers) EC_TRY(without_color(scene, view, m, err));
         else ec_texture_flatten(scene, m, textured[i].slot);
     }
     if (off & EC_FEATURE_CULLING) m->double_sided = true;

@@ -99,7 +99,8 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
     return ec_pipeline_joins(o, pack) ? choose_lights(o, pack, err) : EC_OK;
 }
 
-ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_error *err)
+ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
+                        ec_error *err)
 {
     EC_TRY(fill_pack(scene, called_for, o, &cargo->pack, err));
     ec_pipeline_effects(o, &cargo->pack, &cargo->head.effects);
@@ -217,7 +218,8 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     return EC_OK;
 }
 
-ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for, const ec_render_options *o, ec_error *err)
+ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
+                          const ec_render_options *o, ec_error *err)
 {
     if (o->without) {
         EC_TRY(ec_scene_view_without(*scene, o->without, (int64_t)o->without_of - 1, &cargo->view, err));

@@ -261,8 +261,9 @@ static void warn_odd(const struct ec_odd_values *odd, const ec_gltf *g, const ch
 {
     if (!odd->count) return;
     const char *name = g->meshes[odd->mesh].name;
-    ec_warn(log, "%s: %llu %s, the first in meshes[%d]%s%.*s%s; they are clamped", g->path, (unsigned long long)odd->count, what, odd->mesh,
-            name ? " \"" : "", EC_CUT(name ? name : "", 80), name ? "\"" : "");
+    ec_warn(log, "%s: %llu %s, the first in meshes[%d]%s%.*s%s; they are clamped", g->path,
+            (unsigned long long)odd->count, what, odd->mesh, name ? " \"" : "", EC_CUT(name ? name : "", 80),
+            name ? "\"" : "");
 }
 
 ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)

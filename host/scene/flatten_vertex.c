@@ -49,8 +49,8 @@ void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tang
 }
 
 /* Clamped to low..high; NaN becomes 0. */
-static void store_values(struct ec_odd_values *odd, const ec_draw *d, int32_t accessor, uint32_t vertex, uint32_t count, float low,
-                         float high, float *out)
+static void store_values(struct ec_odd_values *odd, const ec_draw *d, int32_t accessor, uint32_t vertex, uint32_t count,
+                         float low, float high, float *out)
 {
     if (accessor < 0) return;
     ec_gltf_accessor_floats(&d->g->accessors[accessor], vertex, count, out);

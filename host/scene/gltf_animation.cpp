@@ -55,7 +55,8 @@ static const field *find_field(const schema &shape, const std::string &name)
     return nullptr;
 }
 
-/* An object that has only defaults so far need not be in the file. One that names a texture, say, or is of an extension, means more. */
+/* An object that has only defaults so far need not be in the file. One that names a texture, or is of an extension, means
+ * more. */
 static bool has_defaults(const path &to, size_t i, const schema &shape)
 {
     if (to[i] == "extensions" || to[i - 1] == "extensions") return false;
@@ -90,9 +91,10 @@ static const field *find_target(const json &root, const path &to)
 static void write(json &root, const path &to, const json &value)
 {
     const std::string &last = to.back();
+    bool places = to[0] == "nodes" && (last == "translation" || last == "rotation" || last == "scale");
     json *at = &root;
     for (const std::string &name : to) {
-        if (to[0] == "nodes" && &name == &last && (name == "translation" || name == "rotation" || name == "scale")) at->erase("matrix");
+        if (places && &name == &last) at->erase("matrix");
         at = at->is_array() ? &(*at)[std::stoul(name)] : &(*at)[name];
     }
     *at = value;
@@ -105,7 +107,8 @@ static ec_gltf_keyframes convert_keyframes(const json &sampler)
             interpolation == "STEP" ? EC_STEP : interpolation == "CUBICSPLINE" ? EC_CUBICSPLINE : EC_LINEAR};
 }
 
-static json sample(ec_gltf *gltf, const json &sampler, const path &to, kind type, const ec_scene_choice *choice, const std::string &where)
+static json sample(ec_gltf *gltf, const json &sampler, const path &to, kind type, const ec_scene_choice *choice,
+                   const std::string &where)
 {
     ec_error err;
     ec_gltf_numbers numbers = {nullptr, 0};

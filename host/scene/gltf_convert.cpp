@@ -34,7 +34,8 @@ void convert_image_light(const json &root, ec_gltf *gltf, const ec_log *log)
     double intensity = in.value("intensity", 1.0);
     out.intensity = std::min(std::max(intensity, 0.0), double(EC_RADIANCE_MOST));
     if (out.intensity != intensity)
-        ec_warn(log, "%s: image-based light %d has intensity %g, which is taken as %g", gltf->path, out.index, intensity, out.intensity);
+        ec_warn(log, "%s: image-based light %d has intensity %g, which is taken as %g", gltf->path, out.index, intensity,
+                out.intensity);
     out.used = true;
 }
 
@@ -67,14 +68,15 @@ void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *
 
 static const double half_pi = 1.57079632679489662;
 
-/* Of what KHR_lights_punctual allows; colours over 1 do no harm, floats
- * without end do. */
+/* Of what KHR_lights_punctual allows; colours over 1 do no harm, but intensities that floats
+ * overflow by do. */
 static bool is_odd(const tinygltf::Light &light)
 {
     const tinygltf::SpotLight &spot = light.spot;
     bool colored = std::all_of(light.color.begin(), light.color.end(), [](double c) { return c >= 0; });
     bool cone = spot.innerConeAngle >= 0 && spot.innerConeAngle <= spot.outerConeAngle && spot.outerConeAngle <= half_pi + 1e-6;
-    return !colored || light.intensity < 0 || light.intensity > double(EC_RADIANCE_MOST) || light.range < 0 || (light.type == "spot" && !cone);
+    bool bright = light.intensity > double(EC_RADIANCE_MOST);
+    return !colored || light.intensity < 0 || bright || light.range < 0 || (light.type == "spot" && !cone);
 }
 
 /* For tinygltf that is the same as none. */

@@ -87,7 +87,10 @@ inline std::string printable(std::string text)
     return text;
 }
 /* Of bytes at most so many. */
-inline std::string shortened(const std::string &text, int most) { return text.substr(0, size_t(ec_text_cut(text.c_str(), most))); }
+inline std::string shortened(const std::string &text, int most)
+{
+    return text.substr(0, size_t(ec_text_cut(text.c_str(), most)));
+}
 inline char *copy_string(const std::string &name)
 {
     return name.empty() ? nullptr : copy_bytes(printable(name));

@@ -33,7 +33,8 @@ static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_gltf_node_above(const ec_gltf *g, int32_t node, bool (*is)(const ec_gltf_node *), int32_t *found, ec_error *err)
+ec_result ec_gltf_node_above(const ec_gltf *g, int32_t node, bool (*is)(const ec_gltf_node *), int32_t *found,
+                             ec_error *err)
 {
     int32_t *parent = malloc(((size_t)g->node_count + 1) * sizeof *parent);
     if (!parent) return ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);

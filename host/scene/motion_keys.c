@@ -211,7 +211,8 @@ ec_result ec_tracks_keep(const ec_tracks *t, ec_scene *s, const ec_log *log, ec_
     if (s->dropped_nonfinite > bad)
         ec_warn(log, "%s: %u triangles with NaN or infinite positions within the shutter are left out", t->base->path, s->dropped_nonfinite - bad);
     if (before && !s->triangle_count) {
-        if (s->dropped_nonfinite) return ec_fail(err, "%s: nothing to render: no triangle has an area while the shutter is open", t->base->path);
+        if (s->dropped_nonfinite)
+            return ec_fail(err, "%s: nothing to render: no triangle has an area while the shutter is open", t->base->path);
         ec_warn(log, "%s: no surface shows while the shutter is open: none has an area", t->base->path);
         memset(s->bounds_min, 0, sizeof s->bounds_min);
         memset(s->bounds_max, 0, sizeof s->bounds_max);

@@ -108,8 +108,8 @@ static void decode(const table *t, picture *p)
     ec_image_find_range(&p->image);
 }
 
-/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white, or without it where it
- * holds directions. One that there is no memory for does. */
+/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white, or without
+ * it where it holds directions. One that there is no memory for does. */
 static const char *instead_of(const table *t)
 {
     bool directions = t->slot == EC_SLOT_NORMAL || t->slot == EC_SLOT_CLEARCOAT_NORMAL || t->slot == EC_SLOT_ANISOTROPY;
@@ -121,8 +121,9 @@ static int64_t take_picture(table *t, picture *p)
     if (p->place != UNSEEN) return p->place;
     ec_image *out = &t->s->images[t->s->image_count], *kept = kept_of(t, p);
     if (p->failed) {
-        if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.*s; %s", t->g->path, EC_CUT(p->err.text, 1200), instead_of(t));
-        else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.*s", t->g->path, EC_CUT(p->err.text, 1200));
+        const char *why = p->err.text;
+        if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.*s; %s", t->g->path, EC_CUT(why, 1200), instead_of(t));
+        else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.*s", t->g->path, EC_CUT(why, 1200));
         return p->place = UNUSABLE;
     }
     *out = p->image;

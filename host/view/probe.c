@@ -36,8 +36,8 @@ void ec_renderer_probe(ec_renderer *r, const ec_view_wish *wish)
             probe.node = ec_scene_node_of(scene, hit.id);
         }
         if (probe.node >= 0) {
-            const char *name = scene->node_names[probe.node];
-            snprintf(probe.node_name, sizeof probe.node_name, "%.*s", EC_CUT(name ? name : "unnamed", sizeof probe.node_name - 1));
+            const char *name = scene->node_names[probe.node] ? scene->node_names[probe.node] : "unnamed";
+            snprintf(probe.node_name, sizeof probe.node_name, "%.*s", EC_CUT(name, sizeof probe.node_name - 1));
             ec_view_node_sphere(scene, (uint32_t)probe.node, probe.center, &probe.radius);
         }
     }
