@@ -1,15 +1,23 @@
 #include "base/error.h"
+#include "base/text.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+/* A text that is too long ends with a whole character. */
+static void format_whole(char *text, size_t size, const char *format, va_list args)
+{
+    vsnprintf(text, size, format, args);
+    text[ec_text_cut(text, (int)size)] = 0;
+}
 
 ec_result ec_fail(ec_error *err, const char *format, ...)
 {
     if (err) {
         va_list args;
         va_start(args, format);
-        vsnprintf(err->text, sizeof err->text, format, args);
+        format_whole(err->text, sizeof err->text, format, args);
         va_end(args);
         err->kind = EC_ERROR_OTHER;
     }
@@ -22,7 +30,7 @@ void ec_fail_more(ec_error *err, const char *format, ...)
     size_t used = strlen(err->text);
     va_list args;
     va_start(args, format);
-    vsnprintf(err->text + used, sizeof err->text - used, format, args);
+    format_whole(err->text + used, sizeof err->text - used, format, args);
     va_end(args);
 }
 
@@ -30,7 +38,7 @@ static void log_write(const ec_log *log, ec_severity severity, const char *forma
 {
     if (!log || !log->write) return;
     char text[2048];
-    vsnprintf(text, sizeof text, format, args);
+    format_whole(text, sizeof text, format, args);
     log->write(log->user, severity, text);
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/text.h"
 #include "cli/cli.h"
 #include "cli/cost_request.h"
 #include "cli/defaults.h"
@@ -22,7 +23,7 @@ static ec_result check_outputs(const ec_cost_request *request, ec_error *err)
         if (!files[i] || (i == 1 && files[i][0] == '-' && !files[i][1])) continue;
         ec_output *output = &outputs.file[outputs.count++];
         if (snprintf(output->path, sizeof output->path, "%s", files[i]) >= (int)sizeof output->path)
-            return ec_usage(err, "the path '%.40s…' is too long", files[i]);
+            return ec_usage(err, "the path '%.*s…' is too long", EC_CUT(files[i], 40));
     }
     ec_result result = ec_outputs_check(&outputs, &all, err);
     ec_inputs_free(&all);

@@ -1,34 +1,23 @@
 /* eclat info SCENE */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "cli/cli.h"
 #include "cli/combinations.h"
 #include "cli/defaults.h"
-#include "cli/options.h"
-#include "cli/scene_choice.h"
+#include "cli/render_job.h"
 #include "cli/setters.h"
-#include "pipeline/render.h"
-#include "report/names.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
-    const char *scene, *accel, *device; /* accel: a name, "all", or NULL for none */
-    ec_scene_choice choice;
-    double grid_density; /* 0: the default */
-    bool json, quiet;
+    ec_render_request render; /* first: the setters of its options are used */
+    const char *accel;        /* a name, "all", or NULL for none */
+    double grid_density;      /* 0: the default */
 } info_request;
 
 #define REQUEST ((info_request *)target)
 
-FLAG_SETTER(json, json)
-FLAG_SETTER(quiet, quiet)
-TEXT_SETTER(device, device)
-CHOICE_SETTER(instancing, choice.instancing, ec_instancing, ec_instancing_names)
-SCENE_CHOICE_SETTERS(choice)
-SHUTTER_SETTER(choice)
 RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
 SETTER(accel)
@@ -42,30 +31,45 @@ SETTER(accel)
     return EC_OK;
 }
 
-static const ec_option options[] = {
-    {"accel", 0, true, set_accel},
-    {"device", 0, true, set_device},
-    {"grid-density", 0, true, set_grid_density},
-    {"instancing", 0, true, set_instancing},
-    {"json", 0, false, set_json},
-    {"quiet", 'q', false, set_quiet},
-    SHUTTER_OPTION,
-    SCENE_CHOICE_OPTIONS,
-};
+/* Of `render`, those that have a say in what is built for a scene. */
+static const char *const of_render[] = {
+    "animation", "at", "device", "effects", "env", "env-rotate", "env-strength", "filter", "filter-width", "focus",
+    "fstop", "instancing", "integrator", "json", "light-choice", "quiet", "sample", "sampler", "scattering", "scene",
+    "shutter", "terminator", "variant", "without"};
 
-static ec_result measure(ec_scene_report *report, ec_error *err)
+static ec_result parse(int argc, char **argv, info_request *request, bool *done, ec_error *err)
+{
+    ec_option rows[EC_OPTIONS_MAX] = {{"accel", 0, true, set_accel}, {"grid-density", 0, true, set_grid_density}};
+    bool given[EC_OPTIONS_MAX] = {false};
+    int count = 2, first = 0;
+    ec_request asked;
+    for (int i = 0; i < ec_render_row_count; i++)
+        for (size_t k = 0; k < sizeof of_render / sizeof *of_render; k++)
+            if (!strcmp(ec_render_rows[i].name, of_render[k])) rows[count++] = ec_render_rows[i];
+    ec_render_request_start(&request->render);
+    EC_TRY(ec_options_parse(rows, count, request, argc, argv, &first, given, &asked, err));
+    *done = ec_request_serve(asked, argv[0]);
+    if (*done) return EC_OK;
+    EC_TRY(ec_options_scene(argc, argv, first, &request->render.scene, err));
+    EC_TRY(ec_combinations_check_grid(request->grid_density, request->accel, true, err));
+    return ec_render_request_settle(&request->render, rows, count, given, err);
+}
+
+static ec_result measure(const ec_render_request *request, ec_scene_report *report, ec_error *err)
 {
     const ec_scene *scene = report->scene;
     ec_bvh bvh = {0};
-    ec_scene_report_count(report);
+    EC_TRY(ec_scene_report_count(report, err));
     EC_TRY(ec_bvh_build(scene->positions, scene->indices, ec_scene_flat_count(scene), 0, &bvh, &report->bvh, err));
     ec_bvh_free(&bvh);
     ec_scene lit = *scene;
-    if (!report->has_light) { /* what a render does then */
+    report->takes_white = !report->has_light && !request->environment && !request->adjusts_env;
+    if (report->takes_white) {
         lit.has_environment = true;
         for (int k = 0; k < 3; k++) lit.environment.constant[k] = 1.0f;
     }
-    EC_TRY(ec_scene_estimate(&lit, report->bvh.ref_count + scene->triangle_count - ec_scene_flat_count(scene), &report->device_bytes, &report->effects, err));
+    uint32_t refs = report->bvh.ref_count + scene->triangle_count - ec_scene_flat_count(scene);
+    EC_TRY(ec_scene_estimate(&lit, &request->options, refs, &report->device_bytes, &report->effects, err));
     report->peak_memory_bytes = ec_peak_memory_bytes();
     return EC_OK;
 }
@@ -89,7 +93,7 @@ static ec_result probe_all(ec_cl *cl, const info_request *request, ec_scene_repo
 static ec_result probe(const info_request *request, ec_scene_report *report, ec_device_info *device, ec_error *err)
 {
     ec_cl cl;
-    EC_TRY(ec_device_find(request->device, device, NULL, NULL, err));
+    EC_TRY(ec_device_find(request->render.device, device, NULL, NULL, err));
     report->device = device->name;
     EC_TRY(ec_cl_open(device, &cl, err));
     ec_result result = probe_all(&cl, request, report, err);
@@ -97,37 +101,35 @@ static ec_result probe(const info_request *request, ec_scene_report *report, ec_
     return result;
 }
 
-static ec_result tell(const info_request *request, const ec_log *log, ec_error *err)
+static ec_result tell(info_request *request, const ec_log *log, ec_error *err)
 {
-    ec_scene_report report = {.path = request->scene};
-    ec_scene *scene = NULL;
+    ec_render_request *render = &request->render;
+    ec_scene_report report = {.path = render->scene};
+    ec_render_job job = {.request = render};
     double start = ec_now();
-    EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &scene, log, err));
+    EC_TRY(ec_scene_load_choice(render->scene, &render->choice, &job.scene, log, err));
     report.load_seconds = ec_now() - start;
-    report.scene = scene;
+    report.scene = job.scene;
 
     ec_device_info device;
-    ec_result result = measure(&report, err);
+    ec_result result = render->environment || render->adjusts_env ? ec_render_job_light(&job, log, err) : EC_OK;
+    if (result == EC_OK) result = measure(render, &report, err);
     if (result == EC_OK && request->accel) result = probe(request, &report, &device, err);
-    if (result == EC_OK && request->json)
+    if (result == EC_OK && render->json)
         result = ec_scene_report_json(&report, stdout, err);
     else if (result == EC_OK)
         ec_scene_report_text(&report, stdout);
-    ec_scene_free(scene);
+    ec_scene_free(job.scene);
     return result;
 }
 
 ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
     info_request request = {0};
-    int first = 0;
-    ec_request asked;
-    EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &request, argc, argv, &first, NULL, &asked, err));
-    if (ec_request_serve(asked, argv[0])) return EC_OK;
-    EC_TRY(ec_options_scene(argc, argv, first, &request.scene, err));
-    EC_TRY(ec_combinations_check_shutter(&request.choice, err));
-    EC_TRY(ec_combinations_check_grid(request.grid_density, request.accel, true, err));
-    cli->console.quiet = request.quiet;
+    bool done = false;
+    EC_TRY(parse(argc, argv, &request, &done, err));
+    if (done) return EC_OK;
+    cli->console.quiet = request.render.quiet;
     ec_log log = ec_console_log(&cli->console);
     return tell(&request, &log, err);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "image/exr_header.h"
 
 static const char *const colour[3] = {"R", "G", "B"}, *const error[3] = {"stderr.R", "stderr.G", "stderr.B"};
@@ -13,7 +14,7 @@ static ec_result missing(const char *path, const ec_exr *exr, const char *name, 
     char list[160] = "";
     for (uint32_t i = 0; i < exr->channel_count && strlen(list) < sizeof list - 40; i++) {
         size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%.32s", i ? ", " : "", exr->names[i]);
+        snprintf(list + used, sizeof list - used, "%s%.*s", i ? ", " : "", EC_CUT(exr->names[i], 32));
     }
     return ec_fail(err, "cannot compare '%s': it has no channel '%s' (but %s); save it with R, G and B", path, name, list);
 }

@@ -72,7 +72,7 @@ static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error 
     return EC_OK;
 }
 
-static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *err)
+ec_result ec_render_job_light(ec_render_job *job, const ec_log *log, ec_error *err)
 {
     const char *environment = job->request->environment;
     bool is_of_all = environment || job->scene->has_environment;
@@ -83,10 +83,14 @@ static ec_result prepare_light(ec_render_job *job, const ec_log *log, ec_error *
     } else if (environment) {
         if (job->scene->has_environment) ec_note(log, "--env takes the place of the image-based light that the scene has");
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
-    } else if (!ec_scene_has_light(job->scene) && !job->request->adjusts_env) {
-        ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");
-        environment = "1,1,1";
-        EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
+    } else if (!job->request->adjusts_env) {
+        ec_scene_light light;
+        EC_TRY(ec_scene_find_light(job->scene, &light, err));
+        if (!light.any) {
+            ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");
+            environment = "1,1,1";
+            EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
+        }
     }
     if (job->request->adjusts_env && !(job->share && job->share->environment_known)) {
         if (!environment && !job->scene->has_environment)
@@ -181,7 +185,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *
     double start = ec_now();
     if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, &log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, &log, err));
-    EC_TRY(prepare_light(job, &log, err));
+    EC_TRY(ec_render_job_light(job, &log, err));
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
     return check_memory(job, err);

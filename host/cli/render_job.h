@@ -67,6 +67,9 @@ ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err);
 /* The same without the outputs: device, scene, environment, camera, size. */
 ec_result ec_render_job_load(ec_render_job *job, ec_console *console, ec_error *err);
 
+/* Part of that: the environment that the request asks for, or a white one where job->scene has no light. */
+ec_result ec_render_job_light(ec_render_job *job, const ec_log *log, ec_error *err);
+
 /* With --resume, first of all: reads the checkpoint and completes the request by it. */
 ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "accel/accel.h"
+#include "base/text.h"
 #include "cost/cost.h"
 #include "pack/pack.h"
 
@@ -158,7 +159,7 @@ static void add_lights(rung_list *list)
         if (!is_lamp(list->scene, m)) continue;
         snprintf(id, sizeof id, "no-lamps-%u", m);
         if (called && *called)
-            snprintf(name, sizeof name, "lamps \"%.60s\"", called);
+            snprintf(name, sizeof name, "lamps \"%.*s\"", EC_CUT(called, 60));
         else
             snprintf(name, sizeof name, "lamps of material %u", m);
         add_effect(list, EC_FEATURE_EMISSION, m + 1, id, name);

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
+
 #define ROW(name, text) {EC_FEATURE_##name, text},
 const ec_feature ec_features[] = {EC_FEATURES(ROW)};
 const uint32_t ec_feature_count = sizeof ec_features / sizeof *ec_features;
@@ -21,8 +23,10 @@ void ec_effects_call(ec_effects *effects, uint64_t feature, const char *why, ...
     va_list args;
     va_start(args, why);
     int place = place_of(feature);
-    vsnprintf(effects->calls[place].why, EC_EFFECT_WHY, why, args);
+    char *text = effects->calls[place].why;
+    vsnprintf(text, EC_EFFECT_WHY, why, args);
     va_end(args);
+    text[ec_text_cut(text, EC_EFFECT_WHY)] = 0;
     effects->calls[place].others = 0;
     effects->bits |= feature;
 }

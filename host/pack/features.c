@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/text.h"
 #include "pack/pack.h"
 #include "scene/texture_range.h"
 
@@ -58,7 +59,7 @@ typedef struct scan {
 static void name_material(const ec_scene *scene, uint32_t index, char *text, size_t size)
 {
     const char *name = scene->materials[index].name;
-    if (name && *name) snprintf(text, size, "material %u \"%.36s\"", index, name);
+    if (name && *name) snprintf(text, size, "material %u \"%.*s\"", index, EC_CUT(name, 36));
     else snprintf(text, size, "material %u", index);
 }
 
@@ -161,10 +162,23 @@ static void scan_specular(scan *s)
     scan_anisotropy(s);
 }
 
+static void scan_base_color(scan *s)
+{
+    bool colors = false;
+    if (!has_texture(s, EC_SLOT_BASE_COLOR)) return;
+    for (int k = 0; k < 3; k++) {
+        float least, most;
+        ec_texture_range(s->scene, &s->m->textures[EC_SLOT_BASE_COLOR], k, &least, &most);
+        colors |= least != most;
+    }
+    const char *has = colors ? "has a base colour texture" : "has alpha in its base colour texture";
+    call(s, EC_FEATURE_BASE_COLOR_TEXTURE, "%s", has);
+}
+
 static void scan_material(scan *s)
 {
     const ec_material *m = s->m;
-    if (has_texture(s, EC_SLOT_BASE_COLOR)) call(s, EC_FEATURE_BASE_COLOR_TEXTURE, "has a base colour texture");
+    scan_base_color(s);
     if (!m->double_sided && !ec_refracts(m) && !ec_bounds(m)) call(s, EC_FEATURE_CULLING, "is single-sided");
     if (m->alpha_mode != EC_ALPHA_OPAQUE) call(s, EC_FEATURE_ALPHA, "leaves open what its alpha says");
     if (m->unlit) {
@@ -270,8 +284,9 @@ static void scan_lights(const ec_scene *scene, ec_effects *effects)
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const ec_light *light = &scene->lights[i];
         ec_effects one = {0};
-        if (light->name) ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light \"%.60s\"", types[light->type], light->name);
-        else ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light %u", types[light->type], i);
+        const char *type = types[light->type], *name = light->name;
+        if (name) ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light \"%.*s\"", type, EC_CUT(name, 60));
+        else ec_effects_call(&one, EC_FEATURE_PUNCTUAL_LIGHTS, "%s light %u", type, i);
         ec_effects_add(effects, &one);
     }
     const ec_environment *e = &scene->environment;

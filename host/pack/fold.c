@@ -89,12 +89,19 @@ static double mean_of(const ec_image *image, int slot, int channel)
     return sum / (double)count;
 }
 
+/* Of channels before `end`. */
+static void multiply_means(const ec_scene *scene, ec_material *m, int slot, int end)
+{
+    const ec_texture_use *use = &m->textures[slot];
+    const factors *f = factors_of(slot);
+    for (int k = 0; f && use->texture >= 0 && k < end; k++)
+        if (f->of[k] != NO_FACTOR) *factor_at(m, f->of[k]) *= (float)mean_of(image_of(scene, use), slot, k);
+}
+
+void ec_texture_flatten_color(const ec_scene *scene, ec_material *m, int slot) { multiply_means(scene, m, slot, 3); }
+
 void ec_texture_flatten(const ec_scene *scene, ec_material *m, int slot)
 {
-    ec_texture_use *use = &m->textures[slot];
-    const factors *f = factors_of(slot);
-    if (use->texture < 0) return;
-    for (int k = 0; f && k < 4; k++)
-        if (f->of[k] != NO_FACTOR) *factor_at(m, f->of[k]) *= (float)mean_of(image_of(scene, use), slot, k);
-    use->texture = -1;
+    multiply_means(scene, m, slot, 4);
+    m->textures[slot].texture = -1;
 }

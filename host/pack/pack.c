@@ -7,7 +7,7 @@
 static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     pack->prim_count = scene->triangle_count;
-    pack->prims = malloc((size_t)(pack->prim_count ? pack->prim_count : 1) * sizeof *pack->prims);
+    pack->prims = calloc((size_t)pack->prim_count + 1, sizeof *pack->prims);
     bool *is_pane = calloc(scene->material_count, sizeof *is_pane);
     if (!pack->prims || !is_pane) {
         free(is_pane);
@@ -33,6 +33,7 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
         pack->scene_radius += extent * extent;
     }
     pack->scene_radius = sqrtf(pack->scene_radius) * 1.001f;
+    if (!pack->prim_count) pack->scene_radius = 1.0f; /* or a sky around nothing had no power */
     return EC_OK;
 }
 

@@ -62,6 +62,12 @@ void ec_pack_rough(const ec_scene *plain, ec_effects *effects);
 /* The scans alone. */
 ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *err);
 ec_result ec_scene_rough(const ec_scene *scene, ec_effects *effects, ec_error *err);
+/* Does anything give light: a triangle that emits or is unlit, a punctual light, an environment? */
+typedef struct ec_scene_light {
+    bool any;
+    uint32_t triangles; /* as stored */
+} ec_scene_light;
+ec_result ec_scene_find_light(const ec_scene *scene, ec_scene_light *light, ec_error *err);
 /* Of a plain scene: may light go straight on through it, somewhere: thin-walled and smooth? */
 bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m);
 /* Is there a body behind it? */

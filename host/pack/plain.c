@@ -68,7 +68,7 @@ static void plain_anisotropy(const ec_scene *scene, ec_material *m)
     drop(m, EC_SLOT_ANISOTROPY);
 }
 
-/* An effect on what no ray sees, and on what shows its base colour alone, is none. */
+/* An effect on what shows its base colour alone is none. */
 static void plain_bare(ec_material *m)
 {
     for (int k = 0; k < EC_SLOT_COUNT; k++)
@@ -77,6 +77,13 @@ static void plain_bare(ec_material *m)
     memset(m->sheen, 0, sizeof m->sheen);
     memset(m->absorption, 0, sizeof m->absorption);
     m->metallic = m->specular = m->transmission = m->coat = m->anisotropy = m->film = m->seeps = m->dispersion = 0.0f;
+}
+
+/* Nor is one on what no ray sees. */
+static void plain_unseen(ec_material *m)
+{
+    plain_bare(m);
+    m->unlit = false;
 }
 
 /* Coverage between these two: does it leave anything open, and does it show anything? A product and a bilinear look-up round. */
@@ -91,7 +98,7 @@ static void plain_alpha(const ec_scene *scene, ec_material *m, const shown *s)
     const float slack = textured || varies ? EC_TEXTURE_SLACK : 0.0f;
     const bool hidden = ec_alpha_hides(scene, m, s->most_alpha, varies);
     if (mask ? low * (1.0f - slack) >= m->alpha_cutoff : low >= 1.0f) m->alpha_mode = EC_ALPHA_OPAQUE;
-    if (hidden) plain_bare(m);
+    if (hidden) plain_unseen(m);
 }
 
 /* Brushed the same way and as much everywhere: that is a rotation and a strength, where the texture's right is the mesh's. */
@@ -178,7 +185,7 @@ ec_result ec_scene_view_plain(const ec_scene *scene, ec_scene_view *view, ec_err
                 plain_material(scene, &view->scene.materials[m], &list[m]);
                 continue;
             }
-            plain_bare(&view->scene.materials[m]); /* nothing shows it */
+            plain_unseen(&view->scene.materials[m]); /* nothing shows it */
             drop(&view->scene.materials[m], EC_SLOT_BASE_COLOR);
         }
         plain_lights(&view->scene);

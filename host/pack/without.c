@@ -38,12 +38,23 @@ static const struct {
     {EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR},
 };
 
-static void without(const ec_scene *scene, uint64_t off, ec_material *m)
+/* Coverage is no colour: it stays. */
+static ec_result without_color(const ec_scene *scene, ec_scene_view *view, ec_material *m, ec_error *err)
+{
+    ec_texture_use *use = &m->textures[EC_SLOT_BASE_COLOR];
+    if (use->texture < 0) return EC_OK;
+    ec_texture_flatten_color(scene, m, EC_SLOT_BASE_COLOR);
+    return ec_scene_view_bleach(view, &use->texture, err);
+}
+
+static ec_result without(const ec_scene *scene, uint64_t off, ec_scene_view *view, ec_material *m, ec_error *err)
 {
     if (off & EC_FEATURE_ALPHA) m->alpha_mode = EC_ALPHA_OPAQUE;
     for (size_t i = 0; i < sizeof textured / sizeof *textured; i++) {
-        bool covers = textured[i].slot == EC_SLOT_BASE_COLOR && m->alpha_mode != EC_ALPHA_OPAQUE; /* coverage is in it: it stays */
-        if ((off & textured[i].effect) && !covers) ec_texture_flatten(scene, m, textured[i].slot);
+        if (!(off & textured[i].effect)) continue;
+        bool covers = textured[i].slot == EC_SLOT_BASE_COLOR && m->alpha_mode != EC_ALPHA_OPAQUE;
+        if (covers) EC_TRY(without_color(scene, view, m, err));
+        else ec_texture_flatten(scene, m, textured[i].slot);
     }
     if (off & EC_FEATURE_CULLING) m->double_sided = true;
     if (off & EC_FEATURE_UNLIT) m->unlit = false;
@@ -57,14 +68,19 @@ static void without(const ec_scene *scene, uint64_t off, ec_material *m)
     if (off & EC_FEATURE_IRIDESCENCE) m->film = 0.0f;
     if (off & EC_FEATURE_DIFFUSE_TRANSMISSION) m->seeps = 0.0f;
     if (off & EC_FEATURE_DISPERSION) m->dispersion = 0.0f;
+    return EC_OK;
 }
 
 ec_result ec_scene_view_without(const ec_scene *scene, uint64_t off, int64_t material, ec_scene_view *view, ec_error *err)
 {
     EC_TRY(ec_scene_view_make(scene, view, err));
     ec_scene *s = &view->scene;
-    for (uint32_t m = 0; m < s->material_count; m++)
-        if (material == EC_ALL_MATERIALS || material == m) without(scene, off, &s->materials[m]);
+    for (uint32_t m = 0; m < s->material_count; m++) {
+        if (material != EC_ALL_MATERIALS && material != m) continue;
+        if (without(scene, off, view, &s->materials[m], err) == EC_OK) continue;
+        ec_scene_view_free(view);
+        return EC_FAILED;
+    }
     if (off & EC_FEATURE_MOTION) s->motion = (ec_motion){0};
     if (off & EC_FEATURE_PUNCTUAL_LIGHTS) s->light_count = 0;
     if (off & EC_FEATURE_SMOOTH_NORMALS) s->normals = NULL;

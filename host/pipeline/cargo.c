@@ -99,6 +99,14 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
     return ec_pipeline_joins(o, pack) ? choose_lights(o, pack, err) : EC_OK;
 }
 
+ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
+                        ec_error *err)
+{
+    EC_TRY(fill_pack(scene, called_for, o, &cargo->pack, err));
+    ec_pipeline_effects(o, &cargo->pack, &cargo->head.effects);
+    return EC_OK;
+}
+
 /* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
  * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
  * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
@@ -168,8 +176,7 @@ static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_sce
 {
     ec_pack *pack = &cargo->pack;
     ec_cargo_head *head = &cargo->head;
-    EC_TRY(fill_pack(scene, called_for, o, pack, err));
-    ec_pipeline_effects(o, pack, &head->effects);
+    EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, err));
     set_params(o, batch, pack, head->effects.called.bits, &head->params);
     head->bodies_too_many = pack->bodies.too_many;
     EC_TRY(ec_insides_make(pack, &cargo->insides, err));
@@ -211,21 +218,29 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     return EC_OK;
 }
 
-ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *o, uint32_t batch, uint32_t kinds, ec_cargo *cargo,
-                        ec_render_stats *stats, ec_error *err)
+ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
+                          const ec_render_options *o, ec_error *err)
 {
-    memset(cargo, 0, sizeof *cargo);
     if (o->without) {
-        EC_TRY(ec_scene_view_without(scene, o->without, (int64_t)o->without_of - 1, &cargo->view, err));
-        scene = &cargo->view.scene;
+        EC_TRY(ec_scene_view_without(*scene, o->without, (int64_t)o->without_of - 1, &cargo->view, err));
+        *scene = &cargo->view.scene;
     }
     /* Meshes that are kept once are written out where an accelerator or an integrator knows one level only. */
     bool keeps = o->integrator != EC_INTEGRATOR_RASTER && (!o->accel || !strcmp(o->accel, "auto") || !strcmp(o->accel, "twolevel"));
-    const ec_scene *called_for = scene;
-    if (scene->placed_count && !keeps) {
-        EC_TRY(ec_scene_write_out(scene, &cargo->written, err));
-        scene = &cargo->written;
+    *called_for = *scene;
+    if ((*scene)->placed_count && !keeps) {
+        EC_TRY(ec_scene_write_out(*scene, &cargo->written, err));
+        *scene = &cargo->written;
     }
+    return EC_OK;
+}
+
+ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *o, uint32_t batch, uint32_t kinds, ec_cargo *cargo,
+                        ec_render_stats *stats, ec_error *err)
+{
+    const ec_scene *called_for;
+    memset(cargo, 0, sizeof *cargo);
+    EC_TRY(ec_cargo_choose(cargo, &scene, &called_for, o, err));
     return fill(cargo, scene, called_for, o, batch, kinds, stats, err);
 }
 

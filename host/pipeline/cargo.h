@@ -58,6 +58,13 @@ ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *options,
                         ec_render_stats *stats, ec_error *err);
 void ec_cargo_free(ec_cargo *cargo); /* zero-initialised or freed is fine */
 
+/* The two steps of it that tell effects. First what of the scene is rendered, and, for called_for, what says which effects
+ * that takes: they are the cargo's or the scene itself. Then its pack, and the head's effects. */
+ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
+                          const ec_render_options *options, ec_error *err);
+ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+                        const ec_render_options *options, ec_error *err);
+
 /* The next buffer; NULL data adds none. owned as in ec_cargo_buffer, the cargo's from here on. */
 void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned);
 

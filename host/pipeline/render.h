@@ -155,7 +155,8 @@ uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch);
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);
 
 /* Bytes of device memory the scene itself will take (geometry, BVH of ref_count references, textures, lights), and what a render
- * by default makes of its effects. For `eclat info`. */
-ec_result ec_scene_estimate(const ec_scene *scene, uint32_t ref_count, uint64_t *device_bytes, ec_render_effects *effects, ec_error *err);
+ * makes of its effects. For `eclat info`. */
+ec_result ec_scene_estimate(const ec_scene *scene, const ec_render_options *options, uint32_t ref_count, uint64_t *device_bytes,
+                            ec_render_effects *effects, ec_error *err);
 
 #endif

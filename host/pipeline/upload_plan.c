@@ -10,8 +10,9 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
     const uint64_t vertices = s->vertex_count, triangles = s->triangle_count, lights = pack->light_count;
     const uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
     const uint64_t light = EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT;
+    const uint64_t prims = pack->prim_count ? pack->prim_count : 1; /* kernels read the first where a ray met none */
     const ec_upload all[] = {
-        {EC_ARG_PRIMS, pack->prims, 0, {"triangles", 0, pack->prim_count * sizeof *pack->prims}},
+        {EC_ARG_PRIMS, pack->prims, 0, {"triangles", 0, prims * sizeof *pack->prims}},
         {EC_ARG_MATERIALS, pack->materials, 0, {"materials", 0, pack->material_count * sizeof *pack->materials}},
         {EC_ARG_PLACES, pack->places, 0, {"places of instances", EC_FEATURE_INSTANCES, pack->place_words * 4ull}},
         {EC_ARG_MOTION, pack->motion, 0, {"keys of what moves", EC_FEATURE_MOTION, pack->motion_words * 4ull}},

@@ -62,7 +62,9 @@ static void print_row(const ec_effect_row *row, FILE *to)
 {
     char made[EC_EFFECT_MADE];
     ec_effect_made(row, made, sizeof made);
-    fprintf(to, "  %-26s %s%s\n", row->name, row->called ? row->why : row->left_out ? "left out: --without" : "nothing calls for it: --effects all", made);
+    const char *why = row->left_out ? "left out: --without" : "nothing calls for it: --effects all", *part = "";
+    if (row->called) why = row->why, part = row->left_out ? "left out, but for: " : "";
+    fprintf(to, "  %-26s %s%s%s\n", row->name, part, why, made);
 }
 
 void ec_effects_text(const ec_render_effects *effects, FILE *to, int width)

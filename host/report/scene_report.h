@@ -21,19 +21,19 @@ typedef struct ec_scene_report {
     const ec_scene *scene;
     uint32_t emissive_triangles; /* whose material emits or is unlit */
     uint32_t light_types[3];     /* by ec_light_type */
-    ec_render_effects effects;   /* of a render by default */
+    ec_render_effects effects;   /* of a render with the options given */
     uint64_t device_bytes;       /* the scene's buffers on the device */
     uint64_t peak_memory_bytes;  /* of this process: loading, and building the BVH */
     double load_seconds;
     ec_bvh_stats bvh;
-    bool has_light;
+    bool has_light, takes_white; /* takes_white: as it has none and no environment was given */
     const char *device;          /* on which they were measured */
     ec_accel_report accels[EC_ACCEL_COUNT];
     uint32_t accel_count;        /* 0: none was asked for */
 } ec_scene_report;
 
 /* Fills what can be counted in the scene. */
-void ec_scene_report_count(ec_scene_report *report);
+ec_result ec_scene_report_count(ec_scene_report *report, ec_error *err);
 
 void ec_scene_report_text(const ec_scene_report *report, FILE *to);
 ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error *err);

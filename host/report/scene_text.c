@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "report/effects_report.h"
 #include "report/format.h"
 #include "report/scene_report.h"
@@ -11,7 +12,7 @@ void ec_camera_describe(const ec_scene *scene, uint32_t index, char *text, size_
 {
     const ec_camera *camera = &scene->cameras[index];
     int used = snprintf(text, size, "%u ", index);
-    if (camera->name) used += snprintf(text + used, size - (size_t)used, "'%.100s' ", camera->name);
+    if (camera->name) used += snprintf(text + used, size - (size_t)used, "'%.*s' ", EC_CUT(camera->name, 100));
     if (camera->type == EC_CAMERA_PERSPECTIVE)
         snprintf(text + used, size - (size_t)used, "(perspective, %.3g degrees high)", DEGREES(camera->yfov));
     else
@@ -43,7 +44,7 @@ static void print_lights(const ec_scene_report *report, FILE *to)
             report->light_types[EC_LIGHT_POINT], report->light_types[EC_LIGHT_SPOT],
             report->light_types[EC_LIGHT_DIRECTIONAL],
             report->scene->has_environment ? "an environment" : "no environment");
-    if (!report->has_light) fputs("            none at all: a render takes a constant white environment\n", to);
+    if (report->takes_white) fputs("            none at all: a render takes a constant white environment\n", to);
 }
 
 static void print_cameras(const ec_scene *scene, FILE *to)
@@ -70,7 +71,7 @@ static void print_names(const char *title, const ec_scene_names *list, const dou
     if (list->count) fprintf(to, "%s", title);
     for (uint32_t i = 0; i < list->count; i++) {
         fprintf(to, "%s%u", i ? ", " : "", i);
-        if (list->names[i]) fprintf(to, " '%.100s'", list->names[i]);
+        if (list->names[i]) fprintf(to, " '%.*s'", EC_CUT(list->names[i], 100));
         if (seconds && seconds[i] >= 0) fprintf(to, " (%.4g s)", seconds[i]);
     }
     if (list->count) fputc('\n', to);

@@ -1,4 +1,5 @@
 /* Names that one can choose among: scenes, variants, animations, cameras. */
+#include "base/text.h"
 #include "scene/scene.h"
 
 #include <errno.h>
@@ -27,15 +28,16 @@ static ec_result fail_listing(const ec_scene_names *list, const char *what, cons
     for (uint32_t i = 0; i < list->count; i++) {
         char item[160];
         const char *name = list->names[i];
-        snprintf(item, sizeof item, name ? "%s%u \"%.100s\"" : "%s%u", i ? ", " : "", i, name);
+        int used = snprintf(item, sizeof item, "%s%u", i ? ", " : "", i);
+        if (name) snprintf(item + used, sizeof item - (size_t)used, " \"%.*s\"", EC_CUT(name, 100));
         if (strlen(text) + strlen(item) + 5 > sizeof text) {
             strcat(text, " ...");
             break;
         }
         strcat(text, item);
     }
-    if (!list->count) return ec_fail(err, "there is no %s \"%.200s\"; the file has none", what, wanted);
-    return ec_fail(err, "there is no %s \"%.200s\"; there are: %s", what, wanted, text);
+    if (!list->count) return ec_fail(err, "there is no %s \"%.*s\"; the file has none", what, EC_CUT(wanted, 200));
+    return ec_fail(err, "there is no %s \"%.*s\"; there are: %s", what, EC_CUT(wanted, 200), text);
 }
 
 ec_result ec_scene_names_find(const ec_scene_names *list, const char *what, const char *wanted, uint32_t *index, ec_error *err)

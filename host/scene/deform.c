@@ -1,6 +1,7 @@
 /* Morph targets and skins. A mesh that they move is replaced by a copy that stands as it is shown, so that nothing after this knows
  * of either, and a scene without them pays nothing. */
 #include "scene/deform.h"
+#include "base/text.h"
 #include "scene/flatten.h"
 
 #include <stdio.h>
@@ -49,7 +50,7 @@ static ec_result prepare(deformer *d, const ec_pose *pose, const ec_gltf_primiti
         return ec_fail(d->err, "%s: %s has %u morph targets for %u weights", d->g->path, where, p->target_count, pose->weight_count);
     for (uint32_t t = 0; t < pose->weight_count; t++) {
         char target[160];
-        snprintf(target, sizeof target, "%.100s targets[%u]", where, t);
+        snprintf(target, sizeof target, "%.*s targets[%u]", EC_CUT(where, 100), t);
         if (pose->weights[t] != 0) EC_TRY(ec_gltf_target_prepare(d->g, p, t, target, d->err));
     }
     return pose->joints ? ec_gltf_influences_prepare(d->g, p, where, d->err) : EC_OK;

@@ -1,5 +1,6 @@
 /* Light from infinitely far away: one colour or an equirectangular picture. The orientation is that of Khronos' sample
  * viewer and three.js; scene.h says it. */
+#include "base/text.h"
 #include "scene/scene.h"
 
 #include <float.h>
@@ -47,8 +48,8 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
     ec_environment e = {0};
     int color = parse_color(spec, e.constant);
     if (color < 0)
-        return ec_fail(err, "environment \"%.200s\": three comma-separated numbers, none negative, are needed, e.g. 1,1,1",
-                       spec);
+        return ec_fail(err, "environment \"%.*s\": three comma-separated numbers, none negative, are needed, e.g. 1,1,1",
+                       EC_CUT(spec, 200));
     if (color) {
         clean(e.constant, 3, spec, log);
     } else {

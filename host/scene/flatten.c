@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #define NO_VERTEX UINT32_MAX
 
@@ -23,6 +24,7 @@ ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, con
                             ec_draw_function function)
 {
     ec_draw d = ec_draw_of(g, at, center);
+    d.mesh = mesh;
     for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
         d.p = &g->meshes[mesh].primitives[k];
         if (d.p->drawn) EC_TRY(function(f, &d));
@@ -177,8 +179,8 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
 static ec_result allocate(ec_flattener *f, const char *path)
 {
     ec_scene *s = f->scene;
-    size_t v = f->vertex_bound, t = f->triangle_bound;
-    f->remap = malloc(f->remap_size * sizeof *f->remap);
+    size_t v = f->vertex_bound + 1, t = f->triangle_bound + 1; /* there may be none */
+    f->remap = malloc((f->remap_size + 1) * sizeof *f->remap);
     s->positions = malloc(v * 3 * sizeof(float));
     s->indices = malloc(t * 3 * sizeof(uint32_t));
     s->triangle_material = malloc(t * sizeof(uint32_t));
@@ -227,8 +229,6 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     ec_scene *s = f->scene;
     EC_TRY(for_each_draw(f, g, placements, ec_flattener_count));
     EC_TRY(ec_keep_count(keeping, f));
-    if (!f->triangle_bound)
-        return ec_fail(f->err, "%s: nothing to render: the scene has no triangles", g->path);
     EC_TRY(check_memory(f, g->path));
     EC_TRY(for_each_draw(f, g, placements, measure_draw));
     EC_TRY(ec_keep_measure(keeping, f));
@@ -239,7 +239,7 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     free(g->sources);
     g->sources = NULL;
     if (g->blurs) {
-        f->sources = g->sources = malloc(f->vertex_bound * sizeof *g->sources);
+        f->sources = g->sources = malloc((f->vertex_bound + 1) * sizeof *g->sources);
         if (!f->sources) return ec_fail(f->err, "%s: out of memory for %llu vertices", g->path, (unsigned long long)f->vertex_bound);
     }
     EC_TRY(for_each_draw(f, g, placements, ec_flattener_fill));
@@ -248,11 +248,22 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     f->node = -1;
     f->sources = NULL; /* meshes kept once stand still */
     EC_TRY(ec_keep_fill(keeping, f));
-    if (!s->triangle_count)
-        return ec_fail(f->err, "%s: nothing to render: of %llu triangles %u have no area and %u have NaN or infinite positions",
-                       g->path, (unsigned long long)f->triangle_bound, s->dropped_degenerate, s->dropped_nonfinite);
+    if (!s->triangle_count) {
+        memset(s->bounds_min, 0, sizeof s->bounds_min);
+        memset(s->bounds_max, 0, sizeof s->bounds_max);
+        return ec_flatten_empty(f, g, placements);
+    }
     trim(s);
     return EC_OK;
+}
+
+static void warn_odd(const struct ec_odd_values *odd, const ec_gltf *g, const char *what, const ec_log *log)
+{
+    if (!odd->count) return;
+    const char *name = g->meshes[odd->mesh].name;
+    ec_warn(log, "%s: %llu %s, the first in meshes[%d]%s%.*s%s; they are clamped", g->path,
+            (unsigned long long)odd->count, what, odd->mesh, name ? " \"" : "", EC_CUT(name ? name : "", 80),
+            name ? "\"" : "");
 }
 
 ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
@@ -270,8 +281,7 @@ ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *
         ec_warn(log, "%s: %u triangles with NaN or infinite positions are left out", g->path, s->dropped_nonfinite);
     if (s->dropped_degenerate)
         ec_note(log, "%s: %u triangles without area are left out", g->path, s->dropped_degenerate);
-    if (f.odd_values)
-        ec_warn(log, "%s: %llu texture coordinates or colours are NaN, beyond 1e18 or (colours) out of 0..1; they are clamped",
-                g->path, (unsigned long long)f.odd_values);
+    warn_odd(&f.odd_uv, g, "texture coordinates are NaN or beyond 1e18", log);
+    warn_odd(&f.odd_colors, g, "values of vertex colours are NaN or out of 0..1", log);
     return EC_OK;
 }

@@ -11,7 +11,8 @@ ec_result ec_flatten_prepare(ec_gltf *gltf, const ec_placement_list *placements,
 /* deform.c: where morph targets or a skin move a mesh, a copy that is moved takes its place; the rest is not touched. */
 ec_result ec_gltf_deform(ec_gltf *gltf, ec_placement_list *placements, ec_error *err);
 
-/* Fills vertices, triangles, bounds, center and the counters of dropped triangles. Fails where nothing is left. */
+/* Fills vertices, triangles, bounds, center and the counters of dropped triangles. Fails where nothing is left,
+ * unless the file means that: empty.c. */
 ec_result ec_flatten(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
                      ec_error *err);
 

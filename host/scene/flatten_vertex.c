@@ -49,15 +49,15 @@ void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tang
 }
 
 /* Clamped to low..high; NaN becomes 0. */
-static void store_values(ec_flattener *f, const ec_draw *d, int32_t accessor, uint32_t vertex, uint32_t count, float low,
-                         float high, float *out)
+static void store_values(struct ec_odd_values *odd, const ec_draw *d, int32_t accessor, uint32_t vertex, uint32_t count,
+                         float low, float high, float *out)
 {
     if (accessor < 0) return;
     ec_gltf_accessor_floats(&d->g->accessors[accessor], vertex, count, out);
     for (uint32_t i = 0; i < count; i++) {
         if (out[i] >= low && out[i] <= high) continue;
         out[i] = isnan(out[i]) ? 0 : out[i] < low ? low : high;
-        f->odd_values++;
+        if (!odd->count++) odd->mesh = d->mesh < (int32_t)d->g->stored_meshes ? d->mesh : d->g->nodes[d->at->node].mesh;
     }
 }
 
@@ -73,12 +73,12 @@ uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t 
     for (int i = 0; i < 2; i++) {
         if (!s->uv[i]) continue;
         memset(s->uv[i] + 2 * n, 0, 2 * sizeof(float));
-        store_values(f, d, d->p->streams.uv[i], vertex, 2, -EC_UV_MOST, EC_UV_MOST, s->uv[i] + 2 * n);
+        store_values(&f->odd_uv, d, d->p->streams.uv[i], vertex, 2, -EC_UV_MOST, EC_UV_MOST, s->uv[i] + 2 * n);
     }
     if (s->colors) {
         for (int i = 0; i < 4; i++) s->colors[4 * n + (size_t)i] = 1;
         uint32_t components = d->p->streams.color >= 0 ? d->g->accessors[d->p->streams.color].components : 0;
-        store_values(f, d, d->p->streams.color, vertex, components, 0, 1, s->colors + 4 * n);
+        store_values(&f->odd_colors, d, d->p->streams.color, vertex, components, 0, 1, s->colors + 4 * n);
     }
     return (uint32_t)n;
 }

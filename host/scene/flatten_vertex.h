@@ -9,6 +9,7 @@ typedef struct ec_draw {
     const ec_gltf *g;
     const ec_gltf_primitive *p;
     const ec_placement *at;
+    int32_t mesh;            /* that p is of */
     const double *center;    /* subtracted from where a vertex lies */
     double normal_matrix[9];
     bool mirrored;
@@ -19,7 +20,11 @@ typedef struct ec_flattener {
     const ec_log *log;
     ec_error *err;
     double low[3], high[3];
-    uint64_t vertex_bound, triangle_bound, odd_values;
+    uint64_t vertex_bound, triangle_bound;
+    struct ec_odd_values {
+        uint64_t count;
+        int32_t mesh; /* where the first is, in the file */
+    } odd_uv, odd_colors;
     uint32_t *remap; /* primitive's vertex - lowest -> scene's vertex */
     uint64_t remap_size;
     bool has_normals, has_tangents, has_uv[2], has_colors;
@@ -51,5 +56,8 @@ void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3]);
 
 /* Appends a vertex with all of its streams; `position` is the recentred one. Returns its index. */
 uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t vertex, const float position[3]);
+
+/* empty.c: no triangle is left. Says why, or fails. */
+ec_result ec_flatten_empty(const ec_flattener *f, const ec_gltf *g, const ec_placement_list *placements);
 
 #endif

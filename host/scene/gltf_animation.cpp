@@ -1,9 +1,9 @@
 /* A moment of an animation is a change to the document: what each channel says at that time is written where it points, before
  * nodes, meshes, materials, lights and cameras are read. So KHR_animation_pointer costs nothing more than its pointers. */
+#include "scene/gltf_schema.h"
 #include "scene/gltf_shim.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <memory>
 
@@ -41,38 +41,63 @@ static bool may_move(const path &to)
     return to[0] == "nodes" || to[0] == "materials" || to[0] == "cameras" || (to[0] == "meshes" && to[2] == "weights");
 }
 
-/* A member, or an element by its number; an object that has only defaults so far need not be in the file. */
-static json *step(json &from, const std::string &name, bool make)
+static const json *element(const json &array, const std::string &name)
 {
-    if (from.is_array()) {
-        bool number = !name.empty() && name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
-        size_t i = number ? std::stoul(name) : from.size();
-        return i < from.size() ? &from[i] : nullptr;
-    }
-    if (!from.is_object()) return nullptr;
-    auto found = from.find(name);
-    if (found != from.end()) return &*found;
-    return make ? &(from[name] = json::object()) : nullptr;
+    bool number = !name.empty() && name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
+    size_t i = number ? std::stoul(name) : array.size();
+    return i < array.size() ? &array[i] : nullptr;
 }
 
-static bool write(json &root, const path &to, const json &value)
+static const field *find_field(const schema &shape, const std::string &name)
 {
-    json *at = &root;
-    for (size_t i = 0; i + 1 < to.size(); i++) {
-        bool make = i >= 2 && to[i] != "extensions" && to[i - 1] != "extensions" && !isdigit(to[i + 1][0]);
-        at = step(*at, to[i], make);
-        if (!at) return false;
+    for (size_t i = 0; i < shape.count; i++)
+        if (!name.empty() && name == shape.fields[i].name) return &shape.fields[i];
+    return nullptr;
+}
+
+/* An object that has only defaults so far need not be in the file. One that names a texture, or is of an extension, means
+ * more. */
+static bool has_defaults(const path &to, size_t i, const schema &shape)
+{
+    if (to[i] == "extensions" || to[i - 1] == "extensions") return false;
+    return std::none_of(shape.fields, shape.fields + shape.count, [](const field &f) { return f.required; });
+}
+
+/* What the pointer leads to, if that can be written; else nothing. */
+static const field *find_target(const json &root, const path &to)
+{
+    if (!may_move(to)) return nullptr;
+    const schema *shape = &document_schema;
+    const json *at = &root; /* nothing where only defaults are */
+    for (size_t i = 0; i < to.size(); i++) {
+        bool last = i + 1 == to.size();
+        const field *f = find_field(*shape, to[i]);
+        if (!f) return nullptr;
+        at = at && at->contains(to[i]) ? &(*at)[to[i]] : nullptr;
+        if (f->type == kind::number || f->type == kind::flag) return last ? f : nullptr;
+        if (f->type == kind::numbers) { /* all, or one weight of many */
+            bool one = i + 2 == to.size() && to[i] == "weights" && at && element(*at, to[i + 1]);
+            return last || one ? f : nullptr;
+        }
+        bool object = f->type == kind::object;
+        if (last || !(object || f->type == kind::objects)) return nullptr;
+        if (object ? !at && !has_defaults(to, i, *f->members) : !at || !(at = element(*at, to[++i]))) return nullptr;
+        shape = f->members;
     }
+    return nullptr;
+}
+
+/* To what find_target has found. */
+static void write(json &root, const path &to, const json &value)
+{
     const std::string &last = to.back();
-    if (at->is_array()) { /* one weight of many */
-        json *element = to[to.size() - 2] == "weights" ? step(*at, last, false) : nullptr;
-        if (element) *element = value;
-        return element;
+    bool places = to[0] == "nodes" && (last == "translation" || last == "rotation" || last == "scale");
+    json *at = &root;
+    for (const std::string &name : to) {
+        if (places && &name == &last) at->erase("matrix");
+        at = at->is_array() ? &(*at)[std::stoul(name)] : &(*at)[name];
     }
-    if (!at->is_object()) return false;
-    if (to[0] == "nodes" && (last == "translation" || last == "rotation" || last == "scale")) at->erase("matrix");
-    (*at)[last] = value;
-    return true;
+    *at = value;
 }
 
 static ec_gltf_keyframes convert_keyframes(const json &sampler)
@@ -82,7 +107,8 @@ static ec_gltf_keyframes convert_keyframes(const json &sampler)
             interpolation == "STEP" ? EC_STEP : interpolation == "CUBICSPLINE" ? EC_CUBICSPLINE : EC_LINEAR};
 }
 
-static json sample(ec_gltf *gltf, const json &sampler, const path &to, const ec_scene_choice *choice, const std::string &where)
+static json sample(ec_gltf *gltf, const json &sampler, const path &to, kind type, const ec_scene_choice *choice,
+                   const std::string &where)
 {
     ec_error err;
     ec_gltf_numbers numbers = {nullptr, 0};
@@ -92,7 +118,7 @@ static json sample(ec_gltf *gltf, const json &sampler, const path &to, const ec_
     std::unique_ptr<double, void (*)(void *)> owned(numbers.values, free);
     if (result != EC_OK) throw bad_file(err.text);
     if (gltf->blurs) gltf->shutter_keys = std::max(gltf->shutter_keys, ec_gltf_keyframes_between(gltf, &keyframes, choice->opens, choice->closes));
-    if (numbers.count == 1 && to.back() == "visible") return numbers.values[0] != 0;
+    if (numbers.count == 1 && type == kind::flag) return numbers.values[0] != 0;
     if (numbers.count == 1 && to.back() != "weights") return numbers.values[0];
     return std::vector<double>(numbers.values, numbers.values + numbers.count);
 }
@@ -119,10 +145,14 @@ static bool apply(json &root, const json &animation, const std::string &name, co
             throw bad_file(where + ".sampler is " + std::to_string(sampler) + " but there are " +
                            std::to_string(samplers.size()));
         path to = split(pointer);
-        if (!may_move(to) || !write(root, to, sample(gltf, samplers[sampler], to, choice, where)))
-            ec_warn(log, "%s: %s moves %.200s, which eclat does not; it is left out", gltf->path, where.c_str(),
-                    printable(pointer).c_str());
-        else if (to[0] == "nodes")
+        const field *target = find_target(root, to);
+        if (!target) {
+            ec_warn(log, "%s: %s moves %s, which eclat does not; it is left out", gltf->path, where.c_str(),
+                    shortened(printable(pointer), 200).c_str());
+            continue;
+        }
+        write(root, to, sample(gltf, samplers[sampler], to, target->type, choice, where));
+        if (to[0] == "nodes")
             gltf->animated[std::stoul(to[1])] = true;
         else
             more |= to[0] != "meshes";

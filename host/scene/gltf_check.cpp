@@ -176,8 +176,8 @@ class checker {
         if (is_among(value, f.detail)) return true;
         std::string text = text_of(value);
         if (f.required) fail(where, "is " + text + ", not one of: " + f.detail);
-        ec_warn(log, "%s: %s is %.80s, not one of: %s; using the default", path, printable(where).c_str(),
-                printable(text).c_str(), f.detail);
+        ec_warn(log, "%s: %s is %s, not one of: %s; using the default", path, printable(where).c_str(),
+                shortened(printable(text), 80).c_str(), f.detail);
         return false;
     }
 };
@@ -185,8 +185,11 @@ class checker {
 void check_document(json &root, const char *path, const ec_log *log)
 {
     checker(root, path, log).check_object(root, document_schema, "");
-    if (!root.contains("bufferViews")) return;
-    const json &views = root["bufferViews"];
+    const json &cameras = list_of(root, "cameras"), &views = list_of(root, "bufferViews");
+    for (size_t i = 0; i < cameras.size(); i++) {
+        std::string type = cameras[i]["type"];
+        if (!cameras[i].contains(type)) throw bad_file("cameras[" + std::to_string(i) + "]." + type + " is missing");
+    }
     for (size_t i = 0; i < views.size(); i++)
         if (views[i].value("byteStride", 4) % 4)
             throw bad_file("bufferViews[" + std::to_string(i) + "].byteStride must be a multiple of 4");

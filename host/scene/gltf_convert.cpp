@@ -19,7 +19,7 @@ void convert_images(const json &list, ec_gltf *gltf)
     }
 }
 
-void convert_image_light(const json &root, ec_gltf *gltf)
+void convert_image_light(const json &root, ec_gltf *gltf, const ec_log *log)
 {
     const json &scenes = list_of(root, "scenes");
     const json *chosen = gltf->contents.scene < scenes.size() ? find_extension(scenes[gltf->contents.scene], "EXT_lights_image_based") : nullptr;
@@ -31,7 +31,11 @@ void convert_image_light(const json &root, ec_gltf *gltf)
     for (size_t i = 0; i < 6; i++) out.faces[i] = sharpest[i];
     for (size_t i = 0; i < 4; i++) out.rotation[i] = in.contains("rotation") ? in["rotation"][i].get<double>() : i == 3;
     out.size = in["specularImageSize"];
-    out.intensity = std::max(in.value("intensity", 1.0), 0.0);
+    double intensity = in.value("intensity", 1.0);
+    out.intensity = std::min(std::max(intensity, 0.0), double(EC_RADIANCE_MOST));
+    if (out.intensity != intensity)
+        ec_warn(log, "%s: image-based light %d has intensity %g, which is taken as %g", gltf->path, out.index, intensity,
+                out.intensity);
     out.used = true;
 }
 
@@ -64,16 +68,25 @@ void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *
 
 static const double half_pi = 1.57079632679489662;
 
-/* Of what KHR_lights_punctual allows; colours over 1 do no harm. */
+/* Of what KHR_lights_punctual allows; colours over 1 do no harm, but intensities that floats
+ * overflow by do. */
 static bool is_odd(const tinygltf::Light &light)
 {
     const tinygltf::SpotLight &spot = light.spot;
     bool colored = std::all_of(light.color.begin(), light.color.end(), [](double c) { return c >= 0; });
     bool cone = spot.innerConeAngle >= 0 && spot.innerConeAngle <= spot.outerConeAngle && spot.outerConeAngle <= half_pi + 1e-6;
-    return !colored || light.intensity < 0 || light.range < 0 || (light.type == "spot" && !cone);
+    bool bright = light.intensity > double(EC_RADIANCE_MOST);
+    return !colored || light.intensity < 0 || bright || light.range < 0 || (light.type == "spot" && !cone);
 }
 
-void convert_lights(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log)
+/* For tinygltf that is the same as none. */
+static bool has_range_0(const json &root, uint32_t light)
+{
+    const json &in = (*find_extension(root, "KHR_lights_punctual"))["lights"][light];
+    return in.value("range", 1.0) == 0;
+}
+
+void convert_lights(const tinygltf::Model &model, const json &root, ec_gltf *gltf, const ec_log *log)
 {
     gltf->lights = make_array<ec_light>(model.lights.size());
     for (const tinygltf::Light &in : model.lights) {
@@ -90,6 +103,9 @@ void convert_lights(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *l
         out.cos_outer = float(std::cos(outer));
         if (is_odd(in))
             ec_warn(log, "%s: light %u has values out of KHR_lights_punctual's range; they are clamped", gltf->path, gltf->light_count - 1);
+        if (has_range_0(root, gltf->light_count - 1))
+            ec_warn(log, "%s: light %u has range 0, which KHR_lights_punctual does not allow; it is taken as endless", gltf->path,
+                    gltf->light_count - 1);
     }
 }
 

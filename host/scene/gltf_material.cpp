@@ -253,7 +253,7 @@ void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log
     gltf->materials = make_array<ec_material>(model.materials.size());
     for (const tinygltf::Material &in : model.materials) {
         std::string where = "materials[" + std::to_string(gltf->material_count) + "]";
-        if (!in.name.empty()) where += " \"" + in.name.substr(0, 80) + "\"";
+        if (!in.name.empty()) where += " \"" + shortened(in.name, 80) + "\"";
         set_material(gltf->materials[gltf->material_count++], in, where, gltf, log);
     }
 }

@@ -71,9 +71,9 @@ static void check_version(const json &root)
     };
     std::string version = text("version"), minimum = text("minVersion");
     if (!version.empty() && version.compare(0, 2, "2.") != 0)
-        throw bad_file("glTF version " + version.substr(0, 20) + " is not supported; convert the file to glTF 2.0");
+        throw bad_file("glTF version " + shortened(version, 20) + " is not supported; convert the file to glTF 2.0");
     if (!minimum.empty() && minimum != "2.0")
-        throw bad_file("the file needs glTF " + minimum.substr(0, 20) + "; eclat reads glTF 2.0");
+        throw bad_file("the file needs glTF " + shortened(minimum, 20) + "; eclat reads glTF 2.0");
 }
 
 static std::set<std::string> string_set(const json &root, const char *key)
@@ -87,7 +87,7 @@ static std::set<std::string> string_set(const json &root, const char *key)
 static std::string comma_list(const std::set<std::string> &names)
 {
     std::string list;
-    for (const std::string &name : names) list += (list.empty() ? "" : ", ") + name.substr(0, 100);
+    for (const std::string &name : names) list += (list.empty() ? "" : ", ") + shortened(name, 100);
     return printable(list);
 }
 
@@ -212,7 +212,7 @@ static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
     tinygltf::Model model;
     parse_rest(root, model);
     convert_cameras(model, gltf, log);
-    convert_lights(model, gltf, log);
+    convert_lights(model, root, gltf, log);
     convert_textures(model, gltf);
     convert_materials(model, gltf, log);
 }
@@ -252,7 +252,7 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice 
     convert_skins(list_of(root, "skins"), gltf);
     convert_nodes(list_of(root, "nodes"), gltf);
     set_roots(root, gltf);
-    convert_image_light(root, gltf);
+    convert_image_light(root, gltf, log);
     convert_looks(root, gltf, log);
     gltf->stored_accessors = gltf->accessor_count;
     gltf->stored_meshes = gltf->mesh_count;

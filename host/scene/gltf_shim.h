@@ -9,6 +9,7 @@
 #include <tiny_gltf.h>
 
 extern "C" {
+#include "base/text.h"
 #include "scene/gltf.h"
 }
 
@@ -56,9 +57,9 @@ bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations,
 
 /* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);
-void convert_image_light(const nlohmann::json &root, ec_gltf *gltf); /* the shown scene's */
+void convert_image_light(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log); /* the shown scene's */
 void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
-void convert_lights(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
+void convert_lights(const tinygltf::Model &model, const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
 
 /* gltf_material.cpp */
 void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
@@ -84,6 +85,11 @@ inline std::string printable(std::string text)
     for (char &c : text)
         if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
     return text;
+}
+/* Of bytes at most so many. */
+inline std::string shortened(const std::string &text, int most)
+{
+    return text.substr(0, size_t(ec_text_cut(text.c_str(), most)));
 }
 inline char *copy_string(const std::string &name)
 {

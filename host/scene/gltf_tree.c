@@ -1,15 +1,17 @@
 /* Walks the node tree without recursion: a file may be a chain of a million nodes. */
 #include "scene/gltf_tree.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void describe_node(const ec_gltf *g, int32_t node, char text[128])
+void ec_gltf_describe_node(const ec_gltf *g, int32_t node, char text[128])
 {
     const char *name = g->nodes[node].name;
-    snprintf(text, 128, name ? "nodes[%d] \"%.80s\"" : "nodes[%d]", node, name);
+    int used = snprintf(text, 128, "nodes[%d]", node);
+    if (name) snprintf(text + used, 128 - (size_t)used, " \"%.*s\"", EC_CUT(name, 80));
 }
 
 /* parent[i] = -1 for roots. */
@@ -21,7 +23,7 @@ static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
             int32_t child = g->nodes[i].children[c];
             if (parent[child] >= 0) {
                 char name[128];
-                describe_node(g, child, name);
+                ec_gltf_describe_node(g, child, name);
                 return ec_fail(err, "%s: %s is a child of nodes[%d] and of nodes[%u]; glTF's nodes must form a tree",
                                g->path, name, parent[child], i);
             }
@@ -29,6 +31,18 @@ static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
         }
     }
     return EC_OK;
+}
+
+ec_result ec_gltf_node_above(const ec_gltf *g, int32_t node, bool (*is)(const ec_gltf_node *), int32_t *found,
+                             ec_error *err)
+{
+    int32_t *parent = malloc(((size_t)g->node_count + 1) * sizeof *parent);
+    if (!parent) return ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
+    ec_result result = find_parents(g, parent, err);
+    while (result == EC_OK && node >= 0 && !is(&g->nodes[node])) node = parent[node];
+    *found = node;
+    free(parent);
+    return result;
 }
 
 /* Every node has at most one parent here, so going up from a node on a cycle comes back to where it started. */
@@ -42,7 +56,7 @@ static ec_result check_cycles(const ec_gltf *g, const int32_t *parent, uint32_t 
         }
         if (at >= 0 && seen_from[at] == i + 1) {
             char name[128];
-            describe_node(g, at, name);
+            ec_gltf_describe_node(g, at, name);
             return ec_fail(err, "%s: the node tree has a cycle through %s; a node cannot contain itself", g->path, name);
         }
     }

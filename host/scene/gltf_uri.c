@@ -1,5 +1,6 @@
 /* Where a glTF file's bytes come from: data URIs and files beside it. A URI may not leave the scene's folder: a scene
  * is data from strangers and must not be able to read (or probe for) anything else on the machine. */
+#include "base/text.h"
 #include "scene/gltf.h"
 
 #include <ctype.h>
@@ -93,8 +94,8 @@ static ec_result decode_file_uri(const char *where, const char *uri, char **path
     const char *reason = length ? escape_reason(uri, decoded, length) : "it is empty";
     if (reason) {
         free(decoded);
-        return ec_fail(err, "%s: refusing URI \"%.200s\": %s; put the file in the scene's folder and name it relative "
-                       "to the scene", where, uri, reason);
+        return ec_fail(err, "%s: refusing URI \"%.*s\": %s; put the file in the scene's folder and name it relative "
+                       "to the scene", where, EC_CUT(uri, 200), reason);
     }
     *path = decoded;
     return EC_OK;

@@ -3,6 +3,8 @@
 
 #include "scene/gltf_tree.h"
 
+#define IMPLIED_PLACES 65536u /* that no bytes stand for: a tiny file could claim any number */
+
 static ec_result open_attribute(ec_gltf *g, int32_t node, int32_t accessor, const char *name, uint32_t components,
                                 uint64_t *count, ec_error *err)
 {
@@ -14,8 +16,9 @@ static ec_result open_attribute(ec_gltf *g, int32_t node, int32_t accessor, cons
     if (a->components != components || !(a->component_type == EC_GLTF_FLOAT || a->normalized))
         return ec_fail(err, "%s: %s: accessors[%d] must hold vectors of %u floats or normalised integers", g->path, what,
                        accessor, components);
-    if (a->view < 0) /* a few bytes could claim any number of them */
-        return ec_fail(err, "%s: %s: accessors[%d] has no bufferView", g->path, what, accessor);
+    if (a->view < 0 && a->count > IMPLIED_PLACES)
+        return ec_fail(err, "%s: %s: accessors[%d] has no bufferView for its %llu elements; at most %u are taken without",
+                       g->path, what, accessor, (unsigned long long)a->count, IMPLIED_PLACES);
     if (*count && *count != a->count)
         return ec_fail(err, "%s: %s: accessors[%d] has %llu elements, another attribute %llu", g->path, what, accessor,
                        (unsigned long long)a->count, (unsigned long long)*count);

@@ -1,5 +1,6 @@
 /* The scene's materials: the file's, glTF's default where something needs it, and variants for meshes that lack a
  * texture coordinate set. */
+#include "base/text.h"
 #include "scene/flatten.h"
 #include "scene/model.h"
 
@@ -61,8 +62,8 @@ static ec_result assign(const ec_gltf *g, ec_scene *s, ec_gltf_primitive *p, uin
         EC_TRY(append_variant(s, original, missing, err));
         slot[missing] = s->material_count;
         const char *name = s->materials[original].name;
-        ec_warn(log, "%s: materials[%d] \"%.80s\" has textures on TEXCOORD_%d%s, which meshes[%u] lacks; they are left out there",
-                g->path, p->material, name ? name : "", missing & 1 ? 0 : 1, missing == 3 ? " and 1" : "", mesh);
+        ec_warn(log, "%s: materials[%d] \"%.*s\" has textures on TEXCOORD_%d%s, which meshes[%u] lacks; they are left out there",
+                g->path, p->material, EC_CUT(name ? name : "", 80), missing & 1 ? 0 : 1, missing == 3 ? " and 1" : "", mesh);
     }
     p->scene_material = slot[missing] - 1;
     return EC_OK;
@@ -84,5 +85,6 @@ ec_result ec_gltf_materials_assign(ec_gltf *g, ec_scene *s, const ec_log *log, e
         }
     }
     free(variants);
+    if (result == EC_OK && !s->material_count) result = append(s, ec_material_default(), err);
     return result;
 }

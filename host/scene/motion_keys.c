@@ -195,7 +195,7 @@ ec_result ec_tracks_keep(const ec_tracks *t, ec_scene *s, const ec_log *log, ec_
 {
     ec_motion *m = &s->motion;
     sorting o = {.t = t, .s = s, .triangles = ec_scene_flat_count(s)};
-    uint32_t bad = s->dropped_nonfinite;
+    uint32_t bad = s->dropped_nonfinite, before = s->triangle_count;
     o.vertices = s->shape_count ? s->shapes[0].first_vertex : s->vertex_count;
     o.track = malloc(((size_t)o.vertices + 1) * sizeof *o.track);
     o.place = malloc(((size_t)o.vertices + 1) * sizeof *o.place);
@@ -210,7 +210,13 @@ ec_result ec_tracks_keep(const ec_tracks *t, ec_scene *s, const ec_log *log, ec_
     EC_TRY(result);
     if (s->dropped_nonfinite > bad)
         ec_warn(log, "%s: %u triangles with NaN or infinite positions within the shutter are left out", t->base->path, s->dropped_nonfinite - bad);
-    if (!s->triangle_count) return ec_fail(err, "%s: nothing to render: no triangle has an area while the shutter is open", t->base->path);
+    if (before && !s->triangle_count) {
+        if (s->dropped_nonfinite)
+            return ec_fail(err, "%s: nothing to render: no triangle has an area while the shutter is open", t->base->path);
+        ec_warn(log, "%s: no surface shows while the shutter is open: none has an area", t->base->path);
+        memset(s->bounds_min, 0, sizeof s->bounds_min);
+        memset(s->bounds_max, 0, sizeof s->bounds_max);
+    }
     if (!m->triangle_count && !m->light_count && !m->camera_count) {
         ec_motion_free(m);
         return EC_OK;

@@ -1,4 +1,5 @@
 /* Looks at every primitive that stands somewhere, once, before anything is allocated for it. */
+#include "base/text.h"
 #include "scene/flatten.h"
 
 #include <stdio.h>
@@ -13,7 +14,7 @@ static ec_result prepare_mesh(ec_gltf *g, int32_t index, tally *skipped, ec_erro
     for (uint32_t k = 0; k < mesh->primitive_count; k++) {
         ec_gltf_primitive *p = &mesh->primitives[k];
         char where[192];
-        if (mesh->name) snprintf(where, sizeof where, "meshes[%d] \"%.80s\" primitives[%u]", index, mesh->name, k);
+        if (mesh->name) snprintf(where, sizeof where, "meshes[%d] \"%.*s\" primitives[%u]", index, EC_CUT(mesh->name, 80), k);
         else snprintf(where, sizeof where, "meshes[%d].primitives[%u]", index, k);
         EC_TRY(ec_gltf_primitive_prepare(g, p, where, err));
         if (p->mode < EC_GLTF_TRIANGLES) skipped->not_triangles++;

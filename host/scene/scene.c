@@ -1,5 +1,5 @@
-/* The scene as a whole: what it owns and whether it is lit. */
-#include "scene/texture_range.h"
+/* The scene as a whole: what it owns. */
+#include "scene/scene.h"
 
 #include <stdlib.h>
 
@@ -45,18 +45,4 @@ void ec_scene_free(ec_scene *s)
     free(s->lost_image);
     ec_scene_contents_free(&s->contents);
     free(s);
-}
-
-bool ec_scene_has_light(const ec_scene *s)
-{
-    if (s->has_environment) return true;
-    for (uint32_t i = 0; i < s->light_count; i++)
-        if (s->lights[i].intensity[0] > 0 || s->lights[i].intensity[1] > 0 || s->lights[i].intensity[2] > 0) return true;
-    const ec_material *dark = NULL; /* the last one looked at: neighbours share it */
-    for (uint32_t i = 0; i < s->triangle_count; i++) {
-        const ec_material *m = &s->materials[s->triangle_material[i]];
-        if (m != dark && (m->unlit || ec_emits(s, m))) return true;
-        dark = m;
-    }
-    return false;
 }

@@ -220,7 +220,7 @@ typedef struct ec_scene_choice {
 
 /* Reads .gltf or .glb. On failure *scene is NULL and err says what, where and how to mend it. Adds a framing camera where
  * there is none (noted in log). Environment and light fall-backs are the caller's (see ec_scene_set_environment,
- * ec_scene_has_light). Owned by the caller: ec_scene_free. */
+ * ec_scene_find_light in host/pack). Owned by the caller: ec_scene_free. */
 ec_result ec_scene_load(const char *path, ec_scene **scene, const ec_log *log, ec_error *err);
 ec_result ec_scene_load_choice(const char *path, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
 
@@ -261,9 +261,6 @@ int64_t ec_scene_node_of(const ec_scene *s, uint32_t id);
  * that one's: ec_scene_written_free. Fails where this machine has no memory for it. */
 ec_result ec_scene_write_out(const ec_scene *scene, ec_scene *written, ec_error *err);
 void ec_scene_written_free(ec_scene *written);
-
-/* Does anything in the scene give light: an emissive or unlit triangle, a punctual light, an environment? */
-bool ec_scene_has_light(const ec_scene *scene);
 
 /* Replaces the environment. spec is a file (.hdr, .exr; equirectangular) or "R,G,B". Non-finite and negative values
  * are set to 0, those above EC_RADIANCE_MOST to that; a warning counts them. */

@@ -70,14 +70,3 @@ bool ec_alpha_hides(const ec_scene *scene, const ec_material *m, float most_alph
     most *= m->base_color[3] * most_alpha;
     return m->alpha_mode == EC_ALPHA_MASK ? most * (1.0f + slack) < m->alpha_cutoff : most == 0.0f;
 }
-
-bool ec_emits(const ec_scene *scene, const ec_material *m)
-{
-    for (int k = 0; k < 3; k++) {
-        float least, most;
-        if (!(m->emission[k] > 0)) continue;
-        ec_texture_range(scene, &m->textures[EC_SLOT_EMISSION], k, &least, &most);
-        if (most > 0) return true;
-    }
-    return false;
-}

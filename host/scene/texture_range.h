@@ -19,7 +19,4 @@ void ec_texture_range(const ec_scene *scene, const ec_texture_use *use, int chan
 /* Does alpha hide all of a material, whose vertex colours have an alpha of most_alpha or less? varies: not the same everywhere. */
 bool ec_alpha_hides(const ec_scene *scene, const ec_material *material, float most_alpha, bool varies);
 
-/* Does it emit, its texture looked at? */
-bool ec_emits(const ec_scene *scene, const ec_material *material);
-
 #endif

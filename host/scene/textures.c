@@ -1,5 +1,6 @@
 /* The textures and images that the scene's triangles use; no others are opened. What is wanted is gathered first, then decoded by all
  * threads, and taken in the order in which materials name it: what is said, and what is first, is the same for any number of threads. */
+#include "base/text.h"
 #include "scene/flatten.h"
 #include "scene/image_decode.h"
 #include "scene/texture_range.h"
@@ -26,6 +27,7 @@ typedef struct table {
     uint32_t picture_count;
     int64_t *picture; /* of each image; then, where a texture has one for itself, of each texture; UNSEEN */
     int64_t *texture; /* glTF texture -> scene texture; UNSEEN or UNUSABLE */
+    int slot;         /* whose use is looked at */
     ec_result result;
     ec_error *err;
 } table;
@@ -59,7 +61,8 @@ bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_erro
 {
     const ec_gltf_image *in = &g->images[index];
     char where[160];
-    snprintf(where, sizeof where, in->name ? "images[%u] \"%.80s\"" : "images[%u]", index, in->name);
+    int used = snprintf(where, sizeof where, "images[%u]", index);
+    if (in->name) snprintf(where + used, sizeof where - (size_t)used, " \"%.*s\"", EC_CUT(in->name, 80));
     const uint8_t *bytes = NULL;
     uint8_t *owned = NULL;
     uint64_t length = 0;
@@ -105,16 +108,23 @@ static void decode(const table *t, picture *p)
     ec_image_find_range(&p->image);
 }
 
-/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white. One that there is no
- * memory for does. */
+/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white, or without
+ * it where it holds directions. One that there is no memory for does. */
+static const char *instead_of(const table *t)
+{
+    bool directions = t->slot == EC_SLOT_NORMAL || t->slot == EC_SLOT_CLEARCOAT_NORMAL || t->slot == EC_SLOT_ANISOTROPY;
+    return directions ? "the map is left out" : "taken as white";
+}
+
 static int64_t take_picture(table *t, picture *p)
 {
     if (p->place != UNSEEN) return p->place;
     ec_image *out = &t->s->images[t->s->image_count], *kept = kept_of(t, p);
     if (p->failed) {
-        if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.1200s; taken as white", t->g->path, p->err.text);
-        else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.1200s", t->g->path, p->err.text);
-        if (!t->s->lost_image) t->s->lost_image = strdup(p->err.text);
+        const char *why = p->err.text;
+        if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.*s; %s", t->g->path, EC_CUT(why, 1200), instead_of(t));
+        else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.*s", t->g->path, EC_CUT(why, 1200));
+        if (!t->s->lost_image) t->s->lost_image = strdup(why);
         return p->place = UNUSABLE;
     }
     *out = p->image;
@@ -148,7 +158,7 @@ static int64_t map_texture(table *t, int32_t index)
     if (t->texture[index] != UNSEEN) return t->texture[index];
     const ec_gltf_texture *in = &t->g->textures[index];
     if (in->image < 0)
-        ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; taken as white", t->g->path, index);
+        ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; %s", t->g->path, index, instead_of(t));
     int64_t image = in->image < 0 ? UNUSABLE : take_picture(t, &t->pictures[*picture_of(t, index)]);
     if (image < 0) return t->texture[index] = UNUSABLE;
     t->s->textures[t->s->texture_count] = (ec_texture){(uint32_t)image, in->wrap_s, in->wrap_t, in->nearest};
@@ -169,6 +179,7 @@ static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, boo
         ec_material *m = &t->s->materials[i];
         for (int k = 0; k < EC_SLOT_COUNT; k++) {
             bool shows = !m->unlit || k == EC_SLOT_BASE_COLOR || k == EC_SLOT_EMISSION;
+            t->slot = k;
             look(t, drawn[i] && shows, &m->textures[k]);
         }
     }

@@ -1,5 +1,6 @@
 /* The promises of scene.h, checked. */
 #include "scene/validate.h"
+#include "base/text.h"
 
 #include <math.h>
 
@@ -29,8 +30,8 @@ void ec_scene_clamp_materials(ec_scene *s, const char *path, const ec_log *log)
         for (int slot = 0; slot < EC_SLOT_COUNT; slot++)
             for (int k = 0; k < 6; k++) changed |= clamp(&m->textures[slot].transform[k], -EC_UV_MOST, EC_UV_MOST);
         if (changed)
-            ec_warn(log, "%s: materials[%u] \"%.80s\" has factors out of glTF's range; they are clamped", path, i,
-                    m->name ? m->name : "");
+            ec_warn(log, "%s: materials[%u] \"%.*s\" has factors out of glTF's range; they are clamped", path, i,
+                    EC_CUT(m->name ? m->name : "", 80));
     }
 }
 
@@ -115,7 +116,7 @@ static ec_result check_cameras_and_lights(const ec_scene *s, ec_error *err)
 
 ec_result ec_scene_validate(const ec_scene *s, ec_error *err)
 {
-    if (!s->material_count || !s->triangle_count) return ec_fail(err, "internal error: an empty scene");
+    if (!s->material_count) return ec_fail(err, "internal error: a scene without a material");
     EC_TRY(check_vertices(s, err));
     EC_TRY(check_triangles(s, err));
     for (uint32_t i = 0; i < s->material_count; i++) EC_TRY(check_material(s, &s->materials[i], err));

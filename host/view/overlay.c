@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "pack/effects.h"
 #include "report/format.h"
 #include "report/names.h"
@@ -116,7 +117,7 @@ static void draw_label(const ec_view_overlay *o, const ec_view_text *text, doubl
     case EC_SECOND_ERROR: snprintf(line, sizeof line, "standard error: black 0.1 %%, yellow 100 %%"); break;
     case EC_SECOND_SAMPLES: snprintf(line, sizeof line, "samples: black 0, yellow %" PRIu64, o->status->samples); break;
     case EC_SECOND_RUNG: snprintf(line, sizeof line, "%s", ec_integrator_names[w->rung]); break;
-    default: snprintf(line, sizeof line, "%.250s", o->request->against ? o->request->against : ""); break;
+    default: snprintf(line, sizeof line, "%.*s", EC_CUT(o->request->against ? o->request->against : "", 250)); break;
     }
     ec_block_start(&b, text, 0.5 * width, height);
     ec_block_add(&b, line, 2, white);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/text.h"
 #include "view/renderer.h"
 
 void ec_renderer_read_pixel(const ec_film *film, ec_view_probe *probe)
@@ -30,12 +31,12 @@ static ec_view_probe look_at(const ec_renderer *r, uint32_t serial, uint32_t x, 
         if (probe.has_surface) {
             probe.material = scene->triangle_material[hit.triangle];
             const char *name = scene->materials[probe.material].name;
-            snprintf(probe.name, sizeof probe.name, "%s", name ? name : "unnamed");
+            snprintf(probe.name, sizeof probe.name, "%.*s", EC_CUT(name ? name : "unnamed", sizeof probe.name - 1));
             probe.node = ec_scene_node_of(scene, hit.id);
         }
         if (probe.node >= 0) {
-            const char *name = scene->node_names[probe.node];
-            snprintf(probe.node_name, sizeof probe.node_name, "%s", name ? name : "unnamed");
+            const char *name = scene->node_names[probe.node] ? scene->node_names[probe.node] : "unnamed";
+            snprintf(probe.node_name, sizeof probe.node_name, "%.*s", EC_CUT(name, sizeof probe.node_name - 1));
             ec_view_node_sphere(scene, (uint32_t)probe.node, probe.center, &probe.radius);
         }
     }

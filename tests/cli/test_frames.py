@@ -115,6 +115,20 @@ class SameBits(FramesCase):
             wanted = wanted or got
             self.assertEqual(got, wanted, accel)
 
+    def test_a_frame_before_anything_is_there(self):
+        """What pops in: the first picture is of what lies around, by every integrator. kernel/test_traversal has structures of nothing."""
+        b = Builder()
+        b.animate(b.add(GLOW), "scale", [(0, 0, 0), (1, 1, 1)])
+        b.camera(1)
+        scene = b.write(self.path("pop.gltf"))
+        run = self.assert_ok(eclat("render", scene, *SMALL, "--env", "0.25,0.25,0.25", "--frames", "0:1", "--fps", "1", "-o", "p.%d.exr", cwd=self.folder))
+        self.assertEqual(run.stderr, f"eclat: warning: {scene}: no surface shows: scaled to nothing by nodes[0]\n")
+        self.assertEqual(set(read_exr(self.path("p.0.exr"))[1]["G"]), {0.25})
+        self.assertGreater(max(read_exr(self.path("p.1.exr"))[1]["G"]), 0.9)
+        for integrator in ("whitted", "raster"):
+            self.render(scene, "--at", "0", "--env", "0.25,0.25,0.25", "-o", "alone.exr", "--integrator", integrator)
+            self.assertEqual(set(read_exr(self.path("alone.exr"))[1]["G"]), {0.25}, integrator)
+
     def test_instances_that_move_and_that_do_not(self):
         b = Builder()
         moving = b.add(GREY, translation=[-1, 0, 0])

@@ -198,6 +198,12 @@ class ImageLight(Case):
                 run = eclat("render", "--size", "4x4", "--spp", "4", "-o", self.path("a.exr"), write_gltf(self.path("scene.gltf"), scene))
                 self.assertIn(says, self.assert_one_error(run, 1))
 
+    def test_an_intensity_that_is_not_taken_is_told(self):
+        for intensity, taken in ((-3, "0"), (1e35, "1e+30")):
+            scene = write_gltf(self.path("scene.gltf"), lit_scene([png(8, lambda x, y: (9, 9, 9))] * 6, intensity=intensity))
+            run = self.assert_ok(eclat("info", "-q", scene))
+            self.assertIn(f"image-based light 0 has intensity {intensity:g}, which is taken as {taken}\n", run.stderr)
+
     def test_another_size_than_stated_is_a_warning(self):
         scene = write_gltf(self.path("scene.gltf"), lit_scene([png(8, lambda x, y: (9, 9, 9))] * 6, size=256))
         run = self.assert_ok(eclat("render", "-q", *QUICK, "--size", "4x4", "--spp", "4", "-o", self.path("a.exr"), scene))

@@ -221,6 +221,31 @@ class Info(Case):
         self.assertIsNone(rows["clearcoat"]["why"])
         self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "connect", "accumulate", "features"])
 
+    def test_an_option_that_calls_for_an_effect_says_so(self):
+        metal = write_gltf(self.path("metal.gltf"), quad_scene(material={"pbrMetallicRoughness": {"roughnessFactor": 0.5}})[0])
+        def rows(*options, scene=metal):
+            report = json.loads(self.assert_ok(eclat("info", "--json", scene, *options)).stdout)
+            return report, {row["name"]: row for row in report["effect_list"]}
+        for options, effect, why in ((["--fstop", "2", "--focus", "3"], "depth-of-field", "--fstop 2"),
+                                     (["--filter", "blackman-harris", "--filter-width", "2"], "pixel-filter", "--filter"),
+                                     (["--scattering", "multiple"], "multiple-scattering", "material 0 is metal of roughness 0.5"),
+                                     (["--env", "0,1,0"], "environment", "the environment shines")):
+            with self.subTest(effect):
+                self.assertEqual(rows(*options)[1][effect]["why"], why)
+        self.assertIsNone(rows("--sampler", "independent")[1]["sobol-sampler"]["why"])
+        self.assertIsNone(rows("--env", "0,0,0")[1]["environment"]["why"])
+        self.assertIn("raster", rows("--integrator", "raster")[0]["kernels"])
+        self.assertIn("sheen", rows("--effects", "all")[0]["effects"])
+        less, without = rows("--without", "emission", "--without", "back-face-culling", scene=CORNELL)
+        self.assertEqual([name for name, row in without.items() if row["left_out"]], ["emission", "back-face-culling"])
+        self.assertEqual(less["effects"], ["sobol-sampler"])
+        run = self.assert_ok(eclat("info", CORNELL, "--light-choice", "tree"))
+        self.assertRegex(run.stdout, r"(?m)^  light-tree +\d+ lights are chosen among")
+        for options, says in ((["--fstop", "2"], "go together"), (["--without", "sheep"], "can be left out"), (["--env-strength", "2"], "no environment"),
+                              (["--filter-width", "2"], "--filter-width belongs"), (["--shutter", "0:1", "--at", "1"], "give one of them")):
+            run = eclat("info", metal, *options)
+            self.assertIn(says, self.assert_one_error(run, run.returncode))
+
     def test_lights_by_their_nodes(self):
         scene, _ = quad_scene(material={})
         light = [{"type": "point"}, {"type": "spot"}]
@@ -392,6 +417,32 @@ class Info(Case):
         scene["cameras"][0] = {"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 9}}
         camera = self.info(write_gltf(self.path("orthographic.gltf"), scene))["cameras"][0]
         self.assertEqual([camera["xmag"], camera["ymag"]], [3, 2])
+
+    def test_what_only_looks_like_a_light(self):
+        """A cone without an opening, a lamp that vertex alpha hides, one with a black picture: as if there were none."""
+        black = {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}
+        hidden = {"emissiveFactor": [1, 1, 1], "alphaMode": "BLEND"}
+        spot = {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": 0}}]}}
+        for what, material, alpha, lights, lit in (("spot", {}, 1, spot, False), ("alpha", hidden, 0, None, False), ("alpha", hidden, 1, None, True),
+                                                   ("black", black, 1, None, False),
+                                                   ("unlit", {"extensions": {"KHR_materials_unlit": {}}}, 1, None, True),
+                                                   ("black unlit", {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]},
+                                                                    "extensions": {"KHR_materials_unlit": {}}}, 1, None, False)):
+            scene, buffer = quad_scene(material=material)
+            buffer += struct.pack("<16f", *[1, 1, 1, alpha] * 4)
+            scene["bufferViews"].append({"buffer": 0, "byteOffset": 60, "byteLength": 64})
+            scene["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC4"})
+            scene["accessors"].append({"componentType": 5126, "count": 4, "type": "VEC2"})
+            scene["meshes"][0]["primitives"][0]["attributes"].update(COLOR_0=2, TEXCOORD_0=3)
+            scene["buffers"] = [{"byteLength": len(buffer), "uri": data_uri(buffer)}]
+            scene["images"], scene["textures"] = [{"uri": png((0, 0, 0))}], [{"source": 0}]
+            if lights:
+                scene["extensions"] = lights
+                scene["nodes"][0]["extensions"] = {"KHR_lights_punctual": {"light": 0}}
+            with self.subTest(what, alpha=alpha):
+                report = self.info(write_gltf(self.path("quad.gltf"), scene))
+                self.assertEqual((report["lights"]["any"], report["lights"]["emissive_triangles"]), (lit, 2 * lit))
+                self.assertEqual("environment" in report["effects"], not lit)
 
     def test_no_light_and_no_camera_are_told(self):
         scene, _ = quad_scene(material={})

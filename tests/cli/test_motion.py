@@ -225,7 +225,7 @@ class Motion(Case):
         b.camera(2)
         scene = b.write(self.path("instances.gltf"))
         common = ["--shutter", "0:1", "--size", "16x16", "--spp", "4"]
-        on, _ = self.render(scene, "--instancing", "on", *common)
+        on, _ = self.render(scene, "--accel", "auto", "--instancing", "on", *common)
         self.assertEqual(on["instances"], 3)
         self.assertIn("motion-blur", on["effects"])
         self.assertEqual(on["image_sha256"], self.sha(scene, "--instancing", "off", *common))

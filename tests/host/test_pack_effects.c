@@ -257,6 +257,42 @@ static void test_without(void)
     CHECK(m->textures[EC_SLOT_BASE_COLOR].texture < 0 && m->textures[EC_SLOT_NORMAL].texture < 0);
     CHECK(m->textures[EC_SLOT_SPECULAR].texture == EM_MIXED && view.scene.materials[2].textures[EC_SLOT_NORMAL].texture == EM_MIXED);
     ec_scene_view_free(&view);
+    /* What is left open stays open: of a texture that says so its colours alone are left out. */
+    CHECK_OK(ec_scene_view_without(scene, EC_FEATURE_BASE_COLOR_TEXTURE, EC_ALL_MATERIALS, &view, &err), err);
+    m = &view.scene.materials[7];
+    CHECK(m->base_color[0] == 0.25f && m->base_color[3] == 0.5f && m->textures[EC_SLOT_BASE_COLOR].texture != EM_MIXED);
+    const ec_image *whole = &scene->images[EM_MIXED], *bare = &view.scene.images[view.scene.textures[m->textures[EC_SLOT_BASE_COLOR].texture].image];
+    for (int i = 0; i < 4 * EM_SIDE * EM_SIDE; i++) CHECK(bare->rgba8[i] == (i % 4 == 3 ? whole->rgba8[i] : 255));
+    ec_effects called;
+    char why[EC_EFFECT_WHY + 24];
+    CHECK_OK(ec_scene_calls(&view.scene, &called, &err), err);
+    ec_effects_why(&called, EC_FEATURE_BASE_COLOR_TEXTURE, why, sizeof why);
+    CHECK_MSG(!strcmp(why, "material 7 has alpha in its base colour texture"), "%s", why);
+    ec_scene_view_free(&view);
+    scene->materials[7].textures[EC_SLOT_BASE_COLOR].texture = EM_DEEP;
+    CHECK_OK(ec_scene_view_without(scene, EC_FEATURE_BASE_COLOR_TEXTURE, 7, &view, &err), err);
+    m = &view.scene.materials[7];
+    bare = &view.scene.images[view.scene.textures[m->textures[EC_SLOT_BASE_COLOR].texture].image];
+    for (int i = 0; i < 4 * EM_SIDE * EM_SIDE; i++) CHECK(bare->rgba16[i] == (i % 4 == 3 ? scene->images[EM_DEEP].rgba16[i] : 65535));
+    ec_scene_view_free(&view);
+    ec_scene_free(scene);
+}
+
+static void test_names(void)
+{
+    effect_model e = em_new();
+    ec_material m = em_plain();
+    m.double_sided = false;
+    em_quad(&e, em_material(&e, &m), NULL);
+    ec_scene *scene = em_scene(&e);
+    ec_effects called;
+    ec_error err = {0};
+    char why[EC_EFFECT_WHY + 24];
+    free(scene->materials[0].name);
+    scene->materials[0].name = strdup("aéééééééééééééééééééé"); /* 36 bytes end within one */
+    CHECK_OK(ec_scene_calls(scene, &called, &err), err);
+    ec_effects_why(&called, EC_FEATURE_CULLING, why, sizeof why);
+    CHECK_MSG(!strcmp(why, "material 0 \"aééééééééééééééééé\" is single-sided"), "%s", why);
     ec_scene_free(scene);
 }
 
@@ -314,6 +350,7 @@ int main(void)
     test_unused();
     test_vertices();
     test_without();
+    test_names();
     test_rough();
     TEST_END();
 }

@@ -131,7 +131,14 @@ static void test_pointers(void)
     ec_scene_free(s);
     const char *elsewhere[] = {"/asset/version", "/accessors/0/count", "/nodes/7/translation", "/nodes/-1/translation", "/materials/0",
                                "/materials/0/extensions/KHR_materials_unlit/x", "", "nodes/0/scale", "/nodes/00000000000000000000/scale", "/skins/0/joints", "/nodes/0/weights/0",
-                               "/materials/0/emissiveFactor/0"};
+                               "/materials/0/emissiveFactor/0",
+                               /* What only a texture, a projection or an extension that is there can have; what is made on the way would be broken. */
+                               "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset",
+                               "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation",
+                               "/materials/0/normalTexture/scale", "/cameras/0/orthographic/xmag", "/materials/0/extensions/KHR_materials_ior/ior",
+                               /* What eclat knows no member of, or none of numbers. */
+                               "/materials/0/pbrMetallicRoughness/basecolorFactor", "/nodes/0/bogus", "/nodes/0/", "/nodes/0/mesh", "/cameras/0/type",
+                               "/materials/0/name", "/materials/0/alphaMode"};
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
         char *json = replace(ANIMATED(LAMP_NODE, POINTER("@at@"), "LINEAR", FLOATS("3", "SCALAR"), LAMP), "@at@", elsewhere[i]);
         s = load_at(json, &k, 0);
@@ -139,6 +146,9 @@ static void test_pointers(void)
         ec_scene_free(s);
         free(json);
     }
+    s = load_at(ANIMATED("", NODE_0("foo"), "LINEAR", FLOATS("3", "SCALAR"), ""), &k, 0);
+    CHECK_MSG(strstr(messages, "animations[0].channels[0] moves /nodes/0/foo, which eclat does not; it is left out") != NULL, "%s", messages);
+    ec_scene_free(s);
 }
 
 /* By name, by index, all; none without --at, and then it is said. */

@@ -1,5 +1,6 @@
 /* Cameras, punctual lights, the environment. */
 #include "image/image.h"
+#include "support/light.h"
 #include "test_scene_files.h"
 
 #define CAMERAS                                                                                                        \
@@ -39,7 +40,7 @@ static void check_lights(const ec_scene *s)
     CHECK_NEAR(point->range, 0, 0);
     check_vector(sun->direction, 0, 0, -1);
     check_vector(sun->intensity, 3, 3, 3);
-    CHECK(ec_scene_has_light(s));
+    CHECK(has_light(s));
 }
 
 static void test_cameras_and_lights(void)
@@ -102,6 +103,9 @@ static void test_bad_cameras(void)
 {
     static const char *const bad[][3] = {{"'yfov':0.5", "'yfov':0", "yfov must be positive"}, {"'yfov':0.5", "'yfov':-1", "yfov"},
                                          {"'yfov':0.5,", "", "cameras[0].perspective.yfov is missing"},
+                                         {",'perspective':{'yfov':0.5,'aspectRatio':1.5,'znear':0.1}", "", "cameras[0].perspective is missing"},
+                                         {"'type':'orthographic'", "'type':'perspective'", "cameras[1].perspective is missing"},
+                                         {",'orthographic':{'xmag':2,'ymag':-3,'znear':0,'zfar':9}", "", "cameras[1].orthographic is missing"},
                                          {"'xmag':2", "'xmag':0", "must not be zero"},
                                          {"'light':1", "'light':3", "light is 3 but the file has 3 lights"},
                                          {"'type':'point'", "'type':'area'", "lights[1].type is area"}};
@@ -112,13 +116,32 @@ static void test_bad_cameras(void)
     }
 }
 
+/* What is taken otherwise than it stands in the file. */
+static void test_odd_values_of_lights(void)
+{
+    static const char *const odd[][3] = {
+        {"{'type':'point'}", "{'type':'point','intensity':-1}", "light 1 has values out of KHR_lights_punctual's range"},
+        {"{'type':'point'}", "{'type':'point','range':-1}", "light 1 has values out of"},
+        {"{'type':'point'}", "{'type':'point','intensity':1e35}", "light 1 has values out of"},
+        {"{'type':'point'}", "{'type':'point','range':0}", "light 1 has range 0, which KHR_lights_punctual does not allow; it is taken as endless"}};
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        char *text = replace(CAMERAS, odd[i][0], odd[i][1]);
+        ec_error err;
+        ec_scene *s = load_text(text, triangle_blobs, &err);
+        CHECK_MSG(s != NULL, "%s", err.text);
+        CHECK_MSG(strstr(messages, "W ") && strstr(messages, odd[i][2]), "%s: %s", odd[i][1], messages);
+        ec_scene_free(s);
+        free(text);
+    }
+}
+
 static void test_environment(void)
 {
     ec_scene s = {0};
     ec_error err;
-    CHECK(!ec_scene_has_light(&s));
+    CHECK(!has_light(&s));
     CHECK_OK(ec_scene_set_environment(&s, "1,0.5, 2e-1", NULL, &err), err);
-    CHECK(s.has_environment && !s.environment.rgb && s.environment.constant[1] == 0.5f && ec_scene_has_light(&s));
+    CHECK(s.has_environment && !s.environment.rgb && s.environment.constant[1] == 0.5f && has_light(&s));
     CHECK_NEAR(s.environment.constant[2], 0.2, 1e-7);
     const char *wrong[] = {"1,2", "1,2,3,4", "1,,2", "-1,1,1", "1,1,1e99", ","};
     for (int i = 0; i < 6; i++) {
@@ -176,10 +199,11 @@ static void test_odd_lights(void)
 int main(void)
 {
     test_cameras_and_lights();
-    test_odd_lights();
+    test_odd_values_of_lights();
     test_environment_picture();
     test_framing();
     test_bad_cameras();
+    test_odd_lights();
     test_environment();
     TEST_END();
 }

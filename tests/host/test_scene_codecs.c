@@ -172,6 +172,14 @@ static void test_webp(void)
     }
     ec_scene_free(s);
     if (!ec_has_webp) return;
+    static const unsigned char moving[30] = "RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\2"; /* the flag of an animation; a pixel */
+    const blob with[] = {{"@webp@", moving, sizeof moving}, {"@tri@", triangle_positions, sizeof triangle_positions}, {0}};
+    char *json = replace(textured, "@material@", "'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}");
+    ec_error err;
+    s = load_text(json, with, &err);
+    CHECK_MSG(s && strstr(messages, "it is an animated WebP, which is not supported; save one picture of it"), "%s", messages);
+    ec_scene_free(s);
+    free(json);
     for (size_t length = 12; length < sizeof webp_two; length += 5) {
         s = load_material("'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}", length);
         CHECK_MSG(s && (s->image_count == 1 || strstr(messages, "cannot be decoded")), "%zu bytes: %s", length, messages);

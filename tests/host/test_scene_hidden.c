@@ -1,4 +1,5 @@
 /* What is not seen is not there: nodes by KHR_node_visibility with all below them, surfaces whose alpha is 0 everywhere. */
+#include "support/light.h"
 #include "test_scene_files.h"
 
 /* Node 0 over node 1, each with the triangle and a lamp; node 2 beside them; a camera, which is never hidden, below node 0. */
@@ -53,6 +54,39 @@ static void test_nodes(void)
     wanted.at = 2;
     expect(nodes, 1, 0);
     wanted = (ec_scene_choice){0};
+}
+
+static void expect_empty(const char *json, const char *why)
+{
+    ec_error err;
+    ec_scene *s = load_text(json, blobs, &err);
+    CHECK_MSG(s != NULL, "%s", err.text);
+    if (s) CHECK_MSG(s->triangle_count == 0 && s->bounds_min[0] == 0 && s->bounds_max[0] == 0 && isfinite(s->cameras[0].position[0]), "%s", why);
+    CHECK_MSG(strstr(messages, "W ") && strstr(messages, why), "said: %s", messages);
+    ec_scene_free(s);
+}
+
+/* Before what pops in is there the picture is empty. A still of a file without surfaces is a mistake. */
+static void test_nothing_shows(void)
+{
+    char *alone = replace(nodes, "'nodes':[0,2]", "'nodes':[0]"), *above = replace(alone, "'visible':true", "'visible':false");
+    expect_empty(above, "no surface shows: hidden by nodes[0]\n");
+    wanted = (ec_scene_choice){.animated = true, .at = 2};
+    expect_empty(alone, "no surface shows: hidden by nodes[0]\n");
+    wanted = (ec_scene_choice){.animated = true, .shutter = true, .opens = 2, .closes = 3};
+    expect_empty(alone, "no surface shows: hidden by nodes[0]\n");
+    free(above);
+    char *flat = replace(alone, "'extensions':{'KHR_lights_punctual':{'light':0},'KHR_node_visibility':{}}}",
+                         "'extensions':{'KHR_node_visibility':{'visible':false}}}"),
+         *named = replace(flat, "{'mesh':0,", "{'mesh':0,'name':'ball','scale':[1,0,0],"), *still = replace(named, "'visible':false", "'visible':true");
+    wanted = (ec_scene_choice){.animated = true, .at = 1};
+    expect_empty(named, "no surface shows: hidden by nodes[1], scaled to nothing by nodes[0] \"ball\"\n");
+    expect_empty(still, "no surface shows: scaled to nothing by nodes[0] \"ball\"\n");
+    wanted = (ec_scene_choice){.animated = true, .shutter = true, .opens = 0, .closes = 1};
+    expect_empty(still, "no surface shows while the shutter is open: none has an area\n");
+    wanted = (ec_scene_choice){0};
+    expect_failure(still, blobs, "nothing to render: of 2 triangles 2 have no area");
+    free(alone), free(flat), free(named), free(still);
 }
 
 /* Two triangles, the second of `material`; pictures of white with alpha 0, and of black with alpha 0.2. */
@@ -117,7 +151,7 @@ static void test_dark_lamps(void)
         char *json = replace(surfaces, "@material@", cases[i].material);
         ec_scene *s = load_text(json, blobs, &err);
         CHECK_MSG(s != NULL, "%s", err.text);
-        if (s) CHECK_MSG(ec_scene_has_light(s) == cases[i].lit, "%s", cases[i].material);
+        if (s) CHECK_MSG(has_light(s) == cases[i].lit, "%s", cases[i].material);
         ec_scene_free(s);
         free(json);
     }
@@ -126,6 +160,7 @@ static void test_dark_lamps(void)
 int main(void)
 {
     test_nodes();
+    test_nothing_shows();
     test_surfaces();
     test_all_hidden();
     test_dark_lamps();

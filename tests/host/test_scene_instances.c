@@ -37,6 +37,33 @@ static void test_places(void)
     ec_scene_free(s);
 }
 
+/* Zeros, but for what the sparse part says: three places, of which the file moves the first and the last. */
+static void test_sparse(void)
+{
+    static const struct {
+        uint16_t indices[4];
+        float values[6];
+    } moved = {{0, 2}, {1, 2, 3, 4, 5, 6}};
+    const blob sparse[] = {blobs[0], {"@places@", &moved, sizeof moved}, {0}};
+    static const double expected[3][3] = {{1, 2, 6}, {0, 0, 0}, {4, 5, 12}};
+    char *one = replace(instanced, "'ROTATION':2,'SCALE':3,", ""), *sized = replace(one, "'byteLength':64,'uri'", "'byteLength':32,'uri'"),
+         *viewed = replace(sized, "{'buffer':1,'byteLength':64}", "{'buffer':1,'byteLength':8},{'buffer':1,'byteOffset':8,'byteLength':24}"),
+         *json = replace(viewed, "{'bufferView':1,'componentType':5126,'count':2,'type':'VEC3'}",
+                         "{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':2,'indices':{'bufferView':1,'componentType':5123},"
+                         "'values':{'bufferView':2}}}");
+    ec_error err;
+    ec_scene *s = load_text(json, sparse, &err);
+    CHECK_MSG(s != NULL, "%s", err.text);
+    if (s) CHECK(s->triangle_count == 3);
+    for (uint32_t t = 0; s && t < 3; t++) {
+        double found[3];
+        world_corner(s, t, 0, found);
+        for (int k = 0; k < 3; k++) CHECK_NEAR(found[k], expected[t][k], 1e-6);
+    }
+    ec_scene_free(s);
+    free(one), free(sized), free(viewed), free(json);
+}
+
 static void test_defects(void)
 {
     static const struct {
@@ -74,6 +101,7 @@ int main(void)
 {
     test_places();
     test_no_places();
+    test_sparse();
     test_defects();
     TEST_END();
 }

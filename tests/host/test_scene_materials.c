@@ -1,5 +1,13 @@
 /* Materials, textures, images and extensions. */
+#include "support/light.h"
 #include "textured_triangle.h"
+
+static int count_of(const char *text, const char *words)
+{
+    int count = 0;
+    while ((text = strstr(text, words))) count++, text += strlen(words);
+    return count;
+}
 
 static void test_defaults(void)
 {
@@ -11,7 +19,7 @@ static void test_defaults(void)
     CHECK(s->material_count == 1 && m->base_color[3] == 1 && m->metallic == 1 && m->roughness == 1);
     CHECK(m->specular == 1 && m->specular_color[2] == 1 && m->normal_scale == 1 && m->alpha_cutoff == 0.5f);
     CHECK(m->alpha_mode == EC_ALPHA_OPAQUE && !m->double_sided && !m->unlit && m->textures[EC_SLOT_BASE_COLOR].texture == -1);
-    CHECK(!ec_scene_has_light(s));
+    CHECK(!has_light(s));
     ec_scene_free(s);
     s = load(TEXTURED("", ""));
     m = s->materials;
@@ -41,13 +49,13 @@ static void test_factors(void)
     CHECK_NEAR(m->emission[1], 4e9, 1e3);
     CHECK(m->specular == 0 && m->specular_color[0] == 2 && m->specular_color[2] == 0.5f);
     CHECK(m->textures[EC_SLOT_SPECULAR].texture >= 0 && m->textures[EC_SLOT_NORMAL].texture >= 0);
-    CHECK(ec_scene_has_light(s));
+    CHECK(!has_light(s)); /* 0.4 is less than the cutoff */
     CHECK(s->extension_count == 2 && s->extension_ignored_count == 1);
     CHECK(!strcmp(s->extensions_ignored[0], "KHR_materials_unknown"));
     CHECK_MSG(strstr(messages, "KHR_materials_unknown") != NULL, "%s", messages);
     ec_scene_free(s);
     s = load(TEXTURED(",'extensions':{'KHR_materials_unlit':{}},'alphaMode':'BLEND'", ""));
-    CHECK(s->materials->unlit && s->materials->alpha_mode == EC_ALPHA_BLEND && ec_scene_has_light(s));
+    CHECK(s->materials->unlit && s->materials->alpha_mode == EC_ALPHA_BLEND && has_light(s));
     ec_scene_free(s);
     s = load(TEXTURED(",'pbrMetallicRoughness':{'metallicFactor':7,'roughnessFactor':-1},'alphaMode':'ODD'", ""));
     CHECK(s->materials->metallic == 1 && s->materials->roughness == 0 && s->materials->alpha_mode == EC_ALPHA_OPAQUE);
@@ -174,6 +182,7 @@ static void test_images(void)
     CHECK(m->textures[EC_SLOT_EMISSION].texture == 0 && s->texture_count == 1);
     CHECK_MSG(strstr(messages, "images[2] \"broken\" cannot be decoded") && strstr(messages, "textures[3] has no image") &&
               strstr(messages, "missing.png: cannot open"), "%s", messages);
+    CHECK_MSG(count_of(messages, "; taken as white\n") == 2 && count_of(messages, "; the map is left out\n") == 1, "%s", messages);
     ec_scene_free(s);
     expect_failure(TEXTURED(",'emissiveTexture':{'index':6}", ""), textured_blobs,
                    "materials[0].emissiveTexture.index is 6 but the file has 6 textures");

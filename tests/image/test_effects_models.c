@@ -1,6 +1,7 @@
 /* On every model under shared/assets/gltf the kernels for what it calls for and those for every effect give the same bits.
  * ctest label: long */
 #define _XOPEN_SOURCE 700 /* nftw */
+#include "support/light.h"
 #include "support/models.h"
 #include "support/render_case.h"
 
@@ -15,7 +16,7 @@ int main(void)
         ec_error err = {0};
         ec_scene *scene;
         if (ec_scene_load(models[i], &scene, NULL, &err) != EC_OK) continue; /* test_models.c judges that */
-        if (!ec_scene_has_light(scene)) CHECK_OK(ec_scene_set_environment(scene, "1,1,1", NULL, &err), err);
+        if (!has_light(scene)) CHECK_OK(ec_scene_set_environment(scene, "1,1,1", NULL, &err), err);
         ec_render_options o = case_options(24, 24, 2);
         o.camera = scene->default_camera;
         o.max_depth = 6;

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "support/light.h"
 #include "support/models.h"
 #include "support/render_case.h"
 
@@ -23,7 +24,7 @@ static int render_model(const char *path, bool all_effects)
         fprintf(stderr, "%s\n", err.text);
         return BAD;
     }
-    if (!ec_scene_has_light(scene) && ec_scene_set_environment(scene, "1,1,1", NULL, &err) != EC_OK) return BAD;
+    if (!has_light(scene) && ec_scene_set_environment(scene, "1,1,1", NULL, &err) != EC_OK) return BAD;
     ec_render_options o = case_options(SIZE, SIZE, 4);
     o.camera = scene->default_camera;
     if (all_effects) o = case_with_all_effects(o);

@@ -19,6 +19,7 @@
 #include "film/film.h"
 #include "pipeline/render.h"
 #include "scene/scene.h"
+#include "support/light.h"
 #include "support/test.h"
 #include "support/ztest.h"
 
@@ -63,7 +64,7 @@ static inline ec_scene *case_load(const char *path, const char *environment)
     ec_error err = {0};
     ec_scene *scene;
     if (ec_scene_load(path, &scene, NULL, &err) != EC_OK) case_end(path, &err);
-    if (!environment && !ec_scene_has_light(scene)) environment = "1,1,1";
+    if (!environment && !has_light(scene)) environment = "1,1,1";
     if (environment && ec_scene_set_environment(scene, environment, NULL, &err) != EC_OK) case_end(environment, &err);
     return scene;
 }

@@ -11,19 +11,20 @@ const bool ec_has_webp = true;
 
 bool ec_image_decode_webp(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
 {
-    int width, height;
-    if (!WebPGetInfo(bytes, length, &width, &height)) return ec_decode_fail(err, "its WebP header is broken");
-    const char *reason = ec_image_check_size((uint64_t)width, (uint64_t)height, length, PIXELS_PER_BYTE);
+    WebPBitstreamFeatures is;
+    if (WebPGetFeatures(bytes, length, &is) != VP8_STATUS_OK) return ec_decode_fail(err, "its WebP header is broken");
+    if (is.has_animation) return ec_decode_fail(err, "it is an animated WebP, which is not supported; save one picture of it");
+    const char *reason = ec_image_check_size((uint64_t)is.width, (uint64_t)is.height, length, PIXELS_PER_BYTE);
     if (reason) return ec_decode_fail(err, reason);
-    size_t row = 4 * (size_t)width, size = row * (size_t)height;
+    size_t row = 4 * (size_t)is.width, size = row * (size_t)is.height;
     uint8_t *pixels = malloc(size);
     if (!pixels) return ec_decode_out_of_memory(err);
     if (!WebPDecodeRGBAInto(bytes, length, pixels, size, (int)row)) {
         free(pixels);
         return ec_decode_fail(err, "its WebP data are broken or truncated");
     }
-    image->width = (uint32_t)width;
-    image->height = (uint32_t)height;
+    image->width = (uint32_t)is.width;
+    image->height = (uint32_t)is.height;
     image->rgba8 = pixels;
     return true;
 }

@@ -1,0 +1,37 @@
+/* Texts are cut between characters: of one, two, three and four bytes. */
+#include "base/error.h"
+#include "base/text.h"
+#include "support/test.h"
+
+static char said[4096];
+static void keep(void *user, ec_severity severity, const char *text)
+{
+    (void)user, (void)severity;
+    snprintf(said, sizeof said, "%s", text);
+}
+
+int main(void)
+{
+    static const char text[] = "aé€😀b"; /* ends at 1, 3, 6, 10, 11 */
+    static const int ends[13] = {0, 1, 1, 3, 3, 3, 6, 6, 6, 6, 10, 11, 11};
+    char out[32], half[8];
+    for (int most = 0; most < 13; most++) {
+        CHECK_MSG(ec_text_cut(text, most) == ends[most], "%d bytes of at most %d", ec_text_cut(text, most), most);
+        snprintf(half, most < 8 ? (size_t)most + 1 : sizeof half, "%s", text); /* one that was cut before */
+        CHECK(ec_text_cut(half, 8) == ends[most < 7 ? most : 7]);
+    }
+    snprintf(out, sizeof out, "%.*s", EC_CUT(text, 5));
+    CHECK(!strcmp(out, "aé"));
+    CHECK(ec_text_cut("", 5) == 0 && ec_text_cut("\x80\x80\x80\x80\x80\x80", 5) == 5); /* no UTF-8: as it is */
+    ec_error err;
+    char many[3001] = "";
+    for (int i = 0; i < 1500; i++) strcat(many, "é");
+    ec_fail(&err, "%s", many);
+    CHECK(strlen(err.text) == 2046);
+    ec_fail(&err, "%.100s", many);
+    ec_fail_more(&err, "%s", many);
+    CHECK(strlen(err.text) == 2046);
+    ec_warn(&(ec_log){keep, NULL}, "%s", many);
+    CHECK(strlen(said) == 2046);
+    TEST_END();
+}
