@@ -121,11 +121,11 @@ int main(void)
     static const bound_case cases[] = {
         {"cornell-box, seeds", cornell, NULL, 32, 32, 64, 16, 5, EC_SAMPLER_SOBOL, 0},
         {"cornell-box", cornell, NULL, 32, 32, 64, 64, 5, EC_SAMPLER_INDEPENDENT, 0},
-        {"cornell-box", cornell, NULL, 32, 32, 256, 16, 5, EC_SAMPLER_SOBOL, 0.05},
+        {"cornell-box", cornell, NULL, 32, 32, 128, 16, 5, EC_SAMPLER_SOBOL, 0.05},
         {"plates under studio.hdr", plates, studio, 32, 32, 64, 16, 4, EC_SAMPLER_SOBOL, 0.1},
-        {"plates under studio.hdr", plates, studio, 32, 32, 256, 64, 4, EC_SAMPLER_INDEPENDENT, 0.05},
+        {"plates under studio.hdr", plates, studio, 32, 32, 128, 64, 4, EC_SAMPLER_INDEPENDENT, 0.05},
         {"veach-plates", veach, NULL, 32, 32, 64, 16, 4, EC_SAMPLER_SOBOL, 0},
-        {"ring, caustic", ring, NULL, 48, 32, 256, 16, 0, EC_SAMPLER_SOBOL, 0},
+        {"ring, caustic", ring, NULL, 48, 32, 128, 16, 0, EC_SAMPLER_SOBOL, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) check_case(&cases[i], i == 0);
     TEST_END();
