@@ -140,7 +140,7 @@ static void add_called(rung_list *list, uint64_t which)
 static bool is_lamp(const ec_scene *scene, uint32_t material)
 {
     const ec_material *m = &scene->materials[material];
-    if (m->unlit || !(m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0)) return false;
+    if (m->unlit || !ec_emits(m)) return false;
     for (uint32_t t = 0; t < scene->triangle_count; t++)
         if (scene->triangle_material[t] == material) return true;
     return false;

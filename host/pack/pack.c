@@ -78,12 +78,11 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const ec_material *m = &scene->materials[i];
         ec_material_data *d = &pack->materials[i];
-        bool emits = m->emission[0] > 0.0f || m->emission[1] > 0.0f || m->emission[2] > 0.0f;
         memcpy(d->base_color, m->base_color, sizeof d->base_color);
         memcpy(d->emission, m->emission, sizeof d->emission);
         memcpy(d->absorption, m->absorption, sizeof d->absorption);
         for (int k = 0; k < 3; k++) d->f0[k] = m->specular_color[k] * head_on_reflectance(m->ior);
-        d->flags = (m->double_sided ? EC_MATERIAL_DOUBLE_SIDED : 0) | (emits && !m->unlit ? EC_MATERIAL_EMISSIVE : 0) |
+        d->flags = (m->double_sided ? EC_MATERIAL_DOUBLE_SIDED : 0) | (ec_emits(m) && !m->unlit ? EC_MATERIAL_EMISSIVE : 0) |
                    (m->unlit ? EC_MATERIAL_UNLIT : 0) | (m->alpha_mode == EC_ALPHA_MASK ? EC_MATERIAL_MASK : 0) |
                    (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0) | (ec_refracts(m) ? EC_MATERIAL_REFRACTS : 0) |
                    (ec_bounds(m) ? EC_MATERIAL_BOUNDS : 0);

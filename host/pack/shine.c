@@ -1,11 +1,9 @@
 /* Does a scene give light? By the same view that the scan and the table of lights have of it: what has no power is none. */
 #include "pack/pack.h"
 
-static bool emits(const ec_material *m) { return m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0; }
-
 static bool shines(const ec_material *m)
 {
-    return m->unlit ? m->base_color[0] > 0 || m->base_color[1] > 0 || m->base_color[2] > 0 : emits(m);
+    return m->unlit ? m->base_color[0] > 0 || m->base_color[1] > 0 || m->base_color[2] > 0 : ec_emits(m);
 }
 
 ec_result ec_scene_find_light(const ec_scene *scene, ec_scene_light *light, ec_error *err)
@@ -18,7 +16,7 @@ ec_result ec_scene_find_light(const ec_scene *scene, ec_scene_light *light, ec_e
     light->any = light->triangles || s->light_count || s->has_environment;
     /* Where nothing is in sight, lamps may be at another moment, and what lies around is to be the same then. */
     for (uint32_t m = 0; !scene->triangle_count && m < scene->material_count; m++)
-        light->any |= scene->materials[m].unlit || emits(&scene->materials[m]);
+        light->any |= scene->materials[m].unlit || ec_emits(&scene->materials[m]);
     ec_scene_view_free(&plain);
     return EC_OK;
 }

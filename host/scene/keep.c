@@ -15,8 +15,8 @@ static bool emits_or_transmits(const ec_gltf *g, int32_t mesh, const ec_scene *s
 {
     for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
         const ec_gltf_primitive *p = &g->meshes[mesh].primitives[k];
-        const float *e = scene->materials[p->scene_material].emission;
-        if (p->drawn && (e[0] > 0 || e[1] > 0 || e[2] > 0 || scene->materials[p->scene_material].transmission > 0)) return true;
+        const ec_material *m = &scene->materials[p->scene_material];
+        if (p->drawn && (ec_emits(m) || m->transmission > 0)) return true;
     }
     return false;
 }

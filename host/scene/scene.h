@@ -71,6 +71,8 @@ typedef struct ec_material {
     ec_texture_use textures[EC_SLOT_COUNT]; /* by ec_slot */
     char *name;                /* owned, may be NULL */
 } ec_material;
+/* As its factors say; a texture may be black. */
+static inline bool ec_emits(const ec_material *m) { return m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0; }
 /* Does light bend at it? Else it is thin-walled or opaque. */
 static inline bool ec_refracts(const ec_material *m) { return m->transmission > 0 && m->volume && m->ior > 0; }
 /* Is what light seeps into a body, too? */
