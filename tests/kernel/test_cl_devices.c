@@ -34,6 +34,21 @@ static void workarounds_go_by_the_driver(void)
     CHECK(ec_device_rounds(&devices[3]));
 }
 
+/* What stands in many names: "8" is no device of two. Nor is a part of another number. */
+static void short_numbers_are_no_names(void)
+{
+    static const char *const none[] = {"8", "16", "309", "090"};
+    ec_device_info devices[4];
+    ec_error err = {0};
+    uint32_t index;
+    unsetenv("ECLAT_DEVICE");
+    fake_devices(devices);
+    strcpy(devices[0].name, "Ryzen 8 16-Core");
+    for (int i = 0; i < 4; i++)
+        CHECK_MSG(ec_device_choose(devices, 4, none[i], &index, NULL, &err) != EC_OK, "'%s' is taken for %s", none[i],
+                  devices[index].name);
+}
+
 static void device_rule(void)
 {
     const char *why = "";
@@ -113,6 +128,7 @@ static void lists_of_devices(void)
 int main(void)
 {
     device_rule();
+    short_numbers_are_no_names();
     lists_of_devices();
     workarounds_go_by_the_driver();
     TEST_END();
