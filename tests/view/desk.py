@@ -168,6 +168,11 @@ class Window:
     def size(self):
         return self.place()[2:]
 
+    def move(self, x, y):
+        """Until it stands there. xdotool's --sync is content with any move, also that by which a window manager first places a window."""
+        self.tool("windowmove", self.id, x, y)
+        assert self.wait_until(lambda: self.place()[:2] == (x, y), 20), f"it does not move to {x}, {y}: {self.place()}"
+
     def key(self, *names):
         """By the server, as a keyboard does it; events sent to the window itself carry no time, and some get lost. No quicker than a hand:
         GLFW takes what goes up and down within 20 ms for a key that repeats itself."""
@@ -207,9 +212,8 @@ class Window:
         switches = 0
         with open(f"/proc/{self.process.pid}/stat", encoding="utf-8") as file:
             fields = file.read().rsplit(")", 1)[1].split()
-        for task in os.listdir(f"/proc/{self.process.pid}/task"):
-            with open(f"/proc/{self.process.pid}/task/{task}/status", encoding="utf-8") as file:
-                switches += sum(int(line.split()[1]) for line in file if "ctxt_switches" in line)
+        for status in self.statuses():
+            switches += sum(int(value) for name, value in status.items() if "ctxt_switches" in name)
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK"), switches
 
     def uses(self, seconds):
@@ -218,8 +222,10 @@ class Window:
         return tuple(b - a for a, b in zip(before, self.used()))
 
     def rest(self, seconds=60):
-        """Until nothing goes on."""
-        assert self.wait_until(lambda: not any(self.uses(0.2)), seconds, 0), "the window finds no rest"  # a compiler need not wait for anything
+        """Until nothing goes on; a thread that only waits for a processor does not rest."""
+        def rests():
+            return not any(self.uses(0.2)) and all(status["State"].startswith("S") for status in self.statuses())
+        assert self.wait_until(rests, seconds, 0), "the window finds no rest"  # a compiler need not wait for anything
 
     def close(self):
         """By Q; the exit code."""
@@ -232,12 +238,20 @@ class Window:
         finally:
             self.kill()
 
+    def statuses(self):
+        """What the kernel tells of each thread: {name: value}."""
+        for task in sorted(glob.glob(f"/proc/{self.process.pid}/task/*"), key=len):
+            try:
+                with open(task + "/status", encoding="utf-8") as file:
+                    status = dict(re.split(r":\s*", line.rstrip(), maxsplit=1) for line in file)
+                with open(task + "/wchan", encoding="utf-8") as file:
+                    yield status | {"waits for": file.read()}
+            except (FileNotFoundError, ProcessLookupError):
+                pass  # it has ended meanwhile
+
     def threads(self):
         """A line for each: its state and what it waits for in the kernel."""
-        for task in sorted(glob.glob(f"/proc/{self.process.pid}/task/*"), key=len):
-            with open(task + "/status", encoding="utf-8") as status, open(task + "/wchan", encoding="utf-8") as wchan:
-                lines = status.read().splitlines()
-                yield " ".join([*(line.split(":", 1)[1].strip() for line in lines if line.split(":")[0] in ("Name", "State")), wchan.read()])
+        return [" ".join(status[name] for name in ("Name", "State", "waits for")) for status in self.statuses()]
 
     def kill(self):
         if self.process.poll() is None:

@@ -36,7 +36,7 @@ class Unmanaged(ViewCase):
         self.left, self.right = self.screen.places
 
     def assert_place(self, window, place, why):
-        self.assertTrue(window.wait_until(lambda: window.place() == place, 10), f"{why}: {window.place()}, not {place}")
+        self.assertTrue(window.wait_until(lambda: window.place() == place, 20), f"{why}: {window.place()}, not {place}")
 
     def is_on(self, window, monitors):
         """Wholly on one of them?"""
@@ -52,13 +52,13 @@ class Unmanaged(ViewCase):
     def test_opens_wholly_on_one(self):
         for size in ["300x200", "700x560", "5000x400"]:
             window = self.open(self.scene, "--size", size, "--spp", "1")
-            self.assertTrue(window.wait_until(lambda w=window: self.is_on(w, self.screen.places), 5), f"{size}: {window.place()}")
+            self.assertTrue(window.wait_until(lambda w=window: self.is_on(w, self.screen.places), 20), f"{size}: {window.place()}")
             self.assertEqual(window.close(), 0)
 
     def test_full_screen_is_all_of_the_monitor_that_it_is_on(self):
         window = self.open(self.scene, "--size", "200x150", "--spp", "1")
         for monitor, x in [(self.right, 700), (self.left, 300), (self.right, 560)]:  # the last is mostly on the right one
-            window.tool("windowmove", "--sync", window.id, x, 90)
+            window.move(x, 90)
             window.rest()
             before = window.place()
             window.key("F11")
@@ -70,11 +70,11 @@ class Unmanaged(ViewCase):
 
     def test_full_screen_stays_while_one_works_on_another(self):
         window = self.open(self.scene, "--size", "200x150", "--spp", "1")
-        window.tool("windowmove", "--sync", window.id, 700, 90)
+        window.move(700, 90)
         window.key("F11")
         self.assert_place(window, self.right, "full screen")
         other = self.open(shutil.copy(self.scene, self.path("other.gltf")), "--size", "200x150", "--spp", "1")
-        other.tool("windowmove", "--sync", other.id, 50, 90)
+        other.move(50, 90)
         other.tool("windowfocus", "--sync", other.id)
         other.rest()
         self.assertEqual(window.place(), self.right)
@@ -86,13 +86,13 @@ class Unmanaged(ViewCase):
     def test_a_monitor_that_goes_takes_no_window_with_it(self):
         window = self.open(self.scene, "--size", "200x150", "--spp", "1")
         for full in [False, True]:
-            window.tool("windowmove", "--sync", window.id, 1200, 300)
+            window.move(1200, 300)
             window.rest()
             if full:
                 window.key("F11")
                 self.assert_place(window, self.right, "full screen")
             self.screen.output(1, False)
-            self.assertTrue(window.wait_until(lambda: self.is_on(window, [self.left]) and window.size() == (200, 150), 10),
+            self.assertTrue(window.wait_until(lambda: self.is_on(window, [self.left]) and window.size() == (200, 150), 20),
                             f"full {full}: {window.place()}")
             self.assert_works(window)
             window.key("F11")
@@ -101,7 +101,7 @@ class Unmanaged(ViewCase):
             window.rest()
             self.assertEqual(window.place(), self.left)
             window.key("F11")
-            self.assertTrue(window.wait_until(lambda: window.size() == (200, 150) and self.is_on(window, self.screen.places), 10), window.place())
+            self.assertTrue(window.wait_until(lambda: window.size() == (200, 150) and self.is_on(window, self.screen.places), 20), window.place())
         self.assertEqual(window.close(), 0)
 
 

@@ -77,7 +77,7 @@ class View(ViewCase):
         eyes = []
         for move in [lambda: window.hold("w", 0.5), lambda: window.drag(2, 100, 75, 120, 75), lambda: window.hold("s", 0.8)]:
             move()
-            time.sleep(0.5)
+            window.rest()
             command = window.save()
             eyes.append([float(x) for x in re.search(r"--eye=(\S+)", command)[1].split(",")])
         self.assertEqual(len({tuple(eye) for eye in eyes}), 3, eyes)
