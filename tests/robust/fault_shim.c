@@ -2,7 +2,7 @@
  * variables:
  *   FAULT_CALL=clCreateBuffer   which call; FAULT_AT=3: the third one (1 if not given)
  *   FAULT_CODE=-5               what it answers: an OpenCL code, or an errno for calls on files; default CL_OUT_OF_RESOURCES, ENOSPC
- *   FAULT_SIGNAL=9              instead: the process is sent this signal there, and the call goes on
+ *   FAULT_SIGNAL=9              instead: the process is sent this signal there, and the call goes on when it has had time to arrive
  *   FAULT_SLEEP=60              instead: the call takes so many seconds, as with a device that hangs
  *   FAULT_PAUSE=5               instead: from that call on each takes so many milliseconds more, as with a slow device
  *   FAULT_DEVICE=1              only calls on the second context that was created count
@@ -99,7 +99,7 @@ static bool is_due(enum call call)
     if (memory) return allocated > (size_t)memory;
     if (getenv("FAULT_PAUSE") && count >= (unsigned)number("FAULT_AT", 1)) usleep(1000 * (unsigned)number("FAULT_PAUSE", 0));
     if (getenv("FAULT_PAUSE") || count != (unsigned)number("FAULT_AT", 1)) return false;
-    if (signal_number) kill(getpid(), (int)signal_number);
+    if (signal_number) kill(getpid(), (int)signal_number), usleep(200000); /* it is another thread that waits for it */
     if (getenv("FAULT_SLEEP")) sleep((unsigned)number("FAULT_SLEEP", 0));
     return !signal_number && !getenv("FAULT_SLEEP");
 }
