@@ -205,8 +205,9 @@ ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, ui
     return build((ec_builder){.positions = positions, .indices = indices}, triangle_count, false, threads, bvh, stats, err);
 }
 
-ec_result ec_bvh_build_swept(const float *positions, const uint32_t *indices, uint32_t triangle_count, const float *swept, uint32_t swept_count,
-                             uint32_t threads, ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
+ec_result ec_bvh_build_swept(const float *positions, const uint32_t *indices, uint32_t triangle_count,
+                             const float *swept, uint32_t swept_count, uint32_t threads, ec_bvh *bvh,
+                             ec_bvh_stats *stats, ec_error *err)
 {
     const ec_builder builder = {.positions = positions, .indices = indices, .swept = swept, .swept_count = swept_count};
     return build(builder, triangle_count, false, threads, bvh, stats, err);

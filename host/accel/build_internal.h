@@ -88,8 +88,8 @@ static inline ec_i4 ec_bin_of(const ec_binning *binning, ec_v4 centroid)
     return ec_v4_truncate(ec_v4_min((centroid - binning->origin) * binning->scale, binning->last));
 }
 
-void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, const float *swept, uint32_t swept_count,
-                   ec_prim *prims, ec_range *bounds);
+void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, const float *swept,
+                   uint32_t swept_count, ec_prim *prims, ec_range *bounds);
 void ec_prims_bound(const ec_prim *prims, uint32_t count, ec_range *bounds);
 void ec_prim_vertices(const float *positions, const uint32_t *indices, uint32_t id, ec_v4 vertices[3]);
 /* Copies prims to *left or *right, which move on, in their order; bounds the sides, but for their boxes. */

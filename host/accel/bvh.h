@@ -43,8 +43,9 @@ ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t
 ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                              ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
 /* Likewise; the first triangles move, and are sorted by boxes of their own, 6 floats each. boxes is never NULL then. */
-ec_result ec_bvh_build_swept(const float *positions, const uint32_t *indices, uint32_t triangle_count, const float *swept, uint32_t swept_count,
-                             uint32_t threads, ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
+ec_result ec_bvh_build_swept(const float *positions, const uint32_t *indices, uint32_t triangle_count,
+                             const float *swept, uint32_t swept_count, uint32_t threads, ec_bvh *bvh,
+                             ec_bvh_stats *stats, ec_error *err);
 void ec_bvh_free(ec_bvh *bvh);
 
 /* Every triangle once, or in parts whose boxes reach as far as its own; children inside parents; depth within the kernels'

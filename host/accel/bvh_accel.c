@@ -5,8 +5,11 @@ ec_result ec_accel_bvh(ec_accel_input *in, ec_error *err)
 {
     if (in->bvh.nodes) return EC_OK;
     if (in->swept_count)
-        return ec_bvh_build_swept(in->positions, in->indices, in->triangle_count, in->swept, in->swept_count, in->threads, &in->bvh, &in->bvh_stats, err);
-    if (in->whole) return ec_bvh_build_whole(in->positions, in->indices, in->triangle_count, in->threads, &in->bvh, &in->bvh_stats, err);
+        return ec_bvh_build_swept(in->positions, in->indices, in->triangle_count, in->swept, in->swept_count,
+                                  in->threads, &in->bvh, &in->bvh_stats, err);
+    if (in->whole)
+        return ec_bvh_build_whole(in->positions, in->indices, in->triangle_count, in->threads, &in->bvh, &in->bvh_stats,
+                                  err);
     return ec_bvh_build(in->positions, in->indices, in->triangle_count, in->threads, &in->bvh, &in->bvh_stats, err);
 }
 

@@ -68,9 +68,11 @@ static ec_result remember(ec_followed *f, const ec_accel_input *in, ec_error *er
 /* The same triangles of the same vertices, wherever they are. */
 static bool same_triangles(const struct ec_followed_input *i, const ec_accel_input *in)
 {
-    return i && i->vertex_count == in->vertex_count && i->triangle_count == in->triangle_count && i->all_triangles == all_triangles(in) &&
-           i->swept_count == in->swept_count && i->shape_count == in->shape_count && i->placed_count == in->placed_count &&
-           i->whole == in->whole && i->grid_density == in->grid_density && same(i->indices, in->indices, i->all_triangles, 3 * sizeof(uint32_t)) &&
+    return i && i->vertex_count == in->vertex_count && i->triangle_count == in->triangle_count &&
+           i->all_triangles == all_triangles(in) && i->swept_count == in->swept_count &&
+           i->shape_count == in->shape_count && i->placed_count == in->placed_count && i->whole == in->whole &&
+           i->grid_density == in->grid_density &&
+           same(i->indices, in->indices, i->all_triangles, 3 * sizeof(uint32_t)) &&
            same(i->shapes, in->shapes, in->shape_count, sizeof *in->shapes);
 }
 
@@ -84,7 +86,8 @@ static bool same_placed(const ec_placed *a, const ec_placed *b, uint32_t count)
 
 static bool same_places(const struct ec_followed_input *i, const ec_accel_input *in)
 {
-    return same(i->positions, in->positions, in->vertex_count, 3 * sizeof(float)) && same(i->swept, in->swept, in->swept_count, 6 * sizeof(float)) &&
+    return same(i->positions, in->positions, in->vertex_count, 3 * sizeof(float)) &&
+           same(i->swept, in->swept, in->swept_count, 6 * sizeof(float)) &&
            same_placed(i->placed, in->placed, in->placed_count);
 }
 

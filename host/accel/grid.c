@@ -161,7 +161,8 @@ static uint32_t count_cells(const grid *g, uint32_t *counts, ec_grid_block *bloc
 }
 
 /* starts: one more than there are occupied cells; the entries behind them. */
-static void fill_cells(const grid *g, uint32_t *counts, const ec_grid_block *blocks, uint32_t *starts, uint32_t used, uint32_t entry_count)
+static void fill_cells(const grid *g, uint32_t *counts, const ec_grid_block *blocks, uint32_t *starts, uint32_t used,
+                       uint32_t entry_count)
 {
     uint64_t cells = cell_count(g);
     uint32_t *entries = starts + used + 1, next = 0;

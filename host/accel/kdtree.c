@@ -234,7 +234,9 @@ static ec_result join(const piece *p, joined *j, ec_error *err)
 {
     j->node_count = 1;
     count_piece(p, j);
-    if (j->block_count >= 1u << 25) return ec_fail(err, "a kd-tree with %u blocks of triangles is more than the kernels can address", j->block_count);
+    if (j->block_count >= 1u << 25)
+        return ec_fail(err, "a kd-tree with %u blocks of triangles is more than the kernels can address",
+                       j->block_count);
     j->nodes = ec_allocate_lines(j->node_count, sizeof *j->nodes);
     j->ids = malloc((8 * (size_t)j->block_count + 1) * sizeof *j->ids);
     if (!j->nodes || !j->ids) return ec_fail(err, "out of memory for a kd-tree of %u nodes", j->node_count);
@@ -299,7 +301,8 @@ ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
         blocks = ec_allocate_lines(j.block_count, sizeof *blocks);
         nodes = ec_kd_collapse(j.nodes, &node_count);
         if (in->bvh.boxes) boxes = ec_allocate_lines(j.block_count, sizeof *boxes);
-        if (!blocks || !nodes || (in->bvh.boxes && !boxes)) result = ec_fail(err, "out of memory for %u blocks of triangles", j.block_count);
+        if (!blocks || !nodes || (in->bvh.boxes && !boxes))
+            result = ec_fail(err, "out of memory for %u blocks of triangles", j.block_count);
     }
     if (result == EC_OK) {
         memset(header, 0, sizeof *header);

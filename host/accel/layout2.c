@@ -186,7 +186,8 @@ static void fill_triangles(const plan *p, ec_tri *triangles)
 /* Does `second` continue `first` to a quad: (p, q, r) and (p, r, s)? Those that move may part. */
 static int is_quad(const ec_tri *first, const ec_tri *second, uint32_t moving)
 {
-    return first->id >= moving && second->id >= moving && !memcmp(first->v0, second->v0, sizeof first->v0) && !memcmp(first->v2, second->v1, sizeof first->v2);
+    return first->id >= moving && second->id >= moving && !memcmp(first->v0, second->v0, sizeof first->v0) &&
+           !memcmp(first->v2, second->v1, sizeof first->v2);
 }
 
 static void exchange(ec_tri *leaf, ec_box *boxes, uint32_t i, uint32_t k)

@@ -167,7 +167,9 @@ ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32
         b = ec_allocate_lines(p.leaf_count, sizeof *b);
         if (bvh->boxes) x = ec_allocate_lines(p.leaf_count, sizeof *x);
     }
-    ec_result result = n && b && (x || !bvh->boxes) ? EC_OK : ec_fail(err, "out of memory for the 8-wide BVH of %u triangles", bvh->triangle_count);
+    ec_result result = n && b && (x || !bvh->boxes)
+                           ? EC_OK
+                           : ec_fail(err, "out of memory for the 8-wide BVH of %u triangles", bvh->triangle_count);
     if (result == EC_OK) {
         fill(&p, positions, indices, n, b, x);
         *nodes = n;

@@ -14,8 +14,8 @@ void ec_prim_vertices(const float *positions, const uint32_t *indices, uint32_t 
     for (int k = 0; k < 3; k++) vertices[k] = load_vertex(positions, indices[3 * (size_t)id + (size_t)k]);
 }
 
-void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, const float *swept, uint32_t swept_count,
-                   ec_prim *prims, ec_range *bounds)
+void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, const float *swept,
+                   uint32_t swept_count, ec_prim *prims, ec_range *bounds)
 {
     const ec_box4 none = ec_box4_empty(); /* below it, NaN vertices leave no mark */
     ec_range_clear(bounds);

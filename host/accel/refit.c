@@ -121,7 +121,9 @@ static void keep_pairs(const ec_accel_input *in, ec_tri *leaf, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         if (!leaf[i].has_pair) continue;
         bool moves = leaf[i].id < in->swept_count || leaf[i + 1].id < in->swept_count;
-        if (moves || memcmp(leaf[i].v0, leaf[i + 1].v0, sizeof leaf->v0) || memcmp(leaf[i].v2, leaf[i + 1].v1, sizeof leaf->v0)) leaf[i].has_pair = 0;
+        if (moves || memcmp(leaf[i].v0, leaf[i + 1].v0, sizeof leaf->v0) ||
+            memcmp(leaf[i].v2, leaf[i + 1].v1, sizeof leaf->v0))
+            leaf[i].has_pair = 0;
     }
 }
 

@@ -75,7 +75,8 @@ ec_result ec_accel_refs(ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_r
     return EC_OK;
 }
 
-void ec_accel_block(const ec_accel_input *in, const ec_ref *refs, const uint32_t *which, uint32_t count, ec_tri8 *block, ec_box8 *boxes)
+void ec_accel_block(const ec_accel_input *in, const ec_ref *refs, const uint32_t *which, uint32_t count, ec_tri8 *block,
+                    ec_box8 *boxes)
 {
     memset(block, 0, sizeof *block);
     if (boxes) memset(boxes, 0, sizeof *boxes);

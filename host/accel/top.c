@@ -51,7 +51,8 @@ static void sort(builder *b, uint32_t first, uint32_t count)
     uint32_t half = count / 2, i = first, j = first + half, end = first + count, to = 0;
     sort(b, first, half);
     sort(b, j, count - half);
-    while (i < first + half && j < end) b->scratch[to++] = b->key[b->order[j]] < b->key[b->order[i]] ? b->order[j++] : b->order[i++];
+    while (i < first + half && j < end)
+        b->scratch[to++] = b->key[b->order[j]] < b->key[b->order[i]] ? b->order[j++] : b->order[i++];
     while (i < first + half) b->scratch[to++] = b->order[i++];
     while (j < end) b->scratch[to++] = b->order[j++];
     memcpy(b->order + first, b->scratch, count * sizeof *b->order);

@@ -56,10 +56,12 @@ static bool reserve(void *array, uint32_t *room, uint32_t used, uint64_t wanted,
 }
 
 /* Appends a tree; its references to itself move with it. */
-static ec_result append(twolevel *t, const ec_bvh8_node *nodes, uint32_t node_count, const ec_tri8 *blocks, uint32_t block_count, ec_error *err)
+static ec_result append(twolevel *t, const ec_bvh8_node *nodes, uint32_t node_count, const ec_tri8 *blocks,
+                        uint32_t block_count, ec_error *err)
 {
     uint64_t all_nodes = (uint64_t)t->node_count + node_count, all_blocks = (uint64_t)t->block_count + block_count;
-    if (all_nodes >= EC_INSTANCE_BIT || all_blocks >= EC_INSTANCE_BIT) return ec_fail(err, "more meshes than two levels of trees can number");
+    if (all_nodes >= EC_INSTANCE_BIT || all_blocks >= EC_INSTANCE_BIT)
+        return ec_fail(err, "more meshes than two levels of trees can number");
     if (!reserve(&t->nodes, &t->node_room, t->node_count, all_nodes, sizeof *nodes) ||
         !reserve(&t->blocks, &t->block_room, t->block_count, all_blocks, sizeof *blocks))
         return ec_fail(err, "out of memory for the trees of meshes");
@@ -97,7 +99,8 @@ static ec_result build_shape(const ec_accel_input *in, const ec_shape *shape, ec
     ec_bvh bvh;
     ec_box8 *boxes;
     EC_TRY(ec_bvh_build_whole(in->positions, indices, shape->count, in->threads, &bvh, NULL, err));
-    ec_result result = ec_bvh8_layout(&bvh, in->positions, indices, &tree->nodes, &tree->node_count, &tree->blocks, &boxes, &tree->block_count, err);
+    ec_result result = ec_bvh8_layout(&bvh, in->positions, indices, &tree->nodes, &tree->node_count, &tree->blocks,
+                                      &boxes, &tree->block_count, err);
     ec_bvh_free(&bvh);
     return result;
 }
@@ -110,7 +113,8 @@ static ec_fingerprint key_of(const ec_accel_input *in, const ec_shape *shape)
         uint32_t corner = in->indices[3 * (size_t)shape->first + i] - shape->first_vertex;
         key = ec_fingerprint_add(key, &corner, sizeof corner);
     }
-    return ec_fingerprint_add(key, in->positions + 3 * (size_t)shape->first_vertex, 3 * (size_t)shape->vertex_count * sizeof(float));
+    return ec_fingerprint_add(key, in->positions + 3 * (size_t)shape->first_vertex,
+                              3 * (size_t)shape->vertex_count * sizeof(float));
 }
 
 static void note_parts(const ec_bvh8_node *root, shape_facts *f)
@@ -218,7 +222,8 @@ static ec_result add_instances(const ec_accel_input *in, twolevel *t, ec_error *
         boxes[i] = box_of(&in->placed[i], &t->shapes[in->placed[i].shape]);
         t->instances[i + 1] = instance_of(&in->placed[i], &t->shapes[in->placed[i].shape], reach);
     }
-    if (result == EC_OK && !ec_top_build(boxes, in->placed_count, top, &used)) result = ec_fail(err, "out of memory for %u instances", in->placed_count);
+    if (result == EC_OK && !ec_top_build(boxes, in->placed_count, top, &used))
+        result = ec_fail(err, "out of memory for %u instances", in->placed_count);
     if (result == EC_OK) result = append(t, top, used, NULL, 0, err);
     if (result == EC_OK) t->instances[0] = (ec_instance){.root = root};
     free(boxes);
@@ -233,7 +238,8 @@ ec_result ec_twolevel_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     EC_TRY(ec_accel_bvh(in, err));
     ec_result result = t.shapes ? EC_OK : ec_fail(err, "out of memory for %u meshes", in->shape_count);
     if (result == EC_OK)
-        result = ec_bvh8_layout(&in->bvh, in->positions, in->indices, &t.nodes, &t.node_count, &t.blocks, &t.boxes, &t.block_count, err);
+        result = ec_bvh8_layout(&in->bvh, in->positions, in->indices, &t.nodes, &t.node_count, &t.blocks, &t.boxes,
+                                &t.block_count, err);
     references = in->bvh.ref_count;
     const uint64_t box_bytes = t.boxes ? t.block_count * (uint64_t)sizeof *t.boxes : 0; /* where triangles were cut: there are no instances then */
     t.node_room = t.node_count;
@@ -251,7 +257,9 @@ ec_result ec_twolevel_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     accel->buffers[0] = (ec_accel_buffer){"nodes", t.nodes, (uint64_t)t.node_count * sizeof *t.nodes};
     accel->buffers[1] = (ec_accel_buffer){"triangle blocks", t.blocks, (uint64_t)t.block_count * sizeof *t.blocks};
     if (t.boxes) accel->buffers[2] = (ec_accel_buffer){"boxes", t.boxes, box_bytes};
-    if (t.instances) accel->buffers[3] = (ec_accel_buffer){"instances", t.instances, (in->placed_count + (uint64_t)1) * sizeof *t.instances};
+    if (t.instances)
+        accel->buffers[3] =
+            (ec_accel_buffer){"instances", t.instances, (in->placed_count + (uint64_t)1) * sizeof *t.instances};
     accel->stats = (ec_accel_stats){.nodes = t.node_count, .leaves = t.block_count, .references = references,
                                     .sah_cost = in->placed_count ? 0.0 : in->bvh_stats.sah_cost};
     return EC_OK;

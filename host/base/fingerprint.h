@@ -12,6 +12,9 @@ typedef struct ec_fingerprint {
 /* so_far: of what came before; {0} to begin with. */
 ec_fingerprint ec_fingerprint_add(ec_fingerprint so_far, const void *bytes, uint64_t size);
 
-static inline bool ec_fingerprint_is(ec_fingerprint a, ec_fingerprint b) { return a.half[0] == b.half[0] && a.half[1] == b.half[1]; }
+static inline bool ec_fingerprint_is(ec_fingerprint a, ec_fingerprint b)
+{
+    return a.half[0] == b.half[0] && a.half[1] == b.half[1];
+}
 
 #endif

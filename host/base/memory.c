@@ -87,7 +87,8 @@ static uint64_t left_in_group(const char *path, const group_files *files)
     uint64_t left = UINT64_MAX;
     snprintf(folder, sizeof folder, "%s%s", files->root, path);
     for (size_t root = strlen(files->root), size = strlen(folder); size >= root; size = strlen(folder)) {
-        const uint64_t most = number_in(folder, files->limit), now = number_in(folder, files->used), cached = cached_in(folder, files);
+        const uint64_t most = number_in(folder, files->limit), now = number_in(folder, files->used),
+                       cached = cached_in(folder, files);
         const uint64_t held = cached < now ? now - cached : 0;
         if (most != UINT64_MAX && now != UINT64_MAX) left = least(left, most > held ? most - held : 0);
         char *slash = strrchr(folder, '/');
@@ -108,7 +109,8 @@ static uint64_t left_in_groups(void)
     while (fgets(line, sizeof line, file)) {
         line[strcspn(line, "\n")] = 0;
         const char *first = strchr(line, ':'), *path = first ? strchr(first + 1, ':') : NULL;
-        if (path && (path == first + 1 || !strncmp(first, ":memory:", 8))) left = least(left, left_in_group(path + 1, &versions[path == first + 1]));
+        if (path && (path == first + 1 || !strncmp(first, ":memory:", 8)))
+            left = least(left, left_in_group(path + 1, &versions[path == first + 1]));
     }
     fclose(file);
     return left;
@@ -119,6 +121,7 @@ uint64_t ec_memory_free(void)
     struct rlimit limit;
     uint64_t space, resident, left = least(available(), left_in_groups());
     look_at_self(&space, &resident);
-    if (!getrlimit(RLIMIT_AS, &limit) && limit.rlim_cur != RLIM_INFINITY) left = least(left, limit.rlim_cur > space ? limit.rlim_cur - space : 0);
+    if (!getrlimit(RLIMIT_AS, &limit) && limit.rlim_cur != RLIM_INFINITY)
+        left = least(left, limit.rlim_cur > space ? limit.rlim_cur - space : 0);
     return left;
 }

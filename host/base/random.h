@@ -18,6 +18,9 @@ static inline uint64_t ec_random_bits(uint64_t *state) { return ec_random_mix(*s
 /* In [0, 1). */
 static inline double ec_random_unit(uint64_t *state) { return (double)(ec_random_bits(state) >> 11) * 0x1p-53; }
 
-static inline double ec_random_between(uint64_t *state, double low, double high) { return low + (high - low) * ec_random_unit(state); }
+static inline double ec_random_between(uint64_t *state, double low, double high)
+{
+    return low + (high - low) * ec_random_unit(state);
+}
 
 #endif

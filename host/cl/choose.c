@@ -131,12 +131,15 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
     return EC_OK;
 }
 
-static ec_result choose_all(const ec_device_info *devices, uint32_t count, uint32_t *indices, uint32_t most, uint32_t *chosen, ec_error *err)
+static ec_result choose_all(const ec_device_info *devices, uint32_t count, uint32_t *indices, uint32_t most,
+                            uint32_t *chosen, ec_error *err)
 {
     *chosen = 0;
     for (uint32_t i = 0; i < count && *chosen < most; i++)
         if (usable(&devices[i])) indices[(*chosen)++] = i;
-    return *chosen ? EC_OK : ec_fail(err, "none of the %u OpenCL devices is available and has a compiler; see eclat devices", count);
+    return *chosen ? EC_OK
+                   : ec_fail(err, "none of the %u OpenCL devices is available and has a compiler; see eclat devices",
+                             count);
 }
 
 static ec_result choose_next(const ec_device_info *devices, uint32_t count, const char *from, const char *list,
@@ -151,7 +154,8 @@ static ec_result choose_next(const ec_device_info *devices, uint32_t count, cons
     EC_TRY(choose_named(devices, count, from, id, &indices[*chosen], err));
     for (uint32_t i = 0; i < *chosen; i++)
         if (indices[i] == indices[*chosen])
-            return ec_fail(err, "the list of devices '%s' has device %u (%s) twice; name each once", list, indices[i], devices[indices[i]].name);
+            return ec_fail(err, "the list of devices '%s' has device %u (%s) twice; name each once", list, indices[i],
+                           devices[indices[i]].name);
     ++*chosen;
     return EC_OK;
 }
@@ -175,8 +179,8 @@ ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count
     return EC_OK;
 }
 
-ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most, uint32_t *chosen, const char **why,
-                                 ec_error *err)
+ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most,
+                                 uint32_t *chosen, const char **why, ec_error *err)
 {
     ec_device_info *all = NULL;
     uint32_t count = 0;

@@ -40,8 +40,8 @@ ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count
 
 /* Both at once: the device that id means, and its place in the list. index and why may be NULL. */
 ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err);
-ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most, uint32_t *chosen, const char **why,
-                                 ec_error *err);
+ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most,
+                                 uint32_t *chosen, const char **why, ec_error *err);
 
 /* Whether programs go through the binary cache. AUTO leaves it out for drivers that need the source:
  * cl/workarounds.c. */
@@ -108,8 +108,8 @@ void ec_buffer_release(ec_cl *cl, cl_mem *buffer); /* sets it to NULL; NULL is f
 /* A buffer that no kernel writes: `bytes` of data, and room for `slack` more. With a key, which is that of label and data, it stays on the
  * device after its release, and is found there by whoever puts the same again; keep_only lets go of all others that stay. */
 ec_fingerprint ec_buffer_key(const char *label, uint64_t bytes, uint64_t slack, const void *data);
-ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t slack, const void *data, const ec_fingerprint *key, cl_mem *buffer,
-                        ec_error *err);
+ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t slack, const void *data,
+                        const ec_fingerprint *key, cl_mem *buffer, ec_error *err);
 void ec_buffers_keep_only(ec_cl *cl, const ec_fingerprint *keys, uint32_t count);
 ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err); /* blocks */
 ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err);

@@ -38,15 +38,16 @@ void ec_buffers_keep_only(ec_cl *cl, const ec_fingerprint *keys, uint32_t count)
     }
 }
 
-static ec_result upload(ec_cl *cl, const char *label, uint64_t bytes, uint64_t slack, const void *data, cl_mem *buffer, ec_error *err)
+static ec_result upload(ec_cl *cl, const char *label, uint64_t bytes, uint64_t slack, const void *data, cl_mem *buffer,
+                        ec_error *err)
 {
     EC_TRY(ec_buffer_create(cl, label, bytes + slack, slack ? NULL : data, buffer, err));
     cl->uploaded_bytes += bytes;
     return slack ? ec_buffer_write(cl, *buffer, 0, bytes, data, err) : EC_OK;
 }
 
-ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t slack, const void *data, const ec_fingerprint *key, cl_mem *buffer,
-                        ec_error *err)
+ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t slack, const void *data,
+                        const ec_fingerprint *key, cl_mem *buffer, ec_error *err)
 {
     if (!key) return upload(cl, label, bytes, slack, data, buffer, err);
     for (uint32_t i = 0; i < cl->kept_buffer_count; i++) {

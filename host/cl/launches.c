@@ -24,7 +24,8 @@ ec_result ec_cl_landed(ec_cl *cl, ec_error *err)
         }
     }
     ec_cl_forget_launches(cl);
-    return culprit ? ec_cl_check(why, "running a kernel", culprit, err) : ec_cl_check(waited, "clWaitForEvents", cl->info.name, err);
+    return culprit ? ec_cl_check(why, "running a kernel", culprit, err)
+                   : ec_cl_check(waited, "clWaitForEvents", cl->info.name, err);
 }
 
 void ec_cl_forget_launches(ec_cl *cl)

@@ -26,7 +26,9 @@ static bool driver_needs_source(const ec_device_info *info)
 static char *all_options(const ec_device_info *info, const char *options)
 {
     const char *standard = "-cl-std=CL1.2";
-    const char *divide = info->correctly_rounded_divide_sqrt && !strstr(options, EC_FAST_MATH) ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
+    const char *divide = info->correctly_rounded_divide_sqrt && !strstr(options, EC_FAST_MATH)
+                             ? " -cl-fp32-correctly-rounded-divide-sqrt"
+                             : "";
     size_t size = strlen(options) + strlen(standard) + strlen(divide) + 2;
     char *all = malloc(size);
     if (all) snprintf(all, size, "%s%s%s%s", standard, divide, *options ? " " : "", options);

@@ -13,6 +13,7 @@ typedef struct ec_camera_change {
 
 /* Changes that camera of the scene; none asked for: nothing. What is not given stays, but for what the help says. *viewpoint: where it
  * stands then, in the very numbers that were given. */
-ec_result ec_camera_change_apply(const ec_camera_change *change, ec_scene *scene, uint32_t camera, ec_viewpoint *viewpoint, ec_error *err);
+ec_result ec_camera_change_apply(const ec_camera_change *change, ec_scene *scene, uint32_t camera,
+                                 ec_viewpoint *viewpoint, ec_error *err);
 
 #endif

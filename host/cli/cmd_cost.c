@@ -54,8 +54,9 @@ static bool show(void *user, const ec_cost_progress *progress)
     double now = ec_now(), left = fmax(progress->budget - progress->seconds, 0);
     if (ec_console_wants_progress(view->console) && now - view->drawn_at >= 0.1) {
         char line[256];
-        snprintf(line, sizeof line, "%d %%  %d:%02d left  %u of %u  %s", (int)(100 * fmin(progress->seconds / progress->budget, 1)), (int)left / 60,
-                 (int)left % 60, progress->done, progress->count, progress->doing);
+        snprintf(line, sizeof line, "%d %%  %d:%02d left  %u of %u  %s",
+                 (int)(100 * fmin(progress->seconds / progress->budget, 1)), (int)left / 60, (int)left % 60,
+                 progress->done, progress->count, progress->doing);
         ec_console_draw(view->console, line);
         view->drawn_at = now;
     }
@@ -71,7 +72,8 @@ static ec_result run_study(ec_cost_study *study, const ec_render_job *job, ec_co
     study->go_on = show;
     study->user = &view;
     ec_stop_catch_signals(ec_console_wants_progress(console));
-    ec_console_say(console, "studying %ux%u pixels on %s for %g s", study->options.width, study->options.height, job->devices->name, study->budget);
+    ec_console_say(console, "studying %ux%u pixels on %s for %g s", study->options.width, study->options.height,
+                   job->devices->name, study->budget);
     ec_result result = ec_cost_run(study, err);
     ec_console_erase(console);
     ec_cl_close(&cl);

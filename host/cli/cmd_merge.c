@@ -36,13 +36,15 @@ SETTER(output)
     return ec_outputs_add(&REQUEST->outputs, value, err);
 }
 
-static const ec_option options[] = {{"exposure", 0, true, set_exposure}, {"json", 0, false, set_json},       {"output", 'o', true, set_output},
-                                    {"partial", 0, false, set_partial},  {"quiet", 'q', false, set_quiet}, {"tonemap", 0, true, set_tonemap}};
+static const ec_option options[] = {{"exposure", 0, true, set_exposure}, {"json", 0, false, set_json},
+                                    {"output", 'o', true, set_output},   {"partial", 0, false, set_partial},
+                                    {"quiet", 'q', false, set_quiet},    {"tonemap", 0, true, set_tonemap}};
 
 static ec_result check_request(const merge_request *request, ec_error *err)
 {
     if (request->count == 0) return ec_usage(err, "merge needs slices, A.exr B.exr …, and -o ALL.exr; see 'eclat merge --help'");
-    if (request->outputs.count == 0) return ec_usage(err, "merge needs -o ALL.exr, where the slices come together; see 'eclat merge --help'");
+    if (request->outputs.count == 0)
+        return ec_usage(err, "merge needs -o ALL.exr, where the slices come together; see 'eclat merge --help'");
     for (int i = 0; i < request->count; i++)
         for (int k = 0; k < i; k++)
             if (ec_same_file(request->paths[i], request->paths[k]))

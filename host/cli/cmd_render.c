@@ -51,7 +51,8 @@ static ec_result write_film(ec_render_job *job, ec_render_report *report, ec_err
 {
     const ec_past past = past_of(job);
     const ec_slice slice = {&job->job, &past};
-    return ec_write_report(&job->request->outputs, &job->film, job->request->has_slice ? &slice : NULL, report, job->image_sha256, err);
+    return ec_write_report(&job->request->outputs, &job->film, job->request->has_slice ? &slice : NULL, report,
+                           job->image_sha256, err);
 }
 
 /* Of a picture in strips, whose rows are in the files already. */
@@ -98,8 +99,12 @@ static ec_result render(ec_console *console, ec_render_job *job, double start, e
     }
     bool is_empty = (job->film.batch_count == 0 && !job->rows) || job->stats.samples == 0; /* no samples: a checkpoint that does not fit */
     if (is_empty) return ec_fail(err, "%s", why.text);
-    if (job->rows) ec_fail(err, "the render failed after %u of %u rows: %s", ec_row_writer_rows(job->rows), job->request->options.height, why.text);
-    else ec_fail(err, "the render failed after %llu samples a pixel: %s", (unsigned long long)job->stats.samples_per_pixel, why.text);
+    if (job->rows)
+        ec_fail(err, "the render failed after %u of %u rows: %s", ec_row_writer_rows(job->rows),
+                job->request->options.height, why.text);
+    else
+        ec_fail(err, "the render failed after %llu samples a pixel: %s",
+                (unsigned long long)job->stats.samples_per_pixel, why.text);
     ec_error unwritten = {0};
     if (ec_render_job_deliver(job, console, start, &unwritten) == EC_OK) ec_fail_more(err, "; the picture so far is written");
     else ec_fail_more(err, "; and then: %s", unwritten.text);
@@ -128,7 +133,8 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
     }
     if (request.plan_ranks) job.ranks = NULL; /* of one process and its device: what all of them are taken to be */
     result = request.plan_ranks ? ec_render_job_load(&job, &cli->console, err) : ec_render_job_prepare(&job, &cli->console, err);
-    if (result == EC_FAILED && request.resume && strcmp(folder, job.job.folder)) ec_fail_more(err, "; the job was begun in '%s'", job.job.folder);
+    if (result == EC_FAILED && request.resume && strcmp(folder, job.job.folder))
+        ec_fail_more(err, "; the job was begun in '%s'", job.job.folder);
     if (result != EC_OK) goto cleanup;
     result = request.plan_ranks ? ec_render_plan(&job, &cli->console, err) : render(&cli->console, &job, start, err);
 cleanup:

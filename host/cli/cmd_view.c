@@ -42,12 +42,21 @@ FLAG_SETTER(stats, stats)
 /* Options of `render` that mean nothing here; NULL: it does mean something. */
 static const char *why_foreign(const char *name)
 {
-    static const char *const lasting = "a window keeps no checkpoints and renders no slices", *const moving = "a window shows one moment";
+    static const char *const lasting = "a window keeps no checkpoints and renders no slices",
+                             *const moving = "a window shows one moment";
     static const char *const talking = "a window reports to who looks at it";
-    static const char *const names[][2] = {{"adaptive", "a window takes as many samples in every pixel"}, {"checkpoint", lasting}, {"every", lasting},
-                                            {"fps", moving}, {"frames", moving}, {"json", talking}, {"memory", "a window's picture is held whole"},
-                                            {"overwrite", moving}, {"plan", "a window is one process"}, {"resume", lasting}, {"samples", lasting},
-                                            {"verbose", talking}};
+    static const char *const names[][2] = {{"adaptive", "a window takes as many samples in every pixel"},
+                                           {"checkpoint", lasting},
+                                           {"every", lasting},
+                                           {"fps", moving},
+                                           {"frames", moving},
+                                           {"json", talking},
+                                           {"memory", "a window's picture is held whole"},
+                                           {"overwrite", moving},
+                                           {"plan", "a window is one process"},
+                                           {"resume", lasting},
+                                           {"samples", lasting},
+                                           {"verbose", talking}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(name, names[i][0])) return names[i][1];
     return NULL;
@@ -62,8 +71,8 @@ static ec_result refuse(void *target, const char *option, const char *value, ec_
 /* Those that the window sets, or that say nothing of the picture. */
 static bool is_ours(const char *name)
 {
-    static const char *const names[] = {"batch", "error", "env-rotate", "exposure", "integrator", "output", "quiet", "size", "spp", "time",
-                                        "tonemap", "without"};
+    static const char *const names[] = {"batch", "error", "env-rotate", "exposure", "integrator", "output",
+                                        "quiet", "size",  "spp",        "time",     "tonemap",    "without"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (!strcmp(names[i], name)) return true;
     return false;
@@ -84,7 +93,9 @@ static ec_result set_and_keep(void *target, const char *option, const char *valu
 
 static ec_result parse(int argc, char **argv, view_job *job, bool *done, ec_error *err)
 {
-    ec_option rows[EC_OPTIONS_MAX] = {{"against", 0, true, set_against}, {"script", 0, true, set_script}, {"stats", 0, false, set_stats}};
+    ec_option rows[EC_OPTIONS_MAX] = {{"against", 0, true, set_against},
+                                      {"script", 0, true, set_script},
+                                      {"stats", 0, false, set_stats}};
     bool given[EC_OPTIONS_MAX] = {false};
     int count = 3, first = 0;
     ec_request asked;
@@ -160,7 +171,8 @@ static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told,
     if (!command) return ec_fail(err, "out of memory for a command line");
     if (!shot->moved) ec_camera_describe(shot->scene, shot->options->camera, camera, sizeof camera);
     snprintf(environment, sizeof environment, "%s", job->environment);
-    if (shot->env_degrees != 0) snprintf(environment, sizeof environment, "%s, turned by %g degrees", job->environment, shot->env_degrees);
+    if (shot->env_degrees != 0)
+        snprintf(environment, sizeof environment, "%s, turned by %g degrees", job->environment, shot->env_degrees);
     ec_render_report report = {
         .command = command, .scene = job->render.scene, .camera = camera, .viewpoint = viewpoint_of(job, shot), .environment = environment,
         .options = shot->options, .stats = shot->stats, .device = &job->device, .device_why = job->device_why,

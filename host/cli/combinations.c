@@ -92,7 +92,8 @@ ec_result ec_combinations_check(const ec_option *options, int count, const bool 
         return ec_usage(err, "--integrator whitted: a --max-depth of %u is too deep for trees that keep every branch; give at most %u",
                         asked->max_depth, EC_WHITTED_DEPTH_MOST);
     if (asked->integrator == EC_INTEGRATOR_WHITTED && asked->max_depth == 0)
-        return ec_usage(err, "--max-depth inf belongs to --integrator path; a ray tree needs a number up to %u", EC_WHITTED_DEPTH_MOST);
+        return ec_usage(err, "--max-depth inf belongs to --integrator path; a ray tree needs a number up to %u",
+                        EC_WHITTED_DEPTH_MOST);
     EC_TRY(ec_combinations_check_grid((double)asked->grid_density, asked->accel, false, err));
     if (asked->filter_width > 0 && asked->filter == EC_FILTER_BOX)
         return ec_usage(err, "--filter-width belongs to --filter blackman-harris; leave it out or choose that");

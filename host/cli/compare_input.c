@@ -64,7 +64,8 @@ static ec_result take_noise(const ec_exr *exr, ec_compare_input *input, ec_error
     const float *samples = ec_exr_plane(exr, "samples");
     if (samples) m->samples = mean_of(samples, (uint64_t)exr->width * exr->height);
     m->batches = count_batches(path);
-    if (m->batches < 2 || !(ec_exr_plane(exr, error[0]) || ec_exr_plane(exr, error[1]) || ec_exr_plane(exr, error[2]))) return EC_OK;
+    if (m->batches < 2 || !(ec_exr_plane(exr, error[0]) || ec_exr_plane(exr, error[1]) || ec_exr_plane(exr, error[2])))
+        return EC_OK;
     EC_TRY(weave(path, exr, error, 3, &input->se, err));
     if (ec_exr_plane(exr, luminance)) EC_TRY(weave(path, exr, &luminance, 1, &input->se_y, err));
     m->se = input->se;

@@ -48,8 +48,9 @@ static bool is_among(const char *option, const char *const *names)
 }
 
 /* No picture depends on these, or the identity says it in other words. */
-static const char *const immaterial[] = {"accel", "device", "effects", "env", "fps", "frames", "grid-density", "json", "lanes", "memory", "output", "overwrite",
-                                         "quiet", "verbose", "wave", NULL};
+static const char *const immaterial[] = {"accel",        "device",  "effects", "env",    "fps",    "frames",
+                                         "grid-density", "json",    "lanes",   "memory", "output", "overwrite",
+                                         "quiet",        "verbose", "wave",    NULL};
 
 static void add(ec_identity *identity, const char *name, const char *value)
 {
@@ -85,7 +86,8 @@ static ec_result add_environment(ec_identity *identity, const char *environment,
     return EC_OK;
 }
 
-ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files, ec_identity *identity, ec_error *err)
+ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files,
+                             ec_identity *identity, ec_error *err)
 {
     char text[64];
     memset(identity, 0, sizeof *identity);

@@ -17,7 +17,8 @@ ec_result ec_given_options_read(int argc, char *const *argv, ec_given_options *g
 
 /* What all frames are of: version, kernels, the bytes of the scene's files (their digest) and of the environment's, and every option that a
  * picture may depend on, as it was given. */
-ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files, ec_identity *all, ec_error *err);
+ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files,
+                             ec_identity *all, ec_error *err);
 /* One of them: the same at its moment. */
 void ec_frame_identify(const ec_identity *all, const ec_render_request *request, uint32_t frame, ec_identity *identity);
 

@@ -66,7 +66,8 @@ static ec_result look_around(sequence *s, ec_inputs *inputs, ec_error *err)
     return EC_FAILED;
 }
 
-static ec_result tell_state(const sequence *s, uint32_t frame, const char *state, const char *error, const ec_outputs *names, ec_error *err)
+static ec_result tell_state(const sequence *s, uint32_t frame, const char *state, const char *error,
+                            const ec_outputs *names, ec_error *err)
 {
     if (!s->request->json) return EC_OK;
     cJSON *object = cJSON_CreateObject();
@@ -142,7 +143,9 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
         EC_TRY(ec_json_print(object, stdout, err));
     }
     if (s->skipped) ec_console_say(s->console, "%u of %u frames were there already", s->skipped, s->count);
-    if (stopped) return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there, s->count);
+    if (stopped)
+        return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there,
+                       s->count);
     if (s->failed)
         return ec_fail(err, "%u of %u frames failed; the same command renders only those once that is mended",
                        s->failed, s->count);
@@ -190,12 +193,14 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
     return conclude(s, stopped, start, err);
 }
 
-ec_result ec_frames_render(ec_console *console, const ec_render_request *request, ec_ranks *ranks, int argc, char *const *argv, double start, ec_error *err)
+ec_result ec_frames_render(ec_console *console, const ec_render_request *request, ec_ranks *ranks, int argc,
+                           char *const *argv, double start, ec_error *err)
 {
     sequence s = {.console = console, .request = request, .ranks = ranks, .count = ec_frame_count(&request->frames)};
     console->says_once = true;
     s.states = calloc(s.count, sizeof *s.states);
-    ec_result result = s.states ? ec_given_options_read(argc, argv, &s.given, err) : ec_fail(err, "out of memory for %u frames", s.count);
+    ec_result result = s.states ? ec_given_options_read(argc, argv, &s.given, err)
+                                : ec_fail(err, "out of memory for %u frames", s.count);
     if (result == EC_OK) result = render_all(&s, start, err);
     ec_animation_close(s.share.animation);
     free(s.share.environment.rgb);

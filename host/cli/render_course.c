@@ -41,7 +41,8 @@ static ec_result make_command(ec_render_job *job, int argc, char *const *argv, e
     words[count++] = (char[]){"eclat"};
     for (int i = 0; i < before->argc; i++) {
         bool is_replaced = is_one_of(before->argv, &i, files) || is_one_of(before->argv, &i, batches) ||
-                           (has_limit && is_one_of(before->argv, &i, limits)) || (has_output && is_one_of(before->argv, &i, outputs));
+                           (has_limit && is_one_of(before->argv, &i, limits)) ||
+                           (has_output && is_one_of(before->argv, &i, outputs));
         if (!is_replaced && i < before->argc) words[count++] = before->argv[i];
     }
     words[count++] = (char[]){"--batch"};
@@ -70,7 +71,8 @@ ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_er
     uint32_t batch = job->stored.film.samples_per_batch;
     uint32_t first = r->has_slice ? r->slice_first / batch : 0, end = r->has_slice ? r->slice_end / batch : 0;
     if (first != job->stored.job.first || end != job->stored.job.end)
-        return ec_fail(err, "cannot go on from '%s': it is of other samples than --samples %u:%u; leave that out", path, r->slice_first, r->slice_end);
+        return ec_fail(err, "cannot go on from '%s': it is of other samples than --samples %u:%u; leave that out", path,
+                       r->slice_first, r->slice_end);
     return EC_OK;
 }
 
@@ -82,7 +84,8 @@ static void warn_of_older(const ec_render_job *job, const ec_log *log)
     char difference[1200];
     ec_stored old = {0};
     uint32_t first;
-    if (path && ec_store_peek(path, &old, &first) && !ec_identity_differs(&old.job.identity, &job->job.identity, difference, sizeof difference))
+    if (path && ec_store_peek(path, &old, &first) &&
+        !ec_identity_differs(&old.job.identity, &job->job.identity, difference, sizeof difference))
         ec_warn(log, "'%s' has %llu samples a pixel of this render, which begins anew and writes over them; '--resume %s' goes on", path,
                 (unsigned long long)old.film.batch_count * old.film.samples_per_batch, path);
     ec_stored_free(&old);

@@ -159,7 +159,8 @@ ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
     const char *wanted = job->request->device;
     job->device_count = 1;
     if (!job->takes_several) return ec_device_find(wanted, job->devices, job->device_indices, &job->device_why, err);
-    EC_TRY(ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count, &job->device_why, err));
+    EC_TRY(ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count,
+                                  &job->device_why, err));
     if (job->request->plan_ranks && job->device_count > 1)
         return ec_fail(err, "--plan takes one device, which stands for those of all machines; name one with --device");
     if (job->ranks) ec_ranks_share_devices(job->ranks, job->devices, job->device_indices, &job->device_count);

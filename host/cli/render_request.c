@@ -274,7 +274,8 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
     ec_render_options *o = &request->options;
     if (!request->has_slice) return EC_OK;
     if (o->adaptive) return ec_usage(err, "--samples and --adaptive: what a pixel is due there depends on the samples before; leave one out");
-    if (o->error_target > 0) return ec_usage(err, "--samples and --error: a slice does not know the error of the whole; leave one out");
+    if (o->error_target > 0)
+        return ec_usage(err, "--samples and --error: a slice does not know the error of the whole; leave one out");
     if (o->spp == 0 && o->batch) request->slice_of_any = true, o->spp = request->slice_end;
     if (o->spp == 0) o->spp = EC_DEFAULT_SPP;
     uint32_t batch = ec_render_batch(o), a = request->slice_first, b = request->slice_end;
@@ -293,8 +294,10 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
 /* A frame is done or not: it is the sequence that goes on. */
 static ec_result settle_frames(ec_render_request *request, ec_error *err)
 {
-    if (!request->frames.given && request->overwrite) return ec_usage(err, "--overwrite belongs to --frames; other pictures are written over as ever");
-    if (!request->frames.given && request->frames.fps > 0) return ec_usage(err, "--fps belongs to --frames; leave it out or give that too");
+    if (!request->frames.given && request->overwrite)
+        return ec_usage(err, "--overwrite belongs to --frames; other pictures are written over as ever");
+    if (!request->frames.given && request->frames.fps > 0)
+        return ec_usage(err, "--fps belongs to --frames; leave it out or give that too");
     if (!request->frames.given && request->seed_is_frame) return ec_usage(err, "--seed frame belongs to --frames; give a number");
     if (!request->frames.given) return EC_OK;
     if (request->choice.at_given) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
@@ -306,13 +309,16 @@ static ec_result settle_frames(ec_render_request *request, ec_error *err)
 
 static bool has_limit(const ec_render_options *o) { return o->spp || o->time_limit > 0 || o->error_target > 0; }
 
-ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err)
+ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
+                                   ec_error *err)
 {
     ec_render_options *limits = &request->options;
-    if (limits->integrator == EC_INTEGRATOR_WHITTED && !limits->max_depth && !request->endless) limits->max_depth = EC_WHITTED_DEPTH;
+    if (limits->integrator == EC_INTEGRATOR_WHITTED && !limits->max_depth && !request->endless)
+        limits->max_depth = EC_WHITTED_DEPTH;
     EC_TRY(ec_combinations_check_shutter(&request->choice, err));
     EC_TRY(ec_combinations_check(options, count, given, limits, err));
-    if (request->every > 0 && !request->checkpoint) return ec_usage(err, "--every belongs to --checkpoint; leave it out or give that too");
+    if (request->every > 0 && !request->checkpoint)
+        return ec_usage(err, "--every belongs to --checkpoint; leave it out or give that too");
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;
     EC_TRY(settle_frames(request, err));
     EC_TRY(settle_slice(request, err));
@@ -350,7 +356,8 @@ ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_
     memcpy(before, job->argv, (size_t)job->argc * sizeof *before);
     before[job->argc] = NULL;
     ec_render_request_start(request);
-    ec_result result = ec_options_parse(ec_render_rows, ec_render_row_count, request, job->argc, before, &first, given, &asked, err);
+    ec_result result =
+        ec_options_parse(ec_render_rows, ec_render_row_count, request, job->argc, before, &first, given, &asked, err);
     if (result == EC_OK) result = ec_options_scene(job->argc, before, first, &request->scene, err);
     free(before);
     if (result != EC_OK) return ec_fail(err, "'%s' holds a command that this version does not understand; use the version that wrote it", now.resume);

@@ -50,7 +50,8 @@ typedef struct ec_render_request {
 extern const ec_option ec_render_rows[];
 extern const int ec_render_row_count;
 void ec_render_request_start(ec_render_request *request);
-ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err);
+ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
+                                   ec_error *err);
 
 /* Reads the arguments of `render`. *done: --help or --version was served and nothing is left to do. */
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err);

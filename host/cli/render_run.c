@@ -53,7 +53,8 @@ static void describe_helpers(const ec_render_job *job, char *text, size_t size)
 {
     const int ranks = job->ranks ? ec_ranks_count(job->ranks) - 1 : 0;
     int used = 0;
-    if (job->device_count > 1) used = snprintf(text, size, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
+    if (job->device_count > 1)
+        used = snprintf(text, size, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
     if (ranks) snprintf(text + used, size - (size_t)used, ", with %d more process%s,", ranks, ranks > 1 ? "es" : "");
 }
 
@@ -82,10 +83,11 @@ static void announce(const ec_render_job *job, ec_console *console)
     if (job->request->resume)
         ec_console_say(console, "going on from '%s', %llu samples a pixel", job->request->resume, there);
     if (job->share)
-        snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place, job->frame.count, job->frame.seconds);
+        snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place,
+                 job->frame.count, job->frame.seconds);
     describe_helpers(job, more, sizeof more);
-    ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height, job->devices[0].name, more,
-                   limits);
+    ec_console_say(console, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height,
+                   job->devices[0].name, more, limits);
 }
 
 /* Bits are the same wherever division and square root are correctly rounded. */
@@ -160,8 +162,8 @@ ec_result ec_render_job_run(ec_render_job *job, ec_console *console, ec_error *e
     char *going_on = say_how_to_go_on(job, console);
     if (job->ranks) hint_at_resume(job->share != NULL, going_on);
     free(going_on);
-    ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course, ec_progress_show, &view,
-                                        &job->film, &job->stats, &log, err);
+    ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course,
+                                        ec_progress_show, &view, &job->film, &job->stats, &log, err);
     ec_console_erase(console);
     for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
     if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);

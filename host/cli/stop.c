@@ -39,7 +39,8 @@ static void *watch(void *signals)
         atomic_store(&requested, true);
         if (told >= 0) eventfd_write(told, 1);
         if (atomic_load(&hint)) fprintf(stderr, "eclat: %s\n", atomic_load(&hint));
-        if (atomic_load(&manner) == TELLS) fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
+        if (atomic_load(&manner) == TELLS)
+            fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
     }
     return NULL;
 }

@@ -12,7 +12,8 @@ ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, 
 {
     const size_t pixel_count = (size_t)width * rows;
     *picture = (ec_picture){.width = width, .height = rows};
-    float **const planes[] = {&picture->rgb, &picture->constants, &picture->stderr_rgb, &picture->stderr_y, &picture->low, &picture->high, &picture->heavy};
+    float **const planes[] = {&picture->rgb, &picture->constants, &picture->stderr_rgb, &picture->stderr_y,
+                              &picture->low, &picture->high,      &picture->heavy};
     static const size_t values[] = {3, 2, 3, 1, 3, 3, 1};
     for (int i = 0; i < (with_error ? 7 : 2); i++)
         if (!(*planes[i] = malloc(pixel_count * values[i] * sizeof(float)))) {
@@ -30,7 +31,8 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
     picture->aov = here.aov;
     ec_film_resolve(&here, picture->rgb, picture->stderr_rgb);
     if (picture->stderr_y) ec_film_resolve_luminance_error(&here, picture->stderr_y);
-    if (picture->heavy) picture->heavy_count = ec_film_interval_rows(film, first, rows, picture->low, picture->high, picture->heavy);
+    if (picture->heavy)
+        picture->heavy_count = ec_film_interval_rows(film, first, rows, picture->low, picture->high, picture->heavy);
     for (size_t i = 0; i < pixel_count; i++) {
         float samples = (float)((double)ec_film_batches(&here, i) * film->samples_per_batch);
         picture->constants[2 * i] = here.unsampled && here.unsampled[i] ? 0.0f : samples;

@@ -6,7 +6,8 @@
 #include "cli/frame_job.h"
 
 /* All of it at once, with its sums. */
-static ec_result write_slice(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report, char sha256[EC_HASH_SIZE], ec_error *err)
+static ec_result write_slice(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report,
+                             char sha256[EC_HASH_SIZE], ec_error *err)
 {
     ec_picture picture = {0};
     ec_report_attributes attributes;
@@ -29,8 +30,8 @@ cleanup:
     return result;
 }
 
-ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height, ec_render_report *report,
-                              uint32_t room, ec_error *err)
+ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height,
+                              ec_render_report *report, uint32_t room, ec_error *err)
 {
     char no_hash[EC_HASH_SIZE] = "";
     ec_report_attributes attributes;
@@ -57,7 +58,8 @@ ec_result ec_report_rows_close(ec_row_writer *writer, ec_render_report *report, 
     return ec_row_writer_close(writer, attributes.list, attributes.count, err);
 }
 
-ec_result ec_write_report(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report, char sha256[EC_HASH_SIZE], ec_error *err)
+ec_result ec_write_report(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report,
+                          char sha256[EC_HASH_SIZE], ec_error *err)
 {
     ec_row_writer *writer;
     ec_rows_told told;

@@ -64,8 +64,8 @@ static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
     return w->bytes ? EC_OK : ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
 }
 
-ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec_film *film, uint32_t height, const ec_picture_style *style,
-                             uint32_t room, ec_error *err)
+ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec_film *film, uint32_t height,
+                             const ec_picture_style *style, uint32_t room, ec_error *err)
 {
     ec_row_writer *w = calloc(1, sizeof *w);
     *made = NULL;
@@ -87,8 +87,9 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     for (int i = 0; i < outputs->count; i++) {
         ec_error why = {0};
         const char *path = outputs->file[i].path;
-        ec_result begun = outputs->file[i].kind == EC_OUTPUT_EXR ? ec_exr_rows_begin(&w->exr[i], path, w->width, height, &w->part, 1, room, &why)
-                                                                 : ec_png_rows_begin(&w->png[i], path, w->width, height, &style->text, &why);
+        ec_result begun = outputs->file[i].kind == EC_OUTPUT_EXR
+                              ? ec_exr_rows_begin(&w->exr[i], path, w->width, height, &w->part, 1, room, &why)
+                              : ec_png_rows_begin(&w->png[i], path, w->width, height, &style->text, &why);
         if (begun != EC_OK) fail_file(w, i, &why);
     }
     w->part.attributes = NULL; /* those of the end are given then */

@@ -10,8 +10,8 @@ typedef struct ec_row_writer ec_row_writer;
 /* For pictures like `film` is, of other rows perhaps: with an error where that has one, with first-hit features where it has those. The
  * style's attributes are those of the beginning; they may become longer or shorter by `room` bytes (image.h). outputs must live as long.
  * A file that cannot be written does not keep the others from being written: what failed first is told at the end. */
-ec_result ec_row_writer_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height, const ec_picture_style *style,
-                             uint32_t room, ec_error *err);
+ec_result ec_row_writer_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height,
+                             const ec_picture_style *style, uint32_t room, ec_error *err);
 
 /* The next rows, a multiple of EC_EXR_ROWS or up to the last; the film must be shown. Fails where no file is left that could be written. */
 ec_result ec_row_writer_put(ec_row_writer *writer, const ec_film *film, ec_error *err);

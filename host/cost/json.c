@@ -9,7 +9,8 @@
 
 static const char *state_name(const ec_cost_study *study, ec_cost_state state)
 {
-    static const char *const names[] = {[EC_COST_MEASURED] = "measured", [EC_COST_TOO_SMALL] = "budget too small", [EC_COST_REFUSED] = "refused"};
+    static const char *const names[] =
+        {[EC_COST_MEASURED] = "measured", [EC_COST_TOO_SMALL] = "budget too small", [EC_COST_REFUSED] = "refused"};
     return state != EC_COST_PENDING ? names[state] : study->interrupted ? "interrupted" : "pending";
 }
 

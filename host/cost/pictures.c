@@ -9,7 +9,8 @@
 
 static char *data_uri(const uint8_t *bytes, size_t size)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/", head[] = "data:image/png;base64,";
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/",
+                      head[] = "data:image/png;base64,";
     char *text = malloc(sizeof head + (size + 2) / 3 * 4), *to = text;
     if (!text) return NULL;
     to += sprintf(to, "%s", head);
@@ -45,7 +46,8 @@ static ec_result add(cJSON *to, const char *key, const ec_cost_thumbnail *t, con
     return EC_OK;
 }
 
-static ec_result add_all(const ec_cost_study *study, const ec_cost_thumbnail *t, const float *reference, uint8_t *bytes, cJSON *to, ec_error *err)
+static ec_result add_all(const ec_cost_study *study, const ec_cost_thumbnail *t, const float *reference, uint8_t *bytes,
+                         cJSON *to, ec_error *err)
 {
     uint64_t pixels = (uint64_t)t->width * t->height;
     ec_tonemap_rgb(reference, bytes, pixels, 0, EC_TONEMAP_NEUTRAL);
@@ -69,7 +71,8 @@ ec_result ec_cost_pictures(const ec_cost_study *study, cJSON **images, ec_error 
     ec_cost_thumbnail t = ec_cost_thumbnail_of(&study->options);
     float *reference = ec_cost_shrink(&study->options, study->reference.rgb);
     uint8_t *bytes = malloc(3 * (size_t)t.width * t.height);
-    ec_result result = reference && bytes ? add_all(study, &t, reference, bytes, *images, err) : ec_fail(err, "out of memory for the pictures of a report");
+    ec_result result = reference && bytes ? add_all(study, &t, reference, bytes, *images, err)
+                                          : ec_fail(err, "out of memory for the pictures of a report");
     free(reference);
     free(bytes);
     return result;

@@ -12,7 +12,10 @@ static ec_result allocate(ec_cost_reference *r, uint64_t pixels, ec_error *err)
     r->rgb = malloc(pixels * 3 * sizeof *r->rgb);
     r->luminance = malloc(pixels * sizeof *r->luminance);
     r->variance = calloc(pixels, sizeof *r->variance);
-    return r->rgb && r->luminance && r->variance ? EC_OK : ec_fail(err, "out of memory for a reference of %llu pixels; ask for a smaller --size", (unsigned long long)pixels);
+    return r->rgb && r->luminance && r->variance
+               ? EC_OK
+               : ec_fail(err, "out of memory for a reference of %llu pixels; ask for a smaller --size",
+                         (unsigned long long)pixels);
 }
 
 static ec_result finish(ec_cost_reference *r, uint64_t pixels, ec_error *err)
@@ -42,7 +45,8 @@ static ec_result take_batches(ec_cost_runner *runner, ec_film *film, double dead
     double seconds;
     uint32_t batch = film->samples_per_batch;
     for (uint32_t i = 0; ec_cost_go_on(runner->study); i++) {
-        EC_TRY(ec_cost_runner_take(runner, ec_session_seed(runner->study->options.seed, EC_COST_STREAM_REFERENCE, i), batch, &seconds, err));
+        EC_TRY(ec_cost_runner_take(runner, ec_session_seed(runner->study->options.seed, EC_COST_STREAM_REFERENCE, i),
+                                   batch, &seconds, err));
         if (runner->stopped) break;
         EC_TRY(ec_film_add_batch(film, runner->mean, err));
         if (film->batch_count >= 4 && ec_now() + 0.5 * seconds > deadline) break;
@@ -73,7 +77,8 @@ ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_err
     ec_result result = ec_cost_runner_open(study, &rung, &runner, &stats, &r->setup_seconds, err);
     double start = ec_now();
     if (result == EC_OK && !runner.stopped) {
-        uint32_t batch = choose_batch(deadline - start, runner.seconds_per_sample * (double)runner.pixels, ec_session_largest(runner.session));
+        uint32_t batch = choose_batch(deadline - start, runner.seconds_per_sample * (double)runner.pixels,
+                                      ec_session_largest(runner.session));
         result = ec_film_create(&film, o->width, o->height, batch, err);
     }
     if (result == EC_OK && film.mean) result = take_batches(&runner, &film, deadline, err);

@@ -7,7 +7,8 @@
 
 enum { LARGEST_BATCH = 256 }; /* what waves are fitted to; pictures may have more samples */
 
-static ec_result open_session(ec_cost_study *study, const ec_cost_rung *rung, ec_session **session, ec_render_stats *stats, ec_error *err)
+static ec_result open_session(ec_cost_study *study, const ec_cost_rung *rung, ec_session **session,
+                              ec_render_stats *stats, ec_error *err)
 {
     uint64_t before = study->cl->allocated_bytes;
     study->cl->peak_allocated_bytes = before;

@@ -8,7 +8,8 @@
 
 enum { CELL = 32, NAME_WIDTH = 33 };
 enum { TIME, RELATIVE, SLOPE, VARIANCE, BIAS, EFFICIENCY, TO_FIRST, MEMORY = TO_FIRST + EC_COST_TARGETS, COLUMNS };
-static const char *const titles[COLUMNS] = {"ns/sample", "time", "slope", "variance", "bias", "efficiency", "to 5 %", "2 %", "1 %", "0.5 %", "memory"};
+static const char *const titles[COLUMNS] = {"ns/sample", "time", "slope", "variance", "bias",  "efficiency",
+                                            "to 5 %",    "2 %",  "1 %",   "0.5 %",    "memory"};
 static const int widths[COLUMNS] = {10, 8, 7, 9, 15, 11, 10, 10, 10, 10, 10};
 
 typedef struct table {
@@ -23,12 +24,15 @@ typedef struct table {
 static double merit(const ec_cost_row *row, int column)
 {
     bool ranked = row->state == EC_COST_MEASURED && !row->rung.is_effect && !row->unmet;
-    if (!ranked || (!row->rung.unbiased && column != MEMORY) || (row->rung.speed_only && column != TIME && column != RELATIVE)) return NAN;
+    if (!ranked || (!row->rung.unbiased && column != MEMORY) ||
+        (row->rung.speed_only && column != TIME && column != RELATIVE))
+        return NAN;
     if (column == TIME || column == RELATIVE) return row->seconds_per_sample;
     if (column == VARIANCE) return row->variance;
     if (column == EFFICIENCY) return -row->efficiency;
     if (column == MEMORY) return (double)row->device_bytes;
-    if (column >= TO_FIRST && column < MEMORY) return isinf(row->seconds_to[column - TO_FIRST]) ? NAN : row->seconds_to[column - TO_FIRST];
+    if (column >= TO_FIRST && column < MEMORY)
+        return isinf(row->seconds_to[column - TO_FIRST]) ? NAN : row->seconds_to[column - TO_FIRST];
     return NAN;
 }
 
@@ -133,7 +137,8 @@ static void print_reference(const ec_cost_report *report, FILE *to)
     if (!(r->mean_luminance > 0))
         fprintf(to, "reference  none: interrupted before\n");
     else if (!r->source)
-        fprintf(to, "reference  error %s, %llu samples a pixel in %s, seeds of its own\n", error, (unsigned long long)r->samples_per_pixel, seconds);
+        fprintf(to, "reference  error %s, %llu samples a pixel in %s, seeds of its own\n", error,
+                (unsigned long long)r->samples_per_pixel, seconds);
     else
         fprintf(to, "reference  %s, %s%s\n", r->source, r->has_variance ? "error " : "taken as exact: it states no error", r->has_variance ? error : "");
 }

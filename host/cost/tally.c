@@ -21,7 +21,9 @@ ec_result ec_cost_tally_create(const ec_cost_reference *reference, uint64_t pixe
     *t = (ec_cost_tally){.pixels = pixels, .reference = reference};
     double **planes[] = {&t->mean, &t->m2, &t->sum, &t->sum_variance};
     for (int i = 0; i < 4; i++)
-        if (!(*planes[i] = calloc(pixels, sizeof(double)))) return ec_fail(err, "out of memory for the study of %llu pixels; ask for a smaller --size", (unsigned long long)pixels);
+        if (!(*planes[i] = calloc(pixels, sizeof(double))))
+            return ec_fail(err, "out of memory for the study of %llu pixels; ask for a smaller --size",
+                           (unsigned long long)pixels);
     return EC_OK;
 }
 
@@ -77,7 +79,8 @@ static double own_se2(const ec_cost_sum *s, double count) { return fmax(s->squar
 static void add_common(const ec_cost_tally *t, double *mse, double *relmse)
 {
     const ec_cost_reference *r = t->reference;
-    double n = t->level_batches, scale = 1 / (r->mean_luminance * r->mean_luminance), pixels2 = (double)t->pixels * (double)t->pixels;
+    double n = t->level_batches, scale = 1 / (r->mean_luminance * r->mean_luminance),
+           pixels2 = (double)t->pixels * (double)t->pixels;
     for (uint64_t p = 0; n >= 2 && p < t->pixels; p++) {
         double error = t->mean[p] - r->luminance[p], v = r->variance[p], weight = own_weight(r->luminance[p]);
         double bias2 = fmax(error * error - t->m2[p] / (n * (n - 1)) - v, 0), common = (2 * v + 4 * bias2) * v;

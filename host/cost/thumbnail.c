@@ -17,6 +17,7 @@ float *ec_cost_shrink(const ec_render_options *o, const float *rgb)
     float *small = malloc(3 * sizeof *small * t.width * t.height);
     for (uint32_t y = 0; small && y < t.height; y++)
         for (uint32_t x = 0; x < t.width; x++)
-            memcpy(small + 3 * ((size_t)y * t.width + x), rgb + 3 * ((size_t)y * t.step * o->width + (size_t)x * t.step), 3 * sizeof *rgb);
+            memcpy(small + 3 * ((size_t)y * t.width + x),
+                   rgb + 3 * ((size_t)y * t.step * o->width + (size_t)x * t.step), 3 * sizeof *rgb);
     return small;
 }

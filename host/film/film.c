@@ -100,7 +100,8 @@ void ec_film_copy_rows(ec_film *film, uint32_t to, const ec_film *from, uint32_t
 {
     const ec_film there = ec_film_rows(from, first, rows), here = ec_film_rows(film, to, rows);
     const uint64_t pixels = (uint64_t)rows * film->width;
-    ec_moments_copy(&(ec_moments){here.mean, here.m2, here.m34, here.largest}, &(ec_moments){there.mean, there.m2, there.m34, there.largest}, pixels);
+    ec_moments_copy(&(ec_moments){here.mean, here.m2, here.m34, here.largest},
+                    &(ec_moments){there.mean, there.m2, there.m34, there.largest}, pixels);
     if (here.aov && there.aov) memcpy(here.aov, there.aov, pixels * EC_FILM_FEATURES * sizeof *here.aov);
     film->batch_count = from->batch_count;
 }

@@ -32,7 +32,8 @@ ec_moments ec_moments_in(void *memory, uint64_t pixels);
 uint64_t ec_moments_add(const ec_moments *moments, const float *colours, double n, uint64_t pixels);
 
 /* The same where each has a place and a number of its own, which grows by one. */
-uint64_t ec_moments_add_some(const ec_moments *moments, const float *colours, const uint32_t *places, uint32_t *counts, uint32_t pixels);
+uint64_t ec_moments_add_some(const ec_moments *moments, const float *colours, const uint32_t *places, uint32_t *counts,
+                             uint32_t pixels);
 
 /* `into`, of n values, goes on with `next`, of m values. */
 void ec_moments_join(const ec_moments *into, double n, const ec_moments *next, double m, uint64_t pixels);

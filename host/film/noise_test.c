@@ -50,7 +50,8 @@ static void judge(const ec_measured *image, double *judged)
             uint64_t p = (uint64_t)y * image->width + x;
             double sum[3] = {0}, count = (double)(around.x1 - around.x0) * (around.y1 - around.y0);
             for (uint32_t j = around.y0; image->se && j < around.y1; j++)
-                for (uint64_t i = 3 * ((uint64_t)j * image->width + around.x0); i < 3 * ((uint64_t)j * image->width + around.x1); i++)
+                for (uint64_t i = 3 * ((uint64_t)j * image->width + around.x0);
+                     i < 3 * ((uint64_t)j * image->width + around.x1); i++)
                     sum[i % 3] += own_variance(image, i);
             for (uint64_t c = 0; c < 3; c++) judged[3 * p + c] = fmax(own_variance(image, 3 * p + c), sum[c] / count);
         }

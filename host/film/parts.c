@@ -166,8 +166,12 @@ static ec_result check_free(const ec_film *film, uint32_t first, uint32_t count,
     for (uint32_t i = 0; i < film->part_count; i++) {
         const ec_film_part *part = &film->parts[i];
         uint64_t from = part->first > first ? part->first : first;
-        uint64_t to = (uint64_t)part->first + part->count < (uint64_t)first + count ? (uint64_t)part->first + part->count : (uint64_t)first + count;
-        if (from < to) return ec_fail(err, "batches %llu to %llu are there twice", (unsigned long long)from, (unsigned long long)to - 1);
+        uint64_t to = (uint64_t)part->first + part->count < (uint64_t)first + count
+                          ? (uint64_t)part->first + part->count
+                          : (uint64_t)first + count;
+        if (from < to)
+            return ec_fail(err, "batches %llu to %llu are there twice", (unsigned long long)from,
+                           (unsigned long long)to - 1);
     }
     return EC_OK;
 }
@@ -222,7 +226,9 @@ static ec_result insert_batch(ec_film *film, uint32_t index, const float *batch,
     if (is_shown) part.sums = shown(film);
     else if (ec_film_part_is_batch(index, 1)) made = (part.batch = kept(batch, 3 * pixels, &invalid)) != NULL;
     else made = ec_moments_create(&part.sums, pixels);
-    if (!made) return ec_fail(err, "out of memory for a batch of an image of %u x %u pixels; ask for a smaller one", film->width, film->height);
+    if (!made)
+        return ec_fail(err, "out of memory for a batch of an image of %u x %u pixels; ask for a smaller one",
+                       film->width, film->height);
     if (!part.batch) invalid = ec_moments_add(&part.sums, batch, 1, pixels);
     ec_result result = ec_film_insert(film, &part, err);
     if (result == EC_OK) film->invalid_count += invalid;

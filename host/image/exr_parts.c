@@ -91,14 +91,17 @@ bool ec_exr_has(const ec_exr_file *file, const char *part, const char *channel)
     return channel_named(file, part_named(file, part), channel) != NULL;
 }
 
-static exr_result_t decode(ec_exr_file *file, int part, exr_decode_pipeline_t *block, uint32_t y, const ec_exr_room *rooms, uint32_t count)
+static exr_result_t decode(ec_exr_file *file, int part, exr_decode_pipeline_t *block, uint32_t y,
+                           const ec_exr_room *rooms, uint32_t count)
 {
     exr_chunk_info_t info;
     exr_result_t code = exr_read_scanline_chunk_info(file->context, part, (int)y, &info);
     if (code == EXR_ERR_SUCCESS)
-        code = block->channels ? exr_decoding_update(file->context, part, &info, block) : exr_decoding_initialize(file->context, part, &info, block);
+        code = block->channels ? exr_decoding_update(file->context, part, &info, block)
+                               : exr_decoding_initialize(file->context, part, &info, block);
     if (code != EXR_ERR_SUCCESS) return code;
-    if (info.width != (int32_t)file->width || info.height < 1 || y + (uint64_t)info.height > file->height) return EXR_ERR_CORRUPT_CHUNK;
+    if (info.width != (int32_t)file->width || info.height < 1 || y + (uint64_t)info.height > file->height)
+        return EXR_ERR_CORRUPT_CHUNK;
     for (int c = 0; c < block->channel_count; c++) {
         exr_coding_channel_info_t *channel = &block->channels[c];
         channel->decode_to_ptr = NULL;
@@ -128,12 +131,14 @@ ec_result ec_exr_fill(ec_exr_file *file, const char *name, const ec_exr_room *ro
     }
     int32_t lines = 1;
     exr_result_t code = exr_get_storage(file->context, part, &storage);
-    bool fits = storage == EXR_STORAGE_SCANLINE && size_of(file, part, &width, &height) && width == file->width && height == file->height;
+    bool fits = storage == EXR_STORAGE_SCANLINE && size_of(file, part, &width, &height) && width == file->width &&
+                height == file->height;
     if (code == EXR_ERR_SUCCESS && !fits) code = EXR_ERR_FILE_BAD_HEADER;
     if (code == EXR_ERR_SUCCESS) code = exr_get_scanlines_per_chunk(file->context, part, &lines);
     if (code == EXR_ERR_SUCCESS && lines < 1) code = EXR_ERR_FILE_BAD_HEADER;
     exr_decode_pipeline_t block = EXR_DECODE_PIPELINE_INITIALIZER;
-    for (uint32_t y = 0; code == EXR_ERR_SUCCESS && y < file->height; y += (uint32_t)lines) code = decode(file, part, &block, y, rooms, count);
+    for (uint32_t y = 0; code == EXR_ERR_SUCCESS && y < file->height; y += (uint32_t)lines)
+        code = decode(file, part, &block, y, rooms, count);
     exr_decoding_destroy(file->context, &block);
     return code == EXR_ERR_SUCCESS ? EC_OK : damaged(file, code, err);
 }

@@ -70,7 +70,8 @@ static int is_wanted(const char *const *wanted, const char *name)
     return !wanted;
 }
 
-static ec_result allocate_planes(const exr_source *source, const exr_attr_chlist_t *list, const char *const *wanted, ec_exr *exr, ec_error *err)
+static ec_result allocate_planes(const exr_source *source, const exr_attr_chlist_t *list, const char *const *wanted,
+                                 ec_exr *exr, ec_error *err)
 {
     uint64_t pixels = (uint64_t)exr->width * exr->height, count = (uint64_t)list->num_channels, planes = 0;
     for (uint64_t i = 0; i < count; i++) planes += (uint64_t)is_wanted(wanted, list->entries[i].name.str);

@@ -103,7 +103,8 @@ static exr_result_t add_part(exr_context_t context, const ec_exr_rows *rows, con
         code = exr_initialize_required_attr_simple(context, index, (int32_t)rows->width, (int32_t)rows->height,
                                                    part->is_plain ? EXR_COMPRESSION_NONE : EXR_COMPRESSION_ZIP);
     for (uint32_t i = 0; code == EXR_ERR_SUCCESS && i < part->channel_count; i++)
-        code = exr_add_channel(context, index, part->channels[i].name, part->channels[i].is_words ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT,
+        code = exr_add_channel(context, index, part->channels[i].name,
+                               part->channels[i].is_words ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT,
                                EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     for (uint32_t i = 0; code == EXR_ERR_SUCCESS && i < part->attribute_count; i++)
         code = set_attribute(context, index, &part->attributes[i]);
@@ -244,7 +245,8 @@ static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, 
     header.bytes = malloc(header.most);
     if (!header.bytes) return ec_fail(err, "out of memory for '%s'", rows->path);
     exr_result_t code = EXR_ERR_SUCCESS;
-    for (uint32_t attempt = 0, blanks = rows->room; code == EXR_ERR_SUCCESS && header.size != rows->header_size && attempt < 2; attempt++) {
+    for (uint32_t attempt = 0, blanks = rows->room;
+         code == EXR_ERR_SUCCESS && header.size != rows->header_size && attempt < 2; attempt++) {
         const exr_context_initializer_t setup = setup_of(&header, write_to_memory);
         exr_context_t context = NULL;
         header.size = 0;
@@ -299,7 +301,8 @@ ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const 
     return ec_exr_write_parts(path, width, height, &part, 1, err);
 }
 
-ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts, uint32_t part_count, ec_error *err)
+ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts,
+                             uint32_t part_count, ec_error *err)
 {
     ec_exr_rows *rows;
     EC_TRY(ec_exr_rows_begin(&rows, path, width, height, parts, part_count, 0, err));

@@ -38,7 +38,8 @@ typedef struct ec_exr_part {
     bool is_plain;      /* not compressed: for what hardly gets smaller */
     bool is_sealed;     /* of the first part: the file is, though it has no other; see seal.h */
 } ec_exr_part;
-ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts, uint32_t part_count, ec_error *err);
+ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts,
+                             uint32_t part_count, ec_error *err);
 
 /* The same of rows that come one after the other, from the top; `parts` stay as they are until the end. room: bytes by which the attributes
  * of the end may be longer or shorter than those of the beginning, by blanks in an attribute eclat.room; 0: they are as long. */
@@ -90,7 +91,8 @@ typedef struct ec_png_text {
 
 /* The same of rows that come one after the other, from the top. text: NULL is none. */
 typedef struct ec_png_rows ec_png_rows;
-ec_result ec_png_rows_begin(ec_png_rows **rows, const char *path, uint32_t width, uint32_t height, const ec_png_text *text, ec_error *err);
+ec_result ec_png_rows_begin(ec_png_rows **rows, const char *path, uint32_t width, uint32_t height,
+                            const ec_png_text *text, ec_error *err);
 ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *rgb, uint32_t count, ec_error *err);
 ec_result ec_png_rows_end(ec_png_rows *rows, ec_error *err); /* the file gets its name; after a failure there is none. Frees rows */
 void ec_png_rows_abort(ec_png_rows *rows);                   /* leaves nothing; frees rows; NULL is fine */

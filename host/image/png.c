@@ -85,15 +85,16 @@ static ec_result begin(ec_png_rows *rows, uint32_t height, const ec_png_text *te
     rows->info = rows->png ? png_create_info_struct(rows->png) : NULL;
     if (!rows->info || setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
     png_set_write_fn(rows->png, rows, write_all, flush);
-    png_set_IHDR(rows->png, rows->info, rows->width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(rows->png, rows->info, rows->width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(rows->png, rows->info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (text) put_text(rows, text);
     png_write_info(rows->png, rows->info);
     return EC_OK;
 }
 
-ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, uint32_t width, uint32_t height, const ec_png_text *text, ec_error *err)
+ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, uint32_t width, uint32_t height,
+                            const ec_png_text *text, ec_error *err)
 {
     ec_png_rows *rows = calloc(1, sizeof *rows);
     *made = NULL;

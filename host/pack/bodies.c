@@ -37,7 +37,8 @@ ec_result ec_bodies_find(const ec_scene *scene, const bool *is_body, ec_bodies *
     if (!boxes) return ec_fail(err, "out of memory for %u materials", scene->material_count);
     for (uint32_t m = 0; m < scene->material_count; m++) boxes[m] = nothing;
     for (uint32_t t = 0; t < scene->triangle_count; t++)
-        for (int k = 0; k < 3 && is_body[scene->triangle_material[t]]; k++) extend(&boxes[scene->triangle_material[t]], corner(scene, t, k));
+        for (int k = 0; k < 3 && is_body[scene->triangle_material[t]]; k++)
+            extend(&boxes[scene->triangle_material[t]], corner(scene, t, k));
     bool nested = false;
     uint32_t count = 0;
     for (uint32_t m = 0; m < scene->material_count; m++) {
@@ -142,7 +143,8 @@ ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err
     double volume[EC_BODIES_MOST];
     size_t n = most_triangles(scene, bodies);
     if (!bodies->count) return EC_OK;
-    desk d = {malloc(n * sizeof *d.triangles), malloc(3 * n * sizeof *d.parent), malloc(3 * n * sizeof *d.places), malloc(3 * n * sizeof *d.parts)};
+    desk d = {malloc(n * sizeof *d.triangles), malloc(3 * n * sizeof *d.parent), malloc(3 * n * sizeof *d.places),
+              malloc(3 * n * sizeof *d.parts)};
     bool complete = d.triangles && d.parent && d.places && d.parts;
     for (uint32_t i = 0; complete && i < bodies->count; i++) {
         uint32_t material = bodies->material[i], at = i;

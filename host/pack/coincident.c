@@ -81,7 +81,8 @@ ec_result ec_coincident_find(const ec_scene *scene, const ec_pack *pack, const b
     while (size < 2 * count) size *= 2;
     uint32_t *table = calloc(size, sizeof *table);
     *first = malloc(((size_t)pack->prim_count + 1) * sizeof **first);
-    ec_result result = table && *first ? EC_OK : ec_fail(err, "out of memory for %llu emitting triangles", (unsigned long long)count);
+    ec_result result =
+        table && *first ? EC_OK : ec_fail(err, "out of memory for %llu emitting triangles", (unsigned long long)count);
     for (uint32_t p = 0; result == EC_OK && p < pack->prim_count; p++)
         if (p < moving) (*first)[p] = p; /* what moves parts */
         else if (emits[pack->prims[p].material]) (*first)[p] = find_or_add(scene, pack, table, size - 1, p);

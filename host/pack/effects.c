@@ -57,5 +57,6 @@ void ec_feature_names(uint64_t features, char *text, size_t size)
     size_t used = 0;
     text[0] = 0;
     for (uint32_t i = 0; i < ec_feature_count && used < size; i++)
-        if (features & ec_features[i].bit) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " " : "", ec_features[i].name);
+        if (features & ec_features[i].bit)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " " : "", ec_features[i].name);
 }

@@ -85,7 +85,8 @@ static double finish_row(const ec_environment *e, uint32_t y, const map_sums *su
 }
 
 /* A row's own table; weights become probabilities. Of a black row it says nothing: nobody looks there. */
-static void distribute_row(uint32_t width, double *weights, double row_weight, double row_pmf, ec_distribution_entry *table, float *texels)
+static void distribute_row(uint32_t width, double *weights, double row_weight, double row_pmf,
+                           ec_distribution_entry *table, float *texels)
 {
     memset(table, 0, width * sizeof *table);
     if (!(row_weight > 0.0)) return;
@@ -131,7 +132,8 @@ static void fill_map(const ec_environment *e, double *weights, double *rows, dou
     ec_distribution_build(rows, e->height, map->table, row_pmf);
 #pragma omp parallel for schedule(dynamic, 16) if (parallel)
     for (uint32_t y = 0; y < e->height; y++)
-        distribute_row(e->width, weights + y * width, rows[y], row_pmf[y], map->table + e->height + y * width, map->texels + 4 * y * width);
+        distribute_row(e->width, weights + y * width, rows[y], row_pmf[y], map->table + e->height + y * width,
+                       map->texels + 4 * y * width);
 }
 
 ec_result ec_pack_map(const ec_environment *e, ec_packed_map *map, ec_error *err)

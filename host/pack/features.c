@@ -108,9 +108,11 @@ static void scan_coat(scan *s)
     call(s, EC_FEATURE_CLEARCOAT, "has clear coat %g", (double)m->coat);
     if (has_texture(s, EC_SLOT_CLEARCOAT) || has_texture(s, EC_SLOT_CLEARCOAT_ROUGHNESS))
         call(s, EC_FEATURE_CLEARCOAT_TEXTURE, "has a texture of its clear coat");
-    if (has_texture(s, EC_SLOT_CLEARCOAT_NORMAL)) call(s, EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE, "has a normal map of its clear coat");
+    if (has_texture(s, EC_SLOT_CLEARCOAT_NORMAL))
+        call(s, EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE, "has a normal map of its clear coat");
     ec_texture_range(s->scene, &m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS], 1, &least, &most);
-    if (is_smooth(m->coat_roughness * least)) call(s, EC_FEATURE_SMOOTH, "has a coat of roughness %g", (double)(m->coat_roughness * least));
+    if (is_smooth(m->coat_roughness * least))
+        call(s, EC_FEATURE_SMOOTH, "has a coat of roughness %g", (double)(m->coat_roughness * least));
 }
 
 static void scan_sheen(scan *s)
@@ -280,7 +282,8 @@ static void scan_colors(const ec_scene *scene, ec_effects *effects)
 
 static void scan_lights(const ec_scene *scene, ec_effects *effects)
 {
-    static const char *const types[] = {[EC_LIGHT_POINT] = "point", [EC_LIGHT_SPOT] = "spot", [EC_LIGHT_DIRECTIONAL] = "directional"};
+    static const char *const types[] =
+        {[EC_LIGHT_POINT] = "point", [EC_LIGHT_SPOT] = "spot", [EC_LIGHT_DIRECTIONAL] = "directional"};
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const ec_light *light = &scene->lights[i];
         ec_effects one = {0};
@@ -317,7 +320,8 @@ static void scan_motion(const ec_scene *scene, ec_effects *effects)
     if (m->triangle_count) used = (size_t)snprintf(what, sizeof what, "%u triangles", m->triangle_count);
     if (m->light_count) used += (size_t)snprintf(what + used, sizeof what - used, "%s%u lights", used ? ", " : "", m->light_count);
     if (m->camera_count) snprintf(what + used, sizeof what - used, "%s%u cameras", used ? ", " : "", m->camera_count);
-    ec_effects_call(effects, EC_FEATURE_MOTION, "%s move, by %u straight ways within %.2g %%", what, m->segments, 100 * m->deviation);
+    ec_effects_call(effects, EC_FEATURE_MOTION, "%s move, by %u straight ways within %.2g %%", what, m->segments,
+                    100 * m->deviation);
 }
 
 ec_result ec_pack_effects(const ec_scene *scene, const ec_bodies *bodies, ec_effects *effects, ec_error *err)
@@ -325,7 +329,8 @@ ec_result ec_pack_effects(const ec_scene *scene, const ec_bodies *bodies, ec_eff
     *effects = (ec_effects){0};
     EC_TRY(scan_materials(scene, scan_material, effects, err));
     EC_TRY(scan_materials(scene, scan_images, effects, err));
-    if (scene->placed_count) ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once stand in %u places", scene->placed_count);
+    if (scene->placed_count)
+        ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once stand in %u places", scene->placed_count);
     scan_motion(scene, effects);
     scan_bodies(bodies, effects);
     scan_lights(scene, effects);

@@ -56,7 +56,9 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
     uint32_t *ids = malloc(lamps * sizeof *ids), *trails = malloc(lamps * sizeof *trails);
     uint32_t *trail_of = calloc(pack->light_count, sizeof *trail_of);
     pack->light_tree = malloc((2 * (size_t)lamps - 1) * sizeof *pack->light_tree);
-    ec_result result = bounds && ids && trails && trail_of && pack->light_tree ? EC_OK : ec_fail(err, "out of memory for a tree of %u lamps", lamps);
+    ec_result result = bounds && ids && trails && trail_of && pack->light_tree
+                           ? EC_OK
+                           : ec_fail(err, "out of memory for a tree of %u lamps", lamps);
     for (uint32_t i = 0; result == EC_OK && i < pack->light_count; i++) {
         if (!is_lamp(&pack->lights[i])) continue;
         bounds[n] = ec_light_bounds_of(&pack->lights[i], pack->lights[i].pmf);

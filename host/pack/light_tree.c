@@ -114,8 +114,8 @@ static void grow(builder *b, task *stack)
     }
 }
 
-ec_result ec_light_tree_build(const ec_light_bounds *bounds, const uint32_t *ids, uint32_t count, ec_light_node *nodes, uint32_t *trails,
-                              ec_error *err)
+ec_result ec_light_tree_build(const ec_light_bounds *bounds, const uint32_t *ids, uint32_t count, ec_light_node *nodes,
+                              uint32_t *trails, ec_error *err)
 {
     task stack[EC_LIGHT_DEPTH_MOST + 2] = {{0, 0, count, 0, 0}};
     builder b = {bounds, ids, malloc((size_t)count * sizeof *b.order), nodes, trails, 0, 1};

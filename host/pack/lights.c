@@ -63,8 +63,8 @@ static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec
 }
 
 /* Each of those that lie in one place once. whole: by material. */
-static void add_triangles(const ec_scene *scene, const ec_pack *pack, const bool *emits, const uint32_t *first, const ec_texture_mean *whole,
-                          light_list *list)
+static void add_triangles(const ec_scene *scene, const ec_pack *pack, const bool *emits, const uint32_t *first,
+                          const ec_texture_mean *whole, light_list *list)
 {
     uint32_t count = 0;
     for (uint32_t p = 0; p < pack->prim_count; p++)
@@ -195,7 +195,9 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
     if (result == EC_OK) result = ec_coincident_find(scene, pack, emits, &first, err);
     if (result == EC_OK) {
         add_triangles(scene, pack, emits, first, mean, &list);
-        for (uint32_t i = 0; i < scene->light_count; i++) add_punctual(&scene->lights[i], scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius, &list);
+        for (uint32_t i = 0; i < scene->light_count; i++)
+            add_punctual(&scene->lights[i], scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius,
+                         &list);
         if (environment_luminance > 0.0) {
             double r = pack->scene_radius;
             list.lights[list.count] = (ec_light_data){.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID};

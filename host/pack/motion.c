@@ -8,7 +8,8 @@
 static uint32_t add_stream(ec_pack *pack, const float *keys, size_t count)
 {
     uint32_t at = (uint32_t)pack->motion_words;
-    for (size_t i = 0; i < count; i++, pack->motion_words += 4) memcpy(pack->motion + pack->motion_words, keys + 3 * i, 3 * sizeof *keys);
+    for (size_t i = 0; i < count; i++, pack->motion_words += 4)
+        memcpy(pack->motion + pack->motion_words, keys + 3 * i, 3 * sizeof *keys);
     return at;
 }
 
@@ -26,7 +27,8 @@ ec_result ec_pack_motion(const ec_scene *scene, ec_pack *pack, ec_error *err)
     const ec_motion *m = &scene->motion;
     if (!m->segments) return EC_OK;
     const uint64_t keys = m->segments + 1, streams = 1u + !!m->normals + !!m->tangents;
-    const uint64_t words = EC_MOTION_HEADER + 4 * (m->triangle_count + keys * (streams * m->vertex_count + 2 * (uint64_t)m->light_count));
+    const uint64_t words =
+        EC_MOTION_HEADER + 4 * (m->triangle_count + keys * (streams * m->vertex_count + 2 * (uint64_t)m->light_count));
     if (words > UINT32_MAX / 2)
         return ec_fail(err, "%u moving vertices at %llu moments are more than can be numbered; give a shorter --shutter", m->vertex_count,
                        (unsigned long long)keys);

@@ -8,7 +8,8 @@
 
 static double texel(const ec_image *image, const double *bytes, size_t index, int channel)
 {
-    return image->rgba8 ? bytes[image->rgba8[4 * index + channel]] : ec_srgb_to_linear(image->rgba16[4 * index + channel] / 65535.0);
+    return image->rgba8 ? bytes[image->rgba8[4 * index + channel]]
+                        : ec_srgb_to_linear(image->rgba16[4 * index + channel] / 65535.0);
 }
 
 ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_use *use)

@@ -72,7 +72,8 @@ static ec_result allocate(ec_allotment *a, const ec_params *params, ec_error *er
     a->places = malloc(bytes);
     if (!a->weight || !a->place || !a->list || !a->places) {
         ec_allotment_free(a);
-        return ec_fail(err, "out of memory for the allotment of samples to %u pixels; leave out --adaptive", params->width * params->height);
+        return ec_fail(err, "out of memory for the allotment of samples to %u pixels; leave out --adaptive",
+                       params->width * params->height);
     }
     number_pixels(params, a->place);
     return EC_OK;

@@ -29,10 +29,12 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
         if (!p->accels[a].in_use || lanes_of(p, ec_accels[a].lanes) != lanes) continue;
         snprintf(traversals[a], sizeof traversals[a], "traverse_%s", ec_accels[a].name);
         names[count++] = traversals[a];
-        features |= ec_stage_features(&ec_stages[EC_INTERSECT], p->effects.built) | ec_stage_features(&ec_stages[EC_CONNECT], p->effects.built);
+        features |= ec_stage_features(&ec_stages[EC_INTERSECT], p->effects.built) |
+                    ec_stage_features(&ec_stages[EC_CONNECT], p->effects.built);
     }
     char options[96], label[32], *source;
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s", lanes, features, p->fast_math ? " " EC_FAST_MATH : "");
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s", lanes, features,
+             p->fast_math ? " " EC_FAST_MATH : "");
     snprintf(label, sizeof label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     EC_TRY(ec_kernel_sources_join(names, &source, err));
     ec_result result = ec_program_build(p->cl, label, source, options, program, err);
@@ -41,7 +43,8 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
 }
 
 /* accel: the name of one, or NULL where the stage has nothing to do with them. */
-static ec_result build_kernel(ec_pipeline *p, const char *source, const char *accel, uint32_t lanes, cl_kernel *kernel, ec_error *err)
+static ec_result build_kernel(ec_pipeline *p, const char *source, const char *accel, uint32_t lanes, cl_kernel *kernel,
+                              ec_error *err)
 {
     char name[64];
     snprintf(name, sizeof name, "ec_%s%s%s", source, accel ? "_" : "", accel ? accel : "");

@@ -54,7 +54,8 @@ ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_r
     for (size_t k = 0; k < keys; k++) {
         ec_params params = {.orthographic = 0};
         EC_TRY(ec_pipeline_set_camera(&motion->cameras[(moves - 1) * keys + k], o, &params, err));
-        for (size_t v = 0; v < EC_CAMERA_VECTORS; v++) memcpy(table + (v * keys + k) * 4, (const float *)&params + 4 * v, 4 * sizeof *table);
+        for (size_t v = 0; v < EC_CAMERA_VECTORS; v++)
+            memcpy(table + (v * keys + k) * 4, (const float *)&params + 4 * v, 4 * sizeof *table);
     }
     return EC_OK;
 }

@@ -88,7 +88,8 @@ static ec_result choose_lights(const ec_render_options *o, ec_pack *pack, ec_err
 }
 
 /* called_for: the scene itself, or that of which it is what is written out: rounding may not change effects. */
-static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_pack *pack, ec_error *err)
+static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_pack *pack,
+                           ec_error *err)
 {
     EC_TRY(ec_pack_scene(scene, pack, err));
     if (called_for != scene) {
@@ -151,8 +152,8 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
 }
 
 /* Of a scene that is written out the one with its meshes kept once, so that the job is the same with any accelerator. */
-static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, uint32_t batch,
-                              ec_content *content, ec_error *err)
+static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+                              const ec_render_options *o, uint32_t batch, ec_content *content, ec_error *err)
 {
     if (!o->identify) return EC_OK;
     if (scene == called_for) {
@@ -171,8 +172,8 @@ static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, cons
     return result;
 }
 
-static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, uint32_t batch,
-                            ec_render_stats *stats, ec_error *err)
+static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+                            const ec_render_options *o, uint32_t batch, ec_render_stats *stats, ec_error *err)
 {
     ec_pack *pack = &cargo->pack;
     ec_cargo_head *head = &cargo->head;
@@ -187,8 +188,8 @@ static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_sce
     return add_filter(cargo, o, err);
 }
 
-static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, uint32_t batch,
-                      uint32_t kinds, ec_render_stats *stats, ec_error *err)
+static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
+                      uint32_t batch, uint32_t kinds, ec_render_stats *stats, ec_error *err)
 {
     ec_cargo_head *head = &cargo->head;
     head->triangle_count = scene->triangle_count;

@@ -63,7 +63,8 @@ static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_e
     ec_device_source *s = (ec_device_source *)source;
     ec_pipeline *p = &s->pipeline;
     const uint64_t first = order->done;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 12 * first, 12 * (order->count - first), place_of(s, order, first), err));
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 12 * first, 12 * (order->count - first),
+                          place_of(s, order, first), err));
     s->base.rays = p->rays;
     s->base.clocked_seconds = p->clocked_seconds;
     s->base.clocked_rays = p->clocked_rays;
@@ -115,8 +116,8 @@ static void close_device(ec_batch_source *source)
     s->own = s->base.mean = NULL;
 }
 
-ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *s, ec_render_stats *stats,
-                                ec_error *err)
+ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *s,
+                                ec_render_stats *stats, ec_error *err)
 {
     *s = (ec_device_source){.base = {.take = take, .look = look, .turn_to = turn_to, .close = close_device}, .seed = seed};
     return ec_pipeline_create(cl, cargo, spent, &s->pipeline, stats, err);

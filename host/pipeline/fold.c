@@ -20,15 +20,16 @@ static void deliver(ec_batch_source *source, const ec_batch_order *order, ec_fil
 static ec_result add(ec_batch_source *source, const ec_batch_order *part, ec_film *film, ec_error *err)
 {
     ec_film_part sums = {.first = part->index, .count = part->batches, .sums = source->sums};
-    if (part->batches == 1) return ec_film_add_at(film, part->index, part->into ? part->into : source->mean + 3ull * part->done, err);
+    if (part->batches == 1)
+        return ec_film_add_at(film, part->index, part->into ? part->into : source->mean + 3ull * part->done, err);
     EC_TRY(ec_film_insert(film, &sums, err));
     source->sums = (ec_moments){0};
     return EC_OK;
 }
 
 /* One after the other. */
-static ec_result add_up(ec_batch_source *source, const ec_batch_order *order, const ec_fold_parts *parts, float *into, ec_film *film, bool *complete,
-                        ec_error *err)
+static ec_result add_up(ec_batch_source *source, const ec_batch_order *order, const ec_fold_parts *parts, float *into,
+                        ec_film *film, bool *complete, ec_error *err)
 {
     const uint32_t end = order->index + order->batches;
     for (uint32_t index = order->index; index < end && *complete; index += parts->batches) {
@@ -40,7 +41,8 @@ static ec_result add_up(ec_batch_source *source, const ec_batch_order *order, co
     return EC_OK;
 }
 
-ec_result ec_fold_block(ec_batch_source *source, const ec_batch_order *order, const ec_fold_parts *parts, uint32_t *unfit, bool *complete, ec_error *err)
+ec_result ec_fold_block(ec_batch_source *source, const ec_batch_order *order, const ec_fold_parts *parts,
+                        uint32_t *unfit, bool *complete, ec_error *err)
 {
     const uint32_t positions = order->count - order->done;
     float *batch = parts->want_room ? malloc(12ull * positions) : NULL;

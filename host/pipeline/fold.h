@@ -17,6 +17,7 @@ typedef struct ec_fold_parts {
 /* Takes the parts of a block one after the other and adds them up in the order of film/parts.h: into order->sums, or else source->sums. All that
  * is held is of the order's positions: 12 bytes each, if there is to be room, and up to 3 sums. *unfit grows by the values that were not finite
  * and count as 0. What is given up is lost. */
-ec_result ec_fold_block(ec_batch_source *source, const ec_batch_order *order, const ec_fold_parts *parts, uint32_t *unfit, bool *complete, ec_error *err);
+ec_result ec_fold_block(ec_batch_source *source, const ec_batch_order *order, const ec_fold_parts *parts,
+                        uint32_t *unfit, bool *complete, ec_error *err);
 
 #endif

@@ -39,8 +39,8 @@ static range batches_to(ec_film_outlook o, double spread, double target)
 /* Machines do not keep their pace: a few per cent from minute to minute, whatever the pilot's batches say. */
 #define LEAST_SPREAD 0.04
 
-ec_forecast ec_forecast_make(const ec_film *film, const ec_film_error *now, const ec_render_options *limits, const ec_pace *pace, double done,
-                             double gain)
+ec_forecast ec_forecast_make(const ec_film *film, const ec_film_error *now, const ec_render_options *limits,
+                             const ec_pace *pace, double done, double gain)
 {
     uint32_t per_batch = film->samples_per_batch;
     bool known = isfinite(now->error) && now->error > 0;
@@ -53,7 +53,8 @@ ec_forecast ec_forecast_make(const ec_film *film, const ec_film_error *now, cons
     batches = (range){fmax(batches.low, done), fmax(batches.expected, done), fmax(batches.high, done)};
     /* Both spreads are of logarithms and independent. */
     double slow = exp(1.96 * pace_spread), left = batches.expected - done;
-    double down = log(fmax(left, 1)) - log(fmax(batches.low - done, 1)), up = log(fmax(batches.high - done, 1)) - log(fmax(left, 1));
+    double down = log(fmax(left, 1)) - log(fmax(batches.low - done, 1)),
+           up = log(fmax(batches.high - done, 1)) - log(fmax(left, 1));
     range seconds = {pace->seconds + left * a_batch * exp(-hypot(log(slow), down)), pace->seconds + left * a_batch,
                      pace->seconds + left * a_batch * exp(hypot(log(slow), up))};
     ec_forecast f = {.pilot_seconds = pace->seconds, .pilot_samples = (uint64_t)(done * per_batch)};

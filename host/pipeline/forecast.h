@@ -15,7 +15,7 @@ typedef struct ec_pace {
 bool ec_pilot_is_over(uint32_t batches);
 
 /* now: the film's error. done: batches a pixel, in the mean. gain: what the variance will be multiplied by from here on. limits: spp, error and time of the options; whichever is expected first. */
-ec_forecast ec_forecast_make(const ec_film *film, const ec_film_error *now, const ec_render_options *limits, const ec_pace *pace, double done,
-                             double gain);
+ec_forecast ec_forecast_make(const ec_film *film, const ec_film_error *now, const ec_render_options *limits,
+                             const ec_pace *pace, double done, double gain);
 
 #endif

@@ -19,7 +19,8 @@ static void copy_triangles(const ec_scene *from, const uint32_t *number, ec_scen
         if (n == EC_NO_ID) continue;
         for (uint32_t k = 0; k < 3; k++) {
             to->indices[3 * (size_t)at + k] = 3 * at + k;
-            memcpy(to->positions + 9 * (size_t)at + 3 * k, from->positions + 3 * (size_t)from->indices[3 * (size_t)t + k], 3 * sizeof(float));
+            memcpy(to->positions + 9 * (size_t)at + 3 * k,
+                   from->positions + 3 * (size_t)from->indices[3 * (size_t)t + k], 3 * sizeof(float));
         }
         to->triangle_material[at] = n;
         to->triangle_count++;
@@ -69,6 +70,7 @@ uint32_t ec_insides_of(const ec_insides *insides, const ec_camera *camera)
     uint32_t medium = insides->nested ? 0 : EC_NO_ID;
     if (camera->type == EC_CAMERA_ORTHOGRAPHIC) return medium;
     for (uint32_t m = 0; m < insides->bodies.material_count; m++)
-        if (ec_bodies_contain(&insides->bodies, m, camera->position)) medium = insides->nested ? medium | insides->medium[m] : insides->medium[m];
+        if (ec_bodies_contain(&insides->bodies, m, camera->position))
+            medium = insides->nested ? medium | insides->medium[m] : insides->medium[m];
     return medium;
 }

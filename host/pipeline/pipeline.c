@@ -18,7 +18,8 @@ ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, e
     return EC_OK;
 }
 
-ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *p, ec_render_stats *stats, ec_error *err)
+ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *p, ec_render_stats *stats,
+                             ec_error *err)
 {
     const ec_cargo_head *head = &cargo->head;
     memset(p, 0, sizeof *p);

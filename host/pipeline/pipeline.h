@@ -42,7 +42,8 @@ typedef struct ec_pipeline {
 
 /* Puts a cargo on a device and builds the kernels that it calls for. spent: the same cargo, where nobody else wants it: each of its buffers
  * is freed as soon as the device has it, and then the rest; else NULL. stats gets times, lanes and wave. */
-ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *pipeline, ec_render_stats *stats, ec_error *err);
+ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *pipeline,
+                             ec_render_stats *stats, ec_error *err);
 void ec_pipeline_destroy(ec_pipeline *pipeline);
 
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */

@@ -68,7 +68,8 @@ static ec_result make_buffers(ec_pipeline *p, const ec_scene *scene, ec_error *e
     ec_counters counters = {.rays = {{0}}};
     for (uint32_t k = 0; k < EC_PARTS; k++) counters.rays[0][k * EC_PART_STRIDE] = EC_PROBE_RAYS / EC_PARTS;
     p->params = (ec_params){.width = 1, .height = 1, .batch = 1, .wave = EC_PROBE_RAYS, .part = EC_PROBE_RAYS / EC_PARTS};
-    for (size_t i = 0; i < 3 * (size_t)scene->vertex_count; i++) p->params.scene_max = fmaxf(p->params.scene_max, fabsf(scene->positions[i]));
+    for (size_t i = 0; i < 3 * (size_t)scene->vertex_count; i++)
+        p->params.scene_max = fmaxf(p->params.scene_max, fabsf(scene->positions[i]));
     p->wave = EC_PROBE_RAYS;
     EC_TRY(make_rays(p, scene, err));
     EC_TRY(ec_buffer_create(p->cl, "hits", EC_HIT_PROBE_FIELDS * EC_PROBE_RAYS * 4 + 64, NULL, &p->buffers[EC_ARG_HITS], err));
@@ -102,7 +103,8 @@ static ec_result count(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, ec
     ec_result result = build(p, which, true, err);
     if (result == EC_OK) result = ec_pipeline_launch_trace(p, 0, which, scalars, err);
     if (result == EC_OK)
-        result = ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], (uint64_t)EC_HIT_NODES * EC_PROBE_RAYS * 4, 2 * EC_PROBE_RAYS * 4, counts, err);
+        result = ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], (uint64_t)EC_HIT_NODES * EC_PROBE_RAYS * 4,
+                                2 * EC_PROBE_RAYS * 4, counts, err);
     p->lanes = lanes;
     for (uint32_t i = 0; result == EC_OK && i < 2 * EC_PROBE_RAYS; i++) sums[i / EC_PROBE_RAYS] += counts[i];
     probe->nodes = (double)sums[0] / EC_PROBE_RAYS;
@@ -126,8 +128,8 @@ static ec_result measure(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, 
 }
 
 /* scene: where rays start; built: what the accelerator is built of. */
-static ec_result probe_one(ec_cl *cl, const ec_scene *scene, const ec_scene *built, uint32_t which, float grid_density, ec_accel_probe *probe,
-                           ec_error *err)
+static ec_result probe_one(ec_cl *cl, const ec_scene *scene, const ec_scene *built, uint32_t which, float grid_density,
+                           ec_accel_probe *probe, ec_error *err)
 {
     ec_pipeline p = {.cl = cl};
     EC_TRY(ec_pipeline_lanes(cl, 0, &p.lanes, err));
@@ -153,7 +155,8 @@ ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float
     if (!scene->placed_count) return probe_one(cl, scene, scene, which, grid_density, probe, err);
     ec_scene written;
     EC_TRY(ec_scene_write_out(scene, &written, err));
-    ec_result result = probe_one(cl, &written, which == ec_accel_find("twolevel") ? scene : &written, which, grid_density, probe, err);
+    ec_result result =
+        probe_one(cl, &written, which == ec_accel_find("twolevel") ? scene : &written, which, grid_density, probe, err);
     ec_scene_written_free(&written);
     return result;
 }

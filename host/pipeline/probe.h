@@ -17,6 +17,7 @@ typedef struct ec_accel_probe {
 
 /* Builds accelerator `which` and sends EC_PROBE_RAYS rays through it: from points spread evenly over the scene's surfaces, in
  * directions spread evenly over the sphere, the same ones for every accelerator. grid_density: see ec_accel_input. */
-ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float grid_density, ec_accel_probe *probe, ec_error *err);
+ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float grid_density, ec_accel_probe *probe,
+                         ec_error *err);
 
 #endif

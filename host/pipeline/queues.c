@@ -13,7 +13,8 @@ static uint64_t fit_wave(const ec_pipeline *p)
     uint64_t stack = p->integrator == EC_INTEGRATOR_WHITTED ? ec_whitted_stack_words(p->params.max_depth) : 0;
     uint64_t words = 2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + 3 + EC_AOV_FIELDS + stack;
     uint64_t widest = stack > EC_PATH_FIELDS ? stack : EC_PATH_FIELDS;
-    while (wave > EC_SMALLEST_WAVE && (wave * 4 * words > device->memory_bytes / 4 || wave * 4 * widest > device->max_allocation_bytes))
+    while (wave > EC_SMALLEST_WAVE &&
+           (wave * 4 * words > device->memory_bytes / 4 || wave * 4 * widest > device->max_allocation_bytes))
         wave /= 2;
     return wave;
 }
@@ -51,7 +52,8 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
     EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));
     EC_TRY(create(p, "radiance", field * 3 + slack, &p->buffers[EC_ARG_RADIANCE], err));
     EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
-    if (p->effects.called.bits & EC_FEATURE_MOTION) EC_TRY(create(p, "times of paths", field + slack, &p->buffers[EC_ARG_TIMES], err));
+    if (p->effects.called.bits & EC_FEATURE_MOTION)
+        EC_TRY(create(p, "times of paths", field + slack, &p->buffers[EC_ARG_TIMES], err));
     if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->effects.built & EC_FEATURE_TRANSMISSION)) return EC_OK; /* only what passes light branches */
     return create(p, "ray trees", field * ec_whitted_stack_words(p->params.max_depth), &p->buffers[EC_ARG_BRANCHES], err);
 }
@@ -70,7 +72,8 @@ static ec_result create_wave_that_fits(ec_pipeline *p, uint32_t wanted, ec_error
     set_wave(p, wanted ? wanted : fit_wave(p));
     p->first_wave = p->wave;
     for (uint32_t refused = 0; create_wave(p, &why) != EC_OK; release_wave(p)) {
-        bool lacks_memory = why.kind == EC_ERROR_DEVICE_MEMORY, is_last = wanted || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
+        bool lacks_memory = why.kind == EC_ERROR_DEVICE_MEMORY,
+             is_last = wanted || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
         if (lacks_memory && wanted) ec_fail_more(&why, ", or a smaller --wave");
         if (err) *err = why;
         if (!lacks_memory || is_last) return EC_FAILED;

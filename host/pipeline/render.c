@@ -71,8 +71,8 @@ static ec_result choose_film(ec_render_state *r, uint32_t batch, const ec_log *l
     return EC_OK;
 }
 
-static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene, uint32_t batch, const ec_log *log,
-                        ec_error *err)
+static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene,
+                        uint32_t batch, const ec_log *log, ec_error *err)
 {
     const ec_past *past = r->course->past;
     const ec_cargo_head *head = &r->sources.cargo.head;
@@ -91,8 +91,9 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     return choose_film(r, batch, log, err);
 }
 
-ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene, const ec_render_options *options, const ec_course *course,
-                           ec_progress_fn progress, void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
+ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene,
+                           const ec_render_options *options, const ec_course *course, ec_progress_fn progress,
+                           void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
 {
     *stats = (ec_render_stats){.strips = 1};
     EC_TRY(check_ends(options, err));

@@ -19,7 +19,8 @@ static double patience(const ec_render_state *r)
 /* Hands over what there is. A batch that is under way goes with it, the first one too: on large pictures one takes minutes. */
 static void keep(ec_render_state *r, uint32_t under_way)
 {
-    const bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way, is_empty = !r->film->batch_count && !under_way;
+    const bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way,
+               is_empty = !r->film->batch_count && !under_way;
     if (!r->course->keep || !is_new || is_empty || r->film->unsampled) return;
     ec_past now = r->past;
     now.seconds = ec_now() - r->render_start;

@@ -10,7 +10,9 @@ static double fraction_done(const ec_render_state *r, double batches, double sec
 {
     const ec_render_options *o = r->options;
     if (r->strip_rows) /* spp alone ends them */
-        return fmin(((double)r->samples_before / r->params.batch + batches * ec_render_film_pixels(r)) / r->batches_wanted / ec_render_picture_pixels(r), 1.0);
+        return fmin(((double)r->samples_before / r->params.batch + batches * ec_render_film_pixels(r)) /
+                        r->batches_wanted / ec_render_picture_pixels(r),
+                    1.0);
     if (isfinite(r->forecast.seconds) && r->forecast.seconds > 0.0) return fmin(seconds / r->forecast.seconds, 1.0);
     double f = 0.0;
     if (r->batches_wanted) f = fmax(f, batches / r->batches_wanted);
@@ -77,6 +79,8 @@ void ec_render_finish_stats(ec_render_state *r)
     s->error = r->error.error;
     s->error_bound = r->error.error_bound;
     s->relmse = r->error.relmse;
-    s->trace_seconds = r->source->clocked_rays > 0 ? r->source->clocked_seconds / r->source->clocked_rays * (double)s->rays : s->seconds;
+    s->trace_seconds = r->source->clocked_rays > 0
+                           ? r->source->clocked_seconds / r->source->clocked_rays * (double)s->rays
+                           : s->seconds;
     snprintf(s->stopped_by, sizeof s->stopped_by, "%s", r->stopped_by ? r->stopped_by : "user");
 }

@@ -15,8 +15,8 @@ struct ec_session {
     double rate;                 /* samples a second of the last waves; 0: not known */
 };
 
-ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t largest, ec_session **session,
-                          ec_render_stats *stats, ec_error *err)
+ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t largest,
+                          ec_session **session, ec_render_stats *stats, ec_error *err)
 {
     ec_session *s = calloc(1, sizeof *s);
     *session = s;
@@ -124,7 +124,8 @@ ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error
     }
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)pixels * 12, batch->mean, err));
     if (batch->features)
-        EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, (uint64_t)pixels * 4 * EC_AOV_FIELDS, batch->features, err));
+        EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, (uint64_t)pixels * 4 * EC_AOV_FIELDS,
+                              batch->features, err));
     batch->seconds = ec_now() - start;
     batch->complete = true;
     drop_invalid(batch, 3 * (uint64_t)pixels);

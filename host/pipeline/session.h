@@ -9,8 +9,8 @@ typedef struct ec_session ec_session;
 
 /* options: limits and batch are not looked at. The wave is fitted to batches of `largest` samples. stats gets what set-up knows
  * (its seconds, lanes, wave, effects), device_bytes the buffers' peak so far. The scene is not needed afterwards. */
-ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t largest, ec_session **session,
-                          ec_render_stats *stats, ec_error *err);
+ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t largest,
+                          ec_session **session, ec_render_stats *stats, ec_error *err);
 void ec_session_close(ec_session *session); /* NULL is fine */
 
 /* What may change without setting up scene, structures and kernels again. */

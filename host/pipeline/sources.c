@@ -11,8 +11,9 @@ ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_s
     return s->recruits ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
 }
 
-ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
-                          ec_sources *s, ec_render_stats *stats, ec_error *err)
+ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene,
+                          const ec_render_options *options, uint32_t batch, ec_sources *s, ec_render_stats *stats,
+                          ec_error *err)
 {
     uint32_t kinds = for_all ? (1u << EC_KIND_COUNT) - 1 : 0;
     EC_TRY(ec_sources_enlist(devices, count, options->lanes, s, stats, err));
@@ -45,8 +46,10 @@ static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log 
         recruits[i] = (ec_team_recruit){.name = s->devices[i].info.name, .open = load, .user = &s->recruits[i]};
     }
     for (uint32_t i = 0; i < allies->count; i++)
-        if (allies->recruit(allies->user, i, &recruits[s->count + s->allied])) s->allied_processes += recruits[s->count + s->allied++].processes;
-    ec_result result = ec_team_open(recruits, s->count + s->allied, s->cargo.head.params.width, s->cargo.head.params.height, log, &s->team, err);
+        if (allies->recruit(allies->user, i, &recruits[s->count + s->allied]))
+            s->allied_processes += recruits[s->count + s->allied++].processes;
+    ec_result result = ec_team_open(recruits, s->count + s->allied, s->cargo.head.params.width,
+                                    s->cargo.head.params.height, log, &s->team, err);
     free(recruits);
     if (result == EC_OK) ec_team_wait(s->team, s->count); /* limits of time do not count compilers */
     return result;
@@ -54,8 +57,8 @@ static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log 
 
 static uint64_t received(const ec_sources *s) { return s->allies.received ? s->allies.received(s->allies.user) : 0; }
 
-ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_allies *allies, const ec_log *log, ec_batch_source **source, ec_render_stats *stats,
-                          ec_error *err)
+ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_allies *allies, const ec_log *log,
+                          ec_batch_source **source, ec_render_stats *stats, ec_error *err)
 {
     const ec_allies none = {0};
     s->seed = seed;
@@ -80,7 +83,8 @@ static void tell_shares(const ec_sources *s, ec_render_stats *stats)
     stats->share_count = s->count;
     stats->allies = s->allied_processes;
     stats->allied_bytes = received(s) - s->received_before;
-    for (uint32_t i = 0; i < s->allied; i++) stats->allied_batches += (double)ec_team_share(s->team, s->count + i, &has_failed) / pixels;
+    for (uint32_t i = 0; i < s->allied; i++)
+        stats->allied_batches += (double)ec_team_share(s->team, s->count + i, &has_failed) / pixels;
     for (uint32_t i = 0; i < s->count; i++) {
         const ec_render_stats *own = &s->recruits[i].stats;
         ec_render_share *share = &stats->shares[i];

@@ -42,11 +42,13 @@ typedef struct ec_sources {
 } ec_sources;
 
 /* The first step, where the cargo is there: these devices, with so many lanes (0: what suits each). To be closed on failure too. */
-ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_sources *sources, ec_render_stats *stats, ec_error *err);
+ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_sources *sources, ec_render_stats *stats,
+                            ec_error *err);
 
 /* The same, and makes the cargo, for these devices, and any others if for_all. */
-ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene, const ec_render_options *options, uint32_t batch,
-                          ec_sources *sources, ec_render_stats *stats, ec_error *err);
+ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene,
+                          const ec_render_options *options, uint32_t batch, ec_sources *sources, ec_render_stats *stats,
+                          ec_error *err);
 
 /* Loads them: one alone before it returns, to be turned to its rows; several by threads of their own, and always for whole pictures. allies may
  * be NULL. *source is valid until they are closed. */

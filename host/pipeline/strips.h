@@ -28,7 +28,8 @@ uint64_t ec_strip_whole_for(const ec_render_options *options, const ec_device_in
 uint64_t ec_strip_least(const ec_render_options *options, bool shared);
 
 /* Fails with one line: a picture that is to be whole does not fit. whole_for: why it is; instead: what lets it be rendered in strips. */
-ec_result ec_strip_refuse(const ec_render_options *options, uint64_t whole, int64_t budget, const char *whole_for, const char *instead, ec_error *err);
+ec_result ec_strip_refuse(const ec_render_options *options, uint64_t whole, int64_t budget, const char *whole_for,
+                          const char *instead, ec_error *err);
 
 /* How many rows fit at a time: all of them or a multiple of EC_STRIP_STEP; 0: not even one step. `host`: bytes that pixels may take; device, largest: the same of a device that has memory of its own, in all and in one piece. */
 uint32_t ec_strip_rows(const ec_render_options *options, bool shared, int64_t host, uint64_t device, uint64_t largest);

@@ -207,8 +207,8 @@ uint64_t ec_team_share(const ec_team *team, uint32_t i, bool *has_failed)
     return i < team->count ? team->members[i].pixels : 0;
 }
 
-ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height, const ec_log *log, ec_team **team,
-                       ec_error *err)
+ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height,
+                       const ec_log *log, ec_team **team, ec_error *err)
 {
     uint32_t sources = 0;
     ec_team *t = *team = calloc(1, sizeof *t);

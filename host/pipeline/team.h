@@ -41,8 +41,8 @@ typedef struct ec_team_recruit {
 typedef struct ec_team ec_team;
 
 /* Starts the threads. log gets a warning for each member that fails while there are others. */
-ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height, const ec_log *log, ec_team **team,
-                       ec_error *err);
+ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height,
+                       const ec_log *log, ec_team **team, ec_error *err);
 /* Until one of the first so many members is ready, or all of these have failed. */
 void ec_team_wait(ec_team *team, uint32_t count);
 /* What to take batches from. Takes fail once all members have. Closing it ends the threads, each after the wave that it is in. */

@@ -139,7 +139,8 @@ static uint32_t piece_of(const member *m, const slot *s)
 {
     const ec_team *t = m->team;
     const uint32_t left = s->count - s->handed, unit = s->list ? 1 : EC_TILE_ROWS * t->width, alive = ec_team_alive(t);
-    double seconds = s->batches * batch_seconds(t) * alive, size = m->rate / s->batches * fmin(seconds > 0 ? seconds : EC_TEAM_PIECE_SECONDS, EC_TEAM_PIECE_SECONDS);
+    double seconds = s->batches * batch_seconds(t) * alive,
+           size = m->rate / s->batches * fmin(seconds > 0 ? seconds : EC_TEAM_PIECE_SECONDS, EC_TEAM_PIECE_SECONDS);
     if (t->from >= t->end) size = fmin(size, left / (2.0 * alive));
     if (s->batches > 1) size = fmin(size, EC_TEAM_PIECE / EC_MOMENTS_BYTES);
     size = ceil(fmax(fmax(size, m->source->least), 1) / unit) * unit;

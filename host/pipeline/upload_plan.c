@@ -38,7 +38,8 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
     for (uint32_t i = 0; i < count; i++) {
         plan[i] = all[i];
         uint64_t for_whom = plan[i].buffer.effects; /* also for universal kernels: what is not called for stays NULL */
-        if ((for_whom && !(effects->called.bits & for_whom)) || (!plan[i].data && plan[i].arg != EC_ARG_UVS)) plan[i].buffer.bytes = 0;
+        if ((for_whom && !(effects->called.bits & for_whom)) || (!plan[i].data && plan[i].arg != EC_ARG_UVS))
+            plan[i].buffer.bytes = 0;
         if (plan[i].buffer.bytes) plan[i].buffer.bytes += plan[i].slack;
         effects->buffers[i] = plan[i].buffer;
     }

@@ -33,7 +33,8 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_b
         if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, first_bounce + step, scalars, err));
     }
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    for (uint32_t step = 0; step < EC_SEGMENT; step++) p->rays += ec_pipeline_total(counters->rays[step]) + ec_pipeline_total(counters->shadows[step]);
+    for (uint32_t step = 0; step < EC_SEGMENT; step++)
+        p->rays += ec_pipeline_total(counters->rays[step]) + ec_pipeline_total(counters->shadows[step]);
     memcpy(counters->rays[0], counters->rays[EC_SEGMENT], sizeof counters->rays[0]);
     return EC_OK;
 }

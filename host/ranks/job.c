@@ -91,7 +91,8 @@ static void hear(ec_ranks *r, uint32_t child, readiness *all)
     *remote = (ec_remote){.ranks = r, .rank = rank, .is_ready = letter.kind == EC_READY, .ready = (uint32_t)letter.numbers[EC_READY_RANKS]};
     all->ranks += remote->ready;
     snprintf(remote->name, sizeof remote->name, "rank %d on %s", rank, text);
-    if (letter.kind == EC_READY_OTHER_PROGRAM || (letter.kind == EC_READY && all->kind == EC_READY_WITHOUT_DEVICE)) all->kind = letter.kind;
+    if (letter.kind == EC_READY_OTHER_PROGRAM || (letter.kind == EC_READY && all->kind == EC_READY_WITHOUT_DEVICE))
+        all->kind = letter.kind;
     if (more) add_line(all, more);
     free(letter.body);
 }
@@ -107,7 +108,8 @@ ec_result ec_job_send(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, const e
 {
     char text[4096];
     const int used = snprintf(text, sizeof text, "%s%s%s", r->own, r->device ? "\n" : "", r->device ? r->device : "");
-    if (used >= (int)sizeof text) return ec_fail(err, "--device takes %zu letters at most in an MPI job", sizeof text - strlen(r->own) - 2);
+    if (used >= (int)sizeof text)
+        return ec_fail(err, "--device takes %zu letters at most in an MPI job", sizeof text - strlen(r->own) - 2);
     const ec_letter word = {.kind = EC_WORD_JOB, .box = EC_BOX_WORD, .bytes = (uint64_t)used + 1, .body = text,
                             .numbers = {[EC_JOB_PROGRAM] = program_hash(), [EC_JOB_ROUNDS] = r->own_round}};
     readiness all = {.kind = EC_READY};
@@ -129,9 +131,13 @@ static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_
     if (result == EC_OK) cargo->head = s->head, *seed = s->seed, cargo->head.buffer_count = 0;
     for (uint32_t i = 0; result == EC_OK && i < s->head.buffer_count; i++) {
         void *data = malloc(s->buffers[i].bytes + 1);
-        if (!data) result = ec_fail(err, "out of memory for %llu bytes of the scene's %s", (unsigned long long)s->buffers[i].bytes, s->buffers[i].label);
+        if (!data)
+            result = ec_fail(err, "out of memory for %llu bytes of the scene's %s",
+                             (unsigned long long)s->buffers[i].bytes, s->buffers[i].label);
         if (data) ec_cargo_add(cargo, s->buffers[i].arg, s->buffers[i].label, s->buffers[i].bytes, s->buffers[i].slack, data, data);
-        if (data) cargo->buffers[i].accel = s->buffers[i].accel, result = ec_post_spread(r->post, data, s->buffers[i].bytes, EC_BOX_SCENE, err);
+        if (data)
+            cargo->buffers[i].accel = s->buffers[i].accel,
+            result = ec_post_spread(r->post, data, s->buffers[i].bytes, EC_BOX_SCENE, err);
     }
     free(s);
     return result;
@@ -144,14 +150,15 @@ static void describe(const ec_ranks *r, uint32_t kind, const char *text, readine
     (void)gethostname(host, sizeof host - 1);
     own->kind = kind;
     snprintf(own->text, sizeof own->text, "%s%s%.600s", host, *text ? ": " : "", text);
-    if (kind == EC_READY_WITHOUT_DEVICE) snprintf(line, sizeof line, "rank %d on %.900s; the others go on without it", r->rank, own->text);
+    if (kind == EC_READY_WITHOUT_DEVICE)
+        snprintf(line, sizeof line, "rank %d on %.900s; the others go on without it", r->rank, own->text);
     if (kind == EC_READY_OTHER_PROGRAM) snprintf(line, sizeof line, "rank %d on %.900s " OTHER_PROGRAM, r->rank, own->text);
     if (kind != EC_READY) add_line(own, line);
 }
 
 /* Where a device is not of rank 0's drivers, and one of the two is not known to round correctly, the root warns. */
-static void look_at_rounding(const ec_ranks *r, const ec_letter *word, const char *drivers, const ec_device_info *devices, uint32_t count,
-                             readiness *own)
+static void look_at_rounding(const ec_ranks *r, const ec_letter *word, const char *drivers,
+                             const ec_device_info *devices, uint32_t count, readiness *own)
 {
     char driver[520], line[1000];
     for (uint32_t i = 0; i < count; i++) {
@@ -173,7 +180,8 @@ static ec_result find_devices(const ec_ranks *r, const char *id, ec_device_info 
     return EC_OK;
 }
 
-ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, uint64_t *seed, ec_device_info *devices, uint32_t *count, ec_error *err)
+ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, uint64_t *seed, ec_device_info *devices,
+                         uint32_t *count, ec_error *err)
 {
     ec_error why = {0};
     readiness all = {0};

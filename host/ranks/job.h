@@ -12,6 +12,7 @@ ec_result ec_job_send(ec_ranks *ranks, const ec_cargo *cargo, uint64_t seed, con
 
 /* The others, to rank 0's word: EC_DEVICES_MOST devices at most; *count 0: none, and nothing more will come of this job. The cargo is to be freed on
  * failure too. */
-ec_result ec_job_receive(ec_ranks *ranks, const ec_letter *word, ec_cargo *cargo, uint64_t *seed, ec_device_info *devices, uint32_t *count, ec_error *err);
+ec_result ec_job_receive(ec_ranks *ranks, const ec_letter *word, ec_cargo *cargo, uint64_t *seed,
+                         ec_device_info *devices, uint32_t *count, ec_error *err);
 
 #endif

@@ -20,4 +20,7 @@ void ec_ranks_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint
 {
     (void)ranks, (void)devices, (void)indices, (void)count;
 }
-void ec_ranks_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log) { (void)devices, (void)count, (void)log; }
+void ec_ranks_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log)
+{
+    (void)devices, (void)count, (void)log;
+}

@@ -16,7 +16,8 @@ static double latency(const ec_plan *p) { return p->microseconds * 1e-6; }
 static const char *largest_loss(double start, double messages, double end, double link, double sums)
 {
     const double losses[] = {start, messages, end, link, sums};
-    static const char *const names[] = {"start", "messages between pieces", "the last pieces, which cannot be smaller", "rank 0's link", "rank 0's sums"};
+    static const char *const names[] = {"start", "messages between pieces", "the last pieces, which cannot be smaller",
+                                        "rank 0's link", "rank 0's sums"};
     int most = 0;
     for (int i = 1; i < 5; i++)
         if (losses[i] > losses[most]) most = i;
@@ -64,9 +65,11 @@ ec_plan_row ec_plan_for(const ec_plan *p, uint32_t ranks)
     const double n = p->batches, pixels = (double)p->pixels, work = n * p->batch / ranks, a_byte = 1 / bytes_per_second(p);
     const mixture m = mixture_of(p, ranks);
     const double blocks = m.count[1] / 16 + m.count[2] / 256, bytes = pixels * (12 * m.count[0] + EC_MOMENTS_BYTES * blocks);
-    const double piece = fmin(EC_TEAM_PIECE_SECONDS, m.largest * p->batch), idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + bytes / n * piece / p->batch * a_byte;
+    const double piece = fmin(EC_TEAM_PIECE_SECONDS, m.largest * p->batch),
+                 idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + bytes / n * piece / p->batch * a_byte;
     const double messages = work * idle / piece, end = alone ? 0 : p->batch * fmin(1, (double)p->least / pixels) + idle;
-    const double link = bytes * (1 - 1.0 / ranks) * a_byte, sums = alone ? 0 : m.count[0] * p->add + blocks * p->add_block, intake = fmax(link, sums);
+    const double link = bytes * (1 - 1.0 / ranks) * a_byte,
+                 sums = alone ? 0 : m.count[0] * p->add + blocks * p->add_block, intake = fmax(link, sums);
     ec_plan_row row = {.ranks = ranks, .load = p->load, .render = work + messages + end, .received = bytes * (1 - 1.0 / ranks)};
     row.send = p->start + spread_seconds(p, ranks);
     row.wait = fmax(intake - row.render, 0) + (alone ? 0 : p->add);
@@ -88,23 +91,27 @@ void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
     ec_format_bytes(p->scene_bytes, scene, sizeof scene);
     ec_format_bytes(12 * p->pixels, sums, sizeof sums);
     ec_format_bytes(EC_MOMENTS_BYTES * p->pixels, block, sizeof block);
-    fprintf(to, "job         %.0f batches of %u samples a pixel%s, %llu pixels\n", p->batches, p->samples, p->batches_foretold ? " (foretold)" : "",
-            (unsigned long long)p->pixels);
+    fprintf(to, "job         %.0f batches of %u samples a pixel%s, %llu pixels\n", p->batches, p->samples,
+            p->batches_foretold ? " (foretold)" : "", (unsigned long long)p->pixels);
     fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, a block %.3g s, on %s\n", p->load, p->start, p->batch, p->add,
             p->add_block, device);
     fprintf(to, "sent        scene: %s to each rank, down a tree of %d to one; sums, to rank 0: %s a batch, or %s a block of 16 or 256\n", scene, EC_TREE_FANOUT, sums,
             block);
-    fprintf(to, "assumed     %g Gbit/s, %g us a message (--plan RANKS,GBIT,US); all ranks as fast as this one, started at once;\n"
-                "            pieces of up to %g s, of %llu pixels at least, %g ms between two of them; blocks where they take all ranks\n"
-                "            up to %g s, or %g %% of the time so far, with their last piece, not at the beginning and the end;\n"
-            "            writing the picture left out\n\n",
-            p->gbit, p->microseconds, EC_TEAM_PIECE_SECONDS, (unsigned long long)p->least, 1e3 * IDLE_SECONDS, EC_TEAM_PATIENCE_SECONDS, 100 * EC_TEAM_PATIENCE_SHARE);
+    fprintf(
+        to,
+        "assumed     %g Gbit/s, %g us a message (--plan RANKS,GBIT,US); all ranks as fast as this one, started at once;\n"
+        "            pieces of up to %g s, of %llu pixels at least, %g ms between two of them; blocks where they take all ranks\n"
+        "            up to %g s, or %g %% of the time so far, with their last piece, not at the beginning and the end;\n"
+        "            writing the picture left out\n\n",
+        p->gbit, p->microseconds, EC_TEAM_PIECE_SECONDS, (unsigned long long)p->least, 1e3 * IDLE_SECONDS,
+        EC_TEAM_PATIENCE_SECONDS, 100 * EC_TEAM_PATIENCE_SHARE);
     fprintf(to, "%8s %10s %9s %11s %10s   %s\n", "ranks", "seconds", "speed-up", "efficiency", "sums", "held back by");
     const double alone = ec_plan_for(p, 1).seconds;
     for (uint32_t ranks = 1; ranks; ranks = next_count(p, ranks)) {
         const ec_plan_row row = ec_plan_for(p, ranks);
         ec_format_bytes((uint64_t)row.received, sums, sizeof sums);
-        fprintf(to, "%8u %10.4g %9.4g %9.0f %% %10s   %s\n", ranks, row.seconds, alone / row.seconds, 100 * row.efficiency, sums, row.held_by);
+        fprintf(to, "%8u %10.4g %9.4g %9.0f %% %10s   %s\n", ranks, row.seconds, alone / row.seconds,
+                100 * row.efficiency, sums, row.held_by);
     }
 }
 

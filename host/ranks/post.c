@@ -30,7 +30,8 @@ ec_result ec_post_open(ec_post **post, ec_error *err)
     pthread_cond_init(&p->call, NULL);
     pthread_cond_init(&p->news, NULL);
     pthread_mutex_lock(&p->lock);
-    if (pthread_create(&p->thread, NULL, ec_post_run, p) != 0) p->closed = true, ec_fail(&p->error, "cannot start a thread for MPI");
+    if (pthread_create(&p->thread, NULL, ec_post_run, p) != 0)
+        p->closed = true, ec_fail(&p->error, "cannot start a thread for MPI");
     while (!p->open && !*p->error.text) pthread_cond_wait(&p->news, &p->lock);
     pthread_mutex_unlock(&p->lock);
     return p->open ? EC_OK : ec_fail(err, "%s", p->error.text);
@@ -45,7 +46,8 @@ void ec_post_close(ec_post *p, bool is_any_lost)
     const bool may_hang = p->open && is_any_lost;
     const struct timespec until = ec_deadline(FINALIZE_SECONDS);
     int waited = 0;
-    while (!p->closed && waited != ETIMEDOUT) waited = may_hang ? pthread_cond_timedwait(&p->news, &p->lock, &until) : pthread_cond_wait(&p->news, &p->lock);
+    while (!p->closed && waited != ETIMEDOUT)
+        waited = may_hang ? pthread_cond_timedwait(&p->news, &p->lock, &until) : pthread_cond_wait(&p->news, &p->lock);
     bool closed = p->closed;
     pthread_mutex_unlock(&p->lock);
     if (!closed) return; /* its memory is the thread's until the process ends */
@@ -160,8 +162,9 @@ ec_result ec_post_spread(ec_post *p, void *bytes, uint64_t count, uint32_t box, 
             const bool fits = come.bytes == part.bytes;
             if (fits) memcpy(part.body, come.body, come.bytes);
             free(come.body);
-            if (!fits) return ec_fail(err, "rank %d sent %llu bytes in place of %llu", ec_post_parent(p), (unsigned long long)come.bytes,
-                                      (unsigned long long)part.bytes);
+            if (!fits)
+                return ec_fail(err, "rank %d sent %llu bytes in place of %llu", ec_post_parent(p),
+                               (unsigned long long)come.bytes, (unsigned long long)part.bytes);
         }
         for (int i = 0; i < ec_post_children(p); i++) (void)ec_post_send(p, ec_post_child(p, i), &part, NULL); /* who is lost is found so later */
     }

@@ -49,7 +49,8 @@ void ec_post_send_away(ec_post *post, int to, ec_letter *letter);
 
 /* The next letter of that rank in that box; waits for it, and fails where the rank is lost: MPI says so, or it is a process of this host that
  * has ended, or nothing has come of it for EC_LOST_SECONDS; or where go_on (NULL: no matter), asked twenty times a second, says no. */
-ec_result ec_post_receive(ec_post *post, int from, uint32_t box, bool (*go_on)(void *user), void *user, ec_letter *letter, ec_error *err);
+ec_result ec_post_receive(ec_post *post, int from, uint32_t box, bool (*go_on)(void *user), void *user,
+                          ec_letter *letter, ec_error *err);
 
 /* Is there one in that box, or is the rank lost? */
 bool ec_post_has(ec_post *post, int from, uint32_t box);

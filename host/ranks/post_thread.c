@@ -19,7 +19,10 @@ enum { CHUNK = 64 << 20, TAG = 1 };   /* bytes of one message: MPI counts in int
 static uint64_t chunks_of(uint64_t bytes) { return (bytes + CHUNK - 1) / CHUNK; }
 static int chunk_bytes(uint64_t bytes, uint64_t i) { return bytes - i * CHUNK < CHUNK ? (int)(bytes - i * CHUNK) : CHUNK; }
 
-static bool is_peer(const ec_post *p, int rank) { return rank == ec_post_parent(p) || (rank > 0 && (rank - 1) / p->fanout == p->rank); }
+static bool is_peer(const ec_post *p, int rank)
+{
+    return rank == ec_post_parent(p) || (rank > 0 && (rank - 1) / p->fanout == p->rank);
+}
 
 static int fanout(void)
 {
@@ -48,7 +51,9 @@ static void begin_sending(ec_post *p, outgoing *o)
     o->begun = true;
     o->requests = malloc((chunks + 1) * sizeof *o->requests);
     o->failed = !o->requests || p->peers[o->to].lost;
-    if (!o->failed) o->failed = MPI_Isend(&o->head, (int)sizeof o->head, MPI_BYTE, o->to, TAG, p->comm, &o->requests[o->request_count++]) != MPI_SUCCESS;
+    if (!o->failed)
+        o->failed = MPI_Isend(&o->head, (int)sizeof o->head, MPI_BYTE, o->to, TAG, p->comm,
+                              &o->requests[o->request_count++]) != MPI_SUCCESS;
     for (uint64_t i = 0; i < chunks && !o->failed; i++)
         o->failed = MPI_Isend((char *)o->body + i * CHUNK, chunk_bytes(o->head.bytes, i), MPI_BYTE, o->to, TAG, p->comm,
                               &o->requests[o->request_count++]) != MPI_SUCCESS;
@@ -59,7 +64,9 @@ static bool test_sending(ec_post *p, outgoing *o)
 {
     int all = 0;
     if (!o->begun) begin_sending(p, o);
-    if (!o->failed) o->failed = MPI_Testall(o->request_count, o->requests, &all, MPI_STATUSES_IGNORE) != MPI_SUCCESS || (!all && p->peers[o->to].lost);
+    if (!o->failed)
+        o->failed = MPI_Testall(o->request_count, o->requests, &all, MPI_STATUSES_IGNORE) != MPI_SUCCESS ||
+                    (!all && p->peers[o->to].lost);
     if (o->failed) lose(p, o->to);
     return all || o->failed;
 }

@@ -100,13 +100,15 @@ static void pass_on(void *user, ec_severity severity, const char *text)
 }
 
 /* Those that open; none: fails with the last one's reason, unless there are others below. */
-static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_cl *devices, bool is_inner, const ec_log *log, ec_error *err)
+static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_cl *devices, bool is_inner,
+                              const ec_log *log, ec_error *err)
 {
     uint32_t opened = 0;
     for (uint32_t i = 0; i < *count; i++) {
         ec_error why = {0};
         if (ec_cl_open(&infos[i], &devices[opened], &why) == EC_OK) opened++;
-        else if (opened || is_inner || i + 1 < *count) ec_warn(log, "%s is out, and the others take over its work: %s", infos[i].name, why.text);
+        else if (opened || is_inner || i + 1 < *count)
+            ec_warn(log, "%s is out, and the others take over its work: %s", infos[i].name, why.text);
         else *err = why;
     }
     *count = opened;

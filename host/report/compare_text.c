@@ -84,7 +84,8 @@ static void print_verdict(const ec_compare_report *report, FILE *to)
     else if (report->tested && report->test.exact_unequal > 0)
         fputs("they differ where there is no noise\n", to);
     else if (report->tested)
-        fprintf(to, "%s (p %s %.2g, alarm below %g)\n", report->differ ? "they differ by more than noise" : "no more different than noise makes them",
+        fprintf(to, "%s (p %s %.2g, alarm below %g)\n",
+                report->differ ? "they differ by more than noise" : "no more different than noise makes them",
                 report->test.p < 1e-99 ? "<" : "=", fmax(report->test.p, 1e-99), EC_NOISE_SIGNIFICANCE);
     else
         fprintf(to, "they differ in %" PRIu64 " pixel%s; whether that is noise cannot be told\n", unequal, unequal == 1 ? "" : "s");
@@ -92,7 +93,8 @@ static void print_verdict(const ec_compare_report *report, FILE *to)
 
 void ec_compare_report_text(const ec_compare_report *report, FILE *to)
 {
-    fprintf(to, "A         %s\nB         %s, the reference; %ux%u pixels\n", report->path_a, report->path_b, report->a->width, report->a->height);
+    fprintf(to, "A         %s\nB         %s, the reference; %ux%u pixels\n", report->path_a, report->path_b,
+            report->a->width, report->a->height);
     if (report->diff_path)
         fprintf(to, "map       %s: error relative to B, from 0.1 %% (black) to 100 %% (pale yellow), logarithmic\n", report->diff_path);
     print_figures(report, to);

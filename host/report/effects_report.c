@@ -72,7 +72,8 @@ void ec_effects_text(const ec_render_effects *effects, FILE *to, int width)
     char kernels[256];
     size_t column = 12;
     ec_effects_kernels(effects, kernels, sizeof kernels);
-    fprintf(to, "%-*s%s\n%-*swhat calls for each, the kernels it is built into, its buffers\n", width, "kernels", kernels, width, "effects");
+    fprintf(to, "%-*s%s\n%-*swhat calls for each, the kernels it is built into, its buffers\n", width, "kernels",
+            kernels, width, "effects");
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         ec_effect_row row = ec_effect_describe(effects, i);
         if (row.built || row.left_out) print_row(&row, to);

@@ -8,8 +8,8 @@
 void ec_merge_report_text(const ec_merge_report *r, FILE *to)
 {
     char error[32], bound[32];
-    fprintf(to, "%d %s, %llu samples a pixel in %llu batches\n", r->files, r->files == 1 ? "file" : "files", (unsigned long long)r->samples_per_pixel,
-            (unsigned long long)r->batches);
+    fprintf(to, "%d %s, %llu samples a pixel in %llu batches\n", r->files, r->files == 1 ? "file" : "files",
+            (unsigned long long)r->samples_per_pixel, (unsigned long long)r->batches);
     if (isfinite(r->error.error)) {
         ec_format_percent(r->error.error, error, sizeof error);
         ec_format_percent(r->error.error_bound, bound, sizeof bound);

@@ -8,7 +8,8 @@
 const char *const ec_instancing_names[] = {
     [EC_INSTANCING_AUTO] = "auto", [EC_INSTANCING_OFF] = "off", [EC_INSTANCING_ON] = "on", NULL};
 const char *const ec_filter_names[] = {[EC_FILTER_BOX] = "box", [EC_FILTER_BLACKMAN_HARRIS] = "blackman-harris", NULL};
-const char *const ec_light_choice_names[] = {[EC_LIGHTS_AUTO] = "auto", [EC_LIGHTS_BY_POWER] = "power", [EC_LIGHTS_BY_TREE] = "tree", NULL};
+const char *const ec_light_choice_names[] =
+    {[EC_LIGHTS_AUTO] = "auto", [EC_LIGHTS_BY_POWER] = "power", [EC_LIGHTS_BY_TREE] = "tree", NULL};
 const char *const ec_integrator_names[] = {[EC_INTEGRATOR_PATH] = "path",
                                            [EC_INTEGRATOR_WHITTED] = "whitted",
                                            [EC_INTEGRATOR_RASTER] = "raster", NULL};

@@ -180,8 +180,8 @@ static void add_shares(ec_report_attributes *attributes, const ec_render_report 
     for (uint32_t i = 0; i < report->stats->share_count; i++) {
         const ec_render_share *share = &report->stats->shares[i];
         size_t used = strlen(text);
-        snprintf(text + used, sizeof text - used, "%s%u %s: %.4g batches%s", used ? ", " : "", report->device_index[i], report->device[i].name,
-                 share->batches, share->has_failed ? " (failed)" : "");
+        snprintf(text + used, sizeof text - used, "%s%u %s: %.4g batches%s", used ? ", " : "", report->device_index[i],
+                 report->device[i].name, share->batches, share->has_failed ? " (failed)" : "");
     }
     if (*text) add_made(attributes, "eclat.devices", "%s", text);
 }
@@ -195,5 +195,7 @@ void ec_render_report_attributes(const ec_render_report *report, ec_report_attri
     add_text(attributes, "eclat.imageSha256", report->image_sha256);
     add_machine(attributes, report->device);
     add_shares(attributes, report);
-    if (report->stats->allies) add_made(attributes, "eclat.ranks", "%u, the first of which has the devices named here", report->stats->allies + 1);
+    if (report->stats->allies)
+        add_made(attributes, "eclat.ranks", "%u, the first of which has the devices named here",
+                 report->stats->allies + 1);
 }

@@ -102,18 +102,19 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
         fprintf(to, "forecast %s; said after %" PRIu64 " samples\n", forecast, stats->forecast.pilot_samples);
     }
     if (stats->instances)
-        fprintf(to, "geometry %" PRIu64 " triangles in %u instances, %" PRIu64 " of them stored\n", stats->triangles, stats->instances,
-                stats->stored_triangles);
+        fprintf(to, "geometry %" PRIu64 " triangles in %u instances, %" PRIu64 " of them stored\n", stats->triangles,
+                stats->instances, stats->stored_triangles);
     print_heavy(report, to);
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
     if (!stats->share_count) fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
     for (uint32_t i = 0; i < stats->share_count; i++) {
         const ec_render_share *share = &stats->shares[i];
-        fprintf(to, "device   %s, %u lanes: %.4g of %" PRIu32 " batches%s\n", report->device[i].name, share->lanes, share->batches, report->batches,
-                share->has_failed ? ", then it failed" : "");
+        fprintf(to, "device   %s, %u lanes: %.4g of %" PRIu32 " batches%s\n", report->device[i].name, share->lanes,
+                share->batches, report->batches, share->has_failed ? ", then it failed" : "");
     }
     if (stats->allies)
-        fprintf(to, "ranks    %u more: %.4g of %" PRIu32 " batches, %s received\n", stats->allies, stats->allied_batches, report->batches, received);
+        fprintf(to, "ranks    %u more: %.4g of %" PRIu32 " batches, %s received\n", stats->allies,
+                stats->allied_batches, report->batches, received);
     if (stats->share_count) fprintf(to, "memory   %s at the peak\n", memory);
     print_setup(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);

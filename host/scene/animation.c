@@ -20,7 +20,8 @@ static ec_result make_room(ec_gltf *g, ec_error *err)
     return g->decoded ? EC_OK : ec_fail(err, "%s: out of memory for %u images", g->path, g->image_count);
 }
 
-ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_animation **animation, const ec_log *log, ec_error *err)
+ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_animation **animation,
+                            const ec_log *log, ec_error *err)
 {
     ec_scene_choice moment;
     ec_animation *a = *animation = calloc(1, sizeof *a);

@@ -47,7 +47,8 @@ static ec_result prepare(deformer *d, const ec_pose *pose, const ec_gltf_primiti
 {
     EC_TRY(check_memory(d, p));
     if (pose->weight_count > p->target_count)
-        return ec_fail(d->err, "%s: %s has %u morph targets for %u weights", d->g->path, where, p->target_count, pose->weight_count);
+        return ec_fail(d->err, "%s: %s has %u morph targets for %u weights", d->g->path, where, p->target_count,
+                       pose->weight_count);
     for (uint32_t t = 0; t < pose->weight_count; t++) {
         char target[160];
         snprintf(target, sizeof target, "%.*s targets[%u]", EC_CUT(where, 100), t);

@@ -23,8 +23,8 @@ ec_result ec_pose_skin(ec_gltf *gltf, int32_t skin, const ec_placement_list *pla
                        ec_error *err);
 
 /* What a vertex' influences make of the joints. Fails where a joint is not in the skin. */
-ec_result ec_pose_blend(const ec_gltf *gltf, const ec_gltf_primitive *primitive, const ec_pose *pose, uint32_t vertex, ec_joint *blend,
-                        const char *where, ec_error *err);
+ec_result ec_pose_blend(const ec_gltf *gltf, const ec_gltf_primitive *primitive, const ec_pose *pose, uint32_t vertex,
+                        ec_joint *blend, const char *where, ec_error *err);
 
 /* deform_vertex.c: new streams for a primitive, as new accessors. */
 ec_result ec_pose_primitive(ec_gltf *gltf, const ec_pose *pose, ec_gltf_primitive *primitive, const char *where, ec_error *err);

@@ -165,7 +165,9 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
         for (int i = 0; i < 3; i++) {
             uint32_t *known = &f->remap[v[i] - d->p->lowest];
             if (*known == NO_VERTEX) {
-                if (f->sources) f->sources[s->vertex_count] = (ec_source){f->placement, (uint32_t)(d->p - d->g->meshes[d->at->mesh].primitives), v[i]};
+                if (f->sources)
+                    f->sources[s->vertex_count] =
+                        (ec_source){f->placement, (uint32_t)(d->p - d->g->meshes[d->at->mesh].primitives), v[i]};
                 *known = ec_flattener_append_vertex(f, d, v[i], position[i]);
             }
             /* a mirrored mesh is turned, so that its front stays its front */
@@ -240,7 +242,8 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     g->sources = NULL;
     if (g->blurs) {
         f->sources = g->sources = malloc((f->vertex_bound + 1) * sizeof *g->sources);
-        if (!f->sources) return ec_fail(f->err, "%s: out of memory for %llu vertices", g->path, (unsigned long long)f->vertex_bound);
+        if (!f->sources)
+            return ec_fail(f->err, "%s: out of memory for %llu vertices", g->path, (unsigned long long)f->vertex_bound);
     }
     EC_TRY(for_each_draw(f, g, placements, ec_flattener_fill));
     set_bounds(s, s->vertex_count);

@@ -26,7 +26,8 @@ ec_result ec_gltf_move(const ec_scene_choice *choice, ec_gltf *base, ec_scene *s
 ec_result ec_gltf_materials_assign(ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
 
 /* textures.c: decodes the images that drawn materials use; a texture whose image is unusable is left out. */
-ec_result ec_gltf_textures_load(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log, ec_error *err);
+ec_result ec_gltf_textures_load(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
+                                ec_error *err);
 
 /* One image, into one that is zero; false, with err saying which and why: it stays so. */
 bool ec_gltf_image_load(const ec_gltf *gltf, uint32_t index, ec_image *image, ec_error *err);

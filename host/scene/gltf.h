@@ -18,7 +18,12 @@ typedef struct ec_gltf_buffer {
 
 /* EXT_meshopt_compression: where a view's bytes come from. */
 typedef enum ec_meshopt_mode { EC_MESHOPT_NONE, EC_MESHOPT_ATTRIBUTES, EC_MESHOPT_TRIANGLES, EC_MESHOPT_INDICES } ec_meshopt_mode;
-typedef enum ec_meshopt_filter { EC_MESHOPT_NO_FILTER, EC_MESHOPT_OCTAHEDRAL, EC_MESHOPT_QUATERNION, EC_MESHOPT_EXPONENTIAL } ec_meshopt_filter;
+typedef enum ec_meshopt_filter {
+    EC_MESHOPT_NO_FILTER,
+    EC_MESHOPT_OCTAHEDRAL,
+    EC_MESHOPT_QUATERNION,
+    EC_MESHOPT_EXPONENTIAL
+} ec_meshopt_filter;
 typedef struct ec_gltf_meshopt {
     ec_meshopt_mode mode; /* EC_MESHOPT_NONE: not compressed */
     ec_meshopt_filter filter;
@@ -218,7 +223,8 @@ uint32_t ec_gltf_accessor_index(const ec_gltf_accessor *accessor, uint64_t eleme
  * primitive without triangles is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
 ec_result ec_gltf_primitive_prepare(ec_gltf *gltf, ec_gltf_primitive *primitive, const char *where, ec_error *err);
 /* The same for what deforms a prepared primitive: one of its morph targets, and its joints and weights. */
-ec_result ec_gltf_target_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, uint32_t target, const char *where, ec_error *err);
+ec_result ec_gltf_target_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, uint32_t target, const char *where,
+                                 ec_error *err);
 ec_result ec_gltf_influences_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, const char *where, ec_error *err);
 void ec_gltf_primitive_triangle(const ec_gltf *gltf, const ec_gltf_primitive *primitive, uint64_t triangle,
                                 uint32_t vertices[3]);

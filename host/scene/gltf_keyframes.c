@@ -29,8 +29,8 @@ static ec_result check_times(const curve *c, const char *where, ec_error *err)
     for (uint64_t i = 0; i < c->times->count; i++) {
         float time = key_time(c, i);
         if (!isfinite(time) || time <= last)
-            return ec_fail(err, "%s: the times of its keys must grow: key %llu is at %g s, after %g s", where, (unsigned long long)i,
-                           (double)time, (double)last);
+            return ec_fail(err, "%s: the times of its keys must grow: key %llu is at %g s, after %g s", where,
+                           (unsigned long long)i, (double)time, (double)last);
         last = time;
     }
     return EC_OK;
@@ -44,7 +44,8 @@ static ec_result open_curve(ec_gltf *g, const ec_gltf_keyframes *k, const char *
     EC_TRY(check_times(c, where, err));
     uint64_t keys = c->times->count * (k->interpolation == EC_CUBICSPLINE ? 3 : 1), per_key = c->values->count / keys;
     c->components = c->values->components;
-    bool fits = per_key * keys == c->values->count && per_key >= 1 && per_key <= MAX_NUMBERS && (c->components == 1 || per_key == 1);
+    bool fits = per_key * keys == c->values->count && per_key >= 1 && per_key <= MAX_NUMBERS &&
+                (c->components == 1 || per_key == 1);
     if (!fits)
         return ec_fail(err, "%s: accessors[%d] has %llu elements, which does not go with the %llu keys of accessors[%d]", where, k->output,
                        (unsigned long long)c->values->count, (unsigned long long)c->times->count, k->input);

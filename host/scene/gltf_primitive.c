@@ -42,7 +42,8 @@ static const stream_rule target_rules[STREAMS] = {
     {"TEXCOORD_0", {2, 2}, FLOAT | SIGNED_NORM | UNSIGNED_NORM, SIGNED},
     {"TEXCOORD_1", {2, 2}, FLOAT | SIGNED_NORM | UNSIGNED_NORM, SIGNED},
 };
-static const stream_rule joints_rule = {"JOINTS", {4, 4}, UNSIGNED, 0}, weights_rule = {"WEIGHTS", {4, 4}, FLOAT | UNSIGNED_NORM, 0};
+static const stream_rule joints_rule = {"JOINTS", {4, 4}, UNSIGNED, 0},
+                         weights_rule = {"WEIGHTS", {4, 4}, FLOAT | UNSIGNED_NORM, 0};
 
 static ec_result open_stream(ec_gltf *g, int32_t accessor, const stream_rule *rule, uint64_t vertex_count,
                              const char *where, ec_error *err)

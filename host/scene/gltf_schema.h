@@ -7,7 +7,21 @@
 namespace eclat {
 
 enum class kind {
-    index, indices, count, number, numbers, index_rows, number_rows, text, texts, flag, choice, accessor_type, object, objects, dictionary
+    index,
+    indices,
+    count,
+    number,
+    numbers,
+    index_rows,
+    number_rows,
+    text,
+    texts,
+    flag,
+    choice,
+    accessor_type,
+    object,
+    objects,
+    dictionary
 };
 
 struct schema;

@@ -50,10 +50,12 @@ void choose_scene(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *
 void choose_variant(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
 
 /* gltf_animation.cpp: which animations are shown, by their index; none where everything is as it is stored. */
-std::vector<uint32_t> choose_animations(const nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log);
+std::vector<uint32_t> choose_animations(const nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf,
+                                        const ec_log *log);
 /* Likewise a moment of them; the tree is to be checked again then. The same channels are written at every moment, so that one moment
  * takes the place of another. true: a channel moves more than nodes and weights. */
-bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log);
+bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice,
+                  ec_gltf *gltf, const ec_log *log);
 
 /* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);

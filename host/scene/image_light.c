@@ -61,11 +61,11 @@ static ec_result check_face(const ec_gltf *g, int f, const face *faces, ec_error
     if (one->width != one->height)
         return ec_fail(err, "%s: %s has %u x %u pixels; faces must be square", g->path, where, one->width, one->height);
     if (one->width > FACE_MOST)
-        return ec_fail(err, "%s: %s has %u x %u pixels, more than the %d x %d that are read; shrink the cube", g->path, where, one->width,
-                       one->height, FACE_MOST, FACE_MOST);
+        return ec_fail(err, "%s: %s has %u x %u pixels, more than the %d x %d that are read; shrink the cube", g->path,
+                       where, one->width, one->height, FACE_MOST, FACE_MOST);
     if (one->width != faces->width)
-        return ec_fail(err, "%s: %s has %u x %u pixels, and the faces before it %u x %u; all must be of one size", g->path, where, one->width,
-                       one->height, faces->width, faces->width);
+        return ec_fail(err, "%s: %s has %u x %u pixels, and the faces before it %u x %u; all must be of one size",
+                       g->path, where, one->width, one->height, faces->width, faces->width);
     return one->rgb ? EC_OK : ec_fail(err, "%s: out of memory for %s", g->path, where);
 }
 

@@ -119,7 +119,8 @@ static bool is_worth_it(const ec_keeping *k)
             if (k->g->meshes[mesh].primitives[p].drawn) all += k->g->meshes[mesh].primitives[p].triangle_count;
     }
     for (uint32_t m = 0; m < k->mesh_count; m++)
-        if (k->meshes[m].places > 1 && k->meshes[m].triangles >= SMALL_MESH) saved += (k->meshes[m].places - 1) * k->meshes[m].triangles;
+        if (k->meshes[m].places > 1 && k->meshes[m].triangles >= SMALL_MESH)
+            saved += (k->meshes[m].places - 1) * k->meshes[m].triangles;
     return saved >= WORTH_TRIANGLES && saved >= all / 2;
 }
 

@@ -25,7 +25,8 @@ typedef struct ec_keeping {
 } ec_keeping;
 
 /* gltf->instancing says what is wished. Needs the materials. */
-ec_result ec_keep_choose(const ec_gltf *g, const ec_placement_list *placements, const ec_scene *scene, ec_keeping *keeping, ec_error *err);
+ec_result ec_keep_choose(const ec_gltf *g, const ec_placement_list *placements, const ec_scene *scene,
+                         ec_keeping *keeping, ec_error *err);
 void ec_keep_free(ec_keeping *keeping);
 
 /* The steps of flattening, for the kept meshes. */

@@ -21,7 +21,8 @@ static void take_facts(ec_gltf *g, ec_scene *s)
     g->contents = (ec_scene_contents){0};
 }
 
-static ec_result build(const ec_scene_choice *choice, ec_gltf *g, ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
+static ec_result build(const ec_scene_choice *choice, ec_gltf *g, ec_placement_list *placements, ec_scene *s,
+                       const ec_log *log, ec_error *err)
 {
     take_facts(g, s);
     EC_TRY(ec_flatten_prepare(g, placements, s, log, err));
@@ -34,7 +35,8 @@ static ec_result build(const ec_scene_choice *choice, ec_gltf *g, ec_placement_l
     EC_TRY(ec_gltf_lights_place(g, placements, s, log, err));
     EC_TRY(ec_gltf_image_light_load(g, s, log, err));
     if (g->blurs) EC_TRY(ec_gltf_move(choice, g, s, log, err));
-    for (uint32_t i = 0; g->frame && i < placements->count; i++) s->whole |= placements->items[i].reached && placements->items[i].mesh >= 0;
+    for (uint32_t i = 0; g->frame && i < placements->count; i++)
+        s->whole |= placements->items[i].reached && placements->items[i].mesh >= 0;
     ec_scene_clamp_materials(s, g->path, log);
     EC_TRY(ec_scene_validate(s, err));
     ec_scene_join_quads(s);

@@ -177,7 +177,8 @@ ec_result ec_model_scene(ec_model *m, ec_scene **scene, ec_error *err)
 {
     *scene = NULL;
     const ec_scene_choice all = {0};
-    ec_result result = m && !m->failed ? ec_scene_from_gltf(&all, m->gltf, scene, NULL, err) : ec_fail(err, "out of memory for a model");
+    ec_result result = m && !m->failed ? ec_scene_from_gltf(&all, m->gltf, scene, NULL, err)
+                                       : ec_fail(err, "out of memory for a model");
     ec_model_free(m);
     return result;
 }

@@ -43,7 +43,8 @@ void ec_model_sphere(ec_model *m, int32_t material, const double center[3], doub
 {
     int n = 1 << levels;
     uint32_t per_face = (uint32_t)(n + 1) * (uint32_t)(n + 2) / 2, used = 0, corners = 0;
-    float *positions = malloc((size_t)8 * per_face * 3 * sizeof *positions), *normals = malloc((size_t)8 * per_face * 3 * sizeof *normals);
+    float *positions = malloc((size_t)8 * per_face * 3 * sizeof *positions),
+          *normals = malloc((size_t)8 * per_face * 3 * sizeof *normals);
     uint32_t *indices = malloc((size_t)8 * (size_t)n * (size_t)n * 3 * sizeof *indices);
     if (positions && normals && indices) {
         for (int face = 0; face < 8; face++) {

@@ -62,7 +62,8 @@ static ec_result read_views(ec_tracks *t, ec_gltf *g, const ec_placement_list *p
     ec_result result = ec_gltf_cameras_place(g, placements, &shown, NULL, err);
     if (result == EC_OK) result = ec_gltf_lights_place(g, placements, &shown, NULL, err);
     if (result == EC_OK && (shown.camera_count != t->scene->camera_count || shown.light_count != t->scene->light_count))
-        result = ec_fail(err, "%s: a camera or a light stands at infinity at %g s, within the shutter", g->path, seconds_of(t, moment));
+        result = ec_fail(err, "%s: a camera or a light stands at infinity at %g s, within the shutter", g->path,
+                         seconds_of(t, moment));
     for (uint32_t i = 0; i < shown.camera_count; i++) free(shown.cameras[i].name), shown.cameras[i].name = NULL;
     for (uint32_t i = 0; i < shown.light_count; i++) free(shown.lights[i].name), shown.lights[i].name = NULL;
     t->cameras[moment] = shown.cameras;
@@ -102,8 +103,11 @@ static ec_result check_memory(const ec_tracks *t, uint32_t step, ec_error *err)
     uint64_t bytes = (uint64_t)t->count * t->words * sizeof(float) * (EC_MOMENTS / step + 1);
     uint64_t memory = ec_memory_of_machine();
     if (bytes <= memory / 2) return EC_OK;
-    return ec_fail(err, "%s: %u vertices that may move, at %u moments, need %llu MB, and this machine has %llu MB; give a shorter --shutter",
-                   t->base->path, t->count, EC_MOMENTS / step + 1, (unsigned long long)(bytes >> 20), (unsigned long long)(memory >> 20));
+    return ec_fail(
+        err,
+        "%s: %u vertices that may move, at %u moments, need %llu MB, and this machine has %llu MB; give a shorter --shutter",
+        t->base->path, t->count, EC_MOMENTS / step + 1, (unsigned long long)(bytes >> 20),
+        (unsigned long long)(memory >> 20));
 }
 
 static ec_result read_moments(ec_tracks *t, uint32_t step, ec_error *err)

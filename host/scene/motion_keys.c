@@ -127,7 +127,9 @@ static ec_result write_stream(const sorting *o, uint32_t word, float **stream, e
 {
     const size_t keys = o->t->segments + 1;
     *stream = malloc((o->s->motion.vertex_count * keys * 3 + 1) * sizeof **stream);
-    if (!*stream) return ec_fail(err, "%s: out of memory for %u moving vertices at %zu moments", o->t->base->path, o->s->motion.vertex_count, keys);
+    if (!*stream)
+        return ec_fail(err, "%s: out of memory for %u moving vertices at %zu moments", o->t->base->path,
+                       o->s->motion.vertex_count, keys);
     for (uint32_t v = 0; v < o->vertices; v++)
         for (uint32_t key = 0; o->moving[v] && key < keys; key++)
             memcpy(*stream + (o->place[v] * keys + key) * 3, key_of(o, v, key) + word, 3 * sizeof **stream);
@@ -162,7 +164,8 @@ static ec_result keep_views(const ec_tracks *t, ec_scene *s, ec_error *err)
     const size_t keys = t->segments + 1, stride = EC_MOMENTS / t->segments;
     m->cameras = malloc((s->camera_count * keys + 1) * sizeof *m->cameras);
     m->lights = malloc((s->light_count * keys + 1) * sizeof *m->lights);
-    if (!m->cameras || !m->lights) return ec_fail(err, "%s: out of memory for cameras and lights at %zu moments", t->base->path, keys);
+    if (!m->cameras || !m->lights)
+        return ec_fail(err, "%s: out of memory for cameras and lights at %zu moments", t->base->path, keys);
     for (uint32_t i = 0; i < s->camera_count; i++) {
         if (!differs(t, camera_place, i, 12) && !differs(t, camera_view, i, 4)) continue;
         for (size_t k = 0; k < keys; k++) m->cameras[m->camera_count * keys + k] = t->cameras[k * stride][i];
@@ -201,15 +204,17 @@ ec_result ec_tracks_keep(const ec_tracks *t, ec_scene *s, const ec_log *log, ec_
     o.place = malloc(((size_t)o.vertices + 1) * sizeof *o.place);
     o.moving = calloc((size_t)o.vertices + 1, sizeof *o.moving);
     o.fate = calloc((size_t)o.triangles + 1, sizeof *o.fate);
-    ec_result result = o.track && o.place && o.moving && o.fate ? keep(&o, err)
-                                                                : ec_fail(err, "%s: out of memory for %u vertices", t->base->path, o.vertices);
+    ec_result result = o.track && o.place && o.moving && o.fate
+                           ? keep(&o, err)
+                           : ec_fail(err, "%s: out of memory for %u vertices", t->base->path, o.vertices);
     free(o.track);
     free(o.place);
     free(o.moving);
     free(o.fate);
     EC_TRY(result);
     if (s->dropped_nonfinite > bad)
-        ec_warn(log, "%s: %u triangles with NaN or infinite positions within the shutter are left out", t->base->path, s->dropped_nonfinite - bad);
+        ec_warn(log, "%s: %u triangles with NaN or infinite positions within the shutter are left out", t->base->path,
+                s->dropped_nonfinite - bad);
     if (before && !s->triangle_count) {
         if (s->dropped_nonfinite)
             return ec_fail(err, "%s: nothing to render: no triangle has an area while the shutter is open", t->base->path);

@@ -237,11 +237,13 @@ void ec_scene_files_free(ec_scene_files *files);
 
 /* A file of which many moments are shown: read and decoded once. choice: animated, a frame; its moment is the first one shown. */
 typedef struct ec_animation ec_animation;
-ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_animation **animation, const ec_log *log, ec_error *err);
+ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_animation **animation,
+                            const ec_log *log, ec_error *err);
 void ec_animation_close(ec_animation *animation); /* after its scenes; NULL is fine */
 /* The scene at choice->at, or over its shutter; all else of choice as when it was opened. Pixels of images are lent by the animation. A
  * light that the file has all around is in the first scene only, which may lend it to the others. */
-ec_result ec_animation_show(ec_animation *animation, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err);
+ec_result ec_animation_show(ec_animation *animation, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log,
+                            ec_error *err);
 /* SHA-256 over all files that it is made of, whether they are shown or not: in hexadecimal. */
 void ec_animation_digest(const ec_animation *animation, char digest[65]);
 void ec_scene_free(ec_scene *scene); /* NULL is fine */

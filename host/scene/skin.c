@@ -48,7 +48,9 @@ ec_result ec_pose_skin(ec_gltf *g, int32_t skin, const ec_placement_list *placem
         int32_t node = s->joints[pose->joint_count], at = placement_of[node];
         ec_joint *joint = &pose->joints[pose->joint_count];
         float matrix[16];
-        if (at < 0) return ec_fail(err, "%s: skins[%d] has nodes[%d] as a joint, which is not in the scene of the mesh", g->path, skin, node);
+        if (at < 0)
+            return ec_fail(err, "%s: skins[%d] has nodes[%d] as a joint, which is not in the scene of the mesh",
+                           g->path, skin, node);
         if (bind) ec_gltf_accessor_floats(bind, pose->joint_count, 16, matrix);
         multiply(&placements->items[at], bind ? matrix : identity, joint);
         turned += ec_gltf_determinant(joint->linear) < 0 ? 1 : -1;
@@ -77,8 +79,8 @@ ec_result ec_pose_blend(const ec_gltf *g, const ec_gltf_primitive *p, const ec_p
         for (int i = 0; i < 4; i++) {
             if (!(weight[i] > 0) || !isfinite(weight[i])) continue;
             if (!(joint[i] < (float)pose->joint_count))
-                return ec_fail(err, "%s: %s: vertex %u hangs on joint %g, but its skin has %u", g->path, where, vertex, (double)joint[i],
-                               pose->joint_count);
+                return ec_fail(err, "%s: %s: vertex %u hangs on joint %g, but its skin has %u", g->path, where, vertex,
+                               (double)joint[i], pose->joint_count);
             add(blend, &pose->joints[(uint32_t)joint[i]], weight[i]);
             total += weight[i];
         }

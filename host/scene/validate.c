@@ -23,7 +23,8 @@ void ec_scene_clamp_materials(ec_scene *s, const char *path, const ec_log *log)
         changed |= clamp(&m->anisotropy, 0, 1) | clamp(&m->anisotropy_rotation, -7, 7);
         changed |= clamp(&m->seeps, 0, 1) | clamp(&m->dispersion, 0, 1e3f);
         for (int k = 0; k < 3; k++) changed |= clamp(&m->below[k], 0, 1);
-        changed |= clamp(&m->film, 0, 1) | clamp(&m->film_ior, 1, 1e3f) | clamp(&m->film_least, 0, 1e6f) | clamp(&m->film_most, 0, 1e6f);
+        changed |= clamp(&m->film, 0, 1) | clamp(&m->film_ior, 1, 1e3f) | clamp(&m->film_least, 0, 1e6f) |
+                   clamp(&m->film_most, 0, 1e6f);
         for (int k = 0; k < 3; k++) changed |= clamp(&m->sheen[k], 0, 1);
         if (m->ior != 0) changed |= clamp(&m->ior, 1, 1e3f);
         changed |= clamp(&m->alpha_cutoff, 0, 1e30f) | clamp(&m->normal_scale, -1e30f, 1e30f);
@@ -82,8 +83,8 @@ static ec_result check_material(const ec_scene *s, const ec_material *m, ec_erro
         if (!all_finite(use->transform, 6)) return ec_fail(err, "internal error: texture transform is not finite");
         if (use->texture >= 0 && !s->uv[use->uv_set]) return ec_fail(err, "internal error: texture without coordinates");
     }
-    bool finite = all_finite(m->base_color, 4) && all_finite(m->emission, 3) && all_finite(m->specular_color, 3) && all_finite(m->absorption, 3) &&
-                  isfinite(m->normal_scale) && isfinite(m->alpha_cutoff);
+    bool finite = all_finite(m->base_color, 4) && all_finite(m->emission, 3) && all_finite(m->specular_color, 3) &&
+                  all_finite(m->absorption, 3) && isfinite(m->normal_scale) && isfinite(m->alpha_cutoff);
     return finite ? EC_OK : ec_fail(err, "internal error: a material is not finite");
 }
 

@@ -27,7 +27,8 @@ static void write_triangles(const ec_scene *s, const ec_placed *p, ec_scene *w)
         const uint32_t *from = s->indices + 3 * ((size_t)shape->first + t);
         uint32_t *to = w->indices + 3 * ((size_t)w->triangle_count + t);
         for (int k = 0; k < 3; k++) to[k] = from[p->mirrored && k ? 3 - k : k] - shape->first_vertex + w->vertex_count;
-        const float *a = w->positions + 3 * (size_t)to[0], *b = w->positions + 3 * (size_t)to[1], *c = w->positions + 3 * (size_t)to[2];
+        const float *a = w->positions + 3 * (size_t)to[0], *b = w->positions + 3 * (size_t)to[1],
+                    *c = w->positions + 3 * (size_t)to[2];
         if (ec_placed_is_flat(a, b, c)) to[1] = to[2] = to[0]; /* a point: no ray meets it */
         w->triangle_material[w->triangle_count + t] = s->triangle_material[shape->first + t];
     }

@@ -49,7 +49,9 @@ static ec_result set_in_motion(ec_scene *scene, ec_error *err)
         bool moves = false;
         for (uint32_t i = 0; i < 3 * TRIANGLES; i++) moves |= scene->indices[i] == v;
         for (int key = 0; key < KEYS; key++)
-            for (int k = 0; k < 3; k++) m->positions[3 * (KEYS * v + (uint32_t)key) + (uint32_t)k] = scene->positions[3 * v + (uint32_t)k] + (moves && k == 1 ? ways[key] : 0);
+            for (int k = 0; k < 3; k++)
+                m->positions[3 * (KEYS * v + (uint32_t)key) + (uint32_t)k] =
+                    scene->positions[3 * v + (uint32_t)k] + (moves && k == 1 ? ways[key] : 0);
     }
     for (uint32_t t = 0; t < TRIANGLES; t++)
         for (uint32_t k = 0; k < 3; k++) {

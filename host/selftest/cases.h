@@ -34,7 +34,8 @@ ec_result ec_selftest_value(ec_selftest *t, const char *what, double expected, d
 /* The largest relative error of many values: expected 0. note (may be NULL): where it is. */
 ec_result ec_selftest_largest(ec_selftest *t, const char *what, double error, double tolerance, const char *note, ec_error *err);
 /* The same where digits are known otherwise. */
-ec_result ec_selftest_digits(ec_selftest *t, const char *what, double error, double tolerance, double digits, const char *note, ec_error *err);
+ec_result ec_selftest_digits(ec_selftest *t, const char *what, double error, double tolerance, double digits,
+                             const char *note, ec_error *err);
 /* How many of so many are wrong: expected 0. Digits: -log10 of the share, were one wrong. */
 ec_result ec_selftest_none(ec_selftest *t, const char *what, uint64_t wrong, uint64_t of, const char *note, ec_error *err);
 /* The case could not be run. */

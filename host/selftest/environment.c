@@ -37,8 +37,8 @@ static ec_result floor_from_above(ec_scene **scene, ec_error *err)
 }
 
 /* A floor under a map that is `sky` everywhere but in rows [dark, height), which are 0, and in one texel, the sun. */
-static ec_result sun_row(ec_selftest *t, const char *what, uint32_t width, uint32_t height, uint32_t dark, float sky, float sun, uint32_t sun_y,
-                         double expected, ec_error *err)
+static ec_result sun_row(ec_selftest *t, const char *what, uint32_t width, uint32_t height, uint32_t dark, float sky,
+                         float sun, uint32_t sun_y, double expected, ec_error *err)
 {
     ec_scene *scene;
     EC_TRY(floor_from_above(&scene, err));
@@ -108,7 +108,8 @@ static bool draw_cube(const double a[3], ec_cube *cube)
 static ec_result cube_row(ec_selftest *t, const char *what, const double a[3], const double q[4], ec_error *err)
 {
     double h = 2.0 / FACE, size = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]), tolerance = size * h * h;
-    double up = 2 * (q[0] * q[1] + q[3] * q[2]) * a[0] + (1 - 2 * (q[0] * q[0] + q[2] * q[2])) * a[1] + 2 * (q[1] * q[2] - q[3] * q[0]) * a[2];
+    double up = 2 * (q[0] * q[1] + q[3] * q[2]) * a[0] + (1 - 2 * (q[0] * q[0] + q[2] * q[2])) * a[1] +
+                2 * (q[1] * q[2] - q[3] * q[0]) * a[2];
     ec_cube cube;
     ec_scene *scene;
     ec_shot shot;

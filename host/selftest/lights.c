@@ -29,7 +29,8 @@ static ec_model *floor_model(double half)
     ec_model *m = ec_model_new();
     if (!m) return NULL;
     ec_material white = ec_material_lambert(1, 0);
-    ec_model_quad(m, ec_model_material(m, &white), (double[3]){-half, 0, half}, (double[3]){2 * half, 0, 0}, (double[3]){0, 0, -2 * half});
+    ec_model_quad(m, ec_model_material(m, &white), (double[3]){-half, 0, half}, (double[3]){2 * half, 0, 0},
+                  (double[3]){0, 0, -2 * half});
     return m;
 }
 
@@ -64,7 +65,8 @@ static void add_lamp(ec_model *m, double a, double h, double radiance, int parts
 }
 
 /* Ends the model: a row of its direct light. */
-static ec_result direct_row(ec_selftest *t, ec_model *m, const char *what, uint32_t spp, ec_sample sample, double expected, ec_error *err)
+static ec_result direct_row(ec_selftest *t, ec_model *m, const char *what, uint32_t spp, ec_sample sample,
+                            double expected, ec_error *err)
 {
     ec_scene *scene;
     EC_TRY(ec_model_scene(m, &scene, err));
@@ -230,7 +232,8 @@ ec_result ec_selftest_panes(ec_selftest *t, ec_error *err)
         if (m) {
             int32_t material = ec_model_material(m, &pane);
             for (int k = 0; k < counts[i]; k++)
-                ec_model_quad(m, material, (double[3]){-30, 0.6 + 0.9 * k / counts[i], 30}, (double[3]){60, 0, 0}, (double[3]){0, 0, -60});
+                ec_model_quad(m, material, (double[3]){-30, 0.6 + 0.9 * k / counts[i], 30}, (double[3]){60, 0, 0},
+                              (double[3]){0, 0, -60});
             ec_model_light(m, &light, (double[3]){1.2, 1.6, 0}, (double[3]){0, 0, 0});
             look_down(m, 0.5, 1e-6);
         }
@@ -244,7 +247,8 @@ ec_result ec_selftest_panes(ec_selftest *t, ec_error *err)
         EC_TRY(result);
         double expected = 3 * 0.8 / 4 / pi * pow(0.96 * (1 - pow(0.2, 5)), counts[i]);
         snprintf(what, sizeof what, "%d before a point", counts[i]);
-        result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, expected * ((20 + 12 * counts[i]) * 0x1p-24 + 2e-6), err);
+        result = ec_selftest_value(t, what, expected, shot.mean, shot.noise,
+                                   expected * ((20 + 12 * counts[i]) * 0x1p-24 + 2e-6), err);
         ec_shot_free(&shot);
         EC_TRY(result);
     }

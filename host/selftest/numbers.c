@@ -30,14 +30,16 @@ void ec_numbers_close(ec_numbers_run *run)
 ec_result ec_numbers_go(ec_selftest *t, ec_numbers_run *run, uint32_t function, ec_error *err)
 {
     uint32_t n = EC_NUMBERS_N;
-    const ec_array arrays[] = {EC_SCALAR(n), EC_SCALAR(function), EC_IN(run->a, n), EC_IN(run->b, n), EC_IN(run->c, n), EC_OUT(run->out, n)};
+    const ec_array arrays[] = {EC_SCALAR(n),     EC_SCALAR(function), EC_IN(run->a, n),
+                               EC_IN(run->b, n), EC_IN(run->c, n),    EC_OUT(run->out, n)};
     return ec_kernel_call(t->cl, run->program, "ec_numbers", n / t->lanes, 64, arrays, 6, err);
 }
 
-ec_result ec_numbers_random(ec_selftest *t, ec_numbers_run *run, uint32_t seed, const uint32_t *pixel, const uint32_t *index, uint32_t pair,
-                            uint32_t *pairs, ec_error *err)
+ec_result ec_numbers_random(ec_selftest *t, ec_numbers_run *run, uint32_t seed, const uint32_t *pixel,
+                            const uint32_t *index, uint32_t pair, uint32_t *pairs, ec_error *err)
 {
     uint32_t n = EC_NUMBERS_N;
-    const ec_array arrays[] = {EC_SCALAR(n), EC_SCALAR(seed), EC_IN(pixel, n), EC_IN(index, n), EC_SCALAR(pair), EC_OUT(pairs, 2 * n)};
+    const ec_array arrays[] = {EC_SCALAR(n),    EC_SCALAR(seed), EC_IN(pixel, n),
+                               EC_IN(index, n), EC_SCALAR(pair), EC_OUT(pairs, 2 * n)};
     return ec_kernel_call(t->cl, run->program, "ec_random", n / t->lanes, 64, arrays, 6, err);
 }

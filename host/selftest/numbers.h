@@ -19,8 +19,8 @@ void ec_numbers_close(ec_numbers_run *run);
 /* out = function(a, b, c), an ec_numbers_function. */
 ec_result ec_numbers_go(ec_selftest *t, ec_numbers_run *run, uint32_t function, ec_error *err);
 /* Pairs of random integers of `index` and `pixel`, n of either. */
-ec_result ec_numbers_random(ec_selftest *t, ec_numbers_run *run, uint32_t seed, const uint32_t *pixel, const uint32_t *index, uint32_t pair,
-                            uint32_t *pairs, ec_error *err);
+ec_result ec_numbers_random(ec_selftest *t, ec_numbers_run *run, uint32_t seed, const uint32_t *pixel,
+                            const uint32_t *index, uint32_t pair, uint32_t *pairs, ec_error *err);
 
 /* Of any size that leaves products, quotients and what rounding takes from them normal. */
 static inline float ec_any_float(uint64_t *random)

@@ -19,8 +19,8 @@ static ec_result lamp(double radiance, ec_scene **scene, ec_error *err)
     return ec_model_scene(m, scene, err);
 }
 
-static ec_result lamp_row(ec_selftest *t, const char *what, double radiance, double expected, uint32_t size, uint32_t spp, uint32_t batch,
-                          ec_error *err)
+static ec_result lamp_row(ec_selftest *t, const char *what, double radiance, double expected, uint32_t size,
+                          uint32_t spp, uint32_t batch, ec_error *err)
 {
     ec_scene *scene;
     EC_TRY(lamp(radiance, &scene, err));
@@ -90,7 +90,8 @@ ec_result ec_selftest_variance(ec_selftest *t, ec_error *err)
     ec_film_resolve(&film, NULL, error);
     ec_film_destroy(&film);
     if (result != EC_OK) return result;
-    return ec_selftest_value(t, "mean 100, deviation 0.1", 0.1 / sqrt(batches - 1.0), (double)error[1], 0, 1e-4 * 0.1 / sqrt(batches), err);
+    return ec_selftest_value(t, "mean 100, deviation 0.1", 0.1 / sqrt(batches - 1.0), (double)error[1], 0,
+                             1e-4 * 0.1 / sqrt(batches), err);
 }
 
 /* A texture of all 256 sRGB values as an unlit surface, a texel a pixel. */

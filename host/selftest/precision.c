@@ -63,12 +63,14 @@ static void make_inputs(run *r, const ec_precision_case *c)
     for (uint32_t i = 0; i < INPUTS; i++) c->inputs(&random, r->host_in + (size_t)i * EC_PRECISION_WORDS);
 }
 
-static ec_result run_case(run *r, const ec_precision_case *c, uint32_t lanes, ec_precision_row *rows, uint32_t *count, ec_error *err)
+static ec_result run_case(run *r, const ec_precision_case *c, uint32_t lanes, ec_precision_row *rows, uint32_t *count,
+                          ec_error *err)
 {
     uint32_t results = 0;
     while (results < EC_PRECISION_MOST_RESULTS && c->results[results].name) results++;
     const ec_precision_reference *reference = find_reference(c->kernel);
-    if (!reference || *count + results > EC_PRECISION_ROWS) return ec_fail(err, "precision: no reference or no row left for '%s'", c->name);
+    if (!reference || *count + results > EC_PRECISION_ROWS)
+        return ec_fail(err, "precision: no reference or no row left for '%s'", c->name);
     make_inputs(r, c);
     EC_TRY(run_kernel(r, c->kernel, lanes, err));
     ec_precision_data data = {r->host_in, r->host_out, r->host_memory, &r->host_params, INPUTS};

@@ -127,7 +127,8 @@ void ec_precision_fill(float *memory, ec_params *params)
     }
     put_even_table(memory + EC_PRECISION_TABLE, EC_PRECISION_MAP_HEIGHT);
     for (uint32_t y = 0; y < EC_PRECISION_MAP_HEIGHT; y++)
-        put_even_table(memory + EC_PRECISION_TABLE + 2 * (EC_PRECISION_MAP_HEIGHT + y * EC_PRECISION_MAP_WIDTH), EC_PRECISION_MAP_WIDTH);
+        put_even_table(memory + EC_PRECISION_TABLE + 2 * (EC_PRECISION_MAP_HEIGHT + y * EC_PRECISION_MAP_WIDTH),
+                       EC_PRECISION_MAP_WIDTH);
     for (uint32_t id = 0; id < 3; id++) put_texture(memory, id, id);
     for (uint32_t i = 0; i < 4 * EC_PRECISION_TEXTURE_SIZE * EC_PRECISION_TEXTURE_SIZE; i++) {
         double is_z = i % 4 == 2; /* a normal map of moderate slopes */

@@ -17,7 +17,8 @@ typedef struct exact {
 
 /* Inputs move as far as the function's roundings might have moved them, both ways, so that a kink or a jump within that reach
  * counts; the change is then brought down to half an ulp. */
-static exact reference_of(const ec_precision_case *c, const ec_precision_reference *reference, const ec_precision_data *data, const float *in)
+static exact reference_of(const ec_precision_case *c, const ec_precision_reference *reference,
+                          const ec_precision_data *data, const float *in)
 {
     exact e = {{0}, {0}};
     float x[EC_PRECISION_WORDS];
@@ -119,7 +120,8 @@ void ec_precision_compare(const ec_precision_case *c, const ec_precision_referen
         exact e = reference_of(c, reference, data, in);
         for (uint32_t k = 0; k < results; k++) {
             const ec_precision_result *r = &c->results[k];
-            uint32_t end = r->first + r->words, step = r->kind == EC_PRECISION_EACH || r->kind == EC_PRECISION_STATED ? 1 : r->words;
+            uint32_t end = r->first + r->words,
+                     step = r->kind == EC_PRECISION_EACH || r->kind == EC_PRECISION_STATED ? 1 : r->words;
             if (!digits[k] || !representable(&e, r->first, end)) continue;
             double scale = r->kind == EC_PRECISION_SCALED ? fabs(e.value[end]) : 0;
             double stated = r->kind == EC_PRECISION_STATED ? ULP_HALF * fabs(e.value[end]) : 0;

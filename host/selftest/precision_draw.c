@@ -37,7 +37,8 @@ void ec_draw_direction(uint64_t *random, double *v)
     uint32_t kind = ec_draw_one(random, 4), axis = ec_draw_one(random, 3);
     ec_draw_direction_at(random, ec_random_between(random, -1, 1), v);
     if (kind == 0) { /* close to an axis */
-        for (int k = 0; k < 3; k++) v[k] = ec_draw_sign(random, ec_random_unit(random) < 0.25 ? 0 : ec_draw_log(random, 1e-9, 1e-2));
+        for (int k = 0; k < 3; k++)
+            v[k] = ec_draw_sign(random, ec_random_unit(random) < 0.25 ? 0 : ec_draw_log(random, 1e-9, 1e-2));
         v[axis] = ec_draw_sign(random, 1);
     }
     if (kind == 1) v[axis] = ec_draw_sign(random, ec_random_unit(random) < 0.25 ? 0 : ec_draw_log(random, 1e-9, 1e-2)); /* to a plane */

@@ -8,7 +8,8 @@
 void ec_inputs_turn(uint64_t *random, float *x)
 {
     x[0] = ec_draw_unit(random);
-    if (ec_draw_one(random, 3) == 0) x[0] = (float)fabs(ec_draw_one(random, 8) / 8.0 + ec_draw_sign(random, ec_draw_log(random, 0x1p-24, 1e-2)));
+    if (ec_draw_one(random, 3) == 0)
+        x[0] = (float)fabs(ec_draw_one(random, 8) / 8.0 + ec_draw_sign(random, ec_draw_log(random, 0x1p-24, 1e-2)));
 }
 
 void ec_inputs_exponent(uint64_t *random, float *x) { x[0] = (float)-ec_draw_log(random, 1e-8, 87); }
@@ -25,7 +26,8 @@ void ec_inputs_logarithm(uint64_t *random, float *x)
 void ec_inputs_plane(uint64_t *random, float *x)
 {
     double angle = ec_random_between(random, -M_PI, M_PI), length = ec_draw_log(random, 1e-6, 1e6);
-    if (ec_random_unit(random) < 0.5) angle = ec_draw_one(random, 8) * (M_PI / 4) + ec_draw_sign(random, ec_draw_log(random, 1e-8, 1e-2));
+    if (ec_random_unit(random) < 0.5)
+        angle = ec_draw_one(random, 8) * (M_PI / 4) + ec_draw_sign(random, ec_draw_log(random, 1e-8, 1e-2));
     x[0] = (float)(length * sin(angle));
     x[1] = (float)(length * cos(angle));
 }
@@ -79,7 +81,8 @@ void ec_inputs_two_directions(uint64_t *random, float *x)
 void ec_inputs_densities(uint64_t *random, float *x)
 {
     x[0] = (float)ec_draw_log(random, 1e-12, 1e12);
-    x[1] = (float)(ec_random_unit(random) < 0.5 ? ec_draw_log(random, 1e-12, 1e12) : x[0] * (1 + ec_random_between(random, -1e-3, 1e-3)));
+    x[1] = (float)(ec_random_unit(random) < 0.5 ? ec_draw_log(random, 1e-12, 1e12)
+                                                : x[0] * (1 + ec_random_between(random, -1e-3, 1e-3)));
 }
 
 void ec_inputs_share(uint64_t *random, float *x)

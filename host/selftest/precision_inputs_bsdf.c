@@ -60,7 +60,8 @@ static void draw_material(uint64_t *random, float *x)
 /* A normal out of the middle of a lobe of these widths. */
 static void draw_normal(uint64_t *random, const float *x, double *m)
 {
-    double angle = ec_random_between(random, -M_PI, M_PI), r = x[ALPHA] * ec_draw_log(random, 1e-2, 5), along = r * cos(angle) * x[STRETCH];
+    double angle = ec_random_between(random, -M_PI, M_PI), r = x[ALPHA] * ec_draw_log(random, 1e-2, 5),
+           along = r * cos(angle) * x[STRETCH];
     double across = r * sin(angle), length = sqrt(1 + along * along + across * across);
     m[0] = along / length;
     m[1] = across / length;

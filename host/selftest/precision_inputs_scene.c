@@ -42,7 +42,9 @@ void ec_inputs_hit(uint64_t *random, float *x)
     for (int i = 0; i < 3; i++) ec_put(x + 3 * i, v[i]);
     x[9] = (float)b[1];
     x[10] = (float)b[2];
-    for (int k = 0; k < 6; k++) x[11 + k] = (float)(ec_random_unit(random) < 0.9 ? ec_random_unit(random) : 0.5 + ec_draw_log(random, 1e-5, 1e-2));
+    for (int k = 0; k < 6; k++)
+        x[11 + k] =
+            (float)(ec_random_unit(random) < 0.9 ? ec_random_unit(random) : 0.5 + ec_draw_log(random, 1e-5, 1e-2));
     for (int k = 0; k < 3; k++) e1[k] = v[1][k] - v[0][k], e2[k] = v[2][k] - v[0][k];
     cross(e1, e2, n);
     double bend = ec_random_unit(random) < 0.25 ? 1.5 : 0.3, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -52,7 +54,10 @@ void ec_inputs_hit(uint64_t *random, float *x)
         ec_put_unit(x + 18 + 3 * i, bent);
     }
     for (int k = 0; k < 3; k++) n[k] /= length;
-    ec_draw_direction_about(random, n, ec_draw_sign(random, ec_random_unit(random) < 0.5 ? ec_draw_log(random, 1e-4, 1) : ec_random_between(random, 0.1, 1)), wo);
+    ec_draw_direction_about(random, n,
+                            ec_draw_sign(random, ec_random_unit(random) < 0.5 ? ec_draw_log(random, 1e-4, 1)
+                                                                              : ec_random_between(random, 0.1, 1)),
+                            wo);
     ec_put(x + 27, wo);
     x[30] = ec_float_of_bits(0);
 }
@@ -126,7 +131,10 @@ void ec_inputs_light(uint64_t *random, float *x)
     cross(e1, e2, n);
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) n[k] /= length;
-    ec_draw_direction_about(random, n, ec_random_unit(random) < 0.25 ? ec_draw_log(random, 1e-5, 1) : ec_random_between(random, 0.1, 1), away);
+    ec_draw_direction_about(random, n,
+                            ec_random_unit(random) < 0.25 ? ec_draw_log(random, 1e-5, 1)
+                                                          : ec_random_between(random, 0.1, 1),
+                            away);
     for (int i = 0; i < 3; i++) ec_put(x + 3 + 3 * i, v[i]);
     double height = 0, coordinate = 1;
     for (; height < 16 * 0x1p-24 * coordinate; distance *= 4) { /* nearer, its place in the plane is a matter of rounding */

@@ -17,7 +17,12 @@ extern const ec_precision_reference ec_precision_references[]; /* ends with a na
 /* How a result is measured. EACH: every word against itself. VECTOR: its words against the largest of them. SCALED: as VECTOR,
  * and against the word after them, which is what makes the size of the result (a share's whole, a picture's width). STATED: as
  * EACH, and the word after them, times u, is what one rounding inside may cost by design. */
-typedef enum ec_precision_kind { EC_PRECISION_EACH, EC_PRECISION_VECTOR, EC_PRECISION_SCALED, EC_PRECISION_STATED } ec_precision_kind;
+typedef enum ec_precision_kind {
+    EC_PRECISION_EACH,
+    EC_PRECISION_VECTOR,
+    EC_PRECISION_SCALED,
+    EC_PRECISION_STATED
+} ec_precision_kind;
 typedef struct ec_precision_result {
     const char *name;
     uint32_t first, words;

@@ -115,7 +115,8 @@ static ec_result add_texture(ec_scene *scene, const uint8_t texel[4], ec_error *
 {
     scene->images = calloc(1, sizeof *scene->images);
     scene->textures = calloc(1, sizeof *scene->textures);
-    if (!scene->images || !scene->textures || !(scene->images[0].rgba8 = malloc(4))) return ec_fail(err, "out of memory for a texel");
+    if (!scene->images || !scene->textures || !(scene->images[0].rgba8 = malloc(4)))
+        return ec_fail(err, "out of memory for a texel");
     scene->image_count = scene->texture_count = 1;
     scene->images[0].width = scene->images[0].height = 1;
     memcpy(scene->images[0].rgba8, texel, 4);
@@ -123,7 +124,8 @@ static ec_result add_texture(ec_scene *scene, const uint8_t texel[4], ec_error *
 }
 
 /* Triangles whose vertex normals, tangents and texture coordinates are as given: an emitting box made of them by hand. */
-static ec_result box_of(const float normals[9], const float tangents[12], const float uv[6], const uint8_t *texel, ec_scene **scene, ec_error *err)
+static ec_result box_of(const float normals[9], const float tangents[12], const float uv[6], const uint8_t *texel,
+                        ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
     if (m) {
@@ -150,7 +152,8 @@ static ec_result box_of(const float normals[9], const float tangents[12], const 
 ec_result ec_selftest_zero_normals(ec_selftest *t, ec_error *err)
 {
     static const float zeros[12] = {0}, uv[6] = {0, 0, 1, 0, 0, 1}, up[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
-    static const uint8_t flat[4] = {128, 128, 255, 255}, none[4] = {128, 128, 128, 255}, back[4] = {128, 128, 0, 255}, black[4] = {0};
+    static const uint8_t flat[4] = {128, 128, 255, 255}, none[4] = {128, 128, 128, 255}, back[4] = {128, 128, 0, 255},
+                         black[4] = {0};
     const struct {
         const char *name;
         const float *normals, *tangents, *uv;

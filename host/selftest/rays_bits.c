@@ -16,8 +16,8 @@ static uint64_t other_numbers(const ec_film *a, const ec_film *b)
     return other;
 }
 
-static ec_result compare(ec_selftest *t, const ec_scene *scene, const ec_render_options *o, const ec_shot *first, uint64_t *other, char *note,
-                         size_t size, ec_error *err)
+static ec_result compare(ec_selftest *t, const ec_scene *scene, const ec_render_options *o, const ec_shot *first,
+                         uint64_t *other, char *note, size_t size, ec_error *err)
 {
     ec_shot shot;
     EC_TRY(ec_shot_take(t, scene, o, &shot, err));
@@ -68,8 +68,10 @@ ec_result ec_selftest_accelerators(ec_selftest *t, ec_error *err)
 /* A floor, a lamp, and a smooth ball that stands turned, mirrored, sheared and in itself. */
 static ec_result balls(ec_scene **scene, ec_error *err)
 {
-    static const double places[4][16] = {{0.3, 0, 0.4, 0, 0, 0.5, 0, 0, -0.4, 0, 0.3, 0, -0.8, 0.5, 0, 1}, {-0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.6, 0.5, 0.2, 1},
-                                         {0.3, 0.2, 0, 0, -0.1, 0.4, 0, 0, 0, 0.3, 0.2, 0, 0, 0.4, 0.9, 1}, {0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.7, 0.6, 0.3, 1}};
+    static const double places[4][16] = {{0.3, 0, 0.4, 0, 0, 0.5, 0, 0, -0.4, 0, 0.3, 0, -0.8, 0.5, 0, 1},
+                                         {-0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.6, 0.5, 0.2, 1},
+                                         {0.3, 0.2, 0, 0, -0.1, 0.4, 0, 0, 0, 0.3, 0.2, 0, 0, 0.4, 0.9, 1},
+                                         {0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.7, 0.6, 0.3, 1}};
     ec_model *m = ec_model_new();
     if (m) {
         ec_material white = ec_material_lambert(0.7, 0), glow = ec_material_lambert(0, 5), metal = ec_material_default();

@@ -9,7 +9,8 @@
  * unless that leaves it within 2 % of the ball's thickness of where it was. */
 static void put_origin(const double surface[3], double in, bool near, const double centre[3], const double stretch[3], float o[3])
 {
-    double longest = fmax(stretch[0], fmax(stretch[1], stretch[2])), shortest = fmin(stretch[0], fmin(stretch[1], stretch[2])), moved = 0;
+    double longest = fmax(stretch[0], fmax(stretch[1], stretch[2])),
+           shortest = fmin(stretch[0], fmin(stretch[1], stretch[2])), moved = 0;
     for (int k = 0; k < 3; k++) moved += stretch[k] < longest ? pow((1 - in) * (surface[k] - centre[k]), 2) : 0;
     near &= sqrt(moved) > 0.02 * shortest;
     for (int k = 0; k < 3; k++) o[k] = (float)(centre[k] + (near && stretch[k] == longest ? 1 : in) * (surface[k] - centre[k]));
@@ -22,7 +23,8 @@ static void put_rays(ec_tracer *r, uint64_t *random, const double centre[3], con
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
         const float *v = ec_tracer_triangle(r, (uint32_t)(ec_random_bits(random) % r->soup->count));
         const float *from = ec_tracer_triangle(r, (uint32_t)(ec_random_bits(random) % r->soup->count));
-        double in = i % 11 ? ec_random_between(random, 0, 0.9) : 0, a = ec_random_unit(random), b = ec_random_unit(random) * (1 - a);
+        double in = i % 11 ? ec_random_between(random, 0, 0.9) : 0, a = ec_random_unit(random),
+               b = ec_random_unit(random) * (1 - a);
         double step = exp2(ec_random_between(random, -20, 0)), target[3], surface[3], at[3];
         float o[3], d[3];
         if (i % 5 < 2) a = b = 0;

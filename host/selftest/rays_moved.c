@@ -251,7 +251,8 @@ ec_result ec_selftest_baked(ec_selftest *t, ec_error *err)
         snprintf(what, sizeof what, "1e%d sizes away, t", power);
         if ((result = ec_selftest_largest(t, what, v.t, T_DIFFERENCE + off, "of reach / cosine", err)) != EC_OK) break;
         snprintf(what, sizeof what, "1e%d sizes away, other triangle hit", power);
-        result = ec_selftest_value(t, what, 0, (double)v.other / (double)v.traced, 1.0 / (double)v.traced, fmin(1e-5 + 23 * off, 0.5), err);
+        result = ec_selftest_value(t, what, 0, (double)v.other / (double)v.traced, 1.0 / (double)v.traced,
+                                   fmin(1e-5 + 23 * off, 0.5), err);
     }
     free_view(&v);
     return result;

@@ -87,7 +87,9 @@ ec_result ec_selftest_frame(ec_selftest *t, ec_error *err)
         double off = askew(normals, frames, i);
         if (!(off <= worst)) worst = off, at = i;
     }
-    if (result == EC_OK) snprintf(note, sizeof note, "at n = (%g, %g, %g)", (double)normals[at], (double)normals[wave + at], (double)normals[2 * wave + at]);
+    if (result == EC_OK)
+        snprintf(note, sizeof note, "at n = (%g, %g, %g)", (double)normals[at], (double)normals[wave + at],
+                 (double)normals[2 * wave + at]);
     free(normals);
     free(frames);
     EC_TRY(result);

@@ -120,14 +120,16 @@ static ec_result slivers(ec_selftest *t, double aspect, bool has_weights, ec_err
     EC_TRY(ec_soup_make(SLIVERS, &soup, err));
     for (int i = 0; i < SLIVERS; i++) put_sliver(&random, aspect, soup.vertices + 9 * i);
     ec_result result = ec_tracer_build(r, &soup, err);
-    for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) put_ray_at(r, &random, i, ec_random_between(&random, 0.1, 1), ec_random_between(&random, 0.1, 4));
+    for (uint32_t i = 0; i < EC_TRACER_RAYS; i++)
+        put_ray_at(r, &random, i, ec_random_between(&random, 0.1, 1), ec_random_between(&random, 0.1, 4));
     for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
         for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) compare(r, i, &all);
     }
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) /* what missed still needs a triangle to leave */
         if (ec_tracer_hit(r, i).prim == EC_NO_ID) ec_tracer_set_hit(r, i, 0, 0, 0);
     if (result == EC_OK) result = ec_tracer_leave(r, err);
-    for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) off = ec_worse(off, off_plane(r, i, ec_tracer_triangle(r, ec_tracer_hit(r, i).prim)));
+    for (uint32_t i = 0; i < EC_TRACER_RAYS; i++)
+        off = ec_worse(off, off_plane(r, i, ec_tracer_triangle(r, ec_tracer_hit(r, i).prim)));
     ec_soup_free(&soup);
     EC_TRY(result);
     snprintf(what, sizeof what, "1e%.0f, weights", log10(aspect));

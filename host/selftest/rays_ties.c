@@ -198,14 +198,18 @@ ec_result ec_selftest_coincident(ec_selftest *t, ec_error *err)
     for (uint32_t i = 0; i < RAYS; i++) {
         double b1 = ec_random_unit(&random), b2 = ec_random_unit(&random) * (1 - b1), from[3] = {0.1, 0.2, i % 2 ? 3 : -3}, to[3];
         float o[3] = {0.1f, 0.2f, i % 2 ? 3 : -3}, d[3];
-        for (int k = 0; k < 3; k++) to[k] = corners[k] + b1 * ((double)corners[3 + k] - corners[k]) + b2 * ((double)corners[6 + k] - corners[k]);
+        for (int k = 0; k < 3; k++)
+            to[k] =
+                corners[k] + b1 * ((double)corners[3 + k] - corners[k]) + b2 * ((double)corners[6 + k] - corners[k]);
         ec_float_direction(from, to, d);
         ec_tracer_ray(r, i, o, d, EC_NO_ID);
     }
     ec_result result = ec_tracer_build(r, &soup, err);
     for (uint32_t a = 0; ec_tracer_next(r, &a, RAYS, &result, err); a++) {
         uint64_t entries = r->accels[a].stats.references + r->accels[a].stats.nodes;
-        if (entries > most) snprintf(note, sizeof note, "%.1f a triangle in %s", (double)entries / count, ec_accels[a].name), most = entries;
+        if (entries > most)
+            snprintf(note, sizeof note, "%.1f a triangle in %s", (double)entries / count, ec_accels[a].name),
+                most = entries;
         for (uint32_t i = 0; i < RAYS; i++) wrong += ec_tracer_hit(r, i).prim != 0;
         rays += RAYS;
     }

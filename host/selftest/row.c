@@ -36,7 +36,8 @@ ec_result ec_selftest_value(ec_selftest *t, const char *what, double expected, d
     return add(t, what, row, NULL, err);
 }
 
-ec_result ec_selftest_digits(ec_selftest *t, const char *what, double error, double tolerance, double digits, const char *note, ec_error *err)
+ec_result ec_selftest_digits(ec_selftest *t, const char *what, double error, double tolerance, double digits,
+                             const char *note, ec_error *err)
 {
     ec_selftest_row row = {.measured = error, .tolerance = tolerance, .digits = fmin(digits, EC_SELFTEST_DIGITS)};
     return add(t, what, row, note, err);

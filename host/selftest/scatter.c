@@ -13,7 +13,8 @@ ec_result ec_scatter_open_with(ec_selftest *t, const char *more, ec_scatter_run 
                             .out = calloc((size_t)EC_SCATTER_OUTS * EC_SCATTER_N, sizeof *run->out)};
     snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_SMOOTH+EC_FEATURE_TRANSMISSION%s)",
              t->lanes, more);
-    ec_result result = run->in && run->out ? ec_program_build(t->cl, "scatter", ec_kernel_source("scatter"), options, &run->program, err)
+    ec_result result = run->in && run->out ? ec_program_build(t->cl, "scatter", ec_kernel_source("scatter"), options,
+                                                              &run->program, err)
                                            : ec_fail(err, "out of memory for directions");
     if (result != EC_OK) ec_scatter_close(run);
     return result;
@@ -32,7 +33,8 @@ void ec_scatter_close(ec_scatter_run *run)
 static ec_result run_kernel(ec_selftest *t, ec_scatter_run *run, const char *name, ec_error *err)
 {
     uint32_t n = EC_SCATTER_N;
-    const ec_array arrays[] = {EC_SCALAR(n), EC_IN(run->in, (size_t)EC_SCATTER_INS * n), EC_OUT(run->out, (size_t)EC_SCATTER_OUTS * n)};
+    const ec_array arrays[] = {EC_SCALAR(n), EC_IN(run->in, (size_t)EC_SCATTER_INS * n),
+                               EC_OUT(run->out, (size_t)EC_SCATTER_OUTS * n)};
     return ec_kernel_call(t->cl, run->program, name, n / t->lanes, 64, arrays, 3, err);
 }
 

@@ -47,7 +47,8 @@ static ec_result closed_forms(ec_selftest *t, ec_scatter_run *run, ec_error *err
         widths(run, i, &along, &across);
         ec_scatter_given3(run, EC_SCATTER_W, i, h);
         double d = exact_ggx(along, across, h), lambda = exact_masking(along, across, h);
-        ec_worst_take(&density, fabs(ec_scatter_got(run, EC_SCATTER_D, i) / d - 1), "width %.3g x %.3g, cosine %.8g", along, across, h[2]);
+        ec_worst_take(&density, fabs(ec_scatter_got(run, EC_SCATTER_D, i) / d - 1), "width %.3g x %.3g, cosine %.8g",
+                      along, across, h[2]);
         ec_worst_take(&masking, fabs(ec_scatter_got(run, EC_SCATTER_LAMBDA, i) / lambda - 1),
                       "width %.3g x %.3g, cosine %.8g", along, across, h[2]);
     }
@@ -78,7 +79,8 @@ static ec_result samples(ec_selftest *t, ec_scatter_run *run, ec_error *err)
         widths(run, i, &along, &across);
         ec_scatter_given3(run, EC_SCATTER_WO, i, wo);
         ec_scatter_got3(run, EC_SCATTER_WI, i, wi);
-        ec_worst_take(&gain, ec_scatter_got(run, EC_SCATTER_WEIGHT, i) - 1, "width %.3g x %.3g, index %.4g, cosine %.3g", along, across,
+        ec_worst_take(&gain, ec_scatter_got(run, EC_SCATTER_WEIGHT, i) - 1,
+                      "width %.3g x %.3g, index %.4g, cosine %.3g", along, across,
                       ec_scatter_given(run, EC_SCATTER_ETA, i), wo[2]);
         if (i % 3) continue;
         double h[3] = {wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]}, length = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);

@@ -44,7 +44,8 @@ static double albedo_of(exact_bsdf *f, double cosine)
 }
 
 /* The mean weight of samples, and its standard error. */
-static ec_result mean_weight(ec_selftest *t, ec_scatter_run *run, const ec_scatter_material *m, double cosine, double *mean, double *noise, ec_error *err)
+static ec_result mean_weight(ec_selftest *t, ec_scatter_run *run, const ec_scatter_material *m, double cosine,
+                             double *mean, double *noise, ec_error *err)
 {
     uint64_t random = 5;
     double sum = 0, squares = 0, n = EC_SCATTER_N;
@@ -64,8 +65,8 @@ static ec_result mean_weight(ec_selftest *t, ec_scatter_run *run, const ec_scatt
     return EC_OK;
 }
 
-static ec_result albedo_row(ec_selftest *t, ec_scatter_run *run, const char *what, const ec_scatter_material *m, double cosine, double expected,
-                            ec_error *err)
+static ec_result albedo_row(ec_selftest *t, ec_scatter_run *run, const char *what, const ec_scatter_material *m,
+                            double cosine, double expected, ec_error *err)
 {
     double mean, noise;
     EC_TRY(mean_weight(t, run, m, cosine, &mean, &noise, err));
@@ -73,7 +74,8 @@ static ec_result albedo_row(ec_selftest *t, ec_scatter_run *run, const char *wha
 }
 
 /* Of white light no more than all is kept, and 1 % less at the least. */
-static ec_result kept_row(ec_selftest *t, ec_scatter_run *run, const char *what, const ec_scatter_material *m, double cosine, ec_error *err)
+static ec_result kept_row(ec_selftest *t, ec_scatter_run *run, const char *what, const ec_scatter_material *m,
+                          double cosine, ec_error *err)
 {
     double mean, noise;
     EC_TRY(mean_weight(t, run, m, cosine, &mean, &noise, err));

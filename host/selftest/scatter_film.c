@@ -27,10 +27,12 @@ static ec_result nothing(ec_selftest *t, ec_scatter_run *run, ec_error *err)
     }
     EC_TRY(ec_scatter_films(t, run, err));
     for (uint32_t i = 0; i < EC_SCATTER_N; i++) {
-        double eta = ec_scatter_given(run, EC_SCATTER_ETA, i), f0 = ec_scatter_given(run, EC_SCATTER_F0, i), cosine = ec_scatter_given(run, EC_SCATTER_W + 2, i);
+        double eta = ec_scatter_given(run, EC_SCATTER_ETA, i), f0 = ec_scatter_given(run, EC_SCATTER_F0, i),
+               cosine = ec_scatter_given(run, EC_SCATTER_W + 2, i);
         double exact = eta == 1 ? f0 + (1 - f0) * pow(1 - cosine, 5) : ec_exact_fresnel(cosine, eta);
         for (int k = 0; k < 3; k++)
-            ec_worst_take(&worst, fabs(ec_scatter_got(run, EC_SCATTER_F + k, i) - exact), "index %.4g, f0 %.4g, cosine %.4g", eta, f0, cosine);
+            ec_worst_take(&worst, fabs(ec_scatter_got(run, EC_SCATTER_F + k, i) - exact),
+                          "index %.4g, f0 %.4g, cosine %.4g", eta, f0, cosine);
     }
     return ec_selftest_largest(t, "of nothing", worst.value, 20 * EC_U, worst.note, err);
 }
@@ -43,15 +45,18 @@ static ec_result inside(ec_selftest *t, ec_scatter_run *run, ec_error *err)
     ec_worst worst = {0};
     uint64_t wrong = 0, total = 0;
     for (uint32_t i = 0; i < HALF; i++) {
-        double eta = i % 2 ? 1.5 : 2.4, f0 = pow((eta - 1) / (eta + 1), 2), ior = 1.2 + i % 7 * 0.2, thickness = 50 + i % 11 * 60, outside = 0.05 + 0.95 * (i + 0.5) / HALF;
+        double eta = i % 2 ? 1.5 : 2.4, f0 = pow((eta - 1) / (eta + 1), 2), ior = 1.2 + i % 7 * 0.2,
+               thickness = 50 + i % 11 * 60, outside = 0.05 + 0.95 * (i + 0.5) / HALF;
         put_film(run, i, ior, thickness, outside, eta, f0);
         put_film(run, HALF + i, ior, thickness, sqrt(1 - (1 - outside * outside) / (eta * eta)), 1 / eta, f0);
     }
     EC_TRY(ec_scatter_films(t, run, err));
     for (uint32_t i = 0; i < HALF; i++)
         for (int k = 0; k < 3; k++)
-            ec_worst_take(&worst, fabs(ec_scatter_got(run, EC_SCATTER_F + k, i) - ec_scatter_got(run, EC_SCATTER_F + k, HALF + i)), "cosine %.3g",
-                          ec_scatter_given(run, EC_SCATTER_W + 2, i));
+            ec_worst_take(&worst,
+                          fabs(ec_scatter_got(run, EC_SCATTER_F + k, i) -
+                               ec_scatter_got(run, EC_SCATTER_F + k, HALF + i)),
+                          "cosine %.3g", ec_scatter_given(run, EC_SCATTER_W + 2, i));
     EC_TRY(ec_selftest_largest(t, "from inside glass and outside", worst.value, 50 * EC_U / 0.05, worst.note, err));
     for (uint32_t i = 0; i < EC_SCATTER_N; i++)
         put_film(run, i, 1 + i % 9 * 0.2, i % 11 * 60, sqrt(1 - 1 / (1.5 * 1.5)) * (i + 0.5) / EC_SCATTER_N - 1e-6, 1 / 1.5, 0.04);
@@ -76,7 +81,9 @@ static ec_result shares(ec_selftest *t, ec_scatter_run *run, ec_error *err)
         for (int k = 0; k < 3; k++) {
             double got = ec_scatter_got(run, EC_SCATTER_F + k, i);
             wrong += !(got >= 0 && got <= 1);
-            if (i % 2) ec_worst_take(&missing, 1 - got, "index %.4g, %.4g nm", ec_scatter_given(run, EC_SCATTER_W, i), ec_scatter_given(run, EC_SCATTER_W + 1, i));
+            if (i % 2)
+                ec_worst_take(&missing, 1 - got, "index %.4g, %.4g nm", ec_scatter_given(run, EC_SCATTER_W, i),
+                              ec_scatter_given(run, EC_SCATTER_W + 1, i));
         }
     EC_TRY(ec_selftest_none(t, "less than none or more than all", wrong, 3 * EC_SCATTER_N, NULL, err));
     /* The series adds no more than 2 T twice, times what a row of the matrix to Rec. 709 sums up to, 5.3: in all 22 T. */

@@ -22,7 +22,8 @@ static ec_result reflectances(ec_selftest *t, ec_scatter_run *run, ec_error *err
     for (uint32_t i = 0; i < EC_SCATTER_N; i++) {
         ec_scatter_material m = ec_scatter_glass(1e-4, indices[i / EACH]);
         ec_scatter_set(run, i, &m);
-        ec_scatter_put3(run, EC_SCATTER_W, i, 0, 0, fmin(fmax(cosine_of(ec_scatter_given(run, EC_SCATTER_ETA, i), i % EACH), 0x1p-30), 1));
+        ec_scatter_put3(run, EC_SCATTER_W, i, 0, 0,
+                        fmin(fmax(cosine_of(ec_scatter_given(run, EC_SCATTER_ETA, i), i % EACH), 0x1p-30), 1));
     }
     EC_TRY(ec_scatter_go(t, run, err));
     for (uint32_t i = 0; i < EC_SCATTER_N; i++) {
@@ -66,7 +67,8 @@ static ec_result directions(ec_selftest *t, ec_scatter_run *run, ec_error *err)
         wrong += !(ec_scatter_got(run, EC_SCATTER_WI_PDF, i) == -1) || (wi[2] < 0) != passes;
         double reflectance = ec_exact_fresnel(wo[2], eta), share = i / 4 % 2 ? (passes ? 1 - reflectance : 1) : reflectance;
         const char *way = passes ? "refracted" : "reflected";
-        ec_worst_take(&weight, share * fabs(ec_scatter_got(run, EC_SCATTER_WEIGHT, i) - 1), "index %.7g, cosine %.8g, %s", eta, wo[2], way);
+        ec_worst_take(&weight, share * fabs(ec_scatter_got(run, EC_SCATTER_WEIGHT, i) - 1),
+                      "index %.7g, cosine %.8g, %s", eta, wo[2], way);
         for (int k = 0; k < 3; k++)
             ec_worst_take(&direction, fabs(wi[k] - exact[k]) * fmin(eta, 1), "index %.7g, cosine %.8g, %s", eta, wo[2], way);
     }

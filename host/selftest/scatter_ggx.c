@@ -36,7 +36,8 @@ static ec_result furnace(ec_selftest *t, ec_scatter_run *run, double alpha, doub
     double sum = 0, sine = sqrt((1 - cosine) * (1 + cosine));
     ec_scatter_material m = ec_scatter_metal(alpha);
     for (uint32_t i = 0; i < EC_SCATTER_N; i++) {
-        double v = (i / SECTORS + 0.5) / RADII, slope = alpha * sqrt(1 - v * v) / v, phi = (i % SECTORS + 0.5) / SECTORS * 2 * EC_PI_DOUBLE;
+        double v = (i / SECTORS + 0.5) / RADII, slope = alpha * sqrt(1 - v * v) / v,
+               phi = (i % SECTORS + 0.5) / SECTORS * 2 * EC_PI_DOUBLE;
         double z = 1 / sqrt(1 + slope * slope);
         ec_scatter_set(run, i, &m);
         ec_scatter_put_direction(run, EC_SCATTER_WO, i, cosine, 0);
@@ -59,7 +60,8 @@ static ec_result furnace(ec_selftest *t, ec_scatter_run *run, double alpha, doub
 /* Sampled directions are unit vectors to sixteen roundings (2 (wo m) m - wo, m's square has five), whatever the numbers, the ends of
  * [0, 1) among them; those under the horizon are no directions. The density is that of Heitz 2018: D of a half vector whose components
  * have four roundings each. */
-static ec_result samples(ec_selftest *t, ec_scatter_run *run, double alpha, double cosine, ec_worst *density, uint64_t *bad, ec_error *err)
+static ec_result samples(ec_selftest *t, ec_scatter_run *run, double alpha, double cosine, ec_worst *density,
+                         uint64_t *bad, ec_error *err)
 {
     uint64_t random = (uint64_t)(1 / alpha);
     ec_scatter_material m = ec_scatter_metal(alpha);
@@ -98,7 +100,9 @@ ec_result ec_selftest_ggx(ec_selftest *t, ec_error *err)
     }
     if (result == EC_OK) result = ec_selftest_largest(t, "weak furnace", energy.value, 1e-3, energy.note, err);
     if (result == EC_OK) result = ec_selftest_largest(t, "density of samples", density.value, 36 * EC_U, density.note, err);
-    if (result == EC_OK) result = ec_selftest_none(t, "samples not unit, or astray", bad, (uint64_t)ALPHAS * COSINES * EC_SCATTER_N, NULL, err);
+    if (result == EC_OK)
+        result = ec_selftest_none(t, "samples not unit, or astray", bad, (uint64_t)ALPHAS * COSINES * EC_SCATTER_N,
+                                  NULL, err);
     ec_scatter_close(&run);
     return result;
 }

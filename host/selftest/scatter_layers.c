@@ -22,8 +22,11 @@ static ec_result plate(const ec_material *material, double cosine, bool lamp, ec
     if (m) {
         ec_material black = ec_material_lambert(0, 1);
         ec_model_quad(m, ec_model_material(m, material), (double[3]){-90, -90, 0}, (double[3]){180, 0, 0}, (double[3]){0, 180, 0});
-        if (lamp) ec_model_quad(m, ec_model_material(m, &black), (double[3]){-90, -90, -0.1}, (double[3]){180, 0, 0}, (double[3]){0, 180, 0});
-        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){20 * sqrt(1 - cosine * cosine), 0, 20 * cosine}, (double[3]){0, 0, 0}, 1e-5);
+        if (lamp)
+            ec_model_quad(m, ec_model_material(m, &black), (double[3]){-90, -90, -0.1}, (double[3]){180, 0, 0},
+                          (double[3]){0, 180, 0});
+        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){20 * sqrt(1 - cosine * cosine), 0, 20 * cosine},
+                        (double[3]){0, 0, 0}, 1e-5);
     }
     EC_TRY(ec_model_scene(m, scene, err));
     if (lamp) return EC_OK;
@@ -165,7 +168,8 @@ ec_result ec_selftest_dispersion(ec_selftest *t, ec_error *err)
         glass.dispersion = 4;
         if (m) {
             ec_model_box(m, ec_model_material(m, &glass), (double[3]){-90, -90, -0.4}, (double[3]){90, 90, 0}, false);
-            ec_model_quad(m, ec_model_material(m, &lamp), (double[3]){-90, -90, -1}, (double[3]){180, 0, 0}, (double[3]){0, 180, 0});
+            ec_model_quad(m, ec_model_material(m, &lamp), (double[3]){-90, -90, -1}, (double[3]){180, 0, 0},
+                          (double[3]){0, 180, 0});
             ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 20}, (double[3]){0, 0, 0}, 1e-5);
         }
         EC_TRY(ec_model_scene(m, &scene, err));
@@ -173,7 +177,8 @@ ec_result ec_selftest_dispersion(ec_selftest *t, ec_error *err)
         ec_scene_free(scene);
         EC_TRY(result);
         for (int k = 0; k < 3 && result == EC_OK; k++) {
-            double n = index_of(indices[i], 4, k), F = pow((n - 1) / (n + 1), 2), sum = 0, pixels = (double)shot.film.width * shot.film.height;
+            double n = index_of(indices[i], 4, k), F = pow((n - 1) / (n + 1), 2), sum = 0,
+                   pixels = (double)shot.film.width * shot.film.height;
             char what[48];
             for (uint32_t p = 0; p < (uint32_t)pixels; p++) sum += shot.rgb[3 * p + (uint32_t)k] / pixels;
             snprintf(what, sizeof what, "index %g, %s passes", indices[i], colours[k]);

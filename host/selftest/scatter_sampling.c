@@ -91,7 +91,8 @@ static ec_result compare(ec_selftest *t, const char *name, const cells *c, doubl
     if (pooled >= 5) chi2 += pow(pooled_found - pooled, 2) / pooled, degrees++;
     else if (pooled_found > 30) chi2 = INFINITY; /* where next to none should be */
     double most = degrees * pow(1 - 2 / (9 * degrees) + 3.09 * sqrt(2 / (9 * degrees)), 3);
-    return ec_selftest_value(t, name, 0, sqrt(fmax(chi2 - degrees, 0) / n), sqrt(sqrt(2 * degrees) / n), sqrt((most - degrees) / n), err);
+    return ec_selftest_value(t, name, 0, sqrt(fmax(chi2 - degrees, 0) / n), sqrt(sqrt(2 * degrees) / n),
+                             sqrt((most - degrees) / n), err);
 }
 
 ec_result ec_selftest_chi_square(ec_selftest *t, ec_error *err)

@@ -68,7 +68,9 @@ static ec_result slabs_in_slabs(ec_selftest *t, ec_error *err)
     for (int i = 0; i < SLABS; i++) {
         double index = i % 2 ? 1.33 : 1.5, r = (outside - index) / (outside + index), in = 0.005 * i;
         ec_material material = glass(index, 0, 0);
-        if (m) ec_model_box(m, ec_model_material(m, &material), (double[3]){-90 + i, -90 + i, -0.4 + in}, (double[3]){90 - i, 90 - i, -in}, false);
+        if (m)
+            ec_model_box(m, ec_model_material(m, &material), (double[3]){-90 + i, -90 + i, -0.4 + in},
+                         (double[3]){90 - i, 90 - i, -in}, false);
         sum += 2 * r * r / (1 - r * r);
         outside = index;
     }

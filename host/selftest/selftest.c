@@ -51,7 +51,8 @@ static ec_result run_cases(ec_selftest *t, const ec_selftest_options *options, u
     for (int i = 0; i < CASE_COUNT; i++) {
         const ec_selftest_case *c = &cases[i];
         if (!is_wanted(options, c)) continue;
-        if (options->go_on && !options->go_on(options->user, c->name, done, count)) return ec_fail(err, "stopped before %s", c->name);
+        if (options->go_on && !options->go_on(options->user, c->name, done, count))
+            return ec_fail(err, "stopped before %s", c->name);
         EC_TRY(run_case(t, c, err));
         done++;
     }

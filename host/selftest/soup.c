@@ -32,7 +32,8 @@ ec_result ec_soup_from_scene(const ec_scene *scene, ec_soup *soup, ec_error *err
     return EC_OK;
 }
 
-ec_result ec_soup_random(uint64_t *random, uint32_t count, double edge, double spread, const double centre[3], ec_soup *soup, ec_error *err)
+ec_result ec_soup_random(uint64_t *random, uint32_t count, double edge, double spread, const double centre[3],
+                         ec_soup *soup, ec_error *err)
 {
     uint32_t kept = 0;
     EC_TRY(ec_soup_make(count, soup, err));

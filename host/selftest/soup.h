@@ -15,7 +15,8 @@ float ec_soup_largest(const ec_soup *soup); /* |coordinate| */
 
 ec_result ec_soup_from_scene(const ec_scene *scene, ec_soup *soup, ec_error *err);
 /* Corners within `edge` of points within `spread` of `centre`; none without area. May be fewer than asked for. */
-ec_result ec_soup_random(uint64_t *random, uint32_t count, double edge, double spread, const double centre[3], ec_soup *soup, ec_error *err);
+ec_result ec_soup_random(uint64_t *random, uint32_t count, double edge, double spread, const double centre[3],
+                         ec_soup *soup, ec_error *err);
 /* A closed ball of 8 * 4^levels triangles about the origin, with bumps of that height, stretched along the axes and moved. */
 ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const double centre[3], ec_soup *soup, ec_error *err);
 

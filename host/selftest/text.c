@@ -5,8 +5,8 @@
 
 static void print_row(const ec_selftest_row *row, int width, FILE *to)
 {
-    fprintf(to, "%-6s  %-*s  %12.8g  %12.8g  %9.2g  %6.1f", row->pass ? "ok" : "FAILED", width, row->name, row->expected, row->measured,
-            row->tolerance, row->digits);
+    fprintf(to, "%-6s  %-*s  %12.8g  %12.8g  %9.2g  %6.1f", row->pass ? "ok" : "FAILED", width, row->name,
+            row->expected, row->measured, row->tolerance, row->digits);
     if (*row->note) fprintf(to, "  %s", row->note);
     fputc('\n', to);
     if (!row->pass) fprintf(to, "        what this breaks: %s\n", row->breaks);

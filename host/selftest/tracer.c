@@ -98,7 +98,8 @@ ec_result ec_tracer_build(ec_tracer *r, const ec_soup *soup, ec_error *err)
     }
     ec_accel_input input = {.positions = soup->vertices, .indices = indices, .triangle_count = soup->count};
     for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++)
-        if (r->used >> a & 1 && (strcmp(ec_accels[a].name, "none") || soup->count <= BRUTE_FORCE_MOST)) result = ec_accel_build(a, &input, &r->accels[a], err);
+        if (r->used >> a & 1 && (strcmp(ec_accels[a].name, "none") || soup->count <= BRUTE_FORCE_MOST))
+            result = ec_accel_build(a, &input, &r->accels[a], err);
     ec_accel_input_free(&input);
     free(indices);
     return result;
@@ -134,14 +135,35 @@ ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *er
     char name[64];
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = r->largest};
     ec_counters counters = {.rays = {{count}}};
-    const ec_array arrays[] = {EC_IN(&params, 1), EC_SCALAR(zero), EC_SCALAR(zero), NO_BUFFER, EC_SCALAR(zero), EC_SCALAR(zero),
-                               EC_IN(&counters, 1), EC_SCALAR(zero), EC_IN(r->paths, EC_PATH_FIELDS * wave), EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave),
-                               BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3), BUFFER(4),
-                               NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER, NO_BUFFER,
+    const ec_array arrays[] = {EC_IN(&params, 1),
+                               EC_SCALAR(zero),
+                               EC_SCALAR(zero),
+                               NO_BUFFER,
+                               EC_SCALAR(zero),
+                               EC_SCALAR(zero),
+                               EC_IN(&counters, 1),
+                               EC_SCALAR(zero),
+                               EC_IN(r->paths, EC_PATH_FIELDS * wave),
+                               EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave),
+                               BUFFER(0),
+                               BUFFER(1),
+                               BUFFER(2),
+                               BUFFER(3),
+                               BUFFER(4),
+                               NO_BUFFER,
+                               NO_BUFFER,
+                               NO_BUFFER,
+                               NO_BUFFER,
+                               NO_BUFFER,
+                               NO_BUFFER,
+                               NO_BUFFER,
+                               NO_BUFFER,
+                               NO_BUFFER,
+                               NO_BUFFER,
                                NO_BUFFER};
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[a].name);
-    return ec_kernel_call(r->t->cl, ec_accels[a].lanes ? r->singles : r->packets, name, (count + r->lanes[a] - 1) / r->lanes[a], LOCAL,
-                          arrays, COUNT_OF(arrays), err);
+    return ec_kernel_call(r->t->cl, ec_accels[a].lanes ? r->singles : r->packets, name,
+                          (count + r->lanes[a] - 1) / r->lanes[a], LOCAL, arrays, COUNT_OF(arrays), err);
 }
 
 bool ec_tracer_next(ec_tracer *r, uint32_t *a, uint32_t count, ec_result *result, ec_error *err)

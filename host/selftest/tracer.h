@@ -49,7 +49,10 @@ typedef struct ec_traced {
 } ec_traced;
 ec_traced ec_tracer_hit(const ec_tracer *tracer, uint32_t i);
 void ec_tracer_set_hit(ec_tracer *tracer, uint32_t i, uint32_t prim, double b1, double b2);
-static inline const float *ec_tracer_triangle(const ec_tracer *tracer, uint32_t prim) { return tracer->soup->vertices + 9 * (size_t)prim; }
+static inline const float *ec_tracer_triangle(const ec_tracer *tracer, uint32_t prim)
+{
+    return tracer->soup->vertices + 9 * (size_t)prim;
+}
 static inline float ec_tracer_left(const ec_tracer *tracer, int field, uint32_t i)
 {
     return tracer->left[(size_t)field * EC_TRACER_RAYS + i];

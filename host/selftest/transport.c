@@ -164,7 +164,9 @@ ec_result ec_selftest_metal(ec_selftest *t, ec_error *err)
             metal.roughness = (float)sqrt(alphas[a]);
             ec_model_quad(m, ec_model_material(m, &metal), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
             for (int c = 0; c < 3; c++)
-                ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){sqrt(1 - cosines[c] * cosines[c]), cosines[c], 0}, (double[3]){0, 0, 0}, 1e-2);
+                ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC,
+                                (double[3]){sqrt(1 - cosines[c] * cosines[c]), cosines[c], 0}, (double[3]){0, 0, 0},
+                                1e-2);
         }
         EC_TRY(ec_model_scene(m, &scene, err));
         for (int k = 0; k < 3; k++) scene->environment.constant[k] = 1;

@@ -42,8 +42,11 @@ void ec_identity_of(const ec_render_options *o, const ec_content *content, ec_id
     add(identity, "--rr", "%s", roulette);
     add(identity, "--terminator", "%s", ec_terminator_names[o->terminator]);
     if (content) {
-        add(identity, "--scattering", "%s", ec_scattering_names[content->called & EC_FEATURE_MULTISCATTER ? EC_SCATTERING_MULTIPLE : EC_SCATTERING_SINGLE]);
-        add(identity, "--light-choice", "%s", ec_light_choice_names[content->called & EC_FEATURE_LIGHT_TREE ? EC_LIGHTS_BY_TREE : EC_LIGHTS_BY_POWER]);
+        add(identity, "--scattering", "%s",
+            ec_scattering_names[content->called & EC_FEATURE_MULTISCATTER ? EC_SCATTERING_MULTIPLE
+                                                                          : EC_SCATTERING_SINGLE]);
+        add(identity, "--light-choice", "%s",
+            ec_light_choice_names[content->called & EC_FEATURE_LIGHT_TREE ? EC_LIGHTS_BY_TREE : EC_LIGHTS_BY_POWER]);
     }
     add(identity, "--filter", "%s", ec_filter_names[o->filter]);
     add(identity, "--filter-width", "%.17g", o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH);

@@ -7,7 +7,8 @@
 char *ec_identity_write(const ec_identity *identity)
 {
     cJSON *object = cJSON_CreateObject();
-    for (uint32_t i = 0; i < identity->count; i++) cJSON_AddStringToObject(object, identity->traits[i].name, identity->traits[i].value);
+    for (uint32_t i = 0; i < identity->count; i++)
+        cJSON_AddStringToObject(object, identity->traits[i].name, identity->traits[i].value);
     char *text = cJSON_PrintUnformatted(object);
     cJSON_Delete(object);
     return text;

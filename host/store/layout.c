@@ -2,10 +2,12 @@
 
 #include <stdio.h>
 
-const char *const ec_feature_channels[EC_FEATURE_CHANNELS] = {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "A"};
+const char *const ec_feature_channels[EC_FEATURE_CHANNELS] = {"albedo.R", "albedo.G", "albedo.B", "normal.X",
+                                                              "normal.Y", "normal.Z", "depth.Z",  "A"};
 
-static const char *const doubles[7][2] = {{"mean.R.low", "mean.R.high"}, {"mean.G.low", "mean.G.high"}, {"mean.B.low", "mean.B.high"},
-                                          {"m2.R.low", "m2.R.high"},     {"m2.G.low", "m2.G.high"},     {"m2.B.low", "m2.B.high"},
+static const char *const doubles[7][2] = {{"mean.R.low", "mean.R.high"}, {"mean.G.low", "mean.G.high"},
+                                          {"mean.B.low", "mean.B.high"}, {"m2.R.low", "m2.R.high"},
+                                          {"m2.G.low", "m2.G.high"},     {"m2.B.low", "m2.B.high"},
                                           {"m2.Y.low", "m2.Y.high"}};
 
 /* A double's two halves; the low one comes first in memory where bytes do. */

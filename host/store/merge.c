@@ -75,7 +75,8 @@ static ec_result note_ranges(ec_merge *merge, const ec_film *film, const char *p
     ec_merge_range *ranges = realloc(merge->ranges, (merge->range_count + film->part_count + 1) * sizeof *ranges);
     if (!ranges) return ec_fail(err, "out of memory");
     merge->ranges = ranges;
-    for (uint32_t i = 0; i < film->part_count; i++) ranges[merge->range_count++] = (ec_merge_range){path, film->parts[i].first, film->parts[i].count};
+    for (uint32_t i = 0; i < film->part_count; i++)
+        ranges[merge->range_count++] = (ec_merge_range){path, film->parts[i].first, film->parts[i].count};
     return EC_OK;
 }
 
@@ -139,7 +140,9 @@ bool ec_merge_missing(const ec_merge *merge, char *text, size_t size)
     for (uint32_t i = 0; i <= film->part_count; i++) {
         bool is_last = i == film->part_count, has_room = strlen(text) + FOR_THE_REST < size;
         uint64_t next = is_last ? end : film->parts[i].first;
-        if (next > at && has_room) append(text, size, "%s%llu:%llu", *text ? ", " : "", (unsigned long long)(at * batch), (unsigned long long)(next * batch));
+        if (next > at && has_room)
+            append(text, size, "%s%llu:%llu", *text ? ", " : "", (unsigned long long)(at * batch),
+                   (unsigned long long)(next * batch));
         untold += next > at && !has_room;
         if (!is_last) at = (uint64_t)film->parts[i].first + film->parts[i].count;
     }

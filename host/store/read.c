@@ -10,7 +10,8 @@ enum { CHANNELS_MOST = EC_SUM_CHANNELS };
 static ec_result fill(ec_exr_file *file, const char *part, const ec_channel *channels, uint32_t count, ec_error *err)
 {
     ec_exr_room rooms[CHANNELS_MOST];
-    for (uint32_t i = 0; i < count; i++) rooms[i] = (ec_exr_room){channels[i].name, (void *)(uintptr_t)channels[i].data, channels[i].stride};
+    for (uint32_t i = 0; i < count; i++)
+        rooms[i] = (ec_exr_room){channels[i].name, (void *)(uintptr_t)channels[i].data, channels[i].stride};
     return ec_exr_fill(file, part, rooms, count, err);
 }
 
@@ -109,7 +110,8 @@ static ec_result read_features(ec_exr_file *file, const char *path, ec_film *fil
     if (!ec_exr_has(file, "picture", ec_feature_channels[0])) return EC_OK;
     film->aov = malloc((uint64_t)film->width * film->height * EC_FEATURE_CHANNELS * sizeof(float));
     if (!film->aov) return no_memory(path, err);
-    for (uint32_t i = 0; i < EC_FEATURE_CHANNELS; i++) rooms[i] = (ec_exr_room){ec_feature_channels[i], film->aov + i, EC_FEATURE_CHANNELS};
+    for (uint32_t i = 0; i < EC_FEATURE_CHANNELS; i++)
+        rooms[i] = (ec_exr_room){ec_feature_channels[i], film->aov + i, EC_FEATURE_CHANNELS};
     return ec_exr_fill(file, "picture", rooms, EC_FEATURE_CHANNELS, err);
 }
 
@@ -127,7 +129,9 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
                          path);
     else result = ec_state_read(text, path, s, &state, err);
     if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.samples_per_batch, err);
-    if (result == EC_OK) result = state.has_counts ? read_counted(file, path, &state, &s->film, err) : read_parts(file, path, &state, &s->film, err);
+    if (result == EC_OK)
+        result = state.has_counts ? read_counted(file, path, &state, &s->film, err)
+                                  : read_parts(file, path, &state, &s->film, err);
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);
     if (result == EC_OK) s->film.invalid_count = state.invalid_count;

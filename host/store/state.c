@@ -20,7 +20,8 @@ static void add_count(cJSON *object, const char *name, uint64_t value)
 static void add_job(cJSON *state, const ec_job *job)
 {
     cJSON *identity = cJSON_AddObjectToObject(state, "identity"), *argv = cJSON_AddArrayToObject(state, "command");
-    for (uint32_t i = 0; i < job->identity.count; i++) cJSON_AddStringToObject(identity, job->identity.traits[i].name, job->identity.traits[i].value);
+    for (uint32_t i = 0; i < job->identity.count; i++)
+        cJSON_AddStringToObject(identity, job->identity.traits[i].name, job->identity.traits[i].value);
     for (int i = 0; i < job->argc; i++) cJSON_AddItemToArray(argv, cJSON_CreateString(job->argv[i]));
     cJSON_AddStringToObject(state, "folder", job->folder);
     cJSON_AddStringToObject(state, "device", job->device);

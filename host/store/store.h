@@ -27,7 +27,8 @@ typedef struct ec_stored {
 } ec_stored;
 
 /* picture: the first part. Its attributes are told along; names beginning with "eclat.state" are the file's own. */
-ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past, const ec_exr_part *picture, ec_error *err);
+ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past,
+                         const ec_exr_part *picture, ec_error *err);
 
 /* Fails with one line for whatever is not as it was written. */
 ec_result ec_store_read(const char *path, ec_stored *stored, ec_error *err);

@@ -24,7 +24,8 @@ static ec_exr_part make_part(sum_part *room, uint32_t index, const ec_film *film
     return (ec_exr_part){.name = room->name, .channels = room->channels, .channel_count = count, .is_plain = true};
 }
 
-ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past, const ec_exr_part *picture, ec_error *err)
+ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past,
+                         const ec_exr_part *picture, ec_error *err)
 {
     uint32_t sums = film->counts ? 1 : film->part_count, count = 1 + sums;
     const ec_channel weight = {"weight", past->allotment.weight, 1, false};

@@ -28,7 +28,8 @@ static void find_pixel(const ec_window *w, uint32_t *px, uint32_t *py)
     const ec_view_wish *wish = &w->input.wish;
     int width, height;
     glfwGetFramebufferSize(w->glfw, &width, &height);
-    double x = w->cursor_x * wish->width / fmax(width, 1), y = w->cursor_y * wish->height / fmax(height, 1), half = 0.5 * wish->width;
+    double x = w->cursor_x * wish->width / fmax(width, 1), y = w->cursor_y * wish->height / fmax(height, 1),
+           half = 0.5 * wish->width;
     if (w->input.layout == EC_LAYOUT_BESIDE) x = 2 * (x < half ? x : x - half), y = 2 * y - 0.5 * wish->height; /* window.c has them so */
     bool inside = w->points && x >= 0 && y >= 0 && x < wish->width && y < wish->height;
     *px = inside ? (uint32_t)x : UINT32_MAX;

@@ -16,15 +16,18 @@ static const float white[3] = {1, 1, 1}, grey[3] = {0.6f, 0.65f, 0.7f};
 static size_t widest_key(void)
 {
     size_t most = 0;
-    for (size_t i = 0; i < ec_view_key_count; i++) most = strlen(ec_view_keys[i].shown) > most ? strlen(ec_view_keys[i].shown) : most;
+    for (size_t i = 0; i < ec_view_key_count; i++)
+        most = strlen(ec_view_keys[i].shown) > most ? strlen(ec_view_keys[i].shown) : most;
     return most;
 }
 
 double ec_view_help_size(double most, double width, double height)
 {
     size_t columns = 0;
-    for (size_t i = 0; i < ec_view_key_count; i++) columns = strlen(ec_view_keys[i].help) > columns ? strlen(ec_view_keys[i].help) : columns;
-    double across = width / ((double)(columns + widest_key() + 4) * EC_TEXT_NARROW), down = height / ((double)(ec_view_key_count + 1) * LINE + 1);
+    for (size_t i = 0; i < ec_view_key_count; i++)
+        columns = strlen(ec_view_keys[i].help) > columns ? strlen(ec_view_keys[i].help) : columns;
+    double across = width / ((double)(columns + widest_key() + 4) * EC_TEXT_NARROW),
+           down = height / ((double)(ec_view_key_count + 1) * LINE + 1);
     return fmax(floor(fmin(most, fmin(across, down))), fmin(LEAST, most));
 }
 

@@ -10,7 +10,8 @@ double ec_view_help_size(double most, double width, double height);
 void ec_view_help_draw(const ec_view_text *text, double width, double height);
 
 /* Nine at a time. page: any number. */
-void ec_view_effects_draw(const ec_view_facts *facts, uint32_t page, uint64_t without, const ec_view_text *text, double width, double height);
+void ec_view_effects_draw(const ec_view_facts *facts, uint32_t page, uint64_t without, const ec_view_text *text,
+                          double width, double height);
 
 /* The effect that a digit from 1 on means there; 0: none. */
 uint64_t ec_view_effect_of_digit(const ec_view_facts *facts, uint32_t page, int digit);

@@ -195,8 +195,10 @@ static bool wait_for_work(loader *l, bool pending, ec_view_wish *wish, bool *qui
     bool timed = pending || l->watch.is_deaf, late = false;
     struct timespec until = ec_deadline(pending ? SETTLES : DEAF_LOOKS);
     pthread_mutex_lock(&view->lock);
-    while (!view->quit && !late && is_served(l, &view->wish) && l->reloads == view->wish.reloads && l->file_events == view->file_events)
-        late = (timed ? pthread_cond_timedwait(&view->changed, &view->lock, &until) : pthread_cond_wait(&view->changed, &view->lock)) != 0;
+    while (!view->quit && !late && is_served(l, &view->wish) && l->reloads == view->wish.reloads &&
+           l->file_events == view->file_events)
+        late = (timed ? pthread_cond_timedwait(&view->changed, &view->lock, &until)
+                      : pthread_cond_wait(&view->changed, &view->lock)) != 0;
     *wish = view->wish;
     *quit = view->quit;
     bool told = l->file_events != view->file_events;

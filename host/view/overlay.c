@@ -46,18 +46,25 @@ static void format_state(const ec_view_overlay *o, char *text, size_t size)
     format_seconds(s->seconds, seconds, sizeof seconds);
     format_prediction(o, prediction, sizeof prediction);
     if (s->pictures == 0) snprintf(text, size, "no picture yet");
-    else if (s->preview) snprintf(text, size, "%s, preview: a sample for %ux%u pixels", ec_integrator_names[s->integrator], s->preview, s->preview);
-    else snprintf(text, size, "%s  %" PRIu64 " spp  error %s (95 %% bound %s)  %s  %s", ec_integrator_names[s->integrator], s->samples, error, bound,
-                  seconds, prediction);
+    else if (s->preview)
+        snprintf(text, size, "%s, preview: a sample for %ux%u pixels", ec_integrator_names[s->integrator], s->preview,
+                 s->preview);
+    else
+        snprintf(text, size, "%s  %" PRIu64 " spp  error %s (95 %% bound %s)  %s  %s",
+                 ec_integrator_names[s->integrator], s->samples, error, bound, seconds, prediction);
 }
 
 static void format_probe(const ec_view_overlay *o, char *text, size_t size)
 {
     const ec_view_probe *p = &o->status->probe;
     size_t used = (size_t)snprintf(text, size, "(%u, %u)", p->x, p->y);
-    if (p->has_film) used += (size_t)snprintf(text + used, size - used, "  radiance %.4g %.4g %.4g", p->rgb[0], p->rgb[1], p->rgb[2]);
+    if (p->has_film)
+        used +=
+            (size_t)snprintf(text + used, size - used, "  radiance %.4g %.4g %.4g", p->rgb[0], p->rgb[1], p->rgb[2]);
     if (p->has_error) used += (size_t)snprintf(text + used, size - used, "  +- %.2g %.2g %.2g", p->se[0], p->se[1], p->se[2]);
-    if (p->has_surface) snprintf(text + used, size - used, "  depth %.5g m  material %lld %s", p->depth, (long long)p->material, p->name);
+    if (p->has_surface)
+        snprintf(text + used, size - used, "  depth %.5g m  material %lld %s", p->depth, (long long)p->material,
+                 p->name);
     else snprintf(text + used, size - used, "  no surface");
 }
 
@@ -132,7 +139,8 @@ void ec_view_overlay_draw(const ec_view_overlay *o, const ec_view_text *text, do
         return;
     }
     double foot = o->lines != EC_LINES_NONE ? draw_foot(o, text, width, height) : 0;
-    if (o->layout != EC_LAYOUT_ONE && o->lines != EC_LINES_NONE) draw_label(o, text, width, o->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
+    if (o->layout != EC_LAYOUT_ONE && o->lines != EC_LINES_NONE)
+        draw_label(o, text, width, o->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
     if (o->effects) ec_view_effects_draw(o->facts, o->effects_page, o->wish->without, text, width, height);
     else draw_messages(o, text, width, height, foot);
 }

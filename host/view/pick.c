@@ -38,7 +38,8 @@ static double meet(const ray *r, const float *a, const float *b, const float *c)
     return det != 0 && u >= 0 && v >= 0 && u + v <= 1 && t > 0 ? t : INFINITY;
 }
 
-static void try_triangles(const ec_scene *s, const ray *r, uint32_t first, uint32_t count, const ec_placed *placed, ec_view_hit *best)
+static void try_triangles(const ec_scene *s, const ray *r, uint32_t first, uint32_t count, const ec_placed *placed,
+                          ec_view_hit *best)
 {
     ec_view_hit hit = *best;
     for (uint32_t t = first; t < first + count; t++) {
@@ -66,7 +67,8 @@ static sphere around(const float *positions, uint32_t count)
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0;
     sphere s;
     for (uint32_t v = 0; v < count; v++)
-        for (int k = 0; k < 3; k++) low[k] = fmin(low[k], positions[3 * (size_t)v + k]), high[k] = fmax(high[k], positions[3 * (size_t)v + k]);
+        for (int k = 0; k < 3; k++)
+            low[k] = fmin(low[k], positions[3 * (size_t)v + k]), high[k] = fmax(high[k], positions[3 * (size_t)v + k]);
     for (int k = 0; k < 3; k++) s.center[k] = 0.5 * (low[k] + high[k]), square += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
     s.radius = sqrt(square);
     return s;
@@ -79,7 +81,8 @@ static sphere place(const sphere *s, const ec_placed *placed)
     double square = 0;
     for (int k = 0; k < 3; k++) {
         moved.center[k] = placed->place[k][3];
-        for (int j = 0; j < 3; j++) moved.center[k] += placed->place[k][j] * s->center[j], square += placed->place[k][j] * placed->place[k][j];
+        for (int j = 0; j < 3; j++)
+            moved.center[k] += placed->place[k][j] * s->center[j], square += placed->place[k][j] * placed->place[k][j];
     }
     moved.radius = s->radius * sqrt(square) * 1.001;
     return moved;
@@ -88,7 +91,8 @@ static sphere place(const sphere *s, const ec_placed *placed)
 static bool passes_by(const ray *r, const sphere *s)
 {
     double along = 0, square = 0;
-    for (int k = 0; k < 3; k++) along += (s->center[k] - r->o[k]) * r->d[k], square += (s->center[k] - r->o[k]) * (s->center[k] - r->o[k]);
+    for (int k = 0; k < 3; k++)
+        along += (s->center[k] - r->o[k]) * r->d[k], square += (s->center[k] - r->o[k]) * (s->center[k] - r->o[k]);
     return square - along * along > s->radius * s->radius;
 }
 
@@ -144,7 +148,11 @@ void ec_view_node_sphere(const ec_scene *s, uint32_t node, double center[3], dou
     box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     double square = 0;
     for (uint32_t p = 0; p < s->part_count; p++)
-        if (s->parts[p].node == node) grow_by_part(&b, s, s->parts[p].first, p + 1 < s->part_count ? s->parts[p + 1].first : ec_scene_met_count(s));
-    for (int k = 0; k < 3; k++) center[k] = 0.5 * (b.low[k] + b.high[k]) + s->center[k], square += 0.25 * (b.high[k] - b.low[k]) * (b.high[k] - b.low[k]);
+        if (s->parts[p].node == node)
+            grow_by_part(&b, s, s->parts[p].first,
+                         p + 1 < s->part_count ? s->parts[p + 1].first : ec_scene_met_count(s));
+    for (int k = 0; k < 3; k++)
+        center[k] = 0.5 * (b.low[k] + b.high[k]) + s->center[k],
+        square += 0.25 * (b.high[k] - b.low[k]) * (b.high[k] - b.low[k]);
     *radius = isfinite(square) ? sqrt(square) : 0;
 }

@@ -39,8 +39,8 @@ void ec_view_picture_limit(ec_view_picture *p, const ec_render_options *o, uint3
     p->stopped_by = NULL;
 }
 
-ec_result ec_view_picture_start(ec_view_picture *p, const ec_render_options *options, uint32_t more, uint32_t width, uint32_t height,
-                                double rate, ec_error *err)
+ec_result ec_view_picture_start(ec_view_picture *p, const ec_render_options *options, uint32_t more, uint32_t width,
+                                uint32_t height, double rate, ec_error *err)
 {
     ec_view_picture_stop(p);
     p->limits.batch = choose_batch(options, (double)width * height, rate);
@@ -71,13 +71,14 @@ static void judge(ec_view_picture *p)
     if (p->film.batch_count >= 2) p->error = ec_film_estimate_error(&p->film);
     look_ahead(p);
     if (o->spp && (uint64_t)p->film.batch_count * o->batch >= o->spp) p->stopped_by = "spp";
-    else if (o->error_target > 0 && p->film.batch_count >= 4 && ec_look_is_due(p->film.batch_count) && p->error.error_bound <= o->error_target)
+    else if (o->error_target > 0 && p->film.batch_count >= 4 && ec_look_is_due(p->film.batch_count) &&
+             p->error.error_bound <= o->error_target)
         p->stopped_by = "error";
     else if (o->time_limit > 0 && p->seconds >= o->time_limit) p->stopped_by = "time";
 }
 
-ec_result ec_view_picture_take(ec_view_picture *p, ec_session *session, bool (*go_on)(void *user), void *user, float *mean, bool *complete,
-                               ec_error *err)
+ec_result ec_view_picture_take(ec_view_picture *p, ec_session *session, bool (*go_on)(void *user), void *user,
+                               float *mean, bool *complete, ec_error *err)
 {
     uint64_t pixels = (uint64_t)p->film.width * p->film.height;
     float *features = p->film.batch_count == 0 ? malloc(pixels * 8 * sizeof(float)) : NULL;

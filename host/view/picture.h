@@ -15,8 +15,8 @@ typedef struct ec_view_picture {
 } ec_view_picture;
 
 /* rate: samples a second, as far as known: a batch takes about as long as one likes to wait for the next picture. */
-ec_result ec_view_picture_start(ec_view_picture *picture, const ec_render_options *options, uint32_t more, uint32_t width, uint32_t height,
-                                double rate, ec_error *err);
+ec_result ec_view_picture_start(ec_view_picture *picture, const ec_render_options *options, uint32_t more,
+                                uint32_t width, uint32_t height, double rate, ec_error *err);
 void ec_view_picture_stop(ec_view_picture *picture); /* zero-initialised is fine */
 
 /* The limits as they are after `more` wishes for more; goes on if they are not met. */

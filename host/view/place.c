@@ -43,7 +43,8 @@ static place room_of(GLFWmonitor *monitor, GLFWwindow *glfw)
 
 static double shared_area(const place *a, const place *b)
 {
-    double wide = fmin(a->x + a->width, b->x + b->width) - fmax(a->x, b->x), high = fmin(a->y + a->height, b->y + b->height) - fmax(a->y, b->y);
+    double wide = fmin(a->x + a->width, b->x + b->width) - fmax(a->x, b->x),
+           high = fmin(a->y + a->height, b->y + b->height) - fmax(a->y, b->y);
     return wide > 0 && high > 0 ? wide * high : 0;
 }
 

@@ -101,7 +101,8 @@ static double time_to_wait(const ec_window *w, double last)
     bool flying = w->s_down > 0 || w->flies;
     static const int keys[] = {GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) flying |= glfwGetKey(w->glfw, keys[i]) == GLFW_PRESS;
-    if (w->view->request->script || flying || w->input.wish.moving || (w->dirty && !w->iconified)) return fmax(FRAME - (ec_now() - last), 0.0005);
+    if (w->view->request->script || flying || w->input.wish.moving || (w->dirty && !w->iconified))
+        return fmax(FRAME - (ec_now() - last), 0.0005);
     return w->telling ? fmax(w->told_at + TOLD_FOR - ec_now(), 0) + 0.001 : INFINITY;
 }
 
@@ -209,7 +210,9 @@ static ec_result run_window(ec_view *view, ec_error *err)
     }
     if (w.glfw) glfwHideWindow(w.glfw); /* a kernel that is being compiled is waited for out of sight */
     end_threads(view);
-    const char *unsaved = is_saving(&w) ? "not saved: the window was closed before the picture's first samples were there" : w.status.unsaved;
+    const char *unsaved = is_saving(&w)
+                              ? "not saved: the window was closed before the picture's first samples were there"
+                              : w.status.unsaved;
     if (result == EC_OK && !view->failed && *unsaved) result = ec_fail(err, "%s", unsaved);
     ec_view_scene_release(view, w.input.facts.scene);
     if (request->stats && result == EC_OK && !view->failed) ec_frames_print(&w.frames, view->status.first_light, stdout);

@@ -24,7 +24,8 @@ static bool read_step(const char *line, ec_script_step *step)
         step->seconds = verbs[i].numbers ? n[verbs[i].numbers - 1] : 0;
         step->a = verbs[i].numbers > 1 ? n[0] : 0;
         step->b = verbs[i].numbers > 2 ? n[1] : 0;
-        return step->seconds >= 0 && step->seconds < 1e6 && isfinite(step->a) && isfinite(step->b) && (strcmp(step->verb, "dolly") || step->a > 0);
+        return step->seconds >= 0 && step->seconds < 1e6 && isfinite(step->a) && isfinite(step->b) &&
+               (strcmp(step->verb, "dolly") || step->a > 0);
     }
     return false;
 }
@@ -45,7 +46,8 @@ ec_result ec_script_read(ec_script *s, const char *name, ec_error *err)
         line[strcspn(line, "#\n")] = 0;
         if (!line[strspn(line, " \t\r")]) continue;
         if (s->count == EC_SCRIPT_STEPS) result = ec_fail(err, "%s:%d: more than %d steps", name, number, EC_SCRIPT_STEPS);
-        else if (!read_step(line, &s->steps[s->count])) result = ec_fail(err, "%s:%d: '%.200s' is no step; see 'eclat view --help'", name, number, line);
+        else if (!read_step(line, &s->steps[s->count]))
+            result = ec_fail(err, "%s:%d: '%.200s' is no step; see 'eclat view --help'", name, number, line);
         else s->count++;
     }
     if (result == EC_OK && ferror(file)) result = ec_fail(err, "cannot read the script '%s': %s", name, strerror(errno));

@@ -28,8 +28,8 @@ void ec_view_others_close(ec_view_others *o)
     o->file = o->fitted = NULL;
 }
 
-ec_result ec_view_others_render(ec_view_others *o, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user), void *user,
-                                ec_error *err)
+ec_result ec_view_others_render(ec_view_others *o, ec_session *session, uint32_t width, uint32_t height,
+                                bool (*go_on)(void *user), void *user, ec_error *err)
 {
     float *mean = malloc((size_t)width * height * 3 * sizeof *mean);
     if (!mean) return ec_fail(err, "out of memory for a second picture");

@@ -17,8 +17,8 @@ void ec_view_others_close(ec_view_others *others);
 void ec_view_others_forget(ec_view_others *others); /* the camera has moved */
 
 /* The rung from its session, which looks where the picture does; goes on being NULL where go_on said no. */
-ec_result ec_view_others_render(ec_view_others *others, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user),
-                                void *user, ec_error *err);
+ec_result ec_view_others_render(ec_view_others *others, ec_session *session, uint32_t width, uint32_t height,
+                                bool (*go_on)(void *user), void *user, ec_error *err);
 
 /* Is there one? An error takes two batches. */
 bool ec_view_others_has(const ec_view_others *others, ec_view_second second, const ec_film *film);

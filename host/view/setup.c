@@ -33,7 +33,8 @@ static void drop_foreign(ec_render_options *o)
         o->filter = EC_FILTER_BOX;
         o->filter_width = 0;
     }
-    if (o->integrator == EC_INTEGRATOR_WHITTED && (!o->max_depth || o->max_depth > EC_WHITTED_DEPTH_MOST)) o->max_depth = EC_WHITTED_DEPTH;
+    if (o->integrator == EC_INTEGRATOR_WHITTED && (!o->max_depth || o->max_depth > EC_WHITTED_DEPTH_MOST))
+        o->max_depth = EC_WHITTED_DEPTH;
 }
 
 ec_result ec_view_setup_make(ec_view *view, ec_view_scene *scene, ec_integrator integrator, uint64_t without, ec_view_setup **made,

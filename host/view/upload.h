@@ -20,7 +20,8 @@ void ec_view_textures_fit(ec_view_textures *textures, ec_view *view, size_t byte
 bool ec_view_textures_take(ec_view_textures *textures, ec_view *view);
 
 /* The part [u0, u1] of its width between x0 and x1, over the height: pixels from the bottom left. */
-void ec_view_textures_draw(const ec_view_textures *textures, uint32_t role, double x0, double x1, double height, double u0, double u1);
+void ec_view_textures_draw(const ec_view_textures *textures, uint32_t role, double x0, double x1, double height,
+                           double u0, double u1);
 
 /* With the renderer's thread at its end. */
 void ec_view_textures_free(ec_view_textures *textures, ec_view *view);

@@ -70,7 +70,8 @@ static bool has_second(const ec_window *w)
 {
     const ec_view_wish *wish = &w->input.wish;
     const ec_view_status *s = &w->status;
-    bool there = w->textures.width[EC_ROLE_SECOND] && s->second == wish->second && (wish->second != EC_SECOND_RUNG || s->rung == wish->rung);
+    bool there = w->textures.width[EC_ROLE_SECOND] && s->second == wish->second &&
+                 (wish->second != EC_SECOND_RUNG || s->rung == wish->rung);
     return w->input.layout != EC_LAYOUT_ONE && there;
 }
 

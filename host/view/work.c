@@ -104,7 +104,8 @@ ec_result ec_renderer_preview(ec_renderer *r, ec_error *err)
 static ec_result start_film(ec_renderer *r, ec_error *err)
 {
     ec_view_setup *s = r->setup[EC_ROLE_PICTURE];
-    return ec_view_picture_start(&r->picture, &s->options, r->wish.more, r->wish.width, r->wish.height, ec_session_rate(s->session), err);
+    return ec_view_picture_start(&r->picture, &s->options, r->wish.more, r->wish.width, r->wish.height,
+                                 ec_session_rate(s->session), err);
 }
 
 ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err)

@@ -49,7 +49,8 @@ EC_FN ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz,
 }
 
 /* Which of eight triangles the ray passes inside and meets before h->t. *close: for edges_settle. */
-EC_FN int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1, const hit8 *h, int8 *close, float8 *t, float8 *inverse)
+EC_FN int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1, const hit8 *h, int8 *close, float8 *t,
+                      float8 *inverse)
 {
     int8 m = edges_inside(e);
     *close = m;
@@ -118,8 +119,8 @@ EC_FN void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxes, v3
 }
 
 /* Eight triangles by their corners in the world. flat: those of which rounding may have left nothing that has a normal. */
-EC_FN void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, int8 flat, uint8 id, uint skip0, uint skip1,
-                          bool any_hit, hit8 *h)
+EC_FN void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, int8 flat,
+                          uint8 id, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     v3 s0 = ray_vertex(&q->r, p0), s1 = ray_vertex(&q->r, p1), s2 = ray_vertex(&q->r, p2);
     edges e = edges_make(s0, s1, s2);
@@ -142,8 +143,8 @@ EC_FN bool block8_moves(const hit_filter *filter, uint8 id)
 }
 
 /* The same, of which some move. */
-EC_FN void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, uint8 id, uint skip0, uint skip1, bool any_hit,
-                         hit8 *h)
+EC_FN void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, uint8 id,
+                         uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     int8 moves = motion_moves(filter->g.motion, id);
     motion_corners(filter->g.motion, filter->g.time, moves, id, &p0, &p1, &p2);
@@ -169,7 +170,8 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
     int8 m = eight_meet(q, &e, id, skip0, skip1, h, &close, &t, &inverse);
     if (!mask_bits8(m)) return;
     if (mask_bits8(close)) {
-        t = edges_settle(&q->r, &e, tri8_sheared_again(q, b, 0), tri8_sheared_again(q, b, 1), tri8_sheared_again(q, b, 2), close, inverse, t);
+        t = edges_settle(&q->r, &e, tri8_sheared_again(q, b, 0), tri8_sheared_again(q, b, 1),
+                         tri8_sheared_again(q, b, 2), close, inverse, t);
         m = m & (t > 0.0f);
     }
     block8_boxes(b, boxes, &lo, &hi);

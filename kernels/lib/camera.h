@@ -8,8 +8,8 @@
 
 /* Pixel (x, y), counted from the top left, and the sample's place in the picture: sx, sy in [-1, 1], sy up; a filter wider
  * than a pixel reaches beyond the edges. filter: pixel_filter.h. */
-EC_FN sampler camera_sample(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, global const float *filter,
-                            lane_u slot, lane_u *x, lane_u *y, lane_f *sx, lane_f *sy)
+EC_FN sampler camera_sample(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                            global const float *filter, lane_u slot, lane_u *x, lane_u *y, lane_f *sx, lane_f *sy)
 {
     lane_u pixel, sample;
     slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);

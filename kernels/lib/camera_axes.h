@@ -29,8 +29,9 @@ EC_FN camera_axes camera_axes_at(global const float *keys, global const float *m
 {
     uint segments = ((global const uint *)motion)[EC_MOTION_SEGMENTS];
     moment t = moment_of(motion, time);
-    camera_axes v = {axes_between(keys, segments, 0, t), axes_between(keys, segments, 1, t), axes_between(keys, segments, 2, t),
-              v3_normalize(axes_between(keys, segments, 3, t)), axes_between(keys, segments, 4, t), axes_between(keys, segments, 5, t)};
+    camera_axes v = {axes_between(keys, segments, 0, t), axes_between(keys, segments, 1, t),
+                     axes_between(keys, segments, 2, t), v3_normalize(axes_between(keys, segments, 3, t)),
+                     axes_between(keys, segments, 4, t), axes_between(keys, segments, 5, t)};
     return v;
 }
 

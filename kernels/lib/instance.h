@@ -51,7 +51,8 @@ EC_FN v3 instance_point(global const float *places, lane_u at, v3 p)
 /* Unit length, or 0 where it was. word: 0 turns tangents, EC_PLACE_NORMAL normals. */
 EC_FN v3 instance_direction(global const float *places, lane_u at, uint word, v3 d)
 {
-    v3 r = v3_make(place_row_direction(gather_quad(places, at + word), d), place_row_direction(gather_quad(places, at + word + 4u), d),
+    v3 r = v3_make(place_row_direction(gather_quad(places, at + word), d),
+                   place_row_direction(gather_quad(places, at + word + 4u), d),
                    place_row_direction(gather_quad(places, at + word + 8u), d));
     lane_f length2 = v3_dot(r, r);
     return v3_scale(r, length2 > 0.0f ? 1.0f / sqrt(length2) : F(0.0f));

@@ -32,8 +32,10 @@ EC_FN lane_f film_sensitivity(float peak, float position, float variance, lane_f
 
 EC_FN v3 film_late(lane_f way)
 {
-    lane_f x = film_sensitivity(0.84659000f, 1.6810e+06f, 4.3278e+09f, way) + film_sensitivity(0.15386832f, 2.2399e+06f, 4.5282e+09f, way);
-    return v3_make(x, film_sensitivity(1.0002219f, 1.7953e+06f, 9.3046e+09f, way), film_sensitivity(1.0011225f, 2.2084e+06f, 6.6121e+09f, way));
+    lane_f x = film_sensitivity(0.84659000f, 1.6810e+06f, 4.3278e+09f, way) +
+               film_sensitivity(0.15386832f, 2.2399e+06f, 4.5282e+09f, way);
+    return v3_make(x, film_sensitivity(1.0002219f, 1.7953e+06f, 9.3046e+09f, way),
+                   film_sensitivity(1.0011225f, 2.2084e+06f, 6.6121e+09f, way));
 }
 
 EC_FN v3 film_rec709(v3 xyz)
@@ -66,7 +68,8 @@ EC_FN film_light film_light_make(const thin_film *m, lane_f cosine, lane_f eta, 
 /* Reflectance of the inner face, over a surface that without a film would reflect f0 head-on. */
 EC_FN lane_f film_inner(const film_light *l, lane_f f0, lane_f f90, lane_i *sparser)
 {
-    lane_f root = sqrt(min(f0, F(0.9999f))), base = (1.0f + root) / (1.0f - root), r = (base - l->ior) / (base + l->ior), head_on = r * r;
+    lane_f root = sqrt(min(f0, F(0.9999f))), base = (1.0f + root) / (1.0f - root),
+           r = (base - l->ior) / (base + l->ior), head_on = r * r;
     *sparser = base < l->ior;
     return fma(f90 - head_on, fresnel_rise(l->inside, base / l->ior, l->exact), head_on);
 }
@@ -89,7 +92,8 @@ EC_FN v3 film_reflectance(const film_light *l, v3 f0, lane_f f90)
     inner.y = film_inner(l, f0.y, f90, &y);
     inner.z = film_inner(l, f0.z, f90, &z);
     v3 late = l->once, once = film_rec709(v3_make(x ? late.x : -late.x, y ? late.y : -late.y, z ? late.z : -late.z));
-    return v3_make(film_sum(l, inner.x, once.x, l->twice.x), film_sum(l, inner.y, once.y, l->twice.y), film_sum(l, inner.z, once.z, l->twice.z));
+    return v3_make(film_sum(l, inner.x, once.x, l->twice.x), film_sum(l, inner.y, once.y, l->twice.y),
+                   film_sum(l, inner.z, once.z, l->twice.z));
 }
 
 #endif

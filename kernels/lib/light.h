@@ -94,7 +94,9 @@ EC_FN v3 light_radiance(const light_record *l, const geometry *g, lane_i m, lane
     lane_i open = m & ((l->kind & EC_LIGHT_OPEN) != 0u), looks = textured | coated | open;
     if (!any_lane(looks)) return radiance;
     hit_point h = hit_point_make(g, looks ? l->prim : U(0), b1, b2);
-    if (HAS(EMISSION_TEXTURE)) radiance = v3_select(textured, v3_mul(radiance, material_texture(g, &h, textured, EC_SLOT_EMISSION, true).rgb), radiance);
+    if (HAS(EMISSION_TEXTURE))
+        radiance = v3_select(textured, v3_mul(radiance, material_texture(g, &h, textured, EC_SLOT_EMISSION, true).rgb),
+                             radiance);
     if (HAS(ALPHA)) radiance = v3_scale(radiance, open ? surface_coverage(g, &h, open) : F(1.0f));
     return coat_emission(g, &h, coated, v3_negate(wi), radiance);
 }

@@ -35,7 +35,10 @@ EC_FN v3 motion_point(global const float *motion, uint stream, lane_u thing, mom
     return v3_make(fma(t.share, b.a - a.a, a.a), fma(t.share, b.b - a.b, a.b), fma(t.share, b.c - a.c, a.c));
 }
 
-EC_FN lane_i motion_moves(global const float *motion, lane_u prim) { return prim < ((global const uint *)motion)[EC_MOTION_TRIANGLES]; }
+EC_FN lane_i motion_moves(global const float *motion, lane_u prim)
+{
+    return prim < ((global const uint *)motion)[EC_MOTION_TRIANGLES];
+}
 
 /* Lanes of m: the corners become those of triangle prim at the time. */
 EC_FN void motion_corners(global const float *motion, lane_f time, lane_i m, lane_u prim, v3 *p0, v3 *p1, v3 *p2)

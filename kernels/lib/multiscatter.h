@@ -38,7 +38,8 @@ EC_FN loss loss_make(lane_f alpha, lane_f eta)
     loss l;
     lane_f contrast = (eta - 1.0f) / (eta + 1.0f), place = sqrt(fabs(contrast)) * (0.5f * (float)(MULTISCATTER_CONTRASTS - 1));
     lane_u row = loss_node(sqrt(alpha) * (float)(MULTISCATTER_ROUGHNESSES - 1), MULTISCATTER_ROUGHNESSES, &l.roughness);
-    lane_u side = loss_node(0.5f * (float)(MULTISCATTER_CONTRASTS - 1) + (contrast < 0.0f ? -place : place), MULTISCATTER_CONTRASTS, &l.contrast);
+    lane_u side = loss_node(0.5f * (float)(MULTISCATTER_CONTRASTS - 1) + (contrast < 0.0f ? -place : place),
+                            MULTISCATTER_CONTRASTS, &l.contrast);
     l.at = side * MULTISCATTER_SIDE + row * MULTISCATTER_ROW;
     return l;
 }
@@ -50,7 +51,8 @@ EC_FN lane_f loss_look_up(const loss *l, lane_u column, lane_f t)
     for (uint k = 0; k < (HAS(TRANSMISSION) ? 2u : 1u); k++) {
         lane_u at = l->at + column + k * MULTISCATTER_SIDE, next = at + MULTISCATTER_ROW;
         lane_f low = fma(t, gather_constant_f(multiscatter_table, at + 1u), (1.0f - t) * gather_constant_f(multiscatter_table, at));
-        lane_f high = fma(t, gather_constant_f(multiscatter_table, next + 1u), (1.0f - t) * gather_constant_f(multiscatter_table, next));
+        lane_f high = fma(t, gather_constant_f(multiscatter_table, next + 1u),
+                          (1.0f - t) * gather_constant_f(multiscatter_table, next));
         lane_f row = fma(l->roughness, high, (1.0f - l->roughness) * low);
         value = k ? fma(l->contrast, row, (1.0f - l->contrast) * value) : row;
     }
@@ -85,7 +87,8 @@ typedef struct multiscatter {
 
 /* metallic, glass: shares of the surface. Glass whose reflectance is not its index's loses what the table does not say: its share is
  * to be less. Thin walls, which do not refract, mirror what passes and lose what metal does. */
-EC_FN multiscatter multiscatter_make(lane_f alpha, lane_f cosine, v3 base, lane_f metallic, lane_f glass, lane_f eta, lane_i refracts)
+EC_FN multiscatter multiscatter_make(lane_f alpha, lane_f cosine, v3 base, lane_f metallic, lane_f glass, lane_f eta,
+                                     lane_i refracts)
 {
     multiscatter m;
     m.metal = loss_make(alpha, F(0.0f));
@@ -114,7 +117,10 @@ EC_FN multiscatter multiscatter_make(lane_f alpha, lane_f cosine, v3 base, lane_
 }
 
 /* albedo: about what the facets return that scatter once. */
-EC_FN void multiscatter_weigh(multiscatter *m, lane_f albedo) { m->p = m->albedo > 0.0f ? m->albedo / (m->albedo + albedo) : F(0.0f); }
+EC_FN void multiscatter_weigh(multiscatter *m, lane_f albedo)
+{
+    m->p = m->albedo > 0.0f ? m->albedo / (m->albedo + albedo) : F(0.0f);
+}
 
 /* Adds it to f |cos wi| and the density of what is scattered once. Its own sampling of either hemisphere is uniform for
  * narrow lobes, which lose most near the horizon, and by the cosine for the widest. */

@@ -42,10 +42,14 @@ EC_FN lane_f packet_load_f(global const float *queue, uint wave, uint field, con
 {
     return q->is_scattered ? gather_f(queue + field * wave, q->at) : queue_load_f(queue, wave, field, q->first);
 }
-EC_FN lane_u packet_load_u(global const float *queue, uint wave, uint field, const queue_packet *q) { return as_lane_u(packet_load_f(queue, wave, field, q)); }
+EC_FN lane_u packet_load_u(global const float *queue, uint wave, uint field, const queue_packet *q)
+{
+    return as_lane_u(packet_load_f(queue, wave, field, q));
+}
 EC_FN v3 packet_load_v3(global const float *queue, uint wave, uint field, const queue_packet *q)
 {
-    return v3_make(packet_load_f(queue, wave, field, q), packet_load_f(queue, wave, field + 1, q), packet_load_f(queue, wave, field + 2, q));
+    return v3_make(packet_load_f(queue, wave, field, q), packet_load_f(queue, wave, field + 1, q),
+                   packet_load_f(queue, wave, field + 2, q));
 }
 EC_FN void queue_store_f(global float *queue, uint wave, uint field, uint i, lane_f v)
 {

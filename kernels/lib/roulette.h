@@ -12,7 +12,8 @@
  * path in 2^24 that brings a picture's worth of light is noise without end. */
 EC_FN lane_f roulette_survival(lane_f brightest, float constant_survival)
 {
-    lane_f survival = constant_survival > 0.0f ? F(constant_survival) : min(max(brightest, F(EC_SURVIVAL_LEAST)), F(EC_SURVIVAL_MOST));
+    lane_f survival = constant_survival > 0.0f ? F(constant_survival)
+                                               : min(max(brightest, F(EC_SURVIVAL_LEAST)), F(EC_SURVIVAL_MOST));
     return ceil(survival * 16777216.0f) * 5.9604644775390625e-8f;
 }
 

@@ -54,7 +54,8 @@ EC_FN lane_f sheen_albedo(const sheen *s, lane_f cosine)
     lane_u at = int_to_lane_u(to_lane_i(fma(y0, F((float)SHEEN_COSINES), x0)));
     lane_f u = x - x0, v = y - y0;
     lane_f low = fma(u, gather_constant_f(sheen_table, at + 1u), (1.0f - u) * gather_constant_f(sheen_table, at));
-    lane_f high = fma(u, gather_constant_f(sheen_table, at + SHEEN_COSINES + 1u), (1.0f - u) * gather_constant_f(sheen_table, at + SHEEN_COSINES));
+    lane_f high = fma(u, gather_constant_f(sheen_table, at + SHEEN_COSINES + 1u),
+                      (1.0f - u) * gather_constant_f(sheen_table, at + SHEEN_COSINES));
     return fma(v, high, (1.0f - v) * low);
 }
 

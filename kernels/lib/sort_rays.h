@@ -26,7 +26,9 @@ EC_FN void sort_rays(global const float *queue, uint wave, uint origin, uint dir
     uint bins[EC_SORTED], at[64], sum = 0;
     for (uint k = 0; k < 64; k++) at[k] = 0;
     for (uint i = 0; i < count; i += LANES)
-        LANE_STORE(ray_bin(queue_load_v3(queue, wave, origin, first + i), queue_load_v3(queue, wave, direction, first + i)), bins + i);
+        LANE_STORE(ray_bin(queue_load_v3(queue, wave, origin, first + i),
+                           queue_load_v3(queue, wave, direction, first + i)),
+                   bins + i);
     for (uint i = 0; i < count; i++) at[bins[i]]++;
     for (uint k = 0; k < 64; k++) {
         uint in_bin = at[k];
@@ -38,8 +40,8 @@ EC_FN void sort_rays(global const float *queue, uint wave, uint origin, uint dir
 }
 
 /* The rays of the work-item at entry i: a packet, or, sorted, EC_SORTED from there on, and none for those in between. Returns how many. */
-EC_FN uint item_rays(global const uint *counts, global const float *queue, uint wave, uint part, uint origin, uint direction, uint i, bool sorts,
-                     uint *order)
+EC_FN uint item_rays(global const uint *counts, global const float *queue, uint wave, uint part, uint origin,
+                     uint direction, uint i, bool sorts, uint *order)
 {
     uint left = queue_left(counts, part, i);
     if (!sorts) return min(left, (uint)LANES);

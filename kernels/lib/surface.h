@@ -196,7 +196,10 @@ EC_FN void surface_displace(surface *s)
 
 /* The lobe of what is bent has a width of about alpha |eta - 1|, and float half vectors have no more digits than that: what is narrower has
  * one direction. */
-EC_FN lane_i surface_passes_singly(const surface *s) { return s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA); }
+EC_FN lane_i surface_passes_singly(const surface *s)
+{
+    return s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);
+}
 
 /* A stretched lobe (lanes m) goes by its wide axis: across it is as wide as they resolve, the same from either side. */
 EC_FN void surface_widen(lane_i m, surface *s)
@@ -305,7 +308,8 @@ EC_FN void surface_seeping(const geometry *g, const hit_point *h, lane_i m, surf
     s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->seeps > 0.0f));
     if (HAS(NESTED)) {
         lane_u here, there;
-        surface_cross(g, material_quad(g, h, EC_MATERIAL_IOR), s->refracts & !bends & ((flags & EC_MATERIAL_NESTED) != 0u), s, &here, &there);
+        surface_cross(g, material_quad(g, h, EC_MATERIAL_IOR),
+                      s->refracts & !bends & ((flags & EC_MATERIAL_NESTED) != 0u), s, &here, &there);
     }
 }
 

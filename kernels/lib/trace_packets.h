@@ -11,9 +11,10 @@
 #define SORTS (LANES > 1 && sorts)
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                                         global const ec_counters *counters, uint sorts, global const float *paths, global float *hits,
-                                         ACCEL_PARAMETERS, FILTER_PARAMETERS)
+kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
+                                         global const uint *pixel_list, uint bounce, uint step,
+                                         global const ec_counters *counters, uint sorts, global const float *paths,
+                                         global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -23,7 +24,8 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
     for (uint k = 0; k < count; k += LANES) {
         lane_i active = LANE_NUMBERS < count - k;
         queue_packet at = {i + k, SORTS, SORTS ? LANE_LOAD(order + k) : U(0)};
-        ray r = ray_make(packet_load_v3(paths, wave, EC_PATH_OX, &at), packet_load_v3(paths, wave, EC_PATH_DX, &at), params->scene_max);
+        ray r = ray_make(packet_load_v3(paths, wave, EC_PATH_OX, &at), packet_load_v3(paths, wave, EC_PATH_DX, &at),
+                         params->scene_max);
         hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
         lane_u slot = packet_load_u(paths, wave, EC_PATH_SLOT, &at);
         slot = active ? slot : U(0);
@@ -49,10 +51,11 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
+kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
+                                       global const uint *pixel_list, uint bounce, uint step,
                                        global const ec_counters *counters, uint sorts, volatile global uint *invalid,
-                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS,
-                                       global const float *normals, global const float *tangents)
+                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS,
+                                       FILTER_PARAMETERS, global const float *normals, global const float *tangents)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -75,13 +78,16 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
             filter.key = filter_key(seed, pixel, sample, bounce, true);
         }
         hit h = {active ? F(1.0f) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
-        lane_u skip = packet_load_u(shadows, wave, EC_SHADOW_PRIM, &at), target = packet_load_u(shadows, wave, EC_SHADOW_TARGET, &at);
+        lane_u skip = packet_load_u(shadows, wave, EC_SHADOW_PRIM, &at),
+               target = packet_load_u(shadows, wave, EC_SHADOW_TARGET, &at);
         EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, true, &h);
         lane_i open = active & (h.prim == EC_NO_ID);
         if (!any_lane(open)) continue;
         v3 light = packet_load_v3(shadows, wave, EC_SHADOW_LR, &at);
         if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
-            geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion, filter.g.time};
+            geometry g = {prims,  indices, normals,      tangents,
+                          uvs,    colors,  materials,    {texture_table, texels, srgb},
+                          places, motion,  filter.g.time};
             v3 o = r.o, end = v3_add(o, r.d);
             lane_i walks = open & panes;
             filter.panes = 0;

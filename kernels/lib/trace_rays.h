@@ -9,9 +9,10 @@
 #include "queue.h"
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                                         global const ec_counters *counters, uint sorts, global const float *paths, global float *hits,
-                                         ACCEL_PARAMETERS, FILTER_PARAMETERS)
+kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
+                                         global const uint *pixel_list, uint bounce, uint step,
+                                         global const ec_counters *counters, uint sorts, global const float *paths,
+                                         global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
     uint i = get_global_id(0), wave = params->wave;
     if (i >= wave || !queue_left(counters->rays[step], params->part, i)) return;
@@ -39,10 +40,11 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
+kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
+                                       global const uint *pixel_list, uint bounce, uint step,
                                        global const ec_counters *counters, uint sorts, volatile global uint *invalid,
-                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS, FILTER_PARAMETERS,
-                                       global const float *normals, global const float *tangents)
+                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS,
+                                       FILTER_PARAMETERS, global const float *normals, global const float *tangents)
 {
     uint i = get_global_id(0), wave = params->wave;
     if (i >= wave || !queue_left(counters->shadows[step], params->part, i)) return;
@@ -64,7 +66,8 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     if (EC_CAT(ACCEL, _any)(&a, &q, &filter, skip, target, &h)) return;
     v3 light = v3_make(F(p[EC_SHADOW_LR * wave]), F(p[EC_SHADOW_LG * wave]), F(p[EC_SHADOW_LB * wave]));
     if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
-        geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion, filter.g.time};
+        geometry g = {prims,  indices, normals,      tangents, uvs, colors, materials, {texture_table, texels, srgb},
+                      places, motion,  filter.g.time};
         v3 o = q.r.o, end = v3_add(o, q.r.d);
         filter.panes = 0;
         for (uint left = panes_most(params, bounce);; left--) {

@@ -32,7 +32,8 @@ EC_FN v3 box_high(global const ec_tri *t, global const ec_box *box)
 }
 
 /* Lanes m meet triangle id, whose box is lo to hi, at t: is it the closest so far, by (t, triangle id)? */
-EC_FN void packet_keep(const ray *r, const hit_filter *filter, v3 lo, v3 hi, lane_u id, const edges *e, lane_i m, lane_f t, lane_f inverse, hit *h)
+EC_FN void packet_keep(const ray *r, const hit_filter *filter, v3 lo, v3 hi, lane_u id, const edges *e, lane_i m,
+                       lane_f t, lane_f inverse, hit *h)
 {
     m = m & reference_clamp(r, lo, hi, h->t, &t) & ((t < h->t) | (id < h->prim));
     lane_f b1 = e->v * inverse + 0.0f, b2 = e->w * inverse + 0.0f; /* no -0: a shared edge is negated */
@@ -72,7 +73,8 @@ EC_FN edges edges_select(lane_i m, edges a, edges b)
 }
 
 /* One that moves, for each lane where it is at its time. Such have boxes, and no second half. */
-EC_FN void packet_moving(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box, lane_u skip0, lane_u skip1, hit *h)
+EC_FN void packet_moving(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
+                         lane_u skip0, lane_u skip1, hit *h)
 {
     v3 p0 = v3_zero(), p1 = p0, p2 = p0;
     lane_u id = U(tri->id);

@@ -82,8 +82,8 @@ EC_FN void grid_axis_start(grid_axis *x, int blocks, float guess, float start)
     }
 
 /* The pending ones, gathered from wherever they lie; free places repeat the first. */
-EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, global const ec_tri *tris, global const ec_box *boxes, uint skip0, uint skip1,
-                     bool any_hit, hit8 *h)
+EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, global const ec_tri *tris,
+                     global const ec_box *boxes, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     TALLY_TESTS(h, mail->count);
     for (uint k = mail->count; k < 8u; k++) mail->pending[k] = mail->pending[0];

@@ -45,12 +45,16 @@ EC_FN void visit_enter(visit *v, global const ec_instance *n, const ray8 *q)
     x -= n->place[0][3];
     y -= n->place[1][3];
     z -= n->place[2][3];
-    float ix = visit_row(n->inverse[0], dx, dy, dz), iy = visit_row(n->inverse[1], dx, dy, dz), iz = visit_row(n->inverse[2], dx, dy, dz);
+    float ix = visit_row(n->inverse[0], dx, dy, dz), iy = visit_row(n->inverse[1], dx, dy, dz),
+          iz = visit_row(n->inverse[2], dx, dy, dz);
     float d_min = max(max(fabs(ix), fabs(iy)), fabs(iz)) * 8.6736174e-19f; /* as in ray_make */
     v->at = n;
-    visit_axis(visit_row(n->inverse[0], x, y, z), ix, d_min, reach * n->inverse[0][3], &v->q.r.inverse.x, &v->q.near_offset_x, &v->q.far_offset_x);
-    visit_axis(visit_row(n->inverse[1], x, y, z), iy, d_min, reach * n->inverse[1][3], &v->q.r.inverse.y, &v->q.near_offset_y, &v->q.far_offset_y);
-    visit_axis(visit_row(n->inverse[2], x, y, z), iz, d_min, reach * n->inverse[2][3], &v->q.r.inverse.z, &v->q.near_offset_z, &v->q.far_offset_z);
+    visit_axis(visit_row(n->inverse[0], x, y, z), ix, d_min, reach * n->inverse[0][3], &v->q.r.inverse.x,
+               &v->q.near_offset_x, &v->q.far_offset_x);
+    visit_axis(visit_row(n->inverse[1], x, y, z), iy, d_min, reach * n->inverse[1][3], &v->q.r.inverse.y,
+               &v->q.near_offset_y, &v->q.far_offset_y);
+    visit_axis(visit_row(n->inverse[2], x, y, z), iz, d_min, reach * n->inverse[2][3], &v->q.r.inverse.z,
+               &v->q.near_offset_z, &v->q.far_offset_z);
     v->q.near_x = 0 | (v->q.r.inverse.x.s0 < 0.0f);
     v->q.near_y = 2 | (v->q.r.inverse.y.s0 < 0.0f);
     v->q.near_z = 4 | (v->q.r.inverse.z.s0 < 0.0f);
@@ -67,8 +71,8 @@ EC_FN v3 visit_corner(global const ec_instance *n, global const ec_tri8 *b, uint
 }
 
 /* block8_triangles, of triangles that are taken to the world first. Unused slots are points there too. */
-EC_FN void visit_block(const ray8 *q, const hit_filter *filter, global const ec_instance *n, global const ec_tri8 *b, uint skip0, uint skip1,
-                       bool any_hit, hit8 *h)
+EC_FN void visit_block(const ray8 *q, const hit_filter *filter, global const ec_instance *n, global const ec_tri8 *b,
+                       uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     v3 p0 = visit_corner(n, b, 0), p1 = visit_corner(n, b, 1), p2 = visit_corner(n, b, 2);
     uint8 id = *(global const uint8 *)b->id;
@@ -78,8 +82,8 @@ EC_FN void visit_block(const ray8 *q, const hit_filter *filter, global const ec_
     block8_corners(q, filter, p0, p1, p2, lo, hi, TRUE_MASK, id + n->id, skip0, skip1, any_hit, h);
 }
 
-EC_FN void twolevel_leaf(const accel *a, const ray8 *q, const visit *v, const hit_filter *filter, uint child, uint skip0, uint skip1,
-                         bool any_hit, hit8 *h)
+EC_FN void twolevel_leaf(const accel *a, const ray8 *q, const visit *v, const hit_filter *filter, uint child,
+                         uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     global const ec_tri8 *blocks = a->at[1];
     if (v->at) visit_block(q, filter, v->at, blocks + (child & ~EC_LEAF_BIT), skip0, skip1, any_hit, h);

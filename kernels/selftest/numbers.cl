@@ -32,7 +32,8 @@ EC_FN lane_f value_of(uint function, lane_f a, lane_f b, lane_f c)
     return F(0.0f);
 }
 
-kernel void ec_numbers(uint n, uint function, global const float *a, global const float *b, global const float *c, global float *out)
+kernel void ec_numbers(uint n, uint function, global const float *a, global const float *b, global const float *c,
+                       global float *out)
 {
     uint at = get_global_id(0) * LANES;
     if (at >= n) return;

@@ -157,7 +157,8 @@ kernel void ec_scatter_fuzz(uint n, uint rounds, uint seed, global uint *counts)
         wrong[EC_FUZZ_NEGATIVE] += count_lanes(v3_is_negative(f) | (pdf < 0.0f) | ((d.pdf < 0.0f) & (d.pdf != -1.0f)) |
                                                (goes & v3_is_negative(d.weight)));
         wrong[EC_FUZZ_NOT_UNIT] += count_lanes(goes & !(fabs(v3_dot(d.wi, d.wi) - 1.0f) <= 32.0f * EC_ULP / min(s.eta, F(1.0f))));
-        wrong[EC_FUZZ_ASTRAY] += count_lanes(goes & (s.transmission == 0.0f) & !(d.wi.z > 0.0f) & !(HAS(DIFFUSE_TRANSMISSION) ? s.seeps > 0.0f : !TRUE_MASK));
+        wrong[EC_FUZZ_ASTRAY] += count_lanes(goes & (s.transmission == 0.0f) & !(d.wi.z > 0.0f) &
+                                             !(HAS(DIFFUSE_TRANSMISSION) ? s.seeps > 0.0f : !TRUE_MASK));
         wrong[EC_FUZZ_HEAVY] += count_lanes(goes & (v3_max_component(d.weight) > EC_FUZZ_WEIGHT));
     }
     for (uint i = 0; i < EC_FUZZ_COUNTS; i++) counts[at / LANES * EC_FUZZ_COUNTS + i] = wrong[i];

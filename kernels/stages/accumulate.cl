@@ -21,14 +21,15 @@ static float sum_of(global const float *in, uint count, float scale)
     return sum;
 }
 
-kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count, global const float *radiance,
-                          global float *batch_film)
+kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count,
+                          global const float *radiance, global float *batch_film)
 {
     uint i = get_global_id(0), wave = params->wave, batch = params->batch;
     if (i >= pixel_count) return;
     uint x, y;
     pixel_to_xy(params, first_pixel + i, &x, &y);
-    global float *out = batch_film + 3 * (pixel_list ? (ulong)(first_pixel + i) : (ulong)(y - params->film_row) * params->width + x);
+    global float *out =
+        batch_film + 3 * (pixel_list ? (ulong)(first_pixel + i) : (ulong)(y - params->film_row) * params->width + x);
     for (uint c = 0; c < 3; c++) {
         global const float *in = radiance + c * wave + i * batch;
         float mean = sum_of(in, batch, 1.0f) / (float)batch;

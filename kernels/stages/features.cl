@@ -7,8 +7,8 @@
 #error "one work-item a pixel: build with LANES 1"
 #endif
 
-kernel void ec_features(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count, global const float *aov,
-                        global float *feature_film)
+kernel void ec_features(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count,
+                        global const float *aov, global float *feature_film)
 {
     uint i = get_global_id(0), wave = params->wave, batch = params->batch;
     if (i >= pixel_count) return;

@@ -15,11 +15,12 @@ EC_FN lane_i raster_inside(global const float *f, lane_f value)
 }
 EC_FN lane_f raster_value(global const float *f, lane_f x, lane_f y) { return fma(F(f[0]), x, fma(F(f[1]), y, F(f[2]))); }
 
-kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint path_count, global float *hits,
-                      global const ec_raster_tri *tris, global const uint *starts, global const uint *ends,
-                      global const uint *list, global const float *prims, global const float *indices,
-                      global const float *uvs, global const float *colors, global const float *materials,
-                      global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places, global const float *motion,
+kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                      uint path_count, global float *hits, global const ec_raster_tri *tris, global const uint *starts,
+                      global const uint *ends, global const uint *list, global const float *prims,
+                      global const float *indices, global const float *uvs, global const float *colors,
+                      global const float *materials, global const float *texture_table, global const uint *texels,
+                      constant float *srgb, global const float *places, global const float *motion,
                       global const float *times)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
@@ -61,7 +62,8 @@ kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, g
             if (HAS(CULLING) || HAS(ALPHA)) {
                 global const float *p = prims + t->prim * EC_PRIM_WORDS;
                 point3 a = point3_make(p[0], p[1], p[2]);
-                point3 n = point3_cross(point3_sub(point3_make(p[4], p[5], p[6]), a), point3_sub(point3_make(p[8], p[9], p[10]), a));
+                point3 n = point3_cross(point3_sub(point3_make(p[4], p[5], p[6]), a),
+                                        point3_sub(point3_make(p[8], p[9], p[10]), a));
                 point3 from = params->orthographic ? point3_load(params->camera_forward)
                                                    : point3_sub(a, point3_load(params->camera_origin));
                 bool front = point3_dot(n, from) < 0.0f;

@@ -113,7 +113,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             v3 way = v3_sub(s.p, source);
             if (HAS(LIGHT_TREE) && light_tree) {
                 lane_u lamp = HAS(INSTANCES) ? (h.placed ? U(0) : prim) : prim; /* no instance is one, and its id lies behind the trails */
-                h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source, gather_u(light_trails, lamp));
+                h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source,
+                                                gather_u(light_trails, lamp));
             }
             lane_f pdf = light_found_pdf(&h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = coat_emission(&g, &h, m, wo, surface_emission(&g, &h, m, emission));

@@ -10,11 +10,13 @@
 #define LEAST_ALPHA 0.02f /* narrower highlights of points would be met by one sample in thousands */
 
 kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatile global uint *invalid,
-                            global const float *paths, global const float *hits, global float *radiance, global float *aov,
-                            global const float *prims, global const float *indices, global const float *normals,
-                            global const float *tangents, global const float *uvs, global const float *colors,
-                            global const float *materials, global const float *texture_table, global const uint *texels,
-                            constant float *srgb, global const float *places, global const float *light_table, global const float *environment_texels)
+                            global const float *paths, global const float *hits, global float *radiance,
+                            global float *aov, global const float *prims, global const float *indices,
+                            global const float *normals, global const float *tangents, global const float *uvs,
+                            global const float *colors, global const float *materials,
+                            global const float *texture_table, global const uint *texels, constant float *srgb,
+                            global const float *places, global const float *light_table,
+                            global const float *environment_texels)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= path_count) return;
@@ -26,7 +28,8 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
     lane_u prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
     lane_i found = active & (prim != EC_NO_ID);
 
-    seen e = seen_surface(&g, found, prim, queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i), wo, U(0));
+    seen e = seen_surface(&g, found, prim, queue_load_f(hits, wave, EC_HIT_B1, i),
+                          queue_load_f(hits, wave, EC_HIT_B2, i), wo, U(0));
     surface s = e.s;
     if (HAS(ANISOTROPY)) s.stretch = s.alpha_ggx < LEAST_ALPHA ? max(s.alpha_ggx * s.stretch / LEAST_ALPHA, F(1.0f)) : s.stretch;
     s.alpha_ggx = max(s.alpha_ggx, F(LEAST_ALPHA));

@@ -67,13 +67,14 @@ EC_FN branch branch_make(const surface *s, v3 wi, v3 beta, lane_f depth, lane_u 
     return b;
 }
 
-kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                       volatile global ec_counters *counters, volatile global uint *invalid, global float *paths,
-                       global float *hits, global float *next, global float *branches, global float *radiance,
-                       global float *aov, global const float *prims, global const float *indices,
-                       global const float *normals, global const float *tangents, global const float *uvs,
-                       global const float *colors, global const float *materials, global const float *texture_table,
-                       global const uint *texels, constant float *srgb, global const float *places, global const float *environment_texels)
+kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                       uint bounce, uint step, volatile global ec_counters *counters, volatile global uint *invalid,
+                       global float *paths, global float *hits, global float *next, global float *branches,
+                       global float *radiance, global float *aov, global const float *prims,
+                       global const float *indices, global const float *normals, global const float *tangents,
+                       global const float *uvs, global const float *colors, global const float *materials,
+                       global const float *texture_table, global const uint *texels, constant float *srgb,
+                       global const float *places, global const float *environment_texels)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;

@@ -8,8 +8,9 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
                              volatile global uint *invalid, global const float *paths, global const float *hits,
                              global float *shadows, global const float *prims, global const float *indices,
                              global const float *normals, global const float *tangents, global const float *uvs,
-                             global const float *colors, global const float *materials, global const float *texture_table,
-                             global const uint *texels, constant float *srgb, global const float *places, global const float *light_table)
+                             global const float *colors, global const float *materials,
+                             global const float *texture_table, global const uint *texels, constant float *srgb,
+                             global const float *places, global const float *light_table)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -21,7 +22,8 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
     if (!any_lane(lit)) return;
     v3 wo = v3_negate(queue_load_v3(paths, wave, EC_PATH_DX, i)), beta = queue_load_v3(paths, wave, EC_PATH_BR, i);
     lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i);
-    hit_point h = hit_point_make(&g, lit ? prim : U(0), queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i));
+    hit_point h = hit_point_make(&g, lit ? prim : U(0), queue_load_f(hits, wave, EC_HIT_B1, i),
+                                 queue_load_f(hits, wave, EC_HIT_B2, i));
     surface s;
     surface_place(&h, wo, &s);
     light_sample l = light_from_centre(light_table, light, &g, lit, s.p, params->scene_radius);
