@@ -42,7 +42,7 @@ class RankBlocks(Case):
         """A mean of each batch would be 12 bytes a pixel, the sums of 16 are 68 / 16. Batches by themselves: the first, the last, and until all know
         their pace."""
         whole = self.render(*MANY)
-        for ranks, fanout in [(2, ""), (3, ""), (5, ""), (5, "2"), (3, "1")]:
+        for ranks, fanout in [(3, ""), (5, "2")]:
             report, planes = self.render_on(ranks, *MANY, env={"ECLAT_RANK_FANOUT": fanout})
             self.assert_same(whole, (report, planes))
             self.assertGreater(report["other_ranks_batches"], 100)
@@ -57,8 +57,7 @@ class RankBlocks(Case):
         self.assertEqual(whole[0]["stopped_by"], "error")
         self.assertGreater(whole[0]["batches"], 512)
         self.assertEqual(whole[0]["batches"] % 32, 0)
-        for ranks in [2, 3]:
-            self.assert_same(whole, self.render_on(ranks, *job))
+        self.assert_same(whole, self.render_on(3, *job))
         kept = self.path("kept.exr")
         self.render_on(3, *job, "--spp", "523", "--checkpoint", kept)
         self.assertEqual(whole[0]["image_sha256"], self.render("--resume", kept, "--error", f"{100 * past}%", "--spp", "4000")[0]["image_sha256"])
@@ -66,13 +65,13 @@ class RankBlocks(Case):
 
     def test_going_on(self):
         """A job that is stopped again and again, at any batch, on other ranks each time."""
-        job, kept = [*MANY[:-1], "6000"], self.path("kept.exr")
+        job, kept = [*MANY[:-1], "4000"], self.path("kept.exr")
         whole = self.render(*job)
         now, stops = job, 0
-        for ranks in [2, 3, 2, 3]:
-            process = self.start(ranks, *now, "--checkpoint", kept, "--every", "1s", "-q", "-o", self.path("b.exr"))
+        for ranks in [2, 3]:
+            process = self.start(ranks, *now, "--checkpoint", kept, "--every", "0.5s", "-q", "-o", self.path("b.exr"))
             self.wait_for(kept, process)
-            time.sleep(0.7)
+            time.sleep(0.3)
             stops += process.poll() is None
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=60)
@@ -93,30 +92,28 @@ class RankBlocks(Case):
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=9000 FAULT_LOST=1"
-        self.assertRegex(self.render_with(fault, MANY).stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
-        self.render_with(fault, MANY, {"ECLAT_RANK_FANOUT": "1"})  # it goes on with what the last rank does
+        run = self.render_with(fault, MANY, {"ECLAT_RANK_FANOUT": "1"})  # it goes on with what the last rank does
+        self.assertRegex(run.stderr, "warning: told by rank 1: .* is out, and the others take over its work: .*CL_OUT_OF_RESOURCES")
 
     def test_a_rank_that_is_killed(self):
-        """Where the launcher lets the others live they see at once that it has ended, and take its piece over."""
-        job = [*MANY[:-1], "9000"]
+        """Where the launcher lets the others live they see at once that it has ended, even from behind it in a chain, and take its piece over."""
+        job = [*MANY[:-1], "5000"]
         whole = self.render(*job)
-        for victim, env in [(2, ""), (1, "1")]:
-            process = self.start(3, *job, "--checkpoint", self.path("kept.exr"), "--every", "1s", "--json", "-o", self.path("b.exr"),
-                                 launcher=["--enable-recovery", "-x", f"ECLAT_RANK_FANOUT={env}"])
-            self.wait_for(self.path("kept.exr"), process)
-            os.kill(test_ranks.Ranks.ranks_of(self, process)[victim], signal.SIGKILL)
-            killed = time.monotonic()
-            output, error = process.communicate(timeout=100)
-            self.assertLess(time.monotonic() - killed, 40)  # before it was noticed that nothing comes of it, a minute
-            self.assertIn(f"rank {victim} is lost", error)
-            self.assertEqual(whole[0]["image_sha256"], json.loads(output)["image_sha256"])
-            os.remove(self.path("kept.exr"))
+        process = self.start(3, *job, "--checkpoint", self.path("kept.exr"), "--every", "0.3s", "--json", "-o", self.path("b.exr"),
+                             launcher=["--enable-recovery", "-x", "ECLAT_RANK_FANOUT=1"])
+        self.wait_for(self.path("kept.exr"), process)
+        os.kill(test_ranks.Ranks.ranks_of(self, process)[1], signal.SIGKILL)
+        killed = time.monotonic()
+        output, error = process.communicate(timeout=100)
+        self.assertLess(time.monotonic() - killed, 40)  # before it was noticed that nothing comes of it, a minute
+        self.assertIn("rank 1 is lost", error)
+        self.assertEqual(whole[0]["image_sha256"], json.loads(output)["image_sha256"])
 
     def test_a_limit_of_time(self):
         start = time.monotonic()
-        report, _ = self.render_on(3, CORNELL, *SIZE, "--batch", "1", "--time", "3s")
+        report, _ = self.render_on(3, CORNELL, *SIZE, "--batch", "1", "--time", "1.5s")
         self.assertEqual(report["stopped_by"], "time")
-        self.assertLess(report["seconds"], 4)
+        self.assertLess(report["seconds"], 3)
         self.assertLess(time.monotonic() - start, 40)
         whole, _ = self.render(CORNELL, *SIZE, "--batch", "1", "--spp", str(report["samples_per_pixel"]))
         self.assertEqual(whole["image_sha256"], report["image_sha256"])

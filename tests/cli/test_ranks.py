@@ -46,19 +46,17 @@ class Ranks(Case):
         run = self.assert_ok(eclat("render", *options, "--json", "-q", "-o", self.path(name)))
         return json.loads(run.stdout), read_exr(self.path(name))[1]
 
-    def assert_same(self, job, counts=(2, 3, 5), env=None, more=()):
+    def assert_same(self, job, ranks, env=None, more=()):
         whole, planes = self.render(*job)
-        for ranks in counts:
-            run = mpirun(ranks, "render", *job, *more, "--json", "-q", "-o", self.path("b.exr"), env=env, timeout=100)
-            self.assert_ok(run)
-            report = json.loads(run.stdout)
-            self.assertEqual(report["ranks"], ranks)
-            self.assertEqual({key: whole[key] for key in RESULT}, {key: report[key] for key in RESULT}, ranks)
-            self.assertEqual(planes, read_exr(self.path("b.exr"))[1], ranks)
-            os.remove(self.path("b.exr"))
+        run = self.assert_ok(mpirun(ranks, "render", *job, *more, "--json", "-q", "-o", self.path("b.exr"), env=env))
+        report = json.loads(run.stdout)
+        self.assertEqual(report["ranks"], ranks)
+        self.assertEqual({key: whole[key] for key in RESULT}, {key: report[key] for key in RESULT})
+        self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
 
     def test_a_number_of_samples(self):
-        self.assert_same([*JOB, "--spp", "70", "--batch", "2"])
+        for ranks in 2, 5:
+            self.assert_same([*JOB, "--spp", "70", "--batch", "2"], ranks)
 
     def test_all_take_part(self):
         run = self.assert_ok(mpirun(3, "render", CORNELL, "--size", "64x64", "--spp", "1024", "--batch", "16", "--json", "-q", "-o", self.path("b.exr")))
@@ -68,50 +66,47 @@ class Ranks(Case):
 
     def test_trees(self):
         """A chain of five, and two levels of two: nobody but neighbours exchanges letters."""
-        for fanout in ["1", "2"]:
-            self.assert_same([*JOB, "--spp", "70", "--batch", "2"], [5], {"ECLAT_RANK_FANOUT": fanout})
-            self.assert_same([*JOB, "--adaptive", "--spp", "48", "--batch", "2"], [5], {"ECLAT_RANK_FANOUT": fanout})
+        self.assert_same([*JOB, "--adaptive", "--spp", "48", "--batch", "2"], 5, {"ECLAT_RANK_FANOUT": "1"})
+        self.assert_same([*JOB, "--spp", "70", "--batch", "2"], 5, {"ECLAT_RANK_FANOUT": "2"})
 
     def test_ranks_of_several_devices(self):
         """Pieces of one batch reach the same rank one after the other."""
         job = [CORNELL, "--size", "64x64", "--spp", "64", "--batch", "16", "--wave", "4096"]
-        self.assert_same(job, [2], {"POCL_DEVICES": "basic basic basic basic"}, ["--device", "all"])
+        self.assert_same(job, 2, {"POCL_DEVICES": "basic basic basic basic"}, ["--device", "all"])
 
     def test_one_process(self):
-        self.assert_same([*JOB, "--spp", "16"], [1])
+        self.assert_same([*JOB, "--spp", "16"], 1)
 
     def test_more_ranks_than_batches(self):
-        self.assert_same([*JOB, "--spp", "4", "--batch", "2"], [5])
+        self.assert_same([*JOB, "--spp", "4", "--batch", "2"], 5)
 
     def test_an_error(self):
-        self.assert_same([*JOB, "--error", "60%", "--batch", "2"])
+        self.assert_same([*JOB, "--error", "60%", "--batch", "2"], 3)
 
     def test_more_samples_where_they_tell(self):
-        self.assert_same([*JOB, "--adaptive", "--spp", "48", "--batch", "2"])
+        self.assert_same([*JOB, "--adaptive", "--spp", "48", "--batch", "2"], 3)
 
     def test_a_slice(self):
-        self.assert_same([*JOB, "--spp", "96", "--batch", "1", "--samples", "10:80"], [3])
+        self.assert_same([*JOB, "--spp", "96", "--batch", "1", "--samples", "10:80"], 3)
 
     def test_other_integrators(self):
-        self.assert_same([*JOB, "--integrator", "whitted", "--spp", "8", "--batch", "1"], [3])
-        self.assert_same([*JOB, "--integrator", "raster", "--spp", "8", "--batch", "1"], [3])
+        self.assert_same([*JOB, "--integrator", "whitted", "--spp", "8", "--batch", "1"], 2)
+        self.assert_same([*JOB, "--integrator", "raster", "--spp", "8", "--batch", "1"], 2)
 
     def test_going_on_with_other_ranks(self):
-        for options in [[], ["--adaptive"]]:
-            job = [*JOB, "--batch", "2", *options]
-            whole, planes = self.render(*job, "--spp", "90")
-            kept = self.path("kept.exr")
-            self.assert_ok(mpirun(3, "render", *job, "--spp", "34", "--checkpoint", kept, "-q", "-o", self.path("b.exr")))
-            self.assert_ok(mpirun(5, "render", "--resume", kept, "--spp", "60", "-q", "-o", self.path("b.exr")))
-            self.assert_ok(eclat("render", "--resume", kept, "--spp", "70", "-q", "-o", self.path("b.exr")))
-            run = self.assert_ok(mpirun(2, "render", "--resume", kept, "--spp", "90", "--json", "-q", "-o", self.path("b.exr")))
-            self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
-            self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
-            os.remove(kept)
+        """With more samples where they tell; test_rank_blocks goes on without."""
+        job = [*JOB, "--batch", "2", "--adaptive"]
+        whole, planes = self.render(*job, "--spp", "90")
+        kept = self.path("kept.exr")
+        self.assert_ok(mpirun(3, "render", *job, "--spp", "34", "--checkpoint", kept, "-q", "-o", self.path("b.exr")))
+        self.assert_ok(eclat("render", "--resume", kept, "--spp", "60", "-q", "-o", self.path("b.exr")))
+        run = self.assert_ok(mpirun(2, "render", "--resume", kept, "--spp", "90", "--json", "-q", "-o", self.path("b.exr")))
+        self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
+        self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
 
     def test_a_limit_of_time(self):
         start = time.monotonic()
-        run = self.assert_ok(mpirun(3, "render", *JOB, "--time", "4s", "--json", "-q", "-o", self.path("a.exr")))
+        run = self.assert_ok(mpirun(3, "render", *JOB, "--time", "1.5s", "--json", "-q", "-o", self.path("a.exr")))
         report = json.loads(run.stdout)
         self.assertEqual(report["stopped_by"], "time")
         self.assertLess(time.monotonic() - start, 40)  # where a rank waits for another, a minute
@@ -122,8 +117,8 @@ class Ranks(Case):
         large = ["render", CORNELL, "--size", "4096x4096", "--spp", "4", "--memory", "300M", "-o", self.path("a.exr")]
         for arguments, code, says in [(large, 1, "an MPI job is for pictures that are rendered whole; start one process without mpirun, or"),
                                       (["render", self.path("none.gltf")], 1, "none.gltf"), (["render", CORNELL, "--spp", "x"], 2, "--spp"),
-                                      (["rendr", CORNELL], 2, "did you mean"), (["render", CORNELL, "-o", self.path("no", "a.exr")], 1, "No such file")]:
-            run = mpirun(3, *arguments, timeout=60)
+                                      (["render", CORNELL, "-o", self.path("no", "a.exr")], 1, "No such file")]:
+            run = mpirun(2, *arguments, timeout=60)
             self.assertEqual(run.returncode, code, run.stderr)
             lines = own_lines(run)
             self.assertEqual(len(lines), 1, run.stderr)
@@ -146,7 +141,7 @@ class Ranks(Case):
             self.assertEqual(self.assert_ok(run).stderr.count("srun started 2 processes that know nothing of one another"), says, run.stderr)
 
     def test_other_commands(self):
-        run = self.assert_ok(mpirun(3, "info", CORNELL))
+        run = self.assert_ok(mpirun(2, "info", CORNELL))
         self.assertEqual(run.stdout.splitlines()[:3], self.assert_ok(eclat("info", CORNELL)).stdout.splitlines()[:3])
         self.assertIn("rank 0 does this alone", run.stderr)
 
@@ -198,11 +193,11 @@ class Ranks(Case):
     def test_ranks_that_are_lost(self):
         """Where the launcher lets the others live: one below another, whose loss is told all the same; and one that hangs, for which the launcher
         says that not all ended as they should."""
-        job = [*JOB, "--spp", "4000", "--batch", "4"]
+        job = [*JOB, "--spp", "2000", "--batch", "4"]
         whole, planes = self.render(*job)
         for victim, number, env, launcher in [(5, signal.SIGKILL, {"ECLAT_RANK_FANOUT": "2"}, ["--enable-recovery"]), (2, signal.SIGSTOP, {}, [])]:
             kept = self.path("kept.exr")
-            process = self.start(6, *job, "--checkpoint", kept, "--every", "0.1s", "--json", "-q", "-o", self.path("b.exr"), launcher=launcher,
+            process = self.start(victim + 1, *job, "--checkpoint", kept, "--every", "0.1s", "--json", "-q", "-o", self.path("b.exr"), launcher=launcher,
                                  env=dict(env, ECLAT_RANK_LOST="4"))
             self.wait_for(kept, process)
             lost = self.ranks_of(process)[victim]
@@ -264,19 +259,17 @@ class Ranks(Case):
         return run
 
     def test_a_rank_without_a_device(self):
-        """It says so and the others do its work; in a chain it is still who the last one is reached by."""
-        for env in [{}, {"ECLAT_RANK_FANOUT": "1"}]:
-            run = self.render_with("OCL_ICD_VENDORS=/nonexistent", [*JOB, "--spp", "40", "--batch", "1"], env)
-            self.assertRegex(run.stderr, "warning: rank 1 on .*; the others go on without it")
-            self.assertEqual(json.loads(run.stdout)["ranks"], 2)
+        """It says so and the others do its work, and in a chain it is still who the last one is reached by."""
+        run = self.render_with("OCL_ICD_VENDORS=/nonexistent", [*JOB, "--spp", "40", "--batch", "1"], {"ECLAT_RANK_FANOUT": "1"})
+        self.assertRegex(run.stderr, "warning: rank 1 on .*; the others go on without it")
+        self.assertEqual(json.loads(run.stdout)["ranks"], 2)
 
     def test_a_rank_whose_device_fails(self):
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=60 FAULT_LOST=1"
-        job = [CORNELL, "--size", "64x48", "--spp", "1024", "--batch", "4"]
+        job = [CORNELL, "--size", "64x48", "--spp", "512", "--batch", "4"]
         self.assertRegex(self.render_with(fault, job).stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
-        self.render_with(fault, job, {"ECLAT_RANK_FANOUT": "1"})  # it goes on with what the last rank does
 
     def test_cores(self):
         """What a launcher binds to a core, as Open MPI does, is told of it."""
