@@ -19,8 +19,8 @@ RING = os.path.join(SOURCE, "scenes", "ring", "ring.gltf")
 ENVIRONMENT = dict(os.environ)
 ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
 
-# For scenes of many effects: compiles in a third of the time that 16 lanes and two structures take, to the same bits.
-QUICK = ("--lanes", "8", "--accel", "bvh8")
+# The same kernels for every scene, in all tests that want them: see case_with_all_effects.
+QUICK = ("--effects", "all", "--lanes", "4")
 
 
 def eclat(*arguments, cwd=None, env=None, timeout=300, **options):

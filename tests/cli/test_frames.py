@@ -9,10 +9,12 @@ import subprocess
 import time
 import unittest
 
-from support import ECLAT, ENVIRONMENT, SHARED, Case, data_uri, eclat, read_exr, write_gltf
+from support import ECLAT, ENVIRONMENT, QUICK, SHARED, Case, data_uri, eclat, read_exr, write_gltf
 from test_motion import GLOW, GREY, Builder, room, turn
 
 SMALL = ["--size", "16x12", "--spp", "4", "-q"]
+# Scenes of these call for what the Cornell box does, whose kernels other tests compile.
+MATT, LAMP = (dict(material, doubleSided=False) for material in (GREY, GLOW))
 
 
 def rows_of(run):
@@ -46,16 +48,17 @@ class FramesCase(Case):
         return write_gltf(self.path(name + ".gltf"), scene)
 
     def sliding(self):
-        """A lit quad that slides over a grey one: little to render."""
+        """A lamp that slides over a grey floor, seen from behind and so not itself; and with --animation all a slab that turns: little to render."""
         b = Builder()
-        b.add(GREY, scale=[4, 4, 4], translation=[0, 0, -1])
-        b.animate(b.add(GLOW), "translation", [(-1, 0, 0), (1, 0, 0)])
+        b.add(MATT, scale=[4, 4, 4], translation=[0, 0, -1])
+        b.animate(b.add(LAMP, rotation=turn(0, 180)), "translation", [(-1, 0, 1), (1, 0, 1)])
+        b.animate(b.add(MATT), "rotation", [turn(0, 0), turn(0, 140)])
         b.camera(2)
         return b.write(self.path("slide.gltf"))
 
 
 class SameBits(FramesCase):
-    def assert_as_alone(self, scene, *options, frames="0:6:2", fps="8", numbers=(0, 2, 4, 6)):
+    def assert_as_alone(self, scene, *options, frames="0:4:2", fps="8", numbers=(0, 2, 4)):
         """The sequence, each frame by --at, and one by the command that its file has."""
         frames, last = rows_of(self.render(scene, "--frames", frames, "--fps", fps, "-o", "s.%02d.exr", *options))
         self.assertEqual((last["frames"], last["rendered"], last["skipped"], last["failed"]), (len(numbers), len(numbers), 0, 0))
@@ -76,12 +79,12 @@ class SameBits(FramesCase):
         return frames
 
     def test_nodes_lamps_lights_and_cameras(self):
-        self.assert_as_alone(room().write(self.path("room.gltf")), "--animation", "all", "--env", "0.3,0.3,0.3")
+        self.assert_as_alone(room().write(self.path("room.gltf")), "--animation", "all", "--env", "0.3,0.3,0.3", *QUICK)
 
     def test_a_camera_alone(self):
         b = Builder()
-        b.add(GREY, scale=[4, 4, 4])
-        b.add(GLOW, translation=[0, 0, 1])
+        b.add(MATT, scale=[4, 4, 4])
+        b.add(LAMP, translation=[0, 0, 1], rotation=turn(0, 180))
         b.animate(b.camera(2), "translation", [(0, 0, 5), (.5, .2, 5)])
         frames = self.assert_as_alone(b.write(self.path("pan.gltf")))
         for row in frames[1:]:
@@ -94,20 +97,19 @@ class SameBits(FramesCase):
         b.scene["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 4}]}}
         b.animate(b.node(translation=[0, 0, 1], extensions={"KHR_lights_punctual": {"light": 0}}), "translation", [(-1, 0, 1), (1, 0, 1)])
         b.camera(2)
-        frames = self.assert_as_alone(b.write(self.path("light.gltf")))
+        frames = self.assert_as_alone(b.write(self.path("light.gltf")), *QUICK)
         for row in frames[1:]:
             self.assertEqual(row["shared"]["structures"], "kept", row["frame"])
 
     def test_skins_and_morph_targets(self):
-        for name, half in (("SimpleSkin", 2), ("AnimatedMorphCube", 2.5), ("Fox", 90)):
+        for name, half in (("AnimatedMorphCube", 2.5), ("Fox", 90)):
             with self.subTest(name):
                 for old in os.listdir(self.folder):
                     os.remove(self.path(old))
-                self.assert_as_alone(self.model(name, half), "--animation", "0")
+                self.assert_as_alone(self.model(name, half), "--animation", "0", *QUICK)
 
     def test_in_every_structure(self):
-        scene = room().write(self.path("room.gltf"))
-        common = ["--animation", "all", "--frames", "0:2", "--fps", "4"]
+        scene, common = self.sliding(), ["--animation", "all", "--frames", "0:2", "--fps", "4"]
         wanted = None
         for accel in ("auto", "bvh2", "bvh8", "grid", "kdtree", "none", "twolevel"):
             frames, _ = rows_of(self.render(scene, *common, "--accel", accel, "-o", accel + ".%d.exr"))
@@ -121,12 +123,12 @@ class SameBits(FramesCase):
         b.animate(b.add(GLOW), "scale", [(0, 0, 0), (1, 1, 1)])
         b.camera(1)
         scene = b.write(self.path("pop.gltf"))
-        run = self.assert_ok(eclat("render", scene, *SMALL, "--env", "0.25,0.25,0.25", "--frames", "0:1", "--fps", "1", "-o", "p.%d.exr", cwd=self.folder))
+        run = self.assert_ok(eclat("render", scene, *SMALL, *QUICK, "--env", "0.25,0.25,0.25", "--frames", "0:1", "--fps", "1", "-o", "p.%d.exr", cwd=self.folder))
         self.assertEqual(run.stderr, f"eclat: warning: {scene}: no surface shows: scaled to nothing by nodes[0]\n")
         self.assertEqual(set(read_exr(self.path("p.0.exr"))[1]["G"]), {0.25})
         self.assertGreater(max(read_exr(self.path("p.1.exr"))[1]["G"]), 0.9)
         for integrator in ("whitted", "raster"):
-            self.render(scene, "--at", "0", "--env", "0.25,0.25,0.25", "-o", "alone.exr", "--integrator", integrator)
+            self.render(scene, "--at", "0", "--env", "0.25,0.25,0.25", "-o", "alone.exr", "--integrator", integrator, *QUICK)
             self.assertEqual(set(read_exr(self.path("alone.exr"))[1]["G"]), {0.25}, integrator)
 
     def test_instances_that_move_and_that_do_not(self):
@@ -137,20 +139,20 @@ class SameBits(FramesCase):
             b.node(mesh=0, translation=[1, k - 1, 0])
         b.animate(moving, "translation", [(-1, -1, 0), (-1, 1, 0)])
         b.camera(2)
-        self.assert_as_alone(b.write(self.path("instances.gltf")), "--instancing", "on")
+        self.assert_as_alone(b.write(self.path("instances.gltf")), "--instancing", "on", "--lanes", "1")
 
     def test_a_shutter_counts_from_the_frame(self):
         scene = self.sliding()
-        frames, _ = rows_of(self.render(scene, "--frames", "1:2", "--fps", "4", "--shutter", "0:0.2", "-o", "b.%d.exr"))
+        frames, _ = rows_of(self.render(scene, "--frames", "1:2", "--fps", "4", "--shutter", "0:0.2", *QUICK, "-o", "b.%d.exr"))
         for row, span in zip(frames, ("0.25:0.45", "0.5:0.7")):
-            alone = json.loads(self.render(scene, "--shutter", span, "-o", "alone.exr").stdout)
+            alone = json.loads(self.render(scene, "--shutter", span, *QUICK, "-o", "alone.exr").stdout)
             self.assertEqual(alone["image_sha256"], row["image_sha256"])
 
     def test_triangles_that_would_be_cut(self):
         """Long beams across each other: single stills may have them in parts, frames never, so that they are the same whatever came before."""
         b = Builder()
-        b.add(GREY, scale=[6, 6, 6], translation=[0, 0, -1])
-        b.animate(b.add(GLOW, translation=[0, 0, 3], rotation=turn(0, 180)), "translation", [(0, 0, 3), (1, 0, 3)])
+        b.add(MATT, scale=[6, 6, 6], translation=[0, 0, -1])
+        b.animate(b.add(LAMP, translation=[0, 0, 3], rotation=turn(0, 180)), "translation", [(0, 0, 3), (1, 0, 3)])
         for k in range(2000):
             b.node(mesh=0, translation=[2 * math.cos(2.1 * k), 2 * math.sin(1.7 * k), 1 + math.sin(3.3 * k)], scale=[3, .01, 1],
                    rotation=[.35 * math.sin(k), .35 * math.cos(k), .87 * math.sin(2.4 * k), .87 * math.cos(2.4 * k)])
@@ -166,8 +168,8 @@ class SameBits(FramesCase):
 
     def test_noise_that_stands_and_that_does_not(self):
         b = Builder()
-        b.add(GREY, scale=[4, 4, 4])
-        b.add(GLOW, translation=[0, 0, 1], rotation=turn(0, 180))
+        b.add(MATT, scale=[4, 4, 4])
+        b.add(LAMP, translation=[0, 0, 1], rotation=turn(0, 180))
         b.animate(b.camera(2), "translation", [(0, 0, 5), (0, 0, 5)])
         scene = b.write(self.path("still.gltf"))
         for options, kinds in (([], 1), (["--seed", "frame"], 3)):
@@ -181,8 +183,8 @@ class SameBits(FramesCase):
     def test_what_appears_and_goes(self):
         """Triangles without area are dropped: what structures are of changes from frame to frame."""
         b = Builder()
-        b.add(GREY, scale=[4, 4, 4], translation=[0, 0, -1])
-        b.animate(b.add(GLOW), "scale", [(0, 0, 0), (1, 1, 1), (0, 0, 0)], times=(0.0, 0.5, 1.0))
+        b.add(MATT, scale=[4, 4, 4], translation=[0, 0, -1])
+        b.animate(b.add(LAMP), "scale", [(0, 0, 0), (1, 1, 1), (0, 0, 0)], times=(0.0, 0.5, 1.0))
         b.camera(2)
         self.assert_as_alone(b.write(self.path("grow.gltf")), frames="0:8:4", numbers=(0, 4, 8))
 
@@ -318,7 +320,7 @@ class Going(FramesCase):
 
     def test_a_frame_that_fails_leaves_the_others(self):
         b = Builder()
-        b.animate(b.add(GLOW), "translation", [(0, 0, 0), (0, 0, 0), (float("nan"), 0, 0), (1, 0, 0), (1, 0, 0)],
+        b.animate(b.add(LAMP), "translation", [(0, 0, 0), (0, 0, 0), (float("nan"), 0, 0), (1, 0, 0), (1, 0, 0)],
                   times=(0.0, 0.5, 1.0, 1.5, 2.0))
         b.camera(2)
         scene = b.write(self.path("broken.gltf"))
@@ -342,7 +344,7 @@ class Sharing(FramesCase):
 
     def test_programs_textures_and_structures(self):
         scene = self.model("Fox", 90)
-        first, *others = self.shared(scene, "--animation", "Run", "--frames", "0:4")
+        first, *others = self.shared(scene, "--animation", "Run", "--frames", "0:4", *QUICK)
         self.assertEqual((first["structures"], first["programs_kept"], first["bytes_kept"]), ("built", 0, 0))
         texels = 1024 * 1024 * 4
         self.assertGreater(first["bytes_uploaded"], texels)
@@ -365,11 +367,9 @@ class Sharing(FramesCase):
             self.assertEqual([row["shared"]["bytes_kept"] > 0 for row in several], [False, True, True])
 
     def test_an_environment_map_is_read_and_uploaded_once(self):
-        first = eclat("render", room().write(self.path("room.gltf")), "--at", "0", "--animation", "0", "--size", "64x32", "--spp", "4", "-q", "-o",
-                      self.path("sky.exr"))
-        self.assert_ok(first)
         scene = self.sliding()
-        command = ["--env", "sky.exr", "--env-rotate", "30", "--env-strength", "2", "--fps", "4"]
+        self.render(scene, "--at", "0", "--size", "64x32", "-o", "sky.exr")
+        command = ["--env", "sky.exr", "--env-rotate", "30", "--env-strength", "2", *QUICK, "--fps", "4"]
         _, *others = self.shared(scene, "--frames", "0:2", *command)
         for row in others:
             self.assertGreaterEqual(row["bytes_kept"], 64 * 32 * 16)
@@ -383,7 +383,7 @@ class Sharing(FramesCase):
         others = [b.node(mesh=0, translation=[1, k - 1, 0]) for k in range(3)]
         b.animate(others[0], "translation", [(1, -1, 0), (0, -1, 0)])
         b.camera(2)
-        first, *rest = self.shared(b.write(self.path("instances.gltf")), "--frames", "0:2", "--fps", "4", "--instancing", "on")
+        first, *rest = self.shared(b.write(self.path("instances.gltf")), "--frames", "0:2", "--fps", "4", "--instancing", "on", "--lanes", "1")
         self.assertGreaterEqual(mesh, 0)
         self.assertEqual((first["meshes_built"], first["meshes_kept"]), (1, 0))
         for row in rest:
@@ -392,12 +392,12 @@ class Sharing(FramesCase):
     def test_other_effects_build_other_programs_and_only_then(self):
         """The lamp goes out between frame 1 and 2: kernels for what the scene calls for are others from then on."""
         b = Builder()
-        b.add(GREY, scale=[4, 4, 4], translation=[0, 0, -1])
-        lamp = b.add(GLOW)
+        b.add(MATT, scale=[4, 4, 4], translation=[0, 0, -1])
+        lamp = b.add(LAMP)
         b.animate(lamp, "scale", [(1, 1, 1), (0, 0, 0)], times=(0.0, 0.5))
         b.scene["animations"][0]["samplers"][0]["interpolation"] = "STEP"
         b.camera(2)
-        rows = self.shared(b.write(self.path("lamp.gltf")), "--frames", "0:3", "--fps", "4", "--env", "1,1,1")
+        rows = self.shared(b.write(self.path("lamp.gltf")), "--frames", "0:3", "--fps", "4", "--lanes", "1", "--env", "1,1,1")
         self.assertEqual([row["programs_built"] > 0 for row in rows], [True, False, True, False])
 
 
