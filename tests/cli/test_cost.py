@@ -6,6 +6,7 @@ import math
 import os
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -13,23 +14,36 @@ from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, quad_scene, write_
 
 SMALL = ("--size", "32x32")
 PATH = "path"
+BUDGET = 15
 
 
 def rung_of(report, name):
     return next(r for r in report["rungs"] if r["id"] == name)
 
 
-class WholeStudy(Case):
-    """One study, long enough to reach the end of the list."""
+def study_that_measures(rung, *arguments):
+    """Standard output and the JSON; again where compiling took the budget, since what one study has compiled is there for the next."""
+    for _ in range(6):
+        with tempfile.TemporaryDirectory(prefix="eclat-cli-") as folder:
+            path = os.path.join(folder, "out.json")
+            run = eclat("cost", *arguments, "--json", path)
+            if run.returncode:
+                raise AssertionError(run.stderr)
+            with open(path, encoding="utf-8") as file:
+                report = json.load(file)
+        if rung_of(report, rung)["state"] != "budget too small":
+            break
+    return run.stdout, report
+
+
+class FullStudy(Case):
+    """One study, long enough to reach what leaves something out."""
 
     @classmethod
     def setUpClass(cls):
         started = time.monotonic()
-        run = eclat("cost", CORNELL, *SMALL, "--budget", "45s", "--json", "-")
+        cls.table, cls.report = study_that_measures("raster", CORNELL, *SMALL, "--budget", str(BUDGET))
         cls.seconds = time.monotonic() - started
-        if run.returncode:
-            raise AssertionError(run.stderr)
-        cls.report = json.loads(run.stdout)
 
     def test_every_rung_is_measured_or_says_why_not(self):
         expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "rr-0.8",
@@ -67,9 +81,19 @@ class WholeStudy(Case):
 
     def test_budget_is_kept(self):
         """Not more than 10 % over, and what is under way; nor much left unused: on a busy machine a kernel may take seconds to compile."""
-        self.assertGreater(self.report["total_seconds"], 0.8 * 45)
-        self.assertLess(self.report["total_seconds"], 1.1 * 45 + 4)
+        self.assertGreater(self.report["total_seconds"], 0.5 * BUDGET)
+        self.assertLess(self.report["total_seconds"], 1.1 * BUDGET + 4)
         self.assertLess(self.report["total_seconds"], self.seconds + 0.1)
+
+    def test_table(self):
+        self.assertIn("best: *", self.table)
+        self.assertNotIn("\033", self.table)
+        for rung in self.report["rungs"]:
+            self.assertIn(rung["name"][:32], self.table)
+            self.assertIn(rung["group_title"], self.table)
+
+    def test_scattering_is_no_matter_where_all_is_matt(self):
+        self.assertNotIn("scattering-multiple", [r["id"] for r in self.report["rungs"]])
 
     def check_curve(self, rung):
         self.assertGreaterEqual(len(rung["curve"]), 1)
@@ -87,21 +111,10 @@ class WholeStudy(Case):
 
 
 class Study(Case):
-    def study(self, *options):
-        run = self.assert_ok(eclat("cost", CORNELL, *SMALL, "--json", self.path("out.json"), *options, cwd=self.folder))
-        with open(self.path("out.json"), encoding="utf-8") as file:
-            return run, json.load(file)
-
-    def test_table(self):
-        run, report = self.study("--budget", "6s")
-        self.assertIn("best: *", run.stdout)
-        self.assertNotIn("\033", run.stdout)
-        for rung in report["rungs"]:
-            self.assertIn(rung["name"][:32], run.stdout)
-            self.assertIn(rung["group_title"], run.stdout)
-
     def test_budget_far_too_small(self):
-        run, report = self.study("--budget", "0.5s")
+        run = self.assert_ok(eclat("cost", CORNELL, *SMALL, "--json", self.path("out.json"), "--budget", "0.5s"))
+        with open(self.path("out.json"), encoding="utf-8") as file:
+            report = json.load(file)
         late = [r for r in report["rungs"] if r["state"] != "measured"]
         self.assertTrue(late)
         for rung in late:
@@ -110,8 +123,7 @@ class Study(Case):
 
     def test_reference_from_a_file(self):
         self.assert_ok(eclat("render", CORNELL, *SMALL, "--spp", "256", "-o", self.path("ref.exr"), cwd=self.folder))
-        run = self.assert_ok(eclat("cost", CORNELL, "--reference", self.path("ref.exr"), "--budget", "6s", "--json", "-", cwd=self.folder))
-        report = json.loads(run.stdout)
+        _, report = study_that_measures(PATH, CORNELL, "--reference", self.path("ref.exr"), "--budget", "3s")
         self.assertEqual((report["width"], report["height"]), (32, 32))
         self.assertEqual(report["reference"]["samples_per_pixel"], 256)
         self.assertGreater(report["reference"]["error"], 0)
@@ -125,7 +137,8 @@ class Study(Case):
         self.assertEqual(run.returncode, 1)
 
     def test_seed_changes_the_figures(self):
-        first, second = (rung_of(self.study("--budget", "6s", "--seed", seed)[1], PATH) for seed in ("1", "2"))
+        first, second = (rung_of(study_that_measures(PATH, CORNELL, *SMALL, "--budget", "3s", "--seed", seed)[1], PATH)
+                         for seed in ("1", "2"))
         self.assertEqual({first["state"], second["state"]}, {"measured"})
         self.assertNotEqual(first["curve"][0]["mse"], second["curve"][0]["mse"])
 
@@ -134,7 +147,7 @@ class Study(Case):
                                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
         self.addCleanup(process.kill)
         process.stderr.readline()
-        time.sleep(10)
+        time.sleep(4)
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 0)
@@ -149,21 +162,16 @@ class Study(Case):
 
     def test_scattering(self):
         """Where there is rough metal. White of roughness 1, seen head-on in a white sky, returns 1 - ln 2 by scattering once (Heitz 2014), and
-        next to all by scattering again: the floor is what once loses. The box, all matt, has no such rung."""
+        next to all by scattering again: the floor is what once loses."""
         plate = {"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}
         document, _ = quad_scene(material=plate)
         document["cameras"][0]["perspective"]["yfov"] = 0.01
         scene = write_gltf(self.path("plate.gltf"), document)
-        for _ in range(3):  # kernels that one study has compiled are there for the next
-            run = self.assert_ok(eclat("cost", scene, "--env", "1,1,1", "--size", "8x8", "--budget", "30s", "--json", "-", cwd=self.folder))
-            again = rung_of(json.loads(run.stdout), "scattering-multiple")
-            if again["state"] != "budget too small":
-                break
+        _, report = study_that_measures("scattering-multiple", scene, "--env", "1,1,1", "--size", "8x8", "--budget", "15s")
+        again = rung_of(report, "scattering-multiple")
         self.assertEqual((again["state"], again["group"], again["settings"]["scattering"]), ("measured", "scattering", "multiple"), again["note"])
         self.assertTrue(again["biased"])
         self.assertAlmostEqual(again["error_floor"], 0.996 / (1 - math.log(2)) - 1, delta=0.02)
-        _, report = self.study("--budget", "2s")
-        self.assertNotIn("scattering-multiple", [r["id"] for r in report["rungs"]])
 
     def test_usage(self):
         for arguments, message in [(["-o", "a.png"], "NAME.html"), (["--budget", "0"], "more than 0"), ([], "needs a SCENE"),

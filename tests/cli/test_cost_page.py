@@ -24,7 +24,7 @@ class Page(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.path = os.path.join(folder.name, "report.html")
         figures = os.path.join(folder.name, "report.json")
-        run = eclat("cost", CORNELL, "--size", "48x48", "--budget", "25s", "-o", cls.path, "--json", figures, cwd=folder.name)
+        run = eclat("cost", CORNELL, "--size", "24x24", "--budget", "12s", "-o", cls.path, "--json", figures, cwd=folder.name)
         if run.returncode:
             raise AssertionError(run.stderr)
         with open(figures, encoding="utf-8") as file:
@@ -102,7 +102,7 @@ class Page(unittest.TestCase):
         self.show()
         sizes = self.browser.evaluate("[...document.querySelectorAll('#pictures img')].map(i => [i.naturalWidth, i.naturalHeight, !!i.alt])")
         pictured = [r for r in self.report["rungs"] if r.get("curve")]
-        self.assertEqual(sizes, [[48, 48, True]] * (1 + 2 * len(pictured)))
+        self.assertEqual(sizes, [[24, 24, True]] * (1 + 2 * len(pictured)))
 
     def test_keyboard(self):
         self.show()

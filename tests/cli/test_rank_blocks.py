@@ -42,11 +42,10 @@ class RankBlocks(Case):
         """A mean of each batch would be 12 bytes a pixel, the sums of 16 are 68 / 16. Batches by themselves: the first, the last, and until all know
         their pace."""
         whole = self.render(*MANY)
-        for ranks, fanout in [(3, ""), (5, "2")]:
-            report, planes = self.render_on(ranks, *MANY, env={"ECLAT_RANK_FANOUT": fanout})
-            self.assert_same(whole, (report, planes))
-            self.assertGreater(report["other_ranks_batches"], 100)
-            self.assertLess(bytes_of_each(report), 12 / 1.5)
+        report, planes = self.render_on(5, *MANY, env={"ECLAT_RANK_FANOUT": "2"})
+        self.assert_same(whole, (report, planes))
+        self.assertGreater(report["other_ranks_batches"], 100)
+        self.assertLess(bytes_of_each(report), 12 / 1.5)
 
     def test_until_an_error(self):
         """The same batch ends it, wherever they were rendered; it is looked at every 16th from 256 on, every 32nd from 512."""
@@ -60,12 +59,11 @@ class RankBlocks(Case):
         self.assert_same(whole, self.render_on(3, *job))
         kept = self.path("kept.exr")
         self.render_on(3, *job, "--spp", "523", "--checkpoint", kept)
-        self.assertEqual(whole[0]["image_sha256"], self.render("--resume", kept, "--error", f"{100 * past}%", "--spp", "4000")[0]["image_sha256"])
         self.assertEqual(whole[0]["image_sha256"], self.render_on(2, "--resume", kept, "--error", f"{100 * past}%", "--spp", "4000")[0]["image_sha256"])
 
     def test_going_on(self):
         """A job that is stopped again and again, at any batch, on other ranks each time."""
-        job, kept = [*MANY[:-1], "4000"], self.path("kept.exr")
+        job, kept = [*MANY[:-1], "3000"], self.path("kept.exr")
         whole = self.render(*job)
         now, stops = job, 0
         for ranks in [2, 3]:
@@ -97,7 +95,7 @@ class RankBlocks(Case):
 
     def test_a_rank_that_is_killed(self):
         """Where the launcher lets the others live they see at once that it has ended, even from behind it in a chain, and take its piece over."""
-        job = [*MANY[:-1], "5000"]
+        job = [*MANY[:-1], "4000"]
         whole = self.render(*job)
         process = self.start(3, *job, "--checkpoint", self.path("kept.exr"), "--every", "0.3s", "--json", "-o", self.path("b.exr"),
                              launcher=["--enable-recovery", "-x", "ECLAT_RANK_FANOUT=1"])
