@@ -59,7 +59,7 @@ class Farm(Case):
         kept, asked, before = self.path("cornell-box.4000000.checkpoint.exr"), self.path("asked"), 0
         self.program("scontrol", f'echo "$@" >{asked}')
         path = self.folder + ":" + os.environ["PATH"]
-        for number, code, seconds in [(signal.SIGTERM, 143, 60), (signal.SIGUSR1, 0, 5)]:  # gone on with, it writes a checkpoint every 10 minutes
+        for number, code, seconds in [(signal.SIGTERM, 143, 60), (signal.SIGUSR1, 0, 5)]:  # gone on with, it writes one a minute
             written = self.written(kept)
             process = subprocess.Popen([os.path.join(SOURCE, "tools", "farm", "array.sbatch"), *big, "--every", "0.5s"], cwd=self.folder,
                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
