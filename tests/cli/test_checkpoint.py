@@ -37,7 +37,7 @@ class Checkpoint(Case):
 
     def test_paths(self):
         job = ["--batch", "2"]
-        for first, all_of_it in [(2, 8), (32, 34), (34, 80)]:
+        for first, all_of_it in [(2, 8), (32, 80)]:
             self.assert_same([*job, "--spp", str(first)], [*job, "--spp", str(all_of_it)], ["--spp", str(all_of_it)])
 
     def test_other_integrators(self):
@@ -47,13 +47,13 @@ class Checkpoint(Case):
 
     def test_adaptive(self):
         """Within the pilot, at its end, and with pixels of different counts."""
-        for first in [4, 8, 10, 30]:
+        for first in [4, 8, 30]:
             job = ["--adaptive", "--batch", "2"]
             self.assert_same([*job, "--spp", str(first)], [*job, "--spp", "64"], ["--spp", "64"])
 
     def test_in_the_middle_of_a_batch(self):
         """A wave of 256 paths is 1 of 100 and more of a batch: nearly every stop is within one."""
-        for options in [["--spp", "96", "--batch", "32"], ["--spp", "96", "--batch", "8", "--adaptive"], ["--spp", "128", "--batch", "32", "--samples", "32:128"]]:
+        for options in [["--spp", "96", "--batch", "8", "--adaptive"], ["--spp", "128", "--batch", "32", "--samples", "32:128"]]:
             job = [CORNELL, "--size", "40x36", "--wave", "256", *options]
             whole = self.render(*job)
             planes = read_exr(self.path("a.exr"))[1]
@@ -78,11 +78,11 @@ class Checkpoint(Case):
 
     def test_within_the_first_batch(self):
         """It is cut as any other, first-hit features and all: on large pictures it takes minutes."""
-        for options in [["--spp", "2048", "--batch", "1024"], ["--spp", "2048", "--batch", "1024", "--samples", "1024:2048"]]:
-            job = [CORNELL, "--size", "40x36", "--wave", "4096", *options]  # a checkpoint after each of 360 waves
+        for options, signals in [([], [signal.SIGINT]), (["--samples", "512:1024"], [signal.SIGKILL, signal.SIGINT])]:
+            job = [CORNELL, "--size", "40x36", "--wave", "4096", "--spp", "1024", "--batch", "512", *options]  # a checkpoint after each of 180 waves
             whole = self.render(*job)
             planes = read_exr(self.path("a.exr"))[1]
-            for number in [signal.SIGKILL, signal.SIGINT]:
+            for number in signals:
                 process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
                 _, said = self.stop(process, number)
                 self.assertEqual("goes on" in said, number == signal.SIGINT and "--samples" in options, said)

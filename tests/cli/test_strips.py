@@ -43,7 +43,7 @@ class Strips(Case):
 
     def test_the_bits_of_the_whole(self):
         """Odd sizes: tiles and blocks of an EXR end where they will. One batch, several, and sums of 16 joined."""
-        for i, options in enumerate([["--size", "256x356", "--spp", "2"], ["--size", "301x355", "--spp", "1"],
+        for i, options in enumerate([["--size", "301x355", "--spp", "1"],
                                      ["--size", "97x450", "--spp", "20", "--batch", "1"], ["--size", "90x403", "--spp", "40", "--batch", "2", "--filter", "blackman-harris"],
                                      ["--size", "200x420", "--spp", "2", "--integrator", "whitted"], ["--size", "200x420", "--spp", "2", "--integrator", "raster"]]):
             with self.subTest(options=options):
@@ -56,12 +56,11 @@ class Strips(Case):
 
     def test_lanes_and_waves(self):
         options = ["--size", "128x600", "--spp", "4"]
-        for lanes, wave in [("1", "4096"), ("8", "70000")]:
-            self.render("whole", *options, "--lanes", lanes, "--wave", "9999", scene=RING)
-            self.in_strips("strips", *options, "--lanes", lanes, "--wave", wave, scene=RING)
-            _, planes = read_exr(self.path("strips.exr"))
-            _, other = read_exr(self.path("whole.exr"))
-            self.assertTrue(planes == other)
+        self.render("whole", *options, "--lanes", "4", "--wave", "9999", scene=RING)
+        self.in_strips("strips", *options, "--lanes", "1", "--wave", "70000", scene=RING)
+        _, planes = read_exr(self.path("strips.exr"))
+        _, other = read_exr(self.path("whole.exr"))
+        self.assertTrue(planes == other)
 
     def test_what_fits_is_rendered_whole(self):
         report = self.render("whole", "--size", "64x64", "--spp", "1", "--memory", "2G")
