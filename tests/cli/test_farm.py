@@ -85,7 +85,7 @@ class Farm(Case):
     def test_time_that_is_too_short(self):
         """What has rendered nothing is not put into the queue for ever."""
         self.program("scontrol", "echo asked >&2")
-        sleeper = self.program("sleeper", 'trap "exit 0" TERM; kill -USR1 $PPID; sleep 20 & wait')
+        sleeper = self.program("sleeper", 'trap "exit 0" TERM; kill -USR1 $PPID; sleep 2 & wait')
         run = self.run_script("array.sbatch", CORNELL, "48", ECLAT=sleeper, PATH=self.folder + ":" + os.environ["PATH"], SLURM_ARRAY_JOB_ID="77",
                               SLURM_ARRAY_TASK_ID="0", SLURM_ARRAY_TASK_COUNT="1")
         self.assertEqual(run.returncode, 2)
