@@ -6,6 +6,15 @@
 
 enum { SAMPLE_COUNT = EC_SAMPLE_HEMISPHERE + 1 };
 
+/* All scenes share one program, which takes longer to compile than they to render. */
+static ec_render_options shared(ec_render_options options)
+{
+    options.more_effects = EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_SPECULAR |
+                           EC_FEATURE_SMOOTH | EC_FEATURE_CULLING | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION | EC_FEATURE_PANES |
+                           EC_FEATURE_NESTED;
+    return case_quick(options);
+}
+
 static const double colour[3] = {0.9, 0.5, 0.2};
 
 /* What is left of light after x metres, where `colour` is left after 0.5 (KHR_materials_volume: Beer-Lambert). */
@@ -54,7 +63,7 @@ static void expect(gltf_writer *w, const char *name, const char *environment, co
     ec_scene *scene = case_load(gltf_write(w, file), environment);
     free(w);
     for (int s = 0; s < SAMPLE_COUNT; s++) {
-        ec_render_options o = case_options(16, 16, 1024);
+        ec_render_options o = shared(case_options(16, 16, 512));
         o.sample = (ec_sample)s;
         o.seed = (uint64_t)s;
         case_image image = case_render(scene, &o);
@@ -99,7 +108,7 @@ static void rough_plates(void)
             gltf_writer *w = gltf_new();
             add_sheet(w, gltf_add_glass(w, &(gltf_glass){1, sqrt(alphas[a]), 1, 0, {0}, 0}), 0);
             add_camera(w, acos(cosines[i]));
-            expect(w, name, "1,1,1", (double[3]){albedo[a][i], albedo[a][i], albedo[a][i]}, 1e-3, 2e-2);
+            expect(w, name, "1,1,1", (double[3]){albedo[a][i], albedo[a][i], albedo[a][i]}, 1e-3, 3e-2);
         }
 }
 
@@ -167,7 +176,7 @@ static void within(void)
     gltf_light(w, (double[3]){0, 0, -0.1}, (double[3]){0, 0, -1}, "{\"type\":\"point\",\"intensity\":6.28318530717958648}");
     add_camera(w, 0);
     ec_scene *scene = case_load(gltf_write(w, "glass-point-in-slab"), NULL);
-    ec_render_options o = case_options(8, 8, 256);
+    ec_render_options o = shared(case_options(8, 8, 256));
     o.max_depth = 3; /* in through the face, and to the light: nothing from the body's other faces */
     case_image image = case_render(scene, &o);
     for (int c = 0; c < 3; c++) CHECK_NEAR(image.mean[c], point[c], 1e-5 * point[c]);
@@ -214,7 +223,7 @@ static void rough_boxes_in_white(void)
             gltf_writer *w = gltf_new();
             gltf_box(w, gltf_add_glass(w, &(gltf_glass){1, roughnesses[r], 1, 1.5, {0}, 0}), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1});
             gltf_camera(w, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.3);
-            ec_render_options o = case_options(16, 16, 256);
+            ec_render_options o = shared(case_options(16, 16, 256));
             o.sample = (ec_sample)s;
             case_image image = case_render_file(gltf_write(w, "glass-rough-box"), "1,1,1", &o);
             free(w);
@@ -237,7 +246,7 @@ static void nothing_of_index_1(void)
         gltf_glass air = body(1, 0);
         if (i) gltf_box(w, gltf_add_glass(w, &air), (double[3]){-1, 0.5, -0.8}, (double[3]){0.3, 1.3, 0.9});
         gltf_camera(w, (double[3]){0, 1.2, 4}, (double[3]){0, 0.8, 0}, 0.8);
-        ec_render_options o = case_random(16, i ? 8192 : 2048, i ? (ec_sample)(i - 1) : EC_SAMPLE_MIS, (uint64_t)i);
+        ec_render_options o = shared(case_random(16, i ? 4096 : 2048, i ? (ec_sample)(i - 1) : EC_SAMPLE_MIS, (uint64_t)i));
         image[i] = case_render_file(gltf_write(w, "glass-nothing"), NULL, &o);
         free(w);
         char what[96];
