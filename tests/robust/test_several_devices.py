@@ -3,6 +3,7 @@ nobody up. Two or three devices of PoCL's single-threaded driver, which is one m
 Intel's runtime where tools/test --all-devices has installed that.
 
 ctest label: slow"""
+import functools
 import json
 import os
 import re
@@ -56,7 +57,7 @@ class Several(Case):
 
     def test_pieces_of_batches(self):
         """A wave is two rows of tiles of the seven: every batch is cut."""
-        several = self.assert_same("--spp", "1024", "--batch", "16", "--wave", str(72 * 8 * 16 * 2))
+        several = self.assert_same("--spp", "512", "--batch", "16", "--wave", str(72 * 8 * 16 * 2))
         self.assertTrue(all(one["batches"] > 0 for one in several["devices"]), several["devices"])
 
     def test_error(self):
@@ -77,22 +78,21 @@ class Several(Case):
         self.assertEqual(read_exr(self.path("a.exr"))[1]["R"], read_exr(self.path("all.exr"))[1]["R"])
 
     def test_other_integrators_and_lanes(self):
-        for options in [["--integrator", "whitted"], ["--integrator", "raster"], ["--lanes", "4"], ["--accel", "grid"]]:
+        for options in [["--integrator", "whitted"], ["--integrator", "raster"], ["--lanes", "1", "--accel", "grid"]]:
             with self.subTest(options):
                 self.assert_same("--spp", "8", "--batch", "1", *options)
 
     def test_going_on(self):
         kept = self.path("kept.exr")
-        for job in [[], ["--adaptive"]]:
+        for first, job in [("all", []), ("0", ["--adaptive"])]:
             whole = self.render(CORNELL, *SIZE, "--spp", "96", "--batch", "4", *job, device="0")
-            for first, then in [("all", "all"), ("0", "all")]:
-                self.render(CORNELL, *SIZE, "--spp", "40", "--batch", "4", *job, "--checkpoint", kept, device=first)
-                again = self.render("--resume", kept, "--spp", "96", device=then)
-                self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
+            self.render(CORNELL, *SIZE, "--spp", "40", "--batch", "4", *job, "--checkpoint", kept, device=first)
+            again = self.render("--resume", kept, "--spp", "96")
+            self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
 
     def test_going_on_within_a_batch_of_one_device(self):
         """Its waves end anywhere in a row of tiles, pieces of several devices at their ends."""
-        kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "4096", "--batch", "1024", "--wave", "131072"]
+        kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "2048", "--batch", "512", "--wave", "65536"]
         whole = self.render(*job, device="0")
         planes = read_exr(self.path("a.exr"))[1]
         for wanted in [0, 2]:  # in the first batch, and later
@@ -117,7 +117,7 @@ class Several(Case):
         job = [RING, "--size", "96x96", "--spp", "512", "--batch", "128", "--wave", "16384"]  # 72 waves a batch, which are cut
         whole = self.render(*job, device="0")
         cut = 0
-        for after in [0.3, 0.8, 1.5]:
+        for after in [0.3, 1.5]:
             kept = self.path(f"kept{after}.exr")
             process = subprocess.Popen([ECLAT, "render", *job, "--device", "all", "--checkpoint", kept, "--every", "0.1", "-q", "-o", self.path("a.exr")],
                                        env=dict(ENVIRONMENT, **TWO, LD_PRELOAD=SHIM, FAULT_CALL="clEnqueueNDRangeKernel", FAULT_PAUSE="2"))
@@ -176,10 +176,10 @@ class Failing(FaultCase):
     """One of three devices fails."""
     job = ["--batch", "8", "--size", "256x256", "--device", "all", "--json"]  # long enough for all of them to take part
 
-    def setUp(self):
-        super().setUp()
+    @functools.cached_property
+    def whole(self):
         run, _ = self.run_with("whole", *self.job, spp=128, env=THREE)
-        self.whole = json.loads(self.assert_ok(run).stdout)
+        return json.loads(self.assert_ok(run).stdout)
 
     def fails(self, name, *options, spp=128, **faults):
         run, folder = self.run_with(name, *self.job, *options, spp=spp, env=THREE, device=1, **faults)
@@ -193,11 +193,10 @@ class Failing(FaultCase):
         return lines[0].group(2)
 
     def test_at_any_time(self):
-        for at in [1, 2, 12, 40]:
-            for faults in [{}, {"lost": 1}]:
-                with self.subTest(at=at, faults=faults):
-                    why = self.fails(f"lost{at}{len(faults)}", call="clEnqueueNDRangeKernel", at=at, **faults)
-                    self.assertIn("CL_OUT_OF_RESOURCES", why)
+        for at, faults in [(1, {}), (2, {"lost": 1}), (12, {}), (40, {"lost": 1})]:
+            with self.subTest(at=at, faults=faults):
+                why = self.fails(f"lost{at}", call="clEnqueueNDRangeKernel", at=at, **faults)
+                self.assertIn("CL_OUT_OF_RESOURCES", why)
 
     def test_in_set_up(self):
         self.assertIn("CL_MEM_OBJECT_ALLOCATION_FAILURE", self.fails("memory", call="clCreateBuffer", at=2, code=-4, lost=1))
