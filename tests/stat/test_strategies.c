@@ -7,14 +7,21 @@
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
-static void agree(const char *name, const char *path, const char *environment, uint32_t spp)
+/* Built in for scenes that do not call for them all: a program takes longer to compile than a scene takes to render. */
+#define LIT (EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | EC_FEATURE_CULLING | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH)
+#define OPAQUE (LIT | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_ALPHA)
+#define GLASS (LIT | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION | EC_FEATURE_PANES | EC_FEATURE_NESTED)
+
+static void agree(const char *name, const char *path, const char *environment, uint64_t effects)
 {
     enum { COUNT = EC_SAMPLE_HEMISPHERE + 1 };
     static const uint32_t more[COUNT] = {[EC_SAMPLE_MIS] = 1, [EC_SAMPLE_LIGHT] = 1, [EC_SAMPLE_BSDF] = 4, [EC_SAMPLE_HEMISPHERE] = 4};
     ec_scene *scene = case_load(path, environment);
     case_image image[COUNT];
     for (int s = 0; s < COUNT; s++) {
-        ec_render_options o = case_random(16, more[s] * spp, (ec_sample)s, (uint64_t)s + 11);
+        ec_render_options o = case_random(16, more[s] * 4096, (ec_sample)s, (uint64_t)s + 11);
+        o.lanes = 8; /* for that, too */
+        o.more_effects = effects;
         o.max_depth = 5;
         image[s] = case_render(scene, &o);
         CHECK_MSG(image[s].mean[1] > 0, "%s, %s: black", name, ec_sample_names[s]);
@@ -37,7 +44,7 @@ static void roulette_agrees(void)
     ec_scene *scene = case_load(OWN_SCENE("cornell-box/cornell-box.gltf"), NULL);
     case_image image[3];
     for (int i = 0; i < 3; i++) {
-        ec_render_options o = case_random(16, 4096, EC_SAMPLE_MIS, (uint64_t)i + 31);
+        ec_render_options o = case_random(16, 2048, EC_SAMPLE_MIS, (uint64_t)i + 31);
         o.max_depth = 10;
         o.survival = survival[i];
         image[i] = case_render(scene, &o);
@@ -89,11 +96,11 @@ static void add_lamp(gltf_writer *w, int material, double side)
     gltf_quad(w, material, (double[3]){-0.5 - side / 2, 1, -side / 2}, (double[3]){side, 0, 0}, (double[3]){0, 0, side});
 }
 
-static void run(gltf_writer *w, const char *name, const char *environment, uint32_t spp)
+static void run(gltf_writer *w, const char *name, const char *environment, uint64_t effects)
 {
     char file[96];
     snprintf(file, sizeof file, "strategies-%s", name);
-    agree(name, gltf_write(w, file), environment, spp);
+    agree(name, gltf_write(w, file), environment, effects);
     free(w);
 }
 
@@ -135,7 +142,7 @@ static void textured_emission(void)
     int lamp = gltf_add(&w->materials, "{\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":%d},\"extensions\":{"
                         "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":20}}}", texture);
     add_lamp(w, lamp, 1);
-    run(w, "textured-emission", NULL, 8192);
+    run(w, "textured-emission", NULL, OPAQUE);
 }
 
 /* What a lamp under a clear coat sends goes by the angle, about a bent normal, and by a texture of the coat. */
@@ -150,7 +157,7 @@ static void coated_lamp(void)
                         "\"clearcoatFactor\":1,\"clearcoatRoughnessFactor\":0.5,\"clearcoatTexture\":{\"index\":%d}},"
                         "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":4}}}", texture);
     gltf_quad_with(w, lamp, (double[3]){-1, 0.5, -0.5}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1}, NULL, normals);
-    run(w, "coated-lamp", NULL, 8192);
+    run(w, "coated-lamp", NULL, 0);
 }
 
 static int see_through(gltf_writer *w, const char *mode, double alpha)
@@ -168,7 +175,7 @@ static void panels(const char *mode)
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
     gltf_quad_with(w, see_through(w, mode, 1), (double[3]){-1.2, 0.6, 0.6}, (double[3]){1.4, 0, 0}, (double[3]){0, 0, -1.2}, colors,
                    NULL);
-    run(w, !strcmp(mode, "MASK") ? "mask-panel" : "blend-panel", NULL, 8192);
+    run(w, !strcmp(mode, "MASK") ? "mask-panel" : "blend-panel", NULL, OPAQUE);
 }
 
 /* Between lamp and floor. What passes through glass is found by paths alone, as if nobody aimed at the lamp: a wide one. */
@@ -179,7 +186,7 @@ static void glass_before_a_lamp(const char *name, const gltf_glass *glass)
     int material = gltf_add_glass(w, glass);
     if (glass->ior > 0) gltf_box(w, material, (double[3]){-1.2, 0.45, -0.7}, (double[3]){0.15, 0.7, 0.7});
     else gltf_quad(w, material, (double[3]){-1.2, 0.6, 0.7}, (double[3]){1.4, 0, 0}, (double[3]){0, 0, -1.4});
-    run(w, name, NULL, 8192);
+    run(w, name, NULL, GLASS);
 }
 
 /* A lamp in a body of coloured glass: aimed at from within, met through its faces from without. And the block beside it. */
@@ -190,7 +197,7 @@ static void lamp_in_glass(void)
     gltf_quad(w, gltf_lambert(w, 0.5, 0), (double[3]){-0.9, 0.3, 0.4}, (double[3]){0.6, 0, 0}, (double[3]){0, 0.1, -0.8});
     gltf_glass amber = {1, 0, 1, 1.2, {0.9, 0.5, 0.2}, 0.4};
     gltf_box(w, gltf_add_glass(w, &amber), (double[3]){-1.3, 0.2, -0.8}, (double[3]){0.3, 0.8, 0.8});
-    run(w, "lamp-in-glass", NULL, 8192);
+    run(w, "lamp-in-glass", NULL, GLASS);
 }
 
 /* Water that no glass holds: a single face with a volume beneath it, from which rays get out sideways. */
@@ -199,7 +206,7 @@ static void water_without_sides(const char *sky)
     gltf_writer *w = stage(matt);
     gltf_glass water = {1, 0, 1, 1.33, {0.5, 0.8, 0.9}, 0.5};
     gltf_quad(w, gltf_add_glass(w, &water), (double[3]){-0.8, 0.3, 0.8}, (double[3]){1.6, 0, 0}, (double[3]){0, 0, -1.6});
-    run(w, "water-without-sides", sky, 8192);
+    run(w, "water-without-sides", sky, GLASS);
 }
 
 /* In closed form: a black BLEND sheet of coverage 0.4 (and behind it one of 0.5) before all the light leaves 0.6 x 0.5 of it,
@@ -219,7 +226,9 @@ static void blend_in_closed_form(void)
                                      "{\"specularFactor\":0}}}", i ? 0.5 : 0.4);
                 gltf_quad(w, black, (double[3]){-50, 0.4 + 0.1 * i, 50}, (double[3]){100, 0, 0}, (double[3]){0, 0, -100});
             }
-            ec_render_options o = case_options(8, 8, 16384);
+            ec_render_options o = case_options(8, 8, 8192);
+            o.lanes = 8;
+            o.more_effects = OPAQUE;
             o.max_depth = 2;
             o.sample = (ec_sample)s;
             case_image image = case_render_file(gltf_write(w, "strategies-sheets"), NULL, &o);
@@ -255,7 +264,7 @@ static void bent_normals(void)
     gltf_quad_with(w, bent, (double[3]){-1.5, 0, 1.5}, (double[3]){3, 0, 0}, (double[3]){0, 0, -3}, colors, normals);
     gltf_camera(w, (double[3]){0, 2, 3}, (double[3]){0, 0, 0}, 0.8);
     add_lamp(w, gltf_lambert(w, 0.3, 8), 0.6);
-    run(w, "bent-normals", "0.2,0.3,0.4", 8192);
+    run(w, "bent-normals", "0.2,0.3,0.4", OPAQUE);
 }
 
 /* All kinds of light at once; the lamp shines on both sides and is lit itself. */
@@ -269,7 +278,7 @@ static void everything(const char *sky)
     gltf_light(w, (double[3]){-1, 1.5, 1}, (double[3]){0.2, -1, 0},
                "{\"type\":\"spot\",\"intensity\":5,\"spot\":{\"outerConeAngle\":0.4}}");
     gltf_light(w, (double[3]){0, 0, 0}, (double[3]){0.3, -1, 0.2}, "{\"type\":\"directional\",\"intensity\":0.5}");
-    run(w, "everything", sky, 8192);
+    run(w, "everything", sky, OPAQUE);
 }
 
 int main(void)
@@ -277,21 +286,21 @@ int main(void)
     const char *sky = write_environment();
     gltf_writer *w = stage(matt);
     add_lamp(w, gltf_lambert(w, 0.3, 30), 0.25);
-    run(w, "small-lamp", NULL, 8192);
+    run(w, "small-lamp", NULL, OPAQUE);
     w = stage(glossy_metal);
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
-    run(w, "glossy-metal", NULL, 8192);
+    run(w, "glossy-metal", NULL, OPAQUE);
     w = stage(mirror); /* the lamp's image is in view, and lit by way of the mirror is the block's underside */
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.6);
-    run(w, "lamp-in-a-mirror", NULL, 8192);
+    run(w, "lamp-in-a-mirror", NULL, OPAQUE);
     w = stage(varnish);
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
-    run(w, "varnish", NULL, 8192);
+    run(w, "varnish", NULL, OPAQUE);
     w = stage(plastic);
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
-    run(w, "plastic", NULL, 8192);
-    run(stage(matt), "environment-map", sky, 8192);
-    run(stage(plastic), "environment-map-on-plastic", sky, 8192);
+    run(w, "plastic", NULL, OPAQUE);
+    run(stage(matt), "environment-map", sky, OPAQUE);
+    run(stage(plastic), "environment-map-on-plastic", sky, OPAQUE);
     textured_emission();
     coated_lamp();
     glass_before_a_lamp("glass-before-a-lamp", &(gltf_glass){0.9, 0, 1, 1.5, {0.5, 0.8, 0.9}, 0.3});
