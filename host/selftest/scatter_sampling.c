@@ -12,11 +12,11 @@ typedef struct sampled {
 /* Rough metal; a coat at a grazing angle; glass seen from outside, and from inside where part of it reflects totally; a thin pane that
  * lets half of the light in it pass. */
 static const sampled surfaces[] = {
-    {"metal", {1, 1, 1, 0.5, 0, 1, false}, 0.5},
-    {"coat", {0.8, 0.04, 0, 0.3, 0, 1, false}, 0.1},
-    {"glass", {1, 0.04, 0, 0.5, 1, 1.5, false}, 0.7},
-    {"from inside glass", {1, 0.04, 0, 0.4, 1, 1 / 1.5, false}, 0.5},
-    {"pane", {0.8, 0.04, 0, 0.5, 0.5, 1, false}, 0.3},
+    {"metal", {1, 1, 1, 0.5, 0, 1, false, 0}, 0.5},
+    {"coat", {0.8, 0.04, 0, 0.3, 0, 1, false, 0}, 0.1},
+    {"glass", {1, 0.04, 0, 0.5, 1, 1.5, false, 0}, 0.7},
+    {"from inside glass", {1, 0.04, 0, 0.4, 1, 1 / 1.5, false, 0}, 0.5},
+    {"pane", {0.8, 0.04, 0, 0.5, 0.5, 1, false, 0}, 0.3},
 };
 enum { SURFACES = sizeof surfaces / sizeof surfaces[0] };
 

@@ -37,8 +37,9 @@ EC_FN hit_point hit_of(global const float *in)
 }
 EC_FN geometry geometry_of(global const float *in, global const float *memory)
 {
-    geometry g = {0, 0, in + 18, 0, 0, 0, memory + EC_PRECISION_MATERIALS,
-                  {memory + EC_PRECISION_TEXTURES, (global const uint *)(memory + EC_PRECISION_TEXELS), 0}, 0};
+    geometry g = {.normals = in + 18,
+                  .materials = memory + EC_PRECISION_MATERIALS,
+                  .tex = {memory + EC_PRECISION_TEXTURES, (global const uint *)(memory + EC_PRECISION_TEXELS), 0}};
     return g;
 }
 
@@ -91,7 +92,7 @@ PRECISION(surface_to_local)
 }
 PRECISION(medium_transmittance)
 {
-    geometry g = {0, 0, 0, 0, 0, 0, in, {0, 0, 0}, 0};
+    geometry g = {.materials = in};
     PUT_V(0, medium_transmittance(&g, ITEM * EC_PRECISION_WORDS, X(0)));
 }
 
