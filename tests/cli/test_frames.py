@@ -161,7 +161,9 @@ class SameBits(FramesCase):
         still = json.loads(self.assert_ok(eclat("info", scene, "--accel", "bvh8", "--json")).stdout)
         self.assertGreater(still["accels"][0]["references"], 1.05 * still["triangles"], "nothing to cut")
         rows, _ = rows_of(self.render(scene, "--frames", "0:2", *common, "-o", "s.%d.exr"))
-        self.assertEqual([row["shared"]["structures"] for row in rows], ["built", "refitted", "refitted"])
+        first, *others = [row["shared"]["structures"] for row in rows]
+        self.assertEqual(first, "built")
+        self.assertLessEqual(set(others), {"refitted", "rebuilt"})  # as the one or the other was quicker
         for row in rows:
             alone, _ = rows_of(self.render(scene, "--frames", str(row["frame"]), *common, "-o", f"alone{row['frame']}.exr"))
             self.assertEqual(alone[0]["image_sha256"], row["image_sha256"], row["frame"])
