@@ -150,7 +150,8 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
         else if (EF_HAS(TRANSMISSION_TEXTURE)) EF_USE(TRANSMISSION, MIXED);
         else if (EF_NEARLY(TRANSMISSION_TEXTURE)) EF_USE(TRANSMISSION, GREY);
     }
-    if (EF_HAS(ABSORPTION) || (!glass && EF_NEARLY(ABSORPTION))) m->absorption[0] = 1, m->absorption[1] = ef_between(d, 142, 0, 0, 1, 1e30f);
+    const bool takes_light_in = glass || EF_HAS(DIFFUSE_TRANSMISSION);
+    if (EF_HAS(ABSORPTION) || (!takes_light_in && EF_NEARLY(ABSORPTION))) m->absorption[0] = 1, m->absorption[1] = ef_between(d, 142, 0, 0, 1, 1e30f);
     if (coat || EF_NEARLY(CLEARCOAT)) {
         m->coat = 0.2f + 0.8f * ef_real(d, 143);
         m->coat_roughness = EF_HAS(SMOOTH) ? 0 : ef_between(d, 144, 0.05f, 0.2f, 1, 1);
