@@ -82,7 +82,7 @@ class FullStudy(Case):
     def test_budget_is_kept(self):
         """Not more than 10 % over, and what is under way; nor much left unused: on a busy machine a kernel may take seconds to compile."""
         self.assertGreater(self.report["total_seconds"], 0.5 * BUDGET)
-        self.assertLess(self.report["total_seconds"], 1.1 * BUDGET + 10)
+        self.assertLess(self.report["total_seconds"], 1.1 * BUDGET + 7)
         self.assertLess(self.report["total_seconds"], self.seconds + 0.1)
 
     def test_table(self):

@@ -56,7 +56,7 @@ class Ranks(Case):
         self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
 
     def test_a_number_of_samples(self):
-        for ranks in 2, 5:
+        for ranks in 2, 3, 5:
             self.assert_same([*JOB, "--spp", "70", "--batch", "2"], ranks)
 
     def test_all_take_part(self):
