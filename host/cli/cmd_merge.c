@@ -58,7 +58,6 @@ static ec_result take_slices(const merge_request *request, ec_merge *merge, cons
     char missing[512];
     EC_TRY(ec_merge_sort(request->paths, request->count, err));
     for (int i = 0; i < request->count; i++) EC_TRY(ec_merge_take(merge, request->paths[i], log, err));
-    ec_film_show(&merge->all.film);
     if (!ec_merge_missing(merge, missing, sizeof missing)) return EC_OK;
     if (!request->partial) return ec_fail(err, "samples %s are missing; render them with --samples, or write what there is with --partial", missing);
     ec_warn(log, "samples %s are missing: the picture is of the others", missing);
@@ -80,8 +79,7 @@ static ec_result write_pictures(merge_request *request, const merged *m, ec_erro
     const ec_attribute attributes[] = {
         {.name = "eclat.command", .type = EC_ATTR_STRING, .string = m->command},
         {.name = "eclat.version", .type = EC_ATTR_STRING, .string = ECLAT_VERSION},
-        {.name = "eclat.batch", .type = EC_ATTR_INT, .number = film->samples_per_batch},
-        {.name = "eclat.batches", .type = EC_ATTR_INT, .number = film->batch_count},
+        {.name = "eclat.replicates", .type = EC_ATTR_INT, .number = ec_film_replicates(film)},
         {.name = "eclat.samplesPerPixel", .type = EC_ATTR_INT, .number = (double)m->samples_per_pixel},
         {.name = "eclat.error", .type = EC_ATTR_DOUBLE, .number = m->error.error},
         {.name = "eclat.errorBound", .type = EC_ATTR_DOUBLE, .number = m->error.error_bound},
@@ -105,7 +103,7 @@ static ec_result tell(const merge_request *request, const merged *m, ec_error *e
     for (int i = 0; i < request->outputs.count; i++) outputs[i] = request->outputs.file[i].path;
     const ec_merge_report report = {.files = request->count,
                                     .samples_per_pixel = m->samples_per_pixel,
-                                    .batches = m->all->film.batch_count,
+                                    .replicates = ec_film_replicates(&m->all->film),
                                     .heavy_pixels = m->picture.heavy_count,
                                     .error = m->error,
                                     .image_sha256 = m->sha256,

@@ -69,7 +69,7 @@ static ec_result finish_rows(ec_console *console, ec_render_job *job, ec_render_
     job->stats.error_bound = told.error.error_bound;
     job->stats.relmse = told.error.relmse;
     report->mean_luminance = told.error.mean_luminance;
-    report->batches = told.batches;
+    report->replicates = told.replicates;
     job->rows = NULL; /* closing frees it */
     ec_result result = ec_report_rows_close(rows, report, &told, err);
     snprintf(job->image_sha256, sizeof job->image_sha256, "%s", told.sha256);

@@ -71,8 +71,8 @@ static ec_result refuse(void *target, const char *option, const char *value, ec_
 /* Those that the window sets, or that say nothing of the picture. */
 static bool is_ours(const char *name)
 {
-    static const char *const names[] = {"batch", "error", "env-rotate", "exposure", "integrator", "output",
-                                        "quiet", "size",  "spp",        "time",     "tonemap",    "without"};
+    static const char *const names[] = {"error", "env-rotate", "exposure", "integrator", "output",
+                                        "quiet", "replicates", "size", "spp",        "time",     "tonemap",    "without"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (!strcmp(names[i], name)) return true;
     return false;
@@ -177,7 +177,7 @@ static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told,
         .command = command, .scene = job->render.scene, .camera = camera, .viewpoint = viewpoint_of(job, shot), .environment = environment,
         .options = shot->options, .stats = shot->stats, .device = &job->device, .device_why = job->device_why,
         .device_index = &job->device_index, .exposure = shot->exposure, .tonemap = shot->tonemap,
-        .mean_luminance = ec_film_estimate_error(shot->film).mean_luminance, .batches = shot->film->batch_count,
+        .mean_luminance = ec_film_estimate_error(shot->film).mean_luminance, .replicates = ec_film_replicates(shot->film),
         .load_seconds = job->load_seconds,
     };
     ec_result result = ec_write_report(&outputs, shot->film, NULL, &report, sha256, err);

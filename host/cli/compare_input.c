@@ -48,13 +48,10 @@ static double mean_of(const float *plane, uint64_t count)
 }
 
 /* 1 means that the file says so: then its standard errors are none. */
-static double count_batches(const char *path)
+static double count_replicates(const char *path)
 {
-    double batches, samples, batch;
-    if (ec_exr_number(path, "eclat.batches", &batches)) return batches;
-    if (ec_exr_number(path, "eclat.samplesPerPixel", &samples) && ec_exr_number(path, "eclat.batch", &batch) && batch > 0)
-        return samples / batch;
-    return INFINITY;
+    double replicates;
+    return ec_exr_number(path, "eclat.replicates", &replicates) ? replicates : INFINITY;
 }
 
 static ec_result take_noise(const ec_exr *exr, ec_compare_input *input, ec_error *err)
@@ -63,8 +60,8 @@ static ec_result take_noise(const ec_exr *exr, ec_compare_input *input, ec_error
     ec_measured *m = &input->measured;
     const float *samples = ec_exr_plane(exr, "samples");
     if (samples) m->samples = mean_of(samples, (uint64_t)exr->width * exr->height);
-    m->batches = count_batches(path);
-    if (m->batches < 2 || !(ec_exr_plane(exr, error[0]) || ec_exr_plane(exr, error[1]) || ec_exr_plane(exr, error[2])))
+    m->replicates = count_replicates(path);
+    if (m->replicates < 2 || !(ec_exr_plane(exr, error[0]) || ec_exr_plane(exr, error[1]) || ec_exr_plane(exr, error[2])))
         return EC_OK;
     EC_TRY(weave(path, exr, error, 3, &input->se, err));
     if (ec_exr_plane(exr, luminance)) EC_TRY(weave(path, exr, &luminance, 1, &input->se_y, err));

@@ -8,7 +8,7 @@
 typedef struct ec_compare_input {
     const char *path;
     ec_measured measured;       /* points into what follows */
-    float *rgb, *se, *se_y;     /* owned; se and se_y NULL where the file has none, or only one batch */
+    float *rgb, *se, *se_y;     /* owned; se and se_y NULL where the file has none, or only one replicate */
 } ec_compare_input;
 
 /* R, G, B; stderr.R, .G, .B, .Y where there are any. Fails where a channel is missing or a value is not finite. */

@@ -20,8 +20,7 @@ static parser make_parser(const ec_option *options, int count)
     parser p = {.shorts = ":h"};
     size_t used = strlen(p.shorts);
     for (int i = 0; i < count; i++) {
-        int argument = options[i].takes_value ? required_argument : no_argument;
-        p.longs[i] = (struct option){options[i].name, argument, NULL, LONG_BASE + i};
+        p.longs[i] = (struct option){options[i].name, options[i].takes_value, NULL, LONG_BASE + i};
         if (!options[i].letter) continue;
         p.shorts[used++] = options[i].letter;
         if (options[i].takes_value) p.shorts[used++] = ':';

@@ -9,10 +9,12 @@
 /* Stores one option's value; `option` is its name, value NULL for a flag. */
 typedef ec_result (*ec_option_set)(void *target, const char *option, const char *value, ec_error *err);
 
+enum { EC_VALUE_OPTIONAL = 2 }; /* as getopt_long has it */
+
 typedef struct ec_option {
     const char *name;  /* without dashes */
     char letter;       /* short form; 0 = none */
-    bool takes_value;
+    int takes_value; /* false, true, or EC_VALUE_OPTIONAL: then after "=" alone, and NULL without */
     ec_option_set set;
 } ec_option;
 

@@ -59,7 +59,7 @@ bool ec_progress_show(void *user, const ec_progress *progress)
     if (progress->pilot && !view->foretold) {
         char forecast[256];
         ec_forecast_text(progress->pilot, view->options, forecast, sizeof forecast);
-        ec_console_say(view->console, "after %" PRIu64 " samples a pixel: %s", progress->pilot->pilot_samples, forecast);
+        ec_console_say(view->console, "after %.0f samples a pixel: %s", progress->pilot->pilot_samples, forecast);
         view->foretold = true;
     }
     double now = ec_now();

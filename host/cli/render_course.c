@@ -1,4 +1,5 @@
 /* What a render takes up and what it leaves behind: checkpoints and slices. */
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,33 +23,39 @@ static bool is_one_of(char *const *argv, int *i, const char *const *names)
     return false;
 }
 
-/* The job's command with the options of now in place of those that they replace: what renders the picture without a break. The batch may
- * have followed from another --spp. */
+/* What a command lacks that has other limits than the one which chose where samples go; NULL: nothing. */
+static const char *adaptive_word(const ec_render_options *o, int count, char *const *words)
+{
+    bool is_told = o->adaptive == (o->error_target > 0);
+    for (int i = 0; i < count; i++) is_told |= !strncmp(words[i], "--adaptive", 10) && strcmp(words[i], "--adaptive=auto") != 0;
+    return is_told ? NULL : o->adaptive ? "--adaptive=on" : "--adaptive=off";
+}
+
+/* The job's command with the options of now in place of those that they replace: what renders the picture without a break. */
 static ec_result make_command(ec_render_job *job, int argc, char *const *argv, ec_error *err)
 {
     static const char *const limits[] = {"--spp", "--time", "--error", NULL}, *const outputs[] = {"--output", "-o", NULL},
-                             *const files[] = {"--resume", "--checkpoint", "--every", NULL}, *const batches[] = {"--batch", NULL};
+                             *const files[] = {"--resume", "--checkpoint", "--every", NULL};
     const ec_job *before = &job->stored.job;
     bool has_limit = false, has_output = false;
-    char batch[16], **words = malloc(((size_t)before->argc + (size_t)argc + 4) * sizeof *words);
+    char **words = malloc(((size_t)before->argc + (size_t)argc + 4) * sizeof *words);
     int count = 0;
     if (!words) return ec_fail(err, "out of memory");
     for (int i = 1; i < argc; i++) {
         has_limit |= is_one_of(argv, &i, limits);
         has_output |= i < argc && is_one_of(argv, &i, outputs);
     }
-    snprintf(batch, sizeof batch, "%u", job->stored.film.samples_per_batch);
     words[count++] = (char[]){"eclat"};
     for (int i = 0; i < before->argc; i++) {
-        bool is_replaced = is_one_of(before->argv, &i, files) || is_one_of(before->argv, &i, batches) ||
+        bool is_replaced = is_one_of(before->argv, &i, files) ||
                            (has_limit && is_one_of(before->argv, &i, limits)) ||
                            (has_output && is_one_of(before->argv, &i, outputs));
         if (!is_replaced && i < before->argc) words[count++] = before->argv[i];
     }
-    words[count++] = (char[]){"--batch"};
-    words[count++] = batch;
     for (int i = 1; i < argc; i++)
-        if (!is_one_of(argv, &i, files) && !is_one_of(argv, &i, batches) && i < argc) words[count++] = argv[i];
+        if (!is_one_of(argv, &i, files) && i < argc) words[count++] = argv[i];
+    const char *adaptive = adaptive_word(&job->request->options, count, words);
+    if (adaptive) words[count++] = (char *)(uintptr_t)adaptive;
     job->whole_command = ec_command_line(count, words);
     free(words);
     if (!job->whole_command) return ec_fail(err, "out of memory");
@@ -68,8 +75,7 @@ ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_er
     job->job.argv = job->stored.job.argv;
     job->job.folder = job->stored.job.folder;
     const ec_render_request *r = job->request;
-    uint32_t batch = job->stored.film.samples_per_batch;
-    uint32_t first = r->has_slice ? r->slice_first / batch : 0, end = r->has_slice ? r->slice_end / batch : 0;
+    const uint32_t first = r->has_slice ? r->options.slice_first : 0, end = r->has_slice ? r->options.slice_end : 0;
     if (first != job->stored.job.first || end != job->stored.job.end)
         return ec_fail(err, "cannot go on from '%s': it is of other samples than --samples %u:%u; leave that out", path,
                        r->slice_first, r->slice_end);
@@ -87,7 +93,7 @@ static void warn_of_older(const ec_render_job *job, const ec_log *log)
     if (path && ec_store_peek(path, &old, &first) &&
         !ec_identity_differs(&old.job.identity, &job->job.identity, difference, sizeof difference))
         ec_warn(log, "'%s' has %llu samples a pixel of this render, which begins anew and writes over them; '--resume %s' goes on", path,
-                (unsigned long long)old.film.batch_count * old.film.samples_per_batch, path);
+                (unsigned long long)ec_schedule_samples(old.film.replicates, old.film.batch_count), path);
     ec_stored_free(&old);
 }
 
@@ -111,6 +117,13 @@ static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
     return EC_OK;
 }
 
+/* A frame's scene shares data with the next one's. */
+static void drop_scene(void *user)
+{
+    ec_render_job *job = user;
+    if (!job->share) ec_scene_drop_data(job->scene);
+}
+
 static bool keep(void *user, const ec_film *film, const ec_past *past)
 {
     ec_render_job *job = user;
@@ -131,7 +144,7 @@ static bool keep(void *user, const ec_film *film, const ec_past *past)
 /* What cannot be had strip by strip. */
 const char *ec_render_whole_for(const ec_render_request *r)
 {
-    if (r->options.adaptive) return "--adaptive"; /* the allotment looks at all pixels */
+    if (r->adaptive == EC_ADAPTIVE_ON) return "--adaptive"; /* the allotment looks at all pixels */
     if (r->options.error_target > 0) return "--error"; /* of the whole image */
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
@@ -148,7 +161,7 @@ static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row,
     if (first_row == 0) {
         ec_render_report report = ec_render_job_report(job, outputs);
         report.stats = stats;
-        report.batches = film->batch_count;
+        report.replicates = ec_film_replicates(film);
         EC_TRY(ec_report_rows_open(&job->rows, &job->request->outputs, film, job->request->options.height, &report, ROOM, err));
     }
     ec_result result = ec_row_writer_put(job->rows, film, err);
@@ -168,7 +181,6 @@ static bool all_round(const ec_render_job *job)
 ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
 {
     ec_render_request *request = job->request;
-    uint32_t batch = ec_render_batch(&request->options);
     job->console = console;
     ec_device_drivers(job->devices, job->device_count, job->device_text, sizeof job->device_text);
     if (job->ranks) job->allies = ec_ranks_allies(job->ranks, request->device, job->device_text, all_round(job));
@@ -178,6 +190,7 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
     job->job.time_limit = request->options.time_limit;
     request->options.identify = request->has_slice || request->checkpoint;
     ec_course course = {.admit = request->options.identify ? admit : NULL,
+                        .loaded = drop_scene,
                         .keep = request->checkpoint ? keep : NULL,
                         .strip = ec_render_whole_for(request) ? NULL : take_strip,
                         .whole_for = ec_render_whole_for(request),
@@ -186,8 +199,9 @@ ec_course ec_render_job_course(ec_render_job *job, ec_console *console)
                         .allies = job->ranks ? &job->allies : NULL,
                         .user = job};
     if (request->has_slice) {
-        course.first = job->job.first = request->slice_first / batch;
-        course.end = job->job.end = request->slice_end / batch;
+        course.first = job->job.first = request->options.slice_first;
+        course.end = job->job.end = request->options.slice_end;
+        course.cut = job->job.cut = request->slice_cut;
     }
     if (!request->resume) return course;
     course.past = &job->stored.past;

@@ -212,7 +212,7 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .exposure = request->exposure,
         .tonemap = request->tonemap,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
-        .batches = job->film.batch_count,
+        .replicates = ec_film_replicates(&job->film),
         .load_seconds = job->load_seconds,
         .image_sha256 = job->image_sha256,
         .outputs = outputs,

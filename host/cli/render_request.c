@@ -1,5 +1,6 @@
 #include "cli/render_request.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +25,6 @@ SETTER(accel)
     return EC_OK;
 }
 
-FLAG_SETTER(adaptive, options.adaptive)
 FLAG_SETTER(json, json)
 FLAG_SETTER(overwrite, overwrite)
 FLAG_SETTER(quiet, quiet)
@@ -49,7 +49,6 @@ PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 PARSED_SETTER(every, ec_parse_seconds, every)
 PARSED_SETTER(memory, ec_parse_bytes, options.memory)
 PARSED_SETTER(time, ec_parse_seconds, options.time_limit)
-RANGE_SETTER(batch, ec_parse_u32, 1, EC_MAX_SPP, options.batch)
 RANGE_SETTER(cutoff, ec_parse_real, 0, 1, options.cutoff)
 SETTER(env_rotate)
 {
@@ -209,10 +208,20 @@ SETTER(size)
     return ec_parse_size(option, value, &REQUEST->options.width, &REQUEST->options.height, err);
 }
 
+/* Alone it means on. */
+SETTER(adaptive)
+{
+    static const char *const names[] = {"auto", "on", "off", NULL};
+    uint32_t index = EC_ADAPTIVE_ON;
+    if (value) EC_TRY(ec_parse_choice(option, value, names, &index, err));
+    REQUEST->adaptive = (ec_adaptive)index;
+    return EC_OK;
+}
+RANGE_SETTER(replicates, ec_parse_u32, 1, EC_REPLICATES_MOST, options.replicates)
+
 const ec_option ec_render_rows[] = {
     {"accel", 0, true, set_accel},
-    {"adaptive", 0, false, set_adaptive},
-    {"batch", 0, true, set_batch},
+    {"adaptive", 0, EC_VALUE_OPTIONAL, set_adaptive},
     {"camera", 0, true, set_camera},
     {"checkpoint", 0, true, set_checkpoint},
     {"cutoff", 0, true, set_cutoff},
@@ -247,6 +256,7 @@ const ec_option ec_render_rows[] = {
     {"plan", 0, true, set_plan},
     {"quiet", 'q', false, set_quiet},
     {"resume", 0, true, set_resume},
+    {"replicates", 0, true, set_replicates},
     {"rr", 0, true, set_rr},
     {"sample", 0, true, set_sample},
     {"sampler", 0, true, set_sampler},
@@ -268,26 +278,50 @@ const ec_option ec_render_rows[] = {
 _Static_assert(sizeof ec_render_rows / sizeof ec_render_rows[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
 const int ec_render_row_count = sizeof ec_render_rows / sizeof ec_render_rows[0];
 
-/* The batch must not depend on the slice, nor on a limit of time. */
+/* Where so many samples of the job end: batches, and what its last one lacks of that number. False within a batch. */
+static bool find_end(const ec_render_options *o, uint32_t samples, uint32_t *batch, uint32_t *cut)
+{
+    const uint32_t replicates = ec_render_replicates(o);
+    uint32_t before;
+    *batch = ec_schedule_find(replicates, samples, &before);
+    *cut = 0;
+    if (before == 0) return true;
+    *cut = ec_schedule_batch(replicates, *batch).samples - before;
+    ++*batch;
+    return samples == o->spp;
+}
+
+/* Slices begin and end with a batch, or end with the job. Before every replicate has a batch none does: the first-hit features are the mean
+ * of all of these, taken one after the other. */
 static ec_result settle_slice(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
     if (!request->has_slice) return EC_OK;
-    if (o->adaptive) return ec_usage(err, "--samples and --adaptive: what a pixel is due there depends on the samples before; leave one out");
+    if (request->adaptive == EC_ADAPTIVE_ON) return ec_usage(err, "--samples and --adaptive: what a pixel is due there depends on the samples before; leave one out");
     if (o->error_target > 0)
         return ec_usage(err, "--samples and --error: a slice does not know the error of the whole; leave one out");
-    if (o->spp == 0 && o->batch) request->slice_of_any = true, o->spp = request->slice_end;
-    if (o->spp == 0) o->spp = EC_DEFAULT_SPP;
-    uint32_t batch = ec_render_batch(o), a = request->slice_first, b = request->slice_end;
-    uint64_t all = (uint64_t)(o->spp + batch - 1) / batch * batch;
-    if (b > all)
-        return ec_usage(err, "--samples %u:%u reaches beyond the job's %llu samples a pixel; give the whole job's "
-                             "--spp", a, b, (unsigned long long)all);
-    if (a % batch || b % batch)
-        return ec_usage(err, "--samples %u:%u: slices begin and end with a batch, here every %u samples, as %u:%u; --batch sets that", a, b, batch,
-                        a / batch * batch, (b + batch - 1) / batch * batch);
-    o->slice_first = a / batch;
-    o->slice_end = b / batch;
+    if (o->spp == 0) request->slice_of_any = true, o->spp = request->slice_end;
+    const uint32_t a = request->slice_first, b = request->slice_end, replicates = ec_render_replicates(o);
+    if (b > o->spp)
+        return ec_usage(err, "--samples %u:%u reaches beyond the job's %u samples a pixel; give the whole job's --spp", a, b, o->spp);
+    uint32_t cut;
+    const bool begins = find_end(o, a, &o->slice_first, &cut) && cut == 0 && (a == 0 || a >= replicates);
+    const bool ends = find_end(o, b, &o->slice_end, &request->slice_cut) && (b >= replicates || b == o->spp);
+    if (begins && ends) return EC_OK;
+    const uint64_t from = a < replicates ? 0 : ec_schedule_samples(replicates, o->slice_first - (cut > 0));
+    uint64_t to = b < replicates ? replicates : ec_schedule_samples(replicates, o->slice_end);
+    if (to > o->spp) to = o->spp;
+    return ec_usage(err, "--samples %u:%u: slices begin and end with a batch, here as %" PRIu64 ":%" PRIu64 "; multiples of %u always do", a, b, from, to,
+                    EC_BATCH_MOST);
+}
+
+/* By itself where an error is asked for, and the samples of every pixel may differ. */
+static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
+{
+    ec_render_options *o = &request->options;
+    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0);
+    if (o->adaptive && ec_render_replicates(o) < 2)
+        return ec_usage(err, "--adaptive and --replicates 1: a single replicate does not tell where noise is; give 2 or more");
     return EC_OK;
 }
 
@@ -322,6 +356,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;
     EC_TRY(settle_frames(request, err));
     EC_TRY(settle_slice(request, err));
+    EC_TRY(settle_adaptive(request, err));
     request->capped = limits->spp == 0 && has_limit(limits);
     if (!has_limit(limits)) limits->spp = EC_DEFAULT_SPP;
     return EC_OK;
@@ -371,8 +406,8 @@ ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_
     o->error_target = has_limit(&now.options) ? 0 : job->error_target;
     EC_TRY(ec_options_parse(ec_render_rows, ec_render_row_count, request, argc, argv, &first, given, &asked, err));
     if (now.scene) request->scene = now.scene;
-    const char *batch = ec_identity_value(&job->identity, "--batch");
-    if (!now.options.batch && batch) o->batch = (uint32_t)strtoul(batch, NULL, 10);
+    const char *adaptive = ec_identity_value(&job->identity, "--adaptive");
+    if (now.adaptive == EC_ADAPTIVE_AUTO && adaptive) request->adaptive = strcmp(adaptive, "on") ? EC_ADAPTIVE_OFF : EC_ADAPTIVE_ON;
     if (!request->checkpoint) request->checkpoint = request->resume;
     return ec_render_request_settle(request, ec_render_rows, ec_render_row_count, given, err);
 }

@@ -13,6 +13,9 @@
 #include "pipeline/render.h"
 #include "store/store.h"
 
+/* auto: where an error is asked for. */
+typedef enum ec_adaptive { EC_ADAPTIVE_AUTO, EC_ADAPTIVE_ON, EC_ADAPTIVE_OFF } ec_adaptive;
+
 typedef struct ec_render_request {
     const char *scene;
     ec_scene_choice choice;
@@ -34,8 +37,10 @@ typedef struct ec_render_request {
     bool seed_is_frame;        /* --seed frame */
     bool overwrite;            /* frames that are there and of another job */
     bool has_slice;            /* --samples A:B: */
-    uint32_t slice_first, slice_end; /* samples a pixel, whole batches */
-    bool slice_of_any;         /* of a job without an end: --batch, but no --spp */
+    uint32_t slice_first, slice_end; /* samples a pixel */
+    uint32_t slice_cut;        /* samples that its last batch lacks */
+    bool slice_of_any;         /* of a job without an end: no --spp */
+    ec_adaptive adaptive;
     const char *checkpoint;    /* NULL: none */
     double every;              /* seconds between two of them */
     const char *resume;        /* a checkpoint to go on from; NULL: from the start */

@@ -102,7 +102,7 @@ char *ec_view_command(const ec_render_request *request, const ec_kept_options *k
     for (uint32_t i = 0; i < ec_feature_count; i++)
         if (without & ec_features[i].bit) add(&w, "--without=%s", ec_features[i].name);
     add(&w, "--spp=%u", o->spp);
-    add(&w, "--batch=%u", o->batch);
+    if (o->replicates) add(&w, "--replicates=%u", o->replicates);
     if (shot->exposure != 0) add(&w, "--exposure=%.9g", shot->exposure);
     if (shot->tonemap != EC_TONEMAP_NEUTRAL) add(&w, "--tonemap=%s", ec_tonemap_names[shot->tonemap]);
     for (int i = 0; i < outputs->count; i++) {

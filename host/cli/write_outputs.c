@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "film/interval.h"
 
 enum { AOV_ALBEDO = 0, AOV_NORMAL = 3, AOV_DEPTH = 6, AOV_ALPHA = 7 };
 
@@ -15,34 +14,42 @@ ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, 
     float **const planes[] = {&picture->rgb, &picture->constants, &picture->stderr_rgb, &picture->stderr_y,
                               &picture->low, &picture->high,      &picture->heavy};
     static const size_t values[] = {3, 2, 3, 1, 3, 3, 1};
-    for (int i = 0; i < (with_error ? 7 : 2); i++)
-        if (!(*planes[i] = malloc(pixel_count * values[i] * sizeof(float)))) {
-            ec_picture_free(picture);
-            return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", width, rows);
-        }
-    return EC_OK;
+    bool made = (picture->room = malloc(ec_resolve_room(width, rows) * sizeof *picture->room)) != NULL;
+    for (int i = 0; made && i < (with_error ? 7 : 2); i++) made = (*planes[i] = malloc(pixel_count * values[i] * sizeof(float))) != NULL;
+    if (made) return EC_OK;
+    ec_picture_free(picture);
+    return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", width, rows);
 }
 
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows)
 {
-    const ec_film here = ec_film_rows(film, first, rows);
     const size_t pixel_count = (size_t)film->width * rows;
+    const ec_planes planes = {.rgb = picture->rgb, .stderr_rgb = picture->stderr_rgb, .stderr_y = picture->stderr_y,
+                              .samples = picture->constants, .samples_stride = 2,
+                              .intervals = {picture->low, picture->high, picture->heavy}};
     picture->height = rows;
-    picture->aov = here.aov;
-    ec_film_resolve(&here, picture->rgb, picture->stderr_rgb);
-    if (picture->stderr_y) ec_film_resolve_luminance_error(&here, picture->stderr_y);
-    if (picture->heavy)
-        picture->heavy_count = ec_film_interval_rows(film, first, rows, picture->low, picture->high, picture->heavy);
-    for (size_t i = 0; i < pixel_count; i++) {
-        float samples = (float)((double)ec_film_batches(&here, i) * film->samples_per_batch);
-        picture->constants[2 * i] = here.unsampled && here.unsampled[i] ? 0.0f : samples;
-        picture->constants[2 * i + 1] = 1;
-    }
+    picture->aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
+    picture->heavy_count = ec_film_resolve_rows(film, first, rows, &planes, picture->room);
+    for (size_t i = 0; i < pixel_count; i++) picture->constants[2 * i + 1] = 1;
+}
+
+ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t rows)
+{
+    const size_t before = (size_t)first * picture->width;
+    ec_picture here = {.width = picture->width, .height = rows, .rgb = picture->rgb + 3 * before, .constants = picture->constants + 2 * before,
+                       .aov = picture->aov ? picture->aov + EC_FILM_FEATURES * before : NULL};
+    if (!picture->heavy) return here;
+    here.stderr_rgb = picture->stderr_rgb + 3 * before;
+    here.stderr_y = picture->stderr_y + before;
+    here.low = picture->low + 3 * before;
+    here.high = picture->high + 3 * before;
+    here.heavy = picture->heavy + before;
+    return here;
 }
 
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err)
 {
-    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && film->batch_count >= 2, err));
+    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && ec_film_replicates(film) >= 2, err));
     ec_picture_fill(picture, film, 0, film->height);
     return EC_OK;
 }
@@ -56,6 +63,7 @@ void ec_picture_free(ec_picture *picture)
     free(picture->high);
     free(picture->heavy);
     free(picture->constants);
+    free(picture->room);
     *picture = (ec_picture){0};
 }
 

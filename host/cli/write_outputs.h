@@ -3,7 +3,7 @@
 #define EC_CLI_WRITE_OUTPUTS_H
 
 #include "cli/outputs.h"
-#include "film/film.h"
+#include "film/resolve.h"
 #include "image/image.h"
 #include "store/store.h"
 
@@ -11,22 +11,26 @@
 typedef struct ec_picture {
     uint32_t width, height;
     float *rgb;        /* 3 per pixel, owned */
-    /* What is known of the error; all NULL with fewer than two batches. Owned. */
+    /* What is known of the error; all NULL with fewer than two replicates. Owned. */
     float *stderr_rgb; /* 3 per pixel */
     float *stderr_y;   /* 1 per pixel: of luminance */
     float *low, *high; /* 3 per pixel: 95 % interval */
     float *heavy;      /* 1 per pixel: see film/interval.h */
     uint64_t heavy_count;
     float *constants;  /* 2 per pixel: samples, and the alpha of a film without first-hit features; owned */
+    ec_pixel *room;    /* for ec_film_resolve_rows; owned */
     const float *aov;  /* the film's: 8 per pixel, or NULL */
 } ec_picture;
 
 /* with_error false: what is known of the error stays NULL in any case. */
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
 
-/* The same of some rows at a time: room for as many, then row `first` and those below it, of a film that is shown. */
+/* The same of some rows at a time: room for as many, then row `first` and those below it. */
 ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, ec_error *err);
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
+
+/* A part of it, which owns nothing: to be filled by itself. */
+ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t rows);
 
 /* What of it goes into an EXR. No error and no first hit: no such channels. */
 enum { EC_CHANNELS_MAX = 26 };

@@ -1,26 +1,29 @@
-/* A band of rows is resolved, hashed and handed to every file. A pixel's interval looks at the rows around it, so that the last band of what has
- * come waits for the rows below; with it, and what it looks at above, wait BAND + REACH rows of the film. */
+/* A band of rows is resolved, hashed and handed to every file, by all threads. A pixel's interval looks at the rows around it, so that the last
+ * SEAM rows of what has come wait for the rows below; with them, and what they look at above, wait SEAM + REACH rows of the film. */
 #include "cli/write_rows.h"
 
 #include <float.h>
 #include <math.h>
+#include <omp.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "film/interval.h"
 
-enum { BAND = EC_EXR_ROWS, REACH = EC_INTERVAL_REACH, WAITING = BAND + REACH, AROUND = BAND + 2 * REACH };
+enum { CHUNKS_A_THREAD = 2, SEAM = EC_EXR_ROWS, REACH = EC_INTERVAL_REACH, WAITING = SEAM + REACH, AROUND = SEAM + 2 * REACH };
 
 struct ec_row_writer {
     ec_outputs *outputs;
     ec_exr_rows *exr[EC_OUTPUTS_MAX]; /* NULL: no EXR, or one that failed */
     ec_png_rows *png[EC_OUTPUTS_MAX];
     ec_error why;                     /* what failed first; empty: nothing */
-    uint32_t width, height, batches;
-    bool varied;                      /* pixels have counts of their own */
+    uint32_t width, height, replicates;
+    uint32_t band_rows;               /* a multiple of SEAM */
     uint32_t come, written;           /* rows */
     ec_film waiting, around;          /* the last rows that have come, at most WAITING; room for what a band looks at */
     ec_picture band;
+    ec_pixel *rooms;                  /* for ec_film_resolve_rows, of each thread */
     ec_channel_list channels;         /* of the EXRs' header */
     ec_exr_part part;
     uint8_t *bytes;                   /* the band as a PNG has it */
@@ -56,8 +59,10 @@ static ec_result told_if_none_is_left(const ec_row_writer *w, ec_error *err)
 
 static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
 {
-    const uint32_t rows = w->height < BAND ? w->height : BAND;
-    EC_TRY(ec_picture_create(&w->band, w->width, rows, film->batch_count >= 2, err));
+    const uint32_t rows = w->height < w->band_rows ? w->height : w->band_rows;
+    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, err));
+    w->rooms = malloc((size_t)omp_get_max_threads() * ec_resolve_room(w->width, SEAM) * sizeof *w->rooms);
+    if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
     w->band.aov = film->aov;
     ec_picture_channels(&w->band, &w->channels);
     w->bytes = malloc((size_t)w->width * rows * 3);
@@ -73,8 +78,8 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     w->outputs = outputs;
     w->width = film->width;
     w->height = height;
-    w->batches = film->batch_count;
-    w->varied = film->counts != NULL;
+    w->band_rows = SEAM * CHUNKS_A_THREAD * (uint32_t)omp_get_max_threads();
+    w->replicates = ec_film_replicates(film);
     w->exposure = style->exposure;
     w->tonemap = style->tonemap;
     ec_hash_begin(&w->hash);
@@ -102,6 +107,37 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     return EC_OK;
 }
 
+/* SEAM rows by each thread in turn: the film is only looked at. */
+static void fill_band(ec_row_writer *w, const ec_film *film, uint32_t first, uint32_t rows)
+{
+    uint64_t heavy = 0;
+    w->band.height = rows;
+    w->band.aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
+#pragma omp parallel for schedule(dynamic, 1) reduction(+ : heavy) if ((uint64_t)w->width * rows > 1 << 14)
+    for (uint32_t k = 0; k < rows; k += SEAM) {
+        const uint32_t count = rows - k < SEAM ? rows - k : SEAM;
+        ec_picture part = ec_picture_rows(&w->band, k, count);
+        part.room = w->rooms + (size_t)omp_get_thread_num() * ec_resolve_room(w->width, SEAM);
+        ec_picture_fill(&part, film, first + k, count);
+        heavy += part.heavy_count;
+    }
+    w->band.heavy_count = heavy;
+}
+
+typedef struct hash_task {
+    ec_hash *hash;
+    const float *rgb;
+    uint64_t pixels;
+} hash_task;
+
+/* One hash cannot be shared out, so that it goes beside the files. */
+static void *hash_band(void *user)
+{
+    const hash_task *task = user;
+    ec_hash_add(task->hash, task->rgb, task->pixels);
+    return NULL;
+}
+
 /* The band, to all files. */
 static void write_band(ec_row_writer *w)
 {
@@ -111,7 +147,10 @@ static void write_band(ec_row_writer *w)
     ec_picture_channels(&w->band, &channels);
     const ec_exr_part part = {.channels = channels.list, .channel_count = channels.count};
     bool is_toned = false;
-    ec_hash_add(&w->hash, w->band.rgb, pixels);
+    hash_task task = {&w->hash, w->band.rgb, pixels};
+    pthread_t hasher;
+    const bool is_beside = pthread_create(&hasher, NULL, hash_band, &task) == 0;
+    if (!is_beside) hash_band(&task);
     w->heavy += w->band.heavy_count;
     w->written += rows;
     for (int i = 0; i < w->outputs->count; i++) {
@@ -121,6 +160,7 @@ static void write_band(ec_row_writer *w)
         if (w->exr[i] && ec_exr_rows_put(w->exr[i], &part, rows, &why) != EC_OK) fail_file(w, i, &why);
         if (w->png[i] && ec_png_rows_put(w->png[i], w->bytes, rows, &why) != EC_OK) fail_file(w, i, &why);
     }
+    if (is_beside) pthread_join(hasher, NULL);
 }
 
 static uint32_t first_waiting(const ec_row_writer *w) { return w->come < WAITING ? 0 : w->come - WAITING; }
@@ -138,33 +178,31 @@ static void write_up_to(ec_row_writer *w, const ec_film *film, uint32_t end)
 {
     const uint32_t all = w->come + (film ? film->height : 0);
     while (w->written < end) {
-        const uint32_t first = w->written, rows = end - first < BAND ? end - first : BAND;
-        const uint32_t from = first < REACH ? 0 : first - REACH, to = all - first - rows < REACH ? all : first + rows + REACH;
+        const uint32_t first = w->written, from = first < REACH ? 0 : first - REACH, most = from < w->come ? SEAM : w->band_rows;
+        const uint32_t rows = end - first < most ? end - first : most, to = all - first - rows < REACH ? all : first + rows + REACH;
         if (from >= w->come) {
-            ec_picture_fill(&w->band, film, first - w->come, rows);
+            fill_band(w, film, first - w->come, rows);
         } else {
             gather(w, film, from, to, &w->around);
-            const ec_film around = ec_film_rows(&w->around, 0, to - from);
-            ec_picture_fill(&w->band, &around, first - from, rows);
+            ec_film around = w->around;
+            around.height = to - from;
+            fill_band(w, &around, first - from, rows);
         }
         write_band(w);
     }
 }
 
-static ec_result make_room(const ec_row_writer *w, const ec_film *like, ec_film *film, ec_error *err)
+static ec_result make_room(const ec_film *like, ec_film *film, ec_error *err)
 {
-    if (film->mean) return EC_OK;
-    EC_TRY(ec_film_create(film, w->width, AROUND, like->samples_per_batch, err));
-    film->aov = like->aov ? malloc((size_t)w->width * AROUND * EC_FILM_FEATURES * sizeof *film->aov) : NULL;
-    return film->aov || !like->aov ? EC_OK : ec_fail(err, "out of memory for rows of a picture");
+    return film->width ? EC_OK : ec_film_create_like(film, like, AROUND, err);
 }
 
 /* The last rows, for what comes after them. */
 static ec_result keep_waiting(ec_row_writer *w, const ec_film *film, ec_error *err)
 {
     const uint32_t all = w->come + film->height, from = all < WAITING ? 0 : all - WAITING;
-    EC_TRY(make_room(w, film, &w->waiting, err));
-    EC_TRY(make_room(w, film, &w->around, err));
+    EC_TRY(make_room(film, &w->waiting, err));
+    EC_TRY(make_room(film, &w->around, err));
     gather(w, film, from, all, &w->around);
     const ec_film other = w->waiting;
     w->waiting = w->around;
@@ -176,7 +214,7 @@ ec_result ec_row_writer_put(ec_row_writer *w, const ec_film *film, ec_error *err
 {
     const uint32_t all = w->come + film->height;
     ec_film_sum_errors(film, &w->sums);
-    write_up_to(w, film, all == w->height ? all : all - BAND);
+    write_up_to(w, film, all == w->height ? all : all - SEAM);
     if (all < w->height) EC_TRY(keep_waiting(w, film, err));
     w->come = all;
     return told_if_none_is_left(w, err);
@@ -207,15 +245,15 @@ ec_result ec_row_writer_finish(ec_row_writer *w, ec_rows_told *told, ec_error *e
     const bool is_whole = w->come == w->height;
     float *no_features = NULL;
     write_up_to(w, NULL, w->come);
-    if (!is_whole && w->band.aov && !(no_features = calloc((size_t)w->width * BAND, EC_FILM_FEATURES * sizeof *no_features)))
+    if (!is_whole && w->band.aov && !(no_features = calloc((size_t)w->width * w->band_rows, EC_FILM_FEATURES * sizeof *no_features)))
         return ec_fail(err, "out of memory for rows of a picture");
     while (w->written < w->height) {
-        blank_band(w, w->height - w->written < BAND ? w->height - w->written : BAND, no_features);
+        blank_band(w, w->height - w->written < w->band_rows ? w->height - w->written : w->band_rows, no_features);
         write_band(w);
     }
     free(no_features);
-    *told = (ec_rows_told){.rows = w->come, .batches = w->batches, .heavy = w->heavy};
-    told->error = ec_film_error_of(&w->sums, (double)w->width * w->height, w->batches, w->varied);
+    *told = (ec_rows_told){.rows = w->come, .replicates = w->replicates, .heavy = w->heavy};
+    told->error = ec_film_error_of(&w->sums, (double)w->width * w->height, w->replicates);
     if (!is_whole) told->error.error = told->error.error_bound = told->error.relmse = INFINITY;
     ec_hash_end(&w->hash, told->sha256);
     return EC_OK;
@@ -248,6 +286,7 @@ void ec_row_writer_abort(ec_row_writer *w)
     ec_film_destroy(&w->waiting);
     ec_film_destroy(&w->around);
     ec_picture_free(&w->band);
+    free(w->rooms);
     free(w->bytes);
     free(w);
 }

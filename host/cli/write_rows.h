@@ -13,7 +13,7 @@ typedef struct ec_row_writer ec_row_writer;
 ec_result ec_row_writer_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height,
                              const ec_picture_style *style, uint32_t room, ec_error *err);
 
-/* The next rows, a multiple of EC_EXR_ROWS or up to the last; the film must be shown. Fails where no file is left that could be written. */
+/* The next rows, a multiple of EC_EXR_ROWS or up to the last. Fails where no file is left that could be written. */
 ec_result ec_row_writer_put(ec_row_writer *writer, const ec_film *film, ec_error *err);
 
 /* How many have come so far. */
@@ -21,7 +21,7 @@ uint32_t ec_row_writer_rows(const ec_row_writer *writer);
 
 /* What came of them. Where rows are missing no error of the image is known. */
 typedef struct ec_rows_told {
-    uint32_t rows, batches;
+    uint32_t rows, replicates;
     uint64_t heavy;           /* pixels, known once they are written: in the end all */
     ec_film_error error;
     char sha256[EC_HASH_SIZE];

@@ -1,5 +1,5 @@
-/* What buys accuracy cheapest on a scene: `eclat cost`. Every rung (a way to render the scene) is rendered in independent batches of
- * 1, 2, 4, … samples a pixel and compared with a reference of the whole scene, within a budget of time.
+/* What buys accuracy cheapest on a scene: `eclat cost`. Every rung (a way to render the scene) is rendered in independent pictures of
+ * 1, 2, 4, … samples a pixel, each in replicates as `eclat render` takes them (film/schedule.h), and compared with a reference of the whole scene, within a budget of time.
  *
  * Definitions, the same as host/README.md's. y is luminance, M the reference's mean of it, all errors are relative to M.
  *   error(n)   root of the mean over pixels of (y - reference)^2 for one picture of n samples a pixel, the reference's own variance
@@ -9,7 +9,7 @@
  *   bias^2     mean over pixels of (mean of all pictures - reference)^2, the variance of both subtracted
  *   efficiency 1 / (error(n)^2 s), s the seconds that one picture of n samples takes
  * Variance and efficiency hardly depend on n where samples are independent. With stratified ones they do, so n is EC_COST_UNIT for all rungs
- * (or the largest taken, where that is less): `eclat render` makes 256 samples of 16 such batches. */
+ * (or the largest taken, where that is less). */
 #ifndef EC_COST_COST_H
 #define EC_COST_COST_H
 

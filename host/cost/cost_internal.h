@@ -38,7 +38,7 @@ void ec_cost_conclude(ec_cost_row *row);
 /* reference.c */
 ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_error *err);
 ec_result ec_cost_reference_read(ec_cost_study *study, ec_error *err);
-/* Of a film of two batches or more. */
+/* Of a film of two replicates or more. */
 ec_result ec_cost_reference_of(const ec_film *film, ec_cost_reference *reference, ec_error *err);
 void ec_cost_reference_free(ec_cost_reference *reference);
 
@@ -46,10 +46,11 @@ void ec_cost_reference_free(ec_cost_reference *reference);
 typedef struct ec_cost_runner {
     ec_cost_study *study;
     ec_session *session;
-    float *mean;                 /* 3 a pixel, owned: the last batch */
+    float *mean;                 /* 3 a pixel, owned: the last picture */
+    float *room;                 /* as much, for a replicate of it */
     double seconds_per_sample;   /* the last estimate */
     uint64_t pixels, invalid;
-    bool stopped;                /* a batch was broken off */
+    bool stopped;                /* a picture was broken off */
 } ec_cost_runner;
 /* Sets up, edits included, and takes one picture of 1 sample for the kernels to be compiled. *setup: its seconds. */
 ec_result ec_cost_runner_open(ec_cost_study *study, const ec_cost_rung *rung, ec_cost_runner *runner, ec_render_stats *stats,

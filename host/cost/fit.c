@@ -25,8 +25,17 @@ ec_cost_fit ec_cost_fit_slope(const ec_cost_point *points, uint32_t count)
     return (ec_cost_fit){(w * wxy - wx * wy) / determinant, sqrt(w / determinant)};
 }
 
+/* By how much mse falls with samples beyond the largest picture: as over the last two octaves, 1 for independent samples. */
+static double last_slope(const ec_cost_row *row)
+{
+    const uint32_t n = row->point_count;
+    if (n < 3 || !is_known(&row->points[n - 1]) || !is_known(&row->points[n - 3])) return 1;
+    const ec_cost_point *from = &row->points[n - 3], *to = &row->points[n - 1];
+    return fmin(fmax(log(from->mse / to->mse) / log((double)to->samples / from->samples), 1), 2);
+}
+
 /* Samples a pixel until the error is under `target`; INFINITY: never. Where pictures as large were taken, along the line between two
- * points in the log-log chart. Beyond them the noise falls with the square root of the work, as independent pictures added up do. */
+ * points in the log-log chart, beyond them along the last one. */
 static double samples_to(const ec_cost_row *row, double target, bool *extrapolated)
 {
     const ec_cost_point *p = row->points, *last = &p[row->point_count - 1];
@@ -43,7 +52,7 @@ static double samples_to(const ec_cost_row *row, double target, bool *extrapolat
     }
     *extrapolated = true;
     if (row->biased) return row->variance / (wanted - floor);
-    return is_known(last) ? last->samples * last->mse / wanted : NAN;
+    return is_known(last) ? last->samples * pow(last->mse / wanted, 1 / last_slope(row)) : NAN;
 }
 
 void ec_cost_conclude(ec_cost_row *row)

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "cost/cost_internal.h"
+#include "film/resolve.h"
 #include "image/image.h"
 
 static ec_result allocate(ec_cost_reference *r, uint64_t pixels, ec_error *err)
@@ -32,37 +33,38 @@ static ec_result finish(ec_cost_reference *r, uint64_t pixels, ec_error *err)
     return EC_OK;
 }
 
-/* Batches as large as leaves 16 of them: more would say more of the noise, fewer leave less of it. */
-static uint32_t choose_batch(double seconds, double seconds_per_sample, uint32_t largest)
-{
-    uint32_t batch = 1;
-    while (batch < 64 && 2 * batch <= largest && 32 * batch * seconds_per_sample <= seconds) batch *= 2;
-    return batch;
-}
-
+/* As a render takes them (film/schedule.h), from a seed that no rung has, until the deadline. */
 static ec_result take_batches(ec_cost_runner *runner, ec_film *film, double deadline, ec_error *err)
 {
-    double seconds;
-    uint32_t batch = film->samples_per_batch;
-    for (uint32_t i = 0; ec_cost_go_on(runner->study); i++) {
-        EC_TRY(ec_cost_runner_take(runner, ec_session_seed(runner->study->options.seed, EC_COST_STREAM_REFERENCE, i),
-                                   batch, &seconds, err));
-        if (runner->stopped) break;
-        EC_TRY(ec_film_add_batch(film, runner->mean, err));
-        if (film->batch_count >= 4 && ec_now() + 0.5 * seconds > deadline) break;
+    const uint32_t seed = ec_session_seed(runner->study->options.seed, EC_COST_STREAM_REFERENCE, 0);
+    float *values = malloc(runner->pixels * EC_BATCH_FIELDS * sizeof *values);
+    ec_result result = values ? EC_OK : ec_fail(err, "out of memory for a batch");
+    while (result == EC_OK && ec_cost_go_on(runner->study)) {
+        const ec_batch_range range = ec_schedule_batch(film->replicates, film->batch_count);
+        ec_session_batch batch = {.seed = seed, .replicate = range.replicate, .first = (uint32_t)range.first, .samples = range.samples,
+                                  .go_on = ec_cost_go_on, .user = runner->study, .batch = values};
+        result = ec_session_take(runner->session, &batch, err);
+        if (result == EC_OK && !batch.complete) break;
+        if (result == EC_OK) result = ec_film_add(film, film->batch_count, values, err);
+        if (film->batch_count >= film->replicates && ec_now() + 0.5 * batch.seconds > deadline) break;
     }
-    return EC_OK;
+    free(values);
+    return result;
 }
 
 ec_result ec_cost_reference_of(const ec_film *film, ec_cost_reference *r, ec_error *err)
 {
-    uint64_t pixels = (uint64_t)film->width * film->height;
-    double n = film->batch_count;
+    const uint64_t pixels = (uint64_t)film->width * film->height;
+    ec_pixel piece[EC_PIXELS];
     EC_TRY(allocate(r, pixels, err));
     ec_film_resolve(film, r->rgb, NULL);
-    for (uint64_t p = 0; p < pixels; p++) r->variance[p] = film->m2[4 * p + 3] / (n * (n - 1));
+    for (uint64_t first = 0; first < pixels; first += EC_PIXELS) {
+        const uint64_t count = pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS;
+        ec_film_look(film, first, count, piece);
+        for (uint64_t i = 0; i < count; i++) r->variance[first + i] = ec_pixel_se2(&piece[i], 3);
+    }
     r->has_variance = true;
-    r->samples_per_pixel = (uint64_t)film->batch_count * film->samples_per_batch;
+    r->samples_per_pixel = (uint64_t)ec_film_samples_of_all(film);
     return finish(r, pixels, err);
 }
 
@@ -76,12 +78,8 @@ ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_err
     ec_film film = {0};
     ec_result result = ec_cost_runner_open(study, &rung, &runner, &stats, &r->setup_seconds, err);
     double start = ec_now();
-    if (result == EC_OK && !runner.stopped) {
-        uint32_t batch = choose_batch(deadline - start, runner.seconds_per_sample * (double)runner.pixels,
-                                      ec_session_largest(runner.session));
-        result = ec_film_create(&film, o->width, o->height, batch, err);
-    }
-    if (result == EC_OK && film.mean) result = take_batches(&runner, &film, deadline, err);
+    if (result == EC_OK && !runner.stopped) result = ec_film_create(&film, o->width, o->height, ec_render_replicates(o), err);
+    if (result == EC_OK && film.width) result = take_batches(&runner, &film, deadline, err);
     if (result == EC_OK && film.batch_count < 2) study->interrupted = true; /* nothing can be said of anything */
     if (result == EC_OK && film.batch_count >= 2) result = ec_cost_reference_of(&film, r, err);
     r->seconds = ec_now() - start;

@@ -23,8 +23,8 @@ ec_result ec_cost_runner_open(ec_cost_study *study, const ec_cost_rung *rung, ec
 {
     double start = ec_now(), first = 0, second = 0;
     uint64_t pixels = (uint64_t)rung->options.width * rung->options.height;
-    *runner = (ec_cost_runner){.study = study, .pixels = pixels, .mean = malloc(pixels * 12)};
-    if (!runner->mean) return ec_fail(err, "out of memory for a picture of %llu pixels", (unsigned long long)pixels);
+    *runner = (ec_cost_runner){.study = study, .pixels = pixels, .mean = malloc(pixels * 12), .room = malloc(pixels * 12)};
+    if (!runner->mean || !runner->room) return ec_fail(err, "out of memory for a picture of %llu pixels", (unsigned long long)pixels);
     EC_TRY(open_session(study, rung, &runner->session, stats, err));
     *setup = ec_now() - start;
     EC_TRY(ec_cost_runner_take(runner, ec_session_seed(0, 0, 0), 1, &first, err));
@@ -38,17 +38,33 @@ void ec_cost_runner_close(ec_cost_runner *runner)
 {
     ec_session_close(runner->session);
     free(runner->mean);
+    free(runner->room);
     *runner = (ec_cost_runner){0};
 }
 
+static void add_up(ec_cost_runner *runner, uint32_t count)
+{
+    for (uint64_t i = 0; i < 3 * runner->pixels; i++) {
+        const float before = count > 1 ? runner->mean[i] : 0;
+        runner->mean[i] = before + (runner->room[i] - before) / (float)count;
+    }
+}
+
+/* As a render takes them: so many samples in replicates (film/schedule.h). */
 ec_result ec_cost_runner_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err)
 {
-    ec_session_batch batch = {.seed = seed, .samples = samples, .go_on = ec_cost_go_on, .user = runner->study, .mean = runner->mean};
-    EC_TRY(ec_session_take(runner->session, &batch, err));
-    runner->stopped = !batch.complete;
-    if (runner->stopped) return EC_OK;
-    runner->invalid += batch.invalid;
-    runner->seconds_per_sample = batch.seconds / ((double)samples * (double)runner->pixels);
-    *seconds = batch.seconds;
+    const uint32_t replicates = ec_render_replicates(&runner->study->options), count = samples < replicates ? samples : replicates;
+    *seconds = 0;
+    for (uint32_t r = 0; r < count; r++) {
+        ec_session_batch batch = {.seed = seed, .replicate = r, .samples = samples / count + (r < samples % count),
+                                  .go_on = ec_cost_go_on, .user = runner->study, .rgb = runner->room};
+        EC_TRY(ec_session_take(runner->session, &batch, err));
+        runner->stopped = !batch.complete;
+        if (runner->stopped) return EC_OK;
+        runner->invalid += batch.invalid;
+        *seconds += batch.seconds;
+        add_up(runner, r + 1);
+    }
+    runner->seconds_per_sample = *seconds / ((double)samples * (double)runner->pixels);
     return EC_OK;
 }

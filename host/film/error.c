@@ -1,12 +1,12 @@
 /* The image's error and its 95 % upper bound.
  *
- * Setting. Pixel p has n batch means of luminance, independent of each other and of other pixels' (true of this renderer:
- * each pixel has its own random numbers and no filter shares samples), with true mean mu_p and variance v_p.
+ * Setting. Pixel p has n = R means of replicates' luminance, independent of each other and of other pixels' (true of this renderer:
+ * each pixel and replicate has its own random numbers and no filter shares samples), with true mean mu_p and variance v_p.
  *   E^2    = mean_p e_p^2,       e_p the pixel's real error        -- unknown
  *   est^2  = mean_p s_p^2 / n,   s_p^2 the sample variance         -- the stated error, unbiased for E^2
  * and both are divided by the image's mean luminance. A given render may well err by more than est.
  *
- * How much more? With y_i the deviations of a pixel's batch means from mu_p,
+ * How much more? With y_i the deviations of a pixel's replicates from mu_p,
  *   n e_p^2 - s_p^2 = sum_{i!=j} y_i y_j / (n-1),
  * so whatever the distribution, skewed or not (no third or fourth moment enters),
  *   Var(E^2 - est^2) = 2 G / (P n)^2 * n / (n-1),   G = sum_p v_p^2.
@@ -14,19 +14,17 @@
  * freedom (Satterthwaite, Biometrics 2, 1946): exact for normal pixels of equal variance, right in mean and variance for
  * all. Hence E^2 <= est^2 F with F a quantile of Fisher's F(nu, nu (n-1)), near 1 for nu in the thousands.
  *
- * Where pixels have counts of their own, v_p / n_p takes the place of v_p / n, and n is what makes n / (n-1) the mean of the
- * pixels' own, weighed by the squares of these.
- *
  * The divisor M, the image's mean, is an estimate too, with relative variance r = est^2 / (P M^2). Its error is
  * uncorrelated with E^2 - est^2 (each term keeps a factor y of mean 0), so the two half-widths, F - 1 and 2 z sqrt(r),
  * add in squares.
  *
  * Where it holds: tests/host/test_film_coverage.c prints the table. With n = 2 or 3 the spread of a sample variance cannot
  * be told from the pixel's own kurtosis; normal pixels are assumed, which is too wide for skewed ones and too narrow if
- * one or a few pixels hold nearly all the noise. Of light that no batch has met no estimate can know. */
+ * one or a few pixels hold nearly all the noise. Of light that no sample has met no estimate can know. */
 #include <math.h>
+#include <string.h>
 
-#include "film/film.h"
+#include "film/pixel.h"
 #include "film/statistics.h"
 
 /* An estimate of v^2 without bias for any distribution: with k-statistics (Fisher 1930; Kendall & Stuart ch. 12)
@@ -36,33 +34,55 @@ static double squared_variance(double n, double m2, double m4)
     double k2 = m2 / (n - 1);
     double k4 = n * ((n + 1) * m4 - 3 * (n - 1) / n * m2 * m2) / ((n - 1) * (n - 2) * (n - 3));
     double value = (k2 * k2 - k4 / n) * (n - 1) / (n + 1);
-    return isfinite(value) ? value : k2 * k2; /* m4 left the range of float (deviations beyond 1e9): the wider choice */
+    return isfinite(value) ? value : k2 * k2; /* m4 left the range of double (deviations beyond 1e77): the wider choice */
 }
 
-static void add_pixel(const ec_moments *m, uint64_t p, double n, ec_error_sums *sums)
+static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
 {
-    double m2 = m->m2[4 * p + 3], s2 = m2 / (n * (n - 1)), s4 = s2 * s2;
-    double v2 = n >= 4 ? squared_variance(n, m2, m->m34[2 * p + 1]) / (n * n) : s4;
-    sums->ratio += s4 * n / (n - 1);
-    sums->luminance += ec_luminance(m->mean + 3 * p);
+    const double n = p->n, s2 = ec_pixel_se2(p, 3), s4 = s2 * s2;
+    const double v2 = n >= 4 ? squared_variance(n, p->m2[3], p->m4) / (n * n) : s4;
+    sums->luminance += ec_luminance(p->mean);
     sums->s2 += s2;
     sums->s4 += s4;
     sums->v4 += v2;
     sums->v8 += v2 * v2;
     for (int c = 0; c < 3; c++) {
-        double x = fabs(m->mean[3 * p + c]) + EC_RELMSE_FLOOR;
-        sums->relative += m->m2[4 * p + c] / (n * (n - 1) * x * x);
+        double x = fabs(p->mean[c]) + EC_RELMSE_FLOOR;
+        sums->relative += ec_pixel_se2(p, c) / (x * x);
     }
 }
 
+static void sum_row(const ec_film *film, uint32_t row, ec_error_sums *sums)
+{
+    ec_pixel piece[EC_PIXELS];
+    for (uint64_t x = 0; x < film->width; x += EC_PIXELS) {
+        const uint64_t count = film->width - x < EC_PIXELS ? film->width - x : EC_PIXELS;
+        ec_film_look(film, (uint64_t)row * film->width + x, count, piece);
+        for (uint64_t i = 0; i < count; i++) add_pixel(&piece[i], sums);
+    }
+}
+
+static void add_row(const ec_error_sums *row, ec_error_sums *sums)
+{
+    sums->luminance += row->luminance;
+    sums->s2 += row->s2;
+    sums->s4 += row->s4;
+    sums->relative += row->relative;
+    sums->v4 += row->v4;
+    sums->v8 += row->v8;
+}
+
+/* Rows by all threads, and their sums in order: the same bits for any number of threads, and of strips. */
 void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums)
 {
-    uint64_t pixels = (uint64_t)film->width * film->height;
-    ec_film_glass glass;
-    for (uint64_t first = 0; first < pixels; first += EC_FILM_GLASS) {
-        uint64_t count = pixels - first < EC_FILM_GLASS ? pixels - first : EC_FILM_GLASS;
-        const ec_moments m = ec_film_look(film, first, count, &glass);
-        for (uint64_t p = 0; p < count; p++) add_pixel(&m, p, ec_film_batches(film, first + p), sums);
+    enum { ROWS = 64 };
+    ec_error_sums rows[ROWS];
+    for (uint32_t first = 0; first < film->height; first += ROWS) {
+        const uint32_t count = film->height - first < ROWS ? film->height - first : ROWS;
+        memset(rows, 0, sizeof rows);
+#pragma omp parallel for if ((uint64_t)film->width * count > 1 << 13)
+        for (uint32_t k = 0; k < count; k++) sum_row(film, first + k, &rows[k]);
+        for (uint32_t k = 0; k < count; k++) add_row(&rows[k], sums);
     }
 }
 
@@ -82,17 +102,17 @@ static double effective_pixels(const ec_error_sums *sums, double n, double pixel
     return 1 + (s2_squared - sums->s4) / G;           /* for one noisy pixel exactly 1 */
 }
 
-double ec_film_error_bound(double square, double noisy_pixels, double pixels, double batches)
+double ec_film_error_bound(double square, double noisy_pixels, double pixels, double replicates)
 {
-    double from_pixels = ec_f_quantile(EC_BOUND_CONFIDENCE, noisy_pixels, noisy_pixels * fmax(batches - 1, 1)) - 1;
+    double from_pixels = ec_f_quantile(EC_BOUND_CONFIDENCE, noisy_pixels, noisy_pixels * fmax(replicates - 1, 1)) - 1;
     double from_mean = 2 * ec_normal_upper_quantile(1 - EC_BOUND_CONFIDENCE) * sqrt(square / pixels);
     return sqrt(square * (1 + hypot(from_pixels, from_mean)));
 }
 
-ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t batches, bool varied)
+ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates)
 {
     ec_film_error result = {.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
-    double n = batches;
+    double n = replicates;
     if (n < 1) return result;
     double mean = result.mean_luminance = sums->luminance / pixels;
     if (n >= 2) result.relmse = sums->relative / (3 * pixels);
@@ -101,8 +121,6 @@ ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_
     result.error = sqrt(square);
     result.error_bound = 0;
     if (square == 0) return result;
-    if (varied) n = sums->ratio / (sums->ratio - sums->s4);
-
     double nu = result.noisy_pixels = effective_pixels(sums, n, pixels);
     /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */
     double variance = n >= 4 ? fmax(sums->s4 - sums->v4, 0) : sums->s4 * 2 / (n + 1);
@@ -114,6 +132,7 @@ ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_
 ec_film_error ec_film_estimate_error(const ec_film *film)
 {
     ec_error_sums sums = {0};
-    if (film->batch_count) ec_film_sum_errors(film, &sums);
-    return ec_film_error_of(&sums, (double)film->width * film->height, film->batch_count, film->counts != NULL);
+    const uint32_t replicates = ec_film_replicates(film);
+    if (replicates) ec_film_sum_errors(film, &sums);
+    return ec_film_error_of(&sums, (double)film->width * film->height, replicates);
 }

@@ -1,19 +1,61 @@
 #include "film/forecast.h"
 
 #include <math.h>
+#include <string.h>
 
-double ec_outlook_bound(const ec_film_outlook *o, double batches)
+#define SLOPE_MOST 3.0
+#define PRIOR 0.15 /* slopes of pictures stray so much about what their rounds show, and change on the way */
+
+double ec_outlook_bound(const ec_film_outlook *o, double samples)
 {
-    return ec_film_error_bound(o->variance / batches, o->noisy_pixels, o->pixels, batches);
+    return ec_film_error_bound(o->square * pow(o->samples / samples, o->slope), o->noisy_pixels, o->pixels, o->replicates);
 }
 
-double ec_outlook_batches(const ec_film_outlook *o, double target)
+double ec_outlook_samples(const ec_film_outlook *o, double target)
 {
-    double batches = fmax(o->variance / (target * target), 2);
+    double samples = o->samples * pow(o->square / (target * target), 1 / o->slope);
     for (int i = 0; i < 20; i++) { /* the factor hardly depends on the number: a fixed point, soon found */
-        double bound = ec_outlook_bound(o, batches), better = batches * bound * bound / (target * target);
-        if (fabs(better - batches) < 1e-6 * batches) return better;
-        batches = fmax(better, 2);
+        const double bound = ec_outlook_bound(o, samples), better = samples * pow(bound / target, 2 / o->slope);
+        if (fabs(better - samples) < 1e-6 * samples) return better;
+        samples = fmax(better, 1);
     }
-    return batches;
+    return samples;
+}
+
+/* Least squares of ln error^2 over ln samples, over at most two octaves. A round's error^2 strays by `spread`, mostly in common with
+ * those before it, so that no more than an independent half of it is taken for each. Between 1 and what was
+ * fitted by their precision. */
+static void fit(ec_slope *s, double spread)
+{
+    double x = 0, y = 0, xx = 0, xy = 0;
+    const double n = s->count;
+    for (uint32_t i = 0; i < s->count; i++) x += s->samples[i] / n, y += s->square[i] / n;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const double dx = s->samples[i] - x;
+        xx += dx * dx;
+        xy += dx * (s->square[i] - y);
+    }
+    const double fitted = -xy / xx, variance = 0.5 * spread * spread / xx, weight = PRIOR / (PRIOR + variance);
+    s->value = fmin(fmax(1 + (fitted - 1) * weight, 1), SLOPE_MOST);
+    s->deviation = sqrt(variance * weight + PRIOR * PRIOR);
+}
+
+void ec_slope_restart(ec_slope *s)
+{
+    *s = (ec_slope){.value = 1 + (s->value - 1) / 2, .deviation = 2 * PRIOR};
+}
+
+void ec_slope_add(ec_slope *s, double samples, const ec_film_error *error)
+{
+    const double here = log(samples);
+    if (!(s->value > 0)) s->value = 1, s->deviation = 2 * PRIOR;
+    if (!isfinite(error->error) || !(error->error > 0)) return;
+    uint32_t old = s->count == EC_SLOPE_ROUNDS;
+    while (old < s->count && here - s->samples[old] > 2 * M_LN2 + 1e-9) old++;
+    s->count -= old;
+    memmove(s->samples, s->samples + old, s->count * sizeof *s->samples);
+    memmove(s->square, s->square + old, s->count * sizeof *s->square);
+    s->samples[s->count] = here;
+    s->square[s->count++] = 2 * log(error->error);
+    if (here - s->samples[0] > M_LN2 - 1e-9) fit(s, error->spread);
 }

@@ -1,19 +1,34 @@
-/* How many batches an accuracy will take, judged from those there are. */
+/* How many samples an accuracy will take, judged from those there are. */
 #ifndef EC_FILM_FORECAST_H
 #define EC_FILM_FORECAST_H
 
 #include "film/film.h"
 
-/* With B batches in all the bound comes to sqrt(variance / B) times a factor that the number of noisy pixels decides. */
+/* The squared error falls as samples^-slope: 1 for independent samples, more where their order tells. */
 typedef struct ec_film_outlook {
-    double variance;     /* of one batch, relative: mean over pixels of s^2 over the squared mean luminance */
-    double noisy_pixels, pixels;
+    double square, samples;  /* error^2 with so many samples a pixel */
+    double slope;
+    double noisy_pixels, pixels, replicates;
 } ec_film_outlook;
 
-/* The bound after so many batches. */
-double ec_outlook_bound(const ec_film_outlook *outlook, double batches);
+/* The bound after so many samples a pixel. */
+double ec_outlook_bound(const ec_film_outlook *outlook, double samples);
 
-/* The least number of batches, not whole, with a bound under `target`. */
-double ec_outlook_batches(const ec_film_outlook *outlook, double target);
+/* The least number of samples a pixel, not whole, with a bound under `target`. */
+double ec_outlook_samples(const ec_film_outlook *outlook, double target);
+
+enum { EC_SLOPE_ROUNDS = 12 };
+
+/* The slope that rounds show, with its standard error. Zero-initialise it, and tell it of each round. */
+typedef struct ec_slope {
+    double value, deviation;      /* 1, and a guess, before there is an octave of rounds */
+    uint32_t count;
+    double samples[EC_SLOPE_ROUNDS], square[EC_SLOPE_ROUNDS]; /* ln, of the last rounds, the oldest first */
+} ec_slope;
+void ec_slope_add(ec_slope *slope, double samples, const ec_film_error *error);
+
+/* From here on samples go to the pixels that hold the noise, where their order tells less: halfway between 1 and what it was, and rounds
+ * are looked at anew. */
+void ec_slope_restart(ec_slope *slope);
 
 #endif

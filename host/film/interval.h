@@ -3,14 +3,19 @@
 #ifndef EC_FILM_INTERVAL_H
 #define EC_FILM_INTERVAL_H
 
-#include "film/film.h"
+#include "film/pixel.h"
 
-enum { EC_INTERVAL_REACH = 2 };
+enum { EC_INTERVAL_REACH = 2 }; /* rows above and below that a pixel's interval looks at */
 
-/* Of rows [first, first + rows), whose first value comes first; they look at EC_INTERVAL_REACH rows above and below. low and high: 3 floats a
- * pixel, the interval's ends, 0 <= low <= mean <= high. heavy: 1 a pixel, 1 where the noise has too
- * heavy a tail for its own estimate, so that the pixel's error is a lower bound; else 0. Any may be NULL. Returns the number
- * of heavy pixels. With fewer than two batches nothing is known: 0, infinity, and every pixel heavy. */
-uint64_t ec_film_interval_rows(const ec_film *film, uint32_t first, uint32_t rows, float *low, float *high, float *heavy);
+/* low and high: 3 floats a pixel, the interval's ends, 0 <= low <= mean <= high; 0 and infinity with fewer than two replicates.
+ * heavy: 1 a pixel, 1 where the noise has too heavy a tail for its own estimate, so that the pixel's error is a lower bound; else 0.
+ * Any may be NULL. */
+typedef struct ec_intervals_of {
+    float *low, *high, *heavy;
+} ec_intervals_of;
+
+/* Of rows [first, first + rows) of `height` rows of pixels, whose edges are taken for the picture's. Returns the number of heavy pixels. */
+uint64_t ec_intervals(const ec_pixel *pixels, uint32_t width, uint32_t height, uint32_t first, uint32_t rows,
+                      const ec_intervals_of *out);
 
 #endif

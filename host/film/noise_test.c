@@ -204,7 +204,7 @@ static void run_tests(const pair *q, ec_noise_test *test)
 ec_result ec_test_noise(const ec_measured *a, const ec_measured *b, ec_noise_test *test, ec_error *err)
 {
     uint64_t values = 3ull * a->width * a->height;
-    pair q = {a, b, a->batches - 1, b->batches - 1, malloc(values * sizeof(double)), malloc(values * sizeof(double))};
+    pair q = {a, b, a->replicates - 1, b->replicates - 1, malloc(values * sizeof(double)), malloc(values * sizeof(double))};
     *test = (ec_noise_test){0};
     ec_result result = EC_OK;
     if (!q.judged_a || !q.judged_b) {

@@ -7,117 +7,62 @@
 
 #include "film/film.h"
 
-/* The size of what was joined last to make `count` batches: the largest power of 16 that divides it, but for 16 itself and its powers, which
- * are one such thing. */
+/* The size of what was joined last to make `count` batches: 1, EC_FILM_FIRST or a power of 16 times that. */
 static uint64_t unit_of(uint64_t count)
 {
     uint64_t unit = 1;
-    while (count % (unit * EC_FILM_RADIX) == 0) unit *= EC_FILM_RADIX;
+    for (uint64_t next = EC_FILM_FIRST; count % next == 0; next *= EC_FILM_RADIX) unit = next;
     return unit;
 }
+
+static uint64_t above(uint64_t unit) { return unit == 1 ? EC_FILM_FIRST : unit * EC_FILM_RADIX; }
 
 bool ec_film_part_is_sound(uint64_t first, uint64_t count)
 {
     if (count == 0 || first + count > UINT32_MAX) return false;
-    uint64_t unit = unit_of(count);
-    return count == unit ? first % unit == 0 : count / unit < EC_FILM_RADIX && first % (unit * EC_FILM_RADIX) == 0;
+    const uint64_t unit = unit_of(count);
+    return count == unit && unit > 1 ? first % unit == 0 : count < above(unit) && (first % above(unit) == 0 || count == 1);
 }
 
 bool ec_film_parts_fit(const ec_film_part *left, const ec_film_part *right)
 {
-    uint64_t unit = right->count;
+    const uint64_t unit = right->count;
     if ((uint64_t)left->first + left->count != right->first || unit_of(unit) != unit) return false;
-    return left->count % unit == 0 && left->count / unit < EC_FILM_RADIX && left->first % (unit * EC_FILM_RADIX) == 0;
+    return left->count % unit == 0 && left->count < above(unit) && left->first % above(unit) == 0;
 }
 
-uint32_t ec_film_copies(uint64_t batches)
+uint64_t ec_film_bytes(uint32_t replicates, uint64_t first, uint64_t end)
 {
-    uint32_t levels = 1;
-    for (uint64_t most = EC_FILM_RADIX; most < batches; most *= EC_FILM_RADIX) levels++;
-    return levels == 1 ? 1 : levels + 1;
-}
-
-uint64_t ec_film_bytes(uint64_t first, uint64_t end)
-{
-    if (first == 0) return (uint64_t)EC_MOMENTS_BYTES * ec_film_copies(end);
-    if (first % EC_FILM_RADIX == 0 && end - first <= EC_FILM_RADIX) return EC_MOMENTS_BYTES;
-    uint64_t bytes = EC_MOMENTS_BYTES, below = 0, level = 0; /* what is shown; sums that one of this level is made of, one of each level */
-    for (uint64_t at = first, unit = 1; at < end; unit *= EC_FILM_RADIX, level++)
-        for (; at < end && at % (unit * EC_FILM_RADIX); at += unit) {
-            bytes += level ? EC_MOMENTS_BYTES : 3 * sizeof(float);
-            below = level > 1 ? level - 1 : 0;
-        }
-    return bytes + EC_MOMENTS_BYTES * below;
+    const uint64_t sum = ec_sums_bytes(replicates), batch = 4 * EC_BATCH_FIELDS;
+    if (end <= first) return 0;
+    uint64_t bytes = sum; /* the last level's, or the first part's */
+    if (first == 0) {
+        for (uint64_t unit = EC_FILM_FIRST; unit < end; unit *= EC_FILM_RADIX) bytes += sum;
+        return bytes;
+    }
+    if (first % EC_FILM_FIRST == 0 && end - first <= EC_FILM_FIRST) return sum;
+    for (uint64_t at = first, unit = 1; at < end; unit = above(unit))
+        for (; at < end && at % above(unit); at += unit) bytes += unit == 1 ? batch : sum;
+    return bytes + sum;
 }
 
 static uint64_t pixels_of(const ec_film *film) { return (uint64_t)film->width * film->height; }
 
-static ec_moments shown(const ec_film *film) { return (ec_moments){film->mean, film->m2, film->m34, film->largest}; }
-
-static void show(ec_film *film, const ec_moments *m)
-{
-    film->mean = m->mean;
-    film->m2 = m->m2;
-    film->m34 = m->m34;
-    film->largest = m->largest;
-}
-
-static bool shows_part(const ec_film *film) { return film->part_count == 1 && film->parts[0].sums.mean == film->mean; }
-
 static void join(const ec_film *film, ec_film_part *left, ec_film_part *right)
 {
-    if (right->batch) (void)ec_moments_add(&left->sums, right->batch, left->count + 1.0, pixels_of(film));
-    else ec_moments_join(&left->sums, left->count, &right->sums, right->count, pixels_of(film));
+    double share[EC_REPLICATES_MOST] = {0};
+    for (uint32_t r = 0; r < film->replicates; r++)
+        if (right->samples[r] > 0) share[r] = right->samples[r] / (left->samples[r] + right->samples[r]);
+    if (right->batch) {
+        const uint32_t r = right->first % film->replicates;
+        (void)ec_sums_add(&left->sums, right->batch, r, share[r], pixels_of(film));
+    } else {
+        ec_sums_join(&left->sums, &right->sums, share, pixels_of(film));
+    }
+    for (uint32_t r = 0; r < film->replicates; r++) left->samples[r] += right->samples[r];
     left->count += right->count;
-    ec_moments_destroy(&right->sums);
+    ec_sums_destroy(&right->sums);
     free(right->batch);
-}
-
-/* What the parts come to, from left to right; of pixels from `first` on, into as many of `into`. */
-static void fold(const ec_film *film, const ec_moments *into, uint64_t first, uint64_t pixels)
-{
-    double n = 0;
-    for (uint32_t i = 0; i < film->part_count; i++) {
-        const ec_film_part *part = &film->parts[i];
-        const ec_moments sums = part->batch ? (ec_moments){0} : ec_moments_from(&part->sums, first);
-        if (part->batch && i == 0) ec_moments_clear(into, pixels);
-        if (part->batch) (void)ec_moments_add(into, part->batch + 3 * first, n + 1, pixels);
-        else if (i == 0) ec_moments_copy(into, &sums, pixels);
-        else ec_moments_join(into, n, &sums, part->count, pixels);
-        n += part->count;
-    }
-}
-
-ec_moments ec_film_look(const ec_film *film, uint64_t first, uint64_t pixels, ec_film_glass *glass)
-{
-    const ec_moments all = shown(film), through = {glass->mean, glass->m2, glass->m34, glass->largest};
-    if (!film->is_behind) return ec_moments_from(&all, first);
-    fold(film, &through, first, pixels);
-    return through;
-}
-
-void ec_film_show(ec_film *film)
-{
-    const ec_moments all = shown(film);
-    const uint64_t pixels = pixels_of(film); /* in pieces that stay in the cache */
-    for (uint64_t first = 0, count; film->is_behind && first < pixels; first += count) {
-        count = pixels - first < EC_FILM_GLASS ? pixels - first : EC_FILM_GLASS;
-        const ec_moments here = ec_moments_from(&all, first);
-        fold(film, &here, first, count);
-    }
-    film->is_behind = false;
-}
-
-/* A film of its own, where there is more than one part. */
-static ec_result prepare_to_show(ec_film *film, uint32_t parts, ec_error *err)
-{
-    ec_moments own;
-    if (parts < 2 || !shows_part(film)) return EC_OK;
-    if (!ec_moments_create(&own, pixels_of(film)))
-        return ec_fail(err, "out of memory for another %.1f MB of an image of %u x %u pixels; ask for a smaller one",
-                       (double)pixels_of(film) * EC_MOMENTS_BYTES / 1e6, film->width, film->height);
-    show(film, &own);
-    return EC_OK;
 }
 
 static void join_neighbours(ec_film *film)
@@ -135,22 +80,24 @@ static void join_neighbours(ec_film *film)
     }
 }
 
-/* After any change. A single sum is shown as it is. */
+/* After any change. */
 static void settle(ec_film *film)
 {
     join_neighbours(film);
     film->batch_count = 0;
-    for (uint32_t i = 0; i < film->part_count; i++) film->batch_count += film->parts[i].count;
-    film->is_behind = false;
-    if (shows_part(film)) return;
-    ec_moments own = shown(film);
-    if (film->part_count == 1 && !film->parts[0].batch) {
-        ec_moments_destroy(&own);
-        show(film, &film->parts[0].sums);
-        return;
+    memset(film->samples, 0, sizeof film->samples);
+    for (uint32_t i = 0; i < film->part_count; i++) {
+        film->batch_count += film->parts[i].count;
+        for (uint32_t r = 0; r < film->replicates; r++) film->samples[r] += film->parts[i].samples[r];
     }
-    film->is_behind = true;
-    if (!film->shows_late) ec_film_show(film);
+}
+
+/* Samples of each replicate, as the schedule has them. */
+static void count_samples(const ec_film *film, ec_film_part *part)
+{
+    const uint64_t end = (uint64_t)part->first + part->count;
+    for (uint32_t r = 0; r < film->replicates; r++)
+        part->samples[r] = (double)ec_schedule_share(film->replicates, r, part->first, end);
 }
 
 /* The parts before those from batch `first` on. */
@@ -161,18 +108,21 @@ static uint32_t parts_before(const ec_film *film, uint32_t first)
     return i;
 }
 
-static ec_result check_free(const ec_film *film, uint32_t first, uint32_t count, ec_error *err)
+/* Are none of these batches there, the last of them `cut` samples short, and none after the end of a picture that ended within one? */
+static ec_result check_free(const ec_film *film, uint32_t first, uint32_t count, uint32_t cut, ec_error *err)
 {
+    const uint64_t end = (uint64_t)first + count, there = ec_film_end(film);
     for (uint32_t i = 0; i < film->part_count; i++) {
         const ec_film_part *part = &film->parts[i];
         uint64_t from = part->first > first ? part->first : first;
-        uint64_t to = (uint64_t)part->first + part->count < (uint64_t)first + count
-                          ? (uint64_t)part->first + part->count
-                          : (uint64_t)first + count;
+        uint64_t to = (uint64_t)part->first + part->count < end ? (uint64_t)part->first + part->count : end;
         if (from < to)
             return ec_fail(err, "batches %llu to %llu are there twice", (unsigned long long)from,
                            (unsigned long long)to - 1);
     }
+    if ((film->cut && end > there) || (cut && end < there))
+        return ec_fail(err, "the picture ended within batch %llu, and takes no batch after that",
+                       (unsigned long long)(end < there ? end : there) - 1);
     return EC_OK;
 }
 
@@ -184,106 +134,118 @@ static ec_film_part *neighbour_of(const ec_film *film, const ec_film_part *part)
     return left && ec_film_parts_fit(left, part) ? left : NULL;
 }
 
-ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err)
+static ec_result insert(ec_film *film, ec_film_part *part, ec_error *err)
 {
-    EC_TRY(check_free(film, part->first, part->count, err));
     ec_film_part *left = neighbour_of(film, part);
     if (left) {
         join(film, left, part);
-        *part = (ec_film_part){0};
-        settle(film);
-        return EC_OK;
+    } else {
+        ec_film_part *parts = realloc(film->parts, (film->part_count + 1) * sizeof *parts);
+        if (!parts) return ec_fail(err, "out of memory");
+        film->parts = parts;
+        uint32_t i = parts_before(film, part->first);
+        memmove(parts + i + 1, parts + i, (film->part_count - i) * sizeof *parts);
+        parts[i] = *part;
+        film->part_count++;
     }
-    EC_TRY(prepare_to_show(film, film->part_count + 1, err));
-    ec_film_part *parts = realloc(film->parts, (film->part_count + 1) * sizeof *parts);
-    if (!parts) return ec_fail(err, "out of memory");
-    film->parts = parts;
-    uint32_t i = parts_before(film, part->first);
-    memmove(parts + i + 1, parts + i, (film->part_count - i) * sizeof *parts);
-    parts[i] = *part;
-    film->part_count++;
     *part = (ec_film_part){0};
     settle(film);
     return EC_OK;
 }
 
-/* A copy for a part; values that are not finite are 0 in it, and counted. */
-static float *kept(const float *batch, uint64_t values, uint64_t *invalid)
+ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err)
 {
-    float *own = malloc(values * sizeof *own);
-    for (uint64_t i = 0; own && i < values; i++) {
+    EC_TRY(check_free(film, part->first, part->count, 0, err));
+    count_samples(film, part);
+    return insert(film, part, err);
+}
+
+/* A copy for a part; values that are not finite are 0 in it, and counted. */
+static float *kept(const float *batch, uint64_t pixels, uint64_t *invalid)
+{
+    float *own = malloc(pixels * EC_BATCH_FIELDS * sizeof *own);
+    for (uint64_t i = 0; own && i < pixels * EC_BATCH_FIELDS; i++) {
         own[i] = isfinite(batch[i]) ? batch[i] : 0.0f;
-        *invalid += !isfinite(batch[i]);
+        *invalid += i % EC_BATCH_FIELDS < EC_BATCH_LARGEST && !isfinite(batch[i]);
     }
     return own;
 }
 
-static ec_result insert_batch(ec_film *film, uint32_t index, const float *batch, ec_error *err)
+static ec_result insert_batch(ec_film *film, ec_film_part *part, const float *batch, ec_error *err)
 {
     uint64_t pixels = pixels_of(film), invalid = 0;
-    ec_film_part part = {.first = index, .count = 1};
-    bool is_shown = film->part_count == 0 && !ec_film_part_is_batch(index, 1), made = true;
-    if (is_shown) part.sums = shown(film);
-    else if (ec_film_part_is_batch(index, 1)) made = (part.batch = kept(batch, 3 * pixels, &invalid)) != NULL;
-    else made = ec_moments_create(&part.sums, pixels);
+    bool made = true;
+    if (ec_film_part_is_batch(part->first, 1)) made = (part->batch = kept(batch, pixels, &invalid)) != NULL;
+    else made = ec_sums_create(&part->sums, film->replicates, pixels);
     if (!made)
-        return ec_fail(err, "out of memory for a batch of an image of %u x %u pixels; ask for a smaller one",
-                       film->width, film->height);
-    if (!part.batch) invalid = ec_moments_add(&part.sums, batch, 1, pixels);
-    ec_result result = ec_film_insert(film, &part, err);
+        return ec_fail(err, "out of memory for a film of %u x %u pixels (%.1f MB); ask for a smaller one", film->width, film->height,
+                       (double)pixels * (double)ec_sums_bytes(film->replicates) / 1e6);
+    if (!part->batch) invalid = ec_sums_add(&part->sums, batch, part->first % film->replicates, 1, pixels);
+    ec_result result = insert(film, part, err);
     if (result == EC_OK) film->invalid_count += invalid;
-    else if (!is_shown) ec_film_part_free(&part);
+    else ec_film_part_free(part);
     return result;
 }
 
-ec_result ec_film_add_at(ec_film *film, uint32_t index, const float *batch, ec_error *err)
+static ec_result add(ec_film *film, uint32_t index, uint32_t cut, const float *batch, ec_error *err)
 {
-    EC_TRY(check_free(film, index, 1, err));
-    ec_film_part *left = neighbour_of(film, &(ec_film_part){.first = index, .count = 1});
-    if (!left) return insert_batch(film, index, batch, err);
-    film->invalid_count += ec_moments_add(&left->sums, batch, left->count + 1.0, pixels_of(film));
+    const uint32_t replicate = index % film->replicates;
+    ec_film_part part = {.first = index, .count = 1};
+    EC_TRY(check_free(film, index, 1, cut, err));
+    count_samples(film, &part);
+    part.samples[replicate] -= cut;
+    ec_film_part *left = neighbour_of(film, &part);
+    if (!left) return insert_batch(film, &part, batch, err);
+    const double share = part.samples[replicate] / (left->samples[replicate] + part.samples[replicate]);
+    film->invalid_count += ec_sums_add(&left->sums, batch, replicate, share, pixels_of(film));
+    left->samples[replicate] += part.samples[replicate];
     left->count++;
     settle(film);
     return EC_OK;
 }
 
+ec_result ec_film_add(ec_film *film, uint32_t index, const float *batch, ec_error *err) { return add(film, index, 0, batch, err); }
+
+ec_result ec_film_add_cut(ec_film *film, uint32_t index, uint32_t cut, const float *batch, ec_error *err)
+{
+    EC_TRY(add(film, index, cut, batch, err));
+    film->cut = cut;
+    return EC_OK;
+}
+
+void ec_film_set_cut(ec_film *film, uint32_t cut)
+{
+    const uint32_t last = ec_film_end(film) - 1;
+    film->parts[film->part_count - 1].samples[last % film->replicates] -= cut;
+    film->cut = cut;
+    settle(film);
+}
+
 ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err)
 {
-    for (uint32_t i = 0; i < from->part_count; i++) EC_TRY(check_free(film, from->parts[i].first, from->parts[i].count, err));
-    if (shows_part(from)) show(from, &(ec_moments){0});
-    for (uint32_t i = 0; i < from->part_count; i++) EC_TRY(ec_film_insert(film, &from->parts[i], err));
+    for (uint32_t i = 0; i < from->part_count; i++)
+        EC_TRY(check_free(film, from->parts[i].first, from->parts[i].count, i + 1 == from->part_count ? from->cut : 0, err));
+    for (uint32_t i = 0; i < from->part_count; i++) EC_TRY(insert(film, &from->parts[i], err));
     from->part_count = 0;
+    film->cut += from->cut;
     film->invalid_count += from->invalid_count;
     if (film->aov) return EC_OK;
     film->aov = from->aov;
+    film->aov_batches = from->aov_batches;
     from->aov = NULL;
     return EC_OK;
 }
 
-ec_moments ec_film_give_sums(ec_film *film)
+ec_sums ec_film_give_sums(ec_film *film)
 {
-    const ec_moments sums = film->parts[0].sums;
-    if (shows_part(film)) show(film, &(ec_moments){0});
-    film->parts[0].sums = (ec_moments){0};
+    const ec_sums sums = film->parts[0].sums;
+    film->parts[0].sums = (ec_sums){0};
     return sums;
 }
 
 void ec_film_part_free(ec_film_part *part)
 {
-    ec_moments_destroy(&part->sums);
+    ec_sums_destroy(&part->sums);
     free(part->batch);
     *part = (ec_film_part){0};
-}
-
-void ec_film_drop_parts(ec_film *film)
-{
-    ec_film_show(film);
-    bool shown_part = shows_part(film);
-    for (uint32_t i = 0; i < film->part_count; i++) {
-        if (shown_part) film->parts[i].sums = (ec_moments){0};
-        ec_film_part_free(&film->parts[i]);
-    }
-    free(film->parts);
-    film->parts = NULL;
-    film->part_count = 0;
 }

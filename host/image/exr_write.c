@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "image/atomic_file.h"
+#include "image/exr_blocks.h"
 #include "image/image.h"
 #include "image/seal.h"
 
@@ -24,7 +25,7 @@ struct ec_exr_rows {
     uint32_t room;           /* blanks in the header */
     exr_context_t context;
     uint64_t header_size;
-    exr_encode_pipeline_t block;
+    ec_exr_blocks blocks;
     int part;                /* that is being written, from row y on */
     uint32_t y;
     int write_error;         /* errno of the first failed write */
@@ -132,38 +133,6 @@ static exr_context_initializer_t setup_of(void *user, exr_write_func_ptr_t write
     return setup;
 }
 
-/* Points every channel of the block (the library's order: sorted by name) at the caller's pixels, row y on. */
-static void point_at_row(exr_encode_pipeline_t *block, const ec_exr_part *part, uint32_t width, uint32_t y)
-{
-    for (int c = 0; c < block->channel_count; c++) {
-        exr_coding_channel_info_t *target = &block->channels[c];
-        for (uint32_t i = 0; i < part->channel_count; i++) {
-            const ec_channel *source = &part->channels[i];
-            if (strcmp(source->name, target->channel_name) != 0) continue;
-            const float *first = source->data + (uint64_t)source->stride * y * width;
-            target->user_data_type = source->is_words ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT;
-            target->user_bytes_per_element = sizeof(float);
-            target->user_pixel_stride = (int32_t)(source->stride * sizeof(float));
-            target->user_line_stride = (int32_t)(source->stride * sizeof(float) * width);
-            target->encode_from_ptr = (const uint8_t *)first;
-        }
-    }
-}
-
-/* A chunk, whose first row is the first of the channels'. */
-static exr_result_t write_chunk(ec_exr_rows *rows, const ec_exr_part *part, uint32_t row)
-{
-    exr_chunk_info_t info;
-    bool is_first = rows->y == 0;
-    exr_result_t code = exr_write_scanline_chunk_info(rows->context, rows->part, (int)rows->y, &info);
-    if (code == EXR_ERR_SUCCESS)
-        code = is_first ? exr_encoding_initialize(rows->context, rows->part, &info, &rows->block)
-                        : exr_encoding_update(rows->context, rows->part, &info, &rows->block);
-    if (code == EXR_ERR_SUCCESS) point_at_row(&rows->block, part, rows->width, row);
-    if (code == EXR_ERR_SUCCESS && is_first) code = exr_encoding_choose_default_routines(rows->context, rows->part, &rows->block);
-    return code == EXR_ERR_SUCCESS ? exr_encoding_run(rows->context, rows->part, &rows->block) : code;
-}
-
 static ec_result failed(const ec_exr_rows *rows, exr_result_t code, ec_error *err)
 {
     if (rows->write_error) return ec_write_failed(err, rows->path, rows->write_error);
@@ -192,7 +161,8 @@ static ec_result begin(ec_exr_rows *rows, ec_error *err)
     for (uint32_t k = 0; k < rows->part_count; k++) EC_TRY(check(rows, &rows->parts[k], err));
     EC_TRY(ec_atomic_open(&rows->file, rows->path, err));
     const exr_context_initializer_t setup = setup_of(rows, write_all);
-    exr_result_t code = exr_start_write(&rows->context, rows->path, EXR_WRITE_FILE_DIRECTLY, &setup);
+    exr_result_t code = ec_exr_blocks_create(&rows->blocks);
+    if (code == EXR_ERR_SUCCESS) code = exr_start_write(&rows->context, rows->path, EXR_WRITE_FILE_DIRECTLY, &setup);
     if (code == EXR_ERR_SUCCESS) code = write_header(rows->context, rows, rows->parts, rows->room);
     off_t size = lseek(rows->file.fd, 0, SEEK_END);
     rows->header_size = size > 0 ? (uint64_t)size : 0;
@@ -209,7 +179,6 @@ ec_result ec_exr_rows_begin(ec_exr_rows **made, const char *path, uint32_t width
         return ec_fail(err, "out of memory for '%s'", path);
     }
     rows->file.fd = -1;
-    rows->block = (exr_encode_pipeline_t)EXR_ENCODE_PIPELINE_INITIALIZER;
     rows->width = width;
     rows->height = height;
     rows->parts = parts;
@@ -227,12 +196,12 @@ ec_result ec_exr_rows_put(ec_exr_rows *rows, const ec_exr_part *part, uint32_t c
 {
     int32_t block_height = 1;
     exr_result_t code = exr_get_scanlines_per_chunk(rows->context, rows->part, &block_height);
-    for (uint32_t row = 0; code == EXR_ERR_SUCCESS && row < count; row += (uint32_t)block_height, rows->y += (uint32_t)block_height)
-        code = write_chunk(rows, part, row);
+    if (code == EXR_ERR_SUCCESS)
+        code = ec_exr_blocks_write(&rows->blocks, rows->context, rows->part, part, rows->width, rows->y, count, (uint32_t)block_height);
     if (code != EXR_ERR_SUCCESS) return failed(rows, code, err);
+    rows->y += count;
     if (rows->y < rows->height) return EC_OK;
-    exr_encoding_destroy(rows->context, &rows->block);
-    rows->block = (exr_encode_pipeline_t)EXR_ENCODE_PIPELINE_INITIALIZER;
+    ec_exr_blocks_reset(&rows->blocks, rows->context);
     rows->part++;
     rows->y = 0;
     return EC_OK;
@@ -267,6 +236,7 @@ static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, 
 
 ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err)
 {
+    ec_exr_blocks_reset(&rows->blocks, rows->context);
     exr_result_t code = exr_finish(&rows->context); /* writes the table of blocks */
     ec_result result = code == EXR_ERR_SUCCESS ? EC_OK : failed(rows, code, err);
     if (result == EC_OK && attributes) {
@@ -286,7 +256,7 @@ ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uin
 void ec_exr_rows_abort(ec_exr_rows *rows)
 {
     if (!rows) return;
-    if (rows->context) exr_encoding_destroy(rows->context, &rows->block);
+    ec_exr_blocks_free(&rows->blocks, rows->context);
     if (rows->context) exr_finish(&rows->context);
     ec_atomic_abort(&rows->file);
     free(rows->path);

@@ -1,4 +1,5 @@
-/* PNG out: 8-bit sRGB. In memory through libpng's simplified API, to files row by row; both write the sRGB chunk. */
+/* PNG out: 8-bit sRGB. In memory through libpng's simplified API, to files row by row, compressed by all threads (png_strips.h); both
+ * write the sRGB chunk. */
 #include <errno.h>
 #include <png.h>
 #include <setjmp.h>
@@ -9,6 +10,7 @@
 
 #include "image/atomic_file.h"
 #include "image/image.h"
+#include "image/png_strips.h"
 
 ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t **bytes, size_t *size, ec_error *err)
 {
@@ -29,7 +31,9 @@ struct ec_png_rows {
     char *path;           /* owned */
     png_structp png;
     png_infop info;
+    ec_png_strips strips;
     uint32_t width;
+    bool has_begun;       /* the stream's head is written */
     int write_error;      /* errno of the write that failed */
     char message[128];    /* the library's last complaint */
 };
@@ -80,6 +84,7 @@ static ec_result begin(ec_png_rows *rows, uint32_t height, const ec_png_text *te
 {
     if (rows->width == 0 || height == 0)
         return ec_fail(err, "cannot write '%s': an image of %u x %u pixels is empty", rows->path, rows->width, height);
+    if (!ec_png_strips_create(&rows->strips, rows->width, height)) return failed(rows, err);
     EC_TRY(ec_atomic_open(&rows->file, rows->path, err));
     rows->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, rows, complain, warn);
     rows->info = rows->png ? png_create_info_struct(rows->png) : NULL;
@@ -112,17 +117,40 @@ ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, uint32_t width
     return EC_OK;
 }
 
+/* The strips that are ready, a chunk each; leaves by longjmp where it fails. */
+static void put_strips(ec_png_rows *rows)
+{
+    const ec_png_strips *s = &rows->strips;
+    static const png_byte name[5] = "IDAT";
+    uint8_t tail[4];
+    ec_png_stream_tail(s, tail);
+    for (uint32_t k = 0; k < s->packed; k++) {
+        const bool is_last = s->done == s->height && k == s->packed - 1;
+        const size_t head = rows->has_begun ? 0 : sizeof ec_png_stream_head, end = is_last ? sizeof tail : 0;
+        if (!s->strip[k].is_packed) png_error(rows->png, "out of memory");
+        png_write_chunk_start(rows->png, name, (png_uint_32)(head + s->strip[k].size + end));
+        png_write_chunk_data(rows->png, ec_png_stream_head, head);
+        png_write_chunk_data(rows->png, s->strip[k].packed, s->strip[k].size);
+        png_write_chunk_data(rows->png, tail, end);
+        png_write_chunk_end(rows->png);
+        rows->has_begun = true;
+    }
+}
+
 ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *rgb, uint32_t count, ec_error *err)
 {
     if (setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
-    for (uint32_t y = 0; y < count; y++) png_write_row(rows->png, rgb + (uint64_t)y * rows->width * 3);
+    for (uint32_t y = 0; y < count;) {
+        y += ec_png_strips_put(&rows->strips, rgb + (uint64_t)y * rows->width * 3, count - y);
+        put_strips(rows);
+    }
     return EC_OK;
 }
 
 static ec_result finish(ec_png_rows *rows, ec_error *err)
 {
     if (setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
-    png_write_end(rows->png, rows->info);
+    png_write_chunk(rows->png, (png_const_bytep)"IEND", NULL, 0); /* png_write_end takes no stream but libpng's own */
     return ec_atomic_commit(&rows->file, err);
 }
 
@@ -137,6 +165,7 @@ void ec_png_rows_abort(ec_png_rows *rows)
 {
     if (!rows) return;
     png_destroy_write_struct(&rows->png, &rows->info);
+    ec_png_strips_free(&rows->strips);
     ec_atomic_abort(&rows->file);
     free(rows->path);
     free(rows);

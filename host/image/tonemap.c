@@ -54,6 +54,7 @@ const double *ec_srgb_bytes(void)
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap)
 {
     const double scale = exp2(exposure_ev);
+#pragma omp parallel for schedule(static) if (pixel_count > 1 << 14)
     for (uint64_t i = 0; i < pixel_count; i++) {
         double rgb[3];
         for (int c = 0; c < 3; c++) rgb[c] = expose(in[3 * i + c], scale);

@@ -31,3 +31,17 @@ void ec_distribution_build(const double *weights, uint32_t n, ec_distribution_en
         table[bucket].guide = i;
     }
 }
+
+void ec_distribution_guide(uint32_t n, ec_distribution_entry *table)
+{
+    for (uint32_t bucket = 0, i = 0; bucket < n; bucket++) {
+        const uint64_t last = ((((uint64_t)bucket + 1) << 32) + n - 1) / n - 1; /* number in the bucket r * n >> 32 */
+        while (i + 1 < n && table[i + 1].first <= last) i++;
+        table[bucket].guide = i;
+    }
+}
+
+uint64_t ec_distribution_stretch(uint64_t share)
+{
+    return share > 1 ? UINT64_MAX / share + (UINT64_MAX % share == share - 1) : UINT64_MAX;
+}

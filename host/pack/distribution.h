@@ -10,4 +10,10 @@
  * share of the 32-bit numbers, 0 only where the weight is. Arrays hold n entries and are the caller's; pmf may be the weights. */
 void ec_distribution_build(const double *weights, uint32_t n, ec_distribution_entry *table, double *pmf);
 
+/* The guides of a table whose shares are changed: entry i's begins at table[i].first, and none is empty but perhaps behind the last. */
+void ec_distribution_guide(uint32_t n, ec_distribution_entry *table);
+
+/* floor(2^64 / share), for choice_stretch of kernels/lib/choice.h; 2^64 - 1 for a share of one number. */
+uint64_t ec_distribution_stretch(uint64_t share);
+
 #endif

@@ -3,19 +3,15 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "pack/distribution.h"
+#include "pack/light_order.h"
 #include "pack/light_tree.h"
 #include "pack/pack.h"
-
-static bool is_lamp(const ec_light_data *light)
-{
-    uint32_t kind = light->kind & EC_LIGHT_KIND_MASK;
-    return kind == EC_KIND_TRIANGLE || kind == EC_KIND_POINT || kind == EC_KIND_SPOT;
-}
 
 static uint32_t lamp_count(const ec_pack *pack)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < pack->light_count; i++) count += is_lamp(&pack->lights[i]);
+    for (uint32_t i = 0; i < pack->light_count; i++) count += !ec_light_is_far(&pack->lights[i]);
     return count;
 }
 
@@ -26,7 +22,7 @@ bool ec_pack_wants_light_tree(const ec_pack *pack)
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size2 = 0;
     if (lamp_count(pack) < EC_LIGHT_TREE_FROM || pack->lamp_share < EC_LIGHT_TREE_LEAST) return false;
     for (uint32_t i = 0; i < pack->light_count; i++)
-        for (int k = 0; k < 3 && is_lamp(&pack->lights[i]); k++) {
+        for (int k = 0; k < 3 && !ec_light_is_far(&pack->lights[i]); k++) {
             low[k] = fmin(low[k], (double)pack->lights[i].a[k]);
             high[k] = fmax(high[k], (double)pack->lights[i].a[k]);
         }
@@ -34,17 +30,33 @@ bool ec_pack_wants_light_tree(const ec_pack *pack)
     return size2 > EC_LIGHT_TREE_SPREAD * EC_LIGHT_TREE_SPREAD * (double)pack->scene_radius * (double)pack->scene_radius;
 }
 
-/* Densities of the table are those of the lamp chosen already: the tree's probability comes on top of them. */
+/* What is chosen by the table's entry `far - 1`, the last one before the lamps', when that has become one number longer. */
+static void note_longer(ec_pack *pack, uint32_t far)
+{
+    ec_light_data *l = &pack->lights[far - 1];
+    const uint32_t numbers = pack->light_shares[far].first - pack->light_shares[far - 1].first;
+    l->pmf = (float)(numbers * 0x1p-32);
+    if (l->kind != EC_KIND_ENVIRONMENT) return;
+    pack->environment_pmf = l->pmf;
+    pack->environment_stretch = ec_distribution_stretch(numbers);
+}
+
+/* The table then has those that are infinitely far and one entry for all lamps, which stand behind them: an even number of numbers, since
+ * the tree takes half of each. The tree's probability has that of the entry in it: densities are those of a lamp that is chosen already. */
 static void share_out(ec_pack *pack)
 {
-    double far = 0;
-    for (uint32_t i = 0; i < pack->light_count; i++) far += is_lamp(&pack->lights[i]) ? 0 : (double)pack->lights[i].pmf;
-    pack->light_tree_pmf = (float)(1 - far);
-    for (uint32_t i = 0; i < pack->light_count; i++) {
+    uint32_t far = 0;
+    while (ec_light_is_far(&pack->lights[far])) far++;
+    const uint32_t first = pack->light_shares[far].first, even = first == UINT32_MAX ? first - 1 : first + (first & 1);
+    pack->light_shares[far].first = even;
+    if (even != first) note_longer(pack, far);
+    pack->light_choices = far + 1;
+    pack->light_tree_numbers = (uint32_t)((((uint64_t)1 << 32) - even) / 2);
+    ec_distribution_guide(pack->light_choices, pack->light_shares);
+    for (uint32_t i = far; i < pack->light_count; i++) {
         ec_light_data *l = &pack->lights[i];
-        if (!is_lamp(l)) continue;
-        if (l->pmf > 0) l->pdf_a = (float)((double)l->pdf_a / l->pmf * (1 - far));
-        l->pmf = pack->light_tree_pmf;
+        if (l->pmf > 0) l->pdf_a = (float)((double)l->pdf_a / l->pmf);
+        l->pmf = 1.0f;
     }
 }
 
@@ -60,7 +72,7 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
                            ? EC_OK
                            : ec_fail(err, "out of memory for a tree of %u lamps", lamps);
     for (uint32_t i = 0; result == EC_OK && i < pack->light_count; i++) {
-        if (!is_lamp(&pack->lights[i])) continue;
+        if (!!ec_light_is_far(&pack->lights[i])) continue;
         bounds[n] = ec_light_bounds_of(&pack->lights[i], pack->lights[i].pmf);
         ids[n++] = i;
     }

@@ -1,11 +1,12 @@
 /* The table of everything that can be sampled as light. Half of the samples go to lights at infinity, half to those in the
- * scene, and within each half by power (radiant flux, luminance-weighted). */
+ * scene, and within each half by power (radiant flux, luminance-weighted). In the order of light_order.h: one number chooses and goes on. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "pack/alias.h"
 #include "pack/coincident.h"
+#include "pack/distribution.h"
+#include "pack/light_order.h"
 #include "pack/pack.h"
 #include "pack/texture_mean.h"
 
@@ -107,38 +108,37 @@ static void add_punctual(const ec_light *in, uint32_t moves, double scene_radius
     list->power[list->count++] = power;
 }
 
-static bool is_far(const ec_light_data *light)
-{
-    uint32_t kind = light->kind & EC_LIGHT_KIND_MASK;
-    return kind == EC_KIND_ENVIRONMENT || kind == EC_KIND_DIRECTIONAL;
-}
-
 /* The power of a sky or a sun goes with the size of the scene and says nothing of what reaches a corner that a lamp lights:
  * by power alone that lamp would be chosen so seldom that its light is fireflies. Halving costs the other side at most
  * twice the variance. */
 static void balance(light_list *list, ec_pack *pack)
 {
     double sum[2] = {0.0, 0.0};
-    for (uint32_t i = 0; i < list->count; i++) sum[is_far(&list->lights[i])] += list->power[i];
+    for (uint32_t i = 0; i < list->count; i++) sum[ec_light_is_far(&list->lights[i])] += list->power[i];
     pack->lamp_share = (float)(sum[0] > 0.0 ? sum[0] / (sum[0] + sum[1]) : 0.0);
     if (!(sum[0] > 0.0 && sum[1] > 0.0)) return;
-    for (uint32_t i = 0; i < list->count; i++) list->power[i] /= sum[is_far(&list->lights[i])];
+    for (uint32_t i = 0; i < list->count; i++) list->power[i] /= sum[ec_light_is_far(&list->lights[i])];
 }
 
 static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
 {
+    EC_TRY(ec_light_order(list->lights, list->power, list->count, err));
     balance(list, pack);
     double *pmf = malloc((list->count + 1) * sizeof *pmf);
-    pack->light_alias = malloc((list->count + 1) * sizeof *pack->light_alias);
-    ec_result result = pmf && pack->light_alias ? EC_OK : ec_fail(err, "out of memory for %u lights", list->count);
-    if (result == EC_OK && list->count) result = ec_alias_build(list->power, list->count, pack->light_alias, pmf, err);
+    pack->light_shares = malloc((list->count + 1) * sizeof *pack->light_shares);
+    ec_result result = pmf && pack->light_shares ? EC_OK : ec_fail(err, "out of memory for %u lights", list->count);
+    if (result == EC_OK && list->count) ec_distribution_build(list->power, list->count, pack->light_shares, pmf);
     for (uint32_t i = 0; result == EC_OK && i < list->count; i++) {
         ec_light_data *l = &list->lights[i];
         l->pmf = (float)pmf[i];
         l->pdf_a *= l->pmf;
-        if (l->kind == EC_KIND_ENVIRONMENT) pack->environment_pmf = l->pmf;
+        if (l->kind == EC_KIND_ENVIRONMENT) {
+            pack->environment_pmf = l->pmf;
+            pack->environment_stretch = ec_distribution_stretch((uint64_t)(pmf[i] * 0x1p32));
+        }
         if ((l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE) pack->prims[l->prim].light_pdf_a = l->pdf_a;
     }
+    pack->light_choices = list->count;
     free(pmf);
     return result;
 }
@@ -153,7 +153,7 @@ static void mark_moving(const ec_scene *scene, ec_pack *pack, light_list *list)
             l->kind |= EC_LIGHT_MOVES;
             l->pdf_a = pack->prims[l->prim].light_pdf_a = l->pmf;
         }
-        pack->lamps_move |= (l->kind & EC_LIGHT_MOVES) && !is_far(l);
+        pack->lamps_move |= (l->kind & EC_LIGHT_MOVES) && !ec_light_is_far(l);
     }
 }
 

@@ -34,18 +34,21 @@ typedef struct ec_pack {
     bool lamps_move;               /* triangles, points or spots among the lights */
     uint32_t light_count;          /* only lights of positive power */
     ec_light_data *lights;
-    ec_alias *light_alias;
+    ec_distribution_entry *light_shares; /* of the lights, in order */
+    uint32_t light_choices;        /* entries of light_shares: one for each light; with a tree the last one is that of all lamps */
     uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */
     uint32_t light_node_count;     /* 0: lights are chosen by power alone */
     ec_light_node *light_tree;
     float lamp_share;              /* lamps' part of all lights' power */
-    float light_tree_pmf;          /* chance that light sampling goes to the tree */
+    uint32_t light_tree_numbers;   /* of 2^31 numbers those by which light sampling goes to the tree */
     uint32_t environment_width, environment_height;
-    float *environment_texels;     /* R, G, B, pmf; NULL where the environment is constant */
-    ec_distribution_entry *environment_table; /* of rows; then of the texels of each row. NULL where it is black */
+    float *environment_texels;     /* height + 1 rows, the first one twice: R, G, B and the scale of the patch right of and below the
+                                      texel's middle (kernels/lib/environment.h); NULL where the environment is constant */
+    ec_distribution_entry *environment_table; /* of height + 1 rows of patches; then of the patches of each. NULL where it is black */
     bool environment_lent;         /* texels and table are the scene's environment's (ec_packed_map) */
     float environment_mean[3];     /* radiance over all directions */
     float environment_pmf;         /* chance that light sampling chooses the environment */
+    uint64_t environment_stretch;  /* floor(2^64 / numbers that choose it), or 2^64 - 1 where it is one (kernels/lib/choice.h) */
     float scene_radius, scene_max;
     float srgb[256];               /* linear value of each sRGB byte */
 } ec_pack;

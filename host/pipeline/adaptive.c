@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include "film/neighbourhood.h"
+#include "film/pixel.h"
 
-#define RADIUS 3        /* 48 pixels around: with a pilot of four batches they know a variance to a tenth or so */
+#define RADIUS 3        /* 48 pixels around: with the pilot's replicates they know a variance to a tenth or so */
 #define LEAST 0.15      /* weight that every pixel has: what the pilot did not see is still looked for */
 #define MOST 24.0       /* of the mean */
 #define WORTH_IT 0.95
@@ -23,7 +24,21 @@ static void number_pixels(const ec_params *params, uint32_t *place)
                 for (uint32_t x = x0; x < x0 + tile && x < width; x++) place[number++] = y * width + x;
 }
 
-static double deviation_around(const ec_film *film, uint32_t place)
+/* In row order, of all pixels: the variance of luminance's mean. */
+static float *variances_of(const ec_film *film)
+{
+    const uint64_t pixels = (uint64_t)film->width * film->height;
+    float *variance = malloc(pixels * sizeof *variance);
+    ec_pixel piece[EC_PIXELS];
+    for (uint64_t first = 0; variance && first < pixels; first += EC_PIXELS) {
+        const uint64_t count = pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS;
+        ec_film_look(film, first, count, piece);
+        for (uint64_t i = 0; i < count; i++) variance[first + i] = (float)ec_pixel_se2(&piece[i], 3);
+    }
+    return variance;
+}
+
+static double variance_around(const ec_film *film, const float *variance, uint32_t place)
 {
     uint32_t x = place % film->width, y = place / film->width;
     ec_neighbourhood around = ec_neighbourhood_of(x, y, RADIUS, film->width, film->height);
@@ -32,10 +47,10 @@ static double deviation_around(const ec_film *film, uint32_t place)
         for (uint32_t i = around.x0; i < around.x1; i++) {
             uint64_t q = (uint64_t)j * film->width + i;
             if (q == place) continue;
-            sum += film->m2[4 * q + 3];
+            sum += variance[q];
             count++;
         }
-    return count > 0 ? sqrt(sum / count / (film->batch_count - 1.0)) : 0;
+    return count > 0 ? sum / count : 0;
 }
 
 /* Mean 1, none under LEAST and none over MOST. */
@@ -51,11 +66,11 @@ static void normalise(ec_allotment *a, double mean)
 }
 
 /* A pixel's own variance is independent of its weight, so that this is no flattery. */
-static double foretold_gain(const ec_allotment *a, const ec_film *film)
+static double foretold_gain(const ec_allotment *a, const float *variance)
 {
     double uniform = 0, weighted = 0;
     for (uint32_t i = 0; i < a->pixels; i++) {
-        double v = film->m2[4 * (uint64_t)a->place[i] + 3];
+        const double v = variance[a->place[i]];
         uniform += v;
         weighted += v / a->weight[i];
     }
@@ -68,39 +83,50 @@ static ec_result allocate(ec_allotment *a, const ec_params *params, ec_error *er
     size_t bytes = (size_t)a->pixels * sizeof(uint32_t);
     a->weight = malloc(bytes);
     a->place = malloc(bytes);
-    a->list = malloc(bytes);
+    a->list = malloc(EC_LIST_WORDS * bytes);
     a->places = malloc(bytes);
     if (!a->weight || !a->place || !a->list || !a->places) {
         ec_allotment_free(a);
-        return ec_fail(err, "out of memory for the allotment of samples to %u pixels; leave out --adaptive",
+        return ec_fail(err, "out of memory for the allotment of samples to %u pixels; give --adaptive off",
                        params->width * params->height);
     }
     number_pixels(params, a->place);
     return EC_OK;
 }
 
-ec_result ec_allotment_again(const ec_allotment *made, const ec_params *params, ec_allotment *a, ec_error *err)
+ec_result ec_allotment_again(const ec_allotment *made, const ec_params *params, uint32_t replicates, ec_allotment *a, ec_error *err)
 {
-    *a = (ec_allotment){.level = made->level, .gain = made->gain};
+    *a = (ec_allotment){.level = made->level, .gain = made->gain, .replicates = replicates};
     EC_TRY(allocate(a, params, err));
     memcpy(a->weight, made->weight, (size_t)a->pixels * sizeof *a->weight);
     return EC_OK;
 }
 
-ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *a, ec_error *err)
+static void weigh(ec_allotment *a, const ec_film *film, const float *variance)
 {
-    *a = (ec_allotment){.level = film->batch_count, .gain = 1};
-    EC_TRY(allocate(a, params, err));
     double mean = 0;
     for (uint32_t i = 0; i < a->pixels; i++) {
-        a->weight[i] = (float)deviation_around(film, a->place[i]);
+        a->weight[i] = (float)sqrt(variance_around(film, variance, a->place[i]));
         mean += a->weight[i] / a->pixels;
     }
     normalise(a, mean);
-    double gain = foretold_gain(a, film);
-    if (gain > WORTH_IT) ec_allotment_free(a);
-    else a->gain = gain;
-    return EC_OK;
+}
+
+ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *a, ec_error *err)
+{
+    *a = (ec_allotment){.level = film->samples[0], .gain = 1, .replicates = film->replicates};
+    if ((uint64_t)film->width * film->height < EC_ALLOT_PIXELS) return EC_OK;
+    float *variance = variances_of(film);
+    if (!variance) return ec_fail(err, "out of memory for the allotment of samples to pixels; give --adaptive off");
+    ec_result result = allocate(a, params, err);
+    if (result == EC_OK) {
+        weigh(a, film, variance);
+        const double gain = foretold_gain(a, variance);
+        if (gain > WORTH_IT) ec_allotment_free(a);
+        else a->gain = gain;
+    }
+    free(variance);
+    return result;
 }
 
 /* So that pixels of one weight do not all fall due in the same pass: golden ratio. */
@@ -109,25 +135,52 @@ static double phase(uint32_t number)
     return (double)(uint32_t)(number * 2654435769u) * 0x1p-32;
 }
 
-/* Batches that pixel number i is due, as far as numbers go. */
+/* The length of pixel number i's next stride, if it is due that: 0 if not. */
 static uint32_t due(const ec_allotment *a, const ec_film *film, uint32_t i)
 {
-    double wanted = floor(a->level * a->weight[i] + phase(i)), has = ec_film_batches(film, a->place[i]);
-    return (uint32_t)fmin(fmax(wanted - has, 0), UINT32_MAX / a->pixels);
+    const double has = film->counts ? film->counts[a->place[i]] : film->samples[0];
+    const uint32_t step = ec_schedule_step((uint64_t)has);
+    return has + step * phase(i) < a->level * a->weight[i] && has + step < UINT32_MAX ? step : 0;
 }
 
-uint32_t ec_allotment_pass(ec_allotment *a, const ec_film *film)
+bool ec_allotment_is_even(const ec_allotment *a, const ec_film *film)
 {
-    uint32_t count = 0;
-    for (bool raised = false; count == 0; raised = true) {
-        if (raised) a->level += 0.5;
-        for (uint32_t i = 0; i < a->pixels; i++)
-            for (uint32_t k = 0, n = due(a, film, i); k < n && count < a->pixels; k++) {
-                a->list[count] = i + k * a->pixels;
-                a->places[count++] = a->place[i];
-            }
+    for (uint32_t i = 0; i < a->pixels; i++)
+        if (due(a, film, i)) return false;
+    return true;
+}
+
+/* The shortest stride that any pixel is due. */
+static uint32_t shortest(const ec_allotment *a, const ec_film *film)
+{
+    uint32_t least = UINT32_MAX;
+    for (uint32_t i = 0; i < a->pixels; i++) {
+        const uint32_t step = due(a, film, i);
+        if (step && step < least) least = step;
     }
-    return count;
+    return least;
+}
+
+static void enter(ec_allotment *a, const ec_film *film, uint32_t i, uint32_t *count)
+{
+    for (uint32_t r = 0; r < a->replicates; r++, (*count)++) {
+        uint32_t *entry = a->list + EC_LIST_WORDS * *count;
+        entry[0] = i + r * a->pixels;
+        entry[1] = film->counts ? film->counts[a->place[i]] : (uint32_t)film->samples[0];
+        a->places[*count] = a->place[i];
+    }
+}
+
+ec_pass ec_allotment_pass(ec_allotment *a, const ec_film *film, double most)
+{
+    ec_pass pass = {0};
+    while ((pass.samples = shortest(a, film)) == UINT32_MAX) a->level += ec_schedule_step((uint64_t)a->level);
+    for (uint32_t i = 0; i < a->pixels; i++) {
+        const bool is_full = pass.count + a->replicates > a->pixels || (pass.count && (pass.count + a->replicates) * (double)pass.samples > most);
+        if (is_full) break;
+        if (due(a, film, i) == pass.samples) enter(a, film, i, &pass.count);
+    }
+    return pass;
 }
 
 void ec_allotment_free(ec_allotment *a)

@@ -13,6 +13,24 @@ static bool is_needed(const ec_pipeline *p, ec_stage_id id)
 
 static uint32_t lanes_of(const ec_pipeline *p, uint32_t lanes) { return lanes == EC_LANES_OF_PIPELINE ? p->lanes : lanes; }
 
+const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features)
+{
+    bool is_large = device->type & CL_DEVICE_TYPE_CPU && bytes > device->cache_bytes;
+    bool is_known = !(features & (EC_FEATURE_PANES | EC_FEATURE_MOTION)); /* to trace_interleaved.h */
+    return accel == ec_accel_find("bvh8") && is_large && is_known ? " -DINTERLEAVE=8" : "";
+}
+
+static uint64_t accel_bytes(const ec_pipeline *p, uint32_t accel)
+{
+    uint64_t sum = 0;
+    for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++) {
+        size_t size = 0;
+        if (p->accels[accel].buffers[k]) clGetMemObjectInfo(p->accels[accel].buffers[k], CL_MEM_SIZE, sizeof size, &size, NULL);
+        sum += size;
+    }
+    return sum;
+}
+
 /* One program for all stages of a lane width: each parse of the shared headers costs as much as compiling a stage. */
 static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program, ec_error *err)
 {
@@ -20,6 +38,7 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
     char traversals[EC_ACCEL_COUNT][32];
     uint64_t features = 0;
     uint32_t count = 0;
+    const char *traversal = "";
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
         if (!is_needed(p, (ec_stage_id)id) || lanes_of(p, ec_stages[id].lanes) != lanes) continue;
         names[count++] = ec_stages[id].source;
@@ -31,9 +50,11 @@ static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program
         names[count++] = traversals[a];
         features |= ec_stage_features(&ec_stages[EC_INTERSECT], p->effects.built) |
                     ec_stage_features(&ec_stages[EC_CONNECT], p->effects.built);
+        const char *own = ec_traversal_options(&p->cl->info, a, accel_bytes(p, a), p->effects.built);
+        if (*own) traversal = own;
     }
-    char options[96], label[32], *source;
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s", lanes, features,
+    char options[128], label[32], *source;
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s", lanes, features, traversal,
              p->fast_math ? " " EC_FAST_MATH : "");
     snprintf(label, sizeof label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     EC_TRY(ec_kernel_sources_join(names, &source, err));

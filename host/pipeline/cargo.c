@@ -123,6 +123,8 @@ static void set_environment(const ec_pack *pack, ec_params *params)
     params->environment_width = pack->environment_width;
     params->environment_height = pack->environment_height;
     params->environment_pmf = pack->environment_pmf;
+    params->environment_stretch[0] = (uint32_t)(pack->environment_stretch >> 32);
+    params->environment_stretch[1] = (uint32_t)pack->environment_stretch;
     for (int k = 0; k < 3; k++)
         params->environment[k] = !plain->has_environment ? 0.0f : plain->environment.rgb ? 1.0f : plain->environment.constant[k];
     params->environment_turned = plain->has_environment && plain->environment.turned;
@@ -146,7 +148,8 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->nested = pack->bodies.count > 0;
     params->terminator = (called & EC_FEATURE_TERMINATOR) != 0;
     params->multiple = (called & EC_FEATURE_MULTISCATTER) != 0;
-    params->light_tree_pmf = pack->light_tree_pmf;
+    params->light_choices = pack->light_choices;
+    params->light_tree_numbers = pack->light_tree_numbers;
     params->scene_radius = pack->scene_radius;
     params->scene_max = pack->scene_max;
 }
@@ -194,6 +197,7 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     ec_cargo_head *head = &cargo->head;
     head->triangle_count = scene->triangle_count;
     head->integrator = o->integrator;
+    head->replicates = ec_render_replicates(o);
     head->fast_math = o->fast_math;
     head->lanes = o->lanes;
     head->wave = o->wave;
@@ -210,7 +214,7 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     start = ec_now();
     EC_TRY(add_packed(cargo, scene, called_for, o, batch, stats, err));
     stats->pack_seconds = ec_now() - start;
-    stats->batch = batch;
+    stats->replicates = head->replicates;
     stats->instances = scene->placed_count;
     stats->triangles = ec_scene_met_count(scene);
     stats->stored_triangles = scene->triangle_count;

@@ -22,6 +22,7 @@ typedef struct ec_cargo_head {
     ec_params params;                /* but for wave and part, which depend on the device */
     ec_render_effects effects;
     ec_integrator integrator;
+    uint32_t replicates;             /* film/schedule.h */
     bool fast_math;
     uint32_t lanes, wave;            /* as in the options: 0 = what suits the device */
     uint32_t accels[EC_KIND_COUNT];  /* 1 << which: those that devices of a kind go through */

@@ -24,7 +24,7 @@ static ec_content_id group_of(ec_arg arg)
     case EC_ARG_TEXELS:
     case EC_ARG_SRGB: return EC_CONTENT_TEXTURES;
     case EC_ARG_LIGHT_TABLE:
-    case EC_ARG_LIGHT_ALIAS:
+    case EC_ARG_LIGHT_SHARES:
     case EC_ARG_LIGHT_TREE:
     case EC_ARG_LIGHT_TRAILS: return EC_CONTENT_LIGHTS;
     case EC_ARG_ENVIRONMENT_TEXELS:
@@ -64,7 +64,7 @@ static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
 /* Field by field what is the camera's and the environment's; what is left is settings. */
 static void add_params(SHA2_CTX *digests, ec_params p)
 {
-    p.batch = p.wave = p.part = 0;
+    p.batch = p.first_sample = p.wave = p.part = 0;
     TAKE(EC_CONTENT_CAMERA, camera_origin);
     TAKE(EC_CONTENT_CAMERA, camera_right);
     TAKE(EC_CONTENT_CAMERA, camera_up);
@@ -82,7 +82,9 @@ static void add_params(SHA2_CTX *digests, ec_params p)
     TAKE(EC_CONTENT_ENVIRONMENT, environment_height);
     TAKE(EC_CONTENT_LIGHTS, environment_pmf);
     TAKE(EC_CONTENT_LIGHTS, light_count);
-    TAKE(EC_CONTENT_LIGHTS, light_tree_pmf);
+    TAKE(EC_CONTENT_LIGHTS, light_choices);
+    TAKE(EC_CONTENT_LIGHTS, light_tree_numbers);
+    TAKE(EC_CONTENT_LIGHTS, environment_stretch);
     TAKE(EC_CONTENT_GEOMETRY, scene_radius);
     TAKE(EC_CONTENT_GEOMETRY, scene_max);
     add(digests, EC_CONTENT_SETTINGS, &p, sizeof p);

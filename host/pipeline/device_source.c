@@ -7,12 +7,10 @@
 #include "pipeline/fold.h"
 
 #define FEATURE_BYTES (4ull * EC_AOV_FIELDS)
+#define BATCH_BYTES (4ull * EC_BATCH_FIELDS)
 
-/* They must differ in every bit. */
-uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch)
-{
-    return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + batch + 1) >> 16);
-}
+/* Seeds that differ in one bit must give numbers that differ in every bit. */
+uint32_t ec_render_seed(uint64_t seed) { return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + 1) >> 16); }
 
 static uint64_t pixels_of(const ec_device_source *s) { return (uint64_t)s->pipeline.params.width * s->rows; }
 
@@ -24,10 +22,9 @@ static ec_result turn_to(ec_batch_source *source, uint32_t first_row, uint32_t r
     if (rows != s->rows) free(s->own), s->own = NULL;
     s->rows = rows;
     EC_TRY(ec_pipeline_fit_films(p, pixels_of(s), err));
-    s->base.least = p->wave / p->params.batch;
     p->params.film_row = first_row;
     EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err));
-    return ec_buffer_fill(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels_of(s) * 12, &not_reached, err);
+    return ec_buffer_fill(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels_of(s) * BATCH_BYTES, &not_reached, err);
 }
 
 static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, ec_error *err)
@@ -36,26 +33,25 @@ static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, e
     cl_mem *list = &p->buffers[EC_ARG_PIXEL_LIST];
     const uint64_t slack = 64; /* lanes past the last sample look too */
     if (!order->list) return EC_OK;
-    if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", (pixels_of(s) + slack) * 4, NULL, list, err));
-    return ec_buffer_write(p->cl, *list, 4ull * order->done, 4ull * (order->count - order->done), order->list + order->done, err);
+    const uint64_t entry = 4 * EC_LIST_WORDS;
+    if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", (pixels_of(s) + slack) * entry, NULL, list, err));
+    return ec_buffer_write(p->cl, *list, entry * order->done, entry * (order->count - order->done), order->list + EC_LIST_WORDS * order->done, err);
 }
 
 /* Where positions from `first` on go on the host: what an order brings is room for its own. */
 static float *place_of(const ec_device_source *s, const ec_batch_order *order, uint64_t first)
 {
-    return order->into ? order->into + 3 * (first - order->done) : s->own + 3 * first;
+    return order->into ? order->into + EC_BATCH_FIELDS * (first - order->done) : s->own + EC_BATCH_FIELDS * first;
 }
 
 /* Where the batch goes on the host, and what of it is there. */
 static ec_result prepare(ec_device_source *s, const ec_batch_order *order, ec_error *err)
 {
-    if (!order->into && !s->own) s->own = malloc(pixels_of(s) * 12);
+    if (!order->into && !s->own) s->own = malloc(pixels_of(s) * BATCH_BYTES);
     s->base.mean = s->own;
     if (!order->into && !s->own) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels_of(s));
-    if (order->before) memcpy(s->base.mean, order->before, 12ull * order->count);
-    if (!order->aov) return EC_OK;
-    return ec_buffer_zero(s->pipeline.cl, s->pipeline.buffers[EC_ARG_FEATURE_FILM], FEATURE_BYTES * order->done,
-                          FEATURE_BYTES * (order->count - order->done), err);
+    if (order->before) memcpy(s->base.mean, order->before, BATCH_BYTES * order->count);
+    return EC_OK;
 }
 
 static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_error *err)
@@ -63,7 +59,7 @@ static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_e
     ec_device_source *s = (ec_device_source *)source;
     ec_pipeline *p = &s->pipeline;
     const uint64_t first = order->done;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 12 * first, 12 * (order->count - first),
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], BATCH_BYTES * first, BATCH_BYTES * (order->count - first),
                           place_of(s, order, first), err));
     s->base.rays = p->rays;
     s->base.clocked_seconds = p->clocked_seconds;
@@ -76,14 +72,31 @@ static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_e
     return EC_OK;
 }
 
+/* Which samples the kernels take; and the numbers that pixels of the replicate have beyond those of the picture (kernels/lib/film.h). */
+static ec_result choose_samples(ec_device_source *s, const ec_batch_order *order, uint32_t *numbers, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    ec_params *params = &p->params;
+    const ec_batch_range range = ec_schedule_batch(s->replicates, order->index);
+    const uint32_t samples = order->list ? order->samples : range.samples - order->cut, first = order->list ? 0 : (uint32_t)range.first;
+    *numbers = order->list ? 0 : range.replicate * params->width * params->height + params->film_row * params->width;
+    s->base.least = p->wave / samples;
+    if (params->batch == samples && params->first_sample == first) return EC_OK;
+    params->batch = samples;
+    params->first_sample = first;
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
+}
+
 static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     ec_device_source *s = (ec_device_source *)source;
     ec_pipeline *p = &s->pipeline;
-    uint32_t per_wave = p->wave / p->params.batch, seed = ec_render_batch_seed(s->seed, order->index);
-    const uint32_t before = order->list ? 0 : p->params.film_row * p->params.width; /* numbers of pixels above: rows of whole tiles */
+    const uint32_t seed = ec_render_seed(s->seed);
+    uint32_t before;
     *complete = true;
     s->base.batches = 1;
+    EC_TRY(choose_samples(s, order, &before, err));
+    const uint32_t per_wave = s->base.least;
     EC_TRY(upload_list(s, order, err));
     EC_TRY(prepare(s, order, err));
     for (uint32_t first = order->done; first < order->count && *complete; first += per_wave) {
@@ -102,7 +115,7 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
     const uint32_t before = s->unfit;
     if (order->batches <= 1) return take_batch(source, order, complete, err);
     const ec_fold_parts one_by_one = {.batches = 1, .take = take_batch, .want_room = true};
-    EC_TRY(ec_fold_block(source, order, &one_by_one, &s->unfit, complete, err));
+    EC_TRY(ec_fold_block(source, order, s->replicates, &one_by_one, &s->unfit, complete, err));
     source->invalid[EC_STAGE_ACCUMULATE] += s->unfit - before;
     return EC_OK;
 }
@@ -111,7 +124,7 @@ static void close_device(ec_batch_source *source)
 {
     ec_device_source *s = (ec_device_source *)source;
     ec_pipeline_destroy(&s->pipeline);
-    ec_moments_destroy(&s->base.sums);
+    ec_sums_destroy(&s->base.sums);
     free(s->own);
     s->own = s->base.mean = NULL;
 }
@@ -119,6 +132,8 @@ static void close_device(ec_batch_source *source)
 ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *s,
                                 ec_render_stats *stats, ec_error *err)
 {
-    *s = (ec_device_source){.base = {.take = take, .look = look, .turn_to = turn_to, .close = close_device}, .seed = seed};
+    *s = (ec_device_source){.base = {.take = take, .look = look, .turn_to = turn_to, .close = close_device},
+                            .seed = seed,
+                            .replicates = cargo->head.replicates};
     return ec_pipeline_create(cl, cargo, spent, &s->pipeline, stats, err);
 }

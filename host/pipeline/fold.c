@@ -6,12 +6,12 @@
 
 static void deliver(ec_batch_source *source, const ec_batch_order *order, ec_film *film)
 {
-    ec_moments sums = ec_film_give_sums(film);
+    ec_sums sums = ec_film_give_sums(film);
     if (order->sums) {
-        ec_moments_copy(order->sums, &sums, order->count - order->done);
-        ec_moments_destroy(&sums);
+        ec_sums_copy(order->sums, &sums, order->count - order->done);
+        ec_sums_destroy(&sums);
     } else {
-        ec_moments_destroy(&source->sums);
+        ec_sums_destroy(&source->sums);
         source->sums = sums;
     }
 }
@@ -21,9 +21,9 @@ static ec_result add(ec_batch_source *source, const ec_batch_order *part, ec_fil
 {
     ec_film_part sums = {.first = part->index, .count = part->batches, .sums = source->sums};
     if (part->batches == 1)
-        return ec_film_add_at(film, part->index, part->into ? part->into : source->mean + 3ull * part->done, err);
+        return ec_film_add(film, part->index, part->into ? part->into : source->mean + (uint64_t)EC_BATCH_FIELDS * part->done, err);
     EC_TRY(ec_film_insert(film, &sums, err));
-    source->sums = (ec_moments){0};
+    source->sums = (ec_sums){0};
     return EC_OK;
 }
 
@@ -41,16 +41,15 @@ static ec_result add_up(ec_batch_source *source, const ec_batch_order *order, co
     return EC_OK;
 }
 
-ec_result ec_fold_block(ec_batch_source *source, const ec_batch_order *order, const ec_fold_parts *parts,
+ec_result ec_fold_block(ec_batch_source *source, const ec_batch_order *order, uint32_t replicates, const ec_fold_parts *parts,
                         uint32_t *unfit, bool *complete, ec_error *err)
 {
     const uint32_t positions = order->count - order->done;
-    float *batch = parts->want_room ? malloc(12ull * positions) : NULL;
+    float *batch = parts->want_room ? malloc(4ull * EC_BATCH_FIELDS * positions) : NULL;
     ec_film film = {0};
     *complete = true;
-    ec_result result = batch || !parts->want_room ? ec_film_create(&film, positions, 1, 1, err)
+    ec_result result = batch || !parts->want_room ? ec_film_create(&film, positions, 1, replicates, err)
                                                   : ec_fail(err, "out of memory for a batch of %u pixels", positions);
-    film.shows_late = true;
     if (result == EC_OK) result = add_up(source, order, parts, batch, &film, complete, err);
     if (result == EC_OK && *complete) {
         deliver(source, order, &film);

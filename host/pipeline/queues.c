@@ -100,7 +100,7 @@ static ec_result create_films(ec_pipeline *p, uint64_t pixels, ec_error *err)
 {
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_FEATURE_FILM]);
-    EC_TRY(create(p, "batch film", pixels * 12, &p->buffers[EC_ARG_BATCH_FILM], err));
+    EC_TRY(create(p, "batch film", pixels * 4 * EC_BATCH_FIELDS, &p->buffers[EC_ARG_BATCH_FILM], err));
     return create(p, "feature film", pixels * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err);
 }
 

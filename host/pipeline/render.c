@@ -8,20 +8,6 @@
 #include "pipeline/adaptive.h"
 #include "pipeline/render_state.h"
 
-/* Largest divisor of the sample count that still leaves 16 batches: whole batches, and enough of them for an error. */
-static uint32_t batch_of_spp(uint32_t spp)
-{
-    uint32_t most = spp / 16 < 1 ? 1 : (spp / 16 > 64 ? 64 : spp / 16);
-    while (spp % most) most--;
-    return most;
-}
-
-uint32_t ec_render_batch(const ec_render_options *o)
-{
-    if (o->batch) return o->batch;
-    return o->spp ? batch_of_spp(o->spp) : 8;
-}
-
 /* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
 static ec_result check_ends(const ec_render_options *o, ec_error *err)
 {
@@ -57,12 +43,11 @@ static void take_up(ec_render_state *r, const ec_past *past)
 }
 
 /* Of one device, told once it is loaded, since that is what its films have to fit beside; several devices have all rows. */
-static ec_result choose_film(ec_render_state *r, uint32_t batch, const ec_log *log, ec_error *err)
+static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     const ec_pipeline *alone = ec_sources_alone(&r->sources);
     if (alone) EC_TRY(ec_render_choose_rows(r, log, err));
-    if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, batch, err));
-    r->film->shows_late = true;
+    if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, r->replicates, err));
     if (!alone) return EC_OK;
     if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
     r->stats->wave = alone->wave;
@@ -71,13 +56,37 @@ static ec_result choose_film(ec_render_state *r, uint32_t batch, const ec_log *l
     return EC_OK;
 }
 
+/* Where so many samples a pixel end, of the job or of its slice. */
+static void choose_end(ec_render_state *r)
+{
+    const ec_render_options *o = r->options;
+    const ec_course *course = r->course;
+    const uint64_t most = o->spp ? o->spp : course->most;
+    uint32_t before = 0;
+    r->end = UINT32_MAX;
+    if (course->end) r->end = course->end - (course->cut > 0), r->cut = course->cut;
+    else if (most) r->end = ec_schedule_find(r->replicates, most, &before);
+    if (before) r->cut = ec_schedule_batch(r->replicates, r->end).samples - before;
+    double samples = (double)most;
+    if (course->end)
+        samples = (double)(ec_schedule_samples(r->replicates, course->end) - ec_schedule_samples(r->replicates, course->first)) - course->cut;
+    ec_goal_set(&r->goal, samples, o->time_limit, o->error_target);
+}
+
+/* Samples of the largest batch, which a wave has to hold. Pixels of an adaptive render may get many times the mean. */
+static uint32_t largest_batch(const ec_render_state *r)
+{
+    const bool is_known = r->end != UINT32_MAX && !r->options->adaptive;
+    return is_known ? ec_schedule_batch(r->replicates, r->end ? r->end - (r->cut == 0) : 0).samples : EC_BATCH_MOST;
+}
+
 static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene,
-                        uint32_t batch, const ec_log *log, ec_error *err)
+                        const ec_log *log, ec_error *err)
 {
     const ec_past *past = r->course->past;
     const ec_cargo_head *head = &r->sources.cargo.head;
     take_up(r, past);
-    EC_TRY(ec_sources_pack(devices, device_count, r->course->allies != NULL, scene, r->options, batch, &r->sources, r->stats, err));
+    EC_TRY(ec_sources_pack(devices, device_count, r->course->allies != NULL, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
     r->params = head->params;
     const uint64_t called = head->effects.called.bits; /* the cargo is spent when it is loaded */
     if (head->bodies_too_many)
@@ -86,9 +95,10 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(called & EC_FEATURE_MULTISCATTER))
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
-    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, &r->past.allotment, err));
+    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err));
     EC_TRY(ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err));
-    return choose_film(r, batch, log, err);
+    if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);
+    return choose_film(r, log, err);
 }
 
 ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene,
@@ -100,19 +110,20 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     EC_TRY(note_unneeded(scene, options->without, log, err));
     ec_render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
-    uint32_t batch = ec_render_batch(options);
-    r.batches_wanted = options->spp ? (options->spp + batch - 1) / batch : 0;
-    if (!options->spp && course->most) r.batches_wanted = (course->most + batch - 1) / batch;
-    if (course->end) r.batches_wanted = course->end - course->first;
-    ec_result result = set_up(&r, devices, device_count, scene, batch, log, err);
+    r.replicates = ec_render_replicates(options);
+    r.goal.pixels = (double)options->width * options->height;
+    r.goal.replicates = r.replicates;
+    choose_end(&r);
+    ec_result result = set_up(&r, devices, device_count, scene, log, err);
     if (result == EC_OK) {
         ec_error why = {0};
+        const double cpu_start = ec_cpu_now();
         result = r.strip_rows ? ec_render_strips(&r, log, &why) : ec_render_film(&r, log, &why);
+        stats->cpu_seconds = ec_cpu_now() - cpu_start;
         if (result != EC_OK) r.stopped_by = why.kind == EC_ERROR_OTHER ? "failure" : "device";
         if (result != EC_OK && err) *err = why;
         ec_render_finish_stats(&r);
     }
-    ec_film_show(film);
     ec_allotment_free(&r.past.allotment);
     free(r.aov);
     ec_sources_close(&r.sources, stats);

@@ -11,6 +11,7 @@
 #include "film/film.h"
 #include "pipeline/content.h"
 #include "pipeline/effects.h"
+#include "pipeline/goal.h"
 #include "scene/scene.h"
 #include "shared/params.h"
 
@@ -49,7 +50,7 @@ typedef struct ec_render_options {
     uint32_t spp;               /* stop after so many samples a pixel; 0 = no such limit */
     double time_limit;          /* stop before this many seconds of rendering; 0 = none */
     double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */
-    uint32_t batch;             /* samples a pixel in one independent batch; 0 = chosen from the limits */
+    uint32_t replicates;        /* independent copies of the sample sequence, up to EC_REPLICATES_MOST; 0 = EC_REPLICATES */
     ec_integrator integrator;
     uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited, Whitted: 10 */
     double cutoff;              /* Whitted: branches of less weight than this are not followed */
@@ -63,7 +64,7 @@ typedef struct ec_render_options {
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
     uint64_t memory;            /* bytes that the process should not exceed: else it renders strips (strips.h); 0 = what is free */
-    uint32_t slice_first, slice_end; /* batches of a slice, for what they take of it; slice_end 0: it is none */
+    uint32_t slice_first, slice_end; /* batches (film/schedule.h) of a slice, for what they take of it; slice_end 0: it is none */
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */
@@ -76,16 +77,6 @@ typedef struct ec_render_options {
     bool fast_math;             /* kernels by -cl-fast-relaxed-math: for `eclat cost` alone, to see what exact arithmetic costs */
 } ec_render_options;
 
-/* What the pilot, the first batches, says of the rest. Low and high: 95 % interval. Infinite where no limit would end it. */
-typedef struct ec_forecast {
-    uint64_t pilot_samples;             /* a pixel; 0: the render was over before there was a forecast */
-    double pilot_seconds;
-    double samples, samples_low, samples_high; /* a pixel, in all */
-    double seconds, seconds_low, seconds_high; /* of rendering, in all */
-    double error_bound;                 /* of the image then; infinite where it is not known */
-    double spread;                      /* relative uncertainty of the variance: over 0.3 a few pixels hold most of it */
-} ec_forecast;
-
 typedef struct ec_progress {
     double seconds, seconds_left;       /* seconds_left < 0: unknown */
     double fraction;                    /* 0..1 of the first limit that will end the render */
@@ -95,13 +86,13 @@ typedef struct ec_progress {
     const ec_forecast *pilot;           /* the first one, once there is one; then the one of now */
     ec_forecast forecast;
 } ec_progress;
-/* Called after every batch and at least twice a second where waves allow; returning false stops cleanly (the film keeps
- * the batches that are complete; if none is, the partial first batch is finished for fewer samples). */
+/* Called after every batch and at least twice a second where waves allow; returning false stops cleanly: the film keeps
+ * the batches that are complete, and where none is, what there is of the first. */
 typedef bool (*ec_progress_fn)(void *user, const ec_progress *progress);
 
 /* What came from one of several devices. */
 typedef struct ec_render_share {
-    double batches;               /* of all pixels, or as many in pieces */
+    double samples;               /* a pixel, in the mean */
     uint32_t lanes, wave;
     uint64_t device_bytes;        /* peak of all buffers */
     bool has_failed;
@@ -110,6 +101,7 @@ enum { EC_DEVICES_MOST = 32 };    /* that one render takes */
 
 typedef struct ec_render_stats {
     double seconds;               /* rendering, without set-up */
+    double cpu_seconds;           /* processor time of this process meanwhile, all threads; on a CPU device the kernels' too */
     double accel_seconds, pack_seconds, kernel_seconds; /* set-up: BVH, buffers, kernel build or cache look-up */
     double first_pixel_seconds;   /* from ec_render's start to the first finished wave */
     uint64_t samples_per_pixel, samples, rays; /* samples: in the film; rays: those of a batch that was given up too */
@@ -119,7 +111,7 @@ typedef struct ec_render_stats {
     double allotment_gain;        /* adaptive: error^2 over uniform sampling's, foretold; 1 where there was nothing to gain */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
-    uint32_t lanes, wave, batch;
+    uint32_t lanes, wave, replicates;
     uint32_t strips;              /* in which the picture was rendered: 1, the whole, where it fitted into memory */
     uint32_t instances;           /* of meshes that are kept once; 0: none, or they were written out */
     uint64_t triangles, stored_triangles; /* that rays can meet, and that take memory */
@@ -128,7 +120,7 @@ typedef struct ec_render_stats {
     ec_render_share shares[EC_DEVICES_MOST]; /* by device, where there are several */
     uint32_t share_count;
     uint32_t allies;              /* other processes that took part … */
-    double allied_batches;        /* … what they took, in pieces that sum up to so many batches of all pixels … */
+    double allied_samples;        /* … what they took, samples a pixel in the mean … */
     uint64_t allied_bytes;        /* … and what came of it to this process */
     ec_render_effects effects;    /* which were called for, why, and what came of it */
     ec_content content;           /* with options.identify */
@@ -145,11 +137,11 @@ typedef struct ec_render_stats {
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err);
 
-/* Samples a pixel in one batch: that of the options, or the one chosen from their limits. */
-uint32_t ec_render_batch(const ec_render_options *options);
+/* Replicates of the options. */
+static inline uint32_t ec_render_replicates(const ec_render_options *o) { return o->replicates ? o->replicates : EC_REPLICATES; }
 
-/* What ec_render seeds its batch number `batch` with. */
-uint32_t ec_render_batch_seed(uint64_t seed, uint32_t batch);
+/* What the kernels seed a render of that seed with. */
+uint32_t ec_render_seed(uint64_t seed);
 
 /* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);

@@ -4,7 +4,7 @@
 #define EC_PIPELINE_RENDER_STATE_H
 
 #include "pipeline/course.h"
-#include "pipeline/forecast.h"
+#include "pipeline/goal.h"
 #include "pipeline/sources.h"
 
 typedef struct ec_render_state {
@@ -18,21 +18,21 @@ typedef struct ec_render_state {
     ec_film *film;
     ec_render_stats *stats;
     double start, render_start, last_report;
-    double batch_end;          /* of the last one; and the sums of so many times, the first left out */
-    double first_seconds, sum, squares, timed;
-    ec_forecast forecast;      /* of now; the pilot's is in stats */
-    uint32_t batches_wanted;   /* by --spp, or at most; 0 = no limit */
+    double batch_end;          /* when the last one was done */
+    ec_goal goal;
+    uint32_t replicates;
+    uint32_t end, cut;         /* whole batches end before this one, UINT32_MAX where no number of samples ends them; and samples that batch `end` lacks, where it is wanted: else 0 */
     ec_film_error error;
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
     ec_batch_order order;      /* the batch under way */
     bool look_failed;          /* at what it has come to so far */
     ec_error look_error;
-    double batches_before_it;
+    double samples_before_it;  /* a pixel */
     uint64_t under_way;        /* samples of the batch that is not there yet */
     double kept_at;
     uint32_t kept_next, kept_under_way;
-    float *aov;                /* of the first batch, until it is in the film */
+    float *aov;                /* first-hit features of a batch, until it is in the film */
     const char *stopped_by;
     uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
     uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
@@ -42,11 +42,9 @@ typedef struct ec_render_state {
 static inline double ec_render_film_pixels(const ec_render_state *r) { return (double)r->film->width * r->film->height; }
 static inline double ec_render_picture_pixels(const ec_render_state *r) { return (double)r->options->width * r->options->height; }
 
-/* Batches a pixel, in the mean. */
-static inline double ec_render_batches_done(const ec_render_state *r)
-{
-    return (double)r->past.samples / r->params.batch / ec_render_film_pixels(r);
-}
+/* Samples a pixel, in the mean, and seconds. */
+static inline double ec_render_samples_done(const ec_render_state *r) { return (double)r->past.samples / ec_render_film_pixels(r); }
+ec_mark ec_render_mark(const ec_render_state *r);
 
 /* render_film.c: until a limit is met; what is there before stays in the film. */
 ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
@@ -55,10 +53,8 @@ ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
 ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error *err);
 ec_result ec_render_strips(ec_render_state *r, const ec_log *log, ec_error *err);
 
-/* render_tell.c: tells the caller; false means stop. batches counts the fraction of the one under way. */
-bool ec_render_tell(ec_render_state *r, double batches);
-/* After each batch: how long it will take. */
-void ec_render_look_ahead(ec_render_state *r, bool at_pilot);
+/* render_tell.c: tells the caller; false means stop. samples a pixel, those under way too. */
+bool ec_render_tell(ec_render_state *r, double samples);
 /* Asks nothing of the device, which may be lost. */
 void ec_render_finish_stats(ec_render_state *r);
 

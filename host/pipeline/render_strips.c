@@ -40,14 +40,12 @@ static ec_result render_strip(ec_render_state *r, uint32_t first_row, uint32_t r
     ec_render_stats told = *r->stats;
     r->past = (ec_past){.seconds = first_row ? ec_now() - r->render_start : 0.0, .allotment.gain = 1.0};
     r->stopped_by = NULL;
-    EC_TRY(ec_film_create(r->film, r->options->width, rows, r->params.batch, err));
-    r->film->shows_late = true;
+    EC_TRY(ec_film_create(r->film, r->options->width, rows, r->replicates, err));
     EC_TRY(r->source->turn_to(r->source, first_row, rows, err));
     EC_TRY(ec_render_film(r, log, err));
     if (strcmp(r->stopped_by, "spp")) return EC_OK;
     r->samples_before += r->past.samples;
     r->invalid_in_films += r->film->invalid_count;
-    ec_film_show(r->film);
     told.samples = r->samples_before;
     return r->course->strip(r->course->user, r->film, first_row, &told, err);
 }

@@ -13,6 +13,8 @@ struct ec_session {
     ec_insides insides;          /* what a camera can be inside of */
     ec_environment environment;  /* its turn as the scene has it; no picture */
     double rate;                 /* samples a second of the last waves; 0: not known */
+    float *room;                 /* for a batch, where its colours alone are wanted; and for how many pixels */
+    uint64_t room_pixels;
 };
 
 ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t largest,
@@ -45,6 +47,7 @@ void ec_session_close(ec_session *session)
     if (!session) return;
     ec_pipeline_destroy(&session->pipeline);
     ec_insides_free(&session->insides);
+    free(session->room);
     free(session);
 }
 
@@ -69,21 +72,45 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
 }
 
-static ec_result set_batch(ec_pipeline *p, uint32_t samples, ec_error *err)
+static ec_result set_batch(ec_pipeline *p, const ec_session_batch *batch, ec_error *err)
 {
-    if (p->params.batch == samples) return EC_OK;
-    p->params.batch = samples;
+    if (p->params.batch == batch->samples && p->params.first_sample == batch->first) return EC_OK;
+    p->params.batch = batch->samples;
+    p->params.first_sample = batch->first;
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
 }
 
-static void drop_invalid(ec_session_batch *batch, uint64_t values)
+static uint64_t drop_invalid(float *values, uint64_t pixels)
 {
-    batch->invalid = 0;
-    for (uint64_t i = 0; i < values; i++) {
-        if (isfinite(batch->mean[i])) continue;
-        batch->mean[i] = 0.0f;
-        batch->invalid++;
+    uint64_t invalid = 0;
+    for (uint64_t i = 0; i < EC_BATCH_FIELDS * pixels; i++) {
+        if (isfinite(values[i])) continue;
+        values[i] = 0.0f;
+        invalid += i % EC_BATCH_FIELDS < EC_BATCH_LARGEST;
     }
+    return invalid;
+}
+
+static float *room_for(ec_session *s, uint64_t pixels)
+{
+    if (pixels <= s->room_pixels) return s->room;
+    free(s->room);
+    s->room = malloc(pixels * EC_BATCH_FIELDS * sizeof *s->room);
+    s->room_pixels = s->room ? pixels : 0;
+    return s->room;
+}
+
+static ec_result read_results(ec_session *s, ec_session_batch *batch, uint64_t pixels, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    float *values = batch->batch ? batch->batch : room_for(s, pixels);
+    if (!values) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels * 4 * EC_BATCH_FIELDS, values, err));
+    batch->invalid = drop_invalid(values, pixels);
+    for (uint64_t i = 0; batch->rgb && i < pixels; i++)
+        for (uint64_t c = 0; c < 3; c++) batch->rgb[3 * i + c] = values[EC_BATCH_FIELDS * i + c];
+    if (!batch->features) return EC_OK;
+    return ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, pixels * 4 * EC_AOV_FIELDS, batch->features, err);
 }
 
 /* Pixels of a wave that ends within the slice. The first one finds out how fast the device is. */
@@ -99,7 +126,9 @@ static uint32_t pixels_a_wave(const ec_session *s, const ec_session_batch *batch
 static ec_result take_wave(ec_session *s, const ec_session_batch *batch, uint32_t first, uint32_t count, ec_error *err)
 {
     double start = ec_now();
-    EC_TRY(ec_pipeline_run_wave(&s->pipeline, batch->seed, first, count, batch->features != NULL, err));
+    const ec_params *params = &s->pipeline.params;
+    const uint32_t numbers = batch->replicate * params->width * params->height; /* kernels/lib/film.h */
+    EC_TRY(ec_pipeline_run_wave(&s->pipeline, batch->seed, numbers + first, count, batch->features != NULL, err));
     if (batch->slice <= 0) return EC_OK;
     EC_TRY(ec_cl_finish(s->pipeline.cl, err)); /* else the next waves would be queued before there is an answer to go_on */
     double rate = (double)count * batch->samples / (ec_now() - start + 1e-9);
@@ -115,20 +144,16 @@ ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error
     uint32_t pixels = p->params.width * p->params.height;
     double start = ec_now();
     batch->complete = false;
-    EC_TRY(set_batch(p, batch->samples, err));
+    EC_TRY(set_batch(p, batch, err));
     for (uint32_t first = 0, count; first < pixels; first += count) {
         if (batch->go_on && !batch->go_on(batch->user)) return ec_cl_finish(p->cl, err);
         count = pixels_a_wave(session, batch);
         if (count > pixels - first) count = pixels - first;
         EC_TRY(take_wave(session, batch, first, count, err));
     }
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, (uint64_t)pixels * 12, batch->mean, err));
-    if (batch->features)
-        EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, (uint64_t)pixels * 4 * EC_AOV_FIELDS,
-                              batch->features, err));
+    EC_TRY(read_results(session, batch, pixels, err));
     batch->seconds = ec_now() - start;
     batch->complete = true;
-    drop_invalid(batch, 3 * (uint64_t)pixels);
     return EC_OK;
 }
 

@@ -49,7 +49,7 @@ static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log 
         if (allies->recruit(allies->user, i, &recruits[s->count + s->allied]))
             s->allied_processes += recruits[s->count + s->allied++].processes;
     ec_result result = ec_team_open(recruits, s->count + s->allied, s->cargo.head.params.width,
-                                    s->cargo.head.params.height, log, &s->team, err);
+                                    s->cargo.head.params.height, s->cargo.head.replicates, log, &s->team, err);
     free(recruits);
     if (result == EC_OK) ec_team_wait(s->team, s->count); /* limits of time do not count compilers */
     return result;
@@ -84,11 +84,11 @@ static void tell_shares(const ec_sources *s, ec_render_stats *stats)
     stats->allies = s->allied_processes;
     stats->allied_bytes = received(s) - s->received_before;
     for (uint32_t i = 0; i < s->allied; i++)
-        stats->allied_batches += (double)ec_team_share(s->team, s->count + i, &has_failed) / pixels;
+        stats->allied_samples += ec_team_share(s->team, s->count + i, &has_failed) / pixels;
     for (uint32_t i = 0; i < s->count; i++) {
         const ec_render_stats *own = &s->recruits[i].stats;
         ec_render_share *share = &stats->shares[i];
-        share->batches = (double)ec_team_share(s->team, i, &share->has_failed) / pixels;
+        share->samples = ec_team_share(s->team, i, &share->has_failed) / pixels;
         share->lanes = own->lanes;
         share->wave = own->wave;
         share->device_bytes = s->devices[i].peak_allocated_bytes;

@@ -56,7 +56,7 @@ typedef enum ec_arg {
     EC_ARG_TIMES,      /* of paths, by slot */
     EC_ARG_CAMERA_KEYS, /* NULL: it stands still */
     EC_ARG_LIGHT_TABLE,
-    EC_ARG_LIGHT_ALIAS,
+    EC_ARG_LIGHT_SHARES,
     EC_ARG_LIGHT_TREE,
     EC_ARG_LIGHT_TRAILS,
     EC_ARG_ENVIRONMENT_TEXELS,
@@ -99,6 +99,10 @@ typedef struct ec_stage_entry {
 } ec_stage_entry;
 
 extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
+
+/* What an accelerator's kernels are built with besides lanes and features: bvh8 interleaves its rays (lib/trace_interleaved.h) where its
+ * buffers, `bytes` in all, are larger than the device's cache. Static text, "" for nothing. features: those that are built. */
+const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features);
 
 #define EC_LOCAL_SIZE 16 /* one fixed local size a kernel: PoCL compiles again for each new one */
 

@@ -23,9 +23,9 @@ static void work_piece(member *m)
     ec_team *t = m->team;
     const slot *s = m->slot;
     const bool is_block = s->batches > 1;
-    const ec_moments sums = is_block ? ec_moments_from(&s->sums, m->first - s->from) : (ec_moments){0};
-    const ec_batch_order order = {.index = s->index, .batches = s->batches, .list = s->list, .done = m->first, .count = m->end, .aov = s->aov,
-                                  .into = is_block ? NULL : s->mean + 3ull * m->first, .sums = is_block ? &sums : NULL,
+    const ec_sums sums = is_block ? ec_sums_from(&s->sums, m->first - s->from) : (ec_sums){0};
+    const ec_batch_order order = {.index = s->index, .batches = s->batches, .cut = s->cut, .list = s->list, .samples = s->samples, .done = m->first, .count = m->end,
+                                  .aov = s->aov, .into = is_block ? NULL : s->mean + (uint64_t)EC_BATCH_FIELDS * m->first, .sums = is_block ? &sums : NULL,
                                   .go_on = carries_on, .user = m};
     bool complete = false;
     m->is_busy = true;
@@ -126,9 +126,9 @@ static slot *open_ordered(ec_team *t, const ec_batch_order *order)
 static void hand_out(ec_team *t, slot *s)
 {
     for (int i = 0; i < EC_STAGE_COUNT; i++) t->base.invalid[i] += s->invalid[i];
-    ec_moments_destroy(&t->base.sums);
+    ec_sums_destroy(&t->base.sums);
     t->base.sums = s->sums;
-    s->sums = (ec_moments){0};
+    s->sums = (ec_sums){0};
     t->is_out = true;
 }
 
@@ -166,9 +166,9 @@ static ec_result take_unit(ec_batch_source *source, const ec_batch_order *order,
 /* A block that is ordered is made of smaller ones, so that all have something to do even where its positions are few. */
 static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
 {
-    const ec_fold_parts parts = {.batches = order->batches / EC_FILM_RADIX, .take = take_unit};
+    const ec_fold_parts parts = {.batches = ec_fold_step(order->batches), .take = take_unit};
     if (order->batches <= 1) return take_unit(source, order, complete, err);
-    return ec_fold_block(source, order, &parts, &source->invalid[EC_STAGE_ACCUMULATE], complete, err);
+    return ec_fold_block(source, order, ((ec_team *)source)->replicates, &parts, &source->invalid[EC_STAGE_ACCUMULATE], complete, err);
 }
 
 /* What members have done is there already. */
@@ -195,31 +195,31 @@ static void close_team(ec_batch_source *source)
     (void)tell_failures(t, NULL);
     t->next = t->opened;
     ec_team_free_units(t);
-    ec_moments_destroy(&t->base.sums);
+    ec_sums_destroy(&t->base.sums);
     t->base.mean = NULL;
 }
 
 ec_batch_source *ec_team_source(ec_team *team) { return &team->base; }
 
-uint64_t ec_team_share(const ec_team *team, uint32_t i, bool *has_failed)
+double ec_team_share(const ec_team *team, uint32_t i, bool *has_failed)
 {
     *has_failed = i >= team->count || team->members[i].has_failed;
-    return i < team->count ? team->members[i].pixels : 0;
+    return i < team->count ? team->members[i].samples : 0;
 }
 
 ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height,
-                       const ec_log *log, ec_team **team, ec_error *err)
+                       uint32_t replicates, const ec_log *log, ec_team **team, ec_error *err)
 {
     uint32_t sources = 0;
     ec_team *t = *team = calloc(1, sizeof *t);
     if (!t) return ec_fail(err, "out of memory for a team of %u devices", count);
-    *t = (ec_team){.base = {.take = take, .look = look, .close = close_team}, .width = width, .pixels = (uint64_t)width * height, .log = log};
+    *t = (ec_team){.base = {.take = take, .look = look, .close = close_team}, .width = width, .replicates = replicates, .pixels = (uint64_t)width * height, .log = log};
     pthread_mutex_init(&t->lock, NULL);
     pthread_cond_init(&t->work, NULL);
     pthread_cond_init(&t->news, NULL);
     t->members = calloc(count, sizeof *t->members);
     for (uint32_t i = 0; i < count; i++) sources += recruits[i].processes ? recruits[i].processes : 1;
-    t->room = ec_team_window(sources, t->pixels, false);
+    t->room = ec_team_window(sources, t->pixels, 4 * EC_BATCH_FIELDS);
     t->slots = calloc(t->room, sizeof *t->slots);
     if (!t->members || !t->slots) return ec_fail(err, "out of memory for a team of %u devices", count);
     t->count = count;

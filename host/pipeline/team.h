@@ -4,14 +4,14 @@
  * A piece is what its source does in the time that the team takes for as many batches as it has members, a second at most, a wave at least:
  * whole batches where these are short, and fewer pixels for the slow. Towards the end pieces get smaller, so that nobody waits long.
  *
- * Where pieces come from afar and batches fast, a unit may be a block, of 16 or 256 batches (film/parts.h): a piece is then rows of all of them,
- * what comes back are their sums, 68 bytes a pixel in place of 12 for each batch. A block is only begun where the paces that were measured say
+ * Where pieces come from afar and batches fast, a unit may be a block, of 128 or 2048 batches (film/parts.h): a piece is then rows of all of
+ * them, what comes back are their sums, ec_sums_bytes a pixel in place of 24 for each batch. A block is only begun where the paces that were measured say
  * that it is over within the order's patience.
  *
  * A block that a team is ordered to take, as another's member, is made of units of a sixteenth of it.
  *
  * So that nobody waits for a unit that is late, so many may be open at once as there are members, with all the processes that they stand for,
- * and one more, if they fit into EC_TEAM_ROOM, and two in any case: 12 bytes a pixel of a batch, 68 of a block. Pieces of blocks that are on
+ * and one more, if they fit into EC_TEAM_ROOM, and two in any case. Pieces of blocks that are on
  * their way take as much again.
  *
  * A member that fails is out, and its piece goes to another. */
@@ -26,9 +26,9 @@
 #define EC_TEAM_PATIENCE_SECONDS 3.0      /* with a block, or … */
 #define EC_TEAM_PATIENCE_SHARE 0.01       /* … of the time so far */
 
-/* How many batches, or blocks, of such an image a team of so many may have open; and bytes for them, where some of its pieces come from afar. */
-uint32_t ec_team_window(uint32_t members, uint64_t pixels, bool in_blocks);
-uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, bool from_afar);
+/* How many units of so many bytes a pixel a team of so many may have open; and bytes for them, where some of its pieces come from afar. */
+uint32_t ec_team_window(uint32_t members, uint64_t pixels, uint64_t bytes);
+uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, bool from_afar);
 
 typedef struct ec_team_recruit {
     const char *name;                 /* for messages */
@@ -42,14 +42,14 @@ typedef struct ec_team ec_team;
 
 /* Starts the threads. log gets a warning for each member that fails while there are others. */
 ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height,
-                       const ec_log *log, ec_team **team, ec_error *err);
+                       uint32_t replicates, const ec_log *log, ec_team **team, ec_error *err);
 /* Until one of the first so many members is ready, or all of these have failed. */
 void ec_team_wait(ec_team *team, uint32_t count);
 /* What to take batches from. Takes fail once all members have. Closing it ends the threads, each after the wave that it is in. */
 ec_batch_source *ec_team_source(ec_team *team);
 
-/* Pixels in pieces that member i has finished; may it still take more? */
-uint64_t ec_team_share(const ec_team *team, uint32_t i, bool *has_failed);
+/* Samples in pieces that member i has finished; may it still take more? */
+double ec_team_share(const ec_team *team, uint32_t i, bool *has_failed);
 
 void ec_team_free(ec_team *team); /* closes it if need be; NULL is fine */
 

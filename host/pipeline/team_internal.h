@@ -10,9 +10,10 @@
 /* A unit, a batch or a block of some, that is open: of its positions some are done, [handed, count) wait, and members hold the others. */
 typedef struct slot {
     uint32_t index, batches;          /* from that one on */
+    uint32_t cut, samples;            /* of the order: what is not wanted of it; of each entry of a list */
     const uint32_t *list;
-    float *mean, *aov;                /* of a batch: 3 a position */
-    ec_moments sums;                  /* of a block: of positions from `from` on */
+    float *mean, *aov;                /* of a batch: EC_BATCH_FIELDS a position */
+    ec_sums sums;                     /* of a block: of positions from `from` on */
     uint32_t from, count, handed;
     uint32_t invalid[EC_STAGE_COUNT];
 } slot;
@@ -26,8 +27,8 @@ typedef struct member {
     slot *slot;                       /* whose piece [first, end) it holds; NULL: none. A failed one's is for the others to take */
     uint32_t first, end, reached;
     uint32_t pieces;
-    uint64_t pixels;                  /* in finished pieces, of each batch */
-    double rate;                      /* positions a second of the last piece, of each batch; 0: not known */
+    double samples;                   /* in finished pieces */
+    double rate;                      /* samples a second of the last piece; 0: not known */
     uint64_t rays;
     uint32_t invalid[EC_STAGE_COUNT]; /* the source's, before the piece */
     ec_error why;
@@ -36,7 +37,7 @@ typedef struct member {
 struct ec_team {
     ec_batch_source base;
     member *members;
-    uint32_t count, width;
+    uint32_t count, width, replicates;
     uint64_t pixels;
     const ec_log *log;
     pthread_mutex_t lock;
@@ -64,6 +65,9 @@ bool ec_team_find_piece(member *m);
 
 /* What becomes of the piece that it held. */
 void ec_team_settle(member *m, ec_result result, bool complete, double seconds);
+
+/* Samples that a position of a unit takes. */
+double ec_team_samples(const ec_team *team, const slot *s);
 
 /* All positions of a unit before this one are done. */
 uint32_t ec_team_done(const ec_team *team, const slot *s);

@@ -8,16 +8,17 @@
 #include "pipeline/fold.h"
 #include "pipeline/team_internal.h"
 
-uint32_t ec_team_window(uint32_t members, uint64_t pixels, bool in_blocks)
+uint32_t ec_team_window(uint32_t members, uint64_t pixels, uint64_t bytes)
 {
-    const uint64_t unit = pixels * (in_blocks ? EC_MOMENTS_BYTES : 12), fit = unit ? EC_TEAM_ROOM / unit : members;
+    const uint64_t unit = pixels * bytes, fit = unit ? EC_TEAM_ROOM / unit : members;
     return fit > members ? members + 1 : fit > 2 ? (uint32_t)fit : 2;
 }
 
-uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, bool from_afar)
+uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, bool from_afar)
 {
-    const uint64_t batches = 12 * pixels * ec_team_window(members, pixels, false);
-    const uint64_t blocks = from_afar ? 2 * EC_MOMENTS_BYTES * pixels * ec_team_window(members, pixels, true) : 0;
+    const uint64_t batch = 4 * EC_BATCH_FIELDS, sums = ec_sums_bytes(replicates);
+    const uint64_t batches = batch * pixels * ec_team_window(members, pixels, batch);
+    const uint64_t blocks = from_afar ? 2 * sums * pixels * ec_team_window(members, pixels, sums) : 0;
     return blocks > batches ? blocks : batches;
 }
 
@@ -28,8 +29,14 @@ uint32_t ec_team_alive(const ec_team *t)
     return n;
 }
 
-/* Seconds that all take for a batch; 0 where one's pace is not known. */
-static double batch_seconds(const ec_team *t)
+double ec_team_samples(const ec_team *t, const slot *s)
+{
+    if (s->list) return s->samples;
+    return (double)(ec_schedule_samples(t->replicates, s->index + s->batches) - ec_schedule_samples(t->replicates, s->index)) - s->cut;
+}
+
+/* Seconds that all take for so many samples of every pixel; 0 where one's pace is not known. */
+static double seconds_for(const ec_team *t, double samples)
 {
     double rate = 0;
     for (uint32_t i = 0; i < t->count; i++) {
@@ -37,16 +44,16 @@ static double batch_seconds(const ec_team *t)
         if (!m->has_failed && m->is_ready && m->rate == 0) return 0;
         if (!m->has_failed) rate += m->rate;
     }
-    return rate > 0 ? (double)t->pixels / rate : 0;
+    return rate > 0 ? (double)t->pixels * samples / rate : 0;
 }
 
 /* Of the smallest piece that is worth its launches, with whoever is slowest at it. */
-static double least_seconds(const ec_team *t, uint32_t batches)
+static double least_seconds(const ec_team *t, double samples)
 {
     double most = 0;
     for (uint32_t i = 0; i < t->count; i++) {
         const member *m = &t->members[i];
-        if (!m->has_failed && m->rate > 0) most = fmax(most, batches * fmin(m->source->least, (double)t->pixels) / m->rate);
+        if (!m->has_failed && m->rate > 0) most = fmax(most, samples * fmin(m->source->least, (double)t->pixels) / m->rate);
     }
     return most;
 }
@@ -54,9 +61,10 @@ static double least_seconds(const ec_team *t, uint32_t batches)
 /* Is a block over soon, its last piece included? And is there enough for all to do until the end beside its pieces? */
 static bool is_soon(const ec_team *t, uint32_t index, uint32_t batches)
 {
-    const double batch = batch_seconds(t), unit = batches * batch, least = least_seconds(t, batches);
+    const slot block = {.index = index, .batches = batches}, rest = {.index = index, .batches = t->end - index};
+    const double unit = seconds_for(t, ec_team_samples(t, &block)), least = least_seconds(t, ec_team_samples(t, &block));
     const double piece = fmax(fmin(unit * ec_team_alive(t), EC_TEAM_PIECE_SECONDS), least), over = unit + piece;
-    return batch > 0 && over <= t->patience && ec_now() + over <= t->until && 2 * least <= (double)(t->end - index) * batch;
+    return unit > 0 && over <= t->patience && ec_now() + over <= t->until && 2 * least <= seconds_for(t, ec_team_samples(t, &rest));
 }
 
 /* How many batches from `index` on are the next unit. */
@@ -64,7 +72,7 @@ static uint32_t unit_from(const ec_team *t, uint32_t index)
 {
     if (!t->sends || !t->whole) return 1;
     const uint32_t whole = t->whole(t->user, index);
-    for (uint32_t n = EC_BLOCK_MOST; n > 1; n /= EC_FILM_RADIX)
+    for (uint32_t n = EC_BLOCK_MOST; n >= EC_FILM_FIRST; n /= EC_FILM_RADIX)
         if (index % n == 0 && n <= whole && n <= t->end - index && is_soon(t, index, n)) return n;
     return 1;
 }
@@ -72,7 +80,7 @@ static uint32_t unit_from(const ec_team *t, uint32_t index)
 static void free_unit(slot *s)
 {
     free(s->mean);
-    ec_moments_destroy(&s->sums);
+    ec_sums_destroy(&s->sums);
     s->mean = NULL;
 }
 
@@ -85,19 +93,19 @@ void ec_team_free_units(ec_team *t)
 static bool make_room(ec_team *t, slot *s)
 {
     if (s->batches <= 1) {
-        ec_moments_destroy(&s->sums);
-        if (!s->mean) s->mean = malloc(12 * t->pixels);
+        ec_sums_destroy(&s->sums);
+        if (!s->mean) s->mean = malloc(4 * EC_BATCH_FIELDS * t->pixels);
         return s->mean != NULL;
     }
     ec_team_free_units(t);
-    return ec_moments_create(&s->sums, s->count - s->from);
+    return ec_sums_create(&s->sums, t->replicates, s->count - s->from);
 }
 
 static bool open_unit(ec_team *t, const slot *unit)
 {
     slot *s = &t->slots[t->opened % t->room];
     float *mean = s->mean;
-    ec_moments_destroy(&s->sums);
+    ec_sums_destroy(&s->sums);
     *s = *unit;
     s->mean = mean;
     if (!make_room(t, s)) return false;
@@ -108,17 +116,17 @@ static bool open_unit(ec_team *t, const slot *unit)
 
 bool ec_team_open_unit(ec_team *t, const ec_batch_order *o)
 {
-    slot unit = {.index = o->index, .batches = o->batches, .list = o->list, .aov = o->aov, .from = o->done, .count = o->count, .handed = o->done};
-    const bool may_choose = !o->batches && !o->list && !o->aov && !o->done;
+    slot unit = {.index = o->index, .batches = o->batches, .cut = o->cut, .list = o->list, .samples = o->samples, .aov = o->aov, .from = o->done, .count = o->count, .handed = o->done};
+    const bool may_choose = !o->batches && !o->list && !o->aov && !o->done && !o->cut;
     if (!unit.batches) unit.batches = may_choose ? unit_from(t, o->index) : 1;
     if (!open_unit(t, &unit)) return false;
     float *mean = t->slots[(t->opened - 1) % t->room].mean;
-    if (o->before) memcpy(mean, o->before, 12ull * o->count);
-    for (uint64_t i = o->done; o->aov && i < o->count; i++) mean[3 * i] = EC_NOT_REACHED;
+    if (o->before) memcpy(mean, o->before, 4ull * EC_BATCH_FIELDS * o->count);
+    for (uint64_t i = o->done; o->aov && i < o->count; i++) mean[EC_BATCH_FIELDS * i] = EC_NOT_REACHED;
     return true;
 }
 
-static uint64_t bytes_of(const ec_team *t, uint32_t batches) { return t->pixels * (batches > 1 ? EC_MOMENTS_BYTES : 12); }
+static uint64_t bytes_of(const ec_team *t, uint32_t batches) { return t->pixels * (batches > 1 ? ec_sums_bytes(t->replicates) : 4 * EC_BATCH_FIELDS); }
 
 static bool has_room(const ec_team *t, uint32_t batches)
 {
@@ -139,10 +147,11 @@ static uint32_t piece_of(const member *m, const slot *s)
 {
     const ec_team *t = m->team;
     const uint32_t left = s->count - s->handed, unit = s->list ? 1 : EC_TILE_ROWS * t->width, alive = ec_team_alive(t);
-    double seconds = s->batches * batch_seconds(t) * alive,
-           size = m->rate / s->batches * fmin(seconds > 0 ? seconds : EC_TEAM_PIECE_SECONDS, EC_TEAM_PIECE_SECONDS);
+    const double samples = ec_team_samples(t, s);
+    double seconds = seconds_for(t, samples) * alive,
+           size = m->rate / samples * fmin(seconds > 0 ? seconds : EC_TEAM_PIECE_SECONDS, EC_TEAM_PIECE_SECONDS);
     if (t->from >= t->end) size = fmin(size, left / (2.0 * alive));
-    if (s->batches > 1) size = fmin(size, EC_TEAM_PIECE / EC_MOMENTS_BYTES);
+    if (s->batches > 1) size = fmin(size, (double)(EC_TEAM_PIECE / ec_sums_bytes(t->replicates)));
     size = ceil(fmax(fmax(size, m->source->least), 1) / unit) * unit;
     return size > 0.75 * left ? left : (uint32_t)size;
 }
@@ -179,7 +188,7 @@ static void give_up(member *m)
 {
     slot *s = m->slot;
     const uint32_t unit = s->list ? 1 : EC_TILE_ROWS * m->team->width, reached = m->first + (m->reached - m->first) / unit * unit;
-    for (uint64_t i = reached; s->mean && i < m->end; i++) s->mean[3 * i] = EC_NOT_REACHED;
+    for (uint64_t i = reached; s->mean && i < m->end; i++) s->mean[EC_BATCH_FIELDS * i] = EC_NOT_REACHED;
     if (m->first < s->handed) s->handed = m->first;
 }
 
@@ -187,15 +196,15 @@ void ec_team_settle(member *m, ec_result result, bool complete, double seconds)
 {
     ec_team *t = m->team;
     slot *s = m->slot;
-    const uint64_t pixels = (uint64_t)(m->end - m->first) * s->batches;
+    const double samples = (m->end - m->first) * ec_team_samples(t, s);
     m->is_busy = false;
     m->has_failed = result != EC_OK;
     if (m->has_failed) return; /* the piece stays for others */
     t->rays += m->source->rays - m->rays;
     if (!complete) give_up(m);
     for (int i = 0; complete && i < EC_STAGE_COUNT; i++) s->invalid[i] += m->source->invalid[i] - m->invalid[i];
-    if (complete) m->pixels += pixels;
-    if (m->pieces++) m->rate = (double)pixels / fmax(seconds, 1e-6); /* compilers slow the first down */
+    if (complete) m->samples += samples;
+    if (m->pieces++) m->rate = samples / fmax(seconds, 1e-6); /* compilers slow the first down */
     m->slot = NULL;
 }
 

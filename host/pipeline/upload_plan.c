@@ -8,7 +8,7 @@
 uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects)
 {
     const uint64_t vertices = s->vertex_count, triangles = s->triangle_count, lights = pack->light_count;
-    const uint64_t texels = (uint64_t)pack->environment_width * pack->environment_height;
+    const uint64_t map_rows = pack->environment_height + 1ull, texels = pack->environment_width * map_rows;
     const uint64_t light = EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT;
     const uint64_t prims = pack->prim_count ? pack->prim_count : 1; /* kernels read the first where a ray met none */
     const ec_upload all[] = {
@@ -25,10 +25,10 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_TEXTURE_TABLE, pack->textures, 0, {"textures", EC_FEATURES_TEXTURED, pack->texture_count * sizeof *pack->textures}},
         {EC_ARG_TEXELS, pack->texels, 4, {"texels", EC_FEATURES_TEXTURED, pack->texel_words * 4}},
         {EC_ARG_LIGHT_TABLE, pack->lights, 0, {"lights", light, lights * sizeof *pack->lights}},
-        {EC_ARG_LIGHT_ALIAS, pack->light_alias, 0, {"light table", light, lights * sizeof *pack->light_alias}},
+        {EC_ARG_LIGHT_SHARES, pack->light_shares, 0, {"light table", light, pack->light_choices * sizeof *pack->light_shares}},
         {EC_ARG_ENVIRONMENT_TEXELS, pack->environment_texels, 0, {"environment map", EC_FEATURE_ENVIRONMENT_MAP, texels * 16}},
         {EC_ARG_ENVIRONMENT_TABLE, pack->environment_table, 0,
-         {"environment table", EC_FEATURE_ENVIRONMENT_MAP, (texels + pack->environment_height) * sizeof *pack->environment_table}},
+         {"environment table", EC_FEATURE_ENVIRONMENT_MAP, (texels + map_rows) * sizeof *pack->environment_table}},
         {EC_ARG_LIGHT_TREE, pack->light_tree, 0, {"light tree", EC_FEATURE_LIGHT_TREE, pack->light_node_count * sizeof *pack->light_tree}},
         {EC_ARG_LIGHT_TRAILS, pack->light_of_prim, 0,
          {"trails of lamps", EC_FEATURE_LIGHT_TREE, pack->light_node_count ? (uint64_t)pack->prim_count * sizeof *pack->light_of_prim : 0}},

@@ -24,7 +24,11 @@ static const char *largest_loss(double start, double messages, double end, doubl
     return names[most];
 }
 
-/* How batches come in: so many of them one by one, in blocks of 16 and of 256. */
+enum { BATCH_BYTES = 4 * EC_BATCH_FIELDS }; /* a pixel */
+
+/* How batches come in: so many of them one by one, in blocks of EC_FILM_FIRST and of 16 times that. */
+static double block_size(int level) { return EC_FILM_FIRST * pow(EC_FILM_RADIX, level - 1); }
+
 typedef struct mixture {
     double count[3];
     double largest;           /* batches of a unit */
@@ -36,7 +40,7 @@ static mixture mixture_of(const ec_plan *p, uint32_t ranks)
     mixture m = {.largest = 1};
     double left = p->batches;
     for (int i = 2; i > 0 && ranks > 1; i--) {
-        const double block = pow(EC_FILM_RADIX, i), least = block * p->batch * fmin(1, (double)p->least / (double)p->pixels);
+        const double block = block_size(i), least = block * p->batch * fmin(1, (double)p->least / (double)p->pixels);
         const double unit = block * p->batch / ranks, over = unit + fmax(fmin(unit * ranks, EC_TEAM_PIECE_SECONDS), least);
         const double kept_back = block + 2 * least * ranks / p->batch;
         const double share = over <= EC_TEAM_PATIENCE_SECONDS ? 1 : 1 - over / EC_TEAM_PATIENCE_SHARE / (p->batches * p->batch / ranks); /* of the job */
@@ -64,7 +68,8 @@ ec_plan_row ec_plan_for(const ec_plan *p, uint32_t ranks)
     const bool alone = ranks == 1;
     const double n = p->batches, pixels = (double)p->pixels, work = n * p->batch / ranks, a_byte = 1 / bytes_per_second(p);
     const mixture m = mixture_of(p, ranks);
-    const double blocks = m.count[1] / 16 + m.count[2] / 256, bytes = pixels * (12 * m.count[0] + EC_MOMENTS_BYTES * blocks);
+    const double blocks = m.count[1] / block_size(1) + m.count[2] / block_size(2);
+    const double bytes = pixels * (BATCH_BYTES * m.count[0] + (double)ec_sums_bytes(p->replicates) * blocks);
     const double piece = fmin(EC_TEAM_PIECE_SECONDS, m.largest * p->batch),
                  idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + bytes / n * piece / p->batch * a_byte;
     const double messages = work * idle / piece, end = alone ? 0 : p->batch * fmin(1, (double)p->least / pixels) + idle;
@@ -89,14 +94,14 @@ void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
 {
     char scene[32], sums[32], block[32];
     ec_format_bytes(p->scene_bytes, scene, sizeof scene);
-    ec_format_bytes(12 * p->pixels, sums, sizeof sums);
-    ec_format_bytes(EC_MOMENTS_BYTES * p->pixels, block, sizeof block);
-    fprintf(to, "job         %.0f batches of %u samples a pixel%s, %llu pixels\n", p->batches, p->samples,
+    ec_format_bytes(BATCH_BYTES * p->pixels, sums, sizeof sums);
+    ec_format_bytes(ec_sums_bytes(p->replicates) * p->pixels, block, sizeof block);
+    fprintf(to, "job         %.0f batches of %.3g samples a pixel%s, %llu pixels\n", p->batches, p->samples,
             p->batches_foretold ? " (foretold)" : "", (unsigned long long)p->pixels);
     fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, a block %.3g s, on %s\n", p->load, p->start, p->batch, p->add,
             p->add_block, device);
-    fprintf(to, "sent        scene: %s to each rank, down a tree of %d to one; sums, to rank 0: %s a batch, or %s a block of 16 or 256\n", scene, EC_TREE_FANOUT, sums,
-            block);
+    fprintf(to, "sent        scene: %s to each rank, down a tree of %d to one; sums, to rank 0: %s a batch, or %s a block of %u or %u\n", scene, EC_TREE_FANOUT, sums,
+            block, EC_FILM_FIRST, EC_FILM_FIRST * EC_FILM_RADIX);
     fprintf(
         to,
         "assumed     %g Gbit/s, %g us a message (--plan RANKS,GBIT,US); all ranks as fast as this one, started at once;\n"
@@ -124,7 +129,7 @@ ec_result ec_plan_json(const ec_plan *p, FILE *to, ec_error *err)
     ec_json_real(root, "add_seconds", p->add);
     ec_json_real(root, "add_block_seconds", p->add_block);
     ec_json_whole(root, "scene_bytes", p->scene_bytes);
-    ec_json_whole(root, "batch_bytes", 12 * p->pixels);
+    ec_json_whole(root, "batch_bytes", BATCH_BYTES * p->pixels);
     ec_json_real(root, "batches", p->batches);
     ec_json_real(root, "gbit_per_second", p->gbit);
     ec_json_real(root, "message_microseconds", p->microseconds);

@@ -17,13 +17,14 @@ typedef struct ec_plan {
     /* Measured here, in seconds. */
     double load;                   /* reading and packing the scene: rank 0 alone, once */
     double start;                  /* kernels: each rank, at the same time */
-    double batch;                  /* of rendering one on this device */
+    double batch;                  /* of rendering one of mean size on this device */
     double add, add_block;         /* of taking one, or a block (batch_source.h), into the picture, and its error: rank 0 */
     uint64_t scene_bytes;          /* that go to each rank */
     uint64_t pixels, least;        /* of the picture; of a piece of a batch, at least */
     double batches;                /* of the whole job */
     bool batches_foretold;         /* from the pilot, for an error target */
-    uint32_t samples;              /* a pixel, of a batch */
+    double samples;                /* a pixel, of a batch in the mean */
+    uint32_t replicates;
     /* Assumed. */
     double gbit, microseconds;
     uint32_t ranks;                /* the most that are asked for */

@@ -12,14 +12,16 @@ static void end(ec_remote *m)
 
 static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_letter *letter)
 {
-    const uint32_t *list = order->list ? order->list + order->done : NULL;
-    *letter = (ec_letter){.kind = EC_ORDER_BATCH, .box = EC_BOX_ORDERS, .body = (void *)list, .bytes = list ? 4ull * (order->count - order->done) : 0};
+    const uint32_t *list = order->list ? order->list + (uint64_t)EC_LIST_WORDS * order->done : NULL;
+    *letter = (ec_letter){.kind = EC_ORDER_BATCH, .box = EC_BOX_ORDERS, .body = (void *)list, .bytes = list ? 4ull * EC_LIST_WORDS * (order->count - order->done) : 0};
     pthread_mutex_lock(&m->ranks->lock);
     const uint32_t box = ++m->ranks->last_box; /* so that what was given up finds nobody */
     pthread_mutex_unlock(&m->ranks->lock);
     letter->numbers[EC_ORDER_BOX] = box;
     letter->numbers[EC_ORDER_INDEX] = order->index;
     letter->numbers[EC_ORDER_BATCHES] = order->batches;
+    letter->numbers[EC_ORDER_CUT] = order->cut;
+    letter->numbers[EC_ORDER_SAMPLES] = order->samples;
     letter->numbers[EC_ORDER_FROM] = order->done;
     letter->numbers[EC_ORDER_TO] = order->count;
     letter->numbers[EC_ORDER_FEATURES] = order->aov != NULL;
@@ -76,12 +78,12 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
     if (!*complete) return EC_OK;
     count(m, &back);
     if (order->batches > 1) {
-        const ec_moments sums = ec_moments_in(back.body, positions);
-        ec_moments_copy(order->sums, &sums, positions);
+        const ec_sums sums = ec_sums_in(back.body, order->sums->replicates, positions);
+        ec_sums_copy(order->sums, &sums, positions);
     } else {
-        memcpy(order->into, back.body, 12 * positions);
+        memcpy(order->into, back.body, 4 * EC_BATCH_FIELDS * positions);
     }
-    if (order->aov) memcpy(order->aov + EC_AOV_FIELDS * first, (float *)back.body + 3 * positions, 4 * EC_AOV_FIELDS * positions);
+    if (order->aov) memcpy(order->aov + EC_AOV_FIELDS * first, (float *)back.body + EC_BATCH_FIELDS * positions, 4 * EC_AOV_FIELDS * positions);
     free(back.body);
     return EC_OK;
 }

@@ -12,6 +12,7 @@ typedef struct server {
     ec_sources sources;
     ec_batch_source *source;  /* its devices and all below */
     uint64_t pixels;
+    uint32_t replicates;
 } server;
 
 /* Until a letter comes: that is the end of the job. */
@@ -28,12 +29,12 @@ static void write_body(const server *s, const ec_batch_order *order, const float
     const ec_batch_source *source = s->source;
     const uint64_t first = order->done, positions = order->count - first;
     if (order->batches > 1) {
-        const ec_moments sums = ec_moments_in(body, positions);
-        ec_moments_copy(&sums, &source->sums, positions);
+        const ec_sums sums = ec_sums_in(body, source->sums.replicates, positions);
+        ec_sums_copy(&sums, &source->sums, positions);
         return;
     }
-    memcpy(body, source->mean + 3 * first, 12 * positions);
-    if (aov) memcpy((float *)body + 3 * positions, aov + EC_AOV_FIELDS * first, 4 * EC_AOV_FIELDS * positions);
+    memcpy(body, source->mean + EC_BATCH_FIELDS * first, 4 * EC_BATCH_FIELDS * positions);
+    if (aov) memcpy((float *)body + EC_BATCH_FIELDS * positions, aov + EC_AOV_FIELDS * first, 4 * EC_AOV_FIELDS * positions);
 }
 
 /* The answer's body is malloc'ed. It stays NULL where the job was ended meanwhile. */
@@ -44,10 +45,11 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     const uint32_t batches = (uint32_t)letter->numbers[EC_ORDER_BATCHES];
     const uint32_t positions = (uint32_t)letter->numbers[EC_ORDER_TO] - from, first = letter->body ? 0 : from;
     const uint64_t features = letter->numbers[EC_ORDER_FEATURES] ? EC_AOV_FIELDS : 0;
-    const uint64_t bytes = (batches > 1 ? EC_MOMENTS_BYTES : 12 + 4 * features) * positions;
+    const uint64_t bytes = (batches > 1 ? ec_sums_bytes(s->replicates) : 4 * (EC_BATCH_FIELDS + features)) * positions;
     float *aov = features ? malloc(4 * features * s->pixels) : NULL, *body = malloc(bytes);
     ec_result result = body && (aov || !features) ? EC_OK : ec_fail(err, "out of memory for a batch of %u pixels", positions);
-    const ec_batch_order order = {.index = index, .end = index + batches, .batches = batches, .list = letter->body, .done = first,
+    const ec_batch_order order = {.index = index, .end = index + batches, .batches = batches, .cut = (uint32_t)letter->numbers[EC_ORDER_CUT],
+                                  .list = letter->body, .samples = (uint32_t)letter->numbers[EC_ORDER_SAMPLES], .done = first,
                                   .count = first + positions, .aov = aov, .go_on = goes_on, .user = s};
     const uint64_t rays = source->rays;
     uint32_t invalid[EC_STAGE_COUNT];
@@ -145,6 +147,7 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, const ec_log *log
     if (result == EC_OK && (count || is_inner)) {
         const ec_params *params = &s.sources.cargo.head.params;
         s.pixels = (uint64_t)params->width * params->height;
+        s.replicates = s.sources.cargo.head.replicates;
         bool fit = open_devices(infos, &count, devices, is_inner, &told, &why) == EC_OK &&
                    ec_sources_enlist(devices, count, s.sources.cargo.head.lanes, &s.sources, &stats, &why) == EC_OK &&
                    ec_sources_open(&s.sources, seed, is_inner ? &below : NULL, &told, &s.source, &stats, &why) == EC_OK &&

@@ -13,7 +13,7 @@ static void add_picture(cJSON *root, const char *key, const char *path, const ec
     ec_json_text(object, "path", path);
     ec_json_real(object, "mean_luminance", mean);
     cJSON_AddBoolToObject(object, "standard_errors", image->se != NULL);
-    ec_json_real(object, "batches", image->se ? image->batches : INFINITY);
+    ec_json_real(object, "replicates", image->se ? image->replicates : INFINITY);
 }
 
 static void add_place(cJSON *root, const char *key, const ec_noise_place *place)

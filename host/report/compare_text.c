@@ -42,10 +42,10 @@ static void print_noise_of(char name, const ec_measured *image, FILE *to)
 {
     if (!image->se)
         fprintf(to, "%c has no standard errors and counts as exact", name);
-    else if (isfinite(image->batches))
-        fprintf(to, "standard errors of %c from %.0f batches", name, image->batches);
+    else if (isfinite(image->replicates))
+        fprintf(to, "standard errors of %c from %.0f replicates", name, image->replicates);
     else
-        fprintf(to, "standard errors of %c from batches unknown, taken for many", name);
+        fprintf(to, "standard errors of %c from replicates unknown, taken for many", name);
 }
 
 static void print_noise(const ec_compare_report *report, FILE *to)
@@ -56,7 +56,7 @@ static void print_noise(const ec_compare_report *report, FILE *to)
         fputs("; ", to);
         print_noise_of('B', report->b, to);
     } else {
-        fputs("unknown: neither has standard errors (channels stderr.R, .G and .B, from two batches or more)", to);
+        fputs("unknown: neither has standard errors (channels stderr.R, .G and .B, from two replicates or more)", to);
     }
     fputc('\n', to);
 }

@@ -8,8 +8,8 @@
 void ec_merge_report_text(const ec_merge_report *r, FILE *to)
 {
     char error[32], bound[32];
-    fprintf(to, "%d %s, %llu samples a pixel in %llu batches\n", r->files, r->files == 1 ? "file" : "files",
-            (unsigned long long)r->samples_per_pixel, (unsigned long long)r->batches);
+    fprintf(to, "%d %s, %llu samples a pixel in %llu replicates\n", r->files, r->files == 1 ? "file" : "files",
+            (unsigned long long)r->samples_per_pixel, (unsigned long long)r->replicates);
     if (isfinite(r->error.error)) {
         ec_format_percent(r->error.error, error, sizeof error);
         ec_format_percent(r->error.error_bound, bound, sizeof bound);
@@ -24,7 +24,7 @@ ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err
     ec_json_text(object, "version", ECLAT_VERSION);
     ec_json_whole(object, "files", (uint64_t)r->files);
     ec_json_whole(object, "samples_per_pixel", r->samples_per_pixel);
-    ec_json_whole(object, "batches", r->batches);
+    ec_json_whole(object, "replicates", r->replicates);
     ec_json_real(object, "error", r->error.error);
     ec_json_real(object, "error_bound", r->error.error_bound);
     ec_json_real(object, "relmse", r->error.relmse);

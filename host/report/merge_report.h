@@ -10,7 +10,7 @@
 
 typedef struct ec_merge_report {
     int files;
-    uint64_t samples_per_pixel, batches, heavy_pixels;
+    uint64_t samples_per_pixel, replicates, heavy_pixels;
     ec_film_error error;
     const char *image_sha256;
     const char **outputs;

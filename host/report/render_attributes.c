@@ -137,8 +137,7 @@ static void add_result(ec_report_attributes *attributes, const ec_render_report 
 {
     const ec_render_stats *stats = report->stats;
     add_whole(attributes, "eclat.samplesPerPixel", stats->samples_per_pixel);
-    add_whole(attributes, "eclat.batch", stats->batch);
-    add_whole(attributes, "eclat.batches", report->batches);
+    add_whole(attributes, "eclat.replicates", report->replicates);
     add_whole(attributes, "eclat.lanes", stats->lanes);
     add_whole(attributes, "eclat.instances", stats->instances);
     add_whole(attributes, "eclat.triangles", stats->triangles);
@@ -150,7 +149,7 @@ static void add_result(ec_report_attributes *attributes, const ec_render_report 
     add_real(attributes, "eclat.error", stats->error);
     add_real(attributes, "eclat.errorBound", stats->error_bound);
     add_real(attributes, "eclat.relMSE", stats->relmse);
-    if (report->batches >= 2) add_whole(attributes, "eclat.heavyPixels", report->heavy_pixels);
+    if (report->replicates >= 2) add_whole(attributes, "eclat.heavyPixels", report->heavy_pixels);
     add_text(attributes, "eclat.stoppedBy", stats->stopped_by);
     add_whole(attributes, "eclat.invalid", stats->invalid_samples);
     add_whole(attributes, "eclat.invalid.generate", stats->invalid_generate);
@@ -173,15 +172,15 @@ static void add_machine(ec_report_attributes *attributes, const ec_device_info *
                  sysconf(_SC_NPROCESSORS_ONLN));
 }
 
-/* "0 NAME: 7.5 batches, 1 NAME: 8.5 batches": of several devices. */
+/* "0 NAME: 75 samples, 1 NAME: 85 samples": of several devices, a pixel in the mean. */
 static void add_shares(ec_report_attributes *attributes, const ec_render_report *report)
 {
     char text[2048] = "";
     for (uint32_t i = 0; i < report->stats->share_count; i++) {
         const ec_render_share *share = &report->stats->shares[i];
         size_t used = strlen(text);
-        snprintf(text + used, sizeof text - used, "%s%u %s: %.4g batches%s", used ? ", " : "", report->device_index[i],
-                 report->device[i].name, share->batches, share->has_failed ? " (failed)" : "");
+        snprintf(text + used, sizeof text - used, "%s%u %s: %.4g samples%s", used ? ", " : "", report->device_index[i],
+                 report->device[i].name, share->samples, share->has_failed ? " (failed)" : "");
     }
     if (*text) add_made(attributes, "eclat.devices", "%s", text);
 }

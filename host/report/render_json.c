@@ -79,7 +79,7 @@ static void add_result(cJSON *root, const ec_render_report *report)
     ec_json_real(root, "error", stats->error);
     ec_json_real(root, "error_bound", stats->error_bound);
     ec_json_real(root, "relmse", stats->relmse);
-    if (report->batches >= 2)
+    if (report->replicates >= 2)
         ec_json_whole(root, "heavy_pixels", report->heavy_pixels);
     else
         cJSON_AddNullToObject(root, "heavy_pixels");
@@ -97,12 +97,13 @@ static void add_result(cJSON *root, const ec_render_report *report)
 
 static void add_forecast(cJSON *root, const ec_forecast *f)
 {
-    if (!f->pilot_samples) {
+    if (!(f->pilot_samples > 0)) {
         cJSON_AddNullToObject(root, "forecast");
         return;
     }
     cJSON *forecast = cJSON_AddObjectToObject(root, "forecast");
-    ec_json_whole(forecast, "pilot_samples_per_pixel", f->pilot_samples);
+    ec_json_real(forecast, "pilot_samples_per_pixel", f->pilot_samples);
+    ec_json_real(forecast, "slope", f->slope);
     ec_json_real(forecast, "pilot_seconds", f->pilot_seconds);
     ec_json_real(forecast, "samples_per_pixel", f->samples);
     ec_json_real(forecast, "samples_per_pixel_low", f->samples_low);
@@ -118,6 +119,7 @@ static void add_cost(cJSON *root, const ec_render_report *report)
 {
     const ec_render_stats *stats = report->stats;
     ec_json_real(root, "seconds", stats->seconds);
+    ec_json_real(root, "cpu_seconds", stats->cpu_seconds);
     ec_json_real(root, "load_seconds", report->load_seconds);
     ec_json_real(root, "accel_seconds", stats->accel_seconds);
     ec_json_real(root, "pack_seconds", stats->pack_seconds);
@@ -139,7 +141,7 @@ static void add_shares(cJSON *root, const ec_render_report *report)
     for (uint32_t i = 0; i < stats->share_count; i++) {
         const ec_render_share *share = &stats->shares[i];
         cJSON *one = ec_device_json(&report->device[i], report->device_index[i]);
-        ec_json_real(one, "batches", share->batches);
+        ec_json_real(one, "samples_per_pixel", share->samples);
         ec_json_whole(one, "lanes", share->lanes);
         ec_json_whole(one, "wave", share->wave);
         ec_json_whole(one, "device_bytes", share->device_bytes);
@@ -161,8 +163,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     ec_json_whole(root, "triangles", report->stats->triangles);
     ec_json_whole(root, "stored_triangles", report->stats->stored_triangles);
     ec_json_whole(root, "wave", report->stats->wave);
-    ec_json_whole(root, "batch", report->stats->batch);
-    ec_json_whole(root, "batches", report->batches);
+    ec_json_whole(root, "replicates", report->replicates);
     ec_json_whole(root, "strips", report->stats->strips);
     ec_effects_json(root, &report->stats->effects);
     cJSON *device = ec_device_json(report->device, *report->device_index);
@@ -170,7 +171,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     cJSON_AddItemToObject(root, "device", device);
     add_shares(root, report);
     ec_json_whole(root, "ranks", report->stats->allies + 1);
-    ec_json_real(root, "other_ranks_batches", report->stats->allied_batches);
+    ec_json_real(root, "other_ranks_samples_per_pixel", report->stats->allied_samples);
     ec_json_whole(root, "received_bytes", report->stats->allied_bytes);
     cJSON *outputs = cJSON_AddArrayToObject(root, "outputs");
     for (int i = 0; i < report->output_count; i++) ec_json_text(outputs, NULL, report->outputs[i]);

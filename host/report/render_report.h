@@ -32,7 +32,7 @@ typedef struct ec_render_report {
     double exposure;                /* EV, of the PNG */
     ec_tonemap tonemap;
     double mean_luminance;
-    uint32_t batches;               /* independent ones; with fewer than two no error is known */
+    uint32_t replicates;            /* that have samples; with fewer than two no error is known */
     uint64_t heavy_pixels;          /* see film/interval.h */
     double load_seconds;            /* scene and environment */
     double write_seconds, total_seconds; /* known only after the files are written */

@@ -16,7 +16,7 @@ void ec_render_report_summary(const ec_render_report *report, char *text, size_t
         ec_format_percent(stats->error_bound, bound, sizeof bound);
         snprintf(error, sizeof error, "error %s (95 %% bound %s)", percent, bound);
     }
-    if (report->batches < 2) snprintf(error, sizeof error, "error unknown (it takes two batches)");
+    if (report->replicates < 2) snprintf(error, sizeof error, "error unknown (it takes two samples a pixel)");
     ec_format_seconds(stats->seconds, seconds, sizeof seconds);
     ec_format_count(stats->samples_per_second, rate, sizeof rate);
     snprintf(text, size, "%s at %" PRIu64 " samples a pixel in %s, %s samples/s", error, stats->samples_per_pixel,
@@ -48,7 +48,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
 /* How far the stated error can be trusted. Nothing to say without an error, or where every pixel can be. */
 static void print_heavy(const ec_render_report *report, FILE *to)
 {
-    if (report->batches < 2 || report->heavy_pixels == 0) return;
+    if (report->replicates < 2 || report->heavy_pixels == 0) return;
     char share[32];
     double pixels = (double)report->options->width * report->options->height;
     ec_format_percent((double)report->heavy_pixels / pixels, share, sizeof share);
@@ -96,10 +96,10 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     ec_format_bytes(report->peak_memory_bytes, memory, sizeof memory);
     ec_format_bytes(stats->allied_bytes, received, sizeof received);
     fprintf(to, "result   %s, %s rays/s\n", summary, rays);
-    if (stats->forecast.pilot_samples) {
+    if (stats->forecast.pilot_samples > 0) {
         char forecast[256];
         ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);
-        fprintf(to, "forecast %s; said after %" PRIu64 " samples\n", forecast, stats->forecast.pilot_samples);
+        fprintf(to, "forecast %s; said after %.0f samples\n", forecast, stats->forecast.pilot_samples);
     }
     if (stats->instances)
         fprintf(to, "geometry %" PRIu64 " triangles in %u instances, %" PRIu64 " of them stored\n", stats->triangles,
@@ -109,12 +109,12 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     if (!stats->share_count) fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
     for (uint32_t i = 0; i < stats->share_count; i++) {
         const ec_render_share *share = &stats->shares[i];
-        fprintf(to, "device   %s, %u lanes: %.4g of %" PRIu32 " batches%s\n", report->device[i].name, share->lanes,
-                share->batches, report->batches, share->has_failed ? ", then it failed" : "");
+        fprintf(to, "device   %s, %u lanes: %.4g of %" PRIu64 " samples a pixel%s\n", report->device[i].name, share->lanes,
+                share->samples, stats->samples_per_pixel, share->has_failed ? ", then it failed" : "");
     }
     if (stats->allies)
-        fprintf(to, "ranks    %u more: %.4g of %" PRIu32 " batches, %s received\n", stats->allies,
-                stats->allied_batches, report->batches, received);
+        fprintf(to, "ranks    %u more: %.4g of %" PRIu64 " samples a pixel, %s received\n", stats->allies,
+                stats->allied_samples, stats->samples_per_pixel, received);
     if (stats->share_count) fprintf(to, "memory   %s at the peak\n", memory);
     print_setup(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);

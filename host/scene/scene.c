@@ -9,26 +9,35 @@ static void free_strings(char **list, uint32_t count)
     free(list);
 }
 
+#define DROP(memory) (free(memory), (memory) = NULL)
+
+void ec_scene_drop_data(ec_scene *s)
+{
+    for (uint32_t i = 0; i < s->image_count; i++) {
+        if (s->images[i].lent) continue;
+        DROP(s->images[i].rgba8);
+        DROP(s->images[i].rgba16);
+    }
+    DROP(s->positions);
+    DROP(s->normals);
+    DROP(s->tangents);
+    DROP(s->uv[0]);
+    DROP(s->uv[1]);
+    DROP(s->colors);
+    DROP(s->indices);
+    DROP(s->triangle_material);
+    if (!s->environment.lent) DROP(s->environment.rgb);
+}
+
 void ec_scene_free(ec_scene *s)
 {
     if (!s) return;
+    ec_scene_drop_data(s);
     for (uint32_t i = 0; i < s->material_count; i++) free(s->materials[i].name);
     for (uint32_t i = 0; i < s->camera_count; i++) free(s->cameras[i].name);
     for (uint32_t i = 0; i < s->light_count; i++) free(s->lights[i].name);
-    for (uint32_t i = 0; i < s->image_count; i++) {
-        if (s->images[i].lent) continue;
-        free(s->images[i].rgba8);
-        free(s->images[i].rgba16);
-        free(s->images[i].name);
-    }
-    free(s->positions);
-    free(s->normals);
-    free(s->tangents);
-    free(s->uv[0]);
-    free(s->uv[1]);
-    free(s->colors);
-    free(s->indices);
-    free(s->triangle_material);
+    for (uint32_t i = 0; i < s->image_count; i++)
+        if (!s->images[i].lent) free(s->images[i].name);
     free(s->shapes);
     free(s->placed);
     free(s->parts);
@@ -38,7 +47,6 @@ void ec_scene_free(ec_scene *s)
     free(s->images);
     free(s->lights);
     free(s->cameras);
-    if (!s->environment.lent) free(s->environment.rgb);
     ec_motion_free(&s->motion);
     free_strings(s->extensions_used, s->extension_count);
     free_strings(s->extensions_ignored, s->extension_ignored_count);

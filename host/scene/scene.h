@@ -247,6 +247,9 @@ ec_result ec_animation_show(ec_animation *animation, const ec_scene_choice *choi
 /* SHA-256 over all files that it is made of, whether they are shown or not: in hexadecimal. */
 void ec_animation_digest(const ec_animation *animation, char digest[65]);
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
+/* Frees what only those look at who make a cargo of it: vertices, triangles, pixels of images and of the environment. Counts, names, cameras,
+ * lights and materials stay. */
+void ec_scene_drop_data(ec_scene *scene);
 void ec_motion_free(ec_motion *motion); /* leaves none */
 
 /* Triangles that stand in the world as they are stored: those before the shapes'. */

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "film/resolve.h"
 #include "image/image.h"
 #include "scene/model.h"
 #include "selftest/shot.h"
@@ -20,27 +21,24 @@ static ec_result lamp(double radiance, ec_scene **scene, ec_error *err)
 }
 
 static ec_result lamp_row(ec_selftest *t, const char *what, double radiance, double expected, uint32_t size,
-                          uint32_t spp, uint32_t batch, ec_error *err)
+                          uint32_t spp, ec_error *err)
 {
     ec_scene *scene;
     EC_TRY(lamp(radiance, &scene, err));
     ec_render_options o = ec_shot_options(t, size, spp);
     o.max_depth = 1;
-    o.batch = batch;
     return ec_shot_only_row(t, what, scene, &o, expected, err);
 }
 
-/* Batches are summed in float, their means in double. In one batch of 2^18 the error of plain float sums is 2.5e-3, of sums of sums of 64
- * still 4e-5. */
+/* Samples are summed in float batch by batch, batches averaged in float in groups (film/parts.h). */
 ec_result ec_selftest_sums(ec_selftest *t, ec_error *err)
 {
-    EC_TRY(lamp_row(t, "65 536 samples a pixel", 0.1, (double)0.1f, 4, 65536, 0, err));
-    return lamp_row(t, "2^18 samples in one batch", 0.1, (double)0.1f, 1, 1u << 18, 1u << 18, err);
+    return lamp_row(t, "65 536 samples a pixel", 0.1, (double)0.1f, 4, 65536, err);
 }
 
 ec_result ec_selftest_many_samples(ec_selftest *t, ec_error *err)
 {
-    EC_TRY(lamp_row(t, "2^23 samples a pixel, 2^27 in all", 0.1, (double)0.1f, 4, 1u << 23, 0, err));
+    EC_TRY(lamp_row(t, "2^23 samples a pixel, 2^27 in all", 0.1, (double)0.1f, 4, 1u << 23, err));
     ec_model *m = ec_model_new();
     ec_scene *scene;
     if (m) {
@@ -63,15 +61,14 @@ static ec_result bright_sky(ec_selftest *t, double radiance, ec_error *err)
     scene->cameras[0].forward[2] = -scene->cameras[0].forward[2];
     ec_render_options o = ec_shot_options(t, 4, 64);
     o.max_depth = 1;
-    o.batch = 16;
     return ec_shot_only_row(t, "sky of 1e38", scene, &o, (double)(float)radiance, err);
 }
 
 /* The loader takes no emission over 1e30, with a warning: products with it are to stay finite. */
 ec_result ec_selftest_range(ec_selftest *t, ec_error *err)
 {
-    EC_TRY(lamp_row(t, "lamp of 1e38, taken for 1e30", 1e38, 1e30, 4, 64, 0, err));
-    EC_TRY(lamp_row(t, "lamp of 2e-38", 2e-38, 2e-38, 4, 64, 0, err));
+    EC_TRY(lamp_row(t, "lamp of 1e38, taken for 1e30", 1e38, 1e30, 4, 64, err));
+    EC_TRY(lamp_row(t, "lamp of 2e-38", 2e-38, 2e-38, 4, 64, err));
     return bright_sky(t, 1e38, err);
 }
 
@@ -80,18 +77,18 @@ ec_result ec_selftest_variance(ec_selftest *t, ec_error *err)
 {
     ec_film film;
     float error[3];
-    uint32_t batches = 1000;
-    EC_TRY(ec_film_create(&film, 1, 1, 1, err));
+    const uint32_t replicates = 8, batches = 125 * replicates;
+    EC_TRY(ec_film_create(&film, 1, 1, replicates, err));
     ec_result result = EC_OK;
     for (uint32_t i = 0; i < batches && result == EC_OK; i++) {
         float x = i % 2 ? 100.1f : 99.9f;
-        result = ec_film_add_batch(&film, (float[3]){x, x, x}, err);
+        result = ec_film_add(&film, i, (float[EC_BATCH_FIELDS]){x, x, x, x, 1, 1}, err);
     }
     ec_film_resolve(&film, NULL, error);
     ec_film_destroy(&film);
     if (result != EC_OK) return result;
-    return ec_selftest_value(t, "mean 100, deviation 0.1", 0.1 / sqrt(batches - 1.0), (double)error[1], 0,
-                             1e-4 * 0.1 / sqrt(batches), err);
+    return ec_selftest_value(t, "mean 100, deviation 0.1", 0.1 / sqrt(replicates - 1.0), (double)error[1], 0,
+                             1e-4 * 0.1 / sqrt(replicates), err);
 }
 
 /* A texture of all 256 sRGB values as an unlit surface, a texel a pixel. */

@@ -29,7 +29,7 @@ typedef struct ec_precision_row {
     float measured;
 } ec_precision_row;
 
-enum { EC_PRECISION_ROWS = 96 };
+enum { EC_PRECISION_ROWS = 104 };
 
 /* Kernels built for `lanes` paths a work-item. rows: room for EC_PRECISION_ROWS; most digits lost first. */
 ec_result ec_precision_run(ec_cl *cl, uint32_t lanes, ec_precision_row *rows, uint32_t *count, ec_error *err);

@@ -80,6 +80,7 @@ const ec_precision_case ec_precision_cases[] = {
     {"light_from_centre", "light_from_centre", "light_centre.h", ec_inputs_light, 21, BIT(15) | BIT(16), 0, 32, {EACH("irradiance", 0, 3)}},
     {"light_sample_punctual", "light_sample_punctual", "light.h", ec_inputs_spot, 19, BIT(15) | BIT(16), 0, 16, {VECTOR("wi", 0), EACH("irradiance", 3, 3)}},
     {"environment_uv", "environment_uv", "environment.h", ec_inputs_direction, 3, 0, 0, 12, {SCALED("u", 0, 1), EACH("v", 2, 1)}},
+    {"patch_across, patch_along", "patch", "patch.h", ec_inputs_patch, 5, 0, 0, 24, {SCALED("across", 0, 1), SCALED("along", 2, 1)}},
     {"environment_look_up", "environment_look_up", "environment.h", ec_inputs_direction, 3, 0, 0, 32, {VECTOR("radiance", 0), EACH("pdf", 3, 1)}},
     {"environment_sample", "environment_sample", "environment.h", ec_inputs_sample, 2, BIT(0) | BIT(1), 0, 32, {VECTOR("wi", 0), VECTOR("radiance", 3), EACH("pdf", 6, 1)}},
     {"environment_sample, constant", "environment_sample_constant", "environment.h", ec_inputs_sample, 2, BIT(0) | BIT(1), 0, 8, {EACH("wi", 0, 3)}},
@@ -120,15 +121,14 @@ static void put_even_table(float *entries, uint32_t n)
 void ec_precision_fill(float *memory, ec_params *params)
 {
     uint64_t random = 1;
-    uint32_t texels = EC_PRECISION_MAP_WIDTH * EC_PRECISION_MAP_HEIGHT;
+    const uint32_t rows = EC_PRECISION_MAP_HEIGHT + 1, texels = EC_PRECISION_MAP_WIDTH * rows;
     for (uint32_t i = 0; i < texels; i++) {
         for (int k = 0; k < 3; k++) memory[EC_PRECISION_MAP + 4 * i + k] = (float)ec_random_between(&random, 1, 2);
         memory[EC_PRECISION_MAP + 4 * i + 3] = 1.0f / (float)texels; /* alike, so that no density jumps between texels */
     }
-    put_even_table(memory + EC_PRECISION_TABLE, EC_PRECISION_MAP_HEIGHT);
-    for (uint32_t y = 0; y < EC_PRECISION_MAP_HEIGHT; y++)
-        put_even_table(memory + EC_PRECISION_TABLE + 2 * (EC_PRECISION_MAP_HEIGHT + y * EC_PRECISION_MAP_WIDTH),
-                       EC_PRECISION_MAP_WIDTH);
+    put_even_table(memory + EC_PRECISION_TABLE, rows);
+    for (uint32_t y = 0; y < rows; y++)
+        put_even_table(memory + EC_PRECISION_TABLE + 2 * (rows + y * EC_PRECISION_MAP_WIDTH), EC_PRECISION_MAP_WIDTH);
     for (uint32_t id = 0; id < 3; id++) put_texture(memory, id, id);
     for (uint32_t i = 0; i < 4 * EC_PRECISION_TEXTURE_SIZE * EC_PRECISION_TEXTURE_SIZE; i++) {
         double is_z = i % 4 == 2; /* a normal map of moderate slopes */

@@ -18,6 +18,6 @@ ec_precision_inputs ec_inputs_interface, ec_inputs_refraction, ec_inputs_opaque,
 
 /* precision_inputs_scene.c: triangles, lights, maps, the camera */
 ec_precision_inputs ec_inputs_hit, ec_inputs_mapped_hit, ec_inputs_values, ec_inputs_offset, ec_inputs_box, ec_inputs_triangle,
-    ec_inputs_light, ec_inputs_spot, ec_inputs_sample, ec_inputs_texture, ec_inputs_slot, ec_inputs_edge;
+    ec_inputs_light, ec_inputs_spot, ec_inputs_patch, ec_inputs_sample, ec_inputs_texture, ec_inputs_slot, ec_inputs_edge;
 
 #endif

@@ -172,6 +172,15 @@ void ec_inputs_spot(uint64_t *random, float *x)
 }
 
 /* 32 bits that are no NaN, two numbers. */
+/* Luminances of any contrast; the second linear function is a sine's, and may begin at 0: from there on it is steepest. */
+void ec_inputs_patch(uint64_t *random, float *x)
+{
+    for (int k = 0; k < 2; k++) x[k] = (float)ec_draw_log(random, 1e-6, 1);
+    x[3] = (float)ec_draw_log(random, 1e-3, 1);
+    x[2] = (float)(x[3] * (ec_random_unit(random) < 0.25 ? 0 : ec_random_between(random, 1.0 / 3, 1)));
+    x[4] = (float)ec_draw_unit(random);
+}
+
 void ec_inputs_sample(uint64_t *random, float *x)
 {
     for (int k = 0; k < 2; k++) x[k] = ec_float_of_bits((uint32_t)(ec_draw_unit(random) * 0x1p32) & 0xbfffffffu); /* not the bits of NaNs */

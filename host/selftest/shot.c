@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "film/resolve.h"
 #include "shared/features.h"
 
 /* What most cases call for. Textures, coverage and further lobes are left out: kernels with all effects take PoCL 20 s to build. */

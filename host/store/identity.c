@@ -32,7 +32,7 @@ void ec_identity_of(const ec_render_options *o, const ec_content *content, ec_id
     add(identity, "version", ECLAT_VERSION);
     if (content) add(identity, contents[EC_CONTENT_KERNELS], "%s", content->digest[EC_CONTENT_KERNELS]);
     add(identity, "--size", "%ux%u", o->width, o->height);
-    add(identity, "--batch", "%u", ec_render_batch(o));
+    add(identity, "--replicates", "%u", ec_render_replicates(o));
     add(identity, "--seed", "%" PRIu64, o->seed);
     add(identity, "--adaptive", "%s", o->adaptive ? "on" : "off");
     add(identity, "--integrator", "%s", ec_integrator_names[o->integrator]);

@@ -5,41 +5,24 @@
 const char *const ec_feature_channels[EC_FEATURE_CHANNELS] = {"albedo.R", "albedo.G", "albedo.B", "normal.X",
                                                               "normal.Y", "normal.Z", "depth.Z",  "A"};
 
-static const char *const doubles[7][2] = {{"mean.R.low", "mean.R.high"}, {"mean.G.low", "mean.G.high"},
-                                          {"mean.B.low", "mean.B.high"}, {"m2.R.low", "m2.R.high"},
-                                          {"m2.G.low", "m2.G.high"},     {"m2.B.low", "m2.B.high"},
-                                          {"m2.Y.low", "m2.Y.high"}};
+static const char *const fields[EC_BATCH_FIELDS] = {"R", "G", "B", "largest.Y", "squares.Y", "fourths.Y"};
 
-/* A double's two halves; the low one comes first in memory where bytes do. */
-static void add_halves(ec_channel *to, const char *const names[2], const double *first, uint32_t stride)
-{
-    const union {
-        uint16_t number;
-        uint8_t bytes[2];
-    } order = {1};
-    const float *words = (const float *)first;
-    int low = order.bytes[0] ? 0 : 1;
-    to[0] = (ec_channel){names[0], words + low, 2 * stride, true};
-    to[1] = (ec_channel){names[1], words + 1 - low, 2 * stride, true};
-}
-
-uint32_t ec_sum_channels(const ec_moments *m, const uint32_t *counts, ec_channel channels[EC_SUM_CHANNELS])
+uint32_t ec_sum_channels(const ec_sums *sums, const uint32_t *counts, ec_channel_name names[EC_SUM_CHANNELS], ec_channel channels[EC_SUM_CHANNELS])
 {
     uint32_t n = 0;
-    for (int c = 0; c < 3; c++, n += 2) add_halves(channels + n, doubles[c], m->mean + c, 3);
-    for (int c = 0; c < 4; c++, n += 2) add_halves(channels + n, doubles[3 + c], m->m2 + c, 4);
-    channels[n++] = (ec_channel){"m3.Y", m->m34, 2, false};
-    channels[n++] = (ec_channel){"m4.Y", m->m34 + 1, 2, false};
-    channels[n++] = (ec_channel){"largest.Y", m->largest, 1, false};
+    for (; n < 3 * sums->replicates; n++) {
+        snprintf(names[n].text, sizeof names[n].text, "replicate %02u.%s", n / 3, fields[n % 3]);
+        channels[n] = (ec_channel){names[n].text, ec_sums_mean(sums, n / 3, 0) + n % 3, 3, false};
+    }
+    for (uint32_t i = 0; i < 3; i++, n++) channels[n] = (ec_channel){fields[3 + i], sums->tail + i, 3, false};
     if (counts) channels[n++] = (ec_channel){"count", (const float *)counts, 1, true};
     return n;
 }
 
-uint32_t ec_batch_channels(const float *batch, ec_channel channels[3])
+uint32_t ec_batch_channels(const float *batch, ec_channel channels[EC_BATCH_FIELDS])
 {
-    static const char *const names[] = {"R", "G", "B"};
-    for (int c = 0; c < 3; c++) channels[c] = (ec_channel){names[c], batch + c, 3, false};
-    return 3;
+    for (int c = 0; c < EC_BATCH_FIELDS; c++) channels[c] = (ec_channel){fields[c], batch + c, EC_BATCH_FIELDS, false};
+    return EC_BATCH_FIELDS;
 }
 
 void ec_sum_part_name(uint32_t index, char name[24])

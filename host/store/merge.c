@@ -49,6 +49,11 @@ static ec_result check_same_job(const ec_merge *merge, const ec_stored *next, co
     return EC_OK;
 }
 
+static unsigned long long samples_before(const ec_film *film, uint64_t batch)
+{
+    return ec_schedule_samples(film->replicates, (uint32_t)batch);
+}
+
 /* From the first to the last batch that it has in common with one other file. */
 static ec_result check_ranges(const ec_merge *merge, const ec_film *film, const char *path, ec_error *err)
 {
@@ -67,7 +72,16 @@ static ec_result check_ranges(const ec_merge *merge, const ec_film *film, const 
         }
     if (!other) return EC_OK;
     return ec_fail(err, "'%s' and '%s' both have samples %llu:%llu; leave one of them out", other, path,
-                   (unsigned long long)from * film->samples_per_batch, (unsigned long long)to * film->samples_per_batch);
+                   samples_before(film, from), samples_before(film, to));
+}
+
+/* The end of a job within a batch is the end of the picture too. */
+static ec_result check_end(const ec_merge *merge, const ec_film *next, const char *path, ec_error *err)
+{
+    const ec_film *all = &merge->all.film, *ended = all->cut ? all : next;
+    if (!ended->cut || ec_film_end(ended == all ? next : all) <= ec_film_end(ended)) return EC_OK;
+    return ec_fail(err, "'%s' and '%s': one ends within a batch, after %llu samples a pixel, and the other goes on behind that; leave one of them out",
+                   merge->first_path, path, samples_before(ended, ec_film_end(ended)) - ended->cut);
 }
 
 static ec_result note_ranges(ec_merge *merge, const ec_film *film, const char *path, ec_error *err)
@@ -105,11 +119,11 @@ ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec
         merge->first_path = path;
         next.past.under_way = 0; /* no part of the picture */
         merge->all = next;
-        merge->all.film.shows_late = true;
         return EC_OK;
     }
     EC_TRY_CLEANUP(check_same_job(merge, &next, path, log, err));
     EC_TRY_CLEANUP(check_ranges(merge, &next.film, path, err));
+    EC_TRY_CLEANUP(check_end(merge, &next.film, path, err));
     EC_TRY_CLEANUP(note_ranges(merge, &next.film, path, err));
     add_past(&merge->all, &next);
     merge->all.job.merged = true;
@@ -133,16 +147,18 @@ enum { FOR_THE_REST = 80 }; /* bytes: of one range, and how many more there are 
 bool ec_merge_missing(const ec_merge *merge, char *text, size_t size)
 {
     const ec_film *film = &merge->all.film;
-    uint64_t batch = film->samples_per_batch, at = 0, end = (merge->all.job.spp + batch - 1) / batch;
-    uint32_t untold = 0;
+    uint32_t untold = 0, before;
+    const uint64_t spp = merge->all.job.spp;
+    uint64_t at = 0, end = ec_schedule_find(film->replicates, spp, &before);
+    if (before) end++;
     text[0] = 0;
     if (film->counts) return false;
     for (uint32_t i = 0; i <= film->part_count; i++) {
         bool is_last = i == film->part_count, has_room = strlen(text) + FOR_THE_REST < size;
         uint64_t next = is_last ? end : film->parts[i].first;
         if (next > at && has_room)
-            append(text, size, "%s%llu:%llu", *text ? ", " : "", (unsigned long long)(at * batch),
-                   (unsigned long long)(next * batch));
+            append(text, size, "%s%llu:%llu", *text ? ", " : "", samples_before(film, at),
+                   next == end ? (unsigned long long)spp : samples_before(film, next));
         untold += next > at && !has_room;
         if (!is_last) at = (uint64_t)film->parts[i].first + film->parts[i].count;
     }

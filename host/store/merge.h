@@ -11,7 +11,7 @@ typedef struct ec_merge_range {
 } ec_merge_range;
 
 typedef struct ec_merge {
-    ec_stored all;          /* the first file's job, and all films; its film shows late */
+    ec_stored all;          /* the first file's job, and all films */
     const char *first_path;
     ec_merge_range *ranges; /* owned */
     uint32_t range_count;

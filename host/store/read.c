@@ -1,4 +1,5 @@
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 
 #include "image/exr_header.h"
@@ -20,25 +21,20 @@ static ec_result no_memory(const char *path, ec_error *err)
     return ec_fail(err, "cannot read '%s': its film does not fit into memory", path);
 }
 
-static bool are_between(double low, double high, const double *values, uint64_t count)
+/* Sums are averages of finite floats (film/sums.h sees to it); tails are sums of what is 0 to 1, of so many samples. */
+static ec_result check_sums(const char *path, const ec_sums *sums, uint64_t pixels, ec_error *err)
 {
     bool all = true;
-    for (uint64_t i = 0; i < count; i++) all &= values[i] >= low && values[i] <= high; /* NaN is not */
-    return all;
-}
-
-/* Batches are finite floats (ec_film_add_batch sees to it), so this is what can come of them. Third and fourth moments may leave the range. */
-static ec_result check_sums(const char *path, const ec_moments *sums, uint64_t pixels, ec_error *err)
-{
-    const double most = FLT_MAX, square = most * most * UINT32_MAX;
-    if (are_between(-most, most, sums->mean, 3 * pixels) && are_between(0, square, sums->m2, 4 * pixels)) return EC_OK;
+    for (uint64_t i = 0; i < 3ull * sums->replicates * pixels; i++) all &= fabsf(sums->mean[i]) <= FLT_MAX; /* NaN is not */
+    for (uint64_t i = 0; i < 3 * pixels; i++) all &= sums->tail[i] >= 0 && sums->tail[i] <= FLT_MAX;
+    if (all) return EC_OK;
     return ec_fail(err, "cannot read '%s': sums in it are none of any samples; take an older file or render it again", path);
 }
 
 static ec_result read_batch(ec_exr_file *file, const char *path, const char *part, uint64_t pixels, float **batch, ec_error *err)
 {
-    ec_channel channels[3];
-    *batch = calloc(pixels * 3, sizeof **batch); /* it goes by a const pointer, as what is written does */
+    ec_channel channels[EC_BATCH_FIELDS];
+    *batch = calloc(pixels * EC_BATCH_FIELDS, sizeof **batch); /* it goes by a const pointer, as what is written does */
     if (!*batch) return no_memory(path, err);
     return fill(file, part, channels, ec_batch_channels(*batch, channels), err);
 }
@@ -48,27 +44,46 @@ static ec_result read_part(ec_exr_file *file, const char *path, uint32_t index, 
     uint64_t pixels = (uint64_t)film->width * film->height;
     char name[24];
     ec_channel channels[CHANNELS_MOST];
+    ec_channel_name names[CHANNELS_MOST];
     ec_sum_part_name(index, name);
     if (ec_film_part_is_batch(part->first, part->count)) {
         EC_TRY(read_batch(file, path, name, pixels, &part->batch, err));
     } else {
-        if (!ec_moments_create(&part->sums, pixels)) return no_memory(path, err);
-        EC_TRY(fill(file, name, channels, ec_sum_channels(&part->sums, NULL, channels), err));
+        if (!ec_sums_create(&part->sums, film->replicates, pixels)) return no_memory(path, err);
+        EC_TRY(fill(file, name, channels, ec_sum_channels(&part->sums, film->counts, names, channels), err));
         EC_TRY(check_sums(path, &part->sums, pixels, err));
     }
     return ec_film_insert(film, part, err);
 }
 
+static ec_result no_sense(const char *path, ec_error *err)
+{
+    return ec_fail(err, "cannot read '%s': its parts are not of its batches; take an older file", path);
+}
+
+static ec_result check_counts(const char *path, const ec_film *film, ec_error *err)
+{
+    const uint64_t pixels = film->counts ? (uint64_t)film->width * film->height : 0;
+    if (pixels && film->batch_count % film->replicates) return no_sense(path, err);
+    for (uint64_t p = 0; p < pixels; p++)
+        if (film->counts[p] < film->samples[0])
+            return ec_fail(err, "cannot read '%s': pixels have fewer samples than all of them; take an older file", path);
+    return EC_OK;
+}
+
 static ec_result read_parts(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
 {
+    if (state->has_counts && !(film->counts = calloc((uint64_t)film->width * film->height, sizeof *film->counts))) return no_memory(path, err);
     for (uint32_t i = 0; i < state->part_count; i++) {
         ec_result result = read_part(file, path, i, &state->parts[i], film, err);
         if (result == EC_OK) continue;
         ec_film_part_free(&state->parts[i]);
         return result;
     }
-    if (film->batch_count == state->batch_count) return EC_OK;
-    return ec_fail(err, "cannot read '%s': its parts are not of its batches; take an older file", path);
+    if (film->batch_count != state->batch_count) return no_sense(path, err);
+    if (state->cut && state->cut >= ec_schedule_batch(film->replicates, ec_film_end(film) - 1).samples) return no_sense(path, err);
+    if (state->cut) ec_film_set_cut(film, state->cut);
+    return check_counts(path, film, err);
 }
 
 static ec_result read_weights(ec_exr_file *file, const char *path, ec_stored *s, ec_error *err)
@@ -84,24 +99,6 @@ static ec_result read_under_way(ec_exr_file *file, const char *path, ec_stored *
     ec_result result = read_batch(file, path, "under way", (uint64_t)s->film.width * s->film.height, &batch, err);
     s->past.batch = batch;
     return result;
-}
-
-static ec_result read_counted(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
-{
-    uint64_t pixels = (uint64_t)film->width * film->height;
-    char name[24];
-    ec_channel channels[CHANNELS_MOST];
-    film->counts = calloc(pixels, sizeof *film->counts);
-    if (!film->counts) return no_memory(path, err);
-    const ec_moments shown = {film->mean, film->m2, film->m34, film->largest};
-    ec_sum_part_name(0, name);
-    EC_TRY(fill(file, name, channels, ec_sum_channels(&shown, film->counts, channels), err));
-    EC_TRY(check_sums(path, &shown, pixels, err));
-    film->batch_count = state->batch_count;
-    for (uint64_t p = 0; p < pixels; p++)
-        if (film->counts[p] < film->batch_count)
-            return ec_fail(err, "cannot read '%s': pixels have fewer batches than all of them; take an older file", path);
-    return EC_OK;
 }
 
 static ec_result read_features(ec_exr_file *file, const char *path, ec_film *film, ec_error *err)
@@ -128,14 +125,13 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
         result = ec_fail(err, "cannot read '%s': it is no checkpoint or slice of eclat's; give the file that --checkpoint or --samples wrote",
                          path);
     else result = ec_state_read(text, path, s, &state, err);
-    if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.samples_per_batch, err);
-    if (result == EC_OK)
-        result = state.has_counts ? read_counted(file, path, &state, &s->film, err)
-                                  : read_parts(file, path, &state, &s->film, err);
+    if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.replicates, err);
+    if (result == EC_OK) result = read_parts(file, path, &state, &s->film, err);
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);
     if (result == EC_OK) s->film.invalid_count = state.invalid_count;
-    if (result == EC_OK) result = read_features(file, path, &s->film, err);
+    if (result == EC_OK && state.aov_batches) result = read_features(file, path, &s->film, err);
+    if (s->film.aov) s->film.aov_batches = state.aov_batches;
     free(state.parts);
     ec_exr_close(file);
     if (result != EC_OK) ec_stored_free(s);
@@ -149,7 +145,7 @@ bool ec_store_peek(const char *path, ec_stored *s, uint32_t *first)
     char *text = ec_exr_whole_text(path, "eclat.state");
     bool can_be_read = text && ec_state_read(text, path, s, &film, NULL) == EC_OK;
     *first = can_be_read && film.part_count ? film.parts[0].first : 0;
-    if (can_be_read) s->film.samples_per_batch = film.samples_per_batch, s->film.batch_count = film.batch_count;
+    if (can_be_read) s->film.replicates = film.replicates, s->film.batch_count = film.batch_count;
     free(text);
     free(film.parts);
     return can_be_read;

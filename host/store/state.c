@@ -8,7 +8,7 @@
 
 #include "store/layout.h"
 
-enum { FORMAT = 1 };
+enum { FORMAT = 2 };
 
 static void add_count(cJSON *object, const char *name, uint64_t value)
 {
@@ -30,7 +30,17 @@ static void add_job(cJSON *state, const ec_job *job)
     cJSON_AddNumberToObject(state, "timeLimit", job->time_limit);
     cJSON_AddNumberToObject(state, "first", job->first);
     cJSON_AddNumberToObject(state, "end", job->end);
+    cJSON_AddNumberToObject(state, "endCut", job->cut);
     cJSON_AddBoolToObject(state, "merged", job->merged);
+}
+
+/* A deviation of 0: there is none yet. */
+static void add_slope(cJSON *state, const ec_slope *s)
+{
+    cJSON_AddNumberToObject(state, "slope", s->value);
+    cJSON_AddNumberToObject(state, "slopeDeviation", isfinite(s->deviation) ? s->deviation : 0);
+    cJSON_AddItemToObject(state, "slopeSamples", cJSON_CreateDoubleArray(s->samples, (int)s->count));
+    cJSON_AddItemToObject(state, "slopeSquares", cJSON_CreateDoubleArray(s->square, (int)s->count));
 }
 
 static void add_past(cJSON *state, const ec_past *past)
@@ -46,6 +56,7 @@ static void add_past(cJSON *state, const ec_past *past)
     cJSON_AddBoolToObject(state, "hasWeights", past->allotment.weight != NULL);
     cJSON_AddNumberToObject(state, "gain", past->allotment.gain);
     cJSON_AddNumberToObject(state, "level", past->allotment.level);
+    add_slope(state, &past->slope);
 }
 
 static void add_film(cJSON *state, const ec_film *film)
@@ -55,7 +66,9 @@ static void add_film(cJSON *state, const ec_film *film)
         const int range[2] = {(int)film->parts[i].first, (int)film->parts[i].count};
         cJSON_AddItemToArray(parts, cJSON_CreateIntArray(range, 2));
     }
-    cJSON_AddNumberToObject(state, "batch", film->samples_per_batch);
+    cJSON_AddNumberToObject(state, "replicates", film->replicates);
+    cJSON_AddNumberToObject(state, "cut", film->cut);
+    cJSON_AddNumberToObject(state, "featureBatches", film->aov_batches);
     cJSON_AddNumberToObject(state, "batches", film->batch_count);
     cJSON_AddBoolToObject(state, "hasCounts", film->counts != NULL);
     add_count(state, "invalidValues", film->invalid_count);
@@ -146,7 +159,31 @@ static void read_job(reader *r, ec_job *job)
     job->time_limit = number(r, "timeLimit", 1e12);
     job->first = whole(r, "first");
     job->end = whole(r, "end");
+    job->cut = whole(r, "endCut");
     job->merged = flag(r, "merged");
+}
+
+/* Numbers of any sign, EC_SLOPE_ROUNDS at most; how many there are. */
+static uint32_t reals(reader *r, const char *name, double *values)
+{
+    const cJSON *item, *array = cJSON_GetObjectItemCaseSensitive(r->state, name);
+    uint32_t n = 0;
+    r->is_wrong |= !cJSON_IsArray(array);
+    cJSON_ArrayForEach(item, array) {
+        r->is_wrong |= !cJSON_IsNumber(item) || !isfinite(item->valuedouble) || n == EC_SLOPE_ROUNDS;
+        if (r->is_wrong) return 0;
+        values[n++] = item->valuedouble;
+    }
+    return n;
+}
+
+static void read_slope(reader *r, ec_slope *s)
+{
+    const double deviation = number(r, "slopeDeviation", 1e12);
+    s->value = number(r, "slope", 1e12);
+    s->deviation = deviation > 0 ? deviation : INFINITY;
+    s->count = reals(r, "slopeSamples", s->samples);
+    r->is_wrong |= reals(r, "slopeSquares", s->square) != s->count;
 }
 
 static void read_past(reader *r, ec_past *past)
@@ -161,22 +198,24 @@ static void read_past(reader *r, ec_past *past)
     past->allotted = flag(r, "allotted");
     past->allotment.gain = number(r, "gain", 1);
     past->allotment.level = number(r, "level", 1e12);
+    read_slope(r, &past->slope);
 }
 
-/* A checkpoint within the first batch has no parts yet. */
-static void read_film(reader *r, const ec_past *past, ec_state_film *film)
+static void read_film(reader *r, ec_state_film *film)
 {
     const cJSON *item, *parts = cJSON_GetObjectItemCaseSensitive(r->state, "parts");
-    film->samples_per_batch = whole(r, "batch");
+    film->replicates = whole(r, "replicates");
+    film->cut = whole(r, "cut");
+    film->aov_batches = whole(r, "featureBatches");
     film->batch_count = whole(r, "batches");
     film->has_counts = flag(r, "hasCounts");
     film->has_weights = flag(r, "hasWeights");
     film->invalid_count = count(r, "invalidValues");
     int most = cJSON_GetArraySize(parts);
     film->parts = calloc((size_t)most + 1, sizeof *film->parts);
-    const bool is_empty = film->batch_count == 0;
-    r->is_wrong |= !film->parts || film->samples_per_batch == 0 || (is_empty && (film->has_counts || !past->under_way)) ||
-                   (most == 0) != (film->has_counts || is_empty);
+    const bool fits = film->replicates >= 1 && film->replicates <= EC_REPLICATES_MOST && (film->batch_count >= 1) == (most >= 1) &&
+                      (most >= 1 || !film->cut) && film->aov_batches <= film->replicates && film->cut < EC_BATCH_MOST && (most == 1 || !film->has_counts);
+    r->is_wrong |= !film->parts || !fits;
     if (r->is_wrong) return;
     cJSON_ArrayForEach(item, parts) {
         ec_film_part *part = &film->parts[film->part_count++];
@@ -193,12 +232,13 @@ ec_result ec_state_read(const char *text, const char *path, ec_stored *s, ec_sta
     double format = cJSON_GetNumberValue(cJSON_GetObjectItemCaseSensitive(state, "format"));
     ec_result result = EC_OK;
     if (format != FORMAT) {
-        result = ec_fail(err, "cannot read '%s': it was written by another version of eclat (format %g, this one reads %d); use that version",
+        result = ec_fail(err, "cannot read '%s': it was written by another version of eclat (format %g, this one reads %d); use that version, or render anew",
                          path, format, FORMAT);
     } else {
         read_job(&r, &s->job);
         read_past(&r, &s->past);
-        read_film(&r, &s->past, film);
+        read_film(&r, film);
+        r.is_wrong |= !film->batch_count && !s->past.under_way;
         if (r.is_wrong)
             result = ec_fail(err, "cannot read '%s': what it says of its sums makes no sense; take an older file or render it again", path);
     }

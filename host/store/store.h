@@ -17,6 +17,7 @@ typedef struct ec_job {
     uint32_t spp;         /* samples a pixel of the whole job; 0: not limited by them */
     double error_target, time_limit; /* other limits; 0: none */
     uint32_t first, end;  /* batches of the slice; end 0: none was asked for */
+    uint32_t cut;         /* samples that its last batch lacks */
     bool merged;          /* of several files: not to be gone on with */
 } ec_job;
 
@@ -32,7 +33,7 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
 
 /* Fails with one line for whatever is not as it was written. */
 ec_result ec_store_read(const char *path, ec_stored *stored, ec_error *err);
-/* By its header alone: job, past, and of the film how many batches of how many samples; its first batch. False where it cannot be read, which
+/* By its header alone: job, past, and of the film how many batches; its first batch. False where it cannot be read, which
  * ec_store_read would give a reason for. Free it in either case. */
 bool ec_store_peek(const char *path, ec_stored *stored, uint32_t *first);
 void ec_stored_free(ec_stored *stored); /* zero-initialised is fine */

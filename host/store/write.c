@@ -5,6 +5,7 @@
 
 typedef struct sum_part {
     char name[24];
+    ec_channel_name names[EC_SUM_CHANNELS];
     ec_channel channels[EC_SUM_CHANNELS];
 } sum_part;
 
@@ -13,23 +14,17 @@ static ec_exr_part make_part(sum_part *room, uint32_t index, const ec_film *film
 {
     uint32_t count;
     ec_sum_part_name(index, room->name);
-    if (film->counts) {
-        const ec_moments shown = {film->mean, film->m2, film->m34, film->largest};
-        count = ec_sum_channels(&shown, film->counts, room->channels);
-    } else if (film->parts[index].batch) {
-        count = ec_batch_channels(film->parts[index].batch, room->channels);
-    } else {
-        count = ec_sum_channels(&film->parts[index].sums, NULL, room->channels);
-    }
+    if (film->parts[index].batch) count = ec_batch_channels(film->parts[index].batch, room->channels);
+    else count = ec_sum_channels(&film->parts[index].sums, film->counts, room->names, room->channels);
     return (ec_exr_part){.name = room->name, .channels = room->channels, .channel_count = count, .is_plain = true};
 }
 
 ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past,
                          const ec_exr_part *picture, ec_error *err)
 {
-    uint32_t sums = film->counts ? 1 : film->part_count, count = 1 + sums;
+    uint32_t sums = film->part_count, count = 1 + sums;
     const ec_channel weight = {"weight", past->allotment.weight, 1, false};
-    ec_channel batch[3];
+    ec_channel batch[EC_BATCH_FIELDS];
     ec_exr_part *parts = calloc(sums + 3, sizeof *parts);
     sum_part *rooms = calloc(sums + 1, sizeof *rooms);
     ec_attribute *attributes = calloc(picture->attribute_count + 1, sizeof *attributes);

@@ -3,99 +3,89 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "pipeline/forecast.h"
-#include "pipeline/looks.h"
 #include "view/slice.h"
-
-#define BATCH_SECONDS 0.5
-#define BATCH_MOST 16u
-#define BATCHES_LEAST 4u /* as many as an error limit is judged by */
-
-/* Does spp part into whole batches, and into enough of them for an error? */
-static bool parts(uint32_t spp, uint32_t batch)
-{
-    return !spp || (spp % batch == 0 && spp / batch >= BATCHES_LEAST);
-}
-
-/* A power of two, and a divisor of spp, so that the limit is met exactly. */
-static uint32_t choose_batch(const ec_render_options *o, double pixels, double rate)
-{
-    uint32_t batch = 1;
-    if (o->batch) return o->batch;
-    while (batch < BATCH_MOST && 2 * batch * pixels <= rate * BATCH_SECONDS && parts(o->spp, 2 * batch)) batch *= 2;
-    return batch;
-}
 
 void ec_view_picture_limit(ec_view_picture *p, const ec_render_options *o, uint32_t more)
 {
-    uint32_t batch = p->limits.batch;
     p->limits = *o;
-    p->limits.batch = batch;
     for (uint32_t i = 0; i < more; i++) {
         p->limits.spp = p->limits.spp > (1u << 22) ? p->limits.spp : 4 * p->limits.spp;
         p->limits.time_limit *= 4;
         p->limits.error_target /= 2;
     }
+    if (p->film.cut) { /* within a batch, after which none comes */
+        const ec_film old = p->film;
+        ec_film_destroy(&p->film);
+        (void)ec_film_create(&p->film, old.width, old.height, old.replicates, NULL);
+        p->seconds = 0;
+        p->goal = (ec_goal){.pixels = p->goal.pixels, .replicates = old.replicates, .forecast.seconds = INFINITY};
+    }
+    ec_goal_set(&p->goal, p->limits.spp, p->limits.time_limit, p->limits.error_target);
     p->stopped_by = NULL;
 }
 
 ec_result ec_view_picture_start(ec_view_picture *p, const ec_render_options *options, uint32_t more, uint32_t width,
-                                uint32_t height, double rate, ec_error *err)
+                                uint32_t height, ec_error *err)
 {
+    const uint32_t replicates = ec_render_replicates(options);
     ec_view_picture_stop(p);
-    p->limits.batch = choose_batch(options, (double)width * height, rate);
+    p->goal = (ec_goal){.pixels = (double)width * height, .replicates = replicates, .forecast.seconds = INFINITY};
     ec_view_picture_limit(p, options, more);
     p->error = (ec_film_error){.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
-    p->forecast = (ec_forecast){.seconds = INFINITY};
-    return ec_film_create(&p->film, width, height, p->limits.batch, err);
+    return ec_film_create(&p->film, width, height, replicates, err);
 }
 
 void ec_view_picture_stop(ec_view_picture *p)
 {
     ec_film_destroy(&p->film);
+    free(p->room);
     *p = (ec_view_picture){0};
 }
 
-static void look_ahead(ec_view_picture *p)
+uint64_t ec_view_picture_samples(const ec_view_picture *p) { return (uint64_t)ec_film_samples_of_all(&p->film); }
+
+static void judge(ec_view_picture *p, double took)
 {
-    double done = p->film.batch_count, timed = done - 1, mean = p->sum / timed;
-    if (!ec_pilot_is_over(p->film.batch_count)) return;
-    double variance = fmax(p->squares / timed - mean * mean, 0);
-    ec_pace pace = {p->seconds, p->first_seconds, timed > 1 ? sqrt(variance / (timed - 1)) / mean : 0};
-    p->forecast = ec_forecast_make(&p->film, &p->error, &p->limits, &pace, done, 1);
+    const uint32_t replicates = p->film.replicates, next = p->film.batch_count;
+    const bool is_round = ec_schedule_is_round(replicates, next), has_pilot = ec_schedule_has_pilot(replicates, next);
+    const ec_mark at = {ec_film_samples_of_all(&p->film), p->seconds};
+    p->error = ec_film_estimate_error(&p->film);
+    ec_goal_batch(&p->goal, at.samples, at.seconds, took);
+    if (is_round) ec_goal_round(&p->goal, &p->error, at);
+    if (is_round && has_pilot) ec_goal_foretell(&p->goal, at, 1);
+    p->stopped_by = ec_goal_met(&p->goal, at, is_round && has_pilot, ec_schedule_batch(replicates, next).samples);
+    if (p->film.cut) p->stopped_by = "spp";
 }
 
-static void judge(ec_view_picture *p)
+/* Of the first batch of each replicate. */
+static ec_result make_room(ec_view_picture *p, float **features, ec_error *err)
 {
-    const ec_render_options *o = &p->limits;
-    if (p->film.batch_count >= 2) p->error = ec_film_estimate_error(&p->film);
-    look_ahead(p);
-    if (o->spp && (uint64_t)p->film.batch_count * o->batch >= o->spp) p->stopped_by = "spp";
-    else if (o->error_target > 0 && p->film.batch_count >= 4 && ec_look_is_due(p->film.batch_count) &&
-             p->error.error_bound <= o->error_target)
-        p->stopped_by = "error";
-    else if (o->time_limit > 0 && p->seconds >= o->time_limit) p->stopped_by = "time";
+    const uint64_t pixels = (uint64_t)p->film.width * p->film.height;
+    const bool wants_features = p->film.batch_count < p->film.replicates;
+    if (!p->room) p->room = malloc(pixels * EC_BATCH_FIELDS * sizeof *p->room);
+    *features = wants_features ? malloc(pixels * EC_FILM_FEATURES * sizeof **features) : NULL;
+    return p->room && (*features || !wants_features) ? EC_OK : ec_fail(err, "out of memory for a picture");
 }
 
-ec_result ec_view_picture_take(ec_view_picture *p, ec_session *session, bool (*go_on)(void *user), void *user,
-                               float *mean, bool *complete, ec_error *err)
+ec_result ec_view_picture_take(ec_view_picture *p, ec_session *session, bool (*go_on)(void *user), void *user, bool *complete, ec_error *err)
 {
-    uint64_t pixels = (uint64_t)p->film.width * p->film.height;
-    float *features = p->film.batch_count == 0 ? malloc(pixels * 8 * sizeof(float)) : NULL;
-    ec_session_batch batch = {.seed = ec_render_batch_seed(p->limits.seed, p->film.batch_count), .samples = p->limits.batch, .go_on = go_on,
-                              .user = user, .slice = EC_VIEW_SLICE, .features = features, .mean = mean};
-    ec_result result = ec_session_take(session, &batch, err);
+    const uint32_t index = p->film.batch_count;
+    const ec_batch_range range = ec_schedule_batch(p->film.replicates, index);
+    uint32_t cut = 0, before = 0;
+    float *features = NULL;
+    ec_result result = make_room(p, &features, err);
+    if (p->limits.spp && ec_schedule_find(p->film.replicates, p->limits.spp, &before) == index && before) cut = range.samples - before;
+    ec_session_batch batch = {.seed = ec_render_seed(p->limits.seed), .replicate = range.replicate, .first = (uint32_t)range.first,
+                              .samples = range.samples - cut, .go_on = go_on, .user = user, .slice = EC_VIEW_SLICE,
+                              .features = features, .batch = p->room};
+    if (result == EC_OK) result = ec_session_take(session, &batch, err);
     *complete = result == EC_OK && batch.complete;
-    if (!*complete) {
-        free(features);
-        return result;
-    }
-    if (features) p->film.aov = features;
-    EC_TRY(ec_film_add_batch(&p->film, mean, err));
+    if (*complete && features) ec_film_add_features(&p->film, &features);
+    free(features);
+    if (result != EC_OK || !*complete) return result;
+    EC_TRY(cut ? ec_film_add_cut(&p->film, index, cut, p->room, err) : ec_film_add(&p->film, index, p->room, err));
     p->invalid += batch.invalid;
     p->seconds += batch.seconds;
-    if (p->film.batch_count == 1) p->first_seconds = batch.seconds;
-    else p->sum += batch.seconds, p->squares += batch.seconds * batch.seconds;
-    judge(p);
+    judge(p, batch.seconds);
     return EC_OK;
 }

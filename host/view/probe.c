@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "base/text.h"
+#include "film/pixel.h"
 #include "view/renderer.h"
 
 void ec_renderer_read_pixel(const ec_film *film, ec_view_probe *probe)
@@ -10,11 +11,11 @@ void ec_renderer_read_pixel(const ec_film *film, ec_view_probe *probe)
     probe->has_film = film->batch_count > 0 && probe->x < film->width && probe->y < film->height;
     probe->has_error = probe->has_film && film->batch_count > 1;
     if (!probe->has_film) return;
-    uint64_t p = (uint64_t)probe->y * film->width + probe->x;
-    double n = ec_film_batches(film, p);
+    ec_pixel pixel;
+    ec_film_look(film, (uint64_t)probe->y * film->width + probe->x, 1, &pixel);
     for (int c = 0; c < 3; c++) {
-        probe->rgb[c] = film->mean[3 * p + c];
-        probe->se[c] = n > 1 ? sqrt(film->m2[4 * p + c] / (n * (n - 1))) : 0;
+        probe->rgb[c] = pixel.mean[c];
+        probe->se[c] = sqrt(ec_pixel_se2(&pixel, c));
     }
 }
 

@@ -10,13 +10,13 @@ static void save(ec_renderer *r, const ec_view_wish *asked)
     ec_view_picture *p = &r->picture;
     ec_render_stats stats = s->stats;
     ec_render_options options = s->options;
-    uint64_t spp = (uint64_t)p->film.batch_count * p->limits.batch;
+    const uint64_t spp = ec_view_picture_samples(p);
     char told[2048] = "";
     ec_error err = {0};
     options.width = asked->width;
     options.height = asked->height;
     options.spp = (uint32_t)spp;
-    options.batch = stats.batch = p->limits.batch;
+    stats.replicates = p->film.replicates;
     options.more_effects = view->request->options.more_effects;
     options.error_target = options.time_limit = 0;
     if (!asked->moved) options.camera = asked->camera;

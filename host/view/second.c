@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "film/pixel.h"
 #include "image/error_map.h"
 #include "view/slice.h"
 
@@ -33,7 +34,7 @@ ec_result ec_view_others_render(ec_view_others *o, ec_session *session, uint32_t
 {
     float *mean = malloc((size_t)width * height * 3 * sizeof *mean);
     if (!mean) return ec_fail(err, "out of memory for a second picture");
-    ec_session_batch batch = {.samples = RUNG_SAMPLES, .go_on = go_on, .user = user, .slice = EC_VIEW_SLICE, .mean = mean};
+    ec_session_batch batch = {.samples = RUNG_SAMPLES, .go_on = go_on, .user = user, .slice = EC_VIEW_SLICE, .rgb = mean};
     ec_result result = ec_session_take(session, &batch, err);
     if (result == EC_OK && batch.complete) o->rung = mean;
     else free(mean);
@@ -75,11 +76,12 @@ typedef struct maps {
 static void fill_error(const void *user, uint8_t *bytes)
 {
     const maps *m = user;
-    uint64_t pixels = (uint64_t)m->film->width * m->film->height;
-    float off[3];
+    const uint64_t pixels = (uint64_t)m->film->width * m->film->height;
     for (uint64_t p = 0; p < pixels; p++) {
-        double n = ec_film_batches(m->film, p);
-        for (int c = 0; c < 3; c++) off[c] = m->mean[3 * p + c] + (float)sqrt(m->film->m2[4 * p + c] / (n * (n - 1)));
+        ec_pixel pixel;
+        float off[3];
+        ec_film_look(m->film, p, 1, &pixel);
+        for (int c = 0; c < 3; c++) off[c] = m->mean[3 * p + (uint64_t)c] + (float)sqrt(ec_pixel_se2(&pixel, c));
         ec_error_map(off, m->mean + 3 * p, 1, bytes + 3 * p);
     }
 }
@@ -90,8 +92,8 @@ static void fill_samples(const void *user, uint8_t *bytes)
     const maps *m = user;
     uint64_t pixels = (uint64_t)m->film->width * m->film->height;
     double most = 1;
-    for (uint64_t p = 0; p < pixels; p++) most = fmax(most, ec_film_batches(m->film, p));
-    for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_batches(m->film, p) / most, bytes + 3 * p);
+    for (uint64_t p = 0; p < pixels; p++) most = fmax(most, ec_film_samples(m->film, p));
+    for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_samples(m->film, p) / most, bytes + 3 * p);
 }
 
 bool ec_view_others_has(const ec_view_others *o, ec_view_second second, const ec_film *film)

@@ -5,7 +5,6 @@
 
 /* On a processor a wave of this many paths takes some 20 ms a core: short enough for pictures that follow the hand. */
 #define WAVE_ON_CPU (1u << 16)
-#define LARGEST_BATCH 16u
 
 void ec_view_scene_release(ec_view *view, ec_view_scene *scene)
 {
@@ -60,8 +59,7 @@ ec_result ec_view_setup_make(ec_view *view, ec_view_scene *scene, ec_integrator 
     pthread_mutex_unlock(&view->lock);
     ec_result result = ec_cl_open(&view->request->device, &s->cl, err);
     if (result == EC_OK && !s->options.wave && (s->cl.info.type & CL_DEVICE_TYPE_CPU)) s->options.wave = WAVE_ON_CPU;
-    uint32_t largest = s->options.batch > LARGEST_BATCH ? s->options.batch : LARGEST_BATCH;
-    if (result == EC_OK) result = ec_session_open(&s->cl, scene->scene, &s->options, largest, &s->session, &s->stats, err);
+    if (result == EC_OK) result = ec_session_open(&s->cl, scene->scene, &s->options, EC_BATCH_MOST, &s->session, &s->stats, err);
     if (result == EC_OK) return EC_OK;
     ec_view_setup_free(view, s);
     *made = NULL;

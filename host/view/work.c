@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "film/resolve.h"
 #include "pack/effects.h"
 #include "view/renderer.h"
 #include "view/slice.h"
@@ -14,11 +15,11 @@ static void tell(ec_renderer *r, uint32_t preview, bool has_second)
     ec_view_status *s = &r->view->status;
     s->preview = preview;
     s->integrator = r->setup[EC_ROLE_PICTURE]->options.integrator;
-    s->samples = (uint64_t)p->film.batch_count * p->limits.batch;
+    s->samples = ec_view_picture_samples(p);
     s->seconds = p->seconds;
     s->error = p->film.batch_count ? p->error.error : INFINITY;
     s->error_bound = p->film.batch_count ? p->error.error_bound : INFINITY;
-    s->forecast = p->forecast;
+    s->forecast = p->goal.forecast;
     s->spp_limit = p->limits.spp;
     s->time_limit = p->limits.time_limit;
     s->error_limit = p->limits.error_target;
@@ -90,7 +91,7 @@ ec_result ec_renderer_preview(ec_renderer *r, ec_error *err)
     ec_session *session = r->setup[EC_ROLE_PICTURE]->session;
     uint32_t width = (r->wish.width + r->level - 1) / r->level, height = (r->wish.height + r->level - 1) / r->level;
     ec_session_batch batch = {.seed = ec_session_seed(r->setup[EC_ROLE_PICTURE]->options.seed, 1, r->previews++), .samples = 1,
-                              .go_on = r->wish.moving ? NULL : go_on, .user = r, .slice = EC_VIEW_SLICE, .mean = r->mean};
+                              .go_on = r->wish.moving ? NULL : go_on, .user = r, .slice = EC_VIEW_SLICE, .rgb = r->mean};
     r->aside = true;
     EC_TRY(look(r, EC_ROLE_PICTURE, width, height, err));
     EC_TRY(ec_session_take(session, &batch, err));
@@ -104,17 +105,16 @@ ec_result ec_renderer_preview(ec_renderer *r, ec_error *err)
 static ec_result start_film(ec_renderer *r, ec_error *err)
 {
     ec_view_setup *s = r->setup[EC_ROLE_PICTURE];
-    return ec_view_picture_start(&r->picture, &s->options, r->wish.more, r->wish.width, r->wish.height,
-                                 ec_session_rate(s->session), err);
+    return ec_view_picture_start(&r->picture, &s->options, r->wish.more, r->wish.width, r->wish.height, err);
 }
 
 ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err)
 {
     bool complete;
-    if (!r->picture.film.mean) EC_TRY(start_film(r, err));
+    if (!r->picture.film.width) EC_TRY(start_film(r, err));
     if (r->aside) EC_TRY(look(r, EC_ROLE_PICTURE, r->wish.width, r->wish.height, err));
     r->aside = false;
-    EC_TRY(ec_view_picture_take(&r->picture, r->setup[EC_ROLE_PICTURE]->session, go_on, r, r->mean, &complete, err));
+    EC_TRY(ec_view_picture_take(&r->picture, r->setup[EC_ROLE_PICTURE]->session, go_on, r, &complete, err));
     r->dirty |= complete;
     return EC_OK;
 }

@@ -14,6 +14,7 @@
 #ifndef EC_LIB_BSDF_H
 #define EC_LIB_BSDF_H
 
+#include "choice.h"
 #include "coat.h"
 #include "fresnel.h"
 #include "ggx.h"
@@ -326,54 +327,50 @@ EC_FN lane_f bsdf_p_spread(const bsdf *b)
     return p;
 }
 
-/* A direction from (u1, u2); u picks the lobe. blind: uniform, but for what a smooth surface mirrors or lets pass. */
-EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, lane_f u2, lane_f u)
+/* A direction from (u1, u2), where u2 chooses the lobe and goes on; u_pass: does it pass, where that is for the facet to say? blind: uniform,
+ * but for what a smooth surface mirrors or lets pass. */
+EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, chooser number, lane_f u_pass)
 {
     bsdf_direction r;
-    lane_f cosine, sine = sincos_2pi(u1, &cosine), root = sqrt(u2), blind_pdf = F(0.0f);
-    r.wi = v3_make(root * cosine, root * sine, sqrt(max(1.0f - u2, F(0.0f))));
-    if (blind) r.wi = blind_sample(b, u1, u2, &blind_pdf);
-    lane_i single = !TRUE_MASK, by_coat = !TRUE_MASK;
-    v3 single_weight = v3_zero();
-    if (HAS(CLEARCOAT)) {
-        by_coat = u < b->coat.p;
-        u = min((u - b->coat.p) / (1.0f - b->coat.p), F(0.99999994f)); /* the largest float under 1 */
-    }
-    lane_i by_sheen = !TRUE_MASK;
-    if (HAS(SHEEN)) {
-        by_sheen = u < b->sheen.p;
-        u = min((u - b->sheen.p) / (1.0f - b->sheen.p), F(0.99999994f));
-    }
-    lane_i again = !TRUE_MASK;
-    lane_f u_again = F(0.0f);
+    lane_i left = TRUE_MASK, by_coat = !TRUE_MASK, by_sheen = !TRUE_MASK, again = !TRUE_MASK, again_below = !TRUE_MASK;
+    lane_i specular = !TRUE_MASK, sinks = !TRUE_MASK, single = !TRUE_MASK;
     const bool may_again = HAS(MULTISCATTER) && HAS(SPECULAR) && any_lane(b->again.p > 0.0f);
-    if (may_again) {
-        again = u < b->again.p;
-        u_again = u / b->again.p;
-        u = min((u - b->again.p) / (1.0f - b->again.p), F(0.99999994f));
+    if (HAS(CLEARCOAT)) {
+        by_coat = choose(&number, left, b->coat.p);
+        left = left & !by_coat;
     }
-    if (HAS(SPECULAR)) {
-        lane_i specular = u < b->p_specular;
-        if (HAS(SMOOTH)) single = specular & b->facets.smooth;
-        if (HAS(DIFFUSE_TRANSMISSION) && !blind) {
-            lane_i sinks = !specular & ((u - b->p_specular) < (1.0f - b->p_specular) * b->p_below);
-            r.wi.z = sinks ? -r.wi.z : r.wi.z;
-        }
-        if (blind) specular = single;
-        if (any_lane(specular)) {
-            bsdf_direction s = bsdf_sample_specular(b, cosine, sine, u2, u / b->p_specular);
-            r.wi = v3_select(specular, s.wi, r.wi);
-            single_weight = s.weight;
-        }
+    if (HAS(SHEEN)) {
+        by_sheen = choose(&number, left, b->sheen.p);
+        left = left & !by_sheen;
     }
     if (may_again) { /* of smooth surfaces its p is 0 */
-        v3 wi = multiscatter_sample(&b->again, cosine, sine, u2, u_again);
-        r.wi = v3_select(blind ? !TRUE_MASK : again, wi, r.wi);
+        again = choose(&number, left, b->again.p);
+        if (HAS(TRANSMISSION)) again_below = choose(&number, again, b->again.p_below);
+        left = left & !again;
     }
+    if (HAS(SPECULAR)) {
+        specular = choose(&number, left, b->p_specular);
+        if (HAS(SMOOTH)) single = specular & b->facets.smooth;
+        if (HAS(DIFFUSE_TRANSMISSION)) sinks = choose(&number, left & !specular, b->p_below);
+    }
+    lane_f u2 = chooser_end(&number), cosine, sine = sincos_2pi(u1, &cosine), root = sqrt(u2), blind_pdf = F(0.0f);
+    r.wi = v3_make(root * cosine, root * sine, sqrt(max(1.0f - u2, F(0.0f))));
+    if (HAS(DIFFUSE_TRANSMISSION)) r.wi.z = sinks ? -r.wi.z : r.wi.z;
+    if (blind) {
+        r.wi = blind_sample(b, u1, u2, &blind_pdf);
+        again = by_sheen = !TRUE_MASK;
+        specular = single;
+    }
+    v3 single_weight = v3_zero();
+    if (HAS(SPECULAR) && any_lane(specular)) {
+        bsdf_direction s = bsdf_sample_specular(b, cosine, sine, u2, u_pass);
+        r.wi = v3_select(specular, s.wi, r.wi);
+        single_weight = s.weight;
+    }
+    if (may_again) r.wi = v3_select(again, multiscatter_sample(&b->again, cosine, sine, u2, again_below), r.wi);
     if (HAS(SHEEN)) {
         lane_f r_uniform = sqrt(max(fma(-u2, u2, F(1.0f)), F(0.0f)));
-        r.wi = v3_select(blind ? !TRUE_MASK : by_sheen, v3_make(r_uniform * cosine, r_uniform * sine, u2), r.wi);
-        single = single & !by_sheen;
+        r.wi = v3_select(by_sheen, v3_make(r_uniform * cosine, r_uniform * sine, u2), r.wi);
         single_weight = v3_scale(single_weight, sheen_leaves(&b->sheen, r.wi.z) / (1.0f - b->sheen.p));
     }
     if (HAS(CLEARCOAT)) single_weight = v3_scale(single_weight, (1.0f - b->coat.share) / (1.0f - b->coat.p));

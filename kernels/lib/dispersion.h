@@ -4,6 +4,7 @@
 #ifndef EC_LIB_DISPERSION_H
 #define EC_LIB_DISPERSION_H
 
+#include "choice.h"
 #include "surface.h"
 
 /* channel: 0, 1, 2. (1 / l^2 - 1 / l_d^2) / (1 / l_F^2 - 1 / l_C^2) says where between the lines. */
@@ -13,24 +14,27 @@ EC_FN lane_f dispersed_index(lane_f ior, lane_f dispersion, lane_i channel)
     return max(fma((ior - 1.0f) * 0.05f * dispersion, place, ior), F(1.0f));
 }
 
-/* One channel of beta, with the weight of all. Never one that is 0. */
-EC_FN lane_i dispersion_choose(v3 beta, lane_f u, v3 *left)
+/* One channel of beta, with the weight of all. Never one that is 0. *u chooses, and becomes what is left of it in that channel's share. */
+EC_FN lane_i dispersion_choose(v3 beta, lane_f *u, v3 *left)
 {
-    lane_f sum = beta.x + beta.y + beta.z, at = u * sum;
+    lane_f sum = beta.x + beta.y + beta.z, at = *u * sum;
     lane_i red = (at < beta.x) | (beta.y + beta.z == 0.0f), green = (!red) & ((at < beta.x + beta.y) | (beta.z == 0.0f));
     green = green & (beta.y > 0.0f);
     *left = v3_make(red ? sum : F(0.0f), green ? sum : F(0.0f), (red | green) ? F(0.0f) : sum);
+    lane_f rest = red ? at / beta.x : (green ? (at - beta.x) / beta.y : (at - beta.x - beta.y) / beta.z);
+    *u = min(max(rest, F(0.0f)), F(EC_LAST_UNIT));
     return red ? I(0) : (green ? I(1) : I(2));
 }
 
-/* Gives the surface the index of one channel, and beta only that. */
-EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f u, surface *s, v3 *beta)
+/* Gives the surface the index of one channel, and beta only that. *u chooses where there is such glass, and goes on. */
+EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f *u, surface *s, v3 *beta)
 {
     quad q = material_quad(g, h, EC_MATERIAL_IOR);
     m = m & s->refracts & !s->displaced & (s->transmission > 0.0f) & (q.b > 0.0f) & (q.a > 1.0f) & (v3_max_component(*beta) > 0.0f);
     if (!any_lane(m)) return;
     v3 left;
-    lane_f ior = dispersed_index(q.a, q.b, dispersion_choose(*beta, u, &left));
+    lane_f rest = *u, ior = dispersed_index(q.a, q.b, dispersion_choose(*beta, &rest, &left));
+    *u = m ? rest : *u;
     lane_f r = (ior - 1.0f) * (q.a + 1.0f) / ((ior + 1.0f) * (q.a - 1.0f)), eta = s->front ? ior : 1.0f / ior;
     if (HAS(NESTED)) { /* against what is on the other side, whose index is that of all colours */
         lane_i nested = s->head_on < 1.0f;

@@ -3,12 +3,11 @@
 #define EC_LIB_DISTRIBUTION_H
 
 #include "../shared/scene_buffers.h"
-#include "lanes.h"
-#include "math.h"
+#include "choice.h"
 
-/* Which of the n entries from table[at] on the number r picks, and what is left of r: where in its share it lies, in [0, 1). The
- * guide bounds a bisection, of few steps unless shares differ a lot. */
-EC_FN lane_u distribution_sample(global const uint *table, lane_u at, uint n, lane_u r, lane_f *left)
+/* Which of the n entries from table[at] on the number r picks; its share of the 32-bit numbers begins at *first, and has *share of them, or
+ * all 2^32 if that is 0. The guide bounds a bisection, of few steps unless shares differ a lot. */
+EC_FN lane_u distribution_pick(global const uint *table, lane_u at, uint n, lane_u r, lane_u *first, lane_u *share)
 {
     lane_u bucket = mul_hi(r, U(n));
     lane_u high = gather_u(table, (at + bucket) * 2u + 1u);
@@ -21,11 +20,34 @@ EC_FN lane_u distribution_sample(global const uint *table, lane_u at, uint n, la
         low = is_past ? low : middle;
     }
     lane_i is_last = low + 1u == n;
-    lane_u first = gather_u(table, (at + low) * 2u), next = gather_u(table, (at + (is_last ? low : low + 1u)) * 2u);
-    lane_u share = (is_last ? U(0) : next) - first; /* 0 is 2^32 */
-    lane_f all = share == 0u ? F(4294967296.0f) : to_lane_f(share);
-    *left = min((to_lane_f(r - first) + 0.5f) / all, F(0.99999994f));
+    lane_u next = gather_u(table, (at + (is_last ? low : low + 1u)) * 2u);
+    *first = gather_u(table, (at + low) * 2u);
+    *share = (is_last ? U(0) : next) - *first;
     return low;
+}
+
+/* The same entry of a short table of which none is empty: one after the other, without a gather. */
+EC_FN lane_u distribution_pick_few(global const uint *table, uint n, lane_u r, lane_u *first, lane_u *share)
+{
+    lane_u entry = U(0), next = U(n > 1u ? table[2] : 0u);
+    *first = U(0);
+    for (uint i = 1; i < n; i++) {
+        uint begins = table[2u * i], ends = i + 1u < n ? table[2u * i + 2u] : 0u;
+        lane_i is_past = r >= begins;
+        entry = is_past ? U(i) : entry;
+        *first = is_past ? U(begins) : *first;
+        next = is_past ? U(ends) : next;
+    }
+    *share = next - *first;
+    return entry;
+}
+
+/* Likewise, and what is left of r: where in that share it lies, in [0, 1). */
+EC_FN lane_u distribution_sample(global const uint *table, lane_u at, uint n, lane_u r, lane_f *left)
+{
+    lane_u first, share, entry = distribution_pick(table, at, n, r, &first, &share);
+    *left = choice_rest(r - first, share, r);
+    return entry;
 }
 
 #endif

@@ -5,12 +5,12 @@
 #include "../shared/params.h"
 #include "../shared/scene_buffers.h"
 #include "distribution.h"
-#include "sampler.h"
+#include "patch.h"
 
 typedef struct environment {
     constant ec_params *params;
-    global const float *texels; /* R, G, B, pmf of the texel */
-    global const uint *table;   /* ec_distribution_entry by word: of rows, then of each row's texels */
+    global const float *texels; /* R, G, B, scale of the patch right of and below the texel; the first row twice */
+    global const uint *table;   /* ec_distribution_entry by word: of the rows of patches, then of each row's patches */
 } environment;
 
 /* The map may stand turned: directions of the scene in its own frame, and back. */
@@ -36,34 +36,49 @@ EC_FN void environment_uv(v3 d, lane_f *u, lane_f *v)
     *v = 2.0f * fabs(atan2_over_2pi(sqrt(fma(d.x, d.x, d.z * d.z)), d.y));
 }
 
-EC_FN v3 environment_texel(const environment *e, lane_u at)
-{
-    quad q = gather_quad(e->texels, at * 4u);
-    return v3_make(q.a, q.b, q.c);
-}
+/* A rectangle between four texels' middles, or half of one between those of a first or last row and the pole. Its upper and lower edge are
+ * told by the pole that is nearer: south of the equator the near one is the lower one, and small distances keep their digits. */
+typedef struct environment_patch {
+    v3 near_left, near_right, far_left, far_right;
+    lane_f scale;            /* of the density: chance of the patch over the integral of luminance times sine */
+    lane_f sin_near, sin_far; /* of the polar angle */
+} environment_patch;
 
-/* Density, per solid angle, with which the light sampling picks direction d at (u, v), the choice of this light included. */
-EC_FN lane_f environment_pdf_at(const environment *e, lane_u texel, lane_f sin_theta)
-{
-    float texels = (float)e->params->environment_width * (float)e->params->environment_height;
-    return gather_f(e->texels, texel * 4u + 3u) * (e->params->environment_pmf * texels / (2.0f * EC_PI * EC_PI)) /
-           max(sin_theta, F(1e-7f));
-}
-
-EC_FN v3 environment_bilinear(const environment *e, lane_f u, lane_f v)
+/* near: how many rows its near edge lies from the pole, 0 for the row of patches at it. */
+EC_FN environment_patch environment_patch_load(const environment *e, lane_i near, lane_i south, lane_i x)
 {
     int width = (int)e->params->environment_width, height = (int)e->params->environment_height;
-    lane_f x = fma(u, F((float)width), F(-0.5f)), y = fma(v, F((float)height), F(-0.5f));
-    lane_f xb = floor(x), yb = floor(y), fx = x - xb, fy = y - yb;
-    lane_i x0 = to_lane_i(xb), x1 = x0 + 1, y0 = max(to_lane_i(yb), I(0)), y1 = min(to_lane_i(yb) + 1, I(height - 1));
-    y0 = min(y0, I(height - 1));
-    x0 = min(x0 < 0 ? I(width - 1) : x0, I(width - 1)); /* the seam wraps */
-    x1 = x1 >= width ? I(0) : x1;
-    lane_f gx = 1.0f - fx, gy = 1.0f - fy;
-    v3 r = v3_scale(environment_texel(e, int_to_lane_u(y0 * width + x0)), gx * gy);
-    r = v3_fma(environment_texel(e, int_to_lane_u(y0 * width + x1)), fx * gy, r);
-    r = v3_fma(environment_texel(e, int_to_lane_u(y1 * width + x0)), gx * fy, r);
-    return v3_fma(environment_texel(e, int_to_lane_u(y1 * width + x1)), fx * fy, r);
+    lane_i y = south ? height - near : near, below = min(y + 1, I(height)), right = x + 1 == width ? I(0) : x + 1; /* the seam wraps */
+    quad q = gather_quad(e->texels, int_to_lane_u(y * width + x) * 4u), r = gather_quad(e->texels, int_to_lane_u(y * width + right) * 4u);
+    quad s = gather_quad(e->texels, int_to_lane_u(below * width + x) * 4u), t = gather_quad(e->texels, int_to_lane_u(below * width + right) * 4u);
+    environment_patch p;
+    v3 upper_left = v3_make(q.a, q.b, q.c), upper_right = v3_make(r.a, r.b, r.c);
+    v3 lower_left = v3_make(s.a, s.b, s.c), lower_right = v3_make(t.a, t.b, t.c);
+    p.near_left = v3_select(south, lower_left, upper_left);
+    p.near_right = v3_select(south, lower_right, upper_right);
+    p.far_left = v3_select(south, upper_left, lower_left);
+    p.far_right = v3_select(south, upper_right, lower_right);
+    p.scale = q.d;
+    lane_f unused, row = int_to_lane_f(near), half_turn = F(0.5f / (float)height);
+    p.sin_near = sincos_2pi(max(row - 0.5f, F(0.0f)) * half_turn, &unused);
+    p.sin_far = sincos_2pi((row + 0.5f) * half_turn, &unused);
+    return p;
+}
+
+/* Radiance at s from left to right and t from the near to the far edge, but for the map's factor. */
+EC_FN v3 environment_patch_value(const environment_patch *p, lane_f s, lane_f t)
+{
+    v3 near = v3_fma(p->near_right, s, v3_scale(p->near_left, 1.0f - s)), far = v3_fma(p->far_right, s, v3_scale(p->far_left, 1.0f - s));
+    return v3_fma(far, t, v3_scale(near, 1.0f - t));
+}
+
+/* The density per solid angle with which light sampling picks a direction of the patch, the choice of this light included: that of its
+ * radiance's luminance, times a sine that is linear over the patch, over the sine itself. sin_theta: 0 at the pole. */
+EC_FN lane_f environment_patch_pdf(const environment *e, const environment_patch *p, v3 radiance, lane_f t, lane_f sin_theta)
+{
+    lane_f sine = fma(p->sin_far, t, p->sin_near * (1.0f - t)), at_pole = p->sin_far * ((float)e->params->environment_height * 2.0f * EC_INV_PI);
+    lane_f share = sin_theta > 0.0f ? sine / sin_theta : at_pole;
+    return luminance(radiance) * p->scale * share * e->params->environment_pmf;
 }
 
 /* Radiance from direction d (unit) and the light sampling's density for it. */
@@ -77,14 +92,20 @@ EC_FN v3 environment_look_up(const environment *e, v3 d, lane_f *pdf)
     }
     lane_f u, v;
     d = environment_to_map(e, d);
-    environment_uv(d, &u, &v);
+    environment_uv(v3_make(d.x, fabs(d.y), d.z), &u, &v);
     int width = (int)e->params->environment_width, height = (int)e->params->environment_height;
-    lane_i x = min(to_lane_i(u * (float)width), I(width - 1)), y = min(to_lane_i(v * (float)height), I(height - 1));
-    *pdf = environment_pdf_at(e, int_to_lane_u(y * width + x), sqrt(fma(d.x, d.x, d.z * d.z)));
-    return v3_mul(environment_bilinear(e, u, v), factor);
+    lane_f x = fma(u, F((float)width), F(-0.5f)), column = floor(x), y = v * (float)height;
+    lane_f row = min(floor(y + 0.5f), F((float)(height / 2)));
+    lane_i left = to_lane_i(column), near = to_lane_i(row);
+    left = min(left < 0 ? I(width - 1) : left, I(width - 1));
+    lane_f t = min(near == 0 ? 2.0f * y : y + 0.5f - row, F(1.0f));
+    environment_patch p = environment_patch_load(e, near, d.y < 0.0f, left);
+    v3 radiance = environment_patch_value(&p, x - column, t);
+    *pdf = environment_patch_pdf(e, &p, radiance, t, sqrt(fma(d.x, d.x, d.z * d.z)));
+    return v3_mul(radiance, factor);
 }
 
-/* A direction by importance: a row by r2, its texel by r1, then by what is left of them uniform in (u, v) inside it. */
+/* A direction by importance: a row of patches by r2, one of it by r1, and in it by what is left of them. */
 EC_FN v3 environment_sample(const environment *e, lane_u r1, lane_u r2, lane_f *pdf, v3 *radiance)
 {
     constant float *constant_radiance = e->params->environment;
@@ -100,15 +121,21 @@ EC_FN v3 environment_sample(const environment *e, lane_u r1, lane_u r2, lane_f *
     }
     uint width = e->params->environment_width, height = e->params->environment_height;
     lane_f in_x, in_y;
-    lane_u y = distribution_sample(e->table, U(0), height, r2, &in_y);
-    lane_u x = distribution_sample(e->table, y * width + height, width, r1, &in_x), texel = y * width + x;
-    lane_f u = (to_lane_f(x) + in_x) / (float)width, v = (to_lane_f(y) + in_y) / (float)height;
-    lane_f cos_theta, sin_theta = sincos_2pi(v * 0.5f, &cos_theta);
-    lane_f sin_phi = sincos_2pi(u, &cosine); /* u = 0.5 + phi / 2pi: both signs turn */
-    sin_theta = fabs(sin_theta);
-    *pdf = environment_pdf_at(e, texel, sin_theta);
-    *radiance = v3_mul(environment_bilinear(e, u, v), factor);
-    return environment_from_map(e, v3_make(-sin_theta * cosine, cos_theta, -sin_theta * sin_phi));
+    lane_u y = distribution_sample(e->table, U(0), height + 1u, r2, &in_y);
+    lane_u x = distribution_sample(e->table, y * width + (height + 1u), width, r1, &in_x);
+    lane_i south = y > height / 2u, near = uint_to_lane_i(south ? U(height) - y : y);
+    environment_patch p = environment_patch_load(e, near, south, uint_to_lane_i(x));
+    lane_f near_left = luminance(p.near_left), near_right = luminance(p.near_right);
+    lane_f far_left = luminance(p.far_left), far_right = luminance(p.far_right);
+    lane_f t = patch_along(near_left + near_right, far_left + far_right, p.sin_near, p.sin_far, in_y);
+    lane_f s = patch_across(fma(far_left, t, near_left * (1.0f - t)), fma(far_right, t, near_right * (1.0f - t)), in_x);
+    lane_f u = (to_lane_f(x) + 0.5f + s) / (float)width, rows = near == 0 ? 0.5f * t : int_to_lane_f(near) - 0.5f + t;
+    lane_f cos_theta, sin_theta = sincos_2pi(rows * (0.5f / (float)height), &cos_theta);
+    lane_f sin_phi = sincos_2pi(u > 1.0f ? u - 1.0f : u, &cosine); /* u = 0.5 + phi / 2pi: both signs turn */
+    v3 value = environment_patch_value(&p, s, t);
+    *pdf = environment_patch_pdf(e, &p, value, t, sin_theta);
+    *radiance = v3_mul(value, factor);
+    return environment_from_map(e, v3_make(-sin_theta * cosine, south ? -cos_theta : cos_theta, -sin_theta * sin_phi));
 }
 
 #endif

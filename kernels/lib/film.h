@@ -8,15 +8,19 @@
 
 #define EC_TILE 8u
 
-/* pixel_list: the numbers of the pass's pixels, or NULL where these are all there are. A pixel that takes part k times has
- * number + 0, 1, … (k - 1) times all there are: random numbers of its own each time. */
+/* The pixel's number and the sample's, which random numbers are a function of. Numbers of replicate r are those of the picture's pixels
+ * plus r times as many. pixel_list: EC_LIST_WORDS for each of the pass's pixels, or NULL where these are all there are. */
 EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, global const uint *pixel_list, lane_u slot, lane_u *pixel,
                          lane_u *sample)
 {
     lane_u local_pixel = divide(slot, params->batch);
-    *sample = slot - local_pixel * params->batch;
+    *sample = slot - local_pixel * params->batch + params->first_sample;
     *pixel = local_pixel + first_pixel;
-    if (pixel_list) *pixel = gather_u(pixel_list, *pixel);
+    if (pixel_list) {
+        lane_u at = *pixel * EC_LIST_WORDS;
+        *pixel = gather_u(pixel_list, at);
+        *sample += gather_u(pixel_list, at + 1u);
+    }
 }
 
 /* Rows of tiles first: a row of tiles holds width * 8 pixels (fewer rows at the bottom), a tile 8 * rows (narrower at the

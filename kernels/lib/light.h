@@ -1,5 +1,5 @@
 /* Direct light: one light by its power, one point or direction on it. Every emissive triangle is a light, and so are the
- * punctual ones and the environment. */
+ * punctual ones and the environment. One number chooses the light and goes on to the point (choice.h). */
 #ifndef EC_LIB_LIGHT_H
 #define EC_LIB_LIGHT_H
 
@@ -9,11 +9,13 @@
 #include "spherical_triangle.h"
 #include "surface.h"
 
+#define EC_LIGHTS_FEW 8u     /* so many entries are looked through */
 #define EC_LIGHT_NEAR 0.25f /* squares of two edges over that of the distance */
 
 typedef struct lights {
     global const float *table; /* ec_light_data by word */
-    global const uint *alias;  /* ec_alias by word */
+    global const uint *shares; /* ec_distribution_entry by word: of the table's lights in its order; with a tree of those that are infinitely
+                                  far, which come first, and of all others together */
     environment env;
     global const float *tree;  /* ec_light_node by word; NULL: by power alone */
 } lights;
@@ -240,40 +242,35 @@ EC_FN light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
     return s;
 }
 
-/* One light for a point p, picked by choice, and a point or direction on it by r1 and r2: random 32-bit numbers. */
-EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u choice, lane_u r1, lane_u r2)
+/* One light for a point p, and a point or direction on it, by r1 and r2: random 32-bit numbers. */
+EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u r1, lane_u r2)
 {
     constant ec_params *params = l->env.params;
-    uint count = params->light_count;
-    lane_u column = mul_hi(choice, U(count)), rest = choice * count;
-    lane_u threshold = gather_u(l->alias, column * 2u);
-    lane_u id = rest < threshold ? column : gather_u(l->alias, column * 2u + 1u);
-    lane_f share = F(1.0f);
+    uint count = params->light_choices;
+    lane_u first = U(0), share = U(0), id = U(0);
+    if (count > EC_LIGHTS_FEW) id = distribution_pick(l->shares, U(0), count, r1, &first, &share);
+    else id = distribution_pick_few(l->shares, count, r1, &first, &share);
+    lane_u rest = r1 - first;
+    lane_f u1 = choice_rest(rest, share, r1), chance = F(1.0f);
     if (HAS(LIGHT_TREE) && l->tree) {
-        /* The table has said whether it is a lamp. Which one says the tree, by bits of its own. */
-        lane_i far = !TRUE_MASK;
-        if (params->light_tree_pmf < 1.0f) {
-            lane_u kind = as_lane_u(gather_f(l->table, id * EC_LIGHT_WORDS + 12u)) & EC_LIGHT_KIND_MASK;
-            far = (kind == EC_KIND_ENVIRONMENT) | (kind == EC_KIND_DIRECTIONAL);
-        }
-        lane_u bits = params->light_tree_pmf < 1.0f ? hash_u(choice + 0x9e3779b9u) : choice;
-        lane_i m_lamp = m & !far;
+        lane_i m_lamp = m & (id + 1u == count);
         if (any_lane(m_lamp)) {
-            lane_f pmf;
-            lane_u lamp = light_tree_choose(l->tree, m_lamp, p, bits, &pmf);
+            lane_f pmf, left;
+            lane_u lamp = light_tree_choose(l->tree, m_lamp, p, rest >> 1, params->light_tree_numbers, r1, &pmf, &left);
             id = m_lamp ? lamp : id;
-            share = m_lamp ? pmf : share;
+            chance = m_lamp ? pmf : chance;
+            u1 = m_lamp ? left : u1;
         }
     }
     light_record one = light_load(l, id);
-    one.pmf *= share;
-    one.pdf_a *= share;
+    one.pmf *= chance;
+    one.pdf_a *= chance;
     if (HAS(MOTION) && g->motion) light_move(g, &one);
     lane_u type = one.kind & EC_LIGHT_KIND_MASK;
 
     light_sample s;
     s.valid = !TRUE_MASK;
-    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(&one, g, m & (type == EC_KIND_TRIANGLE), p, to_unit(r1), to_unit(r2));
+    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(&one, g, m & (type == EC_KIND_TRIANGLE), p, u1, to_unit(r2));
     if (HAS(PUNCTUAL_LIGHTS)) {
         lane_i is = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
         light_sample other = light_sample_punctual(&one, m & is, p, params->scene_radius);
@@ -281,7 +278,8 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     }
     if (HAS(ENVIRONMENT)) {
         lane_i is = type == EC_KIND_ENVIRONMENT;
-        light_sample other = light_sample_environment(l, m & is, r1, r2, params->scene_radius);
+        lane_u stretched = count > 1u ? choice_stretch(rest, params->environment_stretch, r1) : r1; /* its share is the first */
+        light_sample other = light_sample_environment(l, m & is, stretched, r2, params->scene_radius);
         s = HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) ? light_sample_select(is, other, s) : other;
     }
     return s;

@@ -2,16 +2,17 @@
  * node by the power of its two children over their squared distance, times the cosine that the best of their normals could have.
  *
  * Probabilities are shares of 2^31 random numbers that are handed down as whole numbers, so that the one divided by is the one
- * sampled, and those of all lamps add up to 1. The point's own normal is left out: a path that meets a lamp knows where it
- * comes from, not how the surface there lay. */
+ * sampled, and those of all lamps add up to what they have together. Children have contiguous shares, and what is left of the number at a
+ * leaf goes on to the point on the lamp. The point's own normal is left out: a path that meets a lamp knows where it comes from, not how the
+ * surface there lay. */
 #ifndef EC_LIB_LIGHT_TREE_H
 #define EC_LIB_LIGHT_TREE_H
 
 #include "../shared/light_tree.h"
-#include "sampler.h"
+#include "choice.h"
 
-#define EC_TREE_ALL 0x80000000u /* random numbers there are */
-#define EC_TREE_FEW 0x10000u    /* fewer are too coarse to share out: then there are fresh ones */
+#define EC_TREE_FEW 0x10000u /* numbers: fewer are too coarse to share out, and become 2^15 times as many */
+#define EC_TREE_FINER 15u
 /* Sines made of cosines near 1 are good to sqrt(2 u) = 3.5e-4, and two angles are taken off: what a cosine under -EC_TREE_DARK says
  * to be dark is dark. What is not keeps that share at least. */
 #define EC_TREE_DARK 0.004f
@@ -57,11 +58,12 @@ EC_FN lane_u light_tree_share(global const float *tree, lane_u child, v3 p, lane
     return dark ? all >> 1 : n; /* dark both: it does not matter, but probabilities add up */
 }
 
-/* A lamp for p, and its probability. r: 32 random bits. */
-EC_FN lane_u light_tree_choose(global const float *tree, lane_i m, v3 p, lane_u r, lane_f *pmf)
+/* A lamp for p, and its probability. rest: one of `all` of 2^31 numbers, on the lanes m; *left: where it lies in the lamp's share, in [0, 1).
+ * r: bits to make it finer. */
+EC_FN lane_u light_tree_choose(global const float *tree, lane_i m, v3 p, lane_u rest, uint numbers, lane_u r, lane_f *pmf, lane_f *left)
 {
-    lane_u link = U(1u), all = U(EC_TREE_ALL), rest = r >> 1;
-    *pmf = F(1.0f);
+    lane_u link = U(1u), all = U(numbers);
+    *pmf = F(1.0f / 2147483648.0f);
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
         lane_u first, second, share = light_tree_share(tree, going ? link : U(1u), p, all, &first, &second);
         lane_i is_first = rest < share;
@@ -69,19 +71,20 @@ EC_FN lane_u light_tree_choose(global const float *tree, lane_i m, v3 p, lane_u 
         all = going ? (is_first ? share : all - share) : all;
         link = going ? (is_first ? first : second) : link;
         lane_i few = going & (all < EC_TREE_FEW);
-        *pmf = few ? *pmf * (to_lane_f(all) * (1.0f / 2147483648.0f)) : *pmf;
-        rest = few ? hash_u(r + link) >> 1 : rest;
-        all = few ? U(EC_TREE_ALL) : all;
+        *pmf = few ? *pmf * (1.0f / (1u << EC_TREE_FINER)) : *pmf;
+        rest = few ? rest << EC_TREE_FINER | hash_u(r + link) >> (32u - EC_TREE_FINER) : rest;
+        all = few ? all << EC_TREE_FINER : all;
     }
-    *pmf *= to_lane_f(all) * (1.0f / 2147483648.0f);
+    *pmf *= to_lane_f(all);
+    *left = choice_rest(rest, all, r);
     return m ? link & ~EC_LIGHT_LEAF : U(0u);
 }
 
 /* The probability with which that comes to the lamp at the end of a trail. */
-EC_FN lane_f light_tree_pmf(global const float *tree, lane_i m, v3 p, lane_u trail)
+EC_FN lane_f light_tree_pmf(global const float *tree, lane_i m, v3 p, uint numbers, lane_u trail)
 {
-    lane_u link = U(1u), all = U(EC_TREE_ALL);
-    lane_f pmf = F(1.0f);
+    lane_u link = U(1u), all = U(numbers);
+    lane_f pmf = F(1.0f / 2147483648.0f);
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
         lane_u first, second, share = light_tree_share(tree, going ? link : U(1u), p, all, &first, &second);
         lane_i is_first = (trail & 1u) == 0u;
@@ -89,10 +92,10 @@ EC_FN lane_f light_tree_pmf(global const float *tree, lane_i m, v3 p, lane_u tra
         all = going ? (is_first ? share : all - share) : all;
         link = going ? (is_first ? first : second) : link;
         lane_i few = going & (all < EC_TREE_FEW);
-        pmf = few ? pmf * (to_lane_f(all) * (1.0f / 2147483648.0f)) : pmf;
-        all = few ? U(EC_TREE_ALL) : all;
+        pmf = few ? pmf * (1.0f / (1u << EC_TREE_FINER)) : pmf;
+        all = few ? all << EC_TREE_FINER : all;
     }
-    return pmf * (to_lane_f(all) * (1.0f / 2147483648.0f));
+    return pmf * to_lane_f(all);
 }
 
 #endif

@@ -139,13 +139,13 @@ EC_FN void multiscatter_over(const multiscatter *m, v3 wo, v3 wi, v3 *f, lane_f 
     *pdf = any ? fma(1.0f - m->p, *pdf, m->p * share * (0.5f * EC_INV_PI) * fma(m->slope, 2.0f * z - 1.0f, F(1.0f))) : *pdf;
 }
 
-/* A direction for multiscatter_over, from an angle and u2; u chooses the side. */
-EC_FN v3 multiscatter_sample(const multiscatter *m, lane_f cosine, lane_f sine, lane_f u2, lane_f u)
+/* A direction for multiscatter_over, from an angle and u2, on the side that was chosen by p_below. */
+EC_FN v3 multiscatter_sample(const multiscatter *m, lane_f cosine, lane_f sine, lane_f u2, lane_i below)
 {
     lane_f least = 1.0f - m->slope, root = sqrt(fma(least, least, 4.0f * m->slope * u2));
     lane_f z = min(u2 > 0.0f ? 2.0f * u2 / (least + root) : F(0.0f), F(1.0f)); /* of slope z^2 + (1 - slope) z = u2 */
     lane_f r = sqrt(max(fma(-z, z, F(1.0f)), F(0.0f)));
-    return v3_make(r * cosine, r * sine, u < m->p_below ? -z : z);
+    return v3_make(r * cosine, r * sine, below ? -z : z);
 }
 
 #endif

@@ -32,27 +32,21 @@ EC_FN void prefetch8(global const ec_bvh8_node *nodes, global const ec_tri8 *blo
     PREFETCH(at + 256u);
 }
 
-/* The lanes of m close together, in the low ones. */
-EC_FN uint8 pack8(uint8 v, uint mask)
-{
-#if defined(__AVX512VL__) && __has_builtin(__builtin_ia32_compresssi256_mask)
-    return as_uint8(__builtin_ia32_compresssi256_mask(as_int8(v), (int8)(0), (uchar)mask));
-#else
-    uint from[8], to[8] = {0}, count = 0;
-    vstore8(v, 0, from);
-    for (; mask; mask &= mask - 1) to[count++] = from[lowest_bit(mask)];
-    return vload8(0, to);
-#endif
-}
-
-/* Stacks the children that the ray meets before t_max, in no order; writes 8, returns how many count. */
+/* Stacks the children that the ray meets before t_max, in the node's order; may write 8, returns how many count. */
 EC_FN uint node8_push(const ray8 *q, global const ec_bvh8_node *n, float t_max, uint *stack)
 {
     uint mask;
-    uint8 child = *(global const uint8 *)n->child;
+#if defined(__AVX512VL__) && __has_builtin(__builtin_ia32_compresssi256_mask)
+    int8 child = *(global const int8 *)n->child; /* now, and not only once the mask is known */
     node8_near(q, (global const float8 *)n->bound, t_max, &mask);
-    vstore8(pack8(child, mask), 0, stack);
+    vstore8(as_uint8(__builtin_ia32_compresssi256_mask(child, (int8)(0), (uchar)mask)), 0, stack);
     return popcount(mask);
+#else
+    uint count = 0;
+    node8_near(q, (global const float8 *)n->bound, t_max, &mask);
+    for (; mask; mask &= mask - 1) stack[count++] = n->child[lowest_bit(mask)];
+    return count;
+#endif
 }
 
 /* A child to visit: the bits of its distance (no -0), which order as it does, above its index. */

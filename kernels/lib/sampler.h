@@ -9,15 +9,14 @@
 #include "../shared/features.h"
 #include "math.h"
 
-/* Pairs: two for the camera, then four a bounce. */
+/* Pairs: two for the camera, then three a bounce. */
 #define EC_PAIR_PIXEL 0u
 #define EC_PAIR_LENS 1u
 #define EC_PAIR_TIME 0x80000000u /* when, while the shutter is open: behind all bounces */
-#define EC_PAIR_BOUNCE(b) (2u + 4u * (b))
-#define EC_PAIR_LIGHT 0u    /* point on the light */
-#define EC_PAIR_BSDF 1u     /* direction */
-#define EC_PAIR_CHOICE 2u   /* which light, which lobe */
-#define EC_PAIR_ROULETTE 3u /* and which colour goes on through glass that parts them */
+#define EC_PAIR_BOUNCE(b) (2u + 3u * (b))
+#define EC_PAIR_LIGHT 0u    /* which light, and the point on it */
+#define EC_PAIR_BSDF 1u     /* which lobe, and the direction */
+#define EC_PAIR_ROULETTE 2u /* does the path go on; and which colour, and does it pass, where it meets glass */
 
 typedef struct sampler {
     lane_u key;   /* hash of seed, batch and pixel */

@@ -5,50 +5,63 @@
 
 #include "node8.h"
 
+/* Visits node *current: goes on to the nearest child that the ray meets, and stacks the others, the nearest on top. False: it meets
+ * none. */
+EC_FN bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack, uint *depth, uint *current)
+{
+    global const ec_bvh8_node *n = (global const ec_bvh8_node *)a->at[0] + *current;
+    TALLY_NODE(h);
+    uint mask;
+    ulong entry[8];
+    uint8 child = *(global const uint8 *)n->child; /* now, and not only once the distances are known */
+    float8 near = node8_near(q, (global const float8 *)n->bound, h->t, &mask);
+    vstore8(entries8(near, child), 0, entry);
+    if (!mask) return false;
+    ulong nearest = entry[lowest_bit(mask)];
+    mask &= mask - 1;
+    if (mask) { /* two are sorted without a branch, which nobody could predict; the others by insertion */
+        ulong next = entry[lowest_bit(mask)];
+        uint base = *depth, top = base;
+        stack[top++] = max(nearest, next);
+        nearest = min(nearest, next);
+        for (mask &= mask - 1; mask; mask &= mask - 1) {
+            next = entry[lowest_bit(mask)];
+            ulong far = max(nearest, next);
+            nearest = min(nearest, next);
+            uint k = top++;
+            for (; k > base && stack[k - 1] < far; k--) stack[k] = stack[k - 1];
+            stack[k] = far;
+        }
+        *depth = top;
+    }
+    *current = (uint)nearest;
+    return true;
+}
+
+/* Goes on to what the stack has that the ray enters before its best hit. False: nothing. */
+EC_FN bool bvh8_return(const hit8 *h, const ulong *stack, uint *depth, uint *current)
+{
+    do {
+        if (*depth == 0) return false;
+        --*depth;
+    } while ((uint)(stack[*depth] >> 32) > as_uint(h->t));
+    *current = (uint)stack[*depth];
+    return true;
+}
+
 EC_FN void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
-    global const ec_bvh8_node *nodes = a->at[0];
-    global const ec_tri8 *blocks = a->at[1];
     ulong stack[EC_BVH8_STACK];
     uint depth = 0, current = 0;
     for (;;) {
+        uint before = depth;
         if (current & EC_LEAF_BIT) {
             leaf8(a, q, filter, current, skip0, skip1, false, h);
-        } else {
-            global const ec_bvh8_node *n = nodes + current;
-            TALLY_NODE(h);
-            uint mask;
-            ulong entry[8];
-            uint8 child = *(global const uint8 *)n->child; /* now, and not only once the distances are known */
-            float8 near = node8_near(q, (global const float8 *)n->bound, h->t, &mask);
-            vstore8(entries8(near, child), 0, entry);
-            if (mask) {
-                ulong nearest = entry[lowest_bit(mask)];
-                mask &= mask - 1;
-                if (mask) { /* two are sorted without a branch, which nobody could predict; the others by insertion */
-                    ulong next = entry[lowest_bit(mask)];
-                    uint base = depth;
-                    stack[depth++] = max(nearest, next);
-                    nearest = min(nearest, next);
-                    for (mask &= mask - 1; mask; mask &= mask - 1) {
-                        next = entry[lowest_bit(mask)];
-                        ulong far = max(nearest, next);
-                        nearest = min(nearest, next);
-                        uint k = depth++;
-                        for (; k > base && stack[k - 1] < far; k--) stack[k] = stack[k - 1];
-                        stack[k] = far;
-                    }
-                    prefetch8(nodes, blocks, (uint)stack[depth - 1]);
-                }
-                current = (uint)nearest;
-                continue;
-            }
+        } else if (bvh8_enter(a, q, h, stack, &depth, &current)) {
+            if (depth > before) prefetch8(a->at[0], a->at[1], (uint)stack[depth - 1]);
+            continue;
         }
-        do {
-            if (depth == 0) return;
-            depth--;
-        } while ((uint)(stack[depth] >> 32) > as_uint(h->t));
-        current = (uint)stack[depth];
+        if (!bvh8_return(h, stack, &depth, &current)) return;
     }
 }
 
@@ -73,8 +86,12 @@ EC_FN bool bvh8_any(const accel *a, const ray8 *q, const hit_filter *filter, uin
     }
 }
 
+#ifdef INTERLEAVE
+#include "trace_interleaved.h"
+#else
 #define ACCEL bvh8
 #include "trace_rays.h"
 #undef ACCEL
+#endif
 
 #endif

@@ -137,7 +137,8 @@ PRECISION(ggx_sample)
 PRECISION(bsdf_sample)
 {
     bsdf b = bsdf_of(in);
-    bsdf_direction d = bsdf_sample(&b, false, X(15), X(16), X(17));
+    chooser number = {X(16), F(0.0f), F(0.0f)};
+    bsdf_direction d = bsdf_sample(&b, false, X(15), number, X(17));
     PUT_V(0, d.wi);
     PUT_V(3, d.weight);
 }

@@ -64,6 +64,14 @@ PRECISION(environment_uv)
     PUT(1, F(0.5f));
     PUT(2, v);
 }
+/* Words: the ends of both linear functions, u; the scale of a place is 1. */
+PRECISION(patch)
+{
+    PUT(0, patch_across(X(0), X(1), X(4)));
+    PUT(1, F(1.0f));
+    PUT(2, patch_along(X(0), X(1), X(2), X(3), X(4)));
+    PUT(3, F(1.0f));
+}
 PRECISION(environment_look_up)
 {
     environment e = environment_of(memory, params);

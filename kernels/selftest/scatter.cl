@@ -29,7 +29,8 @@ kernel void ec_scatter(uint n, global const float *in, global float *out)
     PUT(EC_SCATTER_D, ggx_d(&b.facets, w));
     PUT(EC_SCATTER_LAMBDA, ggx_lambda(&b.facets, w));
     PUT(EC_SCATTER_FRESNEL, fresnel_dielectric(w.z, s.eta));
-    bsdf_direction d = bsdf_sample(&b, false, w.x, w.y, w.z);
+    chooser number = {w.y, F(0.0f), F(0.0f)};
+    bsdf_direction d = bsdf_sample(&b, false, w.x, number, w.z);
     PUT(EC_SCATTER_WI, d.wi.x);
     PUT(EC_SCATTER_WI + 1, d.wi.y);
     PUT(EC_SCATTER_WI + 2, d.wi.z);
@@ -149,8 +150,9 @@ kernel void ec_scatter_fuzz(uint n, uint rounds, uint seed, global uint *counts)
         w.z = (stream_bits(&random) & 1u) != 0u ? w.z : -w.z;
         lane_f pdf;
         v3 f = bsdf_eval(&b, w, &pdf);
-        lane_f u1 = stream_unit(&random), u2 = stream_unit(&random), u = stream_unit(&random);
-        bsdf_direction d = bsdf_sample(&b, false, u1, u2, u);
+        lane_f u1 = stream_unit(&random), u = stream_unit(&random);
+        chooser number = {stream_unit(&random), F(5.9604644775390625e-8f), stream_unit(&random)};
+        bsdf_direction d = bsdf_sample(&b, false, u1, number, u);
         lane_i goes = (d.pdf != 0.0f) & (d.wi.z != 0.0f); /* NaN too; shade.cl goes on with no others */
         wrong[EC_FUZZ_NOT_FINITE] += count_lanes(!v3_is_finite(f) | !is_finite_bits(pdf) | !is_finite_bits(d.pdf) |
                                                  (goes & !(v3_is_finite(d.weight) & v3_is_finite(d.wi))));

@@ -28,6 +28,7 @@ typedef struct ec_params {
     ec_uint orthographic;
     ec_uint width, height;        /* pixels */
     ec_uint batch;                /* m: samples a pixel in a batch */
+    ec_uint first_sample;         /* number of the first of them within its replicate */
     ec_uint wave;                 /* N: capacity of the queues = stride of their fields = EC_PARTS * part */
     ec_uint part;                 /* entries in one part of a queue, a multiple of LANES */
     ec_uint max_depth;            /* path segments */
@@ -42,15 +43,25 @@ typedef struct ec_params {
     ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
     ec_float lens_nearness;       /* 1 / distance of the plane in focus */
     ec_uint environment_turned;   /* 0: environment_turn is not looked at */
-    ec_float light_tree_pmf;      /* probability that light sampling goes to the tree */
+    ec_uint light_tree_numbers;   /* of 2^31 random numbers those by which light sampling goes to the tree */
     ec_uint panes_count;          /* is a pane that a shadow ray passes a vertex, as max_depth counts them? Not in Whitted's */
     ec_uint nested;               /* bodies may lie in one another: media are sets (lib/medium.h) */
     ec_uint camera_medium;        /* what the camera is inside of */
     ec_uint film_row;             /* the picture's row that the films begin with */
     ec_uint terminator;           /* do rays leave from the smooth surface (lib/terminator.h)? */
     ec_uint multiple;             /* do facets scatter more than once (lib/multiscatter.h)? */
+    ec_uint light_choices;        /* entries of the table by which a light is chosen */
+    ec_uint environment_stretch[2]; /* floor(2^64 / numbers that choose the environment), the high word first (lib/choice.h) */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 280);
+EC_ASSERT_SIZE(ec_params, 296);
+
+/* What a batch tells of a pixel, floats: mean radiance R, G, B of its samples; of the samples' luminance the largest, and the sums of
+ * its squares and fourth powers in units of that (1 to m, 0 where all are black). */
+#define EC_BATCH_FIELDS 6
+enum ec_batch_field { EC_BATCH_R, EC_BATCH_G, EC_BATCH_B, EC_BATCH_LARGEST, EC_BATCH_SQUARES, EC_BATCH_FOURTHS };
+
+/* An entry of a pixel list: the pixel's number (kernels/lib/film.h), and how many samples it has. */
+#define EC_LIST_WORDS 2
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

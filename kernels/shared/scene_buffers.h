@@ -147,14 +147,6 @@ EC_ASSERT_SIZE(ec_light_data, 64);
 #define EC_LIGHT_COATED 64u /* dimmed by a clear coat, which goes by the angle */
 #define EC_LIGHT_OPEN 128u  /* coverage leaves some of it open */
 
-/* Alias table entry (Walker 1977, Vose 1991) in integers, so that the probability is exactly the one sampled: a 32-bit
- * random number r picks column r * n >> 32; the low word of that product is compared with `threshold`. */
-typedef struct ec_alias {
-    ec_uint threshold; /* below: this column; else `other` */
-    ec_uint other;
-} ec_alias;
-EC_ASSERT_SIZE(ec_alias, 8);
-
 /* Entry of a distribution that is sampled by inversion: its share of the 32-bit numbers begins at `first` and ends where the next
  * entry's begins, the last one's at 2^32. guide: of the numbers r with r * n >> 32 equal to this entry's place the last one's entry. */
 typedef struct ec_distribution_entry {

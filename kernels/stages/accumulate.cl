@@ -1,5 +1,5 @@
-/* The mean of a pixel's samples in this batch, added in sample order. Reads: the slots' radiance. Writes: the batch film,
- * 3 floats a pixel in row order from film_row on, or in the list's. Last stage of a wave. */
+/* What the pixel's samples in this batch come to, added in sample order. Reads: the slots' radiance. Writes: the batch film,
+ * EC_BATCH_FIELDS floats a pixel in row order from film_row on, or in the list's. Last stage of a wave. */
 #include "../lib/film.h"
 #include "../lib/math.h"
 
@@ -21,6 +21,27 @@ static float sum_of(global const float *in, uint count, float scale)
     return sum;
 }
 
+static float luminance_of(global const float *in, uint wave, uint s)
+{
+    return 0.2126f * in[s] + 0.7152f * in[wave + s] + 0.0722f * in[2 * wave + s]; /* linear Rec. 709 */
+}
+
+/* The tail of the samples' luminance. In units of the largest no power leaves the range of a float. */
+static void write_tail(global const float *in, uint wave, uint count, global float *out)
+{
+    float largest = 0.0f, squares = 0.0f, fourths = 0.0f;
+    for (uint s = 0; s < count; s++) largest = max(largest, luminance_of(in, wave, s));
+    largest = is_finite_bits(largest) ? largest : MAXFLOAT;
+    for (uint s = 0; s < count && largest > 0.0f; s++) {
+        float y = min(luminance_of(in, wave, s), largest) / largest, square = y * y;
+        squares += square;
+        fourths += square * square;
+    }
+    out[EC_BATCH_LARGEST] = largest;
+    out[EC_BATCH_SQUARES] = squares;
+    out[EC_BATCH_FOURTHS] = fourths;
+}
+
 kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count,
                           global const float *radiance, global float *batch_film)
 {
@@ -28,11 +49,12 @@ kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global c
     if (i >= pixel_count) return;
     uint x, y;
     pixel_to_xy(params, first_pixel + i, &x, &y);
-    global float *out =
-        batch_film + 3 * (pixel_list ? (ulong)(first_pixel + i) : (ulong)(y - params->film_row) * params->width + x);
+    global float *out = batch_film + EC_BATCH_FIELDS * (pixel_list ? (ulong)(first_pixel + i)
+                                                                   : (ulong)(y - params->film_row) * params->width + x);
     for (uint c = 0; c < 3; c++) {
         global const float *in = radiance + c * wave + i * batch;
         float mean = sum_of(in, batch, 1.0f) / (float)batch;
         out[c] = is_finite_bits(mean) ? mean : sum_of(in, batch, 1.0f / (float)batch); /* their sum is more than a float holds */
     }
+    write_tail(radiance + i * batch, wave, batch, out);
 }

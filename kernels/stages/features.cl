@@ -13,7 +13,7 @@ kernel void ec_features(constant ec_params *params, uint first_pixel, global con
     uint i = get_global_id(0), wave = params->wave, batch = params->batch;
     if (i >= pixel_count) return;
     uint x, y;
-    pixel_to_xy(params, pixel_list ? pixel_list[first_pixel + i] : first_pixel + i, &x, &y);
+    pixel_to_xy(params, pixel_list ? pixel_list[EC_LIST_WORDS * (first_pixel + i)] : first_pixel + i, &x, &y);
     global float *out = feature_film + EC_AOV_FIELDS * ((ulong)(y - params->film_row) * params->width + x);
     for (uint c = 0; c < EC_AOV_FIELDS; c++) {
         float sum = 0.0f;

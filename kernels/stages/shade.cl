@@ -54,7 +54,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const float *colors, global const float *materials, global const float *texture_table,
                      global const uint *texels, constant float *srgb, global const float *places,
                      global const float *motion, global const float *times,
-                     global const float *light_table, global const uint *light_alias,
+                     global const float *light_table, global const uint *light_shares,
                      global const float *environment_texels, global const uint *environment_table,
                      global const float *light_tree, global const uint *light_trails)
 {
@@ -63,7 +63,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
-    lights light = {light_table, light_alias, {params, environment_texels, environment_table}, light_tree};
+    lights light = {light_table, light_shares, {params, environment_texels, environment_table}, light_tree};
 
     lane_i active = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
@@ -114,7 +114,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             if (HAS(LIGHT_TREE) && light_tree) {
                 lane_u lamp = HAS(INSTANCES) ? (h.placed ? U(0) : prim) : prim; /* no instance is one, and its id lies behind the trails */
                 h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source,
-                                                gather_u(light_trails, lamp));
+                                                params->light_tree_numbers, gather_u(light_trails, lamp));
             }
             lane_f pdf = light_found_pdf(&h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = coat_emission(&g, &h, m, wo, surface_emission(&g, &h, m, emission));
@@ -145,13 +145,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
     sampler random = sampler_make(seed, pixel, sample);
     uint pair = EC_PAIR_BOUNCE(bounce);
-    lane_u choice, lobe;
-    sample_pair_u(random, pair + EC_PAIR_CHOICE, &choice, &lobe);
-    if (HAS(DISPERSION)) {
-        lane_f u_roulette, u_channel;
-        sample_pair(random, pair + EC_PAIR_ROULETTE, &u_roulette, &u_channel);
-        disperse(&g, &h, scatters, u_channel, &s, &beta);
-    }
+    lane_u r1, r2;
+    lane_f u_survives = F(0.0f), u_pass = F(0.0f);
+    bool roulette = bounce + 1 >= params->first_roulette;
+    if (HAS(TRANSMISSION) || roulette) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass);
+    if (HAS(DISPERSION)) disperse(&g, &h, scatters, &u_pass, &s, &beta);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo), params->multiple != 0u);
 
     /* Where reflected rays start. Lights are looked for from there, so that a path that meets one finds the same density. */
@@ -161,10 +159,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
 
     lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
-        lane_u r1, r2;
         lane_f pdf_bsdf;
         sample_pair_u(random, pair + EC_PAIR_LIGHT, &r1, &r2);
-        light_sample l = light_sample_one(&light, &g, joins, above, choice, r1, r2);
+        light_sample l = light_sample_one(&light, &g, joins, above, r1, r2);
         v3 wi_local = surface_to_local(&s, l.wi);
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
@@ -175,9 +172,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                     left_behind(&s, l.wi, lifted, prim), m, invalid + EC_STAGE_SHADE);
     }
 
-    lane_f u1, u2;
-    sample_pair(random, pair + EC_PAIR_BSDF, &u1, &u2);
-    bsdf_direction next_way = bsdf_sample(&b, params->sample == EC_SAMPLE_HEMISPHERE, u1, u2, to_unit(lobe));
+    sample_pair_u(random, pair + EC_PAIR_BSDF, &r1, &r2);
+    bsdf_direction next_way = bsdf_sample(&b, params->sample == EC_SAMPLE_HEMISPHERE, to_unit(r1), chooser_make(r2), u_pass);
     v3 wi = surface_to_world(&s, next_way.wi); /* unit to 8 u: frame and local direction are */
     lane_i alive = scatters & (next_way.pdf != 0.0f) & same_side(&s, wi, next_way.wi, lifted);
     beta = v3_mul(beta, next_way.weight);
@@ -186,10 +182,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
     lane_f brightest = v3_max_component(beta);
     alive = alive & finite & (brightest > 0.0f);
-    if (bounce + 1 >= params->first_roulette) {
-        lane_f survival = roulette_survival(brightest, params->survival), u, unused;
-        sample_pair(random, pair + EC_PAIR_ROULETTE, &u, &unused);
-        alive = alive & (u < survival);
+    if (roulette) {
+        lane_f survival = roulette_survival(brightest, params->survival);
+        alive = alive & (u_survives < survival);
         beta = v3_scale(beta, 1.0f / survival);
     }
     uint bits = mask_bits(alive);

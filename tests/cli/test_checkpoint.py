@@ -11,7 +11,7 @@ import unittest
 from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, quad_scene, read_exr, write_gltf
 
 SIZE = ["--size", "20x18"]
-RESULT = ["image_sha256", "samples", "rays", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "batches"]
+RESULT = ["image_sha256", "samples", "rays", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates"]
 
 
 class Checkpoint(Case):
@@ -36,24 +36,28 @@ class Checkpoint(Case):
         self.assertEqual(again["image_sha256"], json.loads(self.assert_ok(eclat(*command[1:], "--json", "-q")).stdout)["image_sha256"])
 
     def test_paths(self):
-        job = ["--batch", "2"]
-        for first, all_of_it in [(2, 8), (32, 80)]:
+        """Within the first batches of the replicates, between two strides, and within a batch: 101 samples are those of batch 100:102 but one."""
+        for first, all_of_it in [(2, 8), (32, 80), (101, 300), (37, 203)]:
+            self.assert_same(["--spp", str(first)], ["--spp", str(all_of_it)], ["--spp", str(all_of_it)])
+
+    def test_other_numbers_of_replicates(self):
+        for replicates, first, all_of_it in [(1, 3, 21), (3, 4, 50), (16, 40, 75)]:
+            job = ["--replicates", str(replicates)]
             self.assert_same([*job, "--spp", str(first)], [*job, "--spp", str(all_of_it)], ["--spp", str(all_of_it)])
 
     def test_other_integrators(self):
         for integrator in ["whitted", "raster"]:
-            job = ["--integrator", integrator, "--batch", "1"]
+            job = ["--integrator", integrator]
             self.assert_same([*job, "--spp", "5"], [*job, "--spp", "21"], ["--spp", "21"])
 
     def test_adaptive(self):
         """Within the pilot, at its end, and with pixels of different counts."""
-        for first in [4, 8, 30]:
-            job = ["--adaptive", "--batch", "2"]
-            self.assert_same([*job, "--spp", str(first)], [*job, "--spp", "64"], ["--spp", "64"])
+        for first in [12, 32, 50]:
+            self.assert_same(["--adaptive", "--spp", str(first)], ["--adaptive", "--spp", "96"], ["--spp", "96"])
 
     def test_in_the_middle_of_a_batch(self):
-        """A wave of 256 paths is 1 of 100 and more of a batch: nearly every stop is within one."""
-        for options in [["--spp", "96", "--batch", "8", "--adaptive"], ["--spp", "128", "--batch", "32", "--samples", "32:128"]]:
+        """A wave of 256 paths is 1 of 22 and more of a batch: nearly every stop is within one."""
+        for options in [["--spp", "96", "--adaptive"], ["--spp", "1280", "--samples", "1024:1280"]]:
             job = [CORNELL, "--size", "40x36", "--wave", "256", *options]
             whole = self.render(*job)
             planes = read_exr(self.path("a.exr"))[1]
@@ -67,7 +71,7 @@ class Checkpoint(Case):
                 self.stop(process, [signal.SIGINT, signal.SIGKILL][stops % 2])
                 stops += 1
                 if os.path.exists(self.kept):
-                    cut += json.loads(read_exr(self.kept)[0]["eclat.state"])["underWay"] > 0
+                    cut += self.state()["underWay"] > 0
                 if done and not cut:
                     os.remove(self.kept)
             again = self.render("--resume", self.kept)
@@ -76,37 +80,78 @@ class Checkpoint(Case):
             self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
             os.remove(self.kept)
 
-    def test_within_the_first_batch(self):
-        """It is cut as any other, first-hit features and all: on large pictures it takes minutes."""
-        for options, signals in [([], [signal.SIGINT]), (["--samples", "512:1024"], [signal.SIGKILL, signal.SIGINT])]:
-            job = [CORNELL, "--size", "40x36", "--wave", "4096", "--spp", "1024", "--batch", "512", *options]  # a checkpoint after each of 180 waves
-            whole = self.render(*job)
-            planes = read_exr(self.path("a.exr"))[1]
-            for number in signals:
-                process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
-                _, said = self.stop(process, number)
-                self.assertEqual("goes on" in said, number == signal.SIGINT and "--samples" in options, said)
-                state = json.loads(read_exr(self.kept)[0]["eclat.state"])
-                self.assertEqual((state["batches"], state["parts"], state["underWay"] > 0), (0, [], True))
-                error = self.assert_one_error(eclat("merge", self.kept, "-o", self.path("m.exr")), 1)
-                self.assertIn("was cut off within its first batch", error)
-                again = self.render("--resume", self.kept)
-                self.assertEqual((whole["image_sha256"], whole["samples"]), (again["image_sha256"], again["samples"]))
-                self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
-                os.remove(self.kept)
+    def state(self):
+        return json.loads(read_exr(self.kept)[0]["eclat.state"])
+
+    def test_within_the_first_batches(self):
+        """First-hit features are averaged over the first batch of each replicate: what is kept there is whole batches."""
+        job = [CORNELL, "--size", "40x36", "--wave", "64", "--spp", "64"]  # 23 waves a batch
+        whole = self.render(*job)
+        planes = read_exr(self.path("a.exr"))[1]
+        features = set()
+        for at in range(8):
+            process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
+            deadline = time.monotonic() + 60
+            while process.poll() is None and time.monotonic() < deadline:
+                if os.path.exists(self.kept) and self.state()["batches"] > at:
+                    break
+                time.sleep(0.002)
+            self.stop(process, signal.SIGKILL)
+            state = self.state()
+            if state["batches"] < 8:
+                self.assertEqual(state["underWay"], 0)
+                features.add(state["featureBatches"])
+            self.assertEqual(state["featureBatches"], min(state["batches"], 8))
+            again = self.render("--resume", self.kept)
+            self.assertEqual((whole["image_sha256"], whole["samples"]), (again["image_sha256"], again["samples"]))
+            self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
+            os.remove(self.kept)
+        self.assertTrue(features, "never stopped early enough")
+
+    def test_within_the_first_batch_of_a_slice(self):
+        """It is cut as any other: on large pictures it takes minutes."""
+        job = [CORNELL, "--size", "40x36", "--wave", "1024", "--spp", "4608", "--samples", "4096:4608"]  # a checkpoint after each of 90 waves
+        whole = self.render(*job)
+        planes = read_exr(self.path("a.exr"))[1]
+        for number in [signal.SIGKILL, signal.SIGINT]:
+            process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
+            _, said = self.stop(process, number)
+            self.assertEqual("goes on" in said, number == signal.SIGINT, said)
+            state = self.state()
+            self.assertEqual((state["batches"], state["parts"], state["underWay"] > 0), (0, [], True))
+            error = self.assert_one_error(eclat("merge", self.kept, "-o", self.path("m.exr")), 1)
+            self.assertIn("was cut off within its first batch", error)
+            again = self.render("--resume", self.kept)
+            self.assertEqual((whole["image_sha256"], whole["samples"]), (again["image_sha256"], again["samples"]))
+            self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
+            os.remove(self.kept)
 
     def test_until_an_error(self):
-        job = ["--batch", "2"]
-        self.assert_same([*job, "--spp", "12"], [*job, "--error", "60%"], ["--error", "60%"])
+        """Also where samples go where noise is, which --resume keeps as it was: on by itself with --error, off without."""
+        self.assert_same(["--spp", "12"], ["--error", "60%", "--adaptive=off"], ["--error", "60%"])
+        self.assert_same(["--error", "25%", "--spp", "40"], ["--error", "25%"], ["--error", "25%"])
+        self.assert_same(["--error", "60%"], ["--spp", "150", "--adaptive"], ["--spp", "150"])
 
     def test_a_slice(self):
-        job = [CORNELL, *SIZE, "--spp", "80", "--batch", "2", "--samples", "10:80"]
+        job = [CORNELL, *SIZE, "--spp", "80", "--samples", "10:80"]
         whole = self.render(*job)
         process = self.start(*job, "--checkpoint", self.kept, "--every", "0.001s", "-o", self.path("b.exr"))
         self.stop(process, signal.SIGINT)
         again = self.render("--resume", self.kept, name="b.exr")
         self.assertEqual(whole["image_sha256"], again["image_sha256"])
         self.assert_ok(eclat("merge", self.path("b.exr"), "--partial", "-q", "-o", self.path("m.exr")))
+
+    def test_a_slice_that_ends_within_a_batch(self):
+        """Its checkpoint ends before that batch, its picture within."""
+        job = [CORNELL, *SIZE, "--spp", "101", "--samples", "64:101"]
+        whole = self.render(*job)
+        planes = read_exr(self.path("a.exr"))[1]
+        self.assertEqual((whole["samples_per_pixel"], json.loads(read_exr(self.path("a.exr"))[0]["eclat.state"])["cut"]), (37, 1))
+        self.render(*job, "--checkpoint", self.kept)
+        self.assertEqual((self.state()["cut"], set(read_exr(self.kept)[1]["samples"])), (0, {36.0}))
+        for _ in range(2):
+            self.assertEqual(whole["image_sha256"], self.render("--resume", self.kept)["image_sha256"])
+            self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
 
     def start(self, *options):
         return subprocess.Popen([ECLAT, "render", *options], env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -122,7 +167,7 @@ class Checkpoint(Case):
     def test_asked_to_stop(self):
         """A last checkpoint is written, of all that the picture shows."""
         for number in [signal.SIGINT, signal.SIGTERM]:
-            process = self.start(CORNELL, "--size", "40x40", "--batch", "1", "--spp", "100000", "--checkpoint", self.kept, "--every", "0.05s",
+            process = self.start(CORNELL, "--size", "40x40", "--spp", "100000", "--checkpoint", self.kept, "--every", "0.05s",
                                  "-o", self.path("a.exr"))
             _, error = self.stop(process, number)
             self.assertEqual(process.returncode, 0, error)
@@ -151,6 +196,10 @@ class Checkpoint(Case):
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--checkpoint", "other.exr", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.kept)[1], read_exr(self.path("other.exr"))[1])
         self.assert_ok(eclat("render", "--resume", "other.exr", "-q", cwd=self.folder))
+        for limit, kept in [(["--spp", "21"], 20), ([], 20), (["--spp", "22"], 22)]:  # of 20:22 half, again, and all
+            self.assert_ok(eclat("render", "--resume", "kept.exr", *limit, "-q", cwd=self.folder))
+            self.assertEqual(set(read_exr(self.path("x.exr"))[1]["samples"]), {float((limit or [0, 20])[1])})
+            self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {float(kept)})
         plan = eclat("render", "--resume", "kept.exr", "--plan", "3", cwd=self.folder)
         self.assertIn("--plan and --resume: ", self.assert_one_error(plan, 2))
 
@@ -169,7 +218,7 @@ class Checkpoint(Case):
     def test_what_does_not_fit_is_refused(self):
         self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
         for options, says in [(["--seed", "2"], "--seed is 0 there and 2 here"), (["--size", "20x17"], "--size is 20x18 there and 20x17 here"),
-                              (["--batch", "2"], "--batch is 1 there and 2 here"), (["--adaptive"], "--adaptive is off there and on here"),
+                              (["--replicates", "4"], "--replicates is 8 there and 4 here"), (["--adaptive"], "--adaptive is off there and on here"),
                               (["--light-choice", "tree"], "--light-choice is power there and tree here"),
                               (["--integrator", "raster"], "--integrator is path there and raster here"), (["--rr", "0.5"], "--rr is"),
                               (["--camera", "0", "--filter", "blackman-harris"], "--filter is box there"), ([RING], "not the same are the scene's camera, geometry")]:
@@ -184,7 +233,7 @@ class Checkpoint(Case):
         scene, _ = quad_scene(material={"doubleSided": True})
         scene["nodes"] += [{"mesh": 0, "translation": [k, 0.5, -k]} for k in range(3)]
         scene["scenes"][0]["nodes"] += [2, 3, 4]
-        job = [write_gltf(self.path("many.gltf"), scene), *SIZE, "--batch", "2", "--instancing", "on"]
+        job = [write_gltf(self.path("many.gltf"), scene), *SIZE, "--instancing", "on"]
         whole = self.render(*job, "--spp", "12")
         self.assertGreater(whole["instances"], 1)
         for first, then in [("auto", "bvh8"), ("grid", "twolevel")]:

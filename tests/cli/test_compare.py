@@ -28,13 +28,13 @@ class Compare(Case):
     def exr(self, name, planes, width=W, height=H, **options):
         return write_exr(self.path(name), width, height, planes, **options)
 
-    def noisy(self, name, brightness=1.0, seed=0, half=False, errors=True, batches=16):
+    def noisy(self, name, brightness=1.0, seed=0, half=False, errors=True, replicates=8):
         """A picture with one standard deviation of noise, known: 5 % of each value."""
         noise = random.Random(seed)
         planes = {c: [brightness * (0.5 + 0.02 * (i % W)) * (1 + 0.05 * noise.gauss(0, 1)) for i in range(W * H)] for c in "RGB"}
         if errors:
             planes.update({f"stderr.{c}": [0.05 * (0.5 + 0.02 * (i % W)) for i in range(W * H)] for c in "RGB"})
-        return self.exr(name, planes, half=half, attributes=[("eclat.batches", batches)] if batches else [])
+        return self.exr(name, planes, half=half, attributes=[("eclat.replicates", replicates)] if replicates else [])
 
 
 class Renders(Compare):
@@ -44,11 +44,12 @@ class Renders(Compare):
         return json.loads(run.stdout)
 
     def test_the_stated_error_is_what_is_measured_against_a_long_render(self):
-        """The mean square of the stated errors is compared with that of 12 measured ones. Each square has a relative spread of
-        sqrt(2 / nu), nu about 200 effective pixels here: 10 %, so of 12 3 %; a tenth is three standard errors."""
-        self.render("long.exr", "--spp", "16384", "--seed", "100", "--batch", "256")
+        """The mean square of the stated errors is compared with that of 40 measured ones. Of 60 seeds the measured squares have a relative spread
+        of 45 %, the stated ones of 16 %: their ratio one of 7.6 %, three standard errors 23 %; of relMSE 33 % and 16 %. One run in 200 would fail
+        with other seeds."""
+        self.render("long.exr", "--spp", "16384", "--seed", "100")
         stated, measured, relmse_stated, relmse_measured = 0, 0, 0, 0
-        for seed in range(12):
+        for seed in range(40):
             report = self.render("a.exr", "--spp", "256", "--seed", str(seed))
             found = json.loads(eclat("compare", "a.exr", "long.exr", "--json", cwd=self.folder).stdout)
             stated += report["error"] ** 2
@@ -56,8 +57,8 @@ class Renders(Compare):
             measured += found["error"] ** 2
             relmse_measured += found["relmse"]
             self.assertAlmostEqual(found["error_of_noise"], report["error"], delta=0.02 * report["error"])
-        self.assertAlmostEqual(measured / stated, 1, delta=0.1)
-        self.assertAlmostEqual(relmse_measured / relmse_stated, 1, delta=0.1)
+        self.assertAlmostEqual(measured / stated, 1, delta=0.23)
+        self.assertAlmostEqual(relmse_measured / relmse_stated, 1, delta=0.16)
 
     def test_two_seeds_are_the_same_picture_and_another_depth_is_not(self):
         self.render("a.exr", "--spp", "64")
@@ -65,7 +66,7 @@ class Renders(Compare):
         self.render("c.exr", "--spp", "64", "--seed", "2", "--max-depth", "2")
         same = self.compare("a.exr", "b.exr")
         self.assertGreater(same["noise_test"]["p"], 0.01)
-        self.assertEqual([same["a"]["batches"], same["b"]["batches"], same["noise_test"]["exact_unequal"]], [16, 16, 0])
+        self.assertEqual([same["a"]["replicates"], same["b"]["replicates"], same["noise_test"]["exact_unequal"]], [8, 8, 0])
         other = self.compare("a.exr", "c.exr", code=1)
         self.assertLess(other["noise_test"]["p"], 1e-6)
         run = eclat("compare", "a.exr", "c.exr", cwd=self.folder)
@@ -73,7 +74,7 @@ class Renders(Compare):
         self.assertRegex(run.stdout, r"(?m)^verdict +they differ by more than noise \(p [=<] \S+, alarm below 0.01\)$")
         run = self.assert_ok(eclat("compare", "a.exr", "b.exr", cwd=self.folder))
         self.assertRegex(run.stdout, r"(?m)^verdict +no more different than noise makes them")
-        self.assertRegex(run.stdout, r"(?m)^noise +standard errors of A from 16 batches; standard errors of B from 16 batches$")
+        self.assertRegex(run.stdout, r"(?m)^noise +standard errors of A from 8 replicates; standard errors of B from 8 replicates$")
         self.assertRegex(run.stdout, r"(?m)^error +\S+ % of B's mean luminance, root mean square; noise alone makes \S+ %$")
 
     def test_a_picture_equals_itself(self):
@@ -82,7 +83,7 @@ class Renders(Compare):
         self.assertEqual([report["unequal_pixels"], report["rmse"], report["psnr"]], [0, 0, None])
         self.assertIn("equal in every pixel", eclat("compare", "a.exr", "a.exr", cwd=self.folder).stdout)
 
-    def test_one_batch_has_no_noise_to_compare_with(self):
+    def test_one_replicate_has_no_noise_to_compare_with(self):
         scene = write_gltf(self.path("quad.gltf"), quad_scene()[0])
         self.render("a.exr", "--spp", "1", scene=scene)
         self.render("b.exr", "--spp", "1", "--seed", "5", "--env", "1,1,1", scene=scene)
@@ -161,12 +162,12 @@ class Noise(Compare):
         self.compare(exact, a)
         self.compare(self.noisy("bright.exr", 1.02, seed=3), exact, code=1)
         run = eclat("compare", a, exact)
-        self.assertRegex(run.stdout, r"(?m)^noise +standard errors of A from 16 batches; B has no standard errors and counts as exact$")
+        self.assertRegex(run.stdout, r"(?m)^noise +standard errors of A from 8 replicates; B has no standard errors and counts as exact$")
         self.assertEqual(eclat("compare", a, b).returncode in (0, 1), True)
 
-    def test_unknown_batches_are_said(self):
-        run = eclat("compare", self.noisy("a.exr", seed=1, batches=0), self.noisy("b.exr", seed=2))
-        self.assertRegex(run.stdout, r"standard errors of A from batches unknown, taken for many; standard errors of B from 16 batches")
+    def test_unknown_replicates_are_said(self):
+        run = eclat("compare", self.noisy("a.exr", seed=1, replicates=0), self.noisy("b.exr", seed=2))
+        self.assertRegex(run.stdout, r"standard errors of A from replicates unknown, taken for many; standard errors of B from 8 replicates")
 
 
 class Unusable(Compare):

@@ -9,13 +9,13 @@ import unittest
 from support import CORNELL, ECLAT, ENVIRONMENT, SOURCE, Case, eclat, read_exr
 
 SIZE = ["--size", "20x18"]
-JOB = ["--spp", "48", "--batch", "4"]
+JOB = ["--spp", "47"]  # which is within a batch, 44:48
 
 
 class Farm(Case):
     def setUp(self):
         super().setUp()
-        self.environment = dict(ENVIRONMENT, ECLAT=os.path.abspath(ECLAT), BATCH="4")
+        self.environment = dict(ENVIRONMENT, ECLAT=os.path.abspath(ECLAT), STEP="8")
 
     def run_script(self, name, *arguments, **environment):
         return subprocess.run([os.path.join(SOURCE, "tools", "farm", name), *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
@@ -26,7 +26,7 @@ class Farm(Case):
         self.assertEqual(read_exr(self.path("whole.exr"))[1], read_exr(path)[1])
 
     def task(self, number, tasks=5, **more):
-        return self.run_script("array.sbatch", CORNELL, "48", *SIZE, SLURM_ARRAY_TASK_ID=str(number), SLURM_ARRAY_TASK_COUNT=str(tasks), **more)
+        return self.run_script("array.sbatch", CORNELL, "47", *SIZE, SLURM_ARRAY_TASK_ID=str(number), SLURM_ARRAY_TASK_COUNT=str(tasks), **more)
 
     def test_an_array_job(self):
         for number in [3, 0, 4, 1]:
@@ -35,7 +35,7 @@ class Farm(Case):
         with open(self.path("cornell-box.8.checkpoint.exr"), "w", encoding="utf-8"):
             pass  # of a task that is to run again: no slice
         slices = sorted(os.path.basename(path) for path in glob.glob(self.path("cornell-box.*-*.exr")))
-        self.assertEqual(slices, ["cornell-box.0-8.exr", "cornell-box.16-28.exr", "cornell-box.28-36.exr", "cornell-box.36-48.exr", "cornell-box.8-16.exr"])
+        self.assertEqual(slices, ["cornell-box.0-8.exr", "cornell-box.16-24.exr", "cornell-box.24-32.exr", "cornell-box.32-47.exr", "cornell-box.8-16.exr"])
         self.assert_ok(eclat("merge", *map(self.path, slices), "-q", "-o", self.path("all.exr")))
         self.assert_one_render(self.path("all.exr"))
 
@@ -43,7 +43,7 @@ class Farm(Case):
         for variables, says in [({"TASK_ID": "7", "TASK_COUNT": "1", "TASK_MIN": "7"}, "count from 0"),
                                 ({"TASK_ID": "1", "TASK_COUNT": "16", "TASK_MIN": "1"}, "count from 0"),
                                 ({"TASK_ID": "2", "TASK_COUNT": "2", "TASK_MIN": "0"}, "count from 0"), ({}, "a task of an array")]:
-            run = self.run_script("array.sbatch", CORNELL, "48", **{"SLURM_ARRAY_" + key: value for key, value in variables.items()})
+            run = self.run_script("array.sbatch", CORNELL, "47", **{"SLURM_ARRAY_" + key: value for key, value in variables.items()})
             self.assertEqual((run.returncode, run.stdout), (2, ""))
             self.assertIn(says, run.stderr)
         for arguments, says in [((CORNELL,), "usage:"), ((CORNELL, "--size"), "no samples a pixel"),
@@ -86,7 +86,7 @@ class Farm(Case):
         """What has rendered nothing is not put into the queue for ever."""
         self.program("scontrol", "echo asked >&2")
         sleeper = self.program("sleeper", 'trap "exit 0" TERM; kill -USR1 $PPID; sleep 2 & wait')
-        run = self.run_script("array.sbatch", CORNELL, "48", ECLAT=sleeper, PATH=self.folder + ":" + os.environ["PATH"], SLURM_ARRAY_JOB_ID="77",
+        run = self.run_script("array.sbatch", CORNELL, "47", ECLAT=sleeper, PATH=self.folder + ":" + os.environ["PATH"], SLURM_ARRAY_JOB_ID="77",
                               SLURM_ARRAY_TASK_ID="0", SLURM_ARRAY_TASK_COUNT="1")
         self.assertEqual(run.returncode, 2)
         self.assertIn("give --time more", run.stderr)
@@ -105,21 +105,21 @@ class Farm(Case):
 
     def test_a_farm(self):
         self.program("ssh", '[ "$1" != down ] || { sleep 1; exit 255; }\nshift\nexec sh -c "$*"')  # one of the machines is down
-        run = self.run_script("farm", "down here there", CORNELL, "48", "all.exr", *SIZE, FARM_SSH=self.path("ssh"), SLICES="5")
+        run = self.run_script("farm", "down here there", CORNELL, "47", "all.exr", *SIZE, FARM_SSH=self.path("ssh"), SLICES="5")
         self.assert_ok(run)
         self.assertIn("farm: down failed at samples", run.stderr)
         self.assert_one_render(self.path("all.exr"))
         os.remove(self.path("all.exr"))
-        run = self.run_script("farm", "down", CORNELL, "48", "all.exr", *SIZE, FARM_SSH=self.path("ssh"), SLICES="2")
+        run = self.run_script("farm", "down", CORNELL, "47", "all.exr", *SIZE, FARM_SSH=self.path("ssh"), SLICES="2")
         self.assertEqual(run.returncode, 1)
         self.assertIn("farm: no machine could render a slice", run.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["all.exr.farm", "ssh", "whole.exr"])
 
     def test_a_farm_of_nothing(self):
         """Refused before anything is there that the right command would stumble over."""
-        wrong = [("", "48", {}, "no hosts"), (" ", "48", {}, "no hosts")]
+        wrong = [("", "47", {}, "no hosts"), (" ", "47", {}, "no hosts")]
         wrong += [("here", spp, {}, f"'{spp}' are no samples") for spp in ["0", "00", "abc", "", "4.5"]]
-        wrong += [("here", "48", {name: value}, name) for name, value in [("BATCH", "0"), ("SLICES", "x")]]
+        wrong += [("here", "47", {name: value}, name) for name, value in [("STEP", "0"), ("STEP", "8x"), ("SLICES", "x")]]
         for hosts, spp, variables, says in wrong:
             run = self.run_script("farm", hosts, CORNELL, spp, "all.exr", *SIZE, FARM_SSH="false", **variables)
             self.assertEqual((run.returncode, run.stdout), (1, ""), run.stderr)
@@ -129,13 +129,13 @@ class Farm(Case):
         os.makedirs(self.path("all.exr.farm", "todo"))  # of a command that came to nothing: another begins anew
         with open(self.path("all.exr.farm", "job"), "w", encoding="utf-8") as file:
             file.write("another\n")
-        run = self.run_script("farm", "down", CORNELL, "48", "all.exr", *SIZE, FARM_SSH="false", SLICES="2")
+        run = self.run_script("farm", "down", CORNELL, "47", "all.exr", *SIZE, FARM_SSH="false", SLICES="2")
         self.assertIn("farm: no machine could render a slice", run.stderr)
         self.assertEqual(len(os.listdir(self.path("all.exr.farm", "todo"))), 2)
 
     def test_a_farm_that_goes_on(self):
         """The machine renders two slices and is gone; the same command renders the other three."""
-        farm = ["farm", "here", CORNELL, "48", "all.exr", *SIZE, "--seed", "0"]
+        farm = ["farm", "here", CORNELL, "47", "all.exr", *SIZE, "--seed", "0"]
         stop = dict(FARM_SSH=self.path("ssh"), SLICES="5")
         self.program("ssh", 'shift\n[ ! -e gone ] || exit 255\necho >>rendered\n[ "$(wc -l <rendered)" != 2 ] || : >gone\nexec sh -c "$*"')
         self.assertEqual(self.run_script(*farm, **stop).returncode, 1)

@@ -361,7 +361,7 @@ class Sharing(FramesCase):
     def test_on_several_devices(self):
         scene = self.sliding()
         rows, _ = rows_of(self.render(scene, "--frames", "0:2", "-o", "one.%d.exr"))
-        run = eclat("render", scene, *SMALL, "--batch", "1", "--frames", "0:2", "--device", "all", "--json", "-o", "all.%d.exr", cwd=self.folder,
+        run = eclat("render", scene, *SMALL, "--frames", "0:2", "--device", "all", "--json", "-o", "all.%d.exr", cwd=self.folder,
                     env={"POCL_DEVICES": "pthread basic"})
         several, _ = rows_of(self.assert_ok(run))
         self.assertEqual([row["image_sha256"] for row in several], [row["image_sha256"] for row in rows])

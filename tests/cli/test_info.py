@@ -255,7 +255,7 @@ class Info(Case):
         scene["scenes"][0]["nodes"] = [0, 1, 2, 3]
         _, rows = self.reasons(scene)
         self.assertEqual(rows["punctual-lights"]["why"], 'point light "bulb", and 1 other')
-        # two lights of ec_light_data and of ec_alias
+        # two lights of ec_light_data and of ec_distribution_entry
         self.assertEqual(rows["punctual-lights"]["buffers"], ["lights", "light table"])
         self.assertEqual(rows["punctual-lights"]["buffer_bytes"], 2 * (64 + 8))
 

@@ -69,11 +69,11 @@ class Instances(Case):
         self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=4 * error)
 
     def test_other_integrators(self):
-        """Without random light the picture is the same but for roundings: 10^-3 is a texel or a pixel at an edge here and there."""
+        """Without random light the picture is the same but for roundings: 3e-3 is a texel or a pixel at an edge here and there."""
         for integrator in ["whitted", "raster"]:
             with self.subTest(integrator=integrator):
                 kept, off = (self.render("--instancing", how, "--integrator", integrator) for how in ["on", "off"])
-                self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=0.001 * kept["mean_luminance"])
+                self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=0.003 * kept["mean_luminance"])
 
     def test_info_says_what_is_kept(self):
         kept, off = (json.loads(self.assert_ok(eclat("info", "--json", "--instancing", how, self.scene)).stdout) for how in ["on", "off"])

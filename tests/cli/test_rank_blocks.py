@@ -1,4 +1,4 @@
-"""Only sums travel: where batches come fast, ranks send the sum of 16 or 256 batches in place of each of them, to the same bits. Skipped where there
+"""Only sums travel: where batches come fast, ranks send the sum of 128 or 2048 batches in place of each of them, to the same bits. Skipped where there
 is no mpirun, or eclat was built without MPI."""
 import json
 import os
@@ -9,14 +9,17 @@ import unittest
 import test_ranks
 from support import CORNELL, Case, eclat, read_exr
 
-SIZE = ["--size", "20x18"]
-MANY = [CORNELL, *SIZE, "--batch", "1", "--spp", "2048"]
-PIXELS = 20 * 18
+SIZE = ["--size", "8x8"]
+# Quick, and long: a block, of 8192 samples from the 6144th on, has to be over within 3 s for ranks to take it, and two pieces of it, which here are
+# as large, have to be over before the rest is.
+JOB = [CORNELL, *SIZE, "--max-depth", "1"]
+MANY = [*JOB, "--spp", "300000"]  # the last batch is cut
+PIXELS = 8 * 8
 
 
 def bytes_of_each(report):
-    """That reached rank 0, for a pixel of a batch that another rank took."""
-    return report["received_bytes"] / (PIXELS * report["other_ranks_batches"])
+    """That reached rank 0, for a pixel of 64 samples that another rank took: of a batch, as most are."""
+    return 64 * report["received_bytes"] / (PIXELS * report["other_ranks_samples_per_pixel"])
 
 
 class RankBlocks(Case):
@@ -39,31 +42,31 @@ class RankBlocks(Case):
         self.assertEqual(one[1], other[1])
 
     def test_traffic(self):
-        """A mean of each batch would be 12 bytes a pixel, the sums of 16 are 68 / 16. Batches by themselves: the first, the last, and until all know
-        their pace."""
+        """Batches by themselves would be 24 bytes a pixel each, the sums of 128 are 108 / 128. By themselves come the first, the last, and all until
+        the ranks know their pace."""
         whole = self.render(*MANY)
         report, planes = self.render_on(5, *MANY, env={"ECLAT_RANK_FANOUT": "2"})
         self.assert_same(whole, (report, planes))
-        self.assertGreater(report["other_ranks_batches"], 100)
-        self.assertLess(bytes_of_each(report), 12 / 1.5)
+        self.assertGreater(report["other_ranks_samples_per_pixel"], 8192)
+        self.assertLess(bytes_of_each(report), 24 / 1.5)
 
     def test_until_an_error(self):
-        """The same batch ends it, wherever they were rendered; it is looked at every 16th from 256 on, every 32nd from 512."""
-        job = [CORNELL, *SIZE, "--batch", "1"]
-        past = self.render(*job, "--spp", "900")[0]["error_bound"]
-        job += ["--error", f"{100 * past}%"]
+        """The same batch ends it, wherever they were rendered: it is looked at where all replicates have a quarter of a power of two, and no block
+        goes beyond that. From 32768 samples on 128 batches and more lie between two looks."""
+        past = self.render(*JOB, "--spp", "49152")[0]["error_bound"]
+        job = [*JOB, "--adaptive=off", "--error", f"{100 * past}%"]
         whole = self.render(*job)
         self.assertEqual(whole[0]["stopped_by"], "error")
-        self.assertGreater(whole[0]["batches"], 512)
-        self.assertEqual(whole[0]["batches"] % 32, 0)
+        self.assertGreater(whole[0]["samples_per_pixel"], 32768)
+        self.assertEqual(whole[0]["samples_per_pixel"] % 8192, 0)
         self.assert_same(whole, self.render_on(3, *job))
         kept = self.path("kept.exr")
         self.render_on(3, *job, "--spp", "523", "--checkpoint", kept)
-        self.assertEqual(whole[0]["image_sha256"], self.render_on(2, "--resume", kept, "--error", f"{100 * past}%", "--spp", "4000")[0]["image_sha256"])
+        self.assertEqual(whole[0]["image_sha256"], self.render_on(2, "--resume", kept, "--error", f"{100 * past}%", "--spp", "4000000")[0]["image_sha256"])
 
     def test_going_on(self):
         """A job that is stopped again and again, at any batch, on other ranks each time."""
-        job, kept = [*MANY[:-1], "3000"], self.path("kept.exr")
+        job, kept = [*MANY[:-1], "600000"], self.path("kept.exr")
         whole = self.render(*job)
         now, stops = job, 0
         for ranks in [2, 3]:
@@ -81,21 +84,19 @@ class RankBlocks(Case):
         job = [*MANY, "--device", "all"]
         env = {"POCL_DEVICES": "basic basic"}
         whole = self.render(*MANY)
-        report, planes = self.render_on(2, *job, env=env)
-        self.assert_same(whole, (report, planes))
-        self.assertLess(bytes_of_each(report), 12 / 1.5)
+        self.assert_same(whole, self.render_on(2, *job, env=env))
 
     def test_a_device_that_fails(self):
         """In the middle of a block: others take its piece."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
-        fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=9000 FAULT_LOST=1"
+        fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=2500 FAULT_LOST=1"
         run = self.render_with(fault, MANY, {"ECLAT_RANK_FANOUT": "1"})  # it goes on with what the last rank does
         self.assertRegex(run.stderr, "warning: told by rank 1: .* is out, and the others take over its work: .*CL_OUT_OF_RESOURCES")
 
     def test_a_rank_that_is_killed(self):
         """Where the launcher lets the others live they see at once that it has ended, even from behind it in a chain, and take its piece over."""
-        job = [*MANY[:-1], "4000"]
+        job = [*MANY[:-1], "600000"]
         whole = self.render(*job)
         process = self.start(3, *job, "--checkpoint", self.path("kept.exr"), "--every", "0.3s", "--json", "-o", self.path("b.exr"),
                              launcher=["--enable-recovery", "-x", "ECLAT_RANK_FANOUT=1"])
@@ -109,25 +110,25 @@ class RankBlocks(Case):
 
     def test_a_limit_of_time(self):
         start = time.monotonic()
-        report, _ = self.render_on(3, CORNELL, *SIZE, "--batch", "1", "--time", "1.5s")
+        report, _ = self.render_on(3, *JOB, "--time", "1.5s")
         self.assertEqual(report["stopped_by"], "time")
         self.assertLess(report["seconds"], 3)
         self.assertLess(time.monotonic() - start, 40)
-        whole, _ = self.render(CORNELL, *SIZE, "--batch", "1", "--spp", str(report["samples_per_pixel"]))
+        whole, _ = self.render(*JOB, "--spp", str(report["samples_per_pixel"]))
         self.assertEqual(whole["image_sha256"], report["image_sha256"])
 
     def test_a_plan(self):
-        """The model knows blocks: not at the beginning and the end, and not where a block takes long."""
-        plan = json.loads(self.assert_ok(eclat("render", CORNELL, *SIZE, "--batch", "1", "--spp", "65536", "--plan", "1000", "--json", "-q")).stdout)
+        """The model knows blocks: not at the beginning and the end, and not where a block takes long, as one does of a picture that is one row of tiles."""
+        plan = json.loads(self.assert_ok(eclat("render", CORNELL, "--size", "20x18", "--wave", "4096", "--spp", "16000000", "--plan", "1000", "--json", "-q")).stdout)
         rows = {row["ranks"]: row for row in plan["plan"]}
         self.assertEqual(rows[1]["received_bytes"], 0)
-        each = {ranks: row["received_bytes"] / (PIXELS * 65536 * (1 - 1 / ranks)) for ranks, row in rows.items() if ranks > 1}
-        self.assertLess(each[8], 12 / 2.5)
-        self.assertGreaterEqual(min(each.values()), 68 / 256)
-        self.assertLessEqual(max(each.values()), 12)
+        each = {ranks: row["received_bytes"] / (20 * 18 * plan["batches"] * (1 - 1 / ranks)) for ranks, row in rows.items() if ranks > 1}
+        self.assertLess(each[8], 24 / 2.5)
+        self.assertGreaterEqual(min(each.values()), 108 / 2048)
+        self.assertLessEqual(max(each.values()), 24)
         self.assertGreater(plan["add_block_seconds"], 0)
         slow = json.loads(self.assert_ok(eclat("render", CORNELL, "--size", "256x256", "--spp", "64", "--plan", "4", "--json", "-q")).stdout)
-        self.assertAlmostEqual(slow["plan"][1]["received_bytes"], 256 * 256 * 12 * 16 / 2, delta=1)
+        self.assertAlmostEqual(slow["plan"][1]["received_bytes"], 256 * 256 * 24 * 32 / 2, delta=1)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, read_exr
 # does not ask every X server it finds for its cards, and end with those that other tests close meanwhile.
 MPI = dict(ENVIRONMENT, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", PRTE_ALLOW_RUN_AS_ROOT="1", PRTE_ALLOW_RUN_AS_ROOT_CONFIRM="1",
            POCL_MAX_PTHREAD_COUNT="2", HWLOC_COMPONENTS="-gl")
-RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "batches", "invalid_samples", "allotment_gain"]
+RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates", "invalid_samples", "allotment_gain"]
 JOB = [CORNELL, "--size", "20x18"]
 
 
@@ -57,50 +57,52 @@ class Ranks(Case):
 
     def test_a_number_of_samples(self):
         for ranks in 2, 3, 5:
-            self.assert_same([*JOB, "--spp", "70", "--batch", "2"], ranks)
+            self.assert_same([*JOB, "--spp", "131"], ranks)  # 128:132 is a batch
 
     def test_all_take_part(self):
-        run = self.assert_ok(mpirun(3, "render", CORNELL, "--size", "64x64", "--spp", "1024", "--batch", "16", "--json", "-q", "-o", self.path("b.exr")))
+        run = self.assert_ok(mpirun(3, "render", CORNELL, "--size", "64x64", "--spp", "1024", "--json", "-q", "-o", self.path("b.exr")))
         report = json.loads(run.stdout)
-        self.assertGreater(report["other_ranks_batches"], 0.2 * report["batches"])
-        self.assertLess(report["other_ranks_batches"], report["batches"])
+        self.assertGreater(report["other_ranks_samples_per_pixel"], 0.2 * 1024)
+        self.assertLess(report["other_ranks_samples_per_pixel"], 1024)
 
     def test_trees(self):
         """A chain of five, and two levels of two: nobody but neighbours exchanges letters."""
-        self.assert_same([*JOB, "--adaptive", "--spp", "48", "--batch", "2"], 5, {"ECLAT_RANK_FANOUT": "1"})
-        self.assert_same([*JOB, "--spp", "70", "--batch", "2"], 5, {"ECLAT_RANK_FANOUT": "2"})
+        self.assert_same([*JOB, "--adaptive", "--spp", "80"], 5, {"ECLAT_RANK_FANOUT": "1"})
+        self.assert_same([*JOB, "--spp", "131"], 5, {"ECLAT_RANK_FANOUT": "2"})
 
     def test_ranks_of_several_devices(self):
         """Pieces of one batch reach the same rank one after the other."""
-        job = [CORNELL, "--size", "64x64", "--spp", "64", "--batch", "16", "--wave", "4096"]
+        job = [CORNELL, "--size", "64x64", "--spp", "512", "--wave", "4096"]
         self.assert_same(job, 2, {"POCL_DEVICES": "basic basic basic basic"}, ["--device", "all"])
 
     def test_one_process(self):
         self.assert_same([*JOB, "--spp", "16"], 1)
 
     def test_more_ranks_than_batches(self):
-        self.assert_same([*JOB, "--spp", "4", "--batch", "2"], 5)
+        self.assert_same([*JOB, "--spp", "3"], 5)
 
     def test_an_error(self):
-        self.assert_same([*JOB, "--error", "60%", "--batch", "2"], 3)
+        self.assert_same([*JOB, "--error", "30%", "--adaptive=off"], 3)
+        self.assert_same([*JOB, "--error", "25%"], 3)
 
     def test_more_samples_where_they_tell(self):
-        self.assert_same([*JOB, "--adaptive", "--spp", "48", "--batch", "2"], 3)
+        self.assert_same([*JOB, "--adaptive", "--spp", "80"], 3)
 
     def test_a_slice(self):
-        self.assert_same([*JOB, "--spp", "96", "--batch", "1", "--samples", "10:80"], 3)
+        self.assert_same([*JOB, "--spp", "101", "--samples", "64:101"], 3)
+        self.assert_same([*JOB, "--spp", "96", "--samples", "10:80"], 3)
 
     def test_other_integrators(self):
-        self.assert_same([*JOB, "--integrator", "whitted", "--spp", "8", "--batch", "1"], 2)
-        self.assert_same([*JOB, "--integrator", "raster", "--spp", "8", "--batch", "1"], 2)
+        self.assert_same([*JOB, "--integrator", "whitted", "--spp", "18"], 2)
+        self.assert_same([*JOB, "--integrator", "raster", "--spp", "18"], 2)
 
     def test_going_on_with_other_ranks(self):
         """With more samples where they tell; test_rank_blocks goes on without."""
-        job = [*JOB, "--batch", "2", "--adaptive"]
+        job = [*JOB, "--adaptive"]
         whole, planes = self.render(*job, "--spp", "90")
         kept = self.path("kept.exr")
-        self.assert_ok(mpirun(3, "render", *job, "--spp", "34", "--checkpoint", kept, "-q", "-o", self.path("b.exr")))
-        self.assert_ok(eclat("render", "--resume", kept, "--spp", "60", "-q", "-o", self.path("b.exr")))
+        self.assert_ok(mpirun(3, "render", *job, "--spp", "50", "--checkpoint", kept, "-q", "-o", self.path("b.exr")))
+        self.assert_ok(eclat("render", "--resume", kept, "--spp", "71", "-q", "-o", self.path("b.exr")))
         run = self.assert_ok(mpirun(2, "render", "--resume", kept, "--spp", "90", "--json", "-q", "-o", self.path("b.exr")))
         self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
         self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
@@ -111,7 +113,7 @@ class Ranks(Case):
         report = json.loads(run.stdout)
         self.assertEqual(report["stopped_by"], "time")
         self.assertLess(time.monotonic() - start, 40)  # where a rank waits for another, a minute
-        whole, _ = self.render(*JOB, "--spp", str(report["samples_per_pixel"]), "--batch", str(report["batch"]))
+        whole, _ = self.render(*JOB, "--spp", str(report["samples_per_pixel"]))
         self.assertEqual(whole["image_sha256"], report["image_sha256"])
 
     def test_what_fails_early_is_said_once(self):
@@ -136,9 +138,9 @@ class Ranks(Case):
 
     def test_srun_without_mpi(self):
         """Only the first process says so; a slice, which may be one of many, is no matter."""
-        for number, more, says in [("0", [], 1), ("1", [], 0), ("0", ["--samples", "0:4"], 0)]:
+        for number, more, says in [("0", [], 1), ("1", [], 0), ("0", ["--samples", "0:8"], 0)]:
             env = {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": number}
-            run = eclat("render", *JOB, "--spp", "8", "--batch", "1", *more, "-o", self.path("a.exr"), env=env)
+            run = eclat("render", *JOB, "--spp", "16", *more, "-o", self.path("a.exr"), env=env)
             self.assertEqual(self.assert_ok(run).stderr.count("srun started 2 processes that know nothing of one another"), says, run.stderr)
 
     def test_other_commands(self):
@@ -173,7 +175,7 @@ class Ranks(Case):
 
     def test_a_rank_that_is_killed(self):
         """The checkpoint survives and can be gone on with; a line says how; the job fails."""
-        job = [*JOB, "--batch", "2"]
+        job = [*JOB]
         for victim in [2, 0]:
             kept = self.path("kept.exr")
             process = self.start(3, *job, "--spp", "200000", "--checkpoint", kept, "--every", "0.1s", "-o", self.path("b.exr"))
@@ -194,7 +196,7 @@ class Ranks(Case):
     def test_ranks_that_are_lost(self):
         """Where the launcher lets the others live: one below another, whose loss is told all the same; and one that hangs, for which the launcher
         says that not all ended as they should."""
-        job = [*JOB, "--spp", "2000", "--batch", "4"]
+        job = [*JOB, "--spp", "12000"]
         whole, planes = self.render(*job)
         for victim, number, env, launcher in [(5, signal.SIGKILL, {"ECLAT_RANK_FANOUT": "2"}, ["--enable-recovery"]), (2, signal.SIGSTOP, {}, [])]:
             kept = self.path("kept.exr")
@@ -219,7 +221,7 @@ class Ranks(Case):
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clGetDeviceInfo FAULT_SIGNAL=9"
-        run = self.render_with(fault, [*JOB, "--spp", "70", "--batch", "2"], launcher=["--enable-recovery"])
+        run = self.render_with(fault, [*JOB, "--spp", "131"], launcher=["--enable-recovery"])
         self.assertRegex(run.stderr, "warning: rank 1 is lost: it has ended or cannot be reached; the others go on without it")
         self.assertEqual(json.loads(run.stdout)["ranks"], 2)
 
@@ -233,7 +235,7 @@ class Ranks(Case):
         with open(counts, encoding="utf-8") as file:
             last = dict(line.split() for line in file)["clGetDeviceInfo"]
         for fault, warns in [(f"{shim} FAULT_CALL=clGetDeviceInfo FAULT_AT={last}", 1), ("", 0)]:
-            run = self.render_with(f"POCL_DEVICES=basic {fault}", [*JOB, "--spp", "40", "--batch", "1"], {"POCL_DEVICES": "pthread"})
+            run = self.render_with(f"POCL_DEVICES=basic {fault}", [*JOB, "--spp", "40"], {"POCL_DEVICES": "pthread"})
             self.assertEqual(len(re.findall("warning: rank 1 has basic-.* and rank 0 pthread-.*: where one of these does not round", run.stderr)), warns,
                              run.stderr)
 
@@ -241,7 +243,7 @@ class Ranks(Case):
         """It is told of, and the rank goes on with the other one."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
-        job = [CORNELL, "--size", "64x48", "--spp", "512", "--batch", "4"]
+        job = [CORNELL, "--size", "64x48", "--spp", "512"]
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clCreateCommandQueue POCL_DEVICES='basic basic basic basic basic basic'"
         run = self.render_with(fault, job, {"POCL_DEVICES": "basic basic basic basic basic basic"}, ["--device", "all"])
         self.assertRegex(run.stderr, "warning: told by rank 1: basic-.* is out, and the others take over its work: clCreateCommandQueue")
@@ -261,7 +263,7 @@ class Ranks(Case):
 
     def test_a_rank_without_a_device(self):
         """It says so and the others do its work, and in a chain it is still who the last one is reached by."""
-        run = self.render_with("OCL_ICD_VENDORS=/nonexistent", [*JOB, "--spp", "40", "--batch", "1"], {"ECLAT_RANK_FANOUT": "1"})
+        run = self.render_with("OCL_ICD_VENDORS=/nonexistent", [*JOB, "--spp", "40"], {"ECLAT_RANK_FANOUT": "1"})
         self.assertRegex(run.stderr, "warning: rank 1 on .*; the others go on without it")
         self.assertEqual(json.loads(run.stdout)["ranks"], 2)
 
@@ -269,7 +271,7 @@ class Ranks(Case):
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=60 FAULT_LOST=1"
-        job = [CORNELL, "--size", "64x48", "--spp", "512", "--batch", "4"]
+        job = [CORNELL, "--size", "64x48", "--spp", "512"]
         self.assertRegex(self.render_with(fault, job).stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
 
     def test_cores(self):
@@ -287,7 +289,7 @@ class Ranks(Case):
         scene = os.path.join(here, os.path.basename(CORNELL))
         try:
             with Hosts(3, self.folder, here) as hosts:
-                job = [scene, "--size", "20x18", "--spp", "40", "--batch", "2"]
+                job = [scene, "--size", "20x18", "--spp", "41"]
                 run = subprocess.run(hosts.mpirun(ECLAT, "render", *job, "--json", "-o", os.path.join(here, "b.exr")), env=MPI, stdin=subprocess.DEVNULL,
                                      capture_output=True, encoding="utf-8", timeout=100)
         except OSError as error:
@@ -301,14 +303,14 @@ class Ranks(Case):
         run = self.assert_ok(eclat("render", *JOB, "--spp", "64", "--plan", "1000,100,2", "--json", "-q"))
         plan = json.loads(run.stdout)
         self.assertEqual([row["ranks"] for row in plan["plan"]], [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1000])
-        self.assertEqual((plan["batches"], plan["gbit_per_second"], plan["batch_bytes"]), (16, 100, 20 * 18 * 12))
+        self.assertEqual((plan["batches"], plan["gbit_per_second"], plan["batch_bytes"]), (32, 100, 20 * 18 * 24))
         self.assertGreater(plan["scene_bytes"], 1000)
         for row in plan["plan"]:
             self.assertAlmostEqual(row["seconds"], row["load_seconds"] + row["send_seconds"] + row["render_seconds"] + row["wait_seconds"], delta=1e-9)
             self.assertAlmostEqual(row["efficiency"], plan["plan"][0]["seconds"] / row["seconds"] / row["ranks"], delta=1e-6)
-        self.assertAlmostEqual(plan["plan"][0]["render_seconds"], 16 * plan["batch_seconds"], delta=1e-9)
+        self.assertAlmostEqual(plan["plan"][0]["render_seconds"], 32 * plan["batch_seconds"], delta=1e-9)
         for row in plan["plan"]:
-            self.assertGreaterEqual(row["render_seconds"] * row["ranks"], 16 * plan["batch_seconds"] * (1 - 1e-9))
+            self.assertGreaterEqual(row["render_seconds"] * row["ranks"], 32 * plan["batch_seconds"] * (1 - 1e-9))
         self.assertNotEqual(plan["plan"][-1]["held_back_by"], "")
         text = self.assert_ok(eclat("render", *JOB, "--spp", "64", "--plan", "6", "-q")).stdout
         self.assertEqual([line.split()[0] for line in text.splitlines()[-4:]], ["1", "2", "4", "6"])

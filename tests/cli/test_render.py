@@ -10,9 +10,9 @@ import unittest
 from support import CORNELL, RING, Case, eclat, png_size, quad_scene, read_exr, write_gltf
 
 SMALL = ["--size", "24x16", "--spp", "16"]
-KEYS = """seconds samples_per_pixel samples_per_second rays_per_second error error_bound relmse heavy_pixels batches invalid_samples
+KEYS = """seconds samples_per_pixel samples_per_second rays_per_second error error_bound relmse heavy_pixels replicates invalid_samples
           invalid_samples_by_stage device lanes effects accel_seconds kernel_seconds pack_seconds first_pixel_seconds
-          load_seconds peak_memory_bytes outputs stopped_by image_sha256 samples rays wave batch version command""".split()
+          load_seconds peak_memory_bytes outputs stopped_by image_sha256 samples rays wave version command""".split()
 CHANNELS = sorted("R G B A stderr.R stderr.G stderr.B stderr.Y low95.R low95.G low95.B high95.R high95.G high95.B heavy samples albedo.R albedo.G albedo.B normal.X normal.Y normal.Z "
                   "depth.Z".split())
 
@@ -81,9 +81,9 @@ class Files(Render):
         attributes, planes = read_exr(self.path("a.exr"))
         self.assertEqual(sorted(planes), CHANNELS)
         self.assertEqual([kind for _, kind in attributes["channels"]], [2] * len(CHANNELS))
-        for name in ["command", "version", "scene", "camera", "environment", "seed", "integrator", "rr", "sample", "cutoff", "adaptive", "sampler", "terminator", "batch",
+        for name in ["command", "version", "scene", "camera", "environment", "seed", "integrator", "rr", "sample", "cutoff", "adaptive", "sampler", "terminator", "replicates",
                      "samplesPerPixel", "maxDepth", "lanes", "wave", "device", "device.version", "device.driver",
-                     "device.platform", "seconds", "error", "errorBound", "relMSE", "heavyPixels", "batches", "effects", "invalid", "stoppedBy", "host",
+                     "device.platform", "seconds", "error", "errorBound", "relMSE", "heavyPixels", "effects", "invalid", "stoppedBy", "host",
                      "png.exposure", "png.tonemap"]:
             self.assertIn("eclat." + name, attributes)
         self.assertEqual(attributes["eclat.seed"], "18446744073709551615")
@@ -91,7 +91,7 @@ class Files(Render):
         self.assertEqual(set(planes["samples"]), {float(report["samples_per_pixel"])})
         self.assertAlmostEqual(attributes["eclat.error"], report["error"])
 
-    def test_without_two_batches_no_channel_claims_an_error(self):
+    def test_without_two_replicates_no_channel_claims_an_error(self):
         self.render("--size", "8x8", "--spp", "1", "-o", "a.exr")
         attributes, planes = read_exr(self.path("a.exr"))
         self.assertEqual([name for name in planes if re.match("stderr|low95|high95|heavy", name)], [])
@@ -158,7 +158,7 @@ class Reports(Render):
         self.assertEqual(report["samples"], 16 * 24 * 16)
         self.assertLessEqual(report["error"], report["error_bound"])
 
-    def test_one_batch_has_no_error_and_says_null(self):
+    def test_one_replicate_has_no_error_and_says_null(self):
         report = self.render("--size", "8x8", "--spp", "1")
         for key in ["error", "error_bound", "relmse", "heavy_pixels"]:
             self.assertIsNone(report[key], key)
@@ -174,10 +174,10 @@ class Reports(Render):
         self.assertEqual(with_sign["image_sha256"], without["image_sha256"])
 
     def test_a_forecast_is_told_before_and_compared_after(self):
-        run = self.assert_ok(eclat("render", self.scene, *SMALL[:2], "--spp", "64", "--batch", "8", "-o", self.path("a.png"), cwd=self.folder))
+        run = self.assert_ok(eclat("render", self.scene, *SMALL[:2], "--spp", "64", "-o", self.path("a.png"), cwd=self.folder))
         self.assertRegex(run.stderr, r"after 32 samples a pixel: about 64 samples a pixel, .+ \(95 %: .+ to .+\), error then about")
         self.assertRegex(run.stdout, r"(?m)^forecast about 64 samples a pixel.*; said after 32 samples$")
-        forecast = self.render(*SMALL[:2], "--error", "1", "--batch", "1", "--spp", "4096")["forecast"]
+        forecast = self.render(*SMALL[:2], "--error", "1", "--spp", "4096")["forecast"]
         self.assertTrue(forecast["seconds_low"] <= forecast["seconds"] <= forecast["seconds_high"])
         self.assertTrue(forecast["samples_per_pixel_low"] <= forecast["samples_per_pixel"] <= forecast["samples_per_pixel_high"] <= 4096)
         self.assertIsNone(self.render(*SMALL[:2], "--spp", "1")["forecast"])
@@ -262,6 +262,33 @@ class Pieces(Render):
 
 
 class SameBits(Render):
+    def test_limits_only_say_how_many_samples(self):
+        """Whichever of them ends a render of N samples a pixel, its bits are those of --spp N."""
+        job = ["--size", "33x17", "--max-depth", "5"]
+        for limit, stopped_by in [(["--error", "30%", "--adaptive=off"], "error"), (["--time", "0.5s"], "time"), (["--time", "0.5s", "--spp", "100000"], "time"),
+                                  (["--spp", "77", "--time", "10m", "--error", "0.1%", "--adaptive=off"], "spp")]:
+            with self.subTest(limit=limit):
+                ended = self.render(*job, *limit, "-o", "a.exr", scene=CORNELL)
+                counted = self.render(*job, "--spp", str(ended["samples_per_pixel"]), "-o", "b.exr", scene=CORNELL)
+                self.assertEqual((ended["stopped_by"], counted["stopped_by"]), (stopped_by, "spp"))
+                self.assertEqual([ended[key] for key in ("image_sha256", "samples", "error")], [counted[key] for key in ("image_sha256", "samples", "error")])
+                self.assertEqual(read_exr(self.path("a.exr"))[1], read_exr(self.path("b.exr"))[1])
+
+    def test_so_many_samples_are_exactly_so_many(self):
+        for spp in (1, 7, 19, 33, 101, 130):
+            report = self.render("--size", "8x8", "--spp", str(spp), "-o", "a.exr")
+            planes = read_exr(self.path("a.exr"))[1]
+            self.assertEqual((report["samples"], report["samples_per_pixel"], report["replicates"], set(planes["samples"])), (64 * spp, spp, min(spp, 8), {float(spp)}))
+
+    def test_an_error_asks_for_samples_where_they_tell(self):
+        """Unless it is said that it does not, or there is nothing to gain."""
+        for options, told, spends in [(["--error", "20%"], True, True), (["--error", "20%", "--adaptive=auto"], True, True), (["--error", "20%", "--adaptive=off"], False, False),
+                                      (["--spp", "96"], False, False), (["--spp", "96", "--adaptive"], True, True), (["--spp", "96", "--adaptive=on"], True, True)]:
+            with self.subTest(options=options):
+                report = self.render("--size", "24x16", *options, "-o", "a.exr", scene=CORNELL)
+                self.assertEqual((report["adaptive"], report["allotment_gain"] < 0.95, len(set(read_exr(self.path("a.exr"))[1]["samples"])) > 1), (told, spends, spends))
+        self.assertEqual(self.render("--size", "8x8", "--spp", "48", "--adaptive")["allotment_gain"], 1)  # a quad that emits has no noise
+
     def test_nothing_but_the_seed_and_the_sampler_changes_a_bit(self):
         options = ["--size", "33x17", "--spp", "8", "--max-depth", "5"]
         first = self.render(*options, scene=CORNELL)["image_sha256"]

@@ -34,33 +34,50 @@ class Slices(Case):
         return [self.render(f"s{a}-{b}.exr", *job, "--samples", f"{a}:{b}") for a, b in zip(cuts, cuts[1:])]
 
     def test_any_order_gives_the_bits_of_one_render(self):
-        job = ["--spp", "72", "--batch", "2"]  # 36 batches: beyond two blocks of 16
-        whole = self.render("whole.exr", *job)
-        slices = self.cut(job, [0, 2, 24, 32, 72])
-        for order in itertools.islice(itertools.permutations(slices), 0, 24, 5):
-            self.assert_ok(self.merge(*order))
-            self.assert_same_picture(whole, self.path("all.exr"))
+        """Also where a slice is less than a stride of all replicates, and where the job ends within a batch: sample 900 is in 896:912."""
+        for job, cuts in [(["--spp", "600"], [0, 8, 26, 512, 600]), (["--spp", "901"], [0, 90, 512, 896, 901]),
+                          (["--spp", "50", "--replicates", "3"], [0, 4, 16, 46, 50])]:
+            whole = self.render("whole.exr", *job)
+            slices = self.cut(job, cuts)
+            for order in itertools.islice(itertools.permutations(slices), 0, 24, 5):
+                self.assert_ok(self.merge(*order))
+                self.assert_same_picture(whole, self.path("all.exr"))
 
     def test_by_way_of_other_merges(self):
-        job = ["--spp", "40", "--batch", "1", "--integrator", "whitted"]
+        job = ["--spp", "75", "--integrator", "whitted"]  # 74:76 is a batch
         whole = self.render("whole.exr", *job)
         dice = random.Random(3)
-        slices = self.cut(job, [0, *sorted(dice.sample(range(1, 40), 4)), 40])
-        self.assert_ok(eclat("merge", *slices[1::2], "--partial", "-q", "-o", self.path("odd.exr")))
-        self.assert_ok(eclat("merge", *slices[::2], "--partial", "-q", "-o", self.path("even.exr")))
-        self.assert_ok(self.merge(self.path("odd.exr"), self.path("even.exr")))
-        self.assert_same_picture(whole, self.path("all.exr"))
+        for _ in range(2):
+            slices = self.cut(job, [0, *sorted(dice.sample([*range(8, 16), *range(16, 32, 2), *range(32, 64, 4), *range(64, 76, 2)], 4)), 75])
+            odd, even = slices[1::2], slices[::2]
+            dice.shuffle(even)
+            self.assert_ok(eclat("merge", *odd, "--partial", "-q", "-o", self.path("odd.exr")))
+            self.assert_ok(eclat("merge", *even, "--partial", "-q", "-o", self.path("even.exr")))
+            self.assert_ok(self.merge(self.path("even.exr"), self.path("odd.exr")))
+            self.assert_same_picture(whole, self.path("all.exr"))
 
-    def test_the_batch_follows_from_the_whole_job(self):
+    def test_any_limits_are_of_one_job(self):
+        """Which samples a batch has does not depend on them."""
         whole = self.render("whole.exr", "--spp", "64")
-        slices = self.cut(["--spp", "64", "--time", "10m"], [0, 28, 64])
+        slices = self.cut(["--spp", "64", "--time", "10m"], [0, 28]) + self.cut([], [28, 36]) + self.cut(["--spp", "700"], [36, 64])
+        self.assertIn("samples 64:700 are missing; ", self.assert_one_error(self.merge(*slices), 1))
+        slices[-1] = self.render("last.exr", "--spp", "64", "--samples", "36:64")
         run = self.assert_ok(eclat("merge", *slices, "--json", "-o", self.path("all.exr"), "-o", self.path("all.png")))
         result = json.loads(run.stdout)
-        self.assertEqual((result["samples_per_pixel"], result["batches"], result["files"]), (64, 16, 2))
+        self.assertEqual((result["samples_per_pixel"], result["replicates"], result["files"]), (64, 8, 3))
         self.assertEqual(result["outputs"], [os.path.realpath(self.path(name)) for name in ["all.exr", "all.png"]])
         attributes, _ = read_exr(whole)
         self.assertEqual(result["image_sha256"], attributes["eclat.imageSha256"])
         self.assert_same_picture(whole, self.path("all.exr"))
+
+    def test_a_checkpoint_is_a_slice(self):
+        """Of the job's beginning, for another machine to add the rest."""
+        whole = self.render("whole.exr", "--spp", "101")
+        for done in [12, 41]:  # the last batch of the second, 40:44, is not in it
+            self.render("begun.exr", "--spp", str(done), "--checkpoint", self.path("kept.exr"))
+            rest = self.render("rest.exr", "--spp", "101", "--samples", f"{done // 4 * 4}:101")
+            self.assert_ok(self.merge(rest, self.path("kept.exr")))
+            self.assert_same_picture(whole, self.path("all.exr"))
 
     def test_a_slice_is_a_picture(self):
         path = self.render("s.exr", "--spp", "64", "--samples", "16:32")
@@ -71,9 +88,8 @@ class Slices(Case):
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_jobs_without_an_end_grow(self):
-        job = ["--batch", "4"]
-        slices = self.cut(job, [0, 8, 20])
-        whole = self.render("whole.exr", *job, "--spp", "20")
+        slices = self.cut([], [0, 8, 21])  # 20:22 is a batch
+        whole = self.render("whole.exr", "--spp", "21")
         self.assert_ok(self.merge(*slices))
         self.assert_same_picture(whole, self.path("all.exr"))
 
@@ -90,40 +106,51 @@ class Slices(Case):
         return usage.ru_maxrss
 
     def test_memory_does_not_go_by_the_order(self):
-        """Sums whose left neighbours come later would wait, 6 of them here, 11 MB each."""
-        slices = [self.render(f"s{a}.exr", "--size", "400x400", "--spp", "192", "--batch", "1", "--samples", f"{a}:{a + 16}", "--integrator", "raster")
-                  for a in range(0, 192, 16)]
+        """Batches whose left neighbours come later would wait, 24 of them here, 4 MB each."""
+        cuts = [0, 8, 16, 32, 64, 80, 96]
+        slices = [self.render(f"s{a}.exr", "--size", "400x400", "--spp", "96", "--samples", f"{a}:{b}", "--integrator", "raster") for a, b in zip(cuts, cuts[1:])]
         self.assertLess(self.peak(*slices[1::2], *slices[::2]), 1.1 * self.peak(*slices))
 
     def test_gaps_are_named(self):
-        a, _, c, _ = self.cut(["--spp", "32", "--batch", "2"], [0, 8, 12, 24, 32])
+        a, _, c, _ = self.cut(["--spp", "33"], [0, 8, 12, 24, 33])
         error = self.assert_one_error(self.merge(a, c), 1)
-        self.assertIn("samples 8:12, 24:32 are missing; ", error)
+        self.assertIn("samples 8:12, 24:33 are missing; ", error)
         self.assertFalse(os.path.exists(self.path("all.exr")))
         run = self.assert_ok(self.merge(c, a, "--partial"))
-        self.assertEqual(run.stderr, "eclat: warning: samples 8:12, 24:32 are missing: the picture is of the others\n")
+        self.assertEqual(run.stderr, "eclat: warning: samples 8:12, 24:33 are missing: the picture is of the others\n")
         self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {20.0})
 
     def test_many_gaps_are_named_or_counted(self):
-        slices = [self.render(f"s{a}.exr", "--spp", "2000000", "--batch", "1", "--samples", f"{a}:{a + 1}") for a in range(1000000, 1000060, 2)]
+        slices = [self.render(f"s{a}.exr", "--spp", "2000000", "--samples", f"{a}:{a + 64}") for a in range(1000000, 1000000 + 30 * 128, 128)]
         error = self.assert_one_error(self.merge(*slices), 1)
         named, more = re.search("samples (.*) and ([0-9]+) more ranges are missing; ", error).groups()
-        self.assertEqual(named.split(", ")[:2], ["0:1000000", "1000001:1000002"])
+        self.assertEqual(named.split(", ")[:2], ["0:1000000", "1000064:1000128"])
         self.assertEqual(len(named.split(", ")) + int(more), 31)
-        self.assertTrue(named.endswith(f"{999999 + 2 * (31 - int(more) - 1)}:{999999 + 2 * (31 - int(more) - 1) + 1}"), named)
+        last = 1000000 - 64 + 128 * (31 - int(more) - 1)
+        self.assertTrue(named.endswith(f"{last}:{last + 64}"), named)
 
     def test_nothing_twice(self):
-        job = ["--spp", "32", "--batch", "2"]
+        job = ["--spp", "32"]
         a, b = self.render("a.exr", *job, "--samples", "0:20"), self.render("b.exr", *job, "--samples", "16:32")
         self.assertIn(f"'{a}' and '{b}' both have samples 16:20; ", self.assert_one_error(self.merge(a, b), 1))
         shutil.copy(a, self.path("copy.exr"))
         self.assertIn("both have samples 0:20; ", self.assert_one_error(self.merge(a, self.path("copy.exr")), 1))
         self.assertIn("are the same slice; ", self.assert_one_error(self.merge(a, a), 1))
 
+    def test_nothing_behind_the_end_within_a_batch(self):
+        """A job that ends there is over."""
+        a, b, c = self.render("a.exr", "--samples", "0:8"), self.render("b.exr", "--spp", "19", "--samples", "16:19"), self.render("c.exr", "--samples", "20:24")
+        self.assert_ok(self.merge(a, c, "--partial"))
+        shutil.copy(self.path("all.exr"), self.path("ac.exr"))
+        for slices in [[b, c], [c, b], [self.path("ac.exr"), b]]:
+            self.assertIn("one ends within a batch, after 19 samples a pixel, and the other goes on behind that; ", self.assert_one_error(self.merge(*slices, "--partial"), 1))
+        self.assert_ok(self.merge(a, b, "--partial"))
+        self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {11.0})
+
     def test_other_jobs_are_refused_with_the_difference(self):
         a = self.render("a.exr", "--spp", "32", "--samples", "0:16")
         for options, says in [(["--seed", "2"], "--seed is 0 there and 2 here"), (["--max-depth", "3"], "--max-depth is inf there and 3 here"),
-                              (["--size", "20x17"], "--size is 20x18 there and 20x17 here"), (["--batch", "4"], "--batch is 2 there and 4 here"),
+                              (["--size", "20x17"], "--size is 20x18 there and 20x17 here"), (["--replicates", "4"], "--replicates is 8 there and 4 here"),
                               (["--sampler", "independent"], "--sampler is sobol there"), (["--fstop", "2", "--focus", "3"], "--fstop is 0 there and 2 here"),
                               (["--env", "1,1,1"], "environment"), (["--without", "emission"], "--without is nothing there and emission here")]:
             b = self.render("b.exr", "--spp", "32", "--samples", "16:32", *options)
@@ -161,14 +188,22 @@ class Slices(Case):
     def test_the_command_line(self):
         def refuse(says, *options):
             self.assertIn(says, self.assert_one_error(eclat("render", CORNELL, *options), 2))
-        refuse("slices begin and end with a batch, here every 16 samples, as 0:32; --batch sets that", "--samples", "10:20")
+        refuse("slices begin and end with a batch, here as 32:40; multiples of 64 always do", "--spp", "64", "--samples", "33:40")
+        refuse("slices begin and end with a batch, here as 12:20; ", "--spp", "64", "--samples", "12:19")
+        refuse("here as 64:100; ", "--spp", "101", "--samples", "65:99")
+        refuse("here as 64:101; ", "--spp", "101", "--samples", "65:101")
+        refuse("here as 896:901; ", "--spp", "901", "--samples", "900:901")
+        for samples in ["4:16", "7:16", "1:16"]:
+            refuse("here as 0:16; ", "--spp", "64", "--samples", samples)  # first-hit features are of the first 8 samples
+        refuse("here as 0:8; ", "--spp", "64", "--samples", "0:7")
+        refuse("here as 0:16; ", "--spp", "64", "--replicates", "16", "--samples", "0:8")
         refuse("reaches beyond the job's 64 samples", "--spp", "64", "--samples", "0:68")
-        refuse("reaches beyond the job's 64 samples", "--spp", "64", "--batch", "2", "--samples", "0:65")
-        refuse("here every 2 samples, as 0:64; ", "--spp", "64", "--batch", "2", "--samples", "0:63")
+        refuse("reaches beyond the job's 64 samples", "--spp", "64", "--samples", "0:65")
         for text in ["5", ":5", "5:", "a:b", "1:2:3", "-1:4"]:
             refuse("--samples", "--samples", text)
         refuse("holds no samples", "--samples", "4:4")
         refuse("--samples and --adaptive", "--samples", "0:16", "--adaptive")
+        refuse("--samples and --adaptive", "--samples", "0:16", "--adaptive=on")
         refuse("--samples and --error", "--samples", "0:16", "--error", "2%")
         refuse("a slice is an .exr", "--samples", "0:16", "-o", "a.png")
 

@@ -1,9 +1,10 @@
 /* The figures of a comparison against sums by hand, and the noise test on synthetic pictures: how often pairs of one truth raise
  * an alarm, and what differences are found. On renders: tests/stat/test_false_alarms.c. */
 #include "film/difference.h"
-#include "film/film.h"
 #include "film/noise_test.h"
+#include "film/resolve.h"
 #include "film/statistics.h"
+#include "support/films.h"
 #include "support/random.h"
 #include "support/test.h"
 
@@ -19,23 +20,26 @@ static test_random rng = {1};
 static double normal_noise(double truth) { return truth * (1 + 0.3 * test_normal(&rng)); }
 static double fireflies(double truth) { return truth * (1 + 0.02 * test_normal(&rng) + (test_uniform(&rng) < 0.02 ? 30 : 0)); }
 
-/* A render of `batches` batches of a picture whose brightness rises from left to right; the last columns are black. */
-static void render(picture *out, int batches, double (*noise)(double), double brightness)
+/* A render of a picture whose brightness rises from left to right; the last columns are black. Of `samples` samples, up to 16 are replicates of
+ * their own; of more, 16 replicates have equally many. */
+static void render(picture *out, int samples, double (*noise)(double), double brightness)
 {
     ec_film film;
     ec_error err;
-    CHECK_OK(ec_film_create(&film, W, H, 4, &err), err);
-    for (int b = 0; b < batches; b++) {
+    const int replicates = samples < 16 ? samples : 16, each = samples / replicates;
+    CHECK_OK(ec_film_create(&film, W, H, (uint32_t)replicates, &err), err);
+    for (int b = 0; b < replicates; b++) {
         static float batch[VALUES];
         for (int p = 0; p < W * H; p++) {
-            double truth = p % W < W - 4 ? 0.1 + 0.02 * (p % W) : 0, x = truth > 0 ? brightness * noise(truth) : 0;
+            double truth = p % W < W - 4 ? 0.1 + 0.02 * (p % W) : 0, x = 0;
+            for (int i = 0; i < each && truth > 0; i++) x += brightness * noise(truth) / each;
             for (int c = 0; c < 3; c++) batch[3 * p + c] = (float)(x * (1 + 0.2 * c));
         }
-        CHECK_OK(ec_film_add_batch(&film, batch, &err), err);
+        CHECK_OK(films_add(&film, (uint32_t)b, batch, &err), err);
     }
     ec_film_resolve(&film, out->rgb, out->se);
     ec_film_destroy(&film);
-    out->measured = (ec_measured){W, H, out->rgb, out->se, NULL, batches, batches * 4, 0};
+    out->measured = (ec_measured){W, H, out->rgb, out->se, NULL, replicates, samples, 0};
 }
 
 static ec_noise_test compare(const picture *a, const picture *b)
@@ -89,9 +93,9 @@ static void p_values_combine(void)
 static void equal_truths_raise_few_alarms(void)
 {
     static const struct { const char *name; double (*noise)(double); int a, b; } cases[] = {
-        {"normal noise, 16 and 16 batches", normal_noise, 16, 16}, {"normal noise, 4 and 64 batches", normal_noise, 4, 64},
-        {"normal noise, 2 and 2 batches", normal_noise, 2, 2},     {"fireflies, 16 and 16 batches", fireflies, 16, 16},
-        {"fireflies, 8 and 200 batches", fireflies, 8, 200},
+        {"normal noise, 16 and 16 samples", normal_noise, 16, 16}, {"normal noise, 4 and 64 samples", normal_noise, 4, 64},
+        {"normal noise, 2 and 2 samples", normal_noise, 2, 2},     {"fireflies, 16 and 16 samples", fireflies, 16, 16},
+        {"fireflies, 8 and 192 samples", fireflies, 8, 192},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         int alarms[2] = {0};
@@ -176,7 +180,7 @@ static void exact_values_must_be_equal(void)
     CHECK(compare(&a, &b).exact_unequal == 0);
 }
 
-/* A picture that all batches agree on within a neighbourhood of noise: by chance, or a rare path was missed. No alarm. */
+/* A pixel that all replicates agree on within a neighbourhood of noise: by chance, or a rare path was missed. No alarm. */
 static void a_calm_pixel_among_noisy_ones_is_judged_by_them(void)
 {
     static picture a, b;

@@ -3,20 +3,20 @@
  *
  * It aims at 99 %, so as to hold in 95 whatever the noise. What may be asserted differs. Light tails: at least 96 %. Skewed samples
  * and fireflies: at least 95 %, and 100 % is no fault
- * with 2 batches, where kurtosis cannot be told from variance. Fireflies alone on black (the mean luminance itself is a
- * handful of events) and images whose noise sits in one or a few pixels: the floors written below, worst with 2 batches. */
+ * with 2 replicates, where kurtosis cannot be told from variance. Fireflies alone on black (the mean luminance itself is a
+ * handful of events) and images whose noise sits in one or a few pixels: the floors written below, worst with 2 replicates. */
 #include "base/random.h"
-#include "film/film.h"
 #include "film/statistics.h"
+#include "support/films.h"
 #include "support/test.h"
 
 enum { TABLE = 65536, REPEATS = 400, FIREFLY_SAMPLES = 16, HITS_MAX = 6 };
 
-/* One row of the result's table: `draw` gives a batch mean whose true value is 1. */
+/* One row of the result's table: `draw` gives a replicate's mean whose true value is 1. */
 typedef struct workload {
     const char *name;
     float (*draw)(uint64_t random, uint32_t pixel);
-    double floor, floor_two, ceiling; /* % under the bound: least, least with 2 batches, most with 4 or more */
+    double floor, floor_two, ceiling; /* % under the bound: least, least with 2 replicates, most with 4 or more */
 } workload;
 
 static float normal[TABLE], exponential[TABLE], lognormal[TABLE]; /* quantiles at (i + 1/2) / TABLE, scaled to mean 1 */
@@ -80,22 +80,22 @@ static double true_error(const ec_film *film)
     uint32_t pixels = film->width * film->height;
     double sum = 0;
     for (uint32_t p = 0; p < pixels; p++) {
-        double error = ec_luminance(film->mean + 3 * p) - 1;
+        const double error = ec_luminance(films_pixel(film, p).mean) - 1;
         sum += error * error;
     }
     return sqrt(sum / pixels);
 }
 
-static int lies_under_bound(const workload *work, uint32_t side, int batches, double *bound_over_error)
+static int lies_under_bound(const workload *work, uint32_t side, int replicates, double *bound_over_error)
 {
     static float batch[3 * 64 * 64];
     ec_film film;
     ec_error err;
-    CHECK_OK(ec_film_create(&film, side, side, 16, &err), err);
-    for (int b = 0; b < batches; b++) {
+    CHECK_OK(ec_film_create(&film, side, side, (uint32_t)replicates, &err), err);
+    for (uint32_t b = 0; b < film.replicates; b++) {
         for (uint32_t p = 0; p < side * side; p++)
             batch[3 * p] = batch[3 * p + 1] = batch[3 * p + 2] = work->draw(next_random(), p);
-        CHECK_OK(ec_film_add_batch(&film, batch, &err), err);
+        CHECK_OK(films_add(&film, b, batch, &err), err);
     }
     ec_film_error error = ec_film_estimate_error(&film);
     CHECK(!isnan(error.error_bound));
@@ -105,39 +105,39 @@ static int lies_under_bound(const workload *work, uint32_t side, int batches, do
     return inside;
 }
 
-static void measure(const workload *work, uint32_t side, int batches)
+static void measure(const workload *work, uint32_t side, int replicates)
 {
     int inside = 0;
     double ratio = 0;
-    for (int i = 0; i < REPEATS; i++) inside += lies_under_bound(work, side, batches, &ratio);
+    for (int i = 0; i < REPEATS; i++) inside += lies_under_bound(work, side, replicates, &ratio);
     double percent = 100.0 * inside / REPEATS;
-    printf("  %2ux%u B=%-2d %5.1f%% (%.2f)", side, side, batches, percent, ratio);
-    CHECK_MSG(percent >= (batches < 4 ? work->floor_two : work->floor), "%s %ux%u, %d batches: %.1f %%", work->name,
-              side, side, batches, percent);
-    CHECK_MSG(batches < 4 || percent <= work->ceiling, "%s %ux%u, %d batches: %.1f %%", work->name, side, side,
-              batches, percent);
+    printf("  %2ux%u R=%-2d %5.1f%% (%.2f)", side, side, replicates, percent, ratio);
+    CHECK_MSG(percent >= (replicates < 4 ? work->floor_two : work->floor), "%s %ux%u, %d replicates: %.1f %%", work->name,
+              side, side, replicates, percent);
+    CHECK_MSG(replicates < 4 || percent <= work->ceiling, "%s %ux%u, %d replicates: %.1f %%", work->name, side, side,
+              replicates, percent);
 }
 
 int main(void)
 {
     static const workload workloads[] = {
         {"normal", draw_normal, 96, 96, 100},
-        {"exponential (4 a batch)", draw_exponential, 96, 96, 100},
+        {"exponential (means of 4)", draw_exponential, 96, 96, 100},
         {"few pixels noisy", draw_few_noisy, 95, 93, 100},
-        {"log-normal (4 a batch)", draw_lognormal, 96, 96, 100},
+        {"log-normal (means of 4)", draw_lognormal, 96, 96, 100},
         {"fireflies on grey", draw_fireflies, 95, 95, 100},
         {"fireflies on black", draw_only_fireflies, 90, 90, 100},
         {"one pixel noisy", draw_one_noisy, 91, 80, 100},
     };
-    static const struct { uint32_t side; int batches; } shapes[] = {
-        {16, 2}, {16, 4}, {16, 8}, {16, 16}, {16, 64}, {32, 4}, {32, 16}, {64, 4}, {64, 16}};
+    static const struct { uint32_t side; int replicates; } shapes[] = {
+        {16, 2}, {16, 3}, {16, 4}, {16, 8}, {16, 16}, {32, 4}, {32, 16}, {64, 4}};
     fill_tables();
     printf("share of %d renders whose error lies under the 95 %% bound (bound / stated error)\n", REPEATS);
     for (size_t w = 0; w < sizeof workloads / sizeof *workloads; w++) {
         printf("%s\n", workloads[w].name);
         for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
             state = 1000 * w + s;
-            measure(&workloads[w], shapes[s].side, shapes[s].batches);
+            measure(&workloads[w], shapes[s].side, shapes[s].replicates);
             if (s % 5 == 4 || s + 1 == sizeof shapes / sizeof *shapes) putchar('\n');
         }
     }

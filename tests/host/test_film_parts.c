@@ -1,29 +1,34 @@
-/* The same bits, whoever adds the batches, in whatever order, in whatever slices; and the moments are those of the definition. */
-#include "film/film.h"
+/* The same bits, whoever adds the batches, in whatever order, in whatever slices; and the figures are those of the definition. */
+#include "support/films.h"
 #include "support/random.h"
 #include "support/test.h"
 
-enum { W = 3, H = 2, P = W * H, MOST = 5000 };
+enum { W = 3, H = 2, P = W * H, MOST = 5000, FIELDS = EC_BATCH_FIELDS * P };
 
 static test_random state = {7};
+static uint32_t replicates = EC_REPLICATES;
 
 /* Batch k of every film here. Heavy-tailed, and far from 0, where sums in another order do not round alike. */
 static const float *batch_of(uint32_t k)
 {
-    static float rgb[3 * P];
-    for (uint32_t i = 0; i < 3 * P; i++) {
+    static float batch[FIELDS];
+    for (uint32_t i = 0; i < P; i++) {
+        float *to = batch + EC_BATCH_FIELDS * i, *tail = to + EC_BATCH_LARGEST;
         test_random own = {k * 1000003ull + i};
         test_uniform(&own);
-        rgb[i] = (float)(10 * i + 1 / (0.01 + test_uniform(&own)));
+        for (uint32_t c = 0; c < 3; c++) to[c] = (float)(10 * (3 * i + c) + 1 / (0.01 + test_uniform(&own)));
+        tail[0] = (float)(ec_luminance((double[3]){to[0], to[1], to[2]}) * (1 + 3 * test_uniform(&own)));
+        tail[2] = (float)(1 + test_uniform(&own));
+        tail[1] = (float)(tail[2] + 2 * test_uniform(&own));
     }
-    return rgb;
+    return batch;
 }
 
 static ec_film empty(void)
 {
     ec_film film;
     ec_error err;
-    CHECK_OK(ec_film_create(&film, W, H, 4, &err), err);
+    CHECK_OK(ec_film_create(&film, W, H, replicates, &err), err);
     return film;
 }
 
@@ -31,19 +36,27 @@ static ec_film slice(uint32_t first, uint32_t end)
 {
     ec_film film = empty();
     ec_error err;
-    for (uint32_t k = first; k < end; k++) CHECK_OK(ec_film_add_at(&film, k, batch_of(k), &err), err);
+    for (uint32_t k = first; k < end; k++) CHECK_OK(ec_film_add(&film, k, batch_of(k), &err), err);
     return film;
 }
 
-static int same(const ec_film *a, const ec_film *b)
+/* Batches 0 to count - 1, of which the last is a sample short. */
+static ec_film cut_after(uint32_t count)
 {
-    return a->batch_count == b->batch_count && !memcmp(a->mean, b->mean, 3 * P * sizeof(double)) &&
-           !memcmp(a->m2, b->m2, 4 * P * sizeof(double)) && !memcmp(a->m34, b->m34, 2 * P * sizeof(float)) &&
-           !memcmp(a->largest, b->largest, P * sizeof(float));
+    ec_film film = slice(0, count - 1);
+    ec_error err;
+    CHECK_OK(ec_film_add_cut(&film, count - 1, 1, batch_of(count - 1), &err), err);
+    return film;
+}
+
+static bool same(const ec_film *a, const ec_film *b)
+{
+    return films_same_bits(a, b) && a->part_count == b->part_count && !memcmp(a->samples, b->samples, sizeof a->samples);
 }
 
 static void shuffle(uint32_t *order, uint32_t count)
 {
+    for (uint32_t i = 0; i < count; i++) order[i] = i;
     for (uint32_t i = count; i > 1; i--) {
         uint32_t k = (uint32_t)(test_uniform(&state) * i), kept = order[k];
         order[k] = order[i - 1];
@@ -53,17 +66,15 @@ static void shuffle(uint32_t *order, uint32_t count)
 
 static void any_order_of_batches(void)
 {
-    const uint32_t counts[] = {1, 2, 15, 16, 17, 31, 32, 33, 48, 255, 256, 257, 273, 600};
+    const uint32_t counts[] = {1, 2, 15, 16, 17, 48, 127, 128, 129, 255, 256, 257, 600, 2049};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
-        for (int trial = 0; trial < 3; trial++) {
-            uint32_t order[600], n = counts[i];
+        for (int trial = 0; trial < (counts[i] < 1000 ? 3 : 1); trial++) {
+            uint32_t order[2049], n = counts[i];
             ec_film in_order = slice(0, n), mixed = empty();
             ec_error err;
-            for (uint32_t k = 0; k < n; k++) order[k] = k;
             shuffle(order, n);
-            for (uint32_t k = 0; k < n; k++) CHECK_OK(ec_film_add_at(&mixed, order[k], batch_of(order[k]), &err), err);
+            for (uint32_t k = 0; k < n; k++) CHECK_OK(ec_film_add(&mixed, order[k], batch_of(order[k]), &err), err);
             CHECK_MSG(same(&in_order, &mixed), "%u batches", n);
-            CHECK(in_order.part_count == mixed.part_count);
             ec_film_destroy(&in_order);
             ec_film_destroy(&mixed);
         }
@@ -74,7 +85,7 @@ static void any_slices(void)
 {
     const uint32_t counts[] = {5, 40, 300, 1000, MOST};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
-        uint32_t n = counts[i], cuts[8] = {0}, order[7] = {0, 1, 2, 3, 4, 5, 6};
+        uint32_t n = counts[i], cuts[8] = {0}, order[7];
         ec_film whole = slice(0, n), slices[7], halves[2] = {empty(), empty()}, all = empty();
         ec_error err;
         for (int k = 1; k < 7; k++) cuts[k] = cuts[k - 1] + (uint32_t)(test_uniform(&state) * (n - cuts[k - 1]) / 2);
@@ -84,7 +95,6 @@ static void any_slices(void)
         for (int k = 0; k < 7; k++) CHECK_OK(ec_film_take_parts(&halves[k % 2], &slices[order[k]], &err), err);
         for (int k = 1; k >= 0; k--) CHECK_OK(ec_film_take_parts(&all, &halves[k], &err), err);
         CHECK_MSG(same(&whole, &all), "%u batches", n);
-        CHECK(all.part_count == whole.part_count);
         for (int k = 0; k < 7; k++) ec_film_destroy(&slices[k]);
         for (int k = 0; k < 2; k++) ec_film_destroy(&halves[k]);
         ec_film_destroy(&whole);
@@ -92,38 +102,67 @@ static void any_slices(void)
     }
 }
 
-/* Sums that are joined are those of two passes over all values: so is what a slice or a film with gaps shows. */
-static void moments_are_those_of_two_passes(const ec_film *film, const uint32_t *batches, uint32_t n)
+/* What the samples of these batches come to in double: a replicate's mean, its samples, and the tail of all. */
+typedef struct reference {
+    double mean[EC_REPLICATES_MOST][3], samples[EC_REPLICATES_MOST], all, largest, squares, fourths;
+} reference;
+
+static reference sum_up(const uint32_t *batches, uint32_t n, int p)
 {
-    for (int p = 0; p < P; p++)
-        for (int c = 0; c < 4; c++) {
-            double mean = 0, power[5] = {0}, largest = 0;
-            static double x[MOST];
-            for (uint32_t k = 0; k < n; k++) {
-                const float *rgb = batch_of(batches[k]) + 3 * p;
-                x[k] = c < 3 ? (double)rgb[c] : ec_luminance((double[3]){rgb[0], rgb[1], rgb[2]});
-                mean += x[k] / n;
-                largest = fmax(largest, x[k]);
-            }
-            for (uint32_t k = 0; k < n; k++)
-                for (int e = 2; e <= 4; e++) power[e] += pow(x[k] - mean, e);
-            if (c < 3) CHECK_NEAR(film->mean[3 * p + c], mean, 1e-12 * mean);
-            CHECK_NEAR(film->m2[4 * p + c], power[2], 1e-11 * power[2]);
-            if (c < 3) continue;
-            CHECK(film->largest[p] == (float)largest);
-            CHECK_NEAR(film->m34[2 * p], power[3], 1e-5 * pow(power[4], 0.75));
-            CHECK_NEAR(film->m34[2 * p + 1], power[4], 1e-5 * power[4]);
+    reference sum = {0};
+    for (uint32_t k = 0; k < n; k++) {
+        const ec_batch_range range = ec_schedule_batch(replicates, batches[k]);
+        const float *from = batch_of(batches[k]) + EC_BATCH_FIELDS * p;
+        for (int c = 0; c < 3; c++) sum.mean[range.replicate][c] += (double)from[c] * range.samples;
+        sum.samples[range.replicate] += range.samples;
+        sum.all += range.samples;
+        sum.largest = fmax(sum.largest, from[EC_BATCH_LARGEST]);
+        sum.squares += from[EC_BATCH_SQUARES] * pow(from[EC_BATCH_LARGEST], 2);
+        sum.fourths += from[EC_BATCH_FOURTHS] * pow(from[EC_BATCH_LARGEST], 4);
+    }
+    for (uint32_t r = 0; r < replicates; r++)
+        for (int c = 0; c < 3 && sum.samples[r] > 0; c++) sum.mean[r][c] /= sum.samples[r];
+    return sum;
+}
+
+/* A value goes through at most some 16 + 15 + 15 roundings of half an ulp, of values up to 10 i + 100; as chance has it they come to less than a
+ * tenth of that. */
+static void figures_are_those_of_all_samples(const ec_film *film, const uint32_t *batches, uint32_t n)
+{
+    for (int p = 0; p < P; p++) {
+        const ec_pixel pixel = films_pixel(film, (uint64_t)p);
+        const reference sum = sum_up(batches, n, p);
+        double mean[3] = {0}, m2[4] = {0}, m3 = 0, m4 = 0, has = 0;
+        for (uint32_t r = 0; r < replicates; r++) has += sum.samples[r] > 0;
+        for (uint32_t r = 0; r < replicates; r++)
+            for (int c = 0; c < 3; c++) mean[c] += sum.samples[r] / sum.all * sum.mean[r][c];
+        for (uint32_t r = 0; r < replicates; r++) {
+            double d[3];
+            for (int c = 0; c < 3; c++) d[c] = sqrt(has * sum.samples[r] / sum.all) * (sum.mean[r][c] - mean[c]), m2[c] += d[c] * d[c];
+            m2[3] += pow(ec_luminance(d), 2);
+            m3 += pow(ec_luminance(d), 3);
+            m4 += pow(ec_luminance(d), 4);
         }
+        const double rounding = 46 * 0x1p-24 * (mean[2] + 100) / 10;
+        CHECK(pixel.n == has && pixel.samples == sum.all);
+        for (int c = 0; c < 3; c++) CHECK_NEAR(pixel.mean[c], mean[c], rounding);
+        for (int c = 0; c < 4; c++) CHECK_NEAR(sqrt(pixel.m2[c]), sqrt(m2[c]), 5 * rounding);
+        CHECK_NEAR(pixel.m3, m3, 30 * rounding * m2[3]);
+        CHECK_NEAR(pixel.m4, m4, 40 * rounding * pow(m2[3], 1.5));
+        CHECK(pixel.tail[0] == (float)sum.largest);
+        CHECK_NEAR(pixel.tail[1], sum.squares / pow(sum.largest, 2), 46 * 0x1p-23 * pixel.tail[1]);
+        CHECK_NEAR(pixel.tail[2], sum.fourths / pow(sum.largest, 4), 46 * 0x1p-23 * pixel.tail[2]);
+    }
 }
 
 static void what_is_shown(void)
 {
     static uint32_t all[MOST];
     for (uint32_t k = 0; k < MOST; k++) all[k] = k;
-    const uint32_t ranges[][2] = {{0, 17}, {0, 700}, {5, 6}, {16, 17}, {3, 40}, {100, 900}, {0, 4097}};
+    const uint32_t ranges[][2] = {{0, 17}, {0, 700}, {5, 6}, {16, 17}, {3, 40}, {100, 900}, {128, 129}, {0, 4097}};
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
         ec_film film = slice(ranges[i][0], ranges[i][1]);
-        moments_are_those_of_two_passes(&film, all + ranges[i][0], ranges[i][1] - ranges[i][0]);
+        figures_are_those_of_all_samples(&film, all + ranges[i][0], ranges[i][1] - ranges[i][0]);
         ec_film_destroy(&film);
     }
     ec_film gaps = slice(30, 70);
@@ -132,46 +171,58 @@ static void what_is_shown(void)
                              51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 999};
     uint32_t n = sizeof list / sizeof *list;
     for (uint32_t k = 0; k < n; k++)
-        if (list[k] < 30 || list[k] >= 70) CHECK_OK(ec_film_add_at(&gaps, list[k], batch_of(list[k]), &err), err);
+        if (list[k] < 30 || list[k] >= 70) CHECK_OK(ec_film_add(&gaps, list[k], batch_of(list[k]), &err), err);
     CHECK(gaps.batch_count == n && ec_film_end(&gaps) == 1000);
-    moments_are_those_of_two_passes(&gaps, list, n);
+    figures_are_those_of_all_samples(&gaps, list, n);
     ec_film_destroy(&gaps);
 }
 
-/* Blocks of 16 and 256 that others have added up, a few pixels each (as ranks do), among batches one by one. */
+/* Bytes a pixel that the film holds. */
+static uint64_t bytes_of(const ec_film *film)
+{
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < film->part_count; i++) bytes += film->parts[i].batch ? 4 * EC_BATCH_FIELDS : ec_sums_bytes(replicates);
+    return bytes;
+}
+
+/* The sums of a block of batches that others have added up, a few pixels each, as they are sent. */
+static void take_block(ec_film_part *part)
+{
+    enum { CUT = 4 };
+    ec_error err;
+    CHECK(ec_sums_create(&part->sums, replicates, P));
+    for (uint32_t first = 0, end; first < P; first = end) {
+        ec_film piece;
+        end = first ? P : CUT;
+        CHECK_OK(ec_film_create(&piece, end - first, 1, replicates, &err), err);
+        for (uint32_t i = part->first; i < part->first + part->count; i++)
+            CHECK_OK(ec_film_add(&piece, i, batch_of(i) + EC_BATCH_FIELDS * first, &err), err);
+        ec_sums sums = ec_film_give_sums(&piece), here = ec_sums_from(&part->sums, first);
+        float memory[(3 * EC_REPLICATES_MOST + 3) * P];
+        const ec_sums sent = ec_sums_in(memory, replicates, end - first);
+        ec_sums_copy(&sent, &sums, end - first);
+        ec_sums_copy(&here, &sent, end - first);
+        ec_sums_destroy(&sums);
+        ec_film_destroy(&piece);
+    }
+}
+
+/* Blocks of EC_FILM_FIRST and of 16 times as many among batches one by one. */
 static void blocks_of_batches(void)
 {
-    enum { N = 700, CUT = 4 };
-    ec_film in_order = slice(0, N), mixed = empty();
+    enum { LARGE = EC_FILM_FIRST * EC_FILM_RADIX };
+    ec_film in_order = slice(0, MOST), mixed = empty();
     ec_error err;
-    mixed.shows_late = true;
-    for (uint32_t k = 0, count; k < N; k += count) {
-        count = k >= 16 && k + 16 <= N ? k == 256 ? 256 : 16 : 1;
-        if (count == 1) {
-            CHECK_OK(ec_film_add_at(&mixed, k, batch_of(k), &err), err);
-            continue;
-        }
+    for (uint32_t k = 0, count; k < MOST; k += count) {
+        const uint32_t block = k == LARGE ? LARGE : EC_FILM_FIRST;
+        count = k > 0 && k % block == 0 && k + block <= MOST ? block : 1;
         ec_film_part part = {.first = k, .count = count};
-        CHECK(ec_moments_create(&part.sums, P));
-        for (uint32_t first = 0, end; first < P; first = end) {
-            ec_film piece;
-            end = first ? P : CUT;
-            CHECK_OK(ec_film_create(&piece, end - first, 1, 4, &err), err);
-            piece.shows_late = true;
-            for (uint32_t i = 0; i < count; i++) CHECK_OK(ec_film_add_at(&piece, k + i, batch_of(k + i) + 3 * first, &err), err);
-            ec_moments sums = ec_film_give_sums(&piece), here = ec_moments_from(&part.sums, first);
-            double memory[EC_MOMENTS_BYTES * P / sizeof(double) + 1]; /* as it is sent */
-            const ec_moments sent = ec_moments_in(memory, end - first);
-            ec_moments_copy(&sent, &sums, end - first);
-            ec_moments_copy(&here, &sent, end - first);
-            ec_moments_destroy(&sums);
-            ec_film_destroy(&piece);
-        }
-        CHECK_OK(ec_film_insert(&mixed, &part, &err), err);
-        CHECK(!part.sums.mean && mixed.part_count + (mixed.part_count > 1) <= ec_film_copies(k + count));
+        if (count > 1) take_block(&part);
+        if (count > 1) CHECK_OK(ec_film_insert(&mixed, &part, &err), err);
+        else CHECK_OK(ec_film_add(&mixed, k, batch_of(k), &err), err);
+        CHECK(!part.sums.mean && bytes_of(&mixed) <= ec_film_bytes(replicates, 0, k + count));
     }
-    ec_film_show(&mixed);
-    CHECK(same(&in_order, &mixed) && in_order.part_count == mixed.part_count);
+    CHECK(same(&in_order, &mixed));
     ec_film_destroy(&in_order);
     ec_film_destroy(&mixed);
 }
@@ -180,7 +231,7 @@ static void nothing_twice(void)
 {
     ec_film film = slice(0, 40), other = slice(39, 60);
     ec_error err;
-    CHECK(ec_film_add_at(&film, 17, batch_of(17), &err) == EC_FAILED && strstr(err.text, "batches 17 to 17 are there twice"));
+    CHECK(ec_film_add(&film, 17, batch_of(17), &err) == EC_FAILED && strstr(err.text, "batches 17 to 17 are there twice"));
     CHECK(ec_film_take_parts(&film, &other, &err) == EC_FAILED && strstr(err.text, "batches 39 to 39 are there twice"));
     ec_film again = slice(0, 40);
     CHECK(same(&film, &again));
@@ -189,79 +240,114 @@ static void nothing_twice(void)
     ec_film_destroy(&again);
 }
 
-/* As many sums as parts.h promises, at every number of batches on the way. */
+/* A picture that ended within its last batch, in any order and slices. Nothing comes after its end. */
+static void a_cut_batch(void)
+{
+    const uint32_t ends[] = {20, 29, 130, 300}; /* all beyond the strides of one sample */
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        const uint32_t n = ends[i];
+        uint32_t order[300];
+        ec_film in_order = cut_after(n), mixed = empty(), last = empty(), first = slice(0, n - 1), beyond = slice(n + 2, n + 4);
+        ec_error err;
+        shuffle(order, n);
+        for (uint32_t k = 0; k < n; k++) {
+            if (order[k] == n - 1) CHECK_OK(ec_film_add_cut(&mixed, n - 1, 1, batch_of(n - 1), &err), err);
+            else CHECK_OK(ec_film_add(&mixed, order[k], batch_of(order[k]), &err), err);
+        }
+        CHECK_MSG(same(&in_order, &mixed) && mixed.cut == 1, "%u batches", n);
+        CHECK(ec_film_samples_of_all(&mixed) == (double)ec_schedule_samples(replicates, n) - 1);
+        CHECK_OK(ec_film_add_cut(&last, n - 1, 1, batch_of(n - 1), &err), err);
+        CHECK_OK(ec_film_take_parts(&first, &last, &err), err);
+        CHECK_MSG(same(&in_order, &first) && first.cut == 1, "%u batches", n);
+        CHECK(ec_film_take_parts(&first, &beyond, &err) == EC_FAILED && strstr(err.text, "ended within batch"));
+        CHECK(ec_film_take_parts(&beyond, &first, &err) == EC_FAILED && strstr(err.text, "ended within batch"));
+        CHECK(same(&in_order, &first) && beyond.batch_count == 2 && !beyond.cut);
+        CHECK(ec_film_add_cut(&beyond, n - 1, 1, batch_of(n - 1), &err) == EC_FAILED && strstr(err.text, "ended within batch"));
+        ec_film_destroy(&in_order);
+        ec_film_destroy(&mixed);
+        ec_film_destroy(&last);
+        ec_film_destroy(&first);
+        ec_film_destroy(&beyond);
+    }
+}
+
+/* As many sums as parts.h promises, at every number of batches on the way; and no batch is kept as it is. */
 static void memory_is_bounded(void)
 {
-    CHECK(ec_film_copies(1) == 1 && ec_film_copies(16) == 1 && ec_film_copies(17) == 3 && ec_film_copies(256) == 3 && ec_film_copies(257) == 4 &&
-          ec_film_copies(65536) == 5);
+    const uint64_t sum = ec_sums_bytes(replicates);
+    CHECK(ec_film_bytes(replicates, 0, 1) == sum && ec_film_bytes(replicates, 0, 128) == sum && ec_film_bytes(replicates, 0, 129) == 2 * sum &&
+          ec_film_bytes(replicates, 0, 2048) == 2 * sum && ec_film_bytes(replicates, 0, 2049) == 3 * sum && ec_film_bytes(replicates, 9, 9) == 0);
     ec_film film = empty();
     ec_error err;
     for (uint32_t k = 0; k < MOST; k++) {
-        CHECK_OK(ec_film_add_batch(&film, batch_of(k), &err), err);
-        CHECK(film.part_count + (film.part_count > 1) <= ec_film_copies(k + 1));
+        CHECK_OK(ec_film_add(&film, k, batch_of(k), &err), err);
+        CHECK(bytes_of(&film) <= ec_film_bytes(replicates, 0, k + 1));
         for (uint32_t i = 0; i < film.part_count; i++) CHECK(!film.parts[i].batch && ec_film_part_is_sound(film.parts[i].first, film.parts[i].count));
     }
     ec_film_destroy(&film);
-    CHECK(!ec_film_part_is_sound(0, 0) && !ec_film_part_is_sound(1, 2) && !ec_film_part_is_sound(0, 17) && !ec_film_part_is_sound(16, 32) &&
-          !ec_film_part_is_sound(UINT32_MAX, 1) && ec_film_part_is_sound(5, 1) && ec_film_part_is_sound(0, 240) && ec_film_part_is_sound(16, 16));
-}
-
-/* Late or at once, and through the glass. */
-static void shown_late_is_the_same(void)
-{
-    ec_film at_once = slice(0, 300), late = empty();
-    ec_error err;
-    late.shows_late = true;
-    for (uint32_t k = 0; k < 300; k++) CHECK_OK(ec_film_add_batch(&late, batch_of(k), &err), err);
-    ec_film_error a = ec_film_estimate_error(&at_once), b = ec_film_estimate_error(&late);
-    CHECK(late.is_behind && !same(&at_once, &late));
-    CHECK(a.error == b.error && a.error_bound == b.error_bound && a.relmse == b.relmse);
-    ec_film_show(&late);
-    CHECK(!late.is_behind && same(&at_once, &late));
-    ec_film_destroy(&at_once);
-    ec_film_destroy(&late);
+    const uint32_t sound[][2] = {{5, 1}, {0, 1}, {0, 127}, {128, 128}, {128, 100}, {0, 256}, {0, 1920}, {2048, 2048}, {0, 6144}, {2048, 1024}};
+    const uint32_t unsound[][2] = {{0, 0}, {1, 2}, {0, 129}, {64, 128}, {128, 256}, {128, 2048}, {0, 2049}, {UINT32_MAX, 1}};
+    for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) CHECK_MSG(ec_film_part_is_sound(sound[i][0], sound[i][1]), "%u, %u", sound[i][0], sound[i][1]);
+    for (size_t i = 0; i < sizeof unsound / sizeof *unsound; i++)
+        CHECK_MSG(!ec_film_part_is_sound(unsound[i][0], unsound[i][1]), "%u, %u", unsound[i][0], unsound[i][1]);
 }
 
 /* Within the bound at any moment, and not far below it. */
 static void memory_of_slices_is_bounded(void)
 {
-    const uint32_t firsts[] = {0, 1, 5, 15, 16, 17, 32, 200, 240, 256, 257, 300, 512, 4095, 4096};
+    const uint32_t firsts[] = {0, 1, 5, 15, 127, 128, 129, 200, 256, 257, 1900, 2040, 2048, 2049, 4095, 4096};
     for (size_t i = 0; i < sizeof firsts / sizeof *firsts; i++) {
         ec_film film = empty();
         ec_error err;
         uint64_t worst = 0;
         for (uint32_t k = firsts[i]; k < firsts[i] + 600; k++) {
-            CHECK_OK(ec_film_add_at(&film, k, batch_of(k), &err), err);
-            uint64_t now = film.part_count == 1 && !film.parts[0].batch ? 0 : EC_MOMENTS_BYTES;
-            for (uint32_t p = 0; p < film.part_count; p++) now += film.parts[p].batch ? 12 : EC_MOMENTS_BYTES;
-            worst = now > worst ? now : worst;
-            const uint64_t most = ec_film_bytes(firsts[i], k + 1);
-            CHECK(worst <= most && most <= worst + 2 * EC_MOMENTS_BYTES);
+            CHECK_OK(ec_film_add(&film, k, batch_of(k), &err), err);
+            worst = bytes_of(&film) > worst ? bytes_of(&film) : worst;
+            const uint64_t most = ec_film_bytes(replicates, firsts[i], k + 1);
+            CHECK_MSG(worst <= most && most <= worst + 2 * ec_sums_bytes(replicates), "batches %u to %u: %llu of %llu", firsts[i], k,
+                      (unsigned long long)worst, (unsigned long long)most);
         }
         ec_film_destroy(&film);
     }
 }
 
-static void broken_values_are_counted_once(void)
+/* One float is broken wherever it stands: as a batch by itself, in a sum; sums in the range of floats stay there. */
+static void broken_and_huge_values(void)
 {
-    const float broken[3 * P] = {NAN, 1, INFINITY};
-    ec_film film = empty();
+    float broken[FIELDS] = {NAN, 1, INFINITY, INFINITY, 2, 2}, huge[FIELDS];
+    ec_film film = empty(), far = empty();
     ec_error err;
-    for (uint32_t k = 20; k > 0; k--) CHECK_OK(ec_film_add_at(&film, k - 1, broken, &err), err);
-    CHECK(film.invalid_count == 20 * 2 && film.mean[0] == 0 && film.mean[1] == 1);
+    for (uint32_t k = 20; k > 0; k--) CHECK_OK(ec_film_add(&film, k - 1, broken, &err), err);
+    ec_pixel pixel = films_pixel(&film, 0);
+    CHECK(film.invalid_count == 20 * 2 && pixel.mean[0] == 0 && pixel.mean[1] == 1 && pixel.mean[2] == 0 && pixel.tail[0] == 0);
+    for (uint32_t k = 300; k > 0; k--) {
+        for (uint32_t i = 0; i < FIELDS; i++) huge[i] = i % EC_BATCH_FIELDS <= EC_BATCH_LARGEST ? k % 2 ? 1e38f : 3e38f : 1;
+        CHECK_OK(ec_film_add(&far, k - 1, huge, &err), err);
+    }
+    pixel = films_pixel(&far, 1);
+    CHECK(far.invalid_count == 0 && isfinite(pixel.mean[0]) && pixel.mean[0] >= (double)1e38f && pixel.mean[0] <= (double)3e38f);
+    CHECK(pixel.tail[0] == 3e38f);
+    CHECK_NEAR(pixel.tail[1], 150 + 150 / 9.0, 1e-3);
+    CHECK_NEAR(pixel.tail[2], 150 + 150 / 81.0, 1e-3);
     ec_film_destroy(&film);
+    ec_film_destroy(&far);
 }
 
 int main(void)
 {
-    any_order_of_batches();
-    any_slices();
-    what_is_shown();
-    blocks_of_batches();
-    nothing_twice();
-    memory_is_bounded();
-    memory_of_slices_is_bounded();
-    shown_late_is_the_same();
-    broken_values_are_counted_once();
+    const uint32_t numbers[] = {EC_REPLICATES, 3, 1}; /* 3: no sum begins with the first replicate again */
+    for (int i = 0; i < 3; i++) {
+        replicates = numbers[i];
+        any_order_of_batches();
+        any_slices();
+        what_is_shown();
+        blocks_of_batches();
+        nothing_twice();
+        memory_is_bounded();
+        memory_of_slices_is_bounded();
+    }
+    replicates = EC_REPLICATES;
+    a_cut_batch();
+    broken_and_huge_values();
     TEST_END();
 }

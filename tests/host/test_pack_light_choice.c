@@ -46,13 +46,16 @@ static void the_sky_keeps_its_half(void)
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
     CHECK_OK(ec_pack_light_tree(&pack, &err), err);
     CHECK_NEAR(pack.environment_pmf, 0.5, 1e-6);
-    CHECK_NEAR(pack.light_tree_pmf, 0.5, 1e-6);
+    CHECK(pack.light_choices == 2 && pack.lights[0].kind == EC_KIND_ENVIRONMENT);
+    CHECK_NEAR(pack.light_tree_numbers, 0x1p30, 2 * SIDE * SIDE); /* each lamp had one number for itself first */
+    CHECK(pack.light_shares[1].first + 2ull * pack.light_tree_numbers == 1ull << 32);
+    CHECK((double)pack.environment_pmf == (double)(float)(pack.light_shares[1].first * 0x1p-32));
     uint32_t found = 0;
     for (uint32_t i = 0; i < pack.light_count; i++) {
         const ec_light_data *l = &pack.lights[i];
         if ((l->kind & EC_LIGHT_KIND_MASK) != EC_KIND_TRIANGLE) continue;
-        CHECK_NEAR(l->pmf, 0.5, 1e-6);
-        CHECK_NEAR(l->pdf_a, 0.5 / 0.5e-4, 0.1); /* edges of 0.01, at 4 their floats are good to 5e-5 of themselves */
+        CHECK(l->pmf == 1);
+        CHECK_NEAR(l->pdf_a, 1 / 0.5e-4, 0.2); /* edges of 0.01, at 4 their floats are good to 5e-5 of themselves */
         CHECK(pack.prims[l->prim].light_pdf_a == l->pdf_a);
         found++;
     }

@@ -91,9 +91,9 @@ static void expect_same(const ec_scene *a, const ec_pack *p, const ec_scene *b, 
     SAME(p->textures, q->textures, p->texture_count);
     SAME(p->prims, q->prims, p->prim_count);
     SAME(p->lights, q->lights, p->light_count);
-    SAME(p->light_alias, q->light_alias, p->light_count);
-    SAME(p->environment_texels, q->environment_texels, 4 * MAP_WIDTH * MAP_HEIGHT);
-    SAME(p->environment_table, q->environment_table, MAP_HEIGHT + MAP_WIDTH * MAP_HEIGHT);
+    SAME(p->light_shares, q->light_shares, p->light_count);
+    SAME(p->environment_texels, q->environment_texels, 4 * MAP_WIDTH * (MAP_HEIGHT + 1));
+    SAME(p->environment_table, q->environment_table, (1 + MAP_WIDTH) * (MAP_HEIGHT + 1));
     SAME(p->environment_mean, q->environment_mean, 3);
 }
 

@@ -14,7 +14,6 @@ static void compare(const cornell_case *c, const ec_scene *scene, const ztest_pi
 {
     ec_render_options o = case_options(256, 256, c->spp);
     o.max_depth = 8;
-    o.batch = c->spp / 16;
     o.sample = c->sample;
     o.sampler = c->sampler;
     case_image image = case_render(scene, &o);

@@ -4,12 +4,12 @@
 #include "packed_material.h"
 
 /* Numbers of a hash: what is tested is the map from them to directions. */
-static void numbers(lane_u i, uint seed, lane_u *r1, lane_u *r2, lane_u *choice)
+static void numbers(lane_u i, uint seed, lane_u *r1, lane_u *r2, lane_u *pass)
 {
     lane_u h = hash_u(hash_u(i) ^ seed);
     *r1 = h;
     *r2 = hash_u(h ^ 0x9e3779b9u);
-    *choice = hash_u(h + 0x85ebca6bu);
+    *pass = hash_u(h + 0x85ebca6bu);
 }
 
 static v3 load_v3(global const float *p, uint n) { return v3_make(LANE_LOAD(p), LANE_LOAD(p + n), LANE_LOAD(p + 2 * n)); }
@@ -65,10 +65,10 @@ kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out
 {
     lane_u r1, r2;
     lane_f pdf;
-    lane_u choice;
-    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &r1, &r2, &choice);
+    lane_u pass;
+    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &r1, &r2, &pass);
     bsdf b = make_bsdf(m);
-    bsdf_direction d = bsdf_sample(&b, false, to_unit(r1), to_unit(r2), to_unit(choice));
+    bsdf_direction d = bsdf_sample(&b, false, to_unit(r1), chooser_make(r2), to_unit(pass));
     bsdf_eval(&b, d.wi, &pdf);
     store(out, n, turned(d.wi, 1.0f - m[PACKED_TURN]), pdf);
     LANE_STORE(d.pdf > 0.0f ? d.weight.y : F(0.0f), out + 4 * n + get_global_id(0) * LANES);
@@ -98,13 +98,13 @@ kernel void bsdf_values(uint n, constant float *m, global const float *wi, globa
 
 /* One light of a table, seen from p. */
 kernel void light_samples(uint n, uint seed, constant ec_params *params, constant float *p, global const float *table,
-                          global const uint *alias, global const float *texels, global const uint *texel_table, global float *out)
+                          global const uint *shares, global const float *texels, global const uint *texel_table, global float *out)
 {
-    lane_u r1, r2, choice;
-    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &r1, &r2, &choice);
+    lane_u r1, r2, unused;
+    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &r1, &r2, &unused);
     geometry g = {0, 0, 0, 0, 0, 0, 0, {0, 0, 0}};
-    lights l = {table, alias, {params, texels, texel_table}};
-    light_sample s = light_sample_one(&l, &g, TRUE_MASK, v3_make(F(p[0]), F(p[1]), F(p[2])), choice, r1, r2);
+    lights l = {table, shares, {params, texels, texel_table}};
+    light_sample s = light_sample_one(&l, &g, TRUE_MASK, v3_make(F(p[0]), F(p[1]), F(p[2])), r1, r2);
     store(out, n, s.wi, s.valid ? s.pdf : F(0.0f));
 }
 

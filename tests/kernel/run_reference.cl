@@ -71,7 +71,7 @@ kernel void smooth_of(uint n, global const float *wo, global const float *materi
                       global float *weight, global float *pdf)
 {
     bsdf b = glass(n, wo, material, TRUE_MASK);
-    bsdf_direction d = bsdf_sample(&b, false, F(0.3f), F(0.6f), LANE_LOAD(u + AT));
+    bsdf_direction d = bsdf_sample(&b, false, F(0.3f), (chooser){F(0.6f), F(0.0f), F(0.0f)}, LANE_LOAD(u + AT));
     store_v3(d.wi, wi + AT, n);
     LANE_STORE(d.weight.y, weight + AT);
     LANE_STORE(d.pdf, pdf + AT);
@@ -118,7 +118,7 @@ kernel void albedo_of(uint count, global const float *cosine, global const float
     for (uint i = 0; i < count; i += LANES) {
         lane_u k = LANE_NUMBERS + i;
         lane_f u1 = (to_lane_f(k) + 0.5f) / (float)count, u2 = to_lane_f(reverse_bits(k) >> 8) * 0x1p-24f + 0x1p-25f, pdf;
-        v3 wi = bsdf_sample(&b, false, u1, u2, F(0.5f)).wi;
+        v3 wi = bsdf_sample(&b, false, u1, (chooser){u2, F(0.0f), F(0.0f)}, F(0.5f)).wi;
         v3 f = bsdf_eval(&b, wi, &pdf);
         /* Kahan's sum: plain floats lose 10^-4 here. */
         lane_f add = (pdf > 0.0f ? f.y / pdf : F(0.0f)) - lost, next = total + add;

@@ -1,5 +1,5 @@
-/* An environment map of 4096 x 2048 whose sun is one texel of 1e6 in a sky of 1, with a hundred black rows (NUMERICS.md A3): the
- * density is the one sampled. In 32 bits a texel by the pole would have less than one random number to itself; a row has some, and its texels all. */
+/* An environment map of 4096 x 2048 whose sun is one texel of 1e6 in a sky of 1, with a hundred black rows: the density is the one sampled.
+ * In 32 bits a patch by the pole would have less than one random number to itself; a row has some, and its patches all. */
 #include "kernel/kernel_run.h"
 #include "pack/pack.h"
 #include "shared/params.h"
@@ -7,6 +7,8 @@
 #define WIDTH 4096u
 #define HEIGHT 2048u
 #define TEXELS (WIDTH * HEIGHT)
+#define PATCHES (WIDTH * (HEIGHT + 1))
+#define TABLE (PATCHES + HEIGHT + 1)
 #define SAMPLES (1u << 21)
 #define SUN_X 1234u
 #define SUN_Y 600u
@@ -19,7 +21,7 @@ static cl_program program;
 static ec_pack pack;
 static float wi[3 * TEXELS], look[2 * TEXELS], out[4 * SAMPLES];
 static const ec_params params = {
-    .light_count = 1, .environment = {1, 1, 1, 1}, .environment_width = WIDTH, .environment_height = HEIGHT, .environment_pmf = 1, .scene_radius = 3};
+    .light_choices = 1, .environment = {1, 1, 1, 1}, .environment_width = WIDTH, .environment_height = HEIGHT, .environment_pmf = 1, .scene_radius = 3};
 
 static void make_map(void)
 {
@@ -39,10 +41,21 @@ static void make_map(void)
     free(rgb);
 }
 
-/* Bilinear look-up bleeds half a texel into the outer black rows: those between them are never sampled. */
-static bool is_black(uint32_t row)
+/* Luminance at a corner of row y of patches, which lies between rows y - 1 and y of texels. */
+static double corner(uint32_t x, int64_t y)
 {
-    return row > BLACK_FIRST && row + 1 < BLACK_END;
+    y = y < 0 ? 0 : y < (int64_t)HEIGHT ? y : (int64_t)HEIGHT - 1;
+    return y >= (int64_t)BLACK_FIRST && y < (int64_t)BLACK_END ? 0 : y == (int64_t)SUN_Y && x % WIDTH == SUN_X ? 1e6 : 1;
+}
+
+static double sine_of_edge(double y) { return y <= 0 || y >= HEIGHT ? 0 : sin(pi * y / HEIGHT); }
+
+/* Luminance times the sine, over a patch. */
+static double integral(uint32_t x, uint32_t y)
+{
+    double upper = corner(x, (int64_t)y - 1) + corner(x + 1, (int64_t)y - 1), lower = corner(x, y) + corner(x + 1, y);
+    double above = sine_of_edge(y - 0.5), below = sine_of_edge(y + 0.5), part = y == 0 || y == HEIGHT ? 0.25 : 0.5;
+    return part * (upper * (above / 3 + below / 6) + lower * (above / 6 + below / 3));
 }
 
 /* Numbers of n that each entry has: how many there are from its first to the next one's. */
@@ -51,25 +64,27 @@ static uint64_t share(const ec_distribution_entry *table, uint32_t n, uint32_t i
     return (uint32_t)((i + 1 < n ? table[i + 1].first : 0) - table[i].first);
 }
 
-/* How often the tables pick each texel is what its density says, and never a black one. */
+/* How often the tables pick each patch is what its scale says, and never a black one. */
 static void check_table(void)
 {
     uint64_t wrong = 0, dark = 0, empty = 0;
-    for (uint32_t y = 0; y < HEIGHT; y++) {
-        const ec_distribution_entry *row = pack.environment_table + HEIGHT + (size_t)y * WIDTH;
-        double of_row = (double)share(pack.environment_table, HEIGHT, y) * 0x1p-32;
+    for (uint32_t y = 0; y <= HEIGHT; y++) {
+        const ec_distribution_entry *row = pack.environment_table + HEIGHT + 1 + (size_t)y * WIDTH;
+        double of_row = (double)share(pack.environment_table, HEIGHT + 1, y) * 0x1p-32;
         for (uint32_t x = 0; x < WIDTH; x++) {
-            double pmf = of_row > 0 ? of_row * (double)share(row, WIDTH, x) * 0x1p-32 : 0;
-            wrong += pack.environment_texels[4 * (y * WIDTH + x) + 3] != (float)pmf;
-            dark += is_black(y) && pmf > 0;
-            empty += !is_black(y) && !(pmf > 0);
+            double pmf = of_row > 0 ? of_row * (double)share(row, WIDTH, x) * 0x1p-32 : 0, light = integral(x, y);
+            double said = (double)pack.environment_texels[4 * (y * WIDTH + x) + 3] * light * 2 * pi * pi / TEXELS;
+            wrong += !(fabs(said - pmf) <= 1e-6 * pmf);
+            dark += !(light > 0) && pmf > 0;
+            empty += light > 0 && !(pmf > 0);
         }
     }
-    CHECK_MSG(wrong == 0 && dark == 0 && empty == 0, "%llu texels of another probability, %llu black ones sampled, %llu never",
+    CHECK_MSG(wrong == 0 && dark == 0 && empty == 0, "%llu patches of another probability, %llu black ones sampled, %llu never",
               (unsigned long long)wrong, (unsigned long long)dark, (unsigned long long)empty);
 }
 
-/* The density that a path finds, at the middle of every texel: its integral is 1. */
+/* The density that a path finds, at the middle of every texel: those are its corners, where it is highest and lowest, and their mean is
+ * that of the patches but for the sun's, whose pyramid's mean is a quarter of its peak's and stands for as many texels. */
 static void check_integral(void)
 {
     for (uint32_t i = 0; i < TEXELS; i++) {
@@ -79,17 +94,18 @@ static void check_integral(void)
         wi[2 * TEXELS + i] = (float)(sin(theta) * sin(phi));
     }
     uint32_t n = TEXELS;
-    if (!KERNEL_CALL(&cl, program, "environment_densities", n / 8, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * TEXELS),
-                     IN(pack.environment_table, TEXELS + HEIGHT), IN(wi, 3 * TEXELS), OUT(look, 2 * TEXELS)))
+    if (!KERNEL_CALL(&cl, program, "environment_densities", n / 8, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * PATCHES),
+                     IN(pack.environment_table, TABLE), IN(wi, 3 * TEXELS), OUT(look, 2 * TEXELS)))
         return;
     double total = 0;
     uint32_t dark = 0;
     for (uint32_t i = 0; i < TEXELS; i++) {
+        bool black = i / WIDTH >= BLACK_FIRST && i / WIDTH < BLACK_END;
         total += (double)look[i] * sin(pi * (i / WIDTH + 0.5) / HEIGHT) * 2 * pi / WIDTH * pi / HEIGHT;
-        dark += is_black(i / WIDTH) && look[i] != 0;
+        dark += black && look[i] > 1e-3f * look[0]; /* a direction's floats lie beside the row */
     }
     printf("density integrates to 1 %+.1e\n", total - 1);
-    CHECK_MSG(fabs(total - 1) < 1e-5 && dark == 0, "the density integrates to %.8f; %u black directions have one", total, dark);
+    CHECK_MSG(fabs(total - 1) < 1e-3 && dark == 0, "the density integrates to %.8f; %u black directions have one", total, dark);
 }
 
 /* Irradiance of a plane that looks up: pi, and the sun's pyramid over 2 x 2 texels. */
@@ -109,29 +125,30 @@ static double irradiance(void)
 static void check_samples(void)
 {
     const ec_light_data light = {.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID, .pmf = 1};
-    const ec_alias only = {UINT32_MAX, 0};
+    const ec_distribution_entry only = {0, 0};
     const float p[4] = {0};
     uint32_t n = SAMPLES, seed = 1, dark = 0, other = 0;
     if (!KERNEL_CALL(&cl, program, "light_samples", n / 8, SCALAR(n), SCALAR(seed), IN(&params, 1), IN(p, 4), IN(&light, 1), IN(&only, 1),
-                     IN(pack.environment_texels, 4 * TEXELS), IN(pack.environment_table, TEXELS + HEIGHT), OUT(out, 4 * SAMPLES)) ||
-        !KERNEL_CALL(&cl, program, "environment_densities", n / 8, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * TEXELS),
-                     IN(pack.environment_table, TEXELS + HEIGHT), IN(out, 3 * SAMPLES), OUT(look, 2 * SAMPLES)))
+                     IN(pack.environment_texels, 4 * PATCHES), IN(pack.environment_table, TABLE), OUT(out, 4 * SAMPLES)) ||
+        !KERNEL_CALL(&cl, program, "environment_densities", n / 8, SCALAR(n), IN(&params, 1), IN(pack.environment_texels, 4 * PATCHES),
+                     IN(pack.environment_table, TABLE), IN(out, 3 * SAMPLES), OUT(look, 2 * SAMPLES)))
         return;
     double sum = 0, squares = 0;
     for (uint32_t i = 0; i < SAMPLES; i++) {
         double up = out[SAMPLES + i], pdf = out[3 * SAMPLES + i], x = look[SAMPLES + i] * fmax(up, 0) / pdf;
         double row = acos(fmin(fmax(up, -1), 1)) / pi * HEIGHT;
-        dark += row > BLACK_FIRST + 1.01 && row < BLACK_END - 1.01;
+        dark += row > BLACK_FIRST + 0.51 && row < BLACK_END - 0.51;
         other += fabs(look[i] / pdf - 1) > 1e-2;
         sum += x / SAMPLES;
         squares += x * x / SAMPLES;
     }
     double se = sqrt((squares - sum * sum) / SAMPLES), want = irradiance();
-    printf("irradiance %.5f +- %.5f, expected %.5f; %u samples lie on their texel's edge\n", sum, se, want, other);
+    printf("irradiance %.5f +- %.5f, expected %.5f; %u samples of other densities than looked up\n", sum, se, want, other);
     CHECK_MSG(dark == 0, "%u samples in black rows", dark);
     CHECK_MSG(fabs(sum - want) < 4 * se && se < 2e-3 * want, "irradiance %.6f +- %.6f, expected %.6f", sum, se, want);
-    /* Angles of float directions are 6e-4 of such a texel off, and next to the sun's the neighbours' densities are others. */
-    CHECK_MSG(other < SAMPLES / 500, "%u samples are found again with another density", other);
+    /* Angles of float directions are 6e-4 of such a texel off: where light falls to that part of the sun's, or to black, its density does not
+     * keep its digits. */
+    CHECK_MSG(other < SAMPLES / 2000, "%u samples are found again with another density", other);
 }
 
 int main(void)

@@ -3,7 +3,7 @@
 #include "lib/film.h"
 
 #define SIZES 7u
-constant ec_params sizes[SIZES] = {{.width = 1, .height = 1, .batch = 1},   {.width = 8, .height = 8, .batch = 2},
+constant ec_params sizes[SIZES] = {{.width = 1, .height = 1, .batch = 1},   {.width = 8, .height = 8, .batch = 2, .first_sample = 6},
                                    {.width = 9, .height = 17, .batch = 3},  {.width = 7, .height = 30, .batch = 5},
                                    {.width = 33, .height = 3, .batch = 16}, {.width = 24, .height = 9, .batch = 7},
                                    {.width = 26, .height = 23, .batch = 1}};
@@ -56,7 +56,30 @@ kernel void a_slot_is_a_sample_of_a_pixel(global test_result *result, global uin
             LANE_STORE(sample, samples);
             for (uint k = 0; k < LANES; k++) {
                 CHECK_EQUAL(pixels[k], 5u + (i + k) / sizes[s].batch);
-                CHECK_EQUAL(samples[k], (i + k) % sizes[s].batch);
+                CHECK_EQUAL(samples[k], sizes[s].first_sample + (i + k) % sizes[s].batch);
+            }
+        }
+}
+
+/* Entry i is pixel 1000 - 3 i, which has 7 i samples. */
+kernel void a_list_says_which_pixel_and_sample(global test_result *result, global uint *scratch)
+{
+    const uint first = 20, most = 200;
+    for (uint i = 0; i < most; i++) {
+        scratch[EC_LIST_WORDS * i] = 1000 - 3 * i;
+        scratch[EC_LIST_WORDS * i + 1] = 7 * i;
+    }
+    for (uint s = 0; s < SIZES; s++)
+        for (uint i = 0; i < 128; i += LANES) {
+            uint pixels[16], samples[16];
+            lane_u pixel, sample;
+            slot_to_pixel(&sizes[s], first, scratch, LANE_NUMBERS + i, &pixel, &sample);
+            LANE_STORE(pixel, pixels);
+            LANE_STORE(sample, samples);
+            for (uint k = 0; k < LANES; k++) {
+                const uint entry = first + (i + k) / sizes[s].batch;
+                CHECK_EQUAL(pixels[k], 1000 - 3 * entry);
+                CHECK_EQUAL(samples[k], sizes[s].first_sample + 7 * entry + (i + k) % sizes[s].batch);
             }
         }
 }

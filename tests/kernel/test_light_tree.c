@@ -1,5 +1,5 @@
-/* The light tree's probabilities, lamp by lamp and point by point: they add up to 1, are those sampled, are the same found from the
- * lamp's trail, and no lamp that shines on a point is left without. */
+/* The light tree's probabilities, lamp by lamp and point by point: they add up to the share of all lamps, are those sampled, are the same
+ * found from the lamp's trail, and no lamp that shines on a point is left without. What is left of the numbers that choose is uniform. */
 #include "kernel/chi2.h"
 #include "pack/light_tree.h"
 
@@ -58,34 +58,42 @@ static void check_point(cl_program program, int lanes, uint32_t which, uint32_t 
 {
     static double expected[LAMPS];
     static uint32_t count[LAMPS];
-    uint32_t width = (uint32_t)lane_widths[lanes], n = LAMPS, other = 0;
+    /* All of 2^31 numbers, or an odd part of them. */
+    uint32_t width = (uint32_t)lane_widths[lanes], n = LAMPS, other = 0, numbers = which % 4 ? 1u << 31 : 1234567891;
+    const double whole = numbers * 0x1p-31;
     if (!KERNEL_CALL(&cl, program, "probabilities", LAMPS / width, SCALAR(n), IN((float *)nodes, 12 * (2 * LAMPS - 1)), IN(trails, LAMPS),
-                     IN(points, 3 * POINTS), SCALAR(which), OUT(pmf, LAMPS)))
+                     IN(points, 3 * POINTS), SCALAR(which), SCALAR(numbers), OUT(pmf, LAMPS)))
         return;
     if (!lanes) memcpy(first_pmf[which], pmf, sizeof pmf);
     CHECK_MSG(!memcmp(first_pmf[which], pmf, sizeof pmf), "point %u: other bits with %u lanes", which, width);
     double sum = 0;
     for (int i = 0; i < LAMPS; i++) {
         sum += pmf[i];
-        expected[i] = (double)pmf[i] * SAMPLES;
+        expected[i] = (double)pmf[i] / whole * SAMPLES;
         count[i] = 0;
         *unlit += pmf[i] == 0;
         CHECK_MSG(pmf[i] > 0 || !shines_on(&lamps[i], points + 3 * which), "lamp %d shines on point %u and is never chosen", i, which);
     }
-    CHECK_MSG(fabs(sum - 1) < 1e-6, "point %u: probabilities add up to 1 %+.2g", which, sum - 1);
+    CHECK_MSG(fabs(sum / whole - 1) < 1e-6, "point %u: probabilities add up to 1 %+.2g", which, sum / whole - 1);
     if (which % 6 || !KERNEL_CALL(&cl, program, "choices", samples / width, SCALAR(samples), SCALAR(seed), IN((float *)nodes, 12 * (2 * LAMPS - 1)),
-                                  IN(trails, LAMPS), IN(points, 3 * POINTS), SCALAR(which), OUT(chosen, SAMPLES), OUT(out, 2 * SAMPLES)))
+                                  IN(trails, LAMPS), IN(points, 3 * POINTS), SCALAR(which), SCALAR(numbers), OUT(chosen, SAMPLES), OUT(out, 3 * SAMPLES)))
         return;
+    uint32_t tenths[10] = {0};
+    const double even[10] = {SAMPLES / 10.0, SAMPLES / 10.0, SAMPLES / 10.0, SAMPLES / 10.0, SAMPLES / 10.0,
+                             SAMPLES / 10.0, SAMPLES / 10.0, SAMPLES / 10.0, SAMPLES / 10.0, SAMPLES / 10.0};
     for (uint32_t i = 0; i < SAMPLES; i++) {
-        CHECK(chosen[i] < LAMPS);
-        if (chosen[i] >= LAMPS) return;
+        const float left = out[2 * SAMPLES + i];
+        CHECK(chosen[i] < LAMPS && left >= 0 && left < 1);
+        if (chosen[i] >= LAMPS || !(left >= 0 && left < 1)) return;
         count[chosen[i]]++;
+        tenths[(int)(left * 10)]++;
         other += out[i] != out[SAMPLES + i] || out[i] != pmf[chosen[i]];
     }
     CHECK_MSG(!other, "point %u: %u samples of another probability than their trail's", which, other);
     char name[64];
     snprintf(name, sizeof name, "light tree, point %u, %u lanes", which, width);
     check_chi2(name, expected, count, LAMPS);
+    check_chi2("what is left of the numbers", even, tenths, 10);
 }
 
 int main(void)

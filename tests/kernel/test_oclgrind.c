@@ -52,10 +52,10 @@ static long simulate(const char *options, const char *command, bool show)
 static const struct {
     const char *ways, *options;
 } renders[] = {
-    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --batch 1 --max-depth 3"},
-    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --batch 1 --integrator whitted"},
-    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --lanes 1 --size 4x4 --spp 2 --batch 1 --integrator raster"},
-    {"--data-races", "cornell-box/cornell-box.gltf --accel bvh2 --lanes 4 --size 16x12 --spp 6 --batch 1 --max-depth 1 --adaptive"},
+    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
+    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --integrator whitted"},
+    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --lanes 1 --size 4x4 --spp 2 --integrator raster"},
+    {"--data-races", "cornell-box/cornell-box.gltf --accel bvh2 --lanes 4 --size 8x8 --spp 36 --max-depth 1 --adaptive"},
     {"--data-races", "lamps/lamps.gltf --env 0.1,0.2,0.3 --accel grid --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
     {"--data-races", "lamps/lamps.gltf --accel bvh2 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
     {"--data-races", "glass/glass.gltf --accel kdtree --lanes 4 --size 4x4 --spp 2 --max-depth 3"},

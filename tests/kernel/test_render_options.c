@@ -12,7 +12,7 @@ static ec_result attempt(double survival, uint32_t max_depth, ec_integrator inte
     o.max_depth = max_depth;
     o.integrator = integrator;
     ec_result result = case_try(scene, &o, &image, err);
-    if (result != EC_OK) CHECK(!image.film.mean && !image.film.batch_count); /* nothing was begun */
+    if (result != EC_OK) CHECK(!image.film.part_count && !image.film.batch_count); /* nothing was begun */
     case_free(&image);
     return result;
 }

@@ -15,33 +15,36 @@ typedef struct tracer {
     char label[32];
     cl_program program;
 } tracer;
-#define TRACERS_MOST (EC_ACCEL_COUNT + LANE_WIDTHS)
+#define TRACERS_MOST (EC_ACCEL_COUNT + LANE_WIDTHS + 1)
 static tracer tracers[TRACERS_MOST];
 static uint32_t tracer_count;
 
-static inline void add_tracer(uint32_t accel, uint32_t lanes)
+/* more: of the compiler's options; shown in the label. */
+static inline void add_tracer(uint32_t accel, uint32_t lanes, const char *more)
 {
     char name[64], options[64];
     ec_error err = {0};
     tracer *t = &tracers[tracer_count++];
     uint32_t width = ec_accels[accel].lanes ? ec_accels[accel].lanes : lanes;
     *t = (tracer){.accel = accel, .lanes = lanes};
-    snprintf(t->label, sizeof t->label, lanes > 1 ? "%s of %u" : "%s", ec_accels[accel].name, lanes);
+    if (lanes > 1) snprintf(t->label, sizeof t->label, "%s of %u", ec_accels[accel].name, lanes);
+    else snprintf(t->label, sizeof t->label, "%s%s", ec_accels[accel].name, more);
     snprintf(name, sizeof name, "traverse_%s", ec_accels[accel].name);
-    snprintf(options, sizeof options, "-DFEATURES=0 -DPROBE -DLANES=%u", width);
+    snprintf(options, sizeof options, "-DFEATURES=0 -DPROBE -DLANES=%u%s", width, more);
     CHECK_OK(ec_program_build(&cl, name, ec_kernel_source(name), options, &t->program, &err), err);
 }
 
-/* Opens the device and builds every accelerator, packets at each width or only at 8. Returns main's exit code, or 0. */
+/* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved too. Returns main's exit code, or 0. */
 static inline int open_tracers(bool all_widths)
 {
     int open = kernel_open(&cl);
     if (open) return open;
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
-        if (ec_accels[a].lanes) add_tracer(a, 1);
+        if (ec_accels[a].lanes) add_tracer(a, 1, "");
         for (int i = 0; !ec_accels[a].lanes && i < kernel_widths(&cl); i++)
-            if (all_widths || lane_widths[i] == 8) add_tracer(a, (uint32_t)lane_widths[i]);
+            if (all_widths || lane_widths[i] == 8) add_tracer(a, (uint32_t)lane_widths[i], "");
     }
+    add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8"); /* as in large scenes */
     return test_failures != 0;
 }
 
@@ -80,13 +83,13 @@ static inline void free_accels(ec_accel accels[EC_ACCEL_COUNT])
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) ec_accel_free(&accels[a]);
 }
 
-static uint32_t zero = 0;
+static uint32_t zero = 0, bounce = 1;
 static float nothing[256];
 
 #define NO_ATTRIBUTES IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 64), IN(nothing, 16), \
     IN(nothing, 16), IN(nothing, 256), {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}
 #define ALL_PIXELS {NULL, 0, KERNEL_IN}
-#define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), ALL_PIXELS, SCALAR(zero), SCALAR(zero), IN(&counters, 1), SCALAR(sorts)
+#define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), ALL_PIXELS, SCALAR(bounce), SCALAR(zero), IN(&counters, 1), SCALAR(sorts)
 #define BUFFER(k) {a->buffers[k].data, a->buffers[k].data ? a->buffers[k].bytes : 0, KERNEL_IN}
 #define BUFFERS BUFFER(0), BUFFER(1), BUFFER(2), BUFFER(3), BUFFER(4)
 
@@ -97,6 +100,7 @@ static inline bool intersect_in_order(const set *s, const tracer *t, const ec_ac
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
     ec_counters counters = {.rays = {{count}}};
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[t->accel].name);
+    for (size_t f = 0; f < EC_HIT_PROBE_FIELDS; f++) memset(hits + f * wave, 0xa5, count * sizeof *hits); /* none is left from a call before */
     return KERNEL_CALL(&cl, t->program, name, (count + t->lanes - 1) / t->lanes, WAVE, IN(paths, EC_PATH_FIELDS * (size_t)wave),
                        OUT(hits, EC_HIT_PROBE_FIELDS * (size_t)wave), BUFFERS, NO_ATTRIBUTES);
 }
@@ -133,6 +137,17 @@ static inline bool intersect(const set *s, const tracer *t, const ec_accel *a, u
         bool good = intersect_in_order(s, t, a, wave, count, paths, 1, sorted) && intersect_in_order(s, t, a, wave, count, paths, 0, hits);
         if (good) same_sorted(t, hits, sorted, EC_HIT_T + 1, wave, count);
         free(sorted);
+        return good;
+    }
+    if (strstr(t->label, "INTERLEAVE")) { /* but not as camera rays, which give the same bits */
+        float *alone = malloc(EC_HIT_PROBE_FIELDS * (size_t)wave * sizeof *alone);
+        bounce = 0;
+        bool good = intersect_in_order(s, t, a, wave, count, paths, 0, alone);
+        bounce = 1;
+        good = good && intersect_in_order(s, t, a, wave, count, paths, 0, hits);
+        for (size_t f = 0; good && f <= EC_HIT_T; f++)
+            CHECK_MSG(!memcmp(alone + f * wave, hits + f * wave, count * sizeof *hits), "%s: field %zu is another one by one", t->label, f);
+        free(alone);
         return good;
     }
     return intersect_in_order(s, t, a, wave, count, paths, 0, hits);

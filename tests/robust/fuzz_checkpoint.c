@@ -10,9 +10,6 @@
 
 enum { PIXELS_MOST = 1 << 12 }; /* more teaches nothing and costs executions */
 
-/* The pipeline's, for ec_identity_of, which no reader calls. */
-uint32_t ec_render_batch(const ec_render_options *options) { return options->batch; }
-
 static void judge_job(const ec_stored *s)
 {
     PROMISE(s->job.argc >= 1 && s->job.argv[s->job.argc] == NULL, "%d arguments", s->job.argc);
@@ -46,13 +43,15 @@ static void read_state(const uint8_t *data, size_t size)
 static void judge_film(const ec_film *film)
 {
     uint64_t end = 0, batches = 0;
-    PROMISE(film->samples_per_batch, "batches of no samples");
+    PROMISE(film->replicates >= 1 && film->replicates <= EC_REPLICATES_MOST, "%u replicates", film->replicates);
     for (uint32_t i = 0; i < film->part_count; i++) {
         PROMISE(film->parts[i].first >= end, "part %u begins with batch %u, not after %llu", i, film->parts[i].first, (unsigned long long)end);
         end = (uint64_t)film->parts[i].first + film->parts[i].count;
         batches += film->parts[i].count;
     }
-    PROMISE(film->counts ? !film->part_count : batches == film->batch_count, "parts of %llu batches, not %u", (unsigned long long)batches, film->batch_count);
+    PROMISE(!film->counts || film->part_count == 1, "%u parts of an adaptive render", film->part_count);
+    PROMISE(!film->cut || film->cut < ec_schedule_batch(film->replicates, ec_film_end(film) - 1).samples, "%u samples short", film->cut);
+    PROMISE(batches == film->batch_count, "parts of %llu batches, not %u", (unsigned long long)batches, film->batch_count);
     ec_film_error error = ec_film_estimate_error(film); /* of any bits: the sanitizers judge */
     PROMISE(!isnan(error.error), "an error that is no number");
 }
@@ -68,7 +67,6 @@ static void merge_twice(const char *path)
     if (result == EC_OK) {
         (void)ec_merge_missing(&merge, missing, sizeof missing);
         PROMISE(ec_merge_take(&merge, path, NULL, &err) != EC_OK && err.text[0], "merged with itself");
-        ec_film_show(&merge.all.film);
     }
     ec_merge_free(&merge);
 }

@@ -20,7 +20,7 @@ static void judge_lights(const ec_pack *pack)
     for (uint32_t i = 0; i < pack->light_count; i++) {
         const ec_light_data *l = &pack->lights[i];
         PROMISE(l->pmf >= 0 && l->pmf <= 1 && isfinite(l->pdf_a), "light %u: pmf %g, pdf_a %g", i, l->pmf, l->pdf_a);
-        PROMISE(pack->light_alias[i].other < pack->light_count, "light %u: alias %u", i, pack->light_alias[i].other);
+        PROMISE(pack->light_shares[i].guide < pack->light_count, "light %u: guide %u", i, pack->light_shares[i].guide);
         sum += l->pmf;
     }
     PROMISE(!pack->light_count || fabs(sum - 1) < 1e-5, "the chances of %u lights add up to %g", pack->light_count, sum);

@@ -15,6 +15,7 @@ from support import eclat, read_exr
 KILLS = 100
 CHAINS = 2
 MARK = b"eclat: sealed by SHA-256\n"
+CORPUS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus", "checkpoint")
 STRAY = r"^\.eclat-\d+-[0-9a-f]{8}\.tmp$"
 
 
@@ -34,7 +35,7 @@ class CheckpointFaults(FaultCase):
         """image_sha256 of the job gone on with until so many samples, and of one without a break."""
         render = ["--json", "-q", "--spp", str(samples)]
         again = eclat("render", "--resume", kept, *render, "-o", kept + ".a.exr")
-        whole = eclat("render", self.scene, "--size", "8x8", "--batch", "1", "--max-depth", "3", *render, "-o", kept + ".b.exr")
+        whole = eclat("render", self.scene, "--size", "8x8", "--max-depth", "3", *render, "-o", kept + ".b.exr")
         return [json.loads(self.assert_ok(run).stdout)["image_sha256"] for run in [again, whole]]
 
     def chain(self, seed):
@@ -100,7 +101,7 @@ class CheckpointFaults(FaultCase):
     def test_a_full_disk(self):
         """The checkpoint before stays; the picture is written if there is room for it, and the exit code says that something is missing."""
         kept, image = self.path("kept.exr"), self.path("a.png")
-        begun = ["render", self.scene, "--size", "256x256", "--batch", "1", "--max-depth", "3", "-q", "-o", image]
+        begun = ["render", self.scene, "--size", "256x256", "--max-depth", "3", "-q", "-o", image]
         self.assert_ok(eclat(*begun, "--spp", "2", "--checkpoint", kept))
         with open(kept, "rb") as file:
             before = file.read()
@@ -113,7 +114,7 @@ class CheckpointFaults(FaultCase):
 
     def make(self):
         kept = self.path("kept.exr")
-        self.assert_ok(eclat("render", self.scene, "--size", "8x8", "--batch", "1", "--max-depth", "3", "--spp", "18", "-q", "--checkpoint", kept,
+        self.assert_ok(eclat("render", self.scene, "--size", "8x8", "--max-depth", "3", "--spp", "18", "-q", "--checkpoint", kept,
                              "-o", self.path("a.png")))
         with open(kept, "rb") as file:
             return kept, file.read()
@@ -135,6 +136,15 @@ class CheckpointFaults(FaultCase):
             self.refused(kept, data[:place] + bytes([data[place] ^ 1 << dice.randrange(8)]) + data[place + 1:])
         self.refused(kept, data + b"\0")
         self.refused(kept, self.path("a.png").encode())
+
+    def test_of_another_version(self):
+        """One of batches that were independent, from before there were replicates."""
+        with open(os.path.join(CORPUS, "format-1"), "rb") as file:
+            data = file.read()
+        kept = self.path("kept.exr")
+        self.refused(kept, data + MARK + hashlib.sha256(data).digest())
+        error = self.check_error(eclat("render", "--resume", kept, "-q", "-o", self.path("b.png")))
+        self.assertIn("it was written by another version of eclat (format 1, this one reads 2); use that version, or render anew", error)
 
     def test_forged(self):
         """Changed and sealed anew: read as what it says, or refused; never a crash."""

@@ -18,11 +18,11 @@ import opencl_devices
 LAMPS = os.path.join(SOURCE, "scenes", "lamps", "lamps.gltf")
 GLASS = os.path.join(SOURCE, "scenes", "glass", "glass.gltf")
 PICTURES = {
-    "path": [CORNELL, "--spp", "8", "--batch", "4"],
-    "lamps": [LAMPS, "--spp", "4", "--batch", "2", "--env", "0.1,0.2,0.3"],
-    "glass": [GLASS, "--spp", "4", "--batch", "2", "--accel", "grid"],
-    "whitted": [GLASS, "--spp", "4", "--batch", "2", "--integrator", "whitted"],
-    "raster": [LAMPS, "--spp", "4", "--batch", "2", "--integrator", "raster"],
+    "path": [CORNELL, "--spp", "20"],
+    "lamps": [LAMPS, "--spp", "4", "--env", "0.1,0.2,0.3"],
+    "glass": [GLASS, "--spp", "4", "--accel", "grid"],
+    "whitted": [GLASS, "--spp", "4", "--integrator", "whitted"],
+    "raster": [LAMPS, "--spp", "4", "--integrator", "raster"],
 }
 VELVET, FILM, BRUSHED, PRISM = (os.path.join(SOURCE, "scenes", name, name + ".gltf") for name in ("velvet", "soap-film", "brushed-metal", "prism"))
 # What a file or an option may ask for beyond these: each with its own kernels, so slower.

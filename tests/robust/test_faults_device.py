@@ -77,7 +77,7 @@ class Device(FaultCase):
         count = self.count_calls()["clEnqueueNDRangeKernel"]
         run, _ = self.run_with("json", "--json", call="clEnqueueNDRangeKernel", at=count - 3)
         report = json.loads(run.stdout)
-        self.assertEqual([run.returncode, report["stopped_by"], report["samples_per_pixel"], report["batches"]], [1, "device", 3, 3])
+        self.assertEqual([run.returncode, report["stopped_by"], report["samples_per_pixel"], report["replicates"]], [1, "device", 3, 3])
         self.assertEqual([report["samples"], len(report["outputs"])], [3 * 64, 2])
 
 
@@ -112,7 +112,7 @@ class Others(FaultCase):
 
 
 class Memory(FaultCase):
-    big = ["--size", "96x96", "--spp", "16", "--batch", "16"]
+    big = ["--size", "96x96", "--replicates", "1", "--spp", "80"]  # its last batch has 16 samples
 
     def test_a_smaller_wave_where_memory_is_short(self):
         run, folder = self.run_with("plain", *self.big, "--json")

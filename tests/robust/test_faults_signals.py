@@ -10,7 +10,7 @@ import unittest
 from faults import FaultCase, at_once, spread
 from support import eclat, read_exr
 
-ENOUGH = ["--size", "24x24", "--batch", "2"]
+ENOUGH = ["--size", "24x24"]
 INTERRUPTED = "eclat: error: interrupted before there was a picture; nothing is written\n"
 
 

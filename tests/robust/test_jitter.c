@@ -13,7 +13,7 @@
 #include "support/random.h"
 #include "support/render_case.h"
 
-enum { WIDTH = 48, HEIGHT = 36, SAMPLES = 64, BATCH = 4 };
+enum { WIDTH = 48, HEIGHT = 36, SAMPLES = 64 };
 #define MOST 0.05
 
 /* One ulp up or down of the coordinate as it stands in the file: the centre is what loading took off. */
@@ -41,7 +41,6 @@ static void jitter(ec_scene *scene, double ulps)
 static ec_render_options options(uint64_t seed)
 {
     ec_render_options o = case_options(WIDTH, HEIGHT, SAMPLES);
-    o.batch = BATCH;
     o.seed = (uint32_t)seed;
     o.light_choice = EC_LIGHTS_BY_POWER; /* an ulp may build another light tree, of lamps as even as balls are: p = 0.09 in veach-mis */
     return o;

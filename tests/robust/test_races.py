@@ -12,7 +12,7 @@ import unittest
 from support import SOURCE
 
 CLANG = shutil.which("clang")
-TEAM = ["pipeline/team*.c", "pipeline/fold.c", "film/film.c", "film/parts.c", "film/moments.c"]
+TEAM = ["pipeline/team*.c", "pipeline/fold.c", "film/film.c", "film/parts.c", "film/pixel.c", "film/schedule.c", "film/sums.c"]
 
 
 class Races(unittest.TestCase):
@@ -66,12 +66,12 @@ class Races(unittest.TestCase):
         self.check("race_accel", "5 structures of 80000 triangles by 4 threads, 2 refitted", "accel/*.c")
 
     def test_loading(self):
-        self.check("race_load", "12 of 16 pictures by 4 threads, 4 warnings, chances sum to 1.0000", "scene/textures.c", "scene/texture_range.c",
+        self.check("race_load", "12 of 16 pictures by 4 threads, 4 warnings, densities as by one thread", "scene/textures.c", "scene/texture_range.c",
                    "scene/image_decode.c", "scene/image_png.c", "scene/image_jpeg.c", "scene/codecs/no_webp.c", "scene/gltf_uri.c",
                    "pack/environment.c", "pack/distribution.c", libraries=["-lpng", "-ljpeg"])
 
     def test_teams(self):
-        self.check("race_team", "57 batches of 5 sources, 0 wrong, 2 warnings, all pixels once", *TEAM)
+        self.check("race_team", "57 batches of 5 sources, 0 wrong, 2 warnings, all samples once", *TEAM)
 
 
 if __name__ == "__main__":

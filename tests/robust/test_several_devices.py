@@ -21,7 +21,7 @@ import opencl_devices
 
 TWO = {"POCL_DEVICES": "basic basic"}
 THREE = {"POCL_DEVICES": "basic basic basic"}
-RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "batches"]
+RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates"]
 SIZE = ["--size", "72x50"]  # rows of tiles that are not whole
 OUT = re.compile(r"^eclat: warning: (.*) is out, and the others take over its work: (.*)$")
 
@@ -50,52 +50,52 @@ class Several(Case):
         return several
 
     def test_samples(self):
-        several = self.assert_same("--spp", "40", "--batch", "2", env=THREE)
+        several = self.assert_same("--spp", "41", env=THREE)
         self.assertEqual(len(several["devices"]), 3)
-        self.assertAlmostEqual(sum(one["batches"] for one in several["devices"]), 20, places=4)
-        self.assertEqual(several["rays"], self.render(CORNELL, *SIZE, "--spp", "40", "--batch", "2", device="1", env=THREE)["rays"])
+        self.assertAlmostEqual(sum(one["samples_per_pixel"] for one in several["devices"]), 41, places=4)
+        self.assertEqual(several["rays"], self.render(CORNELL, *SIZE, "--spp", "41", device="1", env=THREE)["rays"])
 
     def test_pieces_of_batches(self):
-        """A wave is two rows of tiles of the seven: every batch is cut."""
-        several = self.assert_same("--spp", "512", "--batch", "16", "--wave", str(72 * 8 * 16 * 2))
-        self.assertTrue(all(one["batches"] > 0 for one in several["devices"]), several["devices"])
+        """From sample 512 on a wave is two rows of tiles of the seven: every batch is cut."""
+        several = self.assert_same("--spp", "1024", "--wave", str(72 * 8 * 16 * 2))
+        self.assertTrue(all(one["samples_per_pixel"] > 0 for one in several["devices"]), several["devices"])
 
     def test_error(self):
-        self.assertEqual(self.assert_same("--error", "12%", "--batch", "4")["stopped_by"], "error")
+        self.assertEqual(self.assert_same("--error", "12%", "--adaptive=off")["stopped_by"], "error")
 
     def test_adaptive(self):
-        several = self.assert_same("--adaptive", "--spp", "256", "--batch", "4", "--wave", "4096")
+        several = self.assert_same("--adaptive", "--spp", "256", "--wave", "4096")
         self.assertLess(several["allotment_gain"], 1)  # it is not uniform all the same
-        self.assertTrue(all(one["batches"] > 0 for one in several["devices"]), several["devices"])
-        self.assert_same("--adaptive", "--error", "10%", "--batch", "4")
+        self.assertTrue(all(one["samples_per_pixel"] > 0 for one in several["devices"]), several["devices"])
+        self.assert_same("--error", "10%")
 
     def test_slices(self):
-        self.assert_same("--samples", "16:80", "--spp", "96", "--batch", "4")
-        self.render(CORNELL, *SIZE, "--samples", "0:48", "--spp", "96", "--batch", "4", name="first.exr")
-        self.render(CORNELL, *SIZE, "--samples", "48:96", "--spp", "96", "--batch", "4", device="0", name="second.exr")
+        self.assert_same("--samples", "16:80", "--spp", "97")
+        self.render(CORNELL, *SIZE, "--samples", "0:48", "--spp", "97", name="first.exr")
+        self.render(CORNELL, *SIZE, "--samples", "48:97", "--spp", "97", device="0", name="second.exr")
         self.assert_ok(eclat("merge", self.path("first.exr"), self.path("second.exr"), "-o", self.path("all.exr"), "-q"))
-        self.render(CORNELL, *SIZE, "--spp", "96", "--batch", "4", device="1")
+        self.render(CORNELL, *SIZE, "--spp", "97", device="1")
         self.assertEqual(read_exr(self.path("a.exr"))[1]["R"], read_exr(self.path("all.exr"))[1]["R"])
 
     def test_other_integrators_and_lanes(self):
         for options in [["--integrator", "whitted"], ["--integrator", "raster"], ["--lanes", "1", "--accel", "grid"]]:
             with self.subTest(options):
-                self.assert_same("--spp", "8", "--batch", "1", *options)
+                self.assert_same("--spp", "19", *options)
 
     def test_going_on(self):
         kept = self.path("kept.exr")
         for first, job in [("all", []), ("0", ["--adaptive"])]:
-            whole = self.render(CORNELL, *SIZE, "--spp", "96", "--batch", "4", *job, device="0")
-            self.render(CORNELL, *SIZE, "--spp", "40", "--batch", "4", *job, "--checkpoint", kept, device=first)
+            whole = self.render(CORNELL, *SIZE, "--spp", "96", *job, device="0")
+            self.render(CORNELL, *SIZE, "--spp", "45", *job, "--checkpoint", kept, device=first)
             again = self.render("--resume", kept, "--spp", "96")
             self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
 
     def test_going_on_within_a_batch_of_one_device(self):
         """Its waves end anywhere in a row of tiles, pieces of several devices at their ends."""
-        kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "2048", "--batch", "512", "--wave", "65536"]
+        kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "2048", "--replicates", "1", "--wave", "16384"]  # batches of 32 samples from 256 on, of 64 from 512
         whole = self.render(*job, device="0")
         planes = read_exr(self.path("a.exr"))[1]
-        for wanted in [0, 2]:  # in the first batch, and later
+        for wanted in [22, 29]:
             process = subprocess.Popen([ECLAT, "render", *job, "--device", "0", "--checkpoint", kept, "--every", "0.0000001", "-q", "-o", self.path("b.exr")],
                                        env=dict(ENVIRONMENT, **TWO))
             state = {"batches": -1}
@@ -114,7 +114,7 @@ class Several(Case):
 
     def test_killed(self):
         """The last checkpoint stands, holds no hole, and is not older than an interval and what a write and the pieces under way take."""
-        job = [RING, "--size", "96x96", "--spp", "512", "--batch", "128", "--wave", "16384"]  # 72 waves a batch, which are cut
+        job = [RING, "--size", "96x96", "--spp", "4608", "--samples", "4096:4608", "--wave", "16384"]  # 36 waves a batch, which are cut
         whole = self.render(*job, device="0")
         cut = 0
         for after in [0.3, 1.5]:
@@ -129,31 +129,32 @@ class Several(Case):
             state = json.loads(read_exr(kept)[0]["eclat.state"])
             self.assertGreater(state["seconds"], after - 1.2)
             cut += state["underWay"] > 0
-            again = self.render("--resume", kept, "--spp", "512", device=None)
+            again = self.render("--resume", kept, device=None)
             self.assertEqual(again["image_sha256"], whole["image_sha256"])
         self.assertGreater(cut, 0)
 
     def test_time_and_interruption(self):
         """The end comes within waves; whatever the picture has is whole batches."""
-        job = [CORNELL, "--size", "256x256", "--batch", "16", "--wave", "16384"]
+        job = [CORNELL, "--size", "256x256", "--wave", "2048"]
         start = time.monotonic()
         self.assertEqual(self.render(*job, "--time", "2s")["stopped_by"], "time")
         self.assertLess(time.monotonic() - start, 30)  # starting up, and a loaded machine
-        whole = self.render(*job, "--spp", "16", device="0")
-        first = self.render(*job, "--time", "0.05s", name="first.exr")  # within the first batch: what was reached is right, the rest is marked
+        first = self.render(*job, "--time", "0.02s", name="first.exr")  # within the first batch: what was reached is right, the rest is marked
         samples, red = read_exr(self.path("first.exr"))[1]["samples"], read_exr(self.path("first.exr"))[1]["R"]
+        done = max(samples)
+        whole = self.render(*job, "--spp", f"{done:.0f}", device="0")
         right = read_exr(self.path("a.exr"))[1]["R"]
-        self.assertEqual(whole["samples_per_pixel"], 16)
-        self.assertLessEqual(set(samples), {0.0, 16.0})
+        self.assertEqual(whole["samples_per_pixel"], done)
+        self.assertLessEqual(set(samples), {0.0, done})
         self.assertEqual(sum(samples), first["samples"])
         self.assertEqual([a for a, n in zip(red, samples) if n], [b for b, n in zip(right, samples) if n])
 
     def test_what_is_said(self):
-        run = self.assert_ok(eclat("render", CORNELL, *SIZE, "--spp", "16", "--batch", "1", "--device", "1,0", "-o", self.path("a.exr"), env=TWO))
+        run = self.assert_ok(eclat("render", CORNELL, *SIZE, "--spp", "16", "--device", "1,0", "-o", self.path("a.exr"), env=TWO))
         self.assertRegex(run.stderr, r"(?m)^eclat: rendering 72x50 pixels on basic-.* and 1 more device until 16 samples a pixel$")
-        shares = re.findall(r"(?m)^device   basic-.*, \d+ lanes: ([0-9.]+) of 16 batches$", run.stdout)
+        shares = re.findall(r"(?m)^device   basic-.*, \d+ lanes: ([0-9.]+) of 16 samples a pixel$", run.stdout)
         self.assertEqual((len(shares), sum(map(float, shares))), (2, 16))
-        self.assertRegex(read_exr(self.path("a.exr"))[0]["eclat.devices"], r"^1 basic-.*: [0-9.]+ batches, 0 basic-.*: [0-9.]+ batches$")
+        self.assertRegex(read_exr(self.path("a.exr"))[0]["eclat.devices"], r"^1 basic-.*: [0-9.]+ samples, 0 basic-.*: [0-9.]+ samples$")
         self.assertNotIn("warning", run.stderr)  # alike: they round alike
 
     def test_refusals(self):
@@ -174,7 +175,7 @@ class Several(Case):
 
 class Failing(FaultCase):
     """One of three devices fails."""
-    job = ["--batch", "8", "--size", "256x256", "--device", "all", "--json"]  # long enough for all of them to take part
+    job = ["--size", "256x256", "--device", "all", "--json"]  # long enough for all of them to take part
 
     @functools.cached_property
     def whole(self):
@@ -221,20 +222,20 @@ class Failing(FaultCase):
         self.assertEqual(json.loads(run.stdout)["image_sha256"], report["image_sha256"])
 
     def test_a_slow_one_holds_nobody_up(self):
-        """What one device does in t seconds two of them do in little more, where the other one is so slow that a batch takes it 5 s and
-        more: a wave of it, an eighth of a batch, is all that they may wait for."""
-        job = [*self.job, "--size", "256x256", "--batch", "64", "--wave", str(256 * 256 * 8)]
+        """What one device does in t seconds two of them do in little more, where the other one is so slow that 64 samples, 16 waves, take it 5 s and
+        more: two waves of it are all that they may wait for."""
+        job = [*self.job, "--replicates", "1", "--wave", str(256 * 256 * 8)]
         slow = {"call": "clEnqueueNDRangeKernel", "pause": 50, "device": 1}
         run, _ = self.run_with("slow alone", *job, "--device", "1", spp=64, env=TWO, **dict(slow, device=0))
-        batch = json.loads(self.assert_ok(run).stdout)["seconds"]
+        alone = json.loads(self.assert_ok(run).stdout)["seconds"]
         run, _ = self.run_with("fast", *job, "--device", "0", spp=256, env=TWO)
         fast = json.loads(self.assert_ok(run).stdout)
         run, _ = self.run_with("both", *job, spp=256, env=TWO, **slow)
         both = json.loads(self.assert_ok(run).stdout)
         self.assertEqual(both["image_sha256"], fast["image_sha256"])
-        self.assertGreater(batch, 5)
-        self.assertLess(both["seconds"], 1.5 * fast["seconds"] + batch / 4, f"a batch takes the slow one {batch:.1f} s")
-        self.assertGreater(both["devices"][1]["batches"], 0)
+        self.assertGreater(alone, 5)
+        self.assertLess(both["seconds"], 1.5 * fast["seconds"] + alone / 8, f"16 waves take the slow one {alone:.1f} s")
+        self.assertGreater(both["devices"][1]["samples_per_pixel"], 0)
 
 
 class Unlike(FaultCase):
@@ -261,14 +262,14 @@ class Unlike(FaultCase):
         found = json.loads(self.assert_ok(eclat("devices", "--json", env=env)).stdout)["devices"]
         if len({device["platform"] for device in found}) < 2:
             self.skipTest("one driver only; tools/test --all-devices installs Intel's")
-        job = ["render", CORNELL, *SIZE, "--spp", "64", "--batch", "1", "--json", "-o", self.path("a.exr")]
+        job = ["render", CORNELL, *SIZE, "--spp", "64", "--json", "-o", self.path("a.exr")]
         pictures = set()
         for device in ["0", "all", "intel,pocl"]:
             run = self.assert_ok(eclat(*job, "--device", device, env=env))
             pictures.add(json.loads(run.stdout)["image_sha256"])
             self.assertNotIn("warning", run.stderr)
         self.assertEqual(len(pictures), 1)
-        self.assertTrue(all(one["batches"] > 0 for one in json.loads(run.stdout)["devices"]), run.stdout)
+        self.assertTrue(all(one["samples_per_pixel"] > 0 for one in json.loads(run.stdout)["devices"]), run.stdout)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from support import eclat, read_exr
 
 ENOSPC, SIGINT, SIGKILL = 28, int(signal.SIGINT), int(signal.SIGKILL)
 SIDE = 256
-TALL = ["--size", f"{SIDE}x{SIDE}", "--batch", "1"]
+TALL = ["--size", f"{SIDE}x{SIDE}"]
 
 
 class Strips(FaultCase):

@@ -53,7 +53,7 @@ static double take(strategy *s, uint32_t samples)
 {
     const clock_t start = clock();
     ec_error err = {0};
-    ec_session_batch batch = {.seed = ec_session_seed(7, EC_COST_STREAM_RUNGS, s->index++), .samples = samples, .mean = s->mean};
+    ec_session_batch batch = {.seed = ec_session_seed(7, EC_COST_STREAM_RUNGS, s->index++), .samples = samples, .rgb = s->mean};
     CHECK_OK(ec_session_take(s->session, &batch, &err), err);
     CHECK(batch.complete && batch.invalid == 0);
     ec_cost_tally_add(&s->tally, s->mean);
@@ -134,13 +134,18 @@ static void slopes(void)
 static void predict(double side, double *hemisphere, double *light)
 {
     enum { N = 400 };
-    double I1 = 0, I2 = 0, W = 0, cell = side / N * (side / 2 / N);
-    for (int i = 0; i < N; i++)
-        for (int k = 0; k < N; k++) {
-            double x = (i + 0.5) / N * side / 2, z = ((k + 0.5) / N - 0.5) * side, cos2 = 1 / (1 + x * x + z * z), c = sqrt(cos2);
-            double solid_angle = cell * cos2 * c; /* dA cos' / d^2 */
-            I1 += c * solid_angle, I2 += cos2 * solid_angle, W += 2 * solid_angle;
-        }
+    /* From the point, 1e-3 on the lit side, the sheet's edge is seen at x = -2e-3 on the lamp, and its middle at -1e-3. */
+    const double edge = -2e-3, ends[2] = {-side / 2 - 1e-3, side / 2 - 1e-3};
+    double I1 = 0, I2 = 0, W = 0;
+    for (int seen = 0; seen < 2; seen++)
+        for (int i = 0; i < N; i++)
+            for (int k = 0; k < N; k++) {
+                const double x = edge + (i + 0.5) / N * (ends[seen] - edge), z = ((k + 0.5) / N - 0.5) * side;
+                const double cos2 = 1 / (1 + x * x + z * z), c = sqrt(cos2);
+                const double solid_angle = side / N * fabs(ends[seen] - edge) / N * cos2 * c; /* dA cos' / d^2 */
+                W += solid_angle;
+                if (seen) I1 += c * solid_angle, I2 += cos2 * solid_angle;
+            }
     *hemisphere = 2 * acos(-1) * I2 / (I1 * I1) - 1;
     *light = W * I2 / (I1 * I1) - 1;
 }

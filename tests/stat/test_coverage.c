@@ -1,5 +1,5 @@
-/* Do the intervals of single pixels hold the truth as often as they say? Each scene is rendered 100 times at 256 samples a pixel
- * in 16 batches; the truth is the mean of the other 99 renders. Counted are values (pixel and channel) that are not exact and
+/* Do the intervals of single pixels hold the truth as often as they say? Each scene is rendered 100 times at 256 samples a pixel;
+ * the truth is the mean of the other 99 renders. Counted are values (pixel and channel) that are not exact and
  * whose pixel is not flagged as heavy-tailed: 94 to 96 % of them have to be held.
  *
  * The truth's own noise, a hundredth of the render's variance, makes for 0.1 % too few. The count itself is good to 0.1 %.
@@ -11,7 +11,7 @@
 #include "film/interval.h"
 #include "support/batches.h"
 
-enum { RENDERS = 100, BATCHES = 16, BATCH = 16 };
+enum { RENDERS = 100, SPP = 256 };
 
 typedef struct coverage_case {
     const char *name, *path, *environment;
@@ -23,24 +23,27 @@ typedef struct tally {
     uint64_t values, kept, held, plain_held, flagged, flagged_held;
 } tally;
 
-static void count_values(const case_batches *batches, const ec_film *film, tally *sum)
+static void count_values(const case_batches *renders, uint32_t i, const ec_film *film, tally *sum)
 {
-    uint64_t values = batches->values;
-    float *low = malloc(4 * values * sizeof *low), *high = low + values, *heavy = high + values, *se = heavy + values;
-    double t = ec_student_t_quantile(0.975, film->batch_count - 1.0);
-    ec_film_interval_rows(film, 0, film->height, low, high, heavy);
-    ec_film_resolve(film, NULL, se);
-    for (uint64_t i = 0; i < values; i++) {
-        double truth = case_truth_without(batches, film, i), mean = film->mean[i];
-        if (batches->film.m2[i / 3 * 4 + i % 3] <= 1e-10 * mean * mean) continue; /* exact but for rounding */
-        int is_held = low[i] <= truth && truth <= high[i];
+    const uint64_t pixels = renders->values / 3;
+    float *low = malloc(7 * pixels * sizeof *low), *high = low + 3 * pixels, *heavy = high + 3 * pixels;
+    ec_pixel *all = malloc(pixels * sizeof *all);
+    const double t = ec_student_t_quantile(0.975, renders->replicates - 1.0);
+    ec_film_look(film, 0, pixels, all);
+    ec_intervals(all, film->width, film->height, 0, film->height, &(ec_intervals_of){low, high, heavy});
+    for (uint64_t k = 0; k < renders->values; k++) {
+        const ec_pixel *p = &all[k / 3];
+        const double truth = case_truth_without(renders, i, k), mean = p->mean[k % 3];
+        if (p->m2[k % 3] <= 1e-10 * mean * mean) continue; /* exact but for rounding */
+        int is_held = low[k] <= truth && truth <= high[k];
         sum->values++;
-        sum->kept += !heavy[i / 3];
-        sum->held += is_held && !heavy[i / 3];
-        sum->plain_held += fabs(mean - truth) <= t * se[i] && !heavy[i / 3];
-        sum->flagged_held += is_held && heavy[i / 3];
+        sum->kept += !heavy[k / 3];
+        sum->held += is_held && !heavy[k / 3];
+        sum->plain_held += fabs(mean - truth) <= t * sqrt(ec_pixel_se2(p, (int)(k % 3))) && !heavy[k / 3];
+        sum->flagged_held += is_held && heavy[k / 3];
     }
     free(low);
+    free(all);
 }
 
 static void check_case(const coverage_case *c)
@@ -50,15 +53,15 @@ static void check_case(const coverage_case *c)
         return;
     }
     ec_scene *scene = case_load(c->path, c->environment);
-    ec_render_options o = case_options(c->width, c->height, RENDERS * BATCHES * BATCH);
-    o.batch = BATCH;
+    ec_render_options o = case_defaults(c->width, c->height, SPP);
     o.max_depth = c->max_depth;
     o.seed = 7;
-    case_batches batches = case_render_batches(scene, &o);
+    if (getenv("EC_TEST_REPLICATES")) o.replicates = (uint32_t)atoi(getenv("EC_TEST_REPLICATES")); /* for the manual's table */
+    case_batches batches = case_render_many(scene, &o, RENDERS);
     tally sum = {0};
     for (uint32_t i = 0; i < RENDERS; i++) {
-        ec_film film = case_film_of(&batches, i * BATCHES, BATCHES);
-        count_values(&batches, &film, &sum);
+        ec_film film = case_film_of(&batches, i);
+        count_values(&batches, i, &film, &sum);
         ec_film_destroy(&film);
     }
     double held = 100.0 * (double)sum.held / (double)sum.kept, kept = 100.0 * (double)sum.kept / (double)sum.values;

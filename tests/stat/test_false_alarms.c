@@ -1,20 +1,20 @@
 /* `eclat compare` on renders of one scene that differ in their seeds alone: how often does it say that they differ by more than
  * noise? Stated is at most 1 in 100 at p < 0.01, and 5 in 100 below 0.05. And a picture one per cent brighter is found.
  *
- * Each scene is rendered once with 1600 batches of 16 samples, of which pairs are made: 16 batches against 16, 50 pairs, and 16
- * against 320 others, 100 pairs, twenty to a reference. Over all scenes more than the stated share and three standard errors
+ * Each scene is rendered 100 times with 256 samples, of which pairs are made: one against one, 50 pairs, and one
+ * against the replicates of twenty others joined, 100 pairs, twenty to a reference. Over all scenes more than the stated share and three standard errors
  * would be a fault; in one scene 9 % below 0.05 and 4 % below 0.01, which 150 pairs exceed by chance in one case of 100.
  *
  * ctest label: long */
 #include "film/noise_test.h"
 #include "support/batches.h"
 
-enum { BATCHES = 16, LONG = 320, ALL = 1600 };
+enum { SPP = 256, LONG = 20, ALL = 100 };
 
 typedef struct alarm_case {
     const char *name, *path, *environment;
     uint32_t width, height, max_depth;
-    uint32_t bright_batches; /* as many as it takes for 1 % to be 4 standard errors of the mean or more; 0: too noisy for that */
+    uint32_t bright_renders; /* as many as it takes for 1 % to be 4 standard errors of the mean or more; 0: too noisy for that */
 } alarm_case;
 
 typedef struct render {
@@ -22,14 +22,24 @@ typedef struct render {
     float *rgb;
 } render;
 
-static render make_render(const case_batches *batches, uint32_t first, uint32_t n)
+/* The mean of renders first to first + n - 1: of their replicates r the mean is replicate r of it. */
+static render make_render(const case_batches *renders, uint32_t first, uint32_t n)
 {
-    ec_film film = case_film_of(batches, first, n);
-    render r = {.rgb = malloc(2 * batches->values * sizeof(float))};
-    ec_film_resolve(&film, r.rgb, r.rgb + batches->values);
-    ec_film_destroy(&film);
-    r.measured = (ec_measured){batches->width, batches->height, r.rgb, r.rgb + batches->values, NULL, n, (double)n * batches->samples, 0};
-    return r;
+    const uint32_t replicates = renders->replicates;
+    const uint64_t values = renders->values;
+    render out = {.rgb = calloc(2 * values, sizeof(float))};
+    for (uint64_t k = 0; k < values; k++) {
+        double x[EC_REPLICATES_MOST] = {0}, mean = 0, m2 = 0;
+        for (uint32_t r = 0; r < replicates; r++) {
+            for (uint32_t i = 0; i < n; i++) x[r] += (double)case_replicate(renders, (first + i) % ALL, r)[k / 3 * EC_BATCH_FIELDS + k % 3] / n;
+            mean += x[r] / replicates;
+        }
+        for (uint32_t r = 0; r < replicates; r++) m2 += (x[r] - mean) * (x[r] - mean);
+        out.rgb[k] = (float)mean;
+        out.rgb[values + k] = (float)sqrt(m2 / (replicates * (replicates - 1.0)));
+    }
+    out.measured = (ec_measured){renders->width, renders->height, out.rgb, out.rgb + values, NULL, replicates, (double)n * SPP, 0};
+    return out;
 }
 
 static ec_noise_test compare(const render *a, const render *b)
@@ -54,22 +64,22 @@ static void add_pair(const render *a, const render *b, tally *sum)
     CHECK_MSG(test.exact_unequal == 0, "%llu exact values differ", (unsigned long long)test.exact_unequal);
 }
 
-static void equal_lengths(const case_batches *batches, tally *sum)
+static void equal_lengths(const case_batches *renders, tally *sum)
 {
-    for (uint32_t i = 0; i + 2 * BATCHES <= ALL; i += 2 * BATCHES) {
-        render a = make_render(batches, i, BATCHES), b = make_render(batches, i + BATCHES, BATCHES);
+    for (uint32_t i = 0; i + 2 <= ALL; i += 2) {
+        render a = make_render(renders, i, 1), b = make_render(renders, i + 1, 1);
         add_pair(&a, &b, sum);
         free(a.rgb);
         free(b.rgb);
     }
 }
 
-static void against_long_ones(const case_batches *batches, tally *sum)
+static void against_long_ones(const case_batches *renders, tally *sum)
 {
     for (uint32_t k = 0; k < ALL / LONG; k++) {
-        render reference = make_render(batches, k * LONG, LONG);
-        for (uint32_t i = 0; i < LONG; i += BATCHES) {
-            render a = make_render(batches, (k + 1) * LONG + i, BATCHES);
+        render reference = make_render(renders, k * LONG, LONG);
+        for (uint32_t i = 0; i < LONG; i++) {
+            render a = make_render(renders, (k + 1) * LONG + i, 1);
             add_pair(&a, &reference, sum);
             free(a.rgb);
         }
@@ -79,12 +89,12 @@ static void against_long_ones(const case_batches *batches, tally *sum)
 
 static void brighter(const alarm_case *c, const case_batches *batches)
 {
-    if (!c->bright_batches) return;
-    render a = make_render(batches, 0, c->bright_batches), b = make_render(batches, ALL / 2, c->bright_batches);
+    if (!c->bright_renders) return;
+    render a = make_render(batches, 0, c->bright_renders), b = make_render(batches, ALL / 2, c->bright_renders);
     double before = compare(&a, &b).p;
     for (uint64_t i = 0; i < 2 * batches->values; i++) a.rgb[i] *= 1.01f; /* its standard errors too */
     ec_noise_test test = compare(&a, &b);
-    printf("%-26s 1 %% brighter, %u batches: p %.2g (before %.2g), mean off by %.1f standard errors\n", c->name, c->bright_batches, test.p,
+    printf("%-26s 1 %% brighter, %u renders: p %.2g (before %.2g), mean off by %.1f standard errors\n", c->name, c->bright_renders, test.p,
            before, test.mean_t[1]);
     CHECK_MSG(test.p < EC_NOISE_SIGNIFICANCE, "%s: 1 %% brighter is not found, p %g", c->name, test.p);
     free(a.rgb);
@@ -98,11 +108,10 @@ static void check_case(const alarm_case *c, tally *all)
         return;
     }
     ec_scene *scene = case_load(c->path, c->environment);
-    ec_render_options o = case_options(c->width, c->height, ALL * 16);
-    o.batch = 16;
+    ec_render_options o = case_defaults(c->width, c->height, SPP);
     o.max_depth = c->max_depth;
     o.seed = 11;
-    case_batches batches = case_render_batches(scene, &o);
+    case_batches batches = case_render_many(scene, &o, ALL);
     tally equal = {0}, longer = {0};
     equal_lengths(&batches, &equal);
     against_long_ones(&batches, &longer);
@@ -120,11 +129,11 @@ int main(void)
 {
     static const char studio[] = SHARED("assets/env/pmndrs-assets/studio.hdr");
     static const alarm_case cases[] = {
-        {"cornell-box", OWN_SCENE("cornell-box/cornell-box.gltf"), NULL, 32, 32, 5, 64},
-        {"plates under studio.hdr", OWN_SCENE("furnace/plates.gltf"), studio, 32, 32, 4, 64},
+        {"cornell-box", OWN_SCENE("cornell-box/cornell-box.gltf"), NULL, 32, 32, 5, 4},
+        {"plates under studio.hdr", OWN_SCENE("furnace/plates.gltf"), studio, 32, 32, 4, 4},
         {"spheres under studio.hdr", OWN_SCENE("furnace/spheres.gltf"), studio, 48, 16, 0, 0},
-        {"veach-plates", OWN_SCENE("veach-plates/veach-plates.gltf"), NULL, 32, 32, 4, 640},
-        {"ring, caustic", OWN_SCENE("ring/ring.gltf"), NULL, 48, 32, 0, 256},
+        {"veach-plates", OWN_SCENE("veach-plates/veach-plates.gltf"), NULL, 32, 32, 4, 40},
+        {"ring, caustic", OWN_SCENE("ring/ring.gltf"), NULL, 48, 32, 0, 16},
     };
     tally all = {0};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) check_case(&cases[i], &all);

@@ -44,7 +44,6 @@ static void same_bits(const ec_scene *scene)
     case_image image[5];
     for (int i = 0; i < 5; i++) {
         ec_render_options o = case_options(32, 24, 8);
-        o.batch = 4;
         o.lanes = lanes[i];
         if (i == 4) o = case_with_all_effects(o);
         image[i] = case_render(scene, &o);

@@ -9,7 +9,6 @@ enum { SIZE = 256 };
 static case_image render(const ec_scene *scene, ec_integrator integrator, uint32_t camera, uint32_t spp)
 {
     ec_render_options o = case_with_all_effects(case_options(SIZE, SIZE, spp));
-    o.batch = 1;
     o.max_depth = 1;
     o.camera = camera;
     o.integrator = integrator;
@@ -76,7 +75,6 @@ static void check_same_bits(const char *path)
     static const uint32_t lanes[] = {1, 4, 8, 16}, waves[] = {5000, 20000, 0, 0};
     for (int i = 0; i < 4; i++) {
         ec_render_options o = case_options(SIZE, SIZE, 4);
-        o.batch = 1;
         o.integrator = EC_INTEGRATOR_RASTER;
         o.lanes = lanes[i];
         o.wave = waves[i];

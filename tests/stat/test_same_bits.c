@@ -10,7 +10,6 @@ enum { WIDTH = 48, HEIGHT = 36, SCENES = 3 };
 static ec_render_options base_options(void)
 {
     ec_render_options o = case_options(WIDTH, HEIGHT, 8);
-    o.batch = 4;
     o.seed = 5;
     o.lanes = 1;
     o.accel = "bvh8";

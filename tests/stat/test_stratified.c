@@ -1,5 +1,5 @@
 /* Stratified numbers stay stratified down to a texel of an environment map: with light sampling alone, 256 samples a pixel in one
- * batch, Sobol's error is under a third of independent numbers'. (0.12; texels picked by hashed numbers, as by an alias table: 0.98.) */
+ * replicate, Sobol's error is under a third of independent numbers'. (0.005; texels picked by hashed numbers, as by an alias table: 0.98.) */
 #include "support/floor_case.h"
 
 enum { WIDTH = 64, HEIGHT = 32, SIZE = 16, SPP = 256 };
@@ -25,7 +25,7 @@ static double deviation(ec_scene *scene, ec_sampler_type sampler)
     o.max_depth = 2;
     o.sample = EC_SAMPLE_LIGHT;
     o.sampler = sampler;
-    o.batch = SPP;
+    o.replicates = 1;
     case_image image = case_render(scene, &o);
     for (int i = 0; i < SIZE * SIZE; i++) square += pow(image.rgb[3 * i + 1] - 0.6, 2) / (SIZE * SIZE);
     CHECK_MSG(fabs(image.mean[1] - 0.6) < 4 * sqrt(square) / SIZE + 1e-3, "mean %.5f, expected 0.6", image.mean[1]); /* 1e-3: bilinear */

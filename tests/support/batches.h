@@ -1,79 +1,92 @@
-/* One long render as many short ones: its batches are independent of each other, so every `n` of them make up a render of its
- * own, and all the others together are its converged picture. A hundred renders for the price of one set-up.
+/* Many renders of one scene that differ in their seeds alone, for the price of one set-up: each with the replicates and samples that
+ * `eclat render` would take, and all others together as its converged picture.
  *
- *     case_batches batches = case_render_batches(scene, &options);        options.spp and options.batch say how many
- *     ec_film film = case_film_of(&batches, first, n);
- *     double truth = case_truth_without(&batches, &film, i);              value i of 3 a pixel
+ *     case_batches renders = case_render_many(scene, &options, count);    options.spp samples a pixel in each: whole rounds
+ *     ec_film film = case_film_of(&renders, i);
+ *     double truth = case_truth_without(&renders, i, k);                  value k of 3 a pixel
  *     ec_film_destroy(&film);
- *     case_batches_free(&batches); */
+ *     case_batches_free(&renders); */
 #ifndef EC_TESTS_SUPPORT_BATCHES_H
 #define EC_TESTS_SUPPORT_BATCHES_H
 
+#include "film/pixel.h"
+#include "pipeline/session.h"
 #include "support/render_case.h"
 
 typedef struct case_batches {
-    ec_film film;              /* all of them; also what the progress function looks at while they come in */
-    uint32_t width, height, count, samples;
+    uint32_t width, height, count, replicates, samples;
     uint64_t values;           /* 3 a pixel */
-    float *data;               /* `values` a batch */
-    double *previous;          /* the film's mean before the newest batch */
+    float *data;               /* EC_BATCH_FIELDS a pixel, replicate and render */
+    double *sum;               /* of all renders' means, `values` */
 } case_batches;
 
-/* The newest batch is what moved the mean. Its values were floats, and the mean keeps twice their digits: nothing is lost. */
-static inline bool case_take_batch(void *user, const ec_progress *progress)
+/* All samples of replicate r of render i in one batch. Sessions of one seed and numbers of replicates that go on are other replicates. */
+static inline void case_take_replicate(case_batches *b, ec_session *session, uint32_t seed, uint32_t r, float *into)
 {
-    case_batches *b = user;
-    (void)progress;
-    uint32_t n = b->film.batch_count;
-    if (n == b->count) return true;
-    if (n != b->count + 1) exit(1);
-    ec_film_show(&b->film);
-    float *to = b->data + b->count * b->values;
-    for (uint64_t i = 0; i < b->values; i++) {
-        to[i] = (float)(b->film.mean[i] * n - b->previous[i] * (n - 1));
-        b->previous[i] = b->film.mean[i];
-    }
-    b->count = n;
-    return true;
+    ec_error err = {0};
+    ec_session_batch batch = {.seed = seed, .replicate = r, .samples = b->samples / b->replicates, .batch = into};
+    if (ec_session_take(session, &batch, &err) != EC_OK) case_end("render", &err);
+    CHECK_MSG(batch.invalid == 0, "%llu values are not finite", (unsigned long long)batch.invalid);
 }
 
-static inline case_batches case_render_batches(const ec_scene *scene, const ec_render_options *options)
+static inline float *case_replicate(const case_batches *b, uint32_t i, uint32_t r)
+{
+    return b->data + ((uint64_t)i * b->replicates + r) * b->values / 3 * EC_BATCH_FIELDS;
+}
+
+static inline case_batches case_render_many(const ec_scene *scene, const ec_render_options *options, uint32_t count)
 {
     ec_error err = {0};
     ec_render_stats stats;
-    case_batches b = {.width = options->width, .height = options->height, .samples = options->batch,
-                      .values = 3ull * options->width * options->height};
-    b.data = malloc(b.values * (options->spp / options->batch) * sizeof *b.data);
-    b.previous = calloc(b.values, sizeof *b.previous);
-    if (!b.data || !b.previous) exit(1);
-    if (ec_render(case_cl(), scene, options, case_take_batch, &b, &b.film, &stats, NULL, &err) != EC_OK) case_end("render", &err);
-    case_take_batch(&b, NULL); /* the last one ends the render without a word */
-    CHECK_MSG(stats.invalid_samples == 0, "%llu samples are not finite", (unsigned long long)stats.invalid_samples);
+    ec_session *session = NULL;
+    case_batches b = {.width = options->width, .height = options->height, .count = count, .replicates = ec_render_replicates(options),
+                      .samples = options->spp, .values = 3ull * options->width * options->height};
+    b.data = malloc(b.values / 3 * EC_BATCH_FIELDS * b.replicates * count * sizeof *b.data);
+    b.sum = calloc(b.values, sizeof *b.sum);
+    if (!b.data || !b.sum || b.samples % b.replicates) exit(1);
+    if (ec_session_open(case_cl(), scene, options, b.samples / b.replicates, &session, &stats, &err) != EC_OK) case_end("set-up", &err);
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t r = 0; r < b.replicates; r++) {
+            float *batch = case_replicate(&b, i, r);
+            case_take_replicate(&b, session, ec_render_seed(options->seed + i), r, batch);
+            for (uint64_t k = 0; k < b.values; k++) b.sum[k] += (double)batch[k / 3 * EC_BATCH_FIELDS + k % 3] / b.replicates;
+        }
+    ec_session_close(session);
     return b;
 }
 
 static inline void case_batches_free(case_batches *b)
 {
-    ec_film_destroy(&b->film);
     free(b->data);
-    free(b->previous);
+    free(b->sum);
     memset(b, 0, sizeof *b);
 }
 
-static inline ec_film case_film_of(const case_batches *b, uint32_t first, uint32_t n)
+/* As a film has it that got these samples batch by batch. */
+static inline ec_film case_film_of(const case_batches *b, uint32_t i)
 {
     ec_error err = {0};
     ec_film film;
-    if (ec_film_create(&film, b->width, b->height, b->samples, &err) != EC_OK) case_end("film", &err);
-    for (uint32_t i = first; i < first + n; i++)
-        if (ec_film_add_batch(&film, b->data + (i % b->count) * b->values, &err) != EC_OK) case_end("film", &err);
+    uint32_t before;
+    ec_film_part part = {.count = ec_schedule_find(b->replicates, b->samples, &before)};
+    if (before || part.count > EC_FILM_FIRST) exit(1);
+    if (ec_film_create(&film, b->width, b->height, b->replicates, &err) != EC_OK) case_end("film", &err);
+    if (!ec_sums_create(&part.sums, b->replicates, b->values / 3)) exit(1);
+    for (uint32_t r = 0; r < b->replicates; r++) ec_sums_add(&part.sums, case_replicate(b, i, r), r, 1, b->values / 3);
+    if (ec_film_insert(&film, &part, &err) != EC_OK) case_end("film", &err);
     return film;
 }
 
-static inline double case_truth_without(const case_batches *b, const ec_film *film, uint64_t i)
+static inline double case_mean_of(const case_batches *b, uint32_t i, uint64_t k)
 {
-    double n = film->batch_count, all = b->count;
-    return (b->film.mean[i] * all - film->mean[i] * n) / (all - n);
+    double sum = 0;
+    for (uint32_t r = 0; r < b->replicates; r++) sum += case_replicate(b, i, r)[k / 3 * EC_BATCH_FIELDS + k % 3];
+    return sum / b->replicates;
+}
+
+static inline double case_truth_without(const case_batches *b, uint32_t i, uint64_t k)
+{
+    return (b->sum[k] - case_mean_of(b, i, k)) / (b->count - 1.0);
 }
 
 #endif

@@ -313,7 +313,6 @@ static inline ec_scene *ef_scene(uint64_t seed, effect_run run, uint64_t allowed
 static inline ec_render_options ef_options(ec_integrator integrator, ec_scattering scattering, ec_terminator terminator)
 {
     ec_render_options o = case_options(16, 12, 4);
-    o.batch = 2;
     o.max_depth = 5;
     o.lanes = 1; /* compiles quickest; that all give the same bits is another test */
     o.accel = "bvh8";

@@ -325,7 +325,7 @@ class ViewCase(Case):
                 for channel in planes:
                     self.assertEqual(planes[channel], again[channel], channel)
                 for key in theirs:
-                    if key.startswith("eclat.camera.") or key in ("eclat.imageSha256", "eclat.batch", "eclat.samplesPerPixel"):
+                    if key.startswith("eclat.camera.") or key in ("eclat.imageSha256", "eclat.replicates", "eclat.samplesPerPixel"):
                         self.assertEqual(attributes[key], theirs[key], key)
         self.assertEqual(len(pictures), 2)
         self.assertEqual(attributes["eclat.command"], command)

@@ -24,7 +24,7 @@ int main(int argc, char **argv)
 {
     ec_error err = {0};
     ec_view_request request = {.scene = argc > 2 ? argv[1] : "", .script = argc > 2 ? argv[2] : "", .user = argc > 2 ? argv[1] : "",
-                               .options = {.spp = 4, .batch = 2, .lanes = 4}, .stop = -1, .load = load, .save = save};
+                               .options = {.spp = 4, .replicates = 2, .lanes = 4}, .stop = -1, .load = load, .save = save};
     if (ec_device_find(NULL, &request.device, NULL, NULL, &err) != EC_OK) return fprintf(stderr, "%s\n", err.text), 1;
     for (int i = 0; i < 10; i++)
         if (ec_view_run(&request, &err) != EC_OK) return fprintf(stderr, "window %d: %s\n", i, err.text), 1;

@@ -45,7 +45,7 @@ class Keys(ViewCase):
         scene["scenes"][0]["nodes"].append(len(scene["nodes"]) - 1)
         write_gltf(self.scene, scene)
         sky = write_exr(self.path("sky.exr"), 8, 4, {c: [float((i * k) % 7 // 3) for i in range(32)] for c, k in [("R", 1), ("G", 3), ("B", 5)]})
-        self.start("--size", "160x90", "--spp", "4", "--batch", "1", "--env", sky)  # batches else are as the device is fast
+        self.start("--size", "160x90", "--spp", "4", "--env", sky)
         first, mean = self.picture, self.mean()
         self.press("E")
         self.assertGreater(self.mean(), 1.05 * mean)

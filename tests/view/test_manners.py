@@ -116,7 +116,7 @@ class Keyboards(ViewCase):
 class Broken(ViewCase):
     def test_files_that_go_are_told_of_and_come_back(self):
         sky = write_exr(self.path("sky.exr"), 2, 2, {"R": [1.0] * 4, "G": [1.0] * 4, "B": [1.0] * 4})
-        window = self.open(self.scene, *SIZE, "--spp", "4", "--batch", "1", "--env", sky)
+        window = self.open(self.scene, *SIZE, "--spp", "4", "--env", sky)
         window.rest()
         plain = window.picture()
 
@@ -206,12 +206,12 @@ class Broken(ViewCase):
         self.assertEqual(window.close(), 0)
 
     def test_a_lost_device_is_told_of_and_closes(self):
-        window = self.open(self.scene, *SIZE, "--spp", "100000", "--batch", "1",
+        window = self.open(self.scene, *SIZE, "--spp", "100000", "--replicates", "4",
                            env={"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_CALL": "clEnqueueNDRangeKernel", "FAULT_AT": "3000", "FAULT_LOST": "1"})
         window.rest()
         self.assertGreater(len(set(window.picture("200x60+0+40")[2])), 8)  # what there was of the picture
         command = window.save()
-        self.assertRegex(command, r"--spp=\d+ --batch=1 ")
+        self.assertRegex(command, r"--spp=\d+ --replicates=4 ")
         self.assertEqual(window.close(), 0)
 
     def test_sizes_that_are_none(self):

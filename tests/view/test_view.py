@@ -53,14 +53,14 @@ class View(ViewCase):
         self.assert_repeats(window, changed)
         window.key("r", "1")
         again = window.wait_until(lambda: (lambda c: c if "whitted" not in c else None)(window.save()), 120, 0.5)
-        strip = re.compile(r" -o \S+| --batch=\d+| --spp=\d+")
+        strip = re.compile(r" -o \S+| --spp=\d+")
         self.assertEqual(strip.sub("", again).split()[:-1], strip.sub("", plain).split()[:-1])
         self.assertEqual(window.close(), 0)
 
     def test_environment_effects_and_rungs_repeat_too(self):
         sky = write_exr(self.path("sky.exr"), 8, 4, {"R": [float(i % 5) for i in range(32)], "G": [float(i % 3) for i in range(32)],
                                                       "B": [float(i % 7) for i in range(32)]})
-        window = self.open(self.scene, *SIZE, "--spp", "4", "--batch", "2", "--env", sky)
+        window = self.open(self.scene, *SIZE, "--spp", "4", "--env", sky)
         window.save()
         window.key("period", "period", "period")
         turned = window.wait_until(lambda: (lambda c: c if "--env-rotate=15" in c else None)(window.save()), 60, 0.5)

@@ -89,7 +89,8 @@ static ec_result build_accel(bench_device *d, bench_kernels *k, uint32_t accel, 
 {
     char options[4400], path[4200], name[64], unit[64];
     uint32_t lanes = ec_accels[accel].lanes == EC_LANES_OF_PIPELINE ? d->lanes : ec_accels[accel].lanes;
-    int used = snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u", lanes);
+    int used = snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u%s", lanes,
+                        ec_traversal_options(&d->cl.info, accel, d->accel_stats[accel].bytes, 0));
     snprintf(unit, sizeof unit, "traverse_%s", ec_accels[accel].name);
     const char *source = ec_kernel_source(unit);
     char *text = NULL;

@@ -1,0 +1,26 @@
+/* A film as planes of floats. */
+#ifndef EC_FILM_RESOLVE_H
+#define EC_FILM_RESOLVE_H
+
+#include "film/interval.h"
+
+/* rgb 3 a pixel, stderr_rgb 3 and stderr_y 1 (0 with fewer than two replicates), samples 1, every samples_stride-th; and the intervals. Any
+ * may be NULL. */
+typedef struct ec_planes {
+    float *rgb, *stderr_rgb, *stderr_y, *samples;
+    uint32_t samples_stride;
+    ec_intervals_of intervals;
+} ec_planes;
+
+enum { EC_RESOLVE_ROWS = 16 }; /* at a time */
+
+/* Pixels of room that ec_film_resolve_rows wants for so many rows. */
+uint64_t ec_resolve_room(uint32_t width, uint32_t rows);
+
+/* Rows [first, first + rows) of the film. Returns the number of heavy pixels, 0 where no intervals are asked for. */
+uint64_t ec_film_resolve_rows(const ec_film *film, uint32_t first, uint32_t rows, const ec_planes *planes, ec_pixel *room);
+
+/* All rows: rgb and stderr_rgb, either may be NULL. */
+void ec_film_resolve(const ec_film *film, float *rgb, float *stderr_rgb);
+
+#endif

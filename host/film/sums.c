@@ -1,0 +1,78 @@
+#include "film/sums.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool ec_sums_create(ec_sums *s, uint32_t replicates, uint64_t pixels)
+{
+    *s = (ec_sums){replicates, pixels, calloc(pixels, 3 * replicates * sizeof(float)), calloc(pixels, 3 * sizeof(float))};
+    if (s->mean && s->tail) return true;
+    ec_sums_destroy(s);
+    return false;
+}
+
+void ec_sums_destroy(ec_sums *s)
+{
+    free(s->mean);
+    free(s->tail);
+    *s = (ec_sums){0};
+}
+
+ec_sums ec_sums_in(void *memory, uint32_t replicates, uint64_t pixels)
+{
+    float *mean = memory;
+    return (ec_sums){replicates, pixels, mean, mean + 3ull * replicates * pixels};
+}
+
+void ec_sums_add_tail(float into[3], const float next[3])
+{
+    const float largest = into[0] < next[0] ? next[0] : into[0];
+    if (!(next[0] > 0)) return;
+    const double a = into[0] / (double)largest, b = next[0] / (double)largest, a2 = a * a, b2 = b * b;
+    into[0] = largest;
+    into[1] = (float)(a2 * into[1] + b2 * next[1]);
+    into[2] = (float)(a2 * a2 * into[2] + b2 * b2 * next[2]);
+}
+
+enum { MANY = 1 << 16 }; /* pixels that are worth threads of their own */
+
+/* An average of two finite floats is finite. */
+static void move(float *mean, double to, double share)
+{
+    *mean = share < 1 ? (float)(*mean + (to - *mean) * share) : (float)to;
+}
+
+uint64_t ec_sums_add(const ec_sums *s, const float *batch, uint32_t replicate, double share, uint64_t pixels)
+{
+    uint64_t invalid = 0;
+#pragma omp parallel for reduction(+ : invalid) if (pixels > MANY)
+    for (uint64_t p = 0; p < pixels; p++) {
+        const float *from = batch + EC_BATCH_FIELDS * p;
+        float *mean = ec_sums_mean(s, replicate, p);
+        for (int c = 0; c < 3; c++) {
+            const bool is_finite = isfinite(from[c]);
+            invalid += !is_finite;
+            move(mean + c, is_finite ? from[c] : 0, share);
+        }
+        if (isfinite(from[EC_BATCH_LARGEST])) ec_sums_add_tail(s->tail + 3 * p, from + EC_BATCH_LARGEST);
+    }
+    return invalid;
+}
+
+void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, uint64_t pixels)
+{
+#pragma omp parallel for if (pixels > MANY)
+    for (uint64_t p = 0; p < pixels; p++) {
+        for (uint32_t r = 0; r < into->replicates; r++)
+            for (int c = 0; c < 3 && share[r] > 0; c++) move(ec_sums_mean(into, r, p) + c, ec_sums_mean(next, r, p)[c], share[r]);
+        ec_sums_add_tail(into->tail + 3 * p, next->tail + 3 * p);
+    }
+}
+
+void ec_sums_copy(const ec_sums *to, const ec_sums *from, uint64_t pixels)
+{
+    for (uint32_t r = 0; r < to->replicates; r++) memcpy(ec_sums_mean(to, r, 0), ec_sums_mean(from, r, 0), 3 * pixels * sizeof *to->mean);
+    memcpy(to->tail, from->tail, 3 * pixels * sizeof *to->tail);
+}

@@ -1,0 +1,52 @@
+/* What batches come to: of each pixel and replicate the mean radiance of its samples, and of each pixel the tail of all samples.
+ * 12 R + 12 bytes a pixel. Means in float take one rounding a batch; film/parts.h keeps the chain of roundings short. */
+#ifndef EC_FILM_SUMS_H
+#define EC_FILM_SUMS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "film/schedule.h"
+#include "shared/params.h"
+
+typedef struct ec_sums {
+    uint32_t replicates; /* R */
+    uint64_t stride;     /* pixels from one replicate's to the next's: those without samples take no memory until they have some */
+    float *mean;         /* by replicate, 3 a pixel: R, G, B; 0 of replicates without samples */
+    float *tail;         /* 3 a pixel: of the samples' luminance the largest, and the sums of squares and fourth powers in units of that */
+} ec_sums;
+
+static inline float *ec_sums_mean(const ec_sums *s, uint32_t replicate, uint64_t pixel)
+{
+    return s->mean + 3 * (replicate * s->stride + pixel);
+}
+
+static inline uint64_t ec_sums_bytes(uint32_t replicates) { return 12ull * replicates + 12; } /* a pixel */
+
+/* Zeros. False where there is no memory. */
+bool ec_sums_create(ec_sums *sums, uint32_t replicates, uint64_t pixels);
+void ec_sums_destroy(ec_sums *sums); /* zero-initialised or destroyed is fine */
+
+/* The same from pixel `first` on. */
+static inline ec_sums ec_sums_from(const ec_sums *s, uint64_t first)
+{
+    return (ec_sums){s->replicates, s->stride, s->mean + 3 * first, s->tail + 3 * first};
+}
+
+/* One array after the other in memory that is owned by another, ec_sums_bytes a pixel: as they are sent. */
+ec_sums ec_sums_in(void *memory, uint32_t replicates, uint64_t pixels);
+
+/* Takes a batch in, EC_BATCH_FIELDS floats a pixel. share: of the replicate's samples, the part that is the batch's. What is not finite
+ * counts as 0; returns how many values are not. */
+uint64_t ec_sums_add(const ec_sums *sums, const float *batch, uint32_t replicate, double share, uint64_t pixels);
+
+/* `into` takes `next` in; share: of each replicate's samples, the part that is `next`'s. */
+void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, uint64_t pixels);
+
+/* One pixel's tail takes another of the same pixel in. */
+void ec_sums_add_tail(float into[3], const float next[3]);
+
+void ec_sums_copy(const ec_sums *to, const ec_sums *from, uint64_t pixels);
+
+#endif

@@ -1,0 +1,139 @@
+#include "image/png_strips.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+enum { FILTERS = 5, PIXEL = 3, RAW_DEFLATE = -15, MEMORY_LEVEL = 8 };
+
+const uint8_t ec_png_stream_head[2] = {0x78, 0x9c}; /* zlib: deflate, window of 32 KiB, default level */
+
+void ec_png_stream_tail(const ec_png_strips *strips, uint8_t tail[4])
+{
+    for (int k = 0; k < 4; k++) tail[k] = (uint8_t)(strips->adler >> (24 - 8 * k));
+}
+
+static uint8_t paeth(int left, int up, int corner)
+{
+    const int p = left + up - corner, a = abs(p - left), b = abs(p - up), c = abs(p - corner);
+    return (uint8_t)(a <= b && a <= c ? left : b <= c ? up : corner);
+}
+
+/* PNG specification (ISO/IEC 15948), 9.2. `above` of the first row is zeros. */
+static void filter_row(int type, const uint8_t *row, const uint8_t *above, size_t bytes, uint8_t *to)
+{
+    for (size_t i = 0; i < PIXEL; i++)
+        to[i] = (uint8_t)(row[i] - (type == 2 || type == 4 ? above[i] : type == 3 ? above[i] / 2 : 0));
+    switch (type) {
+    case 0: memcpy(to, row, bytes); break;
+    case 1: for (size_t i = PIXEL; i < bytes; i++) to[i] = (uint8_t)(row[i] - row[i - PIXEL]); break;
+    case 2: for (size_t i = PIXEL; i < bytes; i++) to[i] = (uint8_t)(row[i] - above[i]); break;
+    case 3: for (size_t i = PIXEL; i < bytes; i++) to[i] = (uint8_t)(row[i] - (row[i - PIXEL] + above[i]) / 2); break;
+    default: for (size_t i = PIXEL; i < bytes; i++) to[i] = (uint8_t)(row[i] - paeth(row[i - PIXEL], above[i], above[i - PIXEL]));
+    }
+}
+
+static uint64_t size_of_values(const uint8_t *bytes, size_t count)
+{
+    uint64_t sum = 0;
+    for (size_t i = 0; i < count; i++) sum += bytes[i] < 128 ? bytes[i] : 256u - bytes[i];
+    return sum;
+}
+
+/* The filter whose values, taken as signed, have the least sum of sizes: the heuristic of the specification, 12.8. `room`: a row. */
+static void choose_filter(const uint8_t *row, const uint8_t *above, size_t bytes, uint8_t *to, uint8_t *room)
+{
+    uint64_t least = UINT64_MAX;
+    for (int type = 0; type < FILTERS; type++) {
+        filter_row(type, row, above, bytes, room);
+        const uint64_t sum = size_of_values(room, bytes);
+        if (sum >= least) continue;
+        least = sum;
+        to[0] = (uint8_t)type;
+        memcpy(to + 1, room, bytes);
+    }
+}
+
+static bool make_room(ec_png_strip *strip, size_t bytes)
+{
+    if (strip->room >= bytes) return true;
+    free(strip->packed);
+    strip->packed = malloc(bytes);
+    strip->room = strip->packed ? bytes : 0;
+    return strip->packed != NULL;
+}
+
+static void pack(const ec_png_strips *s, ec_png_strip *strip, const uint8_t *first, uint32_t rows, bool is_last)
+{
+    const size_t line = s->row_bytes + 1;
+    uint8_t *filtered = malloc(line * (rows + 1u));
+    z_stream z = {0};
+    strip->is_packed = false;
+    if (filtered && deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, RAW_DEFLATE, MEMORY_LEVEL, Z_FILTERED) == Z_OK) {
+        for (uint32_t y = 0; y < rows; y++)
+            choose_filter(first + y * s->row_bytes, first + y * s->row_bytes - s->row_bytes, s->row_bytes, filtered + y * line, filtered + rows * line);
+        strip->adler = adler32_z(adler32_z(0, NULL, 0), filtered, line * rows);
+        if (make_room(strip, deflateBound(&z, (uLong)(line * rows)) + 16)) { /* 16: the empty block at the end of what is no last strip */
+            z.next_in = filtered;
+            z.avail_in = (uInt)(line * rows);
+            z.next_out = strip->packed;
+            z.avail_out = (uInt)strip->room;
+            strip->is_packed = deflate(&z, is_last ? Z_FINISH : Z_SYNC_FLUSH) == (is_last ? Z_STREAM_END : Z_OK) && z.avail_in == 0;
+            strip->size = strip->room - z.avail_out;
+        }
+        deflateEnd(&z);
+    }
+    free(filtered);
+}
+
+bool ec_png_strips_create(ec_png_strips *s, uint32_t width, uint32_t height)
+{
+    *s = (ec_png_strips){.row_bytes = (size_t)width * PIXEL, .height = height, .strip_count = (uint32_t)omp_get_max_threads()};
+    s->strip_rows = s->row_bytes < EC_PNG_STRIP_BYTES ? (uint32_t)(EC_PNG_STRIP_BYTES / s->row_bytes) : 1;
+    if (s->strip_rows > height) s->strip_rows = height;
+    s->adler = adler32_z(0, NULL, 0);
+    s->strip = calloc(s->strip_count, sizeof *s->strip);
+    s->rows = calloc(1u + (size_t)s->strip_rows * s->strip_count, s->row_bytes);
+    if (s->strip && s->rows) return true;
+    ec_png_strips_free(s);
+    return false;
+}
+
+void ec_png_strips_free(ec_png_strips *s)
+{
+    for (uint32_t k = 0; s->strip && k < s->strip_count; k++) free(s->strip[k].packed);
+    free(s->strip);
+    free(s->rows);
+    *s = (ec_png_strips){0};
+}
+
+static void pack_waiting(ec_png_strips *s)
+{
+    const uint8_t *first = s->rows + s->row_bytes;
+    const uint32_t strips = (s->waiting + s->strip_rows - 1) / s->strip_rows;
+    const bool is_end = s->done + s->waiting == s->height;
+#pragma omp parallel for schedule(static, 1) if (strips > 1)
+    for (uint32_t k = 0; k < strips; k++) {
+        const uint32_t from = k * s->strip_rows, rows = s->waiting - from < s->strip_rows ? s->waiting - from : s->strip_rows;
+        pack(s, &s->strip[k], first + from * s->row_bytes, rows, is_end && k == strips - 1);
+    }
+    for (uint32_t k = 0; k < strips; k++) {
+        const uint32_t from = k * s->strip_rows, rows = s->waiting - from < s->strip_rows ? s->waiting - from : s->strip_rows;
+        s->adler = adler32_combine(s->adler, s->strip[k].adler, (z_off_t)((s->row_bytes + 1) * rows));
+    }
+    memcpy(s->rows, first + (s->waiting - 1) * s->row_bytes, s->row_bytes);
+    s->packed = strips;
+    s->done += s->waiting;
+    s->waiting = 0;
+}
+
+uint32_t ec_png_strips_put(ec_png_strips *s, const uint8_t *rgb, uint32_t count)
+{
+    const uint32_t room = s->strip_rows * s->strip_count - s->waiting, taken = count < room ? count : room;
+    memcpy(s->rows + (1u + (size_t)s->waiting) * s->row_bytes, rgb, taken * s->row_bytes);
+    s->waiting += taken;
+    s->packed = 0;
+    if (s->waiting == s->strip_rows * s->strip_count || s->done + s->waiting == s->height) pack_waiting(s);
+    return taken;
+}

@@ -1,0 +1,79 @@
+/* Lamps by the Morton code of their middles (Morton 1966): a curve that mostly goes on to a neighbour. */
+#include "pack/light_order.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MORTON_BITS 20 /* an axis */
+
+typedef struct place {
+    uint64_t key;
+    uint32_t light;
+} place;
+
+bool ec_light_is_far(const ec_light_data *light)
+{
+    uint32_t kind = light->kind & EC_LIGHT_KIND_MASK;
+    return kind == EC_KIND_ENVIRONMENT || kind == EC_KIND_DIRECTIONAL;
+}
+
+static double middle(const ec_light_data *l, int axis)
+{
+    bool triangle = (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE;
+    return triangle ? ((double)l->a[axis] + l->b[axis] + l->c[axis]) / 3 : (double)l->a[axis];
+}
+
+/* Bits of the three axes by turns, the highest first. */
+static uint64_t morton(const ec_light_data *l, const double low[3], double size)
+{
+    uint64_t code = 0, at[3];
+    for (int k = 0; k < 3; k++) at[k] = size > 0 ? (uint64_t)((middle(l, k) - low[k]) / size * ((1 << MORTON_BITS) - 1)) : 0;
+    for (int bit = MORTON_BITS - 1; bit >= 0; bit--)
+        for (int k = 0; k < 3; k++) code = code << 1 | (at[k] >> bit & 1);
+    return code;
+}
+
+static int compare(const void *x, const void *y)
+{
+    const place *a = x, *b = y;
+    if (a->key != b->key) return a->key < b->key ? -1 : 1;
+    return a->light < b->light ? -1 : 1; /* never the same one */
+}
+
+static void find_keys(const ec_light_data *lights, uint32_t count, place *places)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 3 && !ec_light_is_far(&lights[i]); k++)
+            low[k] = fmin(low[k], middle(&lights[i], k)), high[k] = fmax(high[k], middle(&lights[i], k));
+    for (int k = 0; k < 3; k++) size = fmax(size, high[k] - low[k]);
+    for (uint32_t i = 0; i < count; i++) {
+        uint64_t lamps = UINT64_C(2) << (3 * MORTON_BITS);
+        bool far = ec_light_is_far(&lights[i]);
+        places[i].light = i;
+        places[i].key = far ? lights[i].kind == EC_KIND_DIRECTIONAL : lamps | morton(&lights[i], low, size);
+    }
+}
+
+ec_result ec_light_order(ec_light_data *lights, double *power, uint32_t count, ec_error *err)
+{
+    place *places = malloc((count + 1) * sizeof *places);
+    ec_light_data *sorted = malloc((count + 1) * sizeof *sorted);
+    double *sorted_power = malloc((count + 1) * sizeof *sorted_power);
+    ec_result result = places && sorted && sorted_power ? EC_OK : ec_fail(err, "out of memory for %u lights", count);
+    if (result == EC_OK) {
+        find_keys(lights, count, places);
+        qsort(places, count, sizeof *places, compare);
+        for (uint32_t i = 0; i < count; i++) {
+            sorted[i] = lights[places[i].light];
+            sorted_power[i] = power[places[i].light];
+        }
+        memcpy(lights, sorted, count * sizeof *lights);
+        memcpy(power, sorted_power, count * sizeof *power);
+    }
+    free(places);
+    free(sorted);
+    free(sorted_power);
+    return result;
+}

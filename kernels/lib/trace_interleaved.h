@@ -1,0 +1,202 @@
+/* The two kernels of bvh8 for structures larger than caches: a work-item has INTERLEAVE rays on their way, takes one step of each in
+ * turn, and asks for what a ray's next step reads before it turns to the next ray, so that memory answers while others are served
+ * (as group prefetching does in databases: Chen, Ailamaki, Gibbons, Mowry 2004). The steps of one ray are those of bvh8_closest and
+ * bvh8_any, so the hits are the same. What moves, and panes, are left to trace_rays.h. */
+#ifndef EC_LIB_TRACE_INTERLEAVED_H
+#define EC_LIB_TRACE_INTERLEAVED_H
+
+#include "film.h"
+#include "queue.h"
+
+#define EC_INTERLEAVED_RAYS 64u /* that a work-item takes in all: at the end fewer than INTERLEAVE are on their way */
+
+/* A ray on its way. */
+typedef struct walk {
+    ray8 q;
+    hit8 h;
+    uint i;               /* its place in the queue */
+    uint skip0, skip1;    /* triangles that are passed through */
+    uint current, depth;  /* what is visited next; entries of the stack */
+    lane_u key;           /* as in hit_filter */
+    union {
+        ulong far[EC_BVH8_STACK];  /* closest: as in bvh8_enter */
+        uint child[EC_BVH8_STACK]; /* any */
+    } stack;
+} walk;
+
+/* All cache lines of a node or a block: here it is memory that is waited for. */
+EC_FN void walk_prefetch(const accel *a, uint child)
+{
+    global const ec_bvh8_node *nodes = a->at[0];
+    global const ec_tri8 *blocks = a->at[1];
+    ulong at = child & EC_LEAF_BIT ? (ulong)(blocks + (child & ~EC_LEAF_BIT)) : (ulong)(nodes + child);
+    PREFETCH(at);
+    PREFETCH(at + 64u);
+    PREFETCH(at + 128u);
+    PREFETCH(at + 192u);
+    PREFETCH(at + 256u);
+}
+
+/* With w->q made. */
+EC_FN void walk_begin(walk *w, uint i, uint skip0, uint skip1, float t_max)
+{
+    hit8 h = {t_max, EC_NO_ID, 0.0f, 0.0f};
+    w->h = h;
+    w->i = i;
+    w->skip0 = skip0;
+    w->skip1 = skip1;
+    w->current = w->depth = 0;
+}
+
+/* One visit on the way to the closest hit; true once that is known. */
+EC_FN bool walk_closest(const accel *a, hit_filter *filter, walk *w)
+{
+    uint current = w->current;
+    if (current & EC_LEAF_BIT) {
+        if (HAS(ALPHA)) filter->key = w->key;
+        leaf8(a, &w->q, filter, current, w->skip0, w->skip1, false, &w->h);
+    }
+    bool enters = !(current & EC_LEAF_BIT) && bvh8_enter(a, &w->q, &w->h, w->stack.far, &w->depth, &current);
+    if (!enters && !bvh8_return(&w->h, w->stack.far, &w->depth, &current)) return true;
+    walk_prefetch(a, current);
+    w->current = current;
+    return false;
+}
+
+/* One visit on the way to any hit; true once there is one, or none is left. */
+EC_FN bool walk_any(const accel *a, hit_filter *filter, walk *w)
+{
+    global const ec_bvh8_node *nodes = a->at[0];
+    if (w->current & EC_LEAF_BIT) {
+        if (HAS(ALPHA)) filter->key = w->key;
+        leaf8(a, &w->q, filter, w->current, w->skip0, w->skip1, true, &w->h);
+        if (w->h.prim != EC_NO_ID) return true;
+    } else {
+        TALLY_NODE(&w->h);
+        w->depth += node8_push(&w->q, nodes + w->current, w->h.t, w->stack.child + w->depth);
+    }
+    if (w->depth == 0) return true;
+    w->current = w->stack.child[--w->depth];
+    walk_prefetch(a, w->current);
+    return false;
+}
+
+/* The rays that a work-item takes: `left` from its own place on, of which `next` have begun. order[0 .. count) are those on their way. */
+typedef struct turns {
+    uint left, next, count;
+    uint order[INTERLEAVE];
+} turns;
+
+/* left: entries of the queue from place i of the wave on. */
+EC_FN turns turns_of(uint left, uint part, uint i)
+{
+    turns t;
+    t.left = i % part % EC_INTERLEAVED_RAYS ? 0u : min(left, EC_INTERLEAVED_RAYS);
+    t.next = t.count = 0;
+    return t;
+}
+
+EC_FN void walk_path(walk *w, constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                     uint bounce, global const float *paths, uint i)
+{
+    uint wave = params->wave;
+    global const float *p = paths + i;
+    w->q = ray8_make(p[EC_PATH_OX * wave], p[EC_PATH_OY * wave], p[EC_PATH_OZ * wave], p[EC_PATH_DX * wave],
+                     p[EC_PATH_DY * wave], p[EC_PATH_DZ * wave], params->scene_max);
+    walk_begin(w, i, as_uint(p[EC_PATH_PRIM * wave]), EC_NO_ID, EC_HUGE);
+    if (HAS(ALPHA)) {
+        lane_u pixel, sample;
+        slot_to_pixel(params, first_pixel, pixel_list, U(as_uint(p[EC_PATH_SLOT * wave])), &pixel, &sample);
+        w->key = filter_key(seed, pixel, sample, bounce, false);
+    }
+}
+
+EC_FN void walk_store(const walk *w, uint wave, global float *hits)
+{
+    hits[EC_HIT_PRIM * wave + w->i] = as_float(w->h.prim);
+    hits[EC_HIT_B1 * wave + w->i] = w->h.b1;
+    hits[EC_HIT_B2 * wave + w->i] = w->h.b2;
+#ifdef PROBE
+    hits[EC_HIT_T * wave + w->i] = w->h.t;
+    hits[EC_HIT_NODES * wave + w->i] = as_float(w->h.nodes);
+    hits[EC_HIT_TESTS * wave + w->i] = as_float(w->h.tests);
+#endif
+}
+
+/* Closest hit of every path; camera rays one by one, since they go the same way. Reads: path queue. Writes: hits. Next: shade. */
+kernel void ec_intersect_bvh8(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                              uint bounce, uint step, global const ec_counters *counters, uint sorts,
+                              global const float *paths, global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
+{
+    uint first = get_global_id(0), wave = params->wave;
+    if (first >= wave) return;
+    turns t = turns_of(queue_left(counters->rays[step], params->part, first), params->part, first);
+    const accel a = ACCEL_ARGUMENTS;
+    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
+    walk walks[INTERLEAVE];
+    for (; bounce == 0 && t.next < t.left; t.next++) {
+        walk_path(walks, params, seed, first_pixel, pixel_list, bounce, paths, first + t.next);
+        if (HAS(ALPHA)) filter.key = walks->key;
+        bvh8_closest(&a, &walks->q, &filter, walks->skip0, walks->skip1, &walks->h);
+        walk_store(walks, wave, hits);
+    }
+    for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {
+        bool is_new = t.count < INTERLEAVE && t.next < t.left;
+        if (is_new) k = t.order[t.count] = t.count, t.count++;
+        walk *w = walks + t.order[k];
+        if (!is_new) {
+            if (!walk_closest(&a, &filter, w)) continue;
+            walk_store(w, wave, hits);
+            if (t.next == t.left) {
+                t.order[k] = t.order[--t.count];
+                continue;
+            }
+        }
+        walk_path(w, params, seed, first_pixel, pixel_list, bounce, paths, first + t.next++);
+    }
+}
+
+/* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
+kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                            uint bounce, uint step, global const ec_counters *counters, uint sorts,
+                            volatile global uint *invalid, global const float *shadows, global float *radiance,
+                            ACCEL_PARAMETERS, FILTER_PARAMETERS, global const float *normals, global const float *tangents)
+{
+    uint first = get_global_id(0), wave = params->wave;
+    if (first >= wave) return;
+    turns t = turns_of(queue_left(counters->shadows[step], params->part, first), params->part, first);
+    const accel a = ACCEL_ARGUMENTS;
+    hit_filter filter = {FILTER_GEOMETRY, U(0), false, 0};
+    walk walks[INTERLEAVE];
+    for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {
+        bool is_new = t.count < INTERLEAVE && t.next < t.left;
+        if (is_new) k = t.order[t.count] = t.count, t.count++;
+        walk *w = walks + t.order[k];
+        if (!is_new) {
+            if (!walk_any(&a, &filter, w)) continue;
+            if (w->h.prim == EC_NO_ID) {
+                global const float *p = shadows + w->i;
+                uint slot = as_uint(p[EC_SHADOW_SLOT * wave]);
+                radiance[slot] += p[EC_SHADOW_LR * wave];
+                radiance[wave + slot] += p[EC_SHADOW_LG * wave];
+                radiance[2 * wave + slot] += p[EC_SHADOW_LB * wave];
+            }
+            if (t.next == t.left) {
+                t.order[k] = t.order[--t.count];
+                continue;
+            }
+        }
+        uint i = first + t.next++;
+        global const float *p = shadows + i;
+        w->q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
+                         p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
+        walk_begin(w, i, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), 1.0f);
+        if (HAS(ALPHA)) {
+            lane_u pixel, sample;
+            slot_to_pixel(params, first_pixel, pixel_list, U(as_uint(p[EC_SHADOW_SLOT * wave])), &pixel, &sample);
+            w->key = filter_key(seed, pixel, sample, bounce, true);
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,73 @@
+/* Films of plain values: each R, G, B becomes a batch whose samples are all alike or, in the first stride, a single one. A film of R replicates
+ * and R such batches has R independent values a pixel, and is judged by them. */
+#ifndef EC_TESTS_SUPPORT_FILMS_H
+#define EC_TESTS_SUPPORT_FILMS_H
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "film/pixel.h"
+
+/* rgb: 3 a pixel; batch: EC_BATCH_FIELDS a pixel. The tail is that of one sample: squares and fourths are 1 where it is lit. */
+static inline void films_lay_out(const float *rgb, uint64_t pixels, float *batch)
+{
+    for (uint64_t p = 0; p < pixels; p++) {
+        const float *from = rgb + 3 * p;
+        const double y = ec_luminance((double[3]){from[0], from[1], from[2]});
+        float *to = batch + EC_BATCH_FIELDS * p;
+        for (int c = 0; c < 3; c++) to[c] = from[c];
+        to[EC_BATCH_LARGEST] = isfinite(y) && y > 0 ? (float)y : 0;
+        to[EC_BATCH_SQUARES] = to[EC_BATCH_FOURTHS] = to[EC_BATCH_LARGEST] > 0;
+    }
+}
+
+/* Batch `index` of the film, `cut` samples short; rgb: 3 a pixel. */
+static inline ec_result films_add_cut(ec_film *film, uint32_t index, uint32_t cut, const float *rgb, ec_error *err)
+{
+    const uint64_t pixels = (uint64_t)film->width * film->height;
+    float *batch = malloc(pixels * EC_BATCH_FIELDS * sizeof *batch);
+    if (!batch) return ec_fail(err, "out of memory");
+    films_lay_out(rgb, pixels, batch);
+    const ec_result result = cut ? ec_film_add_cut(film, index, cut, batch, err) : ec_film_add(film, index, batch, err);
+    free(batch);
+    return result;
+}
+
+static inline ec_result films_add(ec_film *film, uint32_t index, const float *rgb, ec_error *err)
+{
+    return films_add_cut(film, index, 0, rgb, err);
+}
+
+/* A batch's first-hit features, EC_FILM_FEATURES a pixel. */
+static inline void films_add_features(ec_film *film, const float *features)
+{
+    const size_t bytes = (size_t)film->width * film->height * EC_FILM_FEATURES * sizeof *features;
+    float *own = malloc(bytes);
+    if (!own) exit(1);
+    memcpy(own, features, bytes);
+    ec_film_add_features(film, &own);
+    free(own);
+}
+
+static inline ec_pixel films_pixel(const ec_film *film, uint64_t p)
+{
+    ec_pixel pixel;
+    ec_film_look(film, p, 1, &pixel);
+    return pixel;
+}
+
+/* Are all figures of all pixels the same bits? Their layout in parts may differ. */
+static inline bool films_same_bits(const ec_film *a, const ec_film *b)
+{
+    const uint64_t pixels = (uint64_t)a->width * a->height;
+    bool same = a->width == b->width && a->height == b->height && a->batch_count == b->batch_count && a->cut == b->cut;
+    for (uint64_t p = 0; same && p < pixels; p++) {
+        const ec_pixel x = films_pixel(a, p), y = films_pixel(b, p);
+        for (int c = 0; c < 4; c++) same &= x.m2[c] == y.m2[c] && (c == 3 || (x.mean[c] == y.mean[c] && x.tail[c] == y.tail[c]));
+        same &= x.m3 == y.m3 && x.m4 == y.m4 && x.n == y.n && x.samples == y.samples;
+    }
+    return same;
+}
+
+#endif
