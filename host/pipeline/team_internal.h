@@ -28,7 +28,7 @@ typedef struct member {
     uint32_t first, end, reached;
     uint32_t pieces;
     double samples;                   /* in finished pieces */
-    double rate;                      /* samples a second of the last piece; 0: not known */
+    double rate, seconds;             /* samples a second of the last piece, which took so long; 0: not known */
     uint64_t rays;
     uint32_t invalid[EC_STAGE_COUNT]; /* the source's, before the piece */
     ec_error why;

@@ -169,13 +169,29 @@ static bool take_over(member *m, slot *s)
     return false;
 }
 
+/* Would the others do all that may be open before this member were done with its smallest piece? Then they would only wait for it. A wave
+ * takes it no longer than its last piece did, where waves cost what their launches do: so it is asked again as batches grow. */
+static bool holds_up(const member *m, const slot *s)
+{
+    const ec_team *t = m->team;
+    const double samples = ec_team_samples(t, s), positions = s->count, open = fmax(t->room, ec_team_alive(t) + 1); /* one of them does not hold up */
+    double rate = 0;
+    for (uint32_t i = 0; i < t->count; i++) {
+        const member *other = &t->members[i];
+        if (other == m || other->has_failed || !other->is_ready) continue;
+        if (other->rate == 0) return false;
+        rate += other->rate;
+    }
+    return m->rate > 0 && fmin(m->seconds, samples * fmin(m->source->least, positions) / m->rate) * rate > samples * positions * open;
+}
+
 bool ec_team_find_piece(member *m)
 {
     ec_team *t = m->team;
     for (uint32_t i = t->next; i < t->opened; i++) {
         slot *s = &t->slots[i % t->room];
         if (take_over(m, s)) return true;
-        if (s->handed == s->count) continue;
+        if (s->handed == s->count || holds_up(m, s)) continue;
         m->slot = s, m->first = s->handed, m->end = s->handed + piece_of(m, s);
         s->handed = m->end;
         return true;
@@ -204,7 +220,8 @@ void ec_team_settle(member *m, ec_result result, bool complete, double seconds)
     if (!complete) give_up(m);
     for (int i = 0; complete && i < EC_STAGE_COUNT; i++) s->invalid[i] += m->source->invalid[i] - m->invalid[i];
     if (complete) m->samples += samples;
-    if (m->pieces++) m->rate = samples / fmax(seconds, 1e-6); /* compilers slow the first down */
+    m->seconds = fmax(seconds, 1e-6);
+    if (m->pieces++) m->rate = samples / m->seconds; /* compilers slow the first down */
     m->slot = NULL;
 }
 

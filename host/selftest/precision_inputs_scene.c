@@ -171,16 +171,17 @@ void ec_inputs_spot(uint64_t *random, float *x)
     put_emission(random, EC_KIND_SPOT, x);
 }
 
-/* 32 bits that are no NaN, two numbers. */
-/* Luminances of any contrast; the second linear function is a sine's, and may begin at 0: from there on it is steepest. */
+/* Luminances of any contrast, and none; the second linear function is a sine's, and may begin at 0: from there on it is steepest. */
 void ec_inputs_patch(uint64_t *random, float *x)
 {
     for (int k = 0; k < 2; k++) x[k] = (float)ec_draw_log(random, 1e-6, 1);
+    if (ec_random_unit(random) < 0.25) x[ec_draw_one(random, 2)] = 0;
     x[3] = (float)ec_draw_log(random, 1e-3, 1);
     x[2] = (float)(x[3] * (ec_random_unit(random) < 0.25 ? 0 : ec_random_between(random, 1.0 / 3, 1)));
-    x[4] = (float)ec_draw_unit(random);
+    x[4] = (float)(ec_random_unit(random) < 0.125 ? 0 : ec_draw_unit(random));
 }
 
+/* 32 bits that are no NaN, two numbers. */
 void ec_inputs_sample(uint64_t *random, float *x)
 {
     for (int k = 0; k < 2; k++) x[k] = ec_float_of_bits((uint32_t)(ec_draw_unit(random) * 0x1p32) & 0xbfffffffu); /* not the bits of NaNs */

@@ -222,7 +222,7 @@ EC_FN light_sample light_sample_environment(const lights *l, lane_i m, lane_u r1
     s.is_far = TRUE_MASK;
     s.target = U(EC_NO_ID);
     s.end_error = s.end_normal = v3_zero();
-    s.valid = m;
+    s.valid = m & (s.pdf > 0.0f); /* a map may be black where its sample falls */
     return s;
 }
 

@@ -13,8 +13,9 @@ EC_FN lane_f patch_across(lane_f a, lane_f b, lane_f u)
     lane_f most = max(a, b);
     a = a / most; /* squares stay in range */
     b = b / most;
-    lane_f t = u * (a + b) / (a + sqrt(fma(b * b - a * a, u, a * a)));
-    return most > 0.0f ? min(t, F(1.0f)) : F(0.5f);
+    lane_f root = a + sqrt(fma(b * b - a * a, u, a * a)), t = u * (a + b) / root;
+    t = root > 0.0f ? min(t, F(1.0f)) : F(0.0f); /* u = a = 0 */
+    return most > 0.0f ? t : F(0.5f);
 }
 
 /* Where u lies of the density (a (1 - t) + b t) (c (1 - t) + d t). The linear density between its ends is never further off than 0.12 of the

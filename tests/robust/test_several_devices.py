@@ -223,18 +223,18 @@ class Failing(FaultCase):
 
     def test_a_slow_one_holds_nobody_up(self):
         """What one device does in t seconds two of them do in little more, where the other one is so slow that 64 samples, 16 waves, take it 5 s and
-        more: two waves of it are all that they may wait for."""
+        more: they wait for the two waves that show its pace, and for hardly any later."""
         job = [*self.job, "--replicates", "1", "--wave", str(256 * 256 * 8)]
         slow = {"call": "clEnqueueNDRangeKernel", "pause": 50, "device": 1}
         run, _ = self.run_with("slow alone", *job, "--device", "1", spp=64, env=TWO, **dict(slow, device=0))
         alone = json.loads(self.assert_ok(run).stdout)["seconds"]
-        run, _ = self.run_with("fast", *job, "--device", "0", spp=256, env=TWO)
+        run, _ = self.run_with("fast", *job, "--device", "0", spp=1024, env=TWO)
         fast = json.loads(self.assert_ok(run).stdout)
-        run, _ = self.run_with("both", *job, spp=256, env=TWO, **slow)
+        run, _ = self.run_with("both", *job, spp=1024, env=TWO, **slow)
         both = json.loads(self.assert_ok(run).stdout)
         self.assertEqual(both["image_sha256"], fast["image_sha256"])
         self.assertGreater(alone, 5)
-        self.assertLess(both["seconds"], 1.5 * fast["seconds"] + alone / 8, f"16 waves take the slow one {alone:.1f} s")
+        self.assertLess(both["seconds"], 1.5 * fast["seconds"] + alone / 4, f"16 waves take the slow one {alone:.1f} s")
         self.assertGreater(both["devices"][1]["samples_per_pixel"], 0)
 
 
