@@ -125,7 +125,7 @@ static const char help_render[] =
     "                             refracted rays with hard shadows from the lights' centres; raster, direct light from\n"
     "                             there without shadows (default: path)\n"
     "      --light-choice NAME    which light a surface is joined to: power, bright ones more often; tree, also near ones\n"
-    "                             that face it; the image is the same (default: auto, tree for 64 and more, if apart)\n"
+    "                             that face it; the image is the same (default: auto, tree where they are apart)\n"
     "      --max-depth N          segments in a path: 1 emission, 2 direct light, inf (default: inf, ended by roulette;\n"
     "                             whitted: 10, at most 64)\n"
     "      --rr P                 roulette: survival probability at every surface, as in 0.8; auto, by throughput from the\n"

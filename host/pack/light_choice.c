@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "pack/distribution.h"
+#include "pack/light_bounds.h"
 #include "pack/light_order.h"
 #include "pack/light_tree.h"
 #include "pack/pack.h"
@@ -15,19 +16,34 @@ static uint32_t lamp_count(const ec_pack *pack)
     return count;
 }
 
-/* A tree takes its time at every surface (a quarter to three quarters of a sample's). That is well spent where there are many lamps and
- * they are in different places; of a bulb of many triangles all are as near, and power alone is as good. */
+static double square_across(const double low[3], const double high[3])
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += (high[k] - low[k]) * (high[k] - low[k]);
+    return sum;
+}
+
+/* A tree takes its time at every surface (a sixth to three quarters of a sample's). That is well spent where lamps are in different places; of
+ * a bulb of many triangles, or of the two of a large panel, all are as near, and power alone is as good. */
 bool ec_pack_wants_light_tree(const ec_pack *pack)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size2 = 0;
-    if (lamp_count(pack) < EC_LIGHT_TREE_FROM || pack->lamp_share < EC_LIGHT_TREE_LEAST) return false;
-    for (uint32_t i = 0; i < pack->light_count; i++)
-        for (int k = 0; k < 3 && !ec_light_is_far(&pack->lights[i]); k++) {
-            low[k] = fmin(low[k], (double)pack->lights[i].a[k]);
-            high[k] = fmax(high[k], (double)pack->lights[i].a[k]);
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size2 = 0, power = 0;
+    const uint32_t lamps = lamp_count(pack);
+    if (lamps < 2 || pack->lamp_share < EC_LIGHT_TREE_LEAST) return false;
+    for (uint32_t i = 0; i < pack->light_count; i++) {
+        const ec_light_data *l = &pack->lights[i];
+        if (ec_light_is_far(l)) continue;
+        const ec_light_bounds one = ec_light_bounds_of(l, l->pmf);
+        size2 += l->pmf * square_across(one.low, one.high);
+        power += l->pmf;
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], (double)l->a[k]);
+            high[k] = fmax(high[k], (double)l->a[k]);
         }
-    for (int k = 0; k < 3; k++) size2 += (high[k] - low[k]) * (high[k] - low[k]);
-    return size2 > EC_LIGHT_TREE_SPREAD * EC_LIGHT_TREE_SPREAD * (double)pack->scene_radius * (double)pack->scene_radius;
+    }
+    const double spread2 = square_across(low, high), radius = (double)pack->scene_radius;
+    return spread2 > EC_LIGHT_TREE_SPREAD * EC_LIGHT_TREE_SPREAD * radius * radius
+           && (lamps >= EC_LIGHT_TREE_MANY || spread2 * power > EC_LIGHT_TREE_SIZES * EC_LIGHT_TREE_SIZES * size2);
 }
 
 /* What is chosen by the table's entry `far - 1`, the last one before the lamps', when that has become one number longer. */

@@ -91,9 +91,10 @@ ec_result ec_pack_map(const ec_environment *map, ec_packed_map *packed, ec_error
 void ec_packed_map_free(ec_packed_map *packed); /* zero-initialised is fine */
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
 
-/* Is a tree worth its time: are there so many lamps, so far apart? */
-#define EC_LIGHT_TREE_FROM 64
+/* Is a tree worth its time: are there lamps far apart, by the scene's size and by their own? */
 #define EC_LIGHT_TREE_SPREAD 0.2 /* diagonal of the box around them, over the scene's radius */
+#define EC_LIGHT_TREE_SIZES 3.0  /* and over the size of one, the root of the mean square by power … */
+#define EC_LIGHT_TREE_MANY 64    /* … where there are fewer than so many */
 #define EC_LIGHT_TREE_LEAST 0.002f /* of all power: beside what shines from far away less makes little noise */
 bool ec_pack_wants_light_tree(const ec_pack *pack);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */

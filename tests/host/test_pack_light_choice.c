@@ -1,4 +1,4 @@
-/* When --light-choice auto takes the tree: many lamps, far apart, that give a part of the light worth its time. And what a tree leaves
+/* When --light-choice auto takes the tree: lamps far apart that give a part of the light worth its time. And what a tree leaves
  * to the sky. */
 #include "pack/pack.h"
 #include "scene/model.h"
@@ -6,8 +6,8 @@
 
 enum { SIDE = 8 };
 
-/* SIDE^2 lamps of radiance 1 over a floor, in a sky. */
-static ec_scene *lamps(double gap, double sky)
+/* side^2 lamps of radiance 1 over a floor, in a sky. */
+static ec_scene *lamps(int side, double size, double gap, double sky)
 {
     ec_error err = {0};
     ec_scene *scene;
@@ -16,8 +16,8 @@ static ec_scene *lamps(double gap, double sky)
     ec_material floor = ec_material_lambert(0.5, 0), lamp = ec_material_lambert(0, 1);
     uint32_t of_floor = ec_model_material(m, &floor), of_lamp = ec_model_material(m, &lamp);
     ec_model_quad(m, of_floor, (double[3]){-5, -5, 0}, (double[3]){10, 0, 0}, (double[3]){0, 10, 0});
-    for (int i = 0; i < SIDE * SIDE; i++)
-        ec_model_quad(m, of_lamp, (double[3]){gap * (i % SIDE), gap * (i / SIDE), 1}, (double[3]){0, 0.01, 0}, (double[3]){0.01, 0, 0});
+    for (int i = 0; i < side * side; i++)
+        ec_model_quad(m, of_lamp, (double[3]){gap * (i % side), gap * (i / side), 1}, (double[3]){0, size, 0}, (double[3]){size, 0, 0});
     ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 3}, (double[3]){0, 0, 0}, 0.5);
     if (ec_model_scene(m, &scene, &err) != EC_OK) exit(1);
     scene->has_environment = sky > 0;
@@ -25,10 +25,10 @@ static ec_scene *lamps(double gap, double sky)
     return scene;
 }
 
-static bool wants_tree(double gap, double sky)
+static bool wants_tree_of(int side, double size, double gap, double sky)
 {
     ec_error err = {0};
-    ec_scene *scene = lamps(gap, sky);
+    ec_scene *scene = lamps(side, size, gap, sky);
     ec_pack pack;
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
     bool wants = ec_pack_wants_light_tree(&pack);
@@ -37,11 +37,13 @@ static bool wants_tree(double gap, double sky)
     return wants;
 }
 
+static bool wants_tree(double gap, double sky) { return wants_tree_of(SIDE, 0.01, gap, sky); }
+
 /* Half of all samples go to the sky, as by power (lights.c); densities of lamps are those of the one that the tree will have chosen. */
 static void the_sky_keeps_its_half(void)
 {
     ec_error err = {0};
-    ec_scene *scene = lamps(0.5, 1e-3);
+    ec_scene *scene = lamps(SIDE, 0.01, 0.5, 1e-3);
     ec_pack pack;
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
     CHECK_OK(ec_pack_light_tree(&pack, &err), err);
@@ -68,6 +70,9 @@ int main(void)
 {
     CHECK(wants_tree(0.5, 0));
     CHECK(!wants_tree(0.02, 0)); /* a cluster */
+    CHECK(wants_tree_of(2, 0.5, 2.5, 0));
+    CHECK(!wants_tree_of(2, 1.5, 2.5, 0)); /* panels all but next to each other */
+    CHECK(!wants_tree_of(1, 2, 0, 0));
     /* Lamps send pi 64 1e-4, the sky 4 pi^2 r^2 with a radius r of some 7: equal at a sky of 1e-5. */
     CHECK(wants_tree(0.5, 1e-5));
     CHECK(wants_tree(0.5, 2.5e-3)); /* 0.4 % */
