@@ -58,6 +58,9 @@ void ec_render_request_start(ec_render_request *request);
 ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
                                    ec_error *err);
 
+/* Does anything end it: samples, time or an error? */
+bool ec_render_has_limit(const ec_render_options *options);
+
 /* Reads the arguments of `render`. *done: --help or --version was served and nothing is left to do. */
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, bool *done, ec_error *err);
 

@@ -47,16 +47,36 @@ static ec_result start_counting(ec_film *film, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *places, uint32_t count, uint32_t samples, ec_error *err)
+/* Entries [first, end), which are all that there are of their pixels. */
+static uint64_t add_entries(ec_film *film, const float *batch, const uint32_t *places, uint64_t first, uint64_t end, uint32_t samples)
 {
-    EC_TRY(start_counting(film, err));
-    for (uint64_t i = 0; i < count; i++) {
+    uint64_t invalid = 0;
+    for (uint64_t i = first; i < end; i++) {
         const uint32_t replicate = (uint32_t)(i % film->replicates);
-        const ec_sums here = ec_sums_from(&film->parts[0].sums, places[i]);
         const double share = samples / ((double)film->counts[places[i]] + samples);
-        film->invalid_count += ec_sums_add(&here, batch + EC_BATCH_FIELDS * i, replicate, share, 1);
+        invalid += ec_sums_add_pixel(&film->parts[0].sums, batch + EC_BATCH_FIELDS * i, replicate, share, places[i]);
         if (replicate == film->replicates - 1) film->counts[places[i]] += samples;
     }
+    return invalid;
+}
+
+/* Where piece k of so many begins: not within a pixel. */
+static uint64_t piece_start(const uint32_t *places, uint64_t count, uint64_t k, uint64_t pieces)
+{
+    uint64_t first = count * k / pieces;
+    while (first && first < count && places[first] == places[first - 1]) first++;
+    return first;
+}
+
+ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *places, uint32_t count, uint32_t samples, ec_error *err)
+{
+    enum { PIECES = 64, MANY = 1 << 18 }; /* as in sums.c */
+    uint64_t invalid = 0;
+    EC_TRY(start_counting(film, err));
+#pragma omp parallel for reduction(+ : invalid) if (count > MANY)
+    for (uint64_t k = 0; k < PIECES; k++)
+        invalid += add_entries(film, batch, places, piece_start(places, count, k, PIECES), piece_start(places, count, k + 1, PIECES), samples);
+    film->invalid_count += invalid;
     return EC_OK;
 }
 

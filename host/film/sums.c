@@ -36,7 +36,7 @@ void ec_sums_add_tail(float into[3], const float next[3])
     into[2] = (float)(a2 * a2 * into[2] + b2 * b2 * next[2]);
 }
 
-enum { MANY = 1 << 16 }; /* pixels that are worth threads of their own */
+enum { MANY = 1 << 18 }; /* pixels that are worth threads: idle ones spin for some milliseconds after each loop (libgomp) */
 
 /* An average of two finite floats is finite. */
 static void move(float *mean, double to, double share)
@@ -44,20 +44,24 @@ static void move(float *mean, double to, double share)
     *mean = share < 1 ? (float)(*mean + (to - *mean) * share) : (float)to;
 }
 
+uint32_t ec_sums_add_pixel(const ec_sums *s, const float *batch, uint32_t replicate, double share, uint64_t pixel)
+{
+    float *mean = ec_sums_mean(s, replicate, pixel);
+    uint32_t invalid = 0;
+    for (int c = 0; c < 3; c++) {
+        const bool is_finite = isfinite(batch[c]);
+        invalid += !is_finite;
+        move(mean + c, is_finite ? batch[c] : 0, share);
+    }
+    if (isfinite(batch[EC_BATCH_LARGEST])) ec_sums_add_tail(s->tail + 3 * pixel, batch + EC_BATCH_LARGEST);
+    return invalid;
+}
+
 uint64_t ec_sums_add(const ec_sums *s, const float *batch, uint32_t replicate, double share, uint64_t pixels)
 {
     uint64_t invalid = 0;
 #pragma omp parallel for reduction(+ : invalid) if (pixels > MANY)
-    for (uint64_t p = 0; p < pixels; p++) {
-        const float *from = batch + EC_BATCH_FIELDS * p;
-        float *mean = ec_sums_mean(s, replicate, p);
-        for (int c = 0; c < 3; c++) {
-            const bool is_finite = isfinite(from[c]);
-            invalid += !is_finite;
-            move(mean + c, is_finite ? from[c] : 0, share);
-        }
-        if (isfinite(from[EC_BATCH_LARGEST])) ec_sums_add_tail(s->tail + 3 * p, from + EC_BATCH_LARGEST);
-    }
+    for (uint64_t p = 0; p < pixels; p++) invalid += ec_sums_add_pixel(s, batch + EC_BATCH_FIELDS * p, replicate, share, p);
     return invalid;
 }
 

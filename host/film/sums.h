@@ -41,6 +41,9 @@ ec_sums ec_sums_in(void *memory, uint32_t replicates, uint64_t pixels);
  * counts as 0; returns how many values are not. */
 uint64_t ec_sums_add(const ec_sums *sums, const float *batch, uint32_t replicate, double share, uint64_t pixels);
 
+/* One pixel's part of that. */
+uint32_t ec_sums_add_pixel(const ec_sums *sums, const float *batch, uint32_t replicate, double share, uint64_t pixel);
+
 /* `into` takes `next` in; share: of each replicate's samples, the part that is `next`'s. */
 void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, uint64_t pixels);
 

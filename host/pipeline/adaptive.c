@@ -7,6 +7,7 @@
 
 #include "film/neighbourhood.h"
 #include "film/pixel.h"
+#include "pipeline/batch_source.h"
 
 #define RADIUS 3        /* 48 pixels around: with the pilot's replicates they know a variance to a tenth or so */
 #define LEAST 0.15      /* weight that every pixel has: what the pilot did not see is still looked for */
@@ -80,11 +81,11 @@ static double foretold_gain(const ec_allotment *a, const float *variance)
 static ec_result allocate(ec_allotment *a, const ec_params *params, ec_error *err)
 {
     a->pixels = params->width * params->height;
-    size_t bytes = (size_t)a->pixels * sizeof(uint32_t);
-    a->weight = malloc(bytes);
-    a->place = malloc(bytes);
-    a->list = malloc(EC_LIST_WORDS * bytes);
-    a->places = malloc(bytes);
+    a->room = (uint32_t)ec_order_positions(a->pixels, a->replicates);
+    a->weight = malloc(a->pixels * sizeof *a->weight);
+    a->place = malloc(a->pixels * sizeof *a->place);
+    a->list = malloc((uint64_t)a->room * EC_LIST_WORDS * sizeof *a->list);
+    a->places = malloc(a->room * sizeof *a->places);
     if (!a->weight || !a->place || !a->list || !a->places) {
         ec_allotment_free(a);
         return ec_fail(err, "out of memory for the allotment of samples to %u pixels; give --adaptive off",
@@ -135,10 +136,15 @@ static double phase(uint32_t number)
     return (double)(uint32_t)(number * 2654435769u) * 0x1p-32;
 }
 
-/* The length of pixel number i's next stride, if it is due that: 0 if not. */
-static uint32_t due(const ec_allotment *a, const ec_film *film, uint32_t i)
+/* Samples that each replicate of pixel number i has. */
+static uint32_t samples_of(const ec_allotment *a, const ec_film *film, uint32_t i)
 {
-    const double has = film->counts ? film->counts[a->place[i]] : film->samples[0];
+    return film->counts ? film->counts[a->place[i]] : (uint32_t)film->samples[0];
+}
+
+/* The length of pixel number i's next stride, with `has` samples, if it is due that: 0 if not. */
+static uint32_t due(const ec_allotment *a, uint32_t i, double has)
+{
     const uint32_t step = ec_schedule_step((uint64_t)has);
     return has + step * phase(i) < a->level * a->weight[i] && has + step < UINT32_MAX ? step : 0;
 }
@@ -146,7 +152,7 @@ static uint32_t due(const ec_allotment *a, const ec_film *film, uint32_t i)
 bool ec_allotment_is_even(const ec_allotment *a, const ec_film *film)
 {
     for (uint32_t i = 0; i < a->pixels; i++)
-        if (due(a, film, i)) return false;
+        if (due(a, i, samples_of(a, film, i))) return false;
     return true;
 }
 
@@ -155,31 +161,34 @@ static uint32_t shortest(const ec_allotment *a, const ec_film *film)
 {
     uint32_t least = UINT32_MAX;
     for (uint32_t i = 0; i < a->pixels; i++) {
-        const uint32_t step = due(a, film, i);
+        const uint32_t step = due(a, i, samples_of(a, film, i));
         if (step && step < least) least = step;
     }
     return least;
 }
 
-static void enter(ec_allotment *a, const ec_film *film, uint32_t i, uint32_t *count)
+/* The next strides that pixel number i is due, as long as they are the pass's: in which strides a pixel goes on depends on nothing but its
+ * samples, and so do its bits. False where there is no room, or not so many samples are left; then the pass is full. */
+static bool enter(ec_allotment *a, const ec_film *film, uint32_t i, double most, ec_pass *pass)
 {
-    for (uint32_t r = 0; r < a->replicates; r++, (*count)++) {
-        uint32_t *entry = a->list + EC_LIST_WORDS * *count;
-        entry[0] = i + r * a->pixels;
-        entry[1] = film->counts ? film->counts[a->place[i]] : (uint32_t)film->samples[0];
-        a->places[*count] = a->place[i];
+    for (uint32_t has = samples_of(a, film, i); due(a, i, has) == pass->samples; has += pass->samples) {
+        const uint32_t count = pass->count + a->replicates;
+        if (count > a->room || (pass->count && count * (double)pass->samples > most)) return false;
+        for (uint32_t r = 0; r < a->replicates; r++, pass->count++) {
+            uint32_t *entry = a->list + EC_LIST_WORDS * pass->count;
+            entry[0] = i + r * a->pixels;
+            entry[1] = has;
+            a->places[pass->count] = a->place[i];
+        }
     }
+    return true;
 }
 
 ec_pass ec_allotment_pass(ec_allotment *a, const ec_film *film, double most)
 {
     ec_pass pass = {0};
     while ((pass.samples = shortest(a, film)) == UINT32_MAX) a->level += ec_schedule_step((uint64_t)a->level);
-    for (uint32_t i = 0; i < a->pixels; i++) {
-        const bool is_full = pass.count + a->replicates > a->pixels || (pass.count && (pass.count + a->replicates) * (double)pass.samples > most);
-        if (is_full) break;
-        if (due(a, film, i) == pass.samples) enter(a, film, i, &pass.count);
-    }
+    for (uint32_t i = 0; i < a->pixels && enter(a, film, i, most, &pass); i++) continue;
     return pass;
 }
 

@@ -13,18 +13,18 @@
  * of it.)
  *
  * Pixels go on as film/schedule.h has it, stride by stride, all replicates of a pixel together. The level rises round by round; a pass takes
- * pixels that are due at that level and whose next strides are of one length. */
+ * strides of one length, the shortest that a pixel is due at that level. */
 typedef struct ec_allotment {
     float *weight;       /* by pixel number (kernels/lib/film.h): samples over the image's mean, mean 1; NULL: not made */
     uint32_t *place;     /* by pixel number: place in row order */
-    uint32_t *list;      /* of the pass: EC_LIST_WORDS an entry, kernels/shared/params.h; all replicates of a pixel one after the other */
+    uint32_t *list;      /* of the pass: EC_LIST_WORDS an entry, kernels/shared/params.h; all replicates of a pixel one after the other, and again */
     uint32_t *places;    /* of its entries */
-    uint32_t pixels, replicates;
+    uint32_t pixels, replicates, room; /* for entries */
     double gain;         /* error^2 by these weights over that of uniform sampling, foretold; 1 where there is nothing to gain */
     double level;        /* samples that each replicate of a pixel of weight 1 is due */
 } ec_allotment;
 
-/* A pass's entries, at most as many as the image has pixels, and samples of each. */
+/* A pass's entries, at most as many as `room`, and samples of each. */
 typedef struct ec_pass {
     uint32_t count, samples;
 } ec_pass;

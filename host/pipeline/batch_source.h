@@ -10,6 +10,15 @@
 
 #define EC_TILE_ROWS 8u /* kernels/lib/film.h */
 
+/* Positions that an order has at most: the pixels, and of a pass of an adaptive render of a small picture so many, since short passes cost
+ * what their launches do. */
+#define EC_PASS_POSITIONS (1u << 18)
+static inline uint64_t ec_order_positions(uint64_t pixels, uint32_t replicates)
+{
+    const uint64_t all = pixels * replicates, most = all < EC_PASS_POSITIONS ? all : EC_PASS_POSITIONS;
+    return pixels > most ? pixels : most;
+}
+
 /* Positions done to count - 1 of a batch. A position is a place in `list`; without one a pixel number, and then both ends of what is not a
  * whole batch are whole rows of tiles (kernels/lib/film.h), whose numbers and places in row order are the same range. */
 typedef struct ec_batch_order {

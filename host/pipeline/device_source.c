@@ -14,6 +14,8 @@ uint32_t ec_render_seed(uint64_t seed) { return (uint32_t)(ec_random_mix(seed * 
 
 static uint64_t pixels_of(const ec_device_source *s) { return (uint64_t)s->pipeline.params.width * s->rows; }
 
+static uint64_t positions_of(const ec_device_source *s) { return ec_order_positions(pixels_of(s), s->replicates); }
+
 static ec_result turn_to(ec_batch_source *source, uint32_t first_row, uint32_t rows, ec_error *err)
 {
     ec_device_source *s = (ec_device_source *)source;
@@ -21,7 +23,7 @@ static ec_result turn_to(ec_batch_source *source, uint32_t first_row, uint32_t r
     const float not_reached = EC_NOT_REACHED;
     if (rows != s->rows) free(s->own), s->own = NULL;
     s->rows = rows;
-    EC_TRY(ec_pipeline_fit_films(p, pixels_of(s), err));
+    EC_TRY(ec_pipeline_fit_films(p, pixels_of(s), positions_of(s), err));
     p->params.film_row = first_row;
     EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err));
     return ec_buffer_fill(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels_of(s) * BATCH_BYTES, &not_reached, err);
@@ -34,7 +36,7 @@ static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, e
     const uint64_t slack = 64; /* lanes past the last sample look too */
     if (!order->list) return EC_OK;
     const uint64_t entry = 4 * EC_LIST_WORDS;
-    if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", (pixels_of(s) + slack) * entry, NULL, list, err));
+    if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", (positions_of(s) + slack) * entry, NULL, list, err));
     return ec_buffer_write(p->cl, *list, entry * order->done, entry * (order->count - order->done), order->list + EC_LIST_WORDS * order->done, err);
 }
 
@@ -47,7 +49,7 @@ static float *place_of(const ec_device_source *s, const ec_batch_order *order, u
 /* Where the batch goes on the host, and what of it is there. */
 static ec_result prepare(ec_device_source *s, const ec_batch_order *order, ec_error *err)
 {
-    if (!order->into && !s->own) s->own = malloc(pixels_of(s) * BATCH_BYTES);
+    if (!order->into && !s->own) s->own = malloc(positions_of(s) * BATCH_BYTES);
     s->base.mean = s->own;
     if (!order->into && !s->own) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels_of(s));
     if (order->before) memcpy(s->base.mean, order->before, BATCH_BYTES * order->count);

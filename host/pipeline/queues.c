@@ -96,11 +96,11 @@ ec_result ec_pipeline_create_queues(ec_pipeline *p, uint32_t wave, ec_error *err
     return ec_buffer_create(cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
 }
 
-static ec_result create_films(ec_pipeline *p, uint64_t pixels, ec_error *err)
+static ec_result create_films(ec_pipeline *p, uint64_t pixels, uint64_t positions, ec_error *err)
 {
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_FEATURE_FILM]);
-    EC_TRY(create(p, "batch film", pixels * 4 * EC_BATCH_FIELDS, &p->buffers[EC_ARG_BATCH_FILM], err));
+    EC_TRY(create(p, "batch film", positions * 4 * EC_BATCH_FIELDS, &p->buffers[EC_ARG_BATCH_FILM], err));
     return create(p, "feature film", pixels * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err);
 }
 
@@ -113,12 +113,12 @@ static ec_result halve_wave(ec_pipeline *p, ec_error *err)
 }
 
 /* Here too paths in flight make room. */
-ec_result ec_pipeline_fit_films(ec_pipeline *p, uint64_t pixels, ec_error *err)
+ec_result ec_pipeline_fit_films(ec_pipeline *p, uint64_t pixels, uint64_t positions, ec_error *err)
 {
     ec_error why = {0};
     if (pixels <= p->film_pixels) return EC_OK;
     p->film_pixels = 0;
-    for (uint32_t refused = 0; create_films(p, pixels, &why) != EC_OK;) {
+    for (uint32_t refused = 0; create_films(p, pixels, positions, &why) != EC_OK;) {
         bool is_last = p->wave_is_given || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
         if (err) *err = why;
         if (why.kind != EC_ERROR_DEVICE_MEMORY || is_last) return EC_FAILED;

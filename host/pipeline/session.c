@@ -30,7 +30,8 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     cargo.insides = (ec_insides){0};
     if (result == EC_OK) result = ec_pipeline_create(cl, &cargo, &cargo, &s->pipeline, stats, err);
     ec_cargo_free(&cargo);
-    if (result == EC_OK) result = ec_pipeline_fit_films(&s->pipeline, (uint64_t)options->width * options->height, err);
+    const uint64_t pixels = (uint64_t)options->width * options->height;
+    if (result == EC_OK) result = ec_pipeline_fit_films(&s->pipeline, pixels, pixels, err);
     const ec_params *params = &s->pipeline.params;
     s->options = *options;
     s->environment.turned = params->environment_turned;
@@ -68,7 +69,8 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
         for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = e.turn[k];
     }
     ec_raster_forget(p);
-    EC_TRY(ec_pipeline_fit_films(p, (uint64_t)view->width * view->height, err));
+    const uint64_t pixels = (uint64_t)view->width * view->height;
+    EC_TRY(ec_pipeline_fit_films(p, pixels, pixels, err));
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
 }
 

@@ -94,7 +94,7 @@ static bool make_room(ec_team *t, slot *s)
 {
     if (s->batches <= 1) {
         ec_sums_destroy(&s->sums);
-        if (!s->mean) s->mean = malloc(4 * EC_BATCH_FIELDS * t->pixels);
+        if (!s->mean) s->mean = malloc(4 * EC_BATCH_FIELDS * ec_order_positions(t->pixels, t->replicates));
         return s->mean != NULL;
     }
     ec_team_free_units(t);

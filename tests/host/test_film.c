@@ -120,6 +120,26 @@ static void the_last_batch_may_be_cut(void)
     ec_film_destroy(&film);
 }
 
+/* Two batches of one pixel in one pass are what they are in two. */
+static void pixels_go_on_twice(void)
+{
+    ec_film once = filled_by(2, 4, value), twice = filled_by(2, 4, value);
+    ec_error err;
+    const uint32_t places[6] = {3, 3, 3, 3, 7, 7};
+    float rgb[18], batch[6 * EC_BATCH_FIELDS];
+    for (int i = 0; i < 18; i++) rgb[i] = (float)(i + 1);
+    films_lay_out(rgb, 6, batch);
+    CHECK_OK(ec_film_add_some(&once, batch, places, 6, 2, &err), err);
+    for (uint32_t i = 0; i < 6; i += 2) CHECK_OK(ec_film_add_some(&twice, batch + EC_BATCH_FIELDS * i, places + i, 2, 2, &err), err);
+    CHECK(ec_film_samples(&once, 3) == 12 && ec_film_samples(&once, 7) == 8);
+    for (uint64_t p = 0; p < P; p++) {
+        const ec_pixel a = films_pixel(&once, p), b = films_pixel(&twice, p);
+        CHECK(memcmp(&a, &b, sizeof a) == 0);
+    }
+    ec_film_destroy(&once);
+    ec_film_destroy(&twice);
+}
+
 /* Pixels 1 and 7 go on by 2 samples in each of 2 replicates, pixel 7 by 4 more. */
 static void some_pixels_go_on(void)
 {
@@ -309,6 +329,7 @@ int main(void)
     replicates_may_be_uneven();
     the_last_batch_may_be_cut();
     some_pixels_go_on();
+    pixels_go_on_twice();
     features_are_averaged();
     variance_survives_a_large_mean();
     resolves_mean_and_standard_error();

@@ -18,7 +18,7 @@ static double uniform(void) { return test_uniform(&state); }
 /* `samples` more of each place, or of all pixels. */
 static float *draw_batch(const uint32_t *places, uint32_t count, uint32_t samples)
 {
-    static float batch[EC_BATCH_FIELDS * PIXELS];
+    static float batch[EC_BATCH_FIELDS * PIXELS * EC_REPLICATES];
     for (uint32_t p = 0; p < count; p++) {
         double sum = 0, ground = (places ? places[p] : p) % WIDTH < WIDTH / 2 ? 0.5 : 0.99;
         for (uint32_t i = 0; i < samples; i++) sum += uniform() < (1 - ground) / 100 ? 100 + ground : ground;
@@ -45,7 +45,7 @@ static void check_bias(void)
         allotted += a.weight && a.gain < 0.95;
         for (double samples = 32; a.weight && samples < 96;) {
             const ec_pass pass = ec_allotment_pass(&a, &film, INFINITY);
-            CHECK(pass.count % EC_REPLICATES == 0 && pass.count <= PIXELS);
+            CHECK(pass.count % EC_REPLICATES == 0 && pass.count <= PIXELS * EC_REPLICATES);
             CHECK_OK(ec_film_add_some(&film, draw_batch(a.places, pass.count, pass.samples), a.places, pass.count, pass.samples, &err), err);
             samples += (double)pass.count * pass.samples / PIXELS;
         }
