@@ -25,18 +25,17 @@ static void number_pixels(const ec_params *params, uint32_t *place)
                 for (uint32_t x = x0; x < x0 + tile && x < width; x++) place[number++] = y * width + x;
 }
 
-/* In row order, of all pixels: the variance of luminance's mean. */
-static float *variances_of(const ec_film *film)
+/* In row order, of all pixels: the variance of luminance, of a sample. */
+static void look_at_variances(const ec_film *film, float *variance)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
-    float *variance = malloc(pixels * sizeof *variance);
-    ec_pixel piece[EC_PIXELS];
-    for (uint64_t first = 0; variance && first < pixels; first += EC_PIXELS) {
+#pragma omp parallel for if (pixels > 1 << 18)
+    for (uint64_t first = 0; first < pixels; first += EC_PIXELS) {
         const uint64_t count = pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS;
+        ec_pixel piece[EC_PIXELS];
         ec_film_look(film, first, count, piece);
-        for (uint64_t i = 0; i < count; i++) variance[first + i] = (float)ec_pixel_se2(&piece[i], 3);
+        for (uint64_t i = 0; i < count; i++) variance[first + i] = (float)(ec_pixel_se2(&piece[i], 3) * piece[i].samples);
     }
-    return variance;
 }
 
 static double variance_around(const ec_film *film, const float *variance, uint32_t place)
@@ -67,11 +66,11 @@ static void normalise(ec_allotment *a, double mean)
 }
 
 /* A pixel's own variance is independent of its weight, so that this is no flattery. */
-static double foretold_gain(const ec_allotment *a, const float *variance)
+static double foretold_gain(const ec_allotment *a)
 {
     double uniform = 0, weighted = 0;
     for (uint32_t i = 0; i < a->pixels; i++) {
-        const double v = variance[a->place[i]];
+        const double v = a->variance[a->place[i]];
         uniform += v;
         weighted += v / a->weight[i];
     }
@@ -86,7 +85,8 @@ static ec_result allocate(ec_allotment *a, const ec_params *params, ec_error *er
     a->place = malloc(a->pixels * sizeof *a->place);
     a->list = malloc((uint64_t)a->room * EC_LIST_WORDS * sizeof *a->list);
     a->places = malloc(a->room * sizeof *a->places);
-    if (!a->weight || !a->place || !a->list || !a->places) {
+    a->variance = malloc(a->pixels * sizeof *a->variance);
+    if (!a->weight || !a->place || !a->list || !a->places || !a->variance) {
         ec_allotment_free(a);
         return ec_fail(err, "out of memory for the allotment of samples to %u pixels; give --adaptive off",
                        params->width * params->height);
@@ -103,13 +103,13 @@ ec_result ec_allotment_again(const ec_allotment *made, const ec_params *params, 
     return EC_OK;
 }
 
-static void weigh(ec_allotment *a, const ec_film *film, const float *variance)
+static void weigh(ec_allotment *a, const ec_film *film)
 {
     double mean = 0;
-    for (uint32_t i = 0; i < a->pixels; i++) {
-        a->weight[i] = (float)sqrt(variance_around(film, variance, a->place[i]));
-        mean += a->weight[i] / a->pixels;
-    }
+    look_at_variances(film, a->variance);
+#pragma omp parallel for if (a->pixels > 1 << 18)
+    for (uint32_t i = 0; i < a->pixels; i++) a->weight[i] = (float)sqrt(variance_around(film, a->variance, a->place[i]));
+    for (uint32_t i = 0; i < a->pixels; i++) mean += a->weight[i] / a->pixels;
     normalise(a, mean);
 }
 
@@ -117,17 +117,12 @@ ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *a
 {
     *a = (ec_allotment){.level = film->samples[0], .gain = 1, .replicates = film->replicates};
     if ((uint64_t)film->width * film->height < EC_ALLOT_PIXELS) return EC_OK;
-    float *variance = variances_of(film);
-    if (!variance) return ec_fail(err, "out of memory for the allotment of samples to pixels; give --adaptive off");
-    ec_result result = allocate(a, params, err);
-    if (result == EC_OK) {
-        weigh(a, film, variance);
-        const double gain = foretold_gain(a, variance);
-        if (gain > WORTH_IT) ec_allotment_free(a);
-        else a->gain = gain;
-    }
-    free(variance);
-    return result;
+    EC_TRY(allocate(a, params, err));
+    weigh(a, film);
+    const double gain = foretold_gain(a);
+    if (gain > WORTH_IT) ec_allotment_free(a);
+    else a->gain = gain;
+    return EC_OK;
 }
 
 /* So that pixels of one weight do not all fall due in the same pass: golden ratio. */
@@ -184,10 +179,18 @@ static bool enter(ec_allotment *a, const ec_film *film, uint32_t i, double most,
     return true;
 }
 
+/* When all have what they are due at a power of 2, beyond the pilot, whose weights these are, variances are known better. */
+static void rise(ec_allotment *a, const ec_film *film)
+{
+    const uint64_t level = (uint64_t)a->level;
+    if (level > EC_PILOT_SAMPLES && (level & (level - 1)) == 0) weigh(a, film);
+    a->level += ec_schedule_step(level);
+}
+
 ec_pass ec_allotment_pass(ec_allotment *a, const ec_film *film, double most)
 {
     ec_pass pass = {0};
-    while ((pass.samples = shortest(a, film)) == UINT32_MAX) a->level += ec_schedule_step((uint64_t)a->level);
+    while ((pass.samples = shortest(a, film)) == UINT32_MAX) rise(a, film);
     for (uint32_t i = 0; i < a->pixels && enter(a, film, i, most, &pass); i++) continue;
     return pass;
 }
@@ -198,5 +201,6 @@ void ec_allotment_free(ec_allotment *a)
     free(a->place);
     free(a->list);
     free(a->places);
+    free(a->variance);
     *a = (ec_allotment){.gain = 1};
 }

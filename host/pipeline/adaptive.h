@@ -8,9 +8,9 @@
 #include "shared/params.h"
 
 /* The square error of P pixels with n_p samples is sum v_p / n_p: least for a given sum of n_p where n_p goes as sqrt(v_p) (Neyman 1934). Where
- * the order of samples tells, error^2 falls faster, but hardly so in the pixels that hold the noise. v_p comes from the pilot's replicates of the pixels around p, p itself left out: then its number
- * does not depend on its own samples, and counting the pilot's samples in leaves the mean unbiased. (Kirk & Arvo 1991 on what else comes
- * of it.)
+ * the order of samples tells, error^2 falls faster, but hardly so in the pixels that hold the noise. v_p comes from the replicates of the
+ * pixels around p, p itself left out, after the pilot and again at every power of 2: then its number does not depend on its own samples, and
+ * counting all samples in leaves the mean unbiased. (Kirk & Arvo 1991 on what else comes of it.)
  *
  * Pixels go on as film/schedule.h has it, stride by stride, all replicates of a pixel together. The level rises round by round; a pass takes
  * strides of one length, the shortest that a pixel is due at that level. */
@@ -19,6 +19,7 @@ typedef struct ec_allotment {
     uint32_t *place;     /* by pixel number: place in row order */
     uint32_t *list;      /* of the pass: EC_LIST_WORDS an entry, kernels/shared/params.h; all replicates of a pixel one after the other, and again */
     uint32_t *places;    /* of its entries */
+    float *variance;     /* in row order: of a sample, as it was when weights were made last */
     uint32_t pixels, replicates, room; /* for entries */
     double gain;         /* error^2 by these weights over that of uniform sampling, foretold; 1 where there is nothing to gain */
     double level;        /* samples that each replicate of a pixel of weight 1 is due */

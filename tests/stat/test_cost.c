@@ -4,22 +4,8 @@
  * processor's, taken in turns. */
 #include <time.h>
 
-#include "cost/cost_internal.h"
+#include "support/cost_reference.h"
 #include "support/gltf_writer.h"
-#include "support/render_case.h"
-
-static ec_cost_reference reference_of(const ec_scene *scene, const ec_render_options *options, uint32_t spp)
-{
-    ec_error err = {0};
-    ec_cost_reference reference = {0};
-    ec_render_options o = *options;
-    o.spp = spp;
-    o.seed = 12345;
-    case_image image = case_render(scene, &o);
-    CHECK_OK(ec_cost_reference_of(&image.film, &reference, &err), err);
-    case_free(&image);
-    return reference;
-}
 
 typedef struct strategy {
     ec_session *session;
@@ -85,7 +71,7 @@ static void slopes(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("cornell-box/cornell-box.gltf"), NULL);
     ec_render_options o = case_options(32, 32, 0);
-    ec_cost_reference reference = reference_of(scene, &o, 1024);
+    ec_cost_reference reference = cost_reference(scene, &o, 1024);
     o.sampler = EC_SAMPLER_INDEPENDENT;
     ec_cost_row independent = curve(scene, &o, &reference, 64);
     o.sampler = EC_SAMPLER_SOBOL;
@@ -170,7 +156,7 @@ static void area_of_the_light(void)
         ec_scene *scene = lamp_scene(sides[i], i ? "cost-half-lamp" : "cost-lamp");
         ec_render_options o = case_options(32, 32, 0);
         o.max_depth = 2;
-        ec_cost_reference reference = reference_of(scene, &o, 4096);
+        ec_cost_reference reference = cost_reference(scene, &o, 4096);
         o.sampler = EC_SAMPLER_INDEPENDENT;
         double expected[2];
         predict(sides[i], &expected[0], &expected[1]);
@@ -203,7 +189,7 @@ static void veach(void)
     static const char *const names[3] = {"mis", "light", "bsdf"};
     ec_scene *scene = case_load(OWN_SCENE("veach-plates/veach-plates.gltf"), NULL);
     ec_render_options o = case_options(96, 64, 0);
-    ec_cost_reference reference = reference_of(scene, &o, 1024);
+    ec_cost_reference reference = cost_reference(scene, &o, 1024);
     strategy s[3];
     double seconds[3][ROUNDS];
     for (int k = 0; k < 3; k++) {

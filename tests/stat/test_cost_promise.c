@@ -4,8 +4,7 @@
  * line between two points of the curve.
  *
  * ctest label: slow */
-#include "cost/cost_internal.h"
-#include "support/render_case.h"
+#include "support/cost_reference.h"
 
 enum { PICTURES = 12, MOST = 256, REFERENCE = 8192 };
 
@@ -14,19 +13,6 @@ typedef struct promise_case {
     uint32_t width, height, max_depth;
     double target;
 } promise_case;
-
-static ec_cost_reference reference_of(const ec_scene *scene, const ec_render_options *options)
-{
-    ec_error err = {0};
-    ec_cost_reference reference = {0};
-    ec_render_options o = *options;
-    o.spp = REFERENCE;
-    o.seed = 12345;
-    case_image image = case_render(scene, &o);
-    CHECK_OK(ec_cost_reference_of(&image.film, &reference, &err), err);
-    case_free(&image);
-    return reference;
-}
 
 /* Numbers of pictures are fixed, not times, so that the figures are the same in every run. */
 static ec_cost_row measure(ec_cost_study *study)
@@ -69,7 +55,7 @@ static void check(const promise_case *c)
     ec_render_options o = case_defaults(c->width, c->height, 0);
     o.max_depth = c->max_depth;
     ec_scene *scene = case_load(c->path, NULL);
-    ec_cost_study study = {.cl = case_cl(), .scene = scene, .options = o, .reference = reference_of(scene, &o)};
+    ec_cost_study study = {.cl = case_cl(), .scene = scene, .options = o, .reference = cost_reference(scene, &o, REFERENCE)};
     const ec_cost_row row = measure(&study);
     o.error_target = c->target;
     o.seed = 77;
