@@ -222,20 +222,16 @@ class Failing(FaultCase):
         self.assertEqual(json.loads(run.stdout)["image_sha256"], report["image_sha256"])
 
     def test_a_slow_one_holds_nobody_up(self):
-        """What one device does in t seconds two of them do in little more, where the other one is so slow that 64 samples, 16 waves, take it 5 s and
-        more: they wait for the two waves that show its pace, and for hardly any later."""
+        """A device whose every launch takes 200 ms more: once two waves have shown its pace it gets no piece that the other one would have to wait
+        for. (It would take a third of all batches that are shorter than its shortest wave.)"""
         job = [*self.job, "--replicates", "1", "--wave", str(256 * 256 * 8)]
-        slow = {"call": "clEnqueueNDRangeKernel", "pause": 50, "device": 1}
-        run, _ = self.run_with("slow alone", *job, "--device", "1", spp=64, env=TWO, **dict(slow, device=0))
-        alone = json.loads(self.assert_ok(run).stdout)["seconds"]
         run, _ = self.run_with("fast", *job, "--device", "0", spp=1024, env=TWO)
         fast = json.loads(self.assert_ok(run).stdout)
-        run, _ = self.run_with("both", *job, spp=1024, env=TWO, **slow)
+        run, _ = self.run_with("both", *job, spp=1024, env=TWO, call="clEnqueueNDRangeKernel", pause=200, device=1)
         both = json.loads(self.assert_ok(run).stdout)
         self.assertEqual(both["image_sha256"], fast["image_sha256"])
-        self.assertGreater(alone, 5)
-        self.assertLess(both["seconds"], 1.5 * fast["seconds"] + alone / 4, f"16 waves take the slow one {alone:.1f} s")
         self.assertGreater(both["devices"][1]["samples_per_pixel"], 0)
+        self.assertLess(both["devices"][1]["samples_per_pixel"], 1024 / 32)
 
 
 class Unlike(FaultCase):
