@@ -1,6 +1,7 @@
 /* Numbers that choose and go on: what is left of evenly spread ones is evenly spread in each of the things they choose, in its order, and
  * whole numbers are stretched exactly. */
 #include "kernel/kernel_run.h"
+#include "kernel/sampler_hash.h"
 #include "pack/distribution.h"
 
 #define NUMBERS (1u << 16)
@@ -11,17 +12,6 @@ static cl_program program;
 static uint32_t r[NUMBERS], rest[NUMBERS], which[NUMBERS], stretched[NUMBERS];
 static float left[NUMBERS];
 static uint32_t numbers = NUMBERS;
-
-/* hash_u of kernels/lib/sampler.h */
-static uint32_t hash(uint32_t x)
-{
-    x ^= x >> 16;
-    x *= 0x21f0aaadu;
-    x ^= x >> 15;
-    x *= 0x735a2d97u;
-    x ^= x >> 15;
-    return x;
-}
 
 /* (rest + hash / 2^32) 2^32 / share, with the quotient of the powers cut to a whole number. */
 static void check_stretch(uint64_t share)
@@ -38,7 +28,7 @@ static void check_stretch(uint64_t share)
                      OUT(stretched, NUMBERS)))
         return;
     for (uint32_t i = 0; i < NUMBERS; i++) {
-        const unsigned __int128 at = ((unsigned __int128)rest[i] << 32 | hash(r[i])) * factor;
+        const unsigned __int128 at = ((unsigned __int128)rest[i] << 32 | sampler_hash(r[i])) * factor;
         wrong += at >> 96 != 0 || stretched[i] != (uint32_t)(at >> 64);
     }
     CHECK_MSG(!wrong, "%u numbers of a share of %llu are stretched to others", wrong, (unsigned long long)share);

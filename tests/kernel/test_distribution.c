@@ -1,5 +1,6 @@
 /* Distributions sampled by inversion: every entry has its share of the 2^32 numbers, exactly and in order, and kernels find it. */
 #include "kernel/kernel_run.h"
+#include "kernel/sampler_hash.h"
 #include "pack/distribution.h"
 
 #define MOST 6000u
@@ -13,16 +14,8 @@ static uint32_t r[NUMBERS], expected[NUMBERS], entry[NUMBERS];
 static float left[NUMBERS];
 static double share_left[NUMBERS];
 
-/* hash_u and to_unit of kernels/lib/sampler.h: the digits below those of a number. */
-static double digits_of(uint32_t x)
-{
-    x ^= x >> 16;
-    x *= 0x21f0aaadu;
-    x ^= x >> 15;
-    x *= 0x735a2d97u;
-    x ^= x >> 15;
-    return (x >> 8) * 0x1p-24;
-}
+/* to_unit of the hash: the digits below those of a number. */
+static double digits_of(uint32_t x) { return (sampler_hash(x) >> 8) * 0x1p-24; }
 
 static void make_weights(uint32_t n, int kind)
 {
