@@ -1,5 +1,6 @@
 /* What buys accuracy cheapest on a scene: `eclat cost`. Every rung (a way to render the scene) is rendered in independent pictures of
- * 1, 2, 4, … samples a pixel, each in replicates as `eclat render` takes them (film/schedule.h), and compared with a reference of the whole scene, within a budget of time.
+ * 1, 2, 4, … samples a pixel, each in replicates as `eclat render` takes them (film/schedule.h), and compared with a reference of the whole
+ * scene, within a budget of time.
  *
  * Definitions, the same as host/README.md's. y is luminance, M the reference's mean of it, all errors are relative to M.
  *   error(n)   root of the mean over pixels of (y - reference)^2 for one picture of n samples a pixel, the reference's own variance

@@ -95,7 +95,8 @@ static ec_result take_exr(const ec_exr *exr, ec_cost_study *study, ec_error *err
     ec_cost_reference *r = &study->reference;
     uint64_t pixels = (uint64_t)exr->width * exr->height;
     if (exr->width != study->options.width || exr->height != study->options.height)
-        return ec_fail(err, "--reference '%s' is %ux%u pixels and the study %ux%u; leave out --size or give the reference's", r->source, exr->width, exr->height, study->options.width, study->options.height);
+        return ec_fail(err, "--reference '%s' is %ux%u pixels and the study %ux%u; leave out --size or give the reference's", r->source,
+                       exr->width, exr->height, study->options.width, study->options.height);
     const float *rgb[3], *se[3], *se_y = ec_exr_plane(exr, "stderr.Y"), *samples = ec_exr_plane(exr, "samples");
     for (int c = 0; c < 3; c++) {
         rgb[c] = ec_exr_plane(exr, color[c]);

@@ -83,7 +83,8 @@ typedef struct ec_upload {
 uint32_t ec_upload_plan(const ec_scene *scene, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects);
 /* The scene's triangles and instances, as builders take them. */
 ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density);
-/* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. wave: paths in flight; 0 = what suits the device. */
+/* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. wave: paths in flight; 0 = what
+ * suits the device. */
 ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
 /* Room for films of so many pixels and batches of so many positions, which ec_pipeline_run_wave wants; what was in them is lost where they grow. */
 ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, uint64_t positions, ec_error *err);

@@ -21,7 +21,8 @@ typedef struct ec_render_state {
     double batch_end;          /* when the last one was done */
     ec_goal goal;
     uint32_t replicates;
-    uint32_t end, cut;         /* whole batches end before this one, UINT32_MAX where no number of samples ends them; and samples that batch `end` lacks, where it is wanted: else 0 */
+    uint32_t end;              /* whole batches end before this one; UINT32_MAX where no number of samples ends them */
+    uint32_t cut;              /* samples that batch `end` lacks, where it is wanted: else 0 */
     ec_film_error error;
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */

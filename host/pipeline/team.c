@@ -213,7 +213,8 @@ ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t
     uint32_t sources = 0;
     ec_team *t = *team = calloc(1, sizeof *t);
     if (!t) return ec_fail(err, "out of memory for a team of %u devices", count);
-    *t = (ec_team){.base = {.take = take, .look = look, .close = close_team}, .width = width, .replicates = replicates, .pixels = (uint64_t)width * height, .log = log};
+    *t = (ec_team){.base = {.take = take, .look = look, .close = close_team}, .width = width, .replicates = replicates,
+                    .pixels = (uint64_t)width * height, .log = log};
     pthread_mutex_init(&t->lock, NULL);
     pthread_cond_init(&t->work, NULL);
     pthread_cond_init(&t->news, NULL);

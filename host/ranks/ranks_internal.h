@@ -27,8 +27,8 @@ enum { EC_WORD_JOB, EC_WORD_HOME, EC_WORD_OVER };
 enum { EC_END_LOST };
 enum { EC_JOB_PROGRAM, EC_JOB_ROUNDS }; /* its text: rank 0's drivers; then --device, if it was given */
 
-/* A parent to one: positions [from, to) of batch `index`, or of a block of so many from there on (batch_source.h); body: that part of the list, EC_LIST_WORDS each, if there is one. Or: the job is
- * over; what is under way is given up. */
+/* A parent to one: positions [from, to) of batch `index`, or of a block of so many from there on (batch_source.h); body: that part of the
+ * list, EC_LIST_WORDS each, if there is one. Or: the job is over; what is under way is given up. */
 enum { EC_ORDER_BATCH, EC_ORDER_END };
 enum { EC_ORDER_BOX, EC_ORDER_INDEX, EC_ORDER_BATCHES, EC_ORDER_FROM, EC_ORDER_TO, EC_ORDER_FEATURES, EC_ORDER_CUT, EC_ORDER_SAMPLES };
 
