@@ -11,7 +11,7 @@
 typedef struct ec_picture {
     uint32_t width, height;
     float *rgb;        /* 3 per pixel, owned */
-    /* What is known of the error; all NULL with fewer than two replicates. Owned. */
+    /* The error of each pixel; all NULL with fewer than two replicates. Owned. */
     float *stderr_rgb; /* 3 per pixel */
     float *stderr_y;   /* 1 per pixel: of luminance */
     float *low, *high; /* 3 per pixel: 95 % interval */
@@ -25,7 +25,7 @@ typedef struct ec_picture {
 /* with_error false: what is known of the error stays NULL in any case. */
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
 
-/* The same of some rows at a time: room for as many, then row `first` and those below it. */
+/* A picture in pieces: create makes room for `rows` rows, fill writes rows [first, first + rows) of the film there. */
 ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, ec_error *err);
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
 

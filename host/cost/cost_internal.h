@@ -38,7 +38,7 @@ void ec_cost_conclude(ec_cost_row *row);
 /* reference.c */
 ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_error *err);
 ec_result ec_cost_reference_read(ec_cost_study *study, ec_error *err);
-/* Of a film of two replicates or more. */
+/* The film has two replicates or more, whose spread is the reference's own error. */
 ec_result ec_cost_reference_of(const ec_film *film, ec_cost_reference *reference, ec_error *err);
 void ec_cost_reference_free(ec_cost_reference *reference);
 

@@ -80,7 +80,7 @@ void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums)
     for (uint32_t first = 0; first < film->height; first += ROWS) {
         const uint32_t count = film->height - first < ROWS ? film->height - first : ROWS;
         memset(rows, 0, sizeof rows);
-#pragma omp parallel for if ((uint64_t)film->width * film->height > 1 << 18) /* as in sums.c */
+#pragma omp parallel for if ((uint64_t)film->width * film->height > EC_FILM_MANY)
         for (uint32_t k = 0; k < count; k++) sum_row(film, first + k, &rows[k]);
         for (uint32_t k = 0; k < count; k++) add_row(&rows[k], sums);
     }

@@ -70,10 +70,10 @@ static uint64_t piece_start(const uint32_t *places, uint64_t count, uint64_t k, 
 
 ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *places, uint32_t count, uint32_t samples, ec_error *err)
 {
-    enum { PIECES = 64, MANY = 1 << 18 }; /* as in sums.c */
+    enum { PIECES = 64 };
     uint64_t invalid = 0;
     EC_TRY(start_counting(film, err));
-#pragma omp parallel for reduction(+ : invalid) if (count > MANY)
+#pragma omp parallel for reduction(+ : invalid) if (count > EC_FILM_MANY)
     for (uint64_t k = 0; k < PIECES; k++)
         invalid += add_entries(film, batch, places, piece_start(places, count, k, PIECES), piece_start(places, count, k + 1, PIECES), samples);
     film->invalid_count += invalid;
@@ -89,7 +89,7 @@ void ec_film_add_features(ec_film *film, float **features)
         *features = NULL;
         return;
     }
-#pragma omp parallel for if (values > 1 << 18)
+#pragma omp parallel for if (pixels_of(film) > EC_FILM_MANY)
     for (uint64_t i = 0; i < values; i++) film->aov[i] = (float)(film->aov[i] + ((double)(*features)[i] - film->aov[i]) * share);
 }
 

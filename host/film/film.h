@@ -77,8 +77,8 @@ static inline uint32_t ec_film_end(const ec_film *film)
     return last ? last->first + last->count : 0;
 }
 
-/* One replicate of some pixels goes on: entry i is `samples` more samples of pixel places[i], replicate replicates[i]. Each pixel comes
- * with all its replicates, 0 first, one after the other. From now on pixels have counts of their own. */
+/* Some pixels go on: entry i is `samples` more samples of pixel places[i], replicate i % R. Each pixel comes with all its replicates, 0
+ * first, once or several times, and all its entries one after the other. From now on pixels have counts of their own. */
 ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *places, uint32_t count, uint32_t samples, ec_error *err);
 
 /* Replicates that have samples. */

@@ -14,7 +14,8 @@ typedef struct ec_intervals_of {
     float *low, *high, *heavy;
 } ec_intervals_of;
 
-/* Of rows [first, first + rows) of `height` rows of pixels, whose edges are taken for the picture's. Returns the number of heavy pixels. */
+/* Intervals of rows [first, first + rows) of `pixels`, width x height; its edges are taken for the picture's. Returns the number of heavy
+ * pixels in these rows. */
 uint64_t ec_intervals(const ec_pixel *pixels, uint32_t width, uint32_t height, uint32_t first, uint32_t rows,
                       const ec_intervals_of *out);
 

@@ -36,8 +36,6 @@ void ec_sums_add_tail(float into[3], const float next[3])
     into[2] = (float)(a2 * a2 * into[2] + b2 * b2 * next[2]);
 }
 
-enum { MANY = 1 << 18 }; /* pixels that are worth threads: idle ones spin for some milliseconds after each loop (libgomp) */
-
 /* An average of two finite floats is finite. */
 static void move(float *mean, double to, double share)
 {
@@ -60,14 +58,14 @@ uint32_t ec_sums_add_pixel(const ec_sums *s, const float *batch, uint32_t replic
 uint64_t ec_sums_add(const ec_sums *s, const float *batch, uint32_t replicate, double share, uint64_t pixels)
 {
     uint64_t invalid = 0;
-#pragma omp parallel for reduction(+ : invalid) if (pixels > MANY)
+#pragma omp parallel for reduction(+ : invalid) if (pixels > EC_FILM_MANY)
     for (uint64_t p = 0; p < pixels; p++) invalid += ec_sums_add_pixel(s, batch + EC_BATCH_FIELDS * p, replicate, share, p);
     return invalid;
 }
 
 void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, uint64_t pixels)
 {
-#pragma omp parallel for if (pixels > MANY)
+#pragma omp parallel for if (pixels > EC_FILM_MANY)
     for (uint64_t p = 0; p < pixels; p++) {
         for (uint32_t r = 0; r < into->replicates; r++)
             for (int c = 0; c < 3 && share[r] > 0; c++) move(ec_sums_mean(into, r, p) + c, ec_sums_mean(next, r, p)[c], share[r]);

@@ -10,6 +10,9 @@
 #include "film/schedule.h"
 #include "shared/params.h"
 
+/* Pixels of a film that are worth threads: idle ones spin for some milliseconds after each loop (libgomp). */
+#define EC_FILM_MANY (1u << 18)
+
 typedef struct ec_sums {
     uint32_t replicates; /* R */
     uint64_t stride;     /* pixels from one replicate's to the next's: those without samples take no memory until they have some */
@@ -28,7 +31,7 @@ static inline uint64_t ec_sums_bytes(uint32_t replicates) { return 12ull * repli
 bool ec_sums_create(ec_sums *sums, uint32_t replicates, uint64_t pixels);
 void ec_sums_destroy(ec_sums *sums); /* zero-initialised or destroyed is fine */
 
-/* The same from pixel `first` on. */
+/* A view of the pixels from `first` on; owns nothing. */
 static inline ec_sums ec_sums_from(const ec_sums *s, uint64_t first)
 {
     return (ec_sums){s->replicates, s->stride, s->mean + 3 * first, s->tail + 3 * first};

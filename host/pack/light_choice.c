@@ -46,7 +46,7 @@ bool ec_pack_wants_light_tree(const ec_pack *pack)
            && (lamps >= EC_LIGHT_TREE_MANY || spread2 * power > EC_LIGHT_TREE_SIZES * EC_LIGHT_TREE_SIZES * size2);
 }
 
-/* What is chosen by the table's entry `far - 1`, the last one before the lamps', when that has become one number longer. */
+/* Entry `far - 1` of the table, the last one before the lamps', has become one number longer: its light's probabilities follow. */
 static void note_longer(ec_pack *pack, uint32_t far)
 {
     ec_light_data *l = &pack->lights[far - 1];
@@ -88,7 +88,7 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
                            ? EC_OK
                            : ec_fail(err, "out of memory for a tree of %u lamps", lamps);
     for (uint32_t i = 0; result == EC_OK && i < pack->light_count; i++) {
-        if (!!ec_light_is_far(&pack->lights[i])) continue;
+        if (ec_light_is_far(&pack->lights[i])) continue;
         bounds[n] = ec_light_bounds_of(&pack->lights[i], pack->lights[i].pmf);
         ids[n++] = i;
     }

@@ -29,7 +29,7 @@ static void number_pixels(const ec_params *params, uint32_t *place)
 static void look_at_variances(const ec_film *film, float *variance)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
-#pragma omp parallel for if (pixels > 1 << 18)
+#pragma omp parallel for if (pixels > EC_FILM_MANY)
     for (uint64_t first = 0; first < pixels; first += EC_PIXELS) {
         const uint64_t count = pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS;
         ec_pixel piece[EC_PIXELS];
@@ -107,7 +107,7 @@ static void weigh(ec_allotment *a, const ec_film *film)
 {
     double mean = 0;
     look_at_variances(film, a->variance);
-#pragma omp parallel for if (a->pixels > 1 << 18)
+#pragma omp parallel for if (a->pixels > EC_FILM_MANY)
     for (uint32_t i = 0; i < a->pixels; i++) a->weight[i] = (float)sqrt(variance_around(film, a->variance, a->place[i]));
     for (uint32_t i = 0; i < a->pixels; i++) mean += a->weight[i] / a->pixels;
     normalise(a, mean);

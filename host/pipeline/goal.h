@@ -6,7 +6,7 @@
 
 #include "film/forecast.h"
 
-/* What is foretold of the rest. Low and high: 95 % interval. Infinite where no limit would end it. */
+/* Samples and time that the render is foretold to take. Low and high: 95 % interval. Infinite where no limit would end it. */
 typedef struct ec_forecast {
     double pilot_samples;               /* a pixel, that it is judged by; 0: there was no forecast yet */
     double pilot_seconds;

@@ -35,19 +35,27 @@ double ec_team_samples(const ec_team *t, const slot *s)
     return (double)(ec_schedule_samples(t->replicates, s->index + s->batches) - ec_schedule_samples(t->replicates, s->index)) - s->cut;
 }
 
-/* Seconds that all take for so many samples of every pixel; 0 where one's pace is not known. */
-static double seconds_for(const ec_team *t, double samples)
+/* Samples a second of all members but this one, NULL: of all; 0 where one's pace is not known. */
+static double rate_without(const ec_team *t, const member *without)
 {
     double rate = 0;
     for (uint32_t i = 0; i < t->count; i++) {
         const member *m = &t->members[i];
-        if (!m->has_failed && m->is_ready && m->rate == 0) return 0;
-        if (!m->has_failed) rate += m->rate;
+        if (m == without || m->has_failed) continue;
+        if (m->is_ready && m->rate == 0) return 0;
+        rate += m->rate;
     }
+    return rate;
+}
+
+/* Seconds that all take for so many samples of every pixel; 0 where one's pace is not known. */
+static double seconds_for(const ec_team *t, double samples)
+{
+    const double rate = rate_without(t, NULL);
     return rate > 0 ? (double)t->pixels * samples / rate : 0;
 }
 
-/* Of the smallest piece that is worth its launches, with whoever is slowest at it. */
+/* The smallest piece that is worth its launches takes so long with whoever is slowest at it. */
 static double least_seconds(const ec_team *t, double samples)
 {
     double most = 0;
@@ -176,14 +184,7 @@ static bool holds_up(const member *m, const slot *s)
 {
     const ec_team *t = m->team;
     const double samples = ec_team_samples(t, s), positions = s->count, open = fmax(t->room, ec_team_alive(t) + 1); /* one of them does not hold up */
-    double rate = 0;
-    for (uint32_t i = 0; i < t->count; i++) {
-        const member *other = &t->members[i];
-        if (other == m || other->has_failed || !other->is_ready) continue;
-        if (other->rate == 0) return false;
-        rate += other->rate;
-    }
-    return m->rate > 0 && fmin(m->seconds, samples * fmin(m->source->least, positions) / m->rate) * rate > samples * positions * open;
+    return m->rate > 0 && fmin(m->seconds, samples * fmin(m->source->least, positions) / m->rate) * rate_without(t, m) > samples * positions * open;
 }
 
 bool ec_team_find_piece(member *m)

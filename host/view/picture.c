@@ -57,7 +57,7 @@ static void judge(ec_view_picture *p, double took)
     if (p->film.cut) p->stopped_by = "spp";
 }
 
-/* Of the first batch of each replicate. */
+/* The batch, and first-hit features with the first batch of each replicate. */
 static ec_result make_room(ec_view_picture *p, float **features, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->film.width * p->film.height;

@@ -29,6 +29,18 @@ static float *draw_batch(const uint32_t *places, uint32_t count, uint32_t sample
     return batch;
 }
 
+/* Each replicate of a pixel goes on where it is: no sample is taken twice, none is left out. taken: by number, as lists have it. */
+static uint32_t count_wrong(const ec_allotment *a, const ec_pass *pass, uint32_t *taken)
+{
+    uint32_t wrong = 0;
+    for (uint32_t i = 0; i < pass->count; i++) {
+        const uint32_t *entry = a->list + EC_LIST_WORDS * i, number = entry[0];
+        wrong += number / PIXELS != i % EC_REPLICATES || a->place[number % PIXELS] != a->places[i] || entry[1] != taken[number];
+        taken[number] += pass->samples;
+    }
+    return wrong;
+}
+
 static void check_bias(void)
 {
     double sum = 0, squares = 0;
@@ -43,8 +55,12 @@ static void check_bias(void)
             CHECK_OK(ec_film_add(&film, k, draw_batch(NULL, PIXELS, ec_schedule_batch(EC_REPLICATES, k).samples), &err), err);
         CHECK_OK(ec_allot(&film, &params, &a, &err), err);
         allotted += a.weight && a.gain < 0.95;
+        static uint32_t taken[PIXELS * EC_REPLICATES];
+        for (int i = 0; i < PIXELS * EC_REPLICATES; i++) taken[i] = EC_PILOT_SAMPLES;
         for (double samples = 32; a.weight && samples < 96;) {
             const ec_pass pass = ec_allotment_pass(&a, &film, INFINITY);
+            const uint32_t wrong = count_wrong(&a, &pass, taken);
+            CHECK_MSG(wrong == 0, "%u of %u entries of a pass do not go on where their replicate is", wrong, pass.count);
             CHECK(pass.count % EC_REPLICATES == 0 && pass.count <= PIXELS * EC_REPLICATES);
             CHECK_OK(ec_film_add_some(&film, draw_batch(a.places, pass.count, pass.samples), a.places, pass.count, pass.samples, &err), err);
             samples += (double)pass.count * pass.samples / PIXELS;
