@@ -84,6 +84,8 @@ static ec_result compare(const compare_request *request, bool *differ, ec_error 
     EC_TRY_CLEANUP(check_diff(request, err));
     EC_TRY_CLEANUP(ec_compare_input_load(request->a, &a, err));
     EC_TRY_CLEANUP(ec_compare_input_load(request->b, &b, err));
+    report.why_a = a.why;
+    report.why_b = b.why;
     EC_TRY_CLEANUP(measure(request, &report, err));
     if (request->json)
         result = ec_compare_report_json(&report, stdout, err);

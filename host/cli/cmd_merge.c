@@ -9,6 +9,7 @@
 #include "cli/outputs.h"
 #include "cli/setters.h"
 #include "cli/write_outputs.h"
+#include "report/error_text.h"
 #include "report/merge_report.h"
 #include "report/names.h"
 #include "store/merge.h"
@@ -76,13 +77,17 @@ typedef struct merged {
 static ec_result write_pictures(merge_request *request, const merged *m, ec_error *err)
 {
     const ec_film *film = &m->all->film;
+    char why[EC_ERROR_TEXT];
+    ec_error_why(&m->error, why, sizeof why);
+    const bool is_bound = m->error.no_bound == EC_BOUND_STANDS;
     const ec_attribute attributes[] = {
         {.name = "eclat.command", .type = EC_ATTR_STRING, .string = m->command},
         {.name = "eclat.version", .type = EC_ATTR_STRING, .string = ECLAT_VERSION},
         {.name = "eclat.replicates", .type = EC_ATTR_INT, .number = ec_film_replicates(film)},
         {.name = "eclat.samplesPerPixel", .type = EC_ATTR_INT, .number = (double)m->samples_per_pixel},
         {.name = "eclat.error", .type = EC_ATTR_DOUBLE, .number = m->error.error},
-        {.name = "eclat.errorBound", .type = EC_ATTR_DOUBLE, .number = m->error.error_bound},
+        is_bound ? (ec_attribute){.name = "eclat.errorBound", .type = EC_ATTR_DOUBLE, .number = m->error.error_bound}
+                 : (ec_attribute){.name = "eclat.errorBoundWhy", .type = EC_ATTR_STRING, .string = why},
         {.name = "eclat.relMSE", .type = EC_ATTR_DOUBLE, .number = m->error.relmse},
         {.name = "eclat.device", .type = EC_ATTR_STRING, .string = m->all->job.device},
         {.name = "eclat.imageSha256", .type = EC_ATTR_STRING, .string = m->sha256},

@@ -12,6 +12,7 @@
 #include "cli/render_job.h"
 #include "cli/render_plan.h"
 #include "cli/write_report.h"
+#include "report/error_text.h"
 
 /* What a slice says of itself, beside its sums. */
 static ec_past past_of(const ec_render_job *job)
@@ -37,7 +38,7 @@ static ec_result tell(ec_console *console, const ec_render_job *job, const ec_re
                 (unsigned long long)job->stats.invalid_samples);
     }
     if (job->request->json) {
-        char summary[256];
+        char summary[EC_ERROR_TEXT + 128];
         ec_render_report_summary(report, summary, sizeof summary);
         ec_console_say(console, "%s", summary);
         return ec_render_report_json(report, stdout, err);
@@ -65,9 +66,7 @@ static ec_result finish_rows(ec_console *console, ec_render_job *job, ec_render_
     EC_TRY(ec_row_writer_finish(rows, &told, err));
     if (told.rows < height)
         ec_warn(&log, "the strips from row %u on are not complete: they have no samples (0 in the samples channel) and are black", told.rows);
-    job->stats.error = told.error.error;
-    job->stats.error_bound = told.error.error_bound;
-    job->stats.relmse = told.error.relmse;
+    job->stats.film = told.error;
     report->mean_luminance = told.error.mean_luminance;
     report->replicates = told.replicates;
     job->rows = NULL; /* closing frees it */

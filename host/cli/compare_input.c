@@ -81,6 +81,7 @@ ec_result ec_compare_input_load(const char *path, ec_compare_input *input, ec_er
     input->measured = (ec_measured){.width = exr.width, .height = exr.height, .rgb = input->rgb};
     for (int c = 0; c < 3; c++) input->measured.is_half |= ec_exr_is_half(path, colour[c]);
     EC_TRY_CLEANUP(take_noise(&exr, input, err));
+    input->why = ec_exr_header_text(path, "eclat.errorBoundWhy");
 cleanup:
     ec_exr_free(&exr);
     if (result != EC_OK) ec_compare_input_free(input);
@@ -92,5 +93,6 @@ void ec_compare_input_free(ec_compare_input *input)
     free(input->rgb);
     free(input->se);
     free(input->se_y);
+    free(input->why);
     *input = (ec_compare_input){0};
 }

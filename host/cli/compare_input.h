@@ -8,6 +8,7 @@
 typedef struct ec_compare_input {
     const char *path;
     ec_measured measured;       /* points into what follows */
+    char *why;                  /* owned: why the file states no bound of its error; NULL: it does, or says nothing */
     float *rgb, *se, *se_y;     /* owned; se and se_y NULL where the file has none, or only one replicate */
 } ec_compare_input;
 

@@ -45,7 +45,8 @@ void ec_progress_format(const ec_progress *progress, int columns, char *line, si
     if (isfinite(progress->error)) {
         ec_format_percent(progress->error, percent, sizeof percent);
         ec_format_percent(progress->error_bound, bound, sizeof bound);
-        snprintf(error, sizeof error, "error %s (bound %s)", percent, bound);
+        if (isfinite(progress->error_bound)) snprintf(error, sizeof error, "error %s (bound %s)", percent, bound);
+        else snprintf(error, sizeof error, "error at least %s, no bound", percent);
     }
     snprintf(text, sizeof text, "%d %%  %s  %" PRIu64 " spp  %s samples/s  %s", (int)(100 * fraction), left,
              progress->samples_per_pixel, rate, error);

@@ -19,6 +19,7 @@ struct ec_row_writer {
     ec_png_rows *png[EC_OUTPUTS_MAX];
     ec_error why;                     /* what failed first; empty: nothing */
     uint32_t width, height, replicates;
+    ec_rare rare;
     uint32_t band_rows;               /* a multiple of SEAM */
     uint32_t come, written;           /* rows */
     ec_film waiting, around;          /* the last rows that have come, at most WAITING; room for what a band looks at */
@@ -80,6 +81,7 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     w->height = height;
     w->band_rows = SEAM * CHUNKS_A_THREAD * (uint32_t)omp_get_max_threads();
     w->replicates = ec_film_replicates(film);
+    if (film->rare) w->rare = *film->rare;
     w->exposure = style->exposure;
     w->tonemap = style->tonemap;
     ec_hash_begin(&w->hash);
@@ -173,6 +175,16 @@ static void gather(const ec_row_writer *w, const ec_film *film, uint32_t from, u
     if (seam < to) ec_film_copy_rows(to_film, seam - from, film, seam - w->come, to - seam);
 }
 
+/* A film of the picture's rows from `first_row` on. */
+static void fill_band_from(ec_row_writer *w, const ec_film *film, uint32_t first_row, uint32_t first, uint32_t rows)
+{
+    ec_rare rare = w->rare;
+    ec_film here = *film;
+    rare.row = first_row;
+    here.rare = rare.count ? &rare : NULL;
+    fill_band(w, &here, first, rows);
+}
+
 /* Up to row `end`; the film's rows come after those that wait. */
 static void write_up_to(ec_row_writer *w, const ec_film *film, uint32_t end)
 {
@@ -181,12 +193,12 @@ static void write_up_to(ec_row_writer *w, const ec_film *film, uint32_t end)
         const uint32_t first = w->written, from = first < REACH ? 0 : first - REACH, most = from < w->come ? SEAM : w->band_rows;
         const uint32_t rows = end - first < most ? end - first : most, to = all - first - rows < REACH ? all : first + rows + REACH;
         if (from >= w->come) {
-            fill_band(w, film, first - w->come, rows);
+            fill_band_from(w, film, w->come, first - w->come, rows);
         } else {
             gather(w, film, from, to, &w->around);
             ec_film around = w->around;
             around.height = to - from;
-            fill_band(w, &around, first - from, rows);
+            fill_band_from(w, &around, from, first - from, rows);
         }
         write_band(w);
     }
@@ -253,7 +265,7 @@ ec_result ec_row_writer_finish(ec_row_writer *w, ec_rows_told *told, ec_error *e
     }
     free(no_features);
     *told = (ec_rows_told){.rows = w->come, .replicates = w->replicates, .heavy = w->heavy};
-    told->error = ec_film_error_of(&w->sums, (double)w->width * w->height, w->replicates);
+    told->error = ec_film_error_of(&w->sums, (double)w->width * w->height, w->replicates, &w->rare);
     if (!is_whole) told->error.error = told->error.error_bound = told->error.relmse = INFINITY;
     ec_hash_end(&w->hash, told->sha256);
     return EC_OK;

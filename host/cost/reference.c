@@ -68,6 +68,22 @@ ec_result ec_cost_reference_of(const ec_film *film, ec_cost_reference *r, ec_err
     return finish(r, pixels, err);
 }
 
+static ec_result foretell(ec_cost_runner *runner, ec_film *film, ec_error *err)
+{
+    ec_rare rare;
+    EC_TRY(ec_session_foretell(runner->session, &rare, err));
+    return ec_film_set_rare(film, &rare, err);
+}
+
+/* What the reference has not met no rung will. */
+static void warn_of_rare_paths(const ec_cost_study *study, const ec_film *film)
+{
+    const ec_film_error e = ec_film_estimate_error(film);
+    if (e.no_bound == EC_BOUND_STANDS) return;
+    ec_warn(study->log, "the reference has no bound of its error: rare bright paths (%s%s%sto %s) are hardly met yet; all errors are without their light",
+            *e.through ? "through \"" : "straight ", e.through, *e.through ? "\" " : "", e.light);
+}
+
 ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_error *err)
 {
     const ec_render_options *o = &study->options;
@@ -79,9 +95,11 @@ ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_err
     ec_result result = ec_cost_runner_open(study, &rung, &runner, &stats, &r->setup_seconds, err);
     double start = ec_now();
     if (result == EC_OK && !runner.stopped) result = ec_film_create(&film, o->width, o->height, ec_render_replicates(o), err);
+    if (result == EC_OK && film.width) result = foretell(&runner, &film, err);
     if (result == EC_OK && film.width) result = take_batches(&runner, &film, deadline, err);
     if (result == EC_OK && film.batch_count < 2) study->interrupted = true; /* nothing can be said of anything */
     if (result == EC_OK && film.batch_count >= 2) result = ec_cost_reference_of(&film, r, err);
+    if (result == EC_OK && film.batch_count >= 2) warn_of_rare_paths(study, &film);
     r->seconds = ec_now() - start;
     ec_film_destroy(&film);
     ec_cost_runner_close(&runner);

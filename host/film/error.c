@@ -41,7 +41,10 @@ static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
 {
     const double n = p->n, s2 = ec_pixel_se2(p, 3), s4 = s2 * s2;
     const double v2 = n >= 4 ? squared_variance(n, p->m2[3], p->m4) / (n * n) : s4;
-    sums->luminance += ec_luminance(p->mean);
+    const double y = ec_luminance(p->mean), excess = fmax(p->tail[0] - (1 + 1e-6) * y, 0); /* the largest is a float: steady pixels have none */
+    sums->luminance += y;
+    sums->samples += p->samples;
+    ec_tail_add(&sums->tail, excess / fmax(p->samples, 1));
     sums->s2 += s2;
     sums->s4 += s4;
     sums->v4 += v2;
@@ -70,6 +73,8 @@ static void add_row(const ec_error_sums *row, ec_error_sums *sums)
     sums->relative += row->relative;
     sums->v4 += row->v4;
     sums->v8 += row->v8;
+    sums->samples += row->samples;
+    ec_tail_join(&sums->tail, &row->tail);
 }
 
 /* Rows by all threads, and their sums in order: the same bits for any number of threads, and of strips. */
@@ -109,7 +114,24 @@ double ec_film_error_bound(double square, double noisy_pixels, double pixels, do
     return sqrt(square * (1 + hypot(from_pixels, from_mean)));
 }
 
-ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates)
+/* No bound where light may be there that its samples do not show, or where those that do are too few to tell. */
+static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare, ec_film_error *e)
+{
+    const ec_rare_kind *kind;
+    const double unmet = ec_rare_unmet(rare, sums->samples, &kind), mean = e->mean_luminance;
+    double few = 0;
+    for (uint32_t i = 0; i < EC_TAIL_FEW && i < sums->tail.count; i++) few += sums->tail.largest[i] * sums->tail.largest[i];
+    e->unmet = sqrt(unmet) / mean;
+    e->unmet_samples = kind ? EC_RARE_MET / kind->chance / pixels : 0;
+    e->bound_if_met = e->error_bound;
+    e->tail_share = sums->s2 > 0 ? fmin(few / sums->s2, 1) : 0;
+    e->tail_shape = ec_tail_shape(&sums->tail);
+    if (hypot(e->error, EC_RARE_DOUBT * e->unmet) > e->error_bound) e->no_bound = EC_NO_BOUND_RARE;
+    if (kind) memcpy(e->through, kind->through, sizeof e->through), memcpy(e->light, kind->light, sizeof e->light);
+    if (e->no_bound != EC_BOUND_STANDS) e->error_bound = INFINITY;
+}
+
+ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare)
 {
     ec_film_error result = {.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
     double n = replicates;
@@ -120,12 +142,16 @@ ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_
     double square = sums->s2 / pixels / (mean * mean);
     result.error = sqrt(square);
     result.error_bound = 0;
-    if (square == 0) return result;
+    if (square == 0) {
+        judge(sums, pixels, rare, &result);
+        return result;
+    }
     double nu = result.noisy_pixels = effective_pixels(sums, n, pixels);
     /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */
     double variance = n >= 4 ? fmax(sums->s4 - sums->v4, 0) : sums->s4 * 2 / (n + 1);
     result.spread = sqrt(variance) / sums->s2;
     result.error_bound = ec_film_error_bound(square, nu, pixels, n);
+    judge(sums, pixels, rare, &result);
     return result;
 }
 
@@ -134,5 +160,5 @@ ec_film_error ec_film_estimate_error(const ec_film *film)
     ec_error_sums sums = {0};
     const uint32_t replicates = ec_film_replicates(film);
     if (replicates) ec_film_sum_errors(film, &sums);
-    return ec_film_error_of(&sums, (double)film->width * film->height, replicates);
+    return ec_film_error_of(&sums, (double)film->width * film->height, replicates, film->rare);
 }

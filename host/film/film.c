@@ -20,7 +20,16 @@ void ec_film_destroy(ec_film *film)
     free(film->aov);
     free(film->unsampled);
     free(film->counts);
+    free(film->rare);
     *film = (ec_film){0};
+}
+
+ec_result ec_film_set_rare(ec_film *film, const ec_rare *rare, ec_error *err)
+{
+    free(film->rare);
+    film->rare = rare && rare->count ? malloc(sizeof *rare) : NULL;
+    if (film->rare) *film->rare = *rare;
+    return film->rare || !rare || !rare->count ? EC_OK : ec_fail(err, "out of memory for what is foretold of rare paths");
 }
 
 double ec_film_samples_of_all(const ec_film *film)
@@ -101,6 +110,7 @@ ec_result ec_film_create_like(ec_film *film, const ec_film *like, uint32_t rows,
     film->cut = like->cut;
     film->aov_batches = like->aov_batches;
     memcpy(film->samples, like->samples, sizeof film->samples);
+    EC_TRY(ec_film_set_rare(film, like->rare, err));
     film->parts = calloc((size_t)like->part_count + 1, sizeof *film->parts);
     bool made = film->parts != NULL;
     for (uint32_t i = 0; made && i < like->part_count; i++) {

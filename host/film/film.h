@@ -11,6 +11,8 @@
 
 #include "base/error.h"
 #include "film/parts.h"
+#include "film/rare.h"
+#include "film/tail.h"
 
 /* Relative luminance of linear Rec.709 colour (IEC 61966-2-1); the weights sum to 1. */
 static inline double ec_luminance(const double rgb[3])
@@ -34,10 +36,14 @@ typedef struct ec_film {
     uint8_t *unsampled;
     ec_film_part *parts;          /* by `first`, no two with batches in common; a single one where pixels have counts. Owned */
     uint32_t part_count;
+    ec_rare *rare;                /* light that hardly any sample meets; NULL: there is none, or nobody has looked. Owned */
 } ec_film;
 
 ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_t replicates, ec_error *err);
 void ec_film_destroy(ec_film *film); /* zero-initialised or destroyed films are fine */
+
+/* A copy of it, in place of what there was; NULL: none. */
+ec_result ec_film_set_rare(ec_film *film, const ec_rare *rare, ec_error *err);
 
 /* Adds a batch that is not there yet, EC_BATCH_FIELDS floats a pixel; the order in which they come makes no difference. What is not finite
  * counts as 0. Not where pixels have counts. */
@@ -93,13 +99,27 @@ static inline uint32_t ec_film_replicates(const ec_film *film)
 double ec_film_samples(const ec_film *film, uint64_t p);
 double ec_film_samples_of_all(const ec_film *film);
 
+/* Why there is no bound. */
+typedef enum ec_no_bound {
+    EC_BOUND_STANDS,  /* there is one, or no error to be bound */
+    EC_NO_BOUND_RARE, /* light that hardly any sample has met may decide */
+    EC_NO_BOUND_TAIL  /* a few bright samples decide */
+} ec_no_bound;
+
 typedef struct ec_film_error {
     double mean_luminance;   /* of the image */
     /* Relative RMS standard error. Infinity with fewer than 2 replicates, and for a black image: its relative error is
      * undefined, and having seen no light yet is no evidence that there is none. 0 only for a lit image whose replicates
      * all agree. Never NaN. */
     double error;
-    double error_bound;      /* 95 % upper bound; infinity when error is. Wants 4 replicates or more, see film/error.c */
+    double error_bound;      /* 95 % upper bound; infinity when error is, and where no_bound says why. Wants 4 replicates or more, see film/error.c */
+    ec_no_bound no_bound;
+    double bound_if_met;     /* what the bound would be if no light were missing */
+    double unmet;            /* the relative RMS error that there is where light that may not have been met was not (film/rare.h) */
+    double unmet_samples;    /* a pixel, that it would take to expect EC_RARE_MET of those paths; 0: nothing is missing */
+    double tail_share;       /* part of the noise that the EC_TAIL_FEW largest samples hold */
+    double tail_shape;       /* of the generalised Pareto distribution that fits the largest ones (film/tail.h) */
+    char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* of the rare paths; empty: not known */
     double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/error.c */
     double spread;           /* standard error of ln(error^2); over 0.3 a few rare events decide */
     /* What noise alone makes of mean((x - r)^2 / (r + 0.01)^2) over pixels and channels, r the converged image: SE^2 in
@@ -114,12 +134,14 @@ ec_film_error ec_film_estimate_error(const ec_film *film);
 typedef struct ec_error_sums {
     double luminance, s2, s4; /* s2: s^2 / n, the variance of a pixel's mean */
     double relative;          /* of SE^2 / (x + 0.01)^2, all channels */
+    double samples;
+    ec_tail tail;             /* by how much the largest sample of each pixel moved its mean */
     double v4, v8;            /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
 } ec_error_sums;
 void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums);
 
-/* The error of so many pixels that have `replicates` replicates each. */
-ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates);
+/* The error of so many pixels that have `replicates` replicates each. rare: as ec_film's. */
+ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare);
 
 /* The bound of an error whose square is `square`. */
 double ec_film_error_bound(double square, double noisy_pixels, double pixels, double replicates);

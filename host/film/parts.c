@@ -229,6 +229,7 @@ ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err)
     from->part_count = 0;
     film->cut += from->cut;
     film->invalid_count += from->invalid_count;
+    if (!film->rare) film->rare = from->rare, from->rare = NULL;
     if (film->aov) return EC_OK;
     film->aov = from->aov;
     film->aov_batches = from->aov_batches;

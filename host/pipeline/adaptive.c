@@ -14,8 +14,8 @@
 #define MOST 24.0       /* of the mean */
 #define WORTH_IT 0.95
 
-/* As kernels/lib/film.h numbers pixels: tile by tile. */
-static void number_pixels(const ec_params *params, uint32_t *place)
+/* Tile by tile, as kernels/lib/film.h has it. */
+void ec_number_pixels(const ec_params *params, uint32_t *place)
 {
     const uint32_t tile = 8, width = params->width, height = params->height;
     uint32_t number = 0;
@@ -91,7 +91,7 @@ static ec_result allocate(ec_allotment *a, const ec_params *params, ec_error *er
         return ec_fail(err, "out of memory for the allotment of samples to %u pixels; give --adaptive off",
                        params->width * params->height);
     }
-    number_pixels(params, a->place);
+    ec_number_pixels(params, a->place);
     return EC_OK;
 }
 

@@ -14,6 +14,7 @@ typedef struct ec_forecast {
     double seconds, seconds_low, seconds_high; /* of rendering, in all */
     double error_bound;                 /* of the image then; infinite where it is not known */
     double slope;                       /* error^2 falls as samples^-slope: 1 for independent samples */
+    bool is_open;                       /* rare bright paths decide (film/rare.h): no error can be foretold */
     double spread;                      /* relative uncertainty of error^2: over 0.3 a few pixels hold most of it */
 } ec_forecast;
 
@@ -32,6 +33,7 @@ typedef struct ec_goal {
     double took, squares, timed;        /* of batches but for the first: seconds, seconds^2 a sample, samples */
     ec_slope slope;
     ec_film_error now;                  /* of the last round */
+    bool is_withheld;                   /* the error's limit would be met, if there were a bound */
     ec_forecast forecast, pilot;        /* of now; the first one */
 } ec_goal;
 

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "pipeline/adaptive.h"
+#include "pipeline/rare_paths.h"
 #include "pipeline/render_state.h"
 
 /* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
@@ -48,6 +49,7 @@ static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *er
     const ec_pipeline *alone = ec_sources_alone(&r->sources);
     if (alone) EC_TRY(ec_render_choose_rows(r, log, err));
     if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, r->replicates, err));
+    if (!r->strip_rows) EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
     if (!alone) return EC_OK;
     if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
     r->stats->wave = alone->wave;
@@ -80,6 +82,20 @@ static uint32_t largest_batch(const ec_render_state *r)
     return is_known ? ec_schedule_batch(r->replicates, r->end ? r->end - (r->cut == 0) : 0).samples : EC_BATCH_MOST;
 }
 
+/* Loads the devices, and has a first look at the picture's paths. */
+static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *err)
+{
+    ec_rare_lights lights = {0};
+    ec_result result = EC_OK;
+    if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same ways whatever the sample */
+        result = ec_rare_lights_find(&r->sources.cargo.pack, &lights, err);
+    if (result == EC_OK) result = ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err);
+    ec_pipeline *first = result == EC_OK ? ec_sources_first(&r->sources) : NULL;
+    if (first) result = ec_rare_paths_foretell(&lights, first, &r->rare, err);
+    ec_rare_lights_free(&lights);
+    return result;
+}
+
 static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene,
                         const ec_log *log, ec_error *err)
 {
@@ -96,7 +112,7 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
     if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err));
-    EC_TRY(ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err));
+    EC_TRY(open_sources(r, log, err));
     if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);
     return choose_film(r, log, err);
 }

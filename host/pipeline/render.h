@@ -106,7 +106,7 @@ typedef struct ec_render_stats {
     double first_pixel_seconds;   /* from ec_render's start to the first finished wave */
     uint64_t samples_per_pixel, samples, rays; /* samples: in the film; rays: those of a batch that was given up too */
     double samples_per_second, rays_per_second;
-    double error, error_bound, relmse; /* see film/film.h */
+    ec_film_error film;           /* the error, its bound, or why there is none */
     ec_forecast forecast;         /* the pilot's */
     double allotment_gain;        /* adaptive: error^2 over uniform sampling's, foretold; 1 where there was nothing to gain */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;

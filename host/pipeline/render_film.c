@@ -207,8 +207,19 @@ static ec_result allot(ec_render_state *r, ec_error *err)
     return EC_OK;
 }
 
+/* Once: why the render goes on though its samples would do. */
+static void note_withheld(ec_render_state *r, const ec_log *log)
+{
+    const ec_film_error *e = &r->error;
+    if (!r->goal.is_withheld || r->is_withheld_noted) return;
+    r->is_withheld_noted = true;
+    ec_note(log, "the samples so far would do for --error %g, but there is no bound: rare bright paths (%s%s%sto %s) are hardly met yet; the render goes on%s",
+            r->goal.error, *e->through ? "through \"" : "straight ", e->through, *e->through ? "\" " : "", e->light,
+            r->goal.samples > 0 || r->goal.seconds > 0 ? " to its other limits" : ", and has no other limit: --spp or --time sets one");
+}
+
 /* After a batch: is it enough? */
-static ec_result judge(ec_render_state *r, ec_error *err)
+static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     const bool at_round = is_round(r);
     const ec_mark at = ec_render_mark(r);
@@ -216,6 +227,7 @@ static ec_result judge(ec_render_state *r, ec_error *err)
     if (at_round) {
         r->error = ec_film_estimate_error(r->film);
         ec_goal_round(&r->goal, &r->error, at);
+        if (has_pilot(r)) note_withheld(r, log);
         EC_TRY(allot(r, err));
         const bool is_new = r->past.allotment.weight && !r->film->counts;
         if (has_pilot(r)) ec_goal_foretell(&r->goal, at, is_new ? r->past.allotment.gain : 1.0);
@@ -237,7 +249,7 @@ static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err
     if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
     EC_TRY(add_batch(r, complete, err));
     if (!complete) return EC_OK;
-    EC_TRY(judge(r, err));
+    EC_TRY(judge(r, log, err));
     if (r->stopped_by) return EC_OK;
     const double now = ec_now(), not_asked = r->source->batches > 1 ? now - start : 0.0; /* the next one may take as long, and keeps nothing */
     if (now + not_asked - r->kept_at >= r->course->every) keep(r, 0);

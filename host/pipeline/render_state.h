@@ -24,6 +24,8 @@ typedef struct ec_render_state {
     uint32_t end;              /* whole batches end before this one; UINT32_MAX where no number of samples ends them */
     uint32_t cut;              /* samples that batch `end` lacks, where it is wanted: else 0 */
     ec_film_error error;
+    bool is_withheld_noted;
+    ec_rare rare;              /* foretold before the first sample */
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
     ec_batch_order order;      /* the batch under way */

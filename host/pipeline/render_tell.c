@@ -52,9 +52,7 @@ void ec_render_finish_stats(ec_render_state *r)
     s->rays = r->rays_before + r->source->rays;
     s->samples_per_second = s->seconds > 0.0 ? (double)s->samples / s->seconds : 0.0;
     s->rays_per_second = s->seconds > 0.0 ? (double)s->rays / s->seconds : 0.0;
-    s->error = r->error.error;
-    s->error_bound = r->error.error_bound;
-    s->relmse = r->error.relmse;
+    s->film = r->error;
     s->trace_seconds = r->source->clocked_rays > 0
                            ? r->source->clocked_seconds / r->source->clocked_rays * (double)s->rays
                            : s->seconds;

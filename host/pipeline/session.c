@@ -6,11 +6,13 @@
 #include "base/clock.h"
 #include "base/random.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/rare_paths.h"
 
 struct ec_session {
     ec_pipeline pipeline;
     ec_render_options options;
     ec_insides insides;          /* what a camera can be inside of */
+    ec_rare_lights lights;
     ec_environment environment;  /* its turn as the scene has it; no picture */
     double rate;                 /* samples a second of the last waves; 0: not known */
     float *room;                 /* for a batch, where its colours alone are wanted; and for how many pixels */
@@ -28,6 +30,7 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     ec_result result = ec_cargo_make(scene, options, largest, 1u << ec_device_kind_of(&cl->info), &cargo, stats, err);
     s->insides = cargo.insides;
     cargo.insides = (ec_insides){0};
+    if (result == EC_OK && options->integrator == EC_INTEGRATOR_PATH) result = ec_rare_lights_find(&cargo.pack, &s->lights, err);
     if (result == EC_OK) result = ec_pipeline_create(cl, &cargo, &cargo, &s->pipeline, stats, err);
     ec_cargo_free(&cargo);
     const uint64_t pixels = (uint64_t)options->width * options->height;
@@ -48,6 +51,7 @@ void ec_session_close(ec_session *session)
     if (!session) return;
     ec_pipeline_destroy(&session->pipeline);
     ec_insides_free(&session->insides);
+    ec_rare_lights_free(&session->lights);
     free(session->room);
     free(session);
 }
@@ -72,6 +76,11 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
     const uint64_t pixels = (uint64_t)view->width * view->height;
     EC_TRY(ec_pipeline_fit_films(p, pixels, pixels, err));
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
+}
+
+ec_result ec_session_foretell(ec_session *s, ec_rare *rare, ec_error *err)
+{
+    return ec_rare_paths_foretell(&s->lights, &s->pipeline, rare, err);
 }
 
 static ec_result set_batch(ec_pipeline *p, const ec_session_batch *batch, ec_error *err)

@@ -76,6 +76,13 @@ ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_allies *allies,
 
 const ec_pipeline *ec_sources_alone(const ec_sources *s) { return s->team ? NULL : &s->recruits->source.pipeline; }
 
+ec_pipeline *ec_sources_first(ec_sources *s)
+{
+    for (uint32_t i = 0; i < s->count; i++)
+        if (!s->team || ec_team_is_ready(s->team, i)) return &s->recruits[i].source.pipeline;
+    return NULL;
+}
+
 static void tell_shares(const ec_sources *s, ec_render_stats *stats)
 {
     const double pixels = (double)s->cargo.head.params.width * s->cargo.head.params.height;

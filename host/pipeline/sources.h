@@ -58,6 +58,9 @@ ec_result ec_sources_open(ec_sources *sources, uint64_t seed, const ec_allies *a
 /* The pipeline of a device that is alone, once it is loaded; NULL: there are several. */
 const ec_pipeline *ec_sources_alone(const ec_sources *sources);
 
+/* That of the first device that is loaded, of several too, while nothing is ordered; NULL: there is none. */
+ec_pipeline *ec_sources_first(ec_sources *sources);
+
 /* stats gets what is known of the devices then. */
 void ec_sources_close(ec_sources *sources, ec_render_stats *stats);
 

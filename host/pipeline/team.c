@@ -89,6 +89,14 @@ void ec_team_wait(ec_team *t, uint32_t count)
     pthread_mutex_unlock(&t->lock);
 }
 
+bool ec_team_is_ready(ec_team *t, uint32_t member)
+{
+    pthread_mutex_lock(&t->lock);
+    const bool is_ready = t->members[member].is_ready && !t->members[member].has_failed;
+    pthread_mutex_unlock(&t->lock);
+    return is_ready;
+}
+
 /* Until nobody is at work. */
 static void stop(ec_team *t)
 {

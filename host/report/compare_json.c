@@ -7,13 +7,15 @@ static void add_three(cJSON *root, const char *key, const double *values)
     for (int i = 0; i < 3; i++) cJSON_AddItemToArray(array, cJSON_CreateNumber(values[i]));
 }
 
-static void add_picture(cJSON *root, const char *key, const char *path, const ec_measured *image, double mean)
+static void add_picture(cJSON *root, const char *key, const char *path, const char *why, const ec_measured *image, double mean)
 {
     cJSON *object = cJSON_AddObjectToObject(root, key);
     ec_json_text(object, "path", path);
     ec_json_real(object, "mean_luminance", mean);
     cJSON_AddBoolToObject(object, "standard_errors", image->se != NULL);
     ec_json_real(object, "replicates", image->se ? image->replicates : INFINITY);
+    if (why) ec_json_text(object, "error_bound_why", why);
+    else cJSON_AddNullToObject(object, "error_bound_why");
 }
 
 static void add_place(cJSON *root, const char *key, const ec_noise_place *place)
@@ -44,8 +46,8 @@ ec_result ec_compare_report_json(const ec_compare_report *report, FILE *to, ec_e
 {
     const ec_difference *d = &report->difference;
     cJSON *root = cJSON_CreateObject();
-    add_picture(root, "a", report->path_a, report->a, d->mean_a);
-    add_picture(root, "b", report->path_b, report->b, d->mean_b);
+    add_picture(root, "a", report->path_a, report->why_a, report->a, d->mean_a);
+    add_picture(root, "b", report->path_b, report->why_b, report->b, d->mean_b);
     ec_json_whole(root, "width", report->a->width);
     ec_json_whole(root, "height", report->a->height);
     cJSON_AddBoolToObject(root, "differ", report->differ);

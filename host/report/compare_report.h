@@ -12,6 +12,7 @@
 typedef struct ec_compare_report {
     const char *path_a, *path_b;
     const ec_measured *a, *b;
+    const char *why_a, *why_b;   /* why the file states no bound of its error; NULL: it does, or says nothing */
     ec_difference difference;
     bool tested;                 /* at least one of them has standard errors */
     ec_noise_test test;

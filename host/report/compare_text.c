@@ -91,6 +91,12 @@ static void print_verdict(const ec_compare_report *report, FILE *to)
         fprintf(to, "they differ in %" PRIu64 " pixel%s; whether that is noise cannot be told\n", unequal, unequal == 1 ? "" : "s");
 }
 
+/* What the verdict does not know of. */
+static void print_unbound(char name, const char *why, FILE *to)
+{
+    if (why) fprintf(to, "no bound  %c may lack light that shows in no standard error: %s\n", name, why);
+}
+
 void ec_compare_report_text(const ec_compare_report *report, FILE *to)
 {
     fprintf(to, "A         %s\nB         %s, the reference; %ux%u pixels\n", report->path_a, report->path_b,
@@ -101,4 +107,6 @@ void ec_compare_report_text(const ec_compare_report *report, FILE *to)
     print_noise(report, to);
     if (report->tested && report->difference.unequal > 0) print_test(&report->test, to);
     print_verdict(report, to);
+    print_unbound('A', report->why_a, to);
+    print_unbound('B', report->why_b, to);
 }

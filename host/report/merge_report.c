@@ -2,18 +2,18 @@
 
 #include <math.h>
 
-#include "report/format.h"
+#include "report/error_text.h"
 #include "report/json.h"
 
 void ec_merge_report_text(const ec_merge_report *r, FILE *to)
 {
-    char error[32], bound[32];
+    char error[EC_ERROR_TEXT], help[EC_ERROR_TEXT];
     fprintf(to, "%d %s, %llu samples a pixel in %llu replicates\n", r->files, r->files == 1 ? "file" : "files",
             (unsigned long long)r->samples_per_pixel, (unsigned long long)r->replicates);
     if (isfinite(r->error.error)) {
-        ec_format_percent(r->error.error, error, sizeof error);
-        ec_format_percent(r->error.error_bound, bound, sizeof bound);
-        fprintf(to, "error %s of the mean luminance a pixel, with 95 %% confidence under %s\n", error, bound);
+        ec_error_text(&r->error, error, sizeof error);
+        ec_error_help(&r->error, help, sizeof help);
+        fprintf(to, "%s\n%s%s%s", error, *help ? "helps: " : "", help, *help ? "\n" : "");
     }
     for (int i = 0; i < r->output_count; i++) fprintf(to, "%s\n", r->outputs[i]);
 }
@@ -27,6 +27,7 @@ ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err
     ec_json_whole(object, "replicates", r->replicates);
     ec_json_real(object, "error", r->error.error);
     ec_json_real(object, "error_bound", r->error.error_bound);
+    ec_error_json(object, &r->error);
     ec_json_real(object, "relmse", r->error.relmse);
     ec_json_real(object, "mean_luminance", r->error.mean_luminance);
     ec_json_whole(object, "heavy_pixels", r->heavy_pixels);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "report/effects_report.h"
+#include "report/error_text.h"
 #include "report/format.h"
 #include "report/names.h"
 #include "report/render_report.h"
@@ -146,9 +147,12 @@ static void add_result(ec_report_attributes *attributes, const ec_render_report 
     if (stats->strips > 1) add_whole(attributes, "eclat.strips", stats->strips);
     add_effects(attributes, &stats->effects);
     add_real(attributes, "eclat.seconds", stats->seconds);
-    add_real(attributes, "eclat.error", stats->error);
-    add_real(attributes, "eclat.errorBound", stats->error_bound);
-    add_real(attributes, "eclat.relMSE", stats->relmse);
+    add_real(attributes, "eclat.error", stats->film.error);
+    if (stats->film.no_bound == EC_BOUND_STANDS) add_real(attributes, "eclat.errorBound", stats->film.error_bound);
+    char why[EC_ERROR_TEXT];
+    ec_error_why(&stats->film, why, sizeof why);
+    if (*why) add_made(attributes, "eclat.errorBoundWhy", "%s", why);
+    add_real(attributes, "eclat.relMSE", stats->film.relmse);
     if (report->replicates >= 2) add_whole(attributes, "eclat.heavyPixels", report->heavy_pixels);
     add_text(attributes, "eclat.stoppedBy", stats->stopped_by);
     add_whole(attributes, "eclat.invalid", stats->invalid_samples);

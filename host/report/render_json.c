@@ -1,5 +1,6 @@
 #include "report/device_report.h"
 #include "report/effects_report.h"
+#include "report/error_text.h"
 #include "report/format.h"
 #include "report/json.h"
 #include "report/names.h"
@@ -76,9 +77,10 @@ static void add_result(cJSON *root, const ec_render_report *report)
     ec_json_whole(root, "rays", stats->rays);
     ec_json_real(root, "samples_per_second", stats->samples_per_second);
     ec_json_real(root, "rays_per_second", stats->rays_per_second);
-    ec_json_real(root, "error", stats->error);
-    ec_json_real(root, "error_bound", stats->error_bound);
-    ec_json_real(root, "relmse", stats->relmse);
+    ec_json_real(root, "error", stats->film.error);
+    ec_json_real(root, "error_bound", stats->film.error_bound);
+    ec_error_json(root, &stats->film);
+    ec_json_real(root, "relmse", stats->film.relmse);
     if (report->replicates >= 2)
         ec_json_whole(root, "heavy_pixels", report->heavy_pixels);
     else

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "report/effects_report.h"
+#include "report/error_text.h"
 #include "report/forecast_text.h"
 #include "report/format.h"
 #include "report/render_report.h"
@@ -10,16 +11,12 @@
 void ec_render_report_summary(const ec_render_report *report, char *text, size_t size)
 {
     const ec_render_stats *stats = report->stats;
-    char error[96] = "error unknown", percent[32], bound[32], seconds[32], rate[32];
-    if (isfinite(stats->error)) {
-        ec_format_percent(stats->error, percent, sizeof percent);
-        ec_format_percent(stats->error_bound, bound, sizeof bound);
-        snprintf(error, sizeof error, "error %s (95 %% bound %s)", percent, bound);
-    }
+    char error[EC_ERROR_TEXT], seconds[32], rate[32];
+    ec_error_text(&stats->film, error, sizeof error);
     if (report->replicates < 2) snprintf(error, sizeof error, "error unknown (it takes two samples a pixel)");
     ec_format_seconds(stats->seconds, seconds, sizeof seconds);
     ec_format_count(stats->samples_per_second, rate, sizeof rate);
-    snprintf(text, size, "%s at %" PRIu64 " samples a pixel in %s, %s samples/s", error, stats->samples_per_pixel,
+    snprintf(text, size, "%s: %s at %" PRIu64 " samples a pixel in %s, %s samples/s", ec_error_grade(&stats->film), error, stats->samples_per_pixel,
              seconds, rate);
 }
 
@@ -37,7 +34,7 @@ static void print_shared(const ec_render_stats *stats, FILE *to)
 
 void ec_frame_report_text(const ec_render_report *report, FILE *to)
 {
-    char summary[256];
+    char summary[EC_ERROR_TEXT + 128];
     ec_render_report_summary(report, summary, sizeof summary);
     fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
     for (int i = 0; i < report->output_count; i++) fprintf(to, "%s %s", i ? "," : " →", report->outputs[i]);
@@ -45,15 +42,35 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     if (report->verbose) print_shared(report->stats, to);
 }
 
-/* How far the stated error can be trusted. Nothing to say without an error, or where every pixel can be. */
+/* What four times the samples would bring, by the slope that the pilot has shown. */
+static void format_more(const ec_render_stats *stats, char *text, size_t size)
+{
+    const double slope = stats->forecast.slope > 0 ? stats->forecast.slope : 1;
+    char error[32];
+    ec_format_percent(stats->film.error * pow(4, -slope / 2), error, sizeof error);
+    *text = 0;
+    if (isfinite(stats->film.error) && stats->film.no_bound == EC_BOUND_STANDS)
+        snprintf(text, size, "; 4 times the samples would bring the picture's error to some %s", error);
+}
+
+/* Which pixels' own errors can be trusted. Nothing to say without an error, or where every pixel's can. */
 static void print_heavy(const ec_render_report *report, FILE *to)
 {
     if (report->replicates < 2 || report->heavy_pixels == 0) return;
-    char share[32];
+    char share[32], more[96];
     double pixels = (double)report->options->width * report->options->height;
     ec_format_percent((double)report->heavy_pixels / pixels, share, sizeof share);
-    fprintf(to, "heavy    heavy-tailed: %" PRIu64 " pixel%s (%s), %s error is a lower bound\n", report->heavy_pixels,
-            report->heavy_pixels == 1 ? "" : "s", share, report->heavy_pixels == 1 ? "its" : "their");
+    format_more(report->stats, more, sizeof more);
+    fprintf(to, "pixels   %" PRIu64 " (%s) want more samples for an error of their own (channel heavy): theirs is at least what is stated%s\n",
+            report->heavy_pixels, share, more);
+}
+
+/* What would bring a bound. */
+static void print_help(const ec_film_error *error, FILE *to)
+{
+    char help[EC_ERROR_TEXT];
+    ec_error_help(error, help, sizeof help);
+    if (*help) fprintf(to, "helps    %s\n", help);
 }
 
 static void print_effects(const ec_render_effects *effects, FILE *to)
@@ -89,13 +106,14 @@ static const char *stop_in_words(const char *stopped_by)
 void ec_render_report_text(const ec_render_report *report, FILE *to)
 {
     const ec_render_stats *stats = report->stats;
-    char summary[256], rays[32], memory[32], received[32];
+    char summary[EC_ERROR_TEXT + 128], rays[32], memory[32], received[32];
     for (int i = 0; i < report->output_count; i++) fprintf(to, "picture  %s\n", report->outputs[i]);
     ec_render_report_summary(report, summary, sizeof summary);
     ec_format_count(stats->rays_per_second, rays, sizeof rays);
     ec_format_bytes(report->peak_memory_bytes, memory, sizeof memory);
     ec_format_bytes(stats->allied_bytes, received, sizeof received);
     fprintf(to, "result   %s, %s rays/s\n", summary, rays);
+    print_help(&stats->film, to);
     if (stats->forecast.pilot_samples > 0) {
         char forecast[256];
         ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);

@@ -19,6 +19,7 @@ typedef struct ec_state_film {
     uint64_t invalid_count;
     ec_film_part *parts; /* without sums; malloc'ed */
     bool has_counts, has_weights;
+    ec_rare rare;
 } ec_state_film;
 ec_result ec_state_read(const char *text, const char *path, ec_stored *stored, ec_state_film *film, ec_error *err);
 

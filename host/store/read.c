@@ -126,6 +126,9 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
                          path);
     else result = ec_state_read(text, path, s, &state, err);
     if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.replicates, err);
+    state.rare.width = width;
+    state.rare.height = height;
+    if (result == EC_OK) result = ec_film_set_rare(&s->film, &state.rare, err);
     if (result == EC_OK) result = read_parts(file, path, &state, &s->film, err);
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);

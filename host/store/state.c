@@ -7,8 +7,9 @@
 #include <string.h>
 
 #include "store/layout.h"
+#include "store/rare_state.h"
 
-enum { FORMAT = 2 };
+enum { FORMAT = 3 };
 
 static void add_count(cJSON *object, const char *name, uint64_t value)
 {
@@ -72,6 +73,7 @@ static void add_film(cJSON *state, const ec_film *film)
     cJSON_AddNumberToObject(state, "batches", film->batch_count);
     cJSON_AddBoolToObject(state, "hasCounts", film->counts != NULL);
     add_count(state, "invalidValues", film->invalid_count);
+    ec_rare_state_add(state, film->rare);
 }
 
 char *ec_state_write(const ec_job *job, const ec_film *film, const ec_past *past)
@@ -211,6 +213,7 @@ static void read_film(reader *r, ec_state_film *film)
     film->has_counts = flag(r, "hasCounts");
     film->has_weights = flag(r, "hasWeights");
     film->invalid_count = count(r, "invalidValues");
+    r->is_wrong |= !ec_rare_state_read(r->state, &film->rare);
     int most = cJSON_GetArraySize(parts);
     film->parts = calloc((size_t)most + 1, sizeof *film->parts);
     const bool fits = film->replicates >= 1 && film->replicates <= EC_REPLICATES_MOST && (film->batch_count >= 1) == (most >= 1) &&

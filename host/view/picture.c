@@ -44,6 +44,15 @@ void ec_view_picture_stop(ec_view_picture *p)
 
 uint64_t ec_view_picture_samples(const ec_view_picture *p) { return (uint64_t)ec_film_samples_of_all(&p->film); }
 
+/* Before the first error is stated. */
+static ec_result foretell(ec_view_picture *p, ec_session *session, ec_error *err)
+{
+    ec_rare rare;
+    if (p->film.batch_count != p->film.replicates) return EC_OK;
+    EC_TRY(ec_session_foretell(session, &rare, err));
+    return ec_film_set_rare(&p->film, &rare, err);
+}
+
 static void judge(ec_view_picture *p, double took)
 {
     const uint32_t replicates = p->film.replicates, next = p->film.batch_count;
@@ -84,6 +93,7 @@ ec_result ec_view_picture_take(ec_view_picture *p, ec_session *session, bool (*g
     free(features);
     if (result != EC_OK || !*complete) return result;
     EC_TRY(cut ? ec_film_add_cut(&p->film, index, cut, p->room, err) : ec_film_add(&p->film, index, p->room, err));
+    EC_TRY(foretell(p, session, err));
     p->invalid += batch.invalid;
     p->seconds += batch.seconds;
     judge(p, batch.seconds);

@@ -24,9 +24,7 @@ static void save(ec_renderer *r, const ec_view_wish *asked)
     stats.samples_per_pixel = spp;
     stats.samples = spp * asked->width * asked->height;
     stats.samples_per_second = p->seconds > 0 ? (double)stats.samples / p->seconds : 0;
-    stats.error = p->error.error;
-    stats.error_bound = p->error.error_bound;
-    stats.relmse = p->error.relmse;
+    stats.film = p->error;
     stats.invalid_samples = p->invalid;
     snprintf(stats.stopped_by, sizeof stats.stopped_by, "%s", p->stopped_by ? p->stopped_by : "user");
     const ec_view_shot shot = {&p->film, s->scene->scene, &stats, &options, asked->moved, asked->viewpoint, asked->env_degrees,

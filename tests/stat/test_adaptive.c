@@ -104,12 +104,12 @@ static void check_renders(const char *path)
         ec_difference d = ec_measure_difference(&measured, &converged);
         mean += image.mean[1] / RENDERS;
         variance += image.mean_se[1] * image.mean_se[1] / RENDERS / RENDERS;
-        stated += image.stats.error * image.stats.error / RENDERS;
+        stated += image.stats.film.error * image.stats.film.error / RENDERS;
         real += d.relative_rms * d.relative_rms / RENDERS;
         CHECK(image.film.counts && image.stats.samples_per_pixel >= 127 && image.stats.samples_per_pixel <= 129);
         case_free(&image);
     }
-    double own = reference.stats.error * reference.stats.error;
+    double own = reference.stats.film.error * reference.stats.film.error;
     double z = (mean - reference.mean[1]) / sqrt(variance + reference.mean_se[1] * reference.mean_se[1]);
     printf("%-24s mean off by %+.1f standard errors (one is %.2f %%), stated over real error %.3f\n", strrchr(path, '/') + 1, z,
            100 * sqrt(variance) / mean, sqrt(stated / (real - own)));

@@ -62,10 +62,10 @@ static void check(const promise_case *c)
     case_image image = case_render(scene, &o);
     double se;
     const double samples = (double)image.stats.samples_per_pixel, foretold = curve_at(&row, samples, &se);
-    const double stated = image.stats.error * image.stats.error, spread = hypot(se, ec_film_estimate_error(&image.film).spread);
+    const double stated = image.stats.film.error * image.stats.film.error, spread = hypot(se, ec_film_estimate_error(&image.film).spread);
     printf("%-14s %4.0f samples for a bound of %g %%: error %.2f %% stated, %.2f %% foretold (+- %.0f %% of squares)\n", c->name, samples,
-           100 * c->target, 100 * image.stats.error, 100 * sqrt(foretold), 100 * spread);
-    CHECK(!strcmp(image.stats.stopped_by, "error") && image.stats.error_bound <= c->target && samples <= MOST);
+           100 * c->target, 100 * image.stats.film.error, 100 * sqrt(foretold), 100 * spread);
+    CHECK(!strcmp(image.stats.stopped_by, "error") && image.stats.film.error_bound <= c->target && samples <= MOST);
     CHECK_MSG(fabs(log(stated / foretold)) <= 4 * spread + 0.1, "%s: %g stated, %g foretold", c->name, stated, foretold);
     case_free(&image);
     ec_cost_reference_free(&study.reference);

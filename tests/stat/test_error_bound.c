@@ -61,7 +61,7 @@ static void from_seeds(const bound_case *c, const ec_scene *scene, tally *sum)
         o.seed = (uint64_t)i;
         case_image image = case_render(scene, &o);
         ec_film_error error = ec_film_estimate_error(&image.film);
-        CHECK(error.error == image.stats.error && error.error_bound == image.stats.error_bound && error.relmse == image.stats.relmse);
+        CHECK(error.error == image.stats.film.error && error.error_bound == image.stats.film.error_bound && error.relmse == image.stats.film.relmse);
         add_render(image.rgb, &error, &converged, 1.0 / 513, sum);
         case_free(&image);
     }

@@ -49,9 +49,9 @@ int main(void)
     o = options(EC_LIGHTS_BY_TREE, EC_SAMPLE_MIS, 1024, 2);
     case_image tree = case_render(scene, &o);
     CHECK(strstr(case_effects(&tree), "light-tree") && !strstr(case_effects(&power), "light-tree"));
-    printf("relMSE by power %.3g in %.2f s, by the tree %.3g in %.2f s\n", power.stats.relmse, power.stats.seconds, tree.stats.relmse, tree.stats.seconds);
+    printf("relMSE by power %.3g in %.2f s, by the tree %.3g in %.2f s\n", power.stats.film.relmse, power.stats.seconds, tree.stats.film.relmse, tree.stats.seconds);
     case_check_same(&tree, &power, 4, "tree, mis, against power");
-    CHECK_MSG(tree.stats.relmse < 0.5 * power.stats.relmse, "relMSE %g by the tree, %g by power", tree.stats.relmse, power.stats.relmse);
+    CHECK_MSG(tree.stats.film.relmse < 0.5 * power.stats.film.relmse, "relMSE %g by the tree, %g by power", tree.stats.film.relmse, power.stats.film.relmse);
     o = options(EC_LIGHTS_BY_TREE, EC_SAMPLE_LIGHT, 1024, 3);
     case_image light = case_render(scene, &o);
     case_check_same(&light, &tree, 4, "tree, light, against tree, mis");

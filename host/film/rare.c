@@ -1,0 +1,42 @@
+#include "film/rare.h"
+
+#include <stddef.h>
+
+static int is_unmet(const ec_rare_kind *kind, double samples) { return samples * kind->chance < EC_RARE_MET; }
+
+double ec_rare_unmet(const ec_rare *rare, double samples, const ec_rare_kind **most)
+{
+    double sum = 0;
+    *most = NULL;
+    for (uint32_t i = 0; rare && i < rare->count; i++) {
+        const ec_rare_kind *kind = &rare->kinds[i];
+        if (!is_unmet(kind, samples)) continue;
+        const double rms = kind->luminance * kind->gathered;
+        sum += rms * rms;
+        if (!*most || rms > (*most)->luminance * (*most)->gathered) *most = kind;
+    }
+    return sum;
+}
+
+/* A tile's part of a kind's light, over the mean tile's. */
+static double share_of(const ec_rare_kind *kind, uint32_t tile)
+{
+    uint32_t sum = 0;
+    for (int i = 0; i < EC_RARE_SHARES; i++) sum += kind->share[i];
+    return sum ? (double)kind->share[tile] * EC_RARE_SHARES / sum : 1;
+}
+
+uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y)
+{
+    return (uint32_t)((uint64_t)y * EC_RARE_TILES / rare->height) * EC_RARE_TILES + (uint32_t)((uint64_t)x * EC_RARE_TILES / rare->width);
+}
+
+double ec_rare_unmet_at(const ec_rare *rare, double samples_a_pixel, uint32_t x, uint32_t y)
+{
+    const double samples = samples_a_pixel * rare->width * rare->height;
+    const uint32_t tile = ec_rare_tile(rare, x, rare->row + y);
+    double sum = 0;
+    for (uint32_t i = 0; i < rare->count; i++)
+        if (is_unmet(&rare->kinds[i], samples)) sum += rare->kinds[i].luminance * share_of(&rare->kinds[i], tile);
+    return sum;
+}

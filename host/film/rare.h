@@ -1,0 +1,46 @@
+/* Light that hardly any sample meets: paths whose last direction light sampling cannot choose (a mirror's, glass's, the camera's own) and
+ * whose light is so small that few of those directions lead to it. While a render expects only a handful of such samples it may have met
+ * none: that light is missing, and the samples' spread says nothing of it. How often they come and what they bring is foretold by
+ * pipeline/rare_paths.h; here is what that means for an error.
+ *
+ * What is missing is an error of the size of that light, pixel by pixel: its root mean square. Once samples meet it, however few, they
+ * tell of it themselves, in the variance of the pixels that they are in. */
+#ifndef EC_FILM_RARE_H
+#define EC_FILM_RARE_H
+
+#include <stdint.h>
+
+#define EC_RARE_KINDS 8
+#define EC_RARE_TILES 16   /* the picture is cut in as many columns and rows */
+#define EC_RARE_SHARES (EC_RARE_TILES * EC_RARE_TILES)
+#define EC_RARE_NAME 48
+#define EC_RARE_MET 5.0    /* samples that a kind is expected to have once it is as good as met: 1 in 150 renders has none */
+#define EC_RARE_DOUBT 2.0  /* by which what is foretold of its light may be too low */
+
+/* One kind of path: through a material, as sharp as that, to one light. */
+typedef struct ec_rare_kind {
+    char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* names for messages; through is empty where the camera sees the light itself */
+    double chance; /* that a sample of the picture is one of them */
+    double luminance; /* that they bring to a pixel in the mean */
+    double gathered;  /* root mean square over pixels of what they bring, over the mean: 1 where it is even */
+    uint8_t share[EC_RARE_SHARES]; /* of their light in each tile, row by row, by the largest */
+} ec_rare_kind;
+
+typedef struct ec_rare {
+    uint32_t count;
+    uint32_t width, height; /* of the picture */
+    uint32_t row;           /* the picture's that a film of some of its rows begins with */
+    ec_rare_kind kinds[EC_RARE_KINDS];
+} ec_rare;
+
+/* The mean over pixels of the square of the luminance that is missing where kinds that so many samples (of the whole picture) expect fewer
+ * than EC_RARE_MET of are not met; *most: the kind that matters most, or NULL. rare may be NULL. */
+double ec_rare_unmet(const ec_rare *rare, double samples, const ec_rare_kind **most);
+
+/* Of the picture's pixel. */
+uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y);
+
+/* The mean luminance of such kinds around a pixel, in a picture whose pixels all have as many samples; y: row of the film. */
+double ec_rare_unmet_at(const ec_rare *rare, double samples_a_pixel, uint32_t x, uint32_t y);
+
+#endif

@@ -1,0 +1,239 @@
+#include "pipeline/chains.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/adaptive.h"
+
+#define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
+
+/* What is looked at on the host between two kernels. */
+typedef struct tracer {
+    ec_pipeline *p;
+    ec_chains *found;
+    uint32_t room, first, count;  /* chains there is room for; paths of this wave */
+    const uint32_t *places;       /* of all paths */
+    uint32_t *list;               /* EC_LIST_WORDS a path of this wave */
+    uint32_t *at;                 /* by slot: the path's entry in the queue, or UINT32_MAX */
+    int64_t *last;                /* by slot: its chain that waits to know where it ended, or -1 */
+    uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp? */
+    uint32_t stride;              /* entries of the queue that this wave's paths can be in */
+    float *queue, *hits;          /* fields of the device's, `stride` entries each */
+    cl_mem pixels;
+} tracer;
+
+static float word(const tracer *t, const float *queue, int field, uint32_t entry) { return queue[(size_t)field * t->stride + entry]; }
+
+static uint32_t word_u(const tracer *t, const float *queue, int field, uint32_t entry)
+{
+    uint32_t value;
+    memcpy(&value, &queue[(size_t)field * t->stride + entry], sizeof value);
+    return value;
+}
+
+/* Where each path stands in the queue, whose order is the threads'. */
+static void find_paths(tracer *t, const uint32_t *parts)
+{
+    memset(t->at, 0xff, t->count * sizeof *t->at);
+    for (uint32_t k = 0; k < EC_PARTS; k++)
+        for (uint32_t i = 0; i < parts[k * EC_PART_STRIDE]; i++) {
+            const uint32_t entry = k * t->p->params.part + i, slot = word_u(t, t->queue, EC_PATH_SLOT, entry);
+            if (slot < t->count) t->at[slot] = entry;
+        }
+}
+
+static bool is_chain(const ec_params *params, float pdf)
+{
+    if (params->sample == EC_SAMPLE_BSDF || params->sample == EC_SAMPLE_HEMISPHERE) return true;
+    return pdf < 0 || pdf > EC_CHAIN_SHARP;
+}
+
+static void note_chain(tracer *t, uint32_t slot, uint32_t entry)
+{
+    const float pdf = word(t, t->queue, EC_PATH_PDF, entry);
+    const bool is_direct = !t->wide[slot] && (pdf < 0 || pdf > EC_CHAIN_SHARP);
+    if (!is_direct) t->wide[slot] = 1;
+    if (t->found->count == t->room || !is_chain(&t->p->params, pdf)) return;
+    ec_chain *c = &t->found->chains[t->last[slot] = t->found->count++];
+    for (int k = 0; k < 3; k++) {
+        c->origin[k] = word(t, t->queue, EC_PATH_OX + k, entry);
+        c->direction[k] = word(t, t->queue, EC_PATH_DX + k, entry);
+    }
+    c->beta = 0.2126f * word(t, t->queue, EC_PATH_BR, entry) + 0.7152f * word(t, t->queue, EC_PATH_BG, entry) +
+              0.0722f * word(t, t->queue, EC_PATH_BB, entry);
+    c->pdf = pdf > EC_CHAIN_SHARP ? pdf : INFINITY;
+    c->prim = word_u(t, t->queue, EC_PATH_PRIM, entry);
+    c->hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
+    c->reach = c->hit == EC_NO_ID ? INFINITY : NAN;
+    c->place = t->places[t->first + slot];
+    c->is_direct = is_direct;
+}
+
+/* Where the path goes on, its last segment has ended. */
+static void end_chain(tracer *t, uint32_t slot, uint32_t entry)
+{
+    double squares = 0;
+    if (t->last[slot] < 0) return;
+    ec_chain *c = &t->found->chains[t->last[slot]];
+    for (int k = 0; k < 3; k++) {
+        const double way = (double)word(t, t->queue, EC_PATH_OX + k, entry) - c->origin[k];
+        squares += way * way;
+    }
+    c->reach = (float)sqrt(squares);
+    t->last[slot] = -1;
+}
+
+static void look(tracer *t)
+{
+    for (uint32_t slot = 0; slot < t->count; slot++) {
+        const uint32_t entry = t->at[slot];
+        if (entry != UINT32_MAX) end_chain(t, slot, entry);
+        t->last[slot] = -1;
+        if (entry != UINT32_MAX) note_chain(t, slot, entry);
+    }
+}
+
+static uint32_t accel_of(const ec_pipeline *p)
+{
+    uint32_t accel = 0;
+    while (!p->accels[accel].in_use) accel++;
+    return accel;
+}
+
+static ec_result read_fields(const tracer *t, cl_mem from, int fields, float *into, ec_error *err)
+{
+    for (int f = 0; f < fields; f++)
+        EC_TRY(ec_buffer_read(t->p->cl, from, 4ull * t->p->wave * (uint32_t)f, 4ull * t->stride, into + (size_t)t->stride * (uint32_t)f, err));
+    return EC_OK;
+}
+
+/* One bounce: rays[0] of the counters says what each part of the queue holds, and at the end what is left. */
+static ec_result bounce(tracer *t, uint32_t *scalars, uint32_t number, ec_error *err)
+{
+    ec_pipeline *p = t->p;
+    ec_counters *counters = &p->counters;
+    memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    scalars[EC_ARG_BOUNCE] = number;
+    ec_pipeline_swap_queues(p, number);
+    EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
+    EC_TRY(read_fields(t, p->buffers[EC_ARG_PATHS], EC_PATH_FIELDS, t->queue, err));
+    EC_TRY(read_fields(t, p->buffers[EC_ARG_HITS], EC_HIT_PRIM + 1, t->hits, err));
+    find_paths(t, counters->rays[0]);
+    look(t);
+    EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    memcpy(counters->rays[0], counters->rays[1], sizeof counters->rays[0]);
+    return EC_OK;
+}
+
+/* Where nothing is more than diffuse only the camera's own directions are sharp. */
+static uint32_t bounces_of(const ec_pipeline *p)
+{
+    const bool all = (p->effects.called.bits & EC_FEATURE_SPECULAR) || p->params.sample == EC_SAMPLE_BSDF || p->params.sample == EC_SAMPLE_HEMISPHERE;
+    const uint32_t most = all ? EC_CHAIN_BOUNCES : 1;
+    return most < p->params.max_depth ? most : p->params.max_depth;
+}
+
+static ec_result trace_wave(tracer *t, ec_error *err)
+{
+    ec_pipeline *p = t->p;
+    uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_SEED] = SEED, [EC_ARG_PATH_COUNT] = t->count, [EC_ARG_PIXEL_COUNT] = t->count,
+                                             [EC_ARG_TRIANGLE_COUNT] = p->triangle_count};
+    memset(t->last, 0xff, t->count * sizeof *t->last);
+    memset(t->wide, 0, t->count);
+    EC_TRY(ec_buffer_write(p->cl, t->pixels, 0, 4ull * EC_LIST_WORDS * t->count, t->list + (size_t)EC_LIST_WORDS * t->first, err));
+    ec_pipeline_swap_queues(p, 0);
+    EC_TRY(ec_pipeline_launch(p, EC_GENERATE, scalars, err));
+    ec_pipeline_fill_parts(p, t->count);
+    for (uint32_t b = 0; b < bounces_of(p) && ec_pipeline_total(p->counters.rays[0]); b++)
+        EC_TRY(bounce(t, scalars, b, err));
+    return EC_OK;
+}
+
+static ec_result trace_all(tracer *t, ec_error *err)
+{
+    for (t->first = 0; t->first < EC_CHAIN_PATHS; t->first += t->count) {
+        const uint32_t left = EC_CHAIN_PATHS - t->first;
+        t->count = left < t->p->wave ? left : t->p->wave;
+        t->stride = (t->count + t->p->params.part - 1) / t->p->params.part * t->p->params.part;
+        EC_TRY(trace_wave(t, err));
+    }
+    return EC_OK;
+}
+
+/* Paths are one sample a pixel, and no part of a batch; shading counts what is invalid, which is not these paths' to say. */
+static ec_result trace_apart(tracer *t, ec_error *err)
+{
+    ec_pipeline *p = t->p;
+    const ec_params params = p->params;
+    const cl_mem list = p->buffers[EC_ARG_PIXEL_LIST], aov = p->buffers[EC_ARG_AOV];
+    const uint64_t bytes = 4ull * EC_LIST_WORDS * EC_CHAIN_PATHS, slack = 64 * 4 * EC_LIST_WORDS; /* lanes past the last path look too */
+    EC_TRY(ec_buffer_create(p->cl, "pixel list", bytes + slack, NULL, &t->pixels, err));
+    p->params.batch = 1;
+    p->params.first_sample = 0;
+    p->params.film_row = 0;
+    p->buffers[EC_ARG_PIXEL_LIST] = t->pixels;
+    p->buffers[EC_ARG_AOV] = NULL;
+    ec_result result = ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
+    if (result == EC_OK) result = trace_all(t, err);
+    p->params = params;
+    p->buffers[EC_ARG_PIXEL_LIST] = list;
+    p->buffers[EC_ARG_AOV] = aov;
+    if (result == EC_OK) result = ec_buffer_zero(p->cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * 4, err);
+    if (result == EC_OK) result = ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof params, &params, err);
+    if (result == EC_OK) result = ec_cl_finish(p->cl, err);
+    ec_buffer_release(p->cl, &t->pixels);
+    return result;
+}
+
+/* Evenly over the numbers of pixels, which lie tile by tile; the next round over them takes their next samples. */
+static void list_paths(const ec_params *params, const uint32_t *place_of, uint32_t *list, uint32_t *places)
+{
+    const uint64_t pixels = (uint64_t)params->width * params->height;
+    for (uint64_t i = 0; i < EC_CHAIN_PATHS; i++) {
+        const uint32_t number = (uint32_t)(pixels < EC_CHAIN_PATHS ? i % pixels : i * pixels / EC_CHAIN_PATHS);
+        list[EC_LIST_WORDS * i] = number;
+        list[EC_LIST_WORDS * i + 1] = (uint32_t)(pixels < EC_CHAIN_PATHS ? i / pixels : 0);
+        places[i] = place_of[number];
+    }
+}
+
+ec_result ec_chains_trace(ec_pipeline *p, ec_chains *chains, ec_error *err)
+{
+    const uint32_t wave = p->wave < EC_CHAIN_PATHS ? p->wave : EC_CHAIN_PATHS;
+    tracer t = {.p = p, .found = chains, .room = 8 * EC_CHAIN_PATHS};
+    *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains)};
+    uint32_t *place_of = malloc(4ull * p->params.width * p->params.height + 4), *places = malloc(4 * EC_CHAIN_PATHS);
+    t.list = malloc(4 * EC_LIST_WORDS * EC_CHAIN_PATHS);
+    t.at = malloc(4ull * wave);
+    t.last = malloc(8ull * wave);
+    t.wide = malloc(wave);
+    t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
+    t.hits = malloc(4ull * (wave + p->params.part));
+    ec_result result = EC_OK;
+    if (!chains->chains || !place_of || !places || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
+        result = ec_fail(err, "out of memory for %d paths", EC_CHAIN_PATHS);
+    if (result == EC_OK) {
+        ec_number_pixels(&p->params, place_of);
+        list_paths(&p->params, place_of, t.list, places);
+        t.places = places;
+        result = trace_apart(&t, err);
+    }
+    free(place_of);
+    free(places);
+    free(t.list);
+    free(t.at);
+    free(t.last);
+    free(t.wide);
+    free(t.queue);
+    free(t.hits);
+    return result;
+}
+
+void ec_chains_free(ec_chains *chains)
+{
+    free(chains->chains);
+    *chains = (ec_chains){0};
+}

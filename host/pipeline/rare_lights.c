@@ -1,0 +1,180 @@
+#include "pipeline/rare_lights.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+
+#define PI 3.14159265358979323846
+#define OCTAVES 24          /* of luminance below the map's brightest, each a light of its own */
+#define SMALL (4 * PI / 50) /* steradians: whatever is larger is met soon */
+#define GATHERED 0.9        /* length of the mean direction from which on a part lies in one place */
+
+static double luminance(const float rgb[3]) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
+
+/* An octave of a map's luminance. */
+typedef struct octave {
+    double solid_angle, light, direction[3];
+} octave;
+
+static float brightest(const ec_pack *pack)
+{
+    float most = 0;
+    const size_t texels = (size_t)pack->environment_width * (pack->environment_height + 1);
+    for (size_t i = 0; i < texels; i++) most = fmaxf(most, (float)luminance(pack->environment_texels + 4 * i));
+    return most;
+}
+
+static void sort_into_octaves(const ec_pack *pack, float most, octave *octaves)
+{
+    const uint32_t width = pack->environment_width, height = pack->environment_height;
+    for (uint32_t y = 0; y < height; y++) {
+        const double theta = PI * (y + 0.5) / height, solid = 2 * PI * PI / width / height * sin(theta);
+        const float *row = pack->environment_texels + 4 * (size_t)width * (y + 1);
+        for (uint32_t x = 0; x < width; x++) {
+            const double bright = luminance(row + 4 * (size_t)x), phi = 2 * PI * ((x + 0.5) / width - 0.5);
+            const int k = bright > 0 ? ilogb(most) - ilogb(bright) : OCTAVES;
+            if (k >= OCTAVES) continue;
+            const double direction[3] = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
+            octaves[k].solid_angle += solid;
+            octaves[k].light += bright * solid;
+            for (int c = 0; c < 3; c++) octaves[k].direction[c] += direction[c] * solid;
+        }
+    }
+}
+
+static void add_octave(const octave *o, ec_rare_lights *all)
+{
+    ec_rare_light *light = &all->lights[all->count++];
+    const double length = sqrt(o->direction[0] * o->direction[0] + o->direction[1] * o->direction[1] + o->direction[2] * o->direction[2]);
+    *light = (ec_rare_light){.material = UINT32_MAX, .radiance = o->light / o->solid_angle, .solid_angle = o->solid_angle};
+    snprintf(light->name, sizeof light->name, "the environment's brightest spot");
+    for (int c = 0; c < 3 && length > GATHERED * o->solid_angle; c++) light->direction[c] = (float)(o->direction[c] / length);
+}
+
+static void find_in_environment(const ec_pack *pack, ec_rare_lights *all)
+{
+    octave octaves[OCTAVES] = {0};
+    if (!pack->environment_texels || !pack->plain.scene.has_environment) return;
+    const float most = brightest(pack);
+    if (!(most > 0)) return;
+    sort_into_octaves(pack, most, octaves);
+    for (int k = 0; k < OCTAVES; k++)
+        if (octaves[k].solid_angle > 0 && octaves[k].solid_angle < SMALL) add_octave(&octaves[k], all);
+}
+
+static void lamp_of(const ec_light_data *l, ec_rare_lamp *lamp)
+{
+    double e[3], f[3];
+    for (int c = 0; c < 3; c++) {
+        e[c] = (double)l->b[c] - l->a[c], f[c] = (double)l->c[c] - l->a[c];
+        lamp->middle[c] = (l->a[c] + l->b[c] + l->c[c]) / 3;
+    }
+    const double n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+    const double twice = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int c = 0; c < 3; c++) lamp->normal[c] = (float)(n[c] / fmax(twice, 1e-300));
+    lamp->area = (float)(twice / 2);
+    lamp->two_sided = l->kind & EC_LIGHT_TWO_SIDED;
+}
+
+static bool is_lamp(const ec_rare_lights *all, const ec_light_data *l, uint32_t material)
+{
+    return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && l->prim < all->stored_count && all->triangle_material[l->prim] == material;
+}
+
+/* Up to EC_RARE_LAMPS of a material's lamps, evenly among them. */
+static void add_lamps(const ec_pack *pack, uint32_t material, uint32_t count, ec_rare_lights *all)
+{
+    const uint32_t stride = (count + EC_RARE_LAMPS - 1) / EC_RARE_LAMPS;
+    ec_rare_light *light = &all->lights[all->count++];
+    double bright = 0;
+    uint32_t seen = 0;
+    *light = (ec_rare_light){.material = material};
+    for (uint32_t i = 0; i < pack->light_count; i++) {
+        const ec_light_data *l = &pack->lights[i];
+        if (!is_lamp(all, l, material) || seen++ % stride) continue;
+        bright = fmax(bright, luminance(l->emission));
+        lamp_of(l, &light->lamps[light->lamp_count++]);
+    }
+    for (uint32_t i = 0; i < light->lamp_count; i++) light->lamps[i].weight = (float)count / (float)light->lamp_count;
+    light->radiance = bright;
+    snprintf(light->name, sizeof light->name, "\"%.*s\"", EC_CUT(all->materials[material], EC_RARE_NAME - 3));
+}
+
+static ec_result find_lamps(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    uint32_t *counts = calloc(all->material_count + (size_t)1, sizeof *counts);
+    if (!counts) return ec_fail(err, "out of memory for %u materials", all->material_count);
+    for (uint32_t i = 0; i < pack->light_count; i++) {
+        const ec_light_data *l = &pack->lights[i];
+        if ((l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && l->prim < all->stored_count) counts[all->triangle_material[l->prim]]++;
+    }
+    for (uint32_t m = 0; m < all->material_count && all->count < EC_RARE_LIGHTS; m++)
+        if (counts[m]) add_lamps(pack, m, counts[m], all);
+    free(counts);
+    return EC_OK;
+}
+
+static void *copy_of(const void *data, size_t bytes)
+{
+    void *copy = malloc(bytes + 1);
+    if (copy && bytes) memcpy(copy, data, bytes);
+    return copy;
+}
+
+/* The scene without its lights: which material a triangle has. */
+static ec_result copy_materials(const ec_scene *scene, ec_rare_lights *all, ec_error *err)
+{
+    all->stored_count = scene->triangle_count;
+    all->material_count = scene->material_count;
+    all->placed_count = scene->placed_count;
+    all->triangle_material = copy_of(scene->triangle_material, 4ull * scene->triangle_count);
+    all->materials = calloc(scene->material_count + (size_t)1, sizeof *all->materials);
+    all->shapes = copy_of(scene->shapes, scene->shape_count * sizeof *scene->shapes);
+    all->placed = copy_of(scene->placed, scene->placed_count * sizeof *scene->placed);
+    all->lights = calloc(EC_RARE_LIGHTS, sizeof *all->lights);
+    if (!all->triangle_material || !all->materials || !all->shapes || !all->placed || !all->lights)
+        return ec_fail(err, "out of memory for the materials of %u triangles", scene->triangle_count);
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        const char *name = scene->materials[m].name;
+        if (name && *name) snprintf(all->materials[m], EC_RARE_NAME, "%.*s", EC_CUT(name, EC_RARE_NAME - 1));
+        else snprintf(all->materials[m], EC_RARE_NAME, "material %u", m);
+    }
+    return EC_OK;
+}
+
+ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    *all = (ec_rare_lights){0};
+    ec_result result = copy_materials(&pack->plain.scene, all, err);
+    if (result == EC_OK) find_in_environment(pack, all);
+    if (result == EC_OK) result = find_lamps(pack, all, err);
+    if (result != EC_OK || !all->count) ec_rare_lights_free(all);
+    return result;
+}
+
+void ec_rare_lights_free(ec_rare_lights *all)
+{
+    free(all->lights);
+    free(all->triangle_material);
+    free(all->materials);
+    free(all->shapes);
+    free(all->placed);
+    *all = (ec_rare_lights){0};
+}
+
+uint32_t ec_rare_material_of(const ec_rare_lights *all, uint32_t id)
+{
+    if (all->placed_count && id >= all->placed[0].id) {
+        uint32_t low = 0, high = all->placed_count - 1;
+        while (low < high) {
+            const uint32_t middle = (low + high + 1) / 2;
+            if (all->placed[middle].id <= id) low = middle;
+            else high = middle - 1;
+        }
+        id = all->shapes[all->placed[low].shape].first + id - all->placed[low].id;
+    }
+    return id < all->stored_count ? all->triangle_material[id] : 0;
+}

@@ -1,0 +1,226 @@
+#include "pipeline/rare_paths.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+#define LOOKED_AT 2048      /* chains of each sharpness that are compared with a light */
+#define NEAREST 8           /* at least, and … */
+#define NEAREST_SHARE 64    /* … one in so many of them */
+#define FEW 16              /* fewer chains say nothing of where they go: anywhere */
+#define AROUND 0.35         /* length of the nearest ones' mean offset, over its root mean square: beyond, all lie to one side … */
+#define AROUND_CHANCE 1.0   /* … but for what chance makes of it, this over the root of their number */
+#define COMMON 0.02         /* chance beyond which every picture meets its light */
+
+/* A chain beside a light. */
+typedef struct beside {
+    double square;          /* of the distance of the two unit directions */
+    float offset[3];        /* from the light's to the chain's */
+    double solid_angle;     /* of the light, from there; 0: none of it is in sight */
+    const ec_chain *chain;
+} beside;
+
+/* Chains of one sharpness, thinned out; each stands for `weight`. */
+typedef struct selection {
+    const ec_chain **chains;
+    uint32_t count;
+    double weight;
+} selection;
+
+/* What a kind is summed from. */
+typedef struct sums {
+    double chance, luminance, share[EC_RARE_SHARES];
+    double *through; /* by material; the last one: the camera's */
+} sums;
+
+static int by_distance(const void *a, const void *b)
+{
+    const beside *x = a, *y = b;
+    if (x->square != y->square) return x->square < y->square ? -1 : 1;
+    return x->chain < y->chain ? -1 : x->chain > y->chain;
+}
+
+static void place_beside(const ec_chain *chain, const double towards[3], beside *b)
+{
+    b->chain = chain;
+    b->square = 0;
+    for (int k = 0; k < 3; k++) {
+        b->offset[k] = (float)(chain->direction[k] - towards[k]);
+        b->square += (double)b->offset[k] * b->offset[k];
+    }
+}
+
+static void beside_environment(const ec_chain *chain, const ec_rare_light *light, const ec_params *params, beside *b)
+{
+    double towards[3];
+    for (int k = 0; k < 3; k++) {
+        const float *turn = params->environment_turn + 4 * k, *d = light->direction;
+        towards[k] = params->environment_turned ? (double)turn[0] * d[0] + (double)turn[1] * d[1] + (double)turn[2] * d[2] : d[k];
+    }
+    place_beside(chain, towards, b);
+    b->solid_angle = chain->hit == EC_NO_ID ? light->solid_angle : 0;
+}
+
+static void beside_lamp(const ec_rare_lights *all, const ec_chain *chain, const ec_rare_light *light, const ec_rare_lamp *lamp, beside *b)
+{
+    double way[3], square = 0, cosine = 0;
+    for (int k = 0; k < 3; k++) way[k] = (double)lamp->middle[k] - chain->origin[k], square += way[k] * way[k];
+    const double distance = sqrt(square);
+    for (int k = 0; k < 3; k++) {
+        way[k] /= fmax(distance, 1e-300);
+        cosine -= way[k] * lamp->normal[k];
+    }
+    place_beside(chain, way, b);
+    const bool is_it = chain->hit != EC_NO_ID && ec_rare_material_of(all, chain->hit) == light->material;
+    const bool is_hidden = !is_it && chain->reach < 0.99 * distance; /* false where it is not known */
+    if (lamp->two_sided) cosine = fabs(cosine);
+    b->solid_angle = is_hidden || cosine <= 0 ? 0 : fmin(lamp->area * cosine / fmax(square, 1e-300), 2 * PI);
+}
+
+/* Do they lie around what they are beside, or all to one side: where directions end, there is nothing behind? */
+static bool surround(const beside *near, uint32_t count)
+{
+    double mean[3] = {0}, squares = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        squares += near[i].square;
+        for (int k = 0; k < 3; k++) mean[k] += near[i].offset[k];
+    }
+    const double length2 = (mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) / count / count;
+    const double most = AROUND + AROUND_CHANCE / sqrt(count);
+    return length2 <= most * most * squares / count;
+}
+
+/* Adds what those chains bring; cap: steradians that they are spread over. A lobe that is wider than the light is met more often, by light
+ * sampling, which then brings less; the mean is the same. */
+static void add_chains(const ec_rare_lights *all, const beside *near, uint32_t count, double cap, double weight, double radiance,
+                       const ec_rare *rare, sums *s)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const ec_chain *c = near[i].chain;
+        const double lobe = isinf(c->pdf) ? 0 : 1 / c->pdf, own = near[i].solid_angle;
+        if (!(own > 0)) continue;
+        const double bright = weight * c->beta * radiance * own / cap;
+        s->chance += weight * fmin(fmax(own, lobe) / cap, 1);
+        s->luminance += bright;
+        s->share[ec_rare_tile(rare, c->place % rare->width, c->place / rare->width)] += bright;
+        s->through[c->prim == EC_NO_ID ? all->material_count : ec_rare_material_of(all, c->prim)] += bright;
+    }
+}
+
+/* All of them, or those nearest to a light. room: for as many as there are chains. */
+static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp, beside *room,
+                      const ec_params *params, const ec_rare *rare, sums *s)
+{
+    const bool is_spread = !lamp && light->direction[0] == 0 && light->direction[1] == 0 && light->direction[2] == 0;
+    uint32_t count = of->count;
+    double cap = 4 * PI;
+    for (uint32_t i = 0; i < count; i++) {
+        if (lamp) beside_lamp(all, of->chains[i], light, lamp, &room[i]);
+        else beside_environment(of->chains[i], light, params, &room[i]);
+    }
+    if (!is_spread && count >= FEW) {
+        qsort(room, count, sizeof *room, by_distance);
+        const uint32_t near = count / NEAREST_SHARE > NEAREST ? count / NEAREST_SHARE : NEAREST;
+        if (!surround(room, near)) return;
+        cap = fmin(PI * fmax(room[near - 1].square, 1e-12), 4 * PI);
+        count = near;
+    }
+    add_chains(all, room, count, cap, of->weight * (lamp ? lamp->weight : 1), light->radiance, rare, s);
+}
+
+/* Chains that are alike: mirrors' and glass's, sharp lobes, wide ones; and the same where the pixel sees through them. */
+enum { ALIKE = 7, CAMERA = 6 };
+static int kind_of(const ec_chain *c)
+{
+    if (c->prim == EC_NO_ID) return CAMERA;
+    return (isinf(c->pdf) ? 0 : c->pdf > 2048 ? 1 : 2) + (c->is_direct ? 3 : 0);
+}
+
+static void select_chains(const ec_chains *chains, int kind, selection *of)
+{
+    uint32_t found = 0, seen = 0;
+    for (uint32_t i = 0; i < chains->count; i++) found += kind_of(&chains->chains[i]) == kind;
+    const uint32_t stride = found / LOOKED_AT + 1;
+    of->count = 0;
+    for (uint32_t i = 0; i < chains->count; i++)
+        if (kind_of(&chains->chains[i]) == kind && seen++ % stride == 0) of->chains[of->count++] = &chains->chains[i];
+    of->weight = of->count ? (double)found / of->count / chains->paths : 0;
+}
+
+static void name_way(const ec_rare_lights *all, const sums *s, char *name)
+{
+    uint32_t best = all->material_count;
+    for (uint32_t m = 0; m < all->material_count; m++)
+        if (s->through[m] > s->through[best]) best = m;
+    *name = 0;
+    if (best < all->material_count) snprintf(name, EC_RARE_NAME, "%s", all->materials[best]);
+}
+
+/* Root mean square over pixels of what they bring, over the mean. Seen directly it is the light's image, which takes the part of
+ * the picture that its chance is, but a pixel at least; else it lies as the chains do, tile by tile. */
+static double gathered(const sums *s, bool is_direct, double pixels)
+{
+    double squares = 0;
+    if (is_direct) return sqrt(fmin(1 / s->chance, pixels));
+    for (int i = 0; i < EC_RARE_SHARES; i++) squares += s->share[i] * s->share[i];
+    return sqrt(squares) * EC_RARE_TILES / s->luminance;
+}
+
+/* Keeps the kinds that matter most. */
+static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, const sums *s, double spread, ec_rare *rare)
+{
+    uint32_t at = rare->count;
+    if (!(s->luminance > 0) || s->chance > COMMON) return;
+    if (at == EC_RARE_KINDS) {
+        at = 0;
+        for (uint32_t i = 1; i < EC_RARE_KINDS; i++)
+            if (rare->kinds[i].luminance * rare->kinds[i].gathered < rare->kinds[at].luminance * rare->kinds[at].gathered) at = i;
+        if (rare->kinds[at].luminance * rare->kinds[at].gathered >= s->luminance * spread) return;
+    } else rare->count++;
+    ec_rare_kind *kind = &rare->kinds[at];
+    kind->chance = s->chance;
+    kind->luminance = s->luminance;
+    kind->gathered = spread;
+    double most = 0;
+    for (int i = 0; i < EC_RARE_SHARES; i++) most = fmax(most, s->share[i]);
+    for (int i = 0; i < EC_RARE_SHARES; i++) kind->share[i] = (uint8_t)ceil(255 * s->share[i] / most);
+    name_way(all, s, kind->through);
+    memcpy(kind->light, light->name, sizeof kind->light);
+}
+
+ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, const ec_params *params, ec_rare *rare, ec_error *err)
+{
+    selection of = {.chains = malloc((chains->count + (size_t)1) * sizeof *of.chains)};
+    beside *room = malloc((chains->count + (size_t)1) * sizeof *room);
+    double *through = malloc((all->material_count + (size_t)1) * sizeof *through);
+    *rare = (ec_rare){.width = params->width, .height = params->height};
+    ec_result result = of.chains && room && through ? EC_OK : ec_fail(err, "out of memory for %u paths", chains->count);
+    for (int k = 0; result == EC_OK && k < ALIKE; k++) {
+        select_chains(chains, k, &of);
+        for (uint32_t i = 0; of.count && i < all->count; i++) {
+            const ec_rare_light *light = &all->lights[i];
+            sums s = {.through = through};
+            memset(through, 0, (all->material_count + (size_t)1) * sizeof *through);
+            for (uint32_t l = 0; l < light->lamp_count; l++) add_light(all, &of, light, &light->lamps[l], room, params, rare, &s);
+            if (!light->lamp_count) add_light(all, &of, light, NULL, room, params, rare, &s);
+            keep_kind(all, light, &s, gathered(&s, k >= 3, (double)params->width * params->height), rare);
+        }
+    }
+    free(of.chains);
+    free(room);
+    free(through);
+    return result;
+}
+
+ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, ec_rare *rare, ec_error *err)
+{
+    ec_chains chains = {0};
+    *rare = (ec_rare){0};
+    if (!lights->count || p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
+    ec_result result = ec_chains_trace(p, &chains, err);
+    if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, &p->params, rare, err);
+    ec_chains_free(&chains);
+    return result;
+}

@@ -1,0 +1,77 @@
+#include "report/error_text.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "report/format.h"
+#include "report/json.h"
+
+static void format_paths(const ec_film_error *e, char *text, size_t size)
+{
+    if (*e->through) snprintf(text, size, "paths through \"%s\" to %s", e->through, e->light);
+    else snprintf(text, size, "paths straight to %s", e->light);
+}
+
+/* Up to which bound a picture is good for something; the scale is the manual's. */
+const char *ec_error_grade(const ec_film_error *e)
+{
+    static const struct {
+        double bound;
+        const char *name;
+    } grades[] = {{0.01, "good as a reference"}, {0.03, "good for a print"}, {0.10, "good for a screen"}, {0.30, "a preview"}};
+    if (!isfinite(e->error)) return "not known yet";
+    if (e->no_bound != EC_BOUND_STANDS) return "not to be relied on";
+    for (size_t i = 0; i < sizeof grades / sizeof *grades; i++)
+        if (e->error_bound <= grades[i].bound) return grades[i].name;
+    return "a rough preview";
+}
+
+void ec_error_why(const ec_film_error *e, char *text, size_t size)
+{
+    char paths[160], unmet[32], share[32];
+    *text = 0;
+    if (e->no_bound == EC_BOUND_STANDS) return;
+    format_paths(e, paths, sizeof paths);
+    ec_format_percent(e->unmet, unmet, sizeof unmet);
+    ec_format_percent(e->tail_share, share, sizeof share);
+    if (e->no_bound == EC_NO_BOUND_RARE)
+        snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise; %s are hardly met yet: while their light is missing the error is some %s)",
+                 EC_TAIL_FEW, share, paths, unmet);
+    else snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise)", EC_TAIL_FEW, share);
+}
+
+void ec_error_help(const ec_film_error *e, char *text, size_t size)
+{
+    char samples[64] = "more samples", count[32];
+    *text = 0;
+    if (e->no_bound == EC_BOUND_STANDS) return;
+    ec_format_count(ceil(e->unmet_samples), count, sizeof count);
+    if (e->unmet_samples > 0) snprintf(samples, sizeof samples, "some %s samples a pixel", count);
+    if (*e->through)
+        snprintf(text, size, "%s; or a rougher \"%s\", a larger light, --without specular; or --clamp 10, which says what it takes away", samples, e->through);
+    else snprintf(text, size, "%s; or a larger light; or --clamp 10, which says what it takes away", samples);
+}
+
+void ec_error_text(const ec_film_error *e, char *text, size_t size)
+{
+    char error[32], bound[32], why[EC_ERROR_TEXT - 64];
+    ec_format_percent(e->error, error, sizeof error);
+    ec_format_percent(e->error_bound, bound, sizeof bound);
+    ec_error_why(e, why, sizeof why);
+    if (!isfinite(e->error) && e->mean_luminance == 0) snprintf(text, size, "error unknown, since no sample has met any light");
+    else if (!isfinite(e->error)) snprintf(text, size, "error unknown");
+    else if (*why) snprintf(text, size, "error at least %s: no bound, since %s", error, why);
+    else snprintf(text, size, "error %s (95 %% bound %s)", error, bound);
+}
+
+void ec_error_json(cJSON *root, const ec_film_error *e)
+{
+    char why[EC_ERROR_TEXT];
+    ec_error_why(e, why, sizeof why);
+    if (*why) ec_json_text(root, "error_bound_why", why);
+    else cJSON_AddNullToObject(root, "error_bound_why");
+    ec_json_text(root, "quality", ec_error_grade(e));
+    ec_json_real(root, "error_unmet", e->unmet);
+    ec_json_real(root, "tail_share", e->tail_share);
+    ec_json_real(root, "tail_shape", e->tail_shape);
+}

@@ -1,0 +1,27 @@
+/* What is said of an image's error: text and JSON, wherever one is stated. */
+#ifndef EC_REPORT_ERROR_TEXT_H
+#define EC_REPORT_ERROR_TEXT_H
+
+#include <cjson/cJSON.h>
+#include <stddef.h>
+
+#include "film/film.h"
+
+enum { EC_ERROR_TEXT = 384 };
+
+/* "error 1.93 % (95 % bound 1.97 %)", or "error at least 9.8 %: no bound, since …". */
+void ec_error_text(const ec_film_error *error, char *text, size_t size);
+
+/* Why there is no bound, without a full stop; empty where there is one. */
+void ec_error_why(const ec_film_error *error, char *text, size_t size);
+
+/* What the picture is good for, in words. */
+const char *ec_error_grade(const ec_film_error *error);
+
+/* What would help, where there is no bound; else empty. */
+void ec_error_help(const ec_film_error *error, char *text, size_t size);
+
+/* error_bound_why, null where there is a bound, and the figures that it goes by. */
+void ec_error_json(cJSON *root, const ec_film_error *error);
+
+#endif

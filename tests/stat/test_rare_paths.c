@@ -1,0 +1,125 @@
+/* What is foretold of rare paths: against closed forms where a flat mirror shows a small light, and against long renders where a mirror
+ * throws it onto a floor.
+ *
+ * ctest label: stat */
+#include "pipeline/session.h"
+#include "support/gltf_writer.h"
+#include "support/render_case.h"
+
+#define PI 3.14159265358979323846
+
+enum { WIDTH = 256, HEIGHT = 128 };
+
+/* Radiance `dark`, and `bright` in one texel. */
+static void set_map(ec_scene *scene, int width, int height, int x, int y, float dark, float bright)
+{
+    ec_environment *e = &scene->environment;
+    free(e->rgb);
+    *e = (ec_environment){.width = (uint32_t)width, .height = (uint32_t)height, .rgb = malloc(12ull * (size_t)(width * height))};
+    if (!e->rgb) exit(1);
+    for (int i = 0; i < 3 * width * height; i++) e->rgb[i] = i / 3 == y * width + x ? bright : dark;
+    scene->has_environment = true;
+}
+
+static double solid_angle(int width, int height, int y) { return 2 * PI / width * PI / height * sin(PI * (y + 0.5) / height); }
+
+static ec_rare foretell(const ec_scene *scene, const ec_render_options *options)
+{
+    ec_error err = {0};
+    ec_render_stats stats;
+    ec_session *session = NULL;
+    ec_rare rare;
+    if (ec_session_open(case_cl(), scene, options, 1, &session, &stats, &err) != EC_OK) case_end("set-up", &err);
+    if (ec_session_foretell(session, &rare, &err) != EC_OK) case_end("chains", &err);
+    ec_session_close(session);
+    return rare;
+}
+
+/* The light of all kinds, and the chance of the one that brings the most. */
+static double light_of(const ec_rare *rare, double *chance, const char *name)
+{
+    double sum = 0, most = 0;
+    *chance = 0;
+    for (uint32_t i = 0; i < rare->count; i++) {
+        const ec_rare_kind *kind = &rare->kinds[i];
+        printf("  through \"%s\" to %s: chance %.3g, luminance %.4g, gathered %.3g\n", kind->through, kind->light, kind->chance, kind->luminance, kind->gathered);
+        sum += kind->luminance;
+        if (kind->luminance > most) most = kind->luminance, *chance = kind->chance;
+        CHECK_MSG(!strcmp(kind->through, name), "through \"%s\", not \"%s\"", kind->through, name);
+    }
+    return sum;
+}
+
+/* A camera looks straight down at a plane that fills its view, of `half` radians to each side; the texel lies at that angle from the zenith. */
+static void check_plane(const char *what, double metallic, double angle, bool is_seen)
+{
+    const double half = 0.4;
+    gltf_writer *w = gltf_new();
+    const int plane = gltf_add(&w->materials, "{\"name\":\"plane\",\"pbrMetallicRoughness\":{\"metallicFactor\":%g,\"roughnessFactor\":%g},"
+                                              "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}}", metallic, metallic > 0 ? 0.0 : 1.0);
+    gltf_quad(w, plane, (double[3]){-9, 0, 9}, (double[3]){18, 0, 0}, (double[3]){0, 0, -18});
+    gltf_camera(w, (double[3]){0, 3, 0}, (double[3]){0, 0, 0}, 2 * half);
+    ec_scene *scene = case_load(gltf_write(w, "rare-plane"), "1,1,1");
+    free(w);
+    const int y = (int)(angle / PI * HEIGHT);
+    const float bright = 1e6f;
+    set_map(scene, WIDTH, HEIGHT, 40, y, 1, bright);
+    const ec_render_options o = case_options(40, 40, 16);
+    const ec_rare rare = foretell(scene, &o);
+    const double theta = PI * (y + 0.5) / HEIGHT, omega = solid_angle(WIDTH, HEIGHT, y);
+    const double expected = omega / (4 * tan(half) * tan(half) * pow(cos(theta), 3)); /* of the camera's directions, by the picture's area */
+    double chance;
+    printf("%s, %.3g rad from the zenith:\n", what, theta);
+    const double light = light_of(&rare, &chance, "plane");
+    if (is_seen) {
+        printf("  chance %.3g, closed form %.3g\n", chance, expected);
+        CHECK_MSG(chance > 0.6 * expected && chance < 1.6 * expected, "chance %g, closed form %g", chance, expected);
+        CHECK_MSG(light > 0.6 * expected * bright && light < 1.6 * expected * bright, "light %g, closed form %g", light, expected * bright);
+    } else {
+        CHECK_MSG(light < 0.02 * omega * bright, "light %g of paths that cannot be", light);
+    }
+    ec_scene_free(scene);
+}
+
+/* A wall beside a matt floor, in the light of a patch of sky that lies behind neither. */
+static double floor_light(double wall, const char *name, ec_rare *rare)
+{
+    gltf_writer *w = gltf_new();
+    const int grey = gltf_lambert(w, 0.5, 0);
+    const int mirror = gltf_add(&w->materials, "{\"name\":\"mirror\",\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":"
+                                               "[%g,%g,%g,1],\"metallicFactor\":1,\"roughnessFactor\":0}}", wall, wall, wall);
+    gltf_quad(w, grey, (double[3]){-2, 0, 2}, (double[3]){4, 0, 0}, (double[3]){0, 0, -4});
+    gltf_quad(w, mirror, (double[3]){0, 0, -2}, (double[3]){0, 0, 4}, (double[3]){0, 3, 0});
+    gltf_camera(w, (double[3]){-1, 6, 0}, (double[3]){-1, 0, 0}, 0.25);
+    ec_scene *scene = case_load(gltf_write(w, name), "1,1,1");
+    free(w);
+    set_map(scene, 64, 32, 2, 10, 0, 1000); /* from -x, which the mirror faces */
+    ec_render_options o = case_options(16, 16, 16384);
+    o.max_depth = 3;
+    *rare = foretell(scene, &o);
+    case_image image = case_render(scene, &o);
+    const double mean = image.mean[1];
+    case_free(&image);
+    ec_scene_free(scene);
+    return mean;
+}
+
+/* What a mirror throws onto the floor: the difference that it makes. */
+static void check_floor(void)
+{
+    ec_rare rare, none;
+    double chance;
+    const double lit = floor_light(1, "rare-floor", &rare), dark = floor_light(0, "rare-floor-black", &none), expected = lit - dark;
+    printf("a mirror beside a floor: %.4g with it, %.4g without\n", lit, dark);
+    const double light = light_of(&rare, &chance, "mirror");
+    CHECK_MSG(light > 0.6 * expected && light < 1.6 * expected, "light %g by way of the mirror, %g in a long render", light, expected);
+}
+
+int main(void)
+{
+    check_plane("a mirror that shows the light", 1, 0.2, true);
+    check_plane("a mirror that does not", 1, 0.6, false);
+    check_plane("a matt plane", 0, 0.2, false);
+    check_floor();
+    TEST_END();
+}
