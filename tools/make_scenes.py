@@ -15,13 +15,13 @@ import tempfile
 import zlib
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from scenes import (brushed_metal, car_paint, cornell_box, drink, furnace, glass, ladder, lamps, prism, ring, showcase, six_lamps,  # noqa: E402
-                    soap_film, spheres, stadium, terminator, veach_plates, velvet)
+from scenes import (brushed_metal, car_paint, cornell_box, curl, drink, furnace, glass, keyhole, ladder, lamps, pinlamp, prism,  # noqa: E402
+                    ring, showcase, six_lamps, soap_film, spheres, stadium, terminator, toy, vase, veach_plates, velvet)
 
-SCENES = {"brushed-metal": brushed_metal, "car-paint": car_paint, "cornell-box": cornell_box, "drink": drink, "furnace": furnace,
-          "glass": glass, "ladder": ladder, "lamps": lamps, "prism": prism, "ring": ring, "showcase": showcase, "six-lamps": six_lamps,
-          "soap-film": soap_film, "spheres": spheres, "stadium": stadium, "terminator": terminator, "veach-plates": veach_plates,
-          "velvet": velvet}
+SCENES = {"brushed-metal": brushed_metal, "car-paint": car_paint, "cornell-box": cornell_box, "curl": curl, "drink": drink,
+          "furnace": furnace, "glass": glass, "keyhole": keyhole, "ladder": ladder, "lamps": lamps, "pinlamp": pinlamp, "prism": prism,
+          "ring": ring, "showcase": showcase, "six-lamps": six_lamps, "soap-film": soap_film, "spheres": spheres, "stadium": stadium,
+          "terminator": terminator, "toy": toy, "vase": vase, "veach-plates": veach_plates, "velvet": velvet}
 WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 CODE = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
 
