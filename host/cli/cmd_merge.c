@@ -79,7 +79,7 @@ static ec_result write_pictures(merge_request *request, const merged *m, ec_erro
     const ec_film *film = &m->all->film;
     char why[EC_ERROR_TEXT];
     ec_error_why(&m->error, why, sizeof why);
-    const bool is_bound = m->error.no_bound == EC_BOUND_STANDS;
+    const bool is_bound = !m->error.is_open;
     const ec_attribute attributes[] = {
         {.name = "eclat.command", .type = EC_ATTR_STRING, .string = m->command},
         {.name = "eclat.version", .type = EC_ATTR_STRING, .string = ECLAT_VERSION},

@@ -79,7 +79,7 @@ static ec_result foretell(ec_cost_runner *runner, ec_film *film, ec_error *err)
 static void warn_of_rare_paths(const ec_cost_study *study, const ec_film *film)
 {
     const ec_film_error e = ec_film_estimate_error(film);
-    if (e.no_bound == EC_BOUND_STANDS) return;
+    if (!e.is_open) return;
     ec_warn(study->log, "the reference has no bound of its error: rare bright paths (%s%s%sto %s) are hardly met yet; all errors are without their light",
             *e.through ? "through \"" : "straight ", e.through, *e.through ? "\" " : "", e.light);
 }

@@ -114,7 +114,8 @@ double ec_film_error_bound(double square, double noisy_pixels, double pixels, do
     return sqrt(square * (1 + hypot(from_pixels, from_mean)));
 }
 
-/* No bound where light may be there that its samples do not show, or where those that do are too few to tell. */
+/* No bound where light may be missing that would break it. Where some of it was met by chance, the picture is brighter and its error larger
+ * for it; then a few samples hold most of the noise. */
 static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare, ec_film_error *e)
 {
     const ec_rare_kind *kind;
@@ -125,10 +126,9 @@ static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare,
     e->unmet_samples = kind ? EC_RARE_MET / kind->chance / pixels : 0;
     e->bound_if_met = e->error_bound;
     e->tail_share = sums->s2 > 0 ? fmin(few / sums->s2, 1) : 0;
-    e->tail_shape = ec_tail_shape(&sums->tail);
-    if (hypot(e->error, EC_RARE_DOUBT * e->unmet) > e->error_bound) e->no_bound = EC_NO_BOUND_RARE;
+    e->is_open = hypot(e->error, EC_RARE_DOUBT * e->unmet) > e->error_bound || (e->unmet > EC_RARE_LEAST && e->tail_share > EC_RARE_TAIL);
     if (kind) memcpy(e->through, kind->through, sizeof e->through), memcpy(e->light, kind->light, sizeof e->light);
-    if (e->no_bound != EC_BOUND_STANDS) e->error_bound = INFINITY;
+    if (e->is_open) e->error_bound = INFINITY;
 }
 
 ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare)

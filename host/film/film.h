@@ -99,27 +99,19 @@ static inline uint32_t ec_film_replicates(const ec_film *film)
 double ec_film_samples(const ec_film *film, uint64_t p);
 double ec_film_samples_of_all(const ec_film *film);
 
-/* Why there is no bound. */
-typedef enum ec_no_bound {
-    EC_BOUND_STANDS,  /* there is one, or no error to be bound */
-    EC_NO_BOUND_RARE, /* light that hardly any sample has met may decide */
-    EC_NO_BOUND_TAIL  /* a few bright samples decide */
-} ec_no_bound;
-
 typedef struct ec_film_error {
     double mean_luminance;   /* of the image */
     /* Relative RMS standard error. Infinity with fewer than 2 replicates, and for a black image: its relative error is
      * undefined, and having seen no light yet is no evidence that there is none. 0 only for a lit image whose replicates
      * all agree. Never NaN. */
     double error;
-    double error_bound;      /* 95 % upper bound; infinity when error is, and where no_bound says why. Wants 4 replicates or more, see film/error.c */
-    ec_no_bound no_bound;
+    double error_bound;      /* 95 % upper bound; infinity when error is, and where light may be missing. Wants 4 replicates or more, see film/error.c */
+    bool is_open;            /* light that hardly any sample has met may decide: no bound, and `error` is the least that it is */
     double bound_if_met;     /* what the bound would be if no light were missing */
     double unmet;            /* the relative RMS error that there is where light that may not have been met was not (film/rare.h) */
     double unmet_samples;    /* a pixel, that it would take to expect EC_RARE_MET of those paths; 0: nothing is missing */
     double tail_share;       /* part of the noise that the EC_TAIL_FEW largest samples hold */
-    double tail_shape;       /* of the generalised Pareto distribution that fits the largest ones (film/tail.h) */
-    char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* of the rare paths; empty: not known */
+    char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* of the rare paths; through is empty where the camera sees the light itself */
     double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/error.c */
     double spread;           /* standard error of ln(error^2); over 0.3 a few rare events decide */
     /* What noise alone makes of mean((x - r)^2 / (r + 0.01)^2) over pixels and channels, r the converged image: SE^2 in

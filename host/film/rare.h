@@ -14,7 +14,9 @@
 #define EC_RARE_TILES 16   /* the picture is cut in as many columns and rows */
 #define EC_RARE_SHARES (EC_RARE_TILES * EC_RARE_TILES)
 #define EC_RARE_NAME 48
-#define EC_RARE_MET 5.0    /* samples that a kind is expected to have once it is as good as met: 1 in 150 renders has none */
+#define EC_RARE_MET 4.0    /* samples that a kind is expected to have once it is as good as met: 1 in 55 renders has none */
+#define EC_RARE_LEAST 0.05 /* of the mean luminance, root mean square: missing light that matters where … */
+#define EC_RARE_TAIL 0.5   /* … the largest few samples hold more than this share of the noise */
 #define EC_RARE_DOUBT 2.0  /* by which what is foretold of its light may be too low */
 
 /* One kind of path: through a material, as sharp as that, to one light. */

@@ -74,7 +74,7 @@ static range samples_to(const ec_goal *g, const ec_film_outlook *o)
 static ec_forecast foretell(const ec_goal *g, ec_mark at, double gain)
 {
     const ec_film_error *now = &g->now;
-    const bool is_open = now->no_bound != EC_BOUND_STANDS, known = isfinite(now->error) && now->error > 0 && !is_open;
+    const bool is_open = now->is_open, known = isfinite(now->error) && now->error > 0 && !is_open;
     const ec_film_outlook o = {now->error * now->error * gain, at.samples, g->slope.value, now->noisy_pixels, g->pixels, g->replicates};
     range samples = {INFINITY, INFINITY, INFINITY};
     if (g->error > 0 && known) samples = samples_to(g, &o);
@@ -100,7 +100,7 @@ static ec_forecast foretell(const ec_goal *g, ec_mark at, double gain)
 void ec_goal_round(ec_goal *g, const ec_film_error *now, ec_mark at)
 {
     g->now = *now;
-    g->is_withheld = g->error > 0 && now->no_bound != EC_BOUND_STANDS && now->bound_if_met <= g->error;
+    g->is_withheld = g->error > 0 && now->is_open && now->bound_if_met <= g->error;
     ec_slope_add(&g->slope, at.samples, now);
 }
 

@@ -5,10 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/random.h"
+
 #define PI 3.14159265358979323846
-#define LOOKED_AT 2048      /* chains of each sharpness that are compared with a light */
-#define NEAREST 8           /* at least, and … */
-#define NEAREST_SHARE 64    /* … one in so many of them */
+#define COMPARED (1 << 20)  /* chains times lamps that are compared, about, of each kind */
+#define LEAST 1024          /* chains of a kind that are looked at in any case */
+#define NEAREST 12
 #define FEW 16              /* fewer chains say nothing of where they go: anywhere */
 #define AROUND 0.35         /* length of the nearest ones' mean offset, over its root mean square: beyond, all lie to one side … */
 #define AROUND_CHANCE 1.0   /* … but for what chance makes of it, this over the root of their number */
@@ -34,13 +36,6 @@ typedef struct sums {
     double chance, luminance, share[EC_RARE_SHARES];
     double *through; /* by material; the last one: the camera's */
 } sums;
-
-static int by_distance(const void *a, const void *b)
-{
-    const beside *x = a, *y = b;
-    if (x->square != y->square) return x->square < y->square ? -1 : 1;
-    return x->chain < y->chain ? -1 : x->chain > y->chain;
-}
 
 static void place_beside(const ec_chain *chain, const double towards[3], beside *b)
 {
@@ -109,25 +104,45 @@ static void add_chains(const ec_rare_lights *all, const beside *near, uint32_t c
     }
 }
 
-/* All of them, or those nearest to a light. room: for as many as there are chains. */
-static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp, beside *room,
+/* Keeps the nearest, the nearest first. */
+static void keep_nearest(const beside *next, beside *near, uint32_t *count)
+{
+    if (*count == NEAREST && next->square >= near[NEAREST - 1].square) return;
+    uint32_t i = *count < NEAREST ? (*count)++ : NEAREST - 1;
+    for (; i > 0 && near[i - 1].square > next->square; i--) near[i] = near[i - 1];
+    near[i] = *next;
+}
+
+static beside place(const ec_rare_lights *all, const ec_chain *chain, const ec_rare_light *light, const ec_rare_lamp *lamp, const ec_params *params)
+{
+    beside b;
+    if (lamp) beside_lamp(all, chain, light, lamp, &b);
+    else beside_environment(chain, light, params, &b);
+    return b;
+}
+
+/* By those that are nearest to a light, or, where it is so large that more meet it, by these; by all of them where it lies all around, or where
+ * they are too few to tell. */
+static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp,
                       const ec_params *params, const ec_rare *rare, sums *s)
 {
     const bool is_spread = !lamp && light->direction[0] == 0 && light->direction[1] == 0 && light->direction[2] == 0;
-    uint32_t count = of->count;
-    double cap = 4 * PI;
-    for (uint32_t i = 0; i < count; i++) {
-        if (lamp) beside_lamp(all, of->chains[i], light, lamp, &room[i]);
-        else beside_environment(of->chains[i], light, params, &room[i]);
+    const bool takes_all = is_spread || of->count < FEW;
+    const double weight = of->weight * (lamp ? lamp->weight : 1);
+    beside near[NEAREST];
+    uint32_t count = 0, met = 0;
+    for (uint32_t i = 0; i < of->count; i++) {
+        const beside next = place(all, of->chains[i], light, lamp, params);
+        met += PI * next.square < next.solid_angle;
+        keep_nearest(&next, near, &count);
     }
-    if (!is_spread && count >= FEW) {
-        qsort(room, count, sizeof *room, by_distance);
-        const uint32_t near = count / NEAREST_SHARE > NEAREST ? count / NEAREST_SHARE : NEAREST;
-        if (!surround(room, near)) return;
-        cap = fmin(PI * fmax(room[near - 1].square, 1e-12), 4 * PI);
-        count = near;
+    for (uint32_t i = 0; i < of->count && (takes_all || met >= NEAREST); i++) {
+        const beside next = place(all, of->chains[i], light, lamp, params);
+        if (takes_all || PI * next.square < next.solid_angle)
+            add_chains(all, &next, 1, takes_all ? 4 * PI : next.solid_angle, weight, light->radiance, rare, s);
     }
-    add_chains(all, room, count, cap, of->weight * (lamp ? lamp->weight : 1), light->radiance, rare, s);
+    if (takes_all || met >= NEAREST || !surround(near, count)) return;
+    add_chains(all, near, count, fmin(PI * fmax(near[count - 1].square, 1e-12), 4 * PI), weight, light->radiance, rare, s);
 }
 
 /* Chains that are alike: mirrors' and glass's, sharp lobes, wide ones; and the same where the pixel sees through them. */
@@ -138,14 +153,19 @@ static int kind_of(const ec_chain *c)
     return (isinf(c->pdf) ? 0 : c->pdf > 2048 ? 1 : 2) + (c->is_direct ? 3 : 0);
 }
 
-static void select_chains(const ec_chains *chains, int kind, selection *of)
+/* One of every so many, any: paths come in the order of pixels. */
+static void select_chains(const ec_chains *chains, int kind, uint32_t most, selection *of)
 {
-    uint32_t found = 0, seen = 0;
+    uint32_t found = 0, seen = 0, next = 0;
     for (uint32_t i = 0; i < chains->count; i++) found += kind_of(&chains->chains[i]) == kind;
-    const uint32_t stride = found / LOOKED_AT + 1;
+    const uint32_t stride = (found + most - 1) / most;
+    uint64_t random = 1;
     of->count = 0;
-    for (uint32_t i = 0; i < chains->count; i++)
-        if (kind_of(&chains->chains[i]) == kind && seen++ % stride == 0) of->chains[of->count++] = &chains->chains[i];
+    for (uint32_t i = 0; i < chains->count; i++) {
+        if (kind_of(&chains->chains[i]) != kind) continue;
+        if (seen % stride == 0) next = seen + (uint32_t)(ec_random_unit(&random) * stride);
+        if (seen++ == next) of->chains[of->count++] = &chains->chains[i];
+    }
     of->weight = of->count ? (double)found / of->count / chains->paths : 0;
 }
 
@@ -193,23 +213,24 @@ static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, con
 ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, const ec_params *params, ec_rare *rare, ec_error *err)
 {
     selection of = {.chains = malloc((chains->count + (size_t)1) * sizeof *of.chains)};
-    beside *room = malloc((chains->count + (size_t)1) * sizeof *room);
     double *through = malloc((all->material_count + (size_t)1) * sizeof *through);
     *rare = (ec_rare){.width = params->width, .height = params->height};
-    ec_result result = of.chains && room && through ? EC_OK : ec_fail(err, "out of memory for %u paths", chains->count);
+    ec_result result = of.chains && through ? EC_OK : ec_fail(err, "out of memory for %u paths", chains->count);
+    uint32_t compared = 1;
+    for (uint32_t i = 0; i < all->count; i++) compared += all->lights[i].lamp_count ? all->lights[i].lamp_count : 1;
+    const uint32_t most = COMPARED / compared > LEAST ? COMPARED / compared : LEAST;
     for (int k = 0; result == EC_OK && k < ALIKE; k++) {
-        select_chains(chains, k, &of);
+        select_chains(chains, k, most, &of);
         for (uint32_t i = 0; of.count && i < all->count; i++) {
             const ec_rare_light *light = &all->lights[i];
             sums s = {.through = through};
             memset(through, 0, (all->material_count + (size_t)1) * sizeof *through);
-            for (uint32_t l = 0; l < light->lamp_count; l++) add_light(all, &of, light, &light->lamps[l], room, params, rare, &s);
-            if (!light->lamp_count) add_light(all, &of, light, NULL, room, params, rare, &s);
+            for (uint32_t l = 0; l < light->lamp_count; l++) add_light(all, &of, light, &light->lamps[l], params, rare, &s);
+            if (!light->lamp_count) add_light(all, &of, light, NULL, params, rare, &s);
             keep_kind(all, light, &s, gathered(&s, k >= 3, (double)params->width * params->height), rare);
         }
     }
     free(of.chains);
-    free(room);
     free(through);
     return result;
 }

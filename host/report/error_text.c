@@ -20,7 +20,7 @@ const char *ec_error_grade(const ec_film_error *e)
         const char *name;
     } grades[] = {{0.01, "good as a reference"}, {0.03, "good for a print"}, {0.10, "good for a screen"}, {0.30, "a preview"}};
     if (!isfinite(e->error)) return "not known yet";
-    if (e->no_bound != EC_BOUND_STANDS) return "not to be relied on";
+    if (e->is_open) return "not to be relied on";
     for (size_t i = 0; i < sizeof grades / sizeof *grades; i++)
         if (e->error_bound <= grades[i].bound) return grades[i].name;
     return "a rough preview";
@@ -28,23 +28,21 @@ const char *ec_error_grade(const ec_film_error *e)
 
 void ec_error_why(const ec_film_error *e, char *text, size_t size)
 {
-    char paths[160], unmet[32], share[32];
+    char paths[2 * EC_RARE_NAME + 32], unmet[32], share[32];
     *text = 0;
-    if (e->no_bound == EC_BOUND_STANDS) return;
+    if (!e->is_open) return;
     format_paths(e, paths, sizeof paths);
     ec_format_percent(e->unmet, unmet, sizeof unmet);
     ec_format_percent(e->tail_share, share, sizeof share);
-    if (e->no_bound == EC_NO_BOUND_RARE)
-        snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise; %s are hardly met yet: while their light is missing the error is some %s)",
-                 EC_TAIL_FEW, share, paths, unmet);
-    else snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise)", EC_TAIL_FEW, share);
+    snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise; %s are hardly met yet: while their light is missing the error is some %s)",
+             EC_TAIL_FEW, share, paths, unmet);
 }
 
 void ec_error_help(const ec_film_error *e, char *text, size_t size)
 {
     char samples[64] = "more samples", count[32];
     *text = 0;
-    if (e->no_bound == EC_BOUND_STANDS) return;
+    if (!e->is_open) return;
     ec_format_count(ceil(e->unmet_samples), count, sizeof count);
     if (e->unmet_samples > 0) snprintf(samples, sizeof samples, "some %s samples a pixel", count);
     if (*e->through)
@@ -73,5 +71,4 @@ void ec_error_json(cJSON *root, const ec_film_error *e)
     ec_json_text(root, "quality", ec_error_grade(e));
     ec_json_real(root, "error_unmet", e->unmet);
     ec_json_real(root, "tail_share", e->tail_share);
-    ec_json_real(root, "tail_shape", e->tail_shape);
 }

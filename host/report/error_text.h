@@ -7,7 +7,7 @@
 
 #include "film/film.h"
 
-enum { EC_ERROR_TEXT = 384 };
+enum { EC_ERROR_TEXT = 512 };
 
 /* "error 1.93 % (95 % bound 1.97 %)", or "error at least 9.8 %: no bound, since …". */
 void ec_error_text(const ec_film_error *error, char *text, size_t size);

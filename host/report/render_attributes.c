@@ -148,7 +148,7 @@ static void add_result(ec_report_attributes *attributes, const ec_render_report 
     add_effects(attributes, &stats->effects);
     add_real(attributes, "eclat.seconds", stats->seconds);
     add_real(attributes, "eclat.error", stats->film.error);
-    if (stats->film.no_bound == EC_BOUND_STANDS) add_real(attributes, "eclat.errorBound", stats->film.error_bound);
+    if (!stats->film.is_open) add_real(attributes, "eclat.errorBound", stats->film.error_bound);
     char why[EC_ERROR_TEXT];
     ec_error_why(&stats->film, why, sizeof why);
     if (*why) add_made(attributes, "eclat.errorBoundWhy", "%s", why);

@@ -49,7 +49,7 @@ static void format_more(const ec_render_stats *stats, char *text, size_t size)
     char error[32];
     ec_format_percent(stats->film.error * pow(4, -slope / 2), error, sizeof error);
     *text = 0;
-    if (isfinite(stats->film.error) && stats->film.no_bound == EC_BOUND_STANDS)
+    if (isfinite(stats->film.error) && !stats->film.is_open)
         snprintf(text, size, "; 4 times the samples would bring the picture's error to some %s", error);
 }
 

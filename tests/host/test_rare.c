@@ -1,0 +1,121 @@
+/* No bound while light may be missing: what film/rare.h foretells, and what becomes of a film's error, its pixels' flags and a stored job. */
+#include "film/rare.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "film/resolve.h"
+#include "film/tail.h"
+#include "support/films.h"
+#include "support/test.h"
+
+enum { WIDTH = 32, HEIGHT = 32, REPLICATES = 8 };
+
+/* Half of the light is in the first tile, and met once in 2^20 samples; the rest is met by one in 10. */
+static ec_rare two_kinds(void)
+{
+    ec_rare rare = {.count = 2, .width = WIDTH, .height = HEIGHT};
+    rare.kinds[0] = (ec_rare_kind){.through = "glass", .light = "\"lamp\"", .chance = 0x1p-20, .luminance = 1, .gathered = 8, .share = {255}};
+    rare.kinds[1] = (ec_rare_kind){.through = "steel", .light = "\"lamp\"", .chance = 0.1, .luminance = 1, .gathered = 1};
+    for (int i = 0; i < EC_RARE_SHARES; i++) rare.kinds[1].share[i] = 255;
+    return rare;
+}
+
+static void test_kinds(void)
+{
+    const ec_rare rare = two_kinds();
+    const ec_rare_kind *most;
+    CHECK_NEAR(ec_rare_unmet(&rare, 1, &most), 64 + 1, 1e-12);
+    CHECK(most == &rare.kinds[0]);
+    CHECK_NEAR(ec_rare_unmet(&rare, 1e4, &most), 64, 1e-12); /* the second is met */
+    CHECK(ec_rare_unmet(&rare, EC_RARE_MET * 0x1p20, &most) == 0 && !most);
+    CHECK(ec_rare_unmet(NULL, 1, &most) == 0 && !most);
+    CHECK_NEAR(ec_rare_unmet_at(&rare, 64, 0, 0), EC_RARE_SHARES, 1e-9); /* all of it in one of so many tiles */
+    CHECK(ec_rare_unmet_at(&rare, 64, 2, 0) == 0);
+    ec_rare strip = rare;
+    strip.row = 2;
+    CHECK(ec_rare_unmet_at(&strip, 64, 0, 0) == 0); /* another row of tiles */
+}
+
+/* Grey pixels with a little noise. */
+static ec_film make_film(void)
+{
+    ec_film film;
+    ec_error err = {0};
+    float *batch = calloc((size_t)WIDTH * HEIGHT * EC_BATCH_FIELDS, sizeof *batch);
+    if (!batch || ec_film_create(&film, WIDTH, HEIGHT, REPLICATES, &err) != EC_OK) exit(1);
+    uint32_t state = 1;
+    for (uint32_t r = 0; r < REPLICATES; r++) {
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            state = state * 1664525u + 1013904223u;
+            float *p = batch + EC_BATCH_FIELDS * i, value = 1 + 0.1f * ((float)(state >> 8) / 16777216.0f - 0.5f);
+            p[EC_BATCH_R] = p[EC_BATCH_G] = p[EC_BATCH_B] = p[EC_BATCH_LARGEST] = value;
+            p[EC_BATCH_SQUARES] = p[EC_BATCH_FOURTHS] = 1;
+        }
+        if (ec_film_add(&film, r, batch, &err) != EC_OK) exit(1);
+    }
+    free(batch);
+    return film;
+}
+
+static uint64_t count_heavy(const ec_film *film, float *heavy)
+{
+    ec_pixel *room = malloc(ec_resolve_room(WIDTH, HEIGHT) * sizeof *room);
+    const ec_planes planes = {.intervals = {.heavy = heavy}};
+    const uint64_t count = ec_film_resolve_rows(film, 0, HEIGHT, &planes, room);
+    free(room);
+    return count;
+}
+
+static void test_film(void)
+{
+    ec_error err = {0};
+    ec_film film = make_film();
+    float before[WIDTH * HEIGHT], heavy[WIDTH * HEIGHT];
+    uint64_t added = 0;
+    ec_rare rare = two_kinds();
+    const ec_film_error plain = ec_film_estimate_error(&film);
+    CHECK(!plain.is_open && isfinite(plain.error_bound) && plain.unmet == 0);
+    const uint64_t count = count_heavy(&film, before); /* by their few samples */
+
+    CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
+    const ec_film_error open = ec_film_estimate_error(&film);
+    CHECK(open.is_open && isinf(open.error_bound) && open.error == plain.error && open.bound_if_met == plain.error_bound);
+    CHECK_NEAR(open.unmet, 8 / plain.mean_luminance, 1e-9);
+    CHECK_NEAR(open.unmet_samples, EC_RARE_MET * 0x1p20 / (WIDTH * HEIGHT), 1e-6);
+    CHECK(!strcmp(open.through, "glass") && !strcmp(open.light, "\"lamp\""));
+    const uint64_t with = count_heavy(&film, heavy); /* and now all of the first tile, 2 x 2 pixels */
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const bool is_lacking = i % WIDTH < 2 && i / WIDTH < 2;
+        CHECK(heavy[i] == (is_lacking ? 1 : before[i]));
+        added += heavy[i] != before[i];
+    }
+    CHECK(added > 0 && with == count + added);
+
+    rare.kinds[0].luminance = 1e-5; /* of no weight beside the noise */
+    CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
+    const ec_film_error weak = ec_film_estimate_error(&film);
+    CHECK(!weak.is_open && weak.error_bound == plain.error_bound && count_heavy(&film, heavy) == count);
+    ec_film_destroy(&film);
+}
+
+static void test_tail(void)
+{
+    ec_tail a = {0}, b = {0}, all = {0};
+    for (int i = 0; i < 40; i++) {
+        const double value = (i * 7) % 40;
+        ec_tail_add(i % 2 ? &a : &b, value);
+        ec_tail_add(&all, value);
+    }
+    ec_tail_join(&a, &b);
+    CHECK(a.count == EC_TAIL_FEW && !memcmp(a.largest, all.largest, sizeof a.largest));
+    for (int i = 0; i < EC_TAIL_FEW; i++) CHECK(all.largest[i] == 39 - i);
+}
+
+int main(void)
+{
+    test_kinds();
+    test_film();
+    test_tail();
+    TEST_END();
+}
