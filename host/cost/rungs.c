@@ -76,6 +76,19 @@ static void add_roulettes(rung_list *list)
     off->unbiased = false;
 }
 
+static void add_clamps(rung_list *list)
+{
+    static const double limits[] = {1, 10, 100};
+    begin(list, "clamp", "A sample's indirect light limited, instead of not, to this many mean luminances of the picture");
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+        char id[48];
+        snprintf(id, sizeof id, "clamp-%g", limits[i]);
+        ec_cost_rung *clamp = add(list, id, "%g", limits[i]);
+        clamp->options.clamp = limits[i];
+        clamp->unbiased = false;
+    }
+}
+
 /* Another model of the surface, so another picture: the floor is the light that is lost by scattering once. */
 static void add_scattering(rung_list *list)
 {
@@ -188,6 +201,7 @@ ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_
     add_samplings(&list);
     add_integrators(&list);
     add_roulettes(&list);
+    add_clamps(&list);
     add_scattering(&list);
     add_arithmetic(&list);
     add_effects(&list);

@@ -4,10 +4,10 @@
 
 #include "film/interval.h"
 
-/* rgb 3 a pixel, stderr_rgb 3 and stderr_y 1 (0 with fewer than two replicates), samples 1, every samples_stride-th; and the intervals. Any
- * may be NULL. */
+/* rgb 3 a pixel, stderr_rgb 3 and stderr_y 1 (0 with fewer than two replicates), samples 1, every samples_stride-th; clamped 2, what a
+ * clamp took away and its standard error; and the intervals. Any may be NULL. */
 typedef struct ec_planes {
-    float *rgb, *stderr_rgb, *stderr_y, *samples;
+    float *rgb, *stderr_rgb, *stderr_y, *samples, *clamped;
     uint32_t samples_stride;
     ec_intervals_of intervals;
 } ec_planes;

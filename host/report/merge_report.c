@@ -2,18 +2,23 @@
 
 #include <math.h>
 
+#include "report/clamp_report.h"
 #include "report/format.h"
 #include "report/json.h"
 
 void ec_merge_report_text(const ec_merge_report *r, FILE *to)
 {
-    char error[32], bound[32];
+    char error[32], bound[32], clamped[256];
     fprintf(to, "%d %s, %llu samples a pixel in %llu replicates\n", r->files, r->files == 1 ? "file" : "files",
             (unsigned long long)r->samples_per_pixel, (unsigned long long)r->replicates);
     if (isfinite(r->error.error)) {
         ec_format_percent(r->error.error, error, sizeof error);
         ec_format_percent(r->error.error_bound, bound, sizeof bound);
         fprintf(to, "error %s of the mean luminance a pixel, with 95 %% confidence under %s\n", error, bound);
+    }
+    if (r->limit > 0) {
+        ec_clamp_text(&r->clamp, clamped, sizeof clamped);
+        fprintf(to, "clamped: %s\n", clamped);
     }
     for (int i = 0; i < r->output_count; i++) fprintf(to, "%s\n", r->outputs[i]);
 }
@@ -30,6 +35,7 @@ ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err
     ec_json_real(object, "relmse", r->error.relmse);
     ec_json_real(object, "mean_luminance", r->error.mean_luminance);
     ec_json_whole(object, "heavy_pixels", r->heavy_pixels);
+    ec_clamp_json(object, r->limit, r->luminance, &r->clamp);
     ec_json_text(object, "image_sha256", r->image_sha256);
     outputs = cJSON_AddArrayToObject(object, "outputs");
     for (int i = 0; i < r->output_count; i++) ec_json_text(outputs, NULL, r->outputs[i]);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "report/clamp_report.h"
 #include "report/effects_report.h"
 #include "report/forecast_text.h"
 #include "report/format.h"
@@ -56,6 +57,14 @@ static void print_heavy(const ec_render_report *report, FILE *to)
             report->heavy_pixels == 1 ? "" : "s", share, report->heavy_pixels == 1 ? "its" : "their");
 }
 
+static void print_clamped(const ec_render_report *report, FILE *to)
+{
+    char text[256];
+    if (!(report->options->clamp > 0)) return;
+    ec_clamp_text(&report->clamp, text, sizeof text);
+    fprintf(to, "clamped  %s\n", text);
+}
+
 static void print_effects(const ec_render_effects *effects, FILE *to)
 {
     char line[EC_EFFECT_NAMES + 32];
@@ -96,6 +105,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     ec_format_bytes(report->peak_memory_bytes, memory, sizeof memory);
     ec_format_bytes(stats->allied_bytes, received, sizeof received);
     fprintf(to, "result   %s, %s rays/s\n", summary, rays);
+    print_clamped(report, to);
     if (stats->forecast.pilot_samples > 0) {
         char forecast[256];
         ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);
