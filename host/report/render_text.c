@@ -36,6 +36,14 @@ static void print_shared(const ec_render_stats *stats, FILE *to)
             ec_follow_names[f->what], seconds, f->expense, build, stats->programs_found, stats->programs_built, kept, uploaded);
 }
 
+static void print_clamped(const ec_render_report *report, FILE *to)
+{
+    char text[256];
+    if (!(report->options->clamp > 0)) return;
+    ec_clamp_text(&report->clamp, text, sizeof text);
+    fprintf(to, "clamped  %s\n", text);
+}
+
 void ec_frame_report_text(const ec_render_report *report, FILE *to)
 {
     char summary[256];
@@ -43,6 +51,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
     for (int i = 0; i < report->output_count; i++) fprintf(to, "%s %s", i ? "," : " →", report->outputs[i]);
     fputc('\n', to);
+    print_clamped(report, to);
     if (report->verbose) print_shared(report->stats, to);
 }
 
@@ -55,14 +64,6 @@ static void print_heavy(const ec_render_report *report, FILE *to)
     ec_format_percent((double)report->heavy_pixels / pixels, share, sizeof share);
     fprintf(to, "heavy    heavy-tailed: %" PRIu64 " pixel%s (%s), %s error is a lower bound\n", report->heavy_pixels,
             report->heavy_pixels == 1 ? "" : "s", share, report->heavy_pixels == 1 ? "its" : "their");
-}
-
-static void print_clamped(const ec_render_report *report, FILE *to)
-{
-    char text[256];
-    if (!(report->options->clamp > 0)) return;
-    ec_clamp_text(&report->clamp, text, sizeof text);
-    fprintf(to, "clamped  %s\n", text);
 }
 
 static void print_effects(const ec_render_effects *effects, FILE *to)
