@@ -178,7 +178,7 @@ static const char help_cost[] =
     "Usage: eclat cost SCENE [options]\n"
     "\n"
     "Renders a glTF 2.0 scene as eclat render does by default, and again with one thing changed or left out: integrator,\n"
-    "sampling, random numbers, roulette, how often rough surfaces scatter, arithmetic, each effect of the scene,\n"
+    "sampling, random numbers, roulette, how often rough surfaces scatter, a clamp, arithmetic, each effect of the scene,\n"
     "accelerator, lanes. For each of these rungs it prints time per sample, noise, bias against a reference, and the time\n"
     "to a given error.\n"
     "\n"

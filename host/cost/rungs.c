@@ -76,10 +76,11 @@ static void add_roulettes(rung_list *list)
     off->unbiased = false;
 }
 
+/* What fireflies cost, and what it costs to be rid of them: the floor is the light that is missing. */
 static void add_clamps(rung_list *list)
 {
     static const double limits[] = {1, 10, 100};
-    begin(list, "clamp", "A sample's indirect light limited, instead of not, to this many mean luminances of the picture");
+    begin(list, "clamp", "Most of a sample's indirect light, in mean luminances, instead of no limit");
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
         char id[48];
         snprintf(id, sizeof id, "clamp-%g", limits[i]);
@@ -201,8 +202,8 @@ ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_
     add_samplings(&list);
     add_integrators(&list);
     add_roulettes(&list);
-    add_clamps(&list);
     add_scattering(&list);
+    add_clamps(&list);
     add_arithmetic(&list);
     add_effects(&list);
     add_speeds(&list);

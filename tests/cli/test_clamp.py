@@ -146,6 +146,13 @@ class Clamp(Case):
             run = self.assert_ok(mpirun(3, "render", *JOB, *job, "--json", "-q", "-o", self.path("b.exr")))
             self.assert_same(whole, (json.loads(run.stdout), *read_exr(self.path("b.exr"))))
 
+    def test_frames(self):
+        """Each has a mean luminance of its own, as alone."""
+        whole = self.render("--spp", "16", "--clamp", "1")
+        run = self.assert_ok(eclat("render", *JOB, "--spp", "16", "--clamp", "1", "--frames", "3", "--json", "-q", "-o", self.path("f.%04d.exr")))
+        report = json.loads(run.stdout.splitlines()[0])
+        self.assert_same(whole, (report, *read_exr(report["outputs"][0])))
+
     def test_a_job_with_a_clamp_is_another_job(self):
         kept = self.path("kept.exr")
         self.render("--spp", "16", "--clamp", "1", "--checkpoint", kept)
