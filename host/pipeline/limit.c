@@ -12,11 +12,12 @@
 enum { PILOT = 1 << 16, GROUPS = 32 };
 #define PILOT_FIRST (1u << 31) /* number of its first sample in a replicate: no picture has so many (EC_MAX_SPP) */
 
-/* Entry i of the pilot: a pixel, and which sample of it. Small pictures have several of each pixel. */
+/* Entry i of the pilot: a pixel, and which sample of it. Small pictures have several of each pixel, one after the other, so that all groups
+ * have some of them. */
 static void write_entry(uint64_t i, uint64_t pixels, uint32_t *entry)
 {
-    entry[0] = (uint32_t)(pixels < PILOT ? i % pixels : i * pixels / PILOT);
-    entry[1] = PILOT_FIRST + (uint32_t)(pixels < PILOT ? i / pixels : 0);
+    entry[0] = (uint32_t)(i * pixels / PILOT);
+    entry[1] = PILOT_FIRST + (uint32_t)i;
 }
 
 static bool goes_on(void *user, uint32_t done)
