@@ -4,7 +4,7 @@
 
 #define EC_SMALLEST_WAVE 4096
 
-/* Of a slot: R, G, B, and again of indirect light where it is kept apart. */
+/* A slot has R, G, B, and again of indirect light where it is kept apart. */
 static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3; }
 
 /* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads. (Queues that
