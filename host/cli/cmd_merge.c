@@ -69,10 +69,18 @@ typedef struct merged {
     const char *command;
     const ec_stored *all;
     ec_film_error error;
+    ec_clamp_error clamp;
     ec_picture picture;
     uint64_t samples_per_pixel;
     char sha256[EC_HASH_SIZE];
 } merged;
+
+/* --clamp, as the slices had it; 0: they had none. */
+static double clamp_of(const merged *m)
+{
+    const char *value = ec_identity_value(&m->all->job.identity, "--clamp");
+    return m->all->film.limit > 0 && value ? strtod(value, NULL) : 0;
+}
 
 static ec_result write_pictures(merge_request *request, const merged *m, ec_error *err)
 {
@@ -91,11 +99,19 @@ static ec_result write_pictures(merge_request *request, const merged *m, ec_erro
         {.name = "eclat.relMSE", .type = EC_ATTR_DOUBLE, .number = m->error.relmse},
         {.name = "eclat.device", .type = EC_ATTR_STRING, .string = m->all->job.device},
         {.name = "eclat.imageSha256", .type = EC_ATTR_STRING, .string = m->sha256},
+        {.name = "eclat.clamp.limit", .type = EC_ATTR_DOUBLE, .number = clamp_of(m)}, /* these are the last: without a clamp they are left out */
+        {.name = "eclat.clamp.luminance", .type = EC_ATTR_DOUBLE, .number = (double)film->limit},
+        {.name = "eclat.clamp.missing", .type = EC_ATTR_DOUBLE, .number = m->clamp.missing},
+        {.name = "eclat.clamp.missingStderr", .type = EC_ATTR_DOUBLE, .number = m->clamp.missing_stderr},
+        {.name = "eclat.clamp.noise", .type = EC_ATTR_DOUBLE, .number = m->clamp.noise},
+        {.name = "eclat.clamp.bias", .type = EC_ATTR_DOUBLE, .number = m->clamp.bias},
+        {.name = "eclat.clamp.error", .type = EC_ATTR_DOUBLE, .number = m->clamp.error},
     };
+    enum { OF_CLAMP = 7 };
     const ec_picture_style style = {.exposure = (float)request->exposure,
                                     .tonemap = request->tonemap,
                                     .attributes = attributes,
-                                    .attribute_count = sizeof attributes / sizeof *attributes,
+                                    .attribute_count = sizeof attributes / sizeof *attributes - (film->limit > 0 ? 0 : OF_CLAMP),
                                     .job = &m->all->job,
                                     .film = film,
                                     .past = &m->all->past};
@@ -111,6 +127,9 @@ static ec_result tell(const merge_request *request, const merged *m, ec_error *e
                                     .replicates = ec_film_replicates(&m->all->film),
                                     .heavy_pixels = m->picture.heavy_count,
                                     .error = m->error,
+                                    .limit = clamp_of(m),
+                                    .luminance = (double)m->all->film.limit,
+                                    .clamp = m->clamp,
                                     .image_sha256 = m->sha256,
                                     .outputs = outputs,
                                     .output_count = request->outputs.count};
@@ -128,6 +147,7 @@ static ec_result merge(ec_console *console, const char *command, merge_request *
     EC_TRY_CLEANUP(check_request(request, err));
     EC_TRY_CLEANUP(take_slices(request, &slices, &log, err));
     m.error = ec_film_estimate_error(&slices.all.film);
+    m.clamp = ec_film_clamp_error(&slices.all.film);
     m.samples_per_pixel = slices.all.past.samples / ((uint64_t)slices.all.film.width * slices.all.film.height);
     EC_TRY_CLEANUP(ec_picture_resolve(&slices.all.film, true, &m.picture, err));
     ec_hash_rgb(m.picture.rgb, (uint64_t)m.picture.width * m.picture.height, m.sha256);

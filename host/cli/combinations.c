@@ -15,6 +15,7 @@ static const struct {
     uint32_t integrators;
 } owners[] = {
     {"max-depth", ONLY(PATH) | ONLY(WHITTED)},
+    {"clamp", ONLY(PATH)},
     {"cutoff", ONLY(WHITTED)},
     {"filter", ONLY(PATH) | ONLY(WHITTED)},
     {"filter-width", ONLY(PATH) | ONLY(WHITTED)},

@@ -11,6 +11,8 @@
 #define EC_SAFETY_SPP 1048576   /* 2^20: where --time and --error alone give up */
 #define EC_MAX_DEPTH 65535
 #define EC_DEFAULT_CUTOFF 0.001 /* a quarter of the least step of an 8-bit picture */
+#define EC_CLAMP_LEAST 0.001
+#define EC_CLAMP_MOST 1000000
 #define EC_FILTER_WIDTH_LEAST 0.1
 #define EC_FILTER_WIDTH_MOST 10
 #define EC_FSTOP_LEAST 0.001

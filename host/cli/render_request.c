@@ -49,6 +49,7 @@ PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 PARSED_SETTER(every, ec_parse_seconds, every)
 PARSED_SETTER(memory, ec_parse_bytes, options.memory)
 PARSED_SETTER(time, ec_parse_seconds, options.time_limit)
+RANGE_SETTER(clamp, ec_parse_real, EC_CLAMP_LEAST, EC_CLAMP_MOST, options.clamp)
 RANGE_SETTER(cutoff, ec_parse_real, 0, 1, options.cutoff)
 SETTER(env_rotate)
 {
@@ -224,6 +225,7 @@ const ec_option ec_render_rows[] = {
     {"adaptive", 0, EC_VALUE_OPTIONAL, set_adaptive},
     {"camera", 0, true, set_camera},
     {"checkpoint", 0, true, set_checkpoint},
+    {"clamp", 0, true, set_clamp},
     {"cutoff", 0, true, set_cutoff},
     {"device", 0, true, set_device},
     {"effects", 0, true, set_effects},

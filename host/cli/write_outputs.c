@@ -7,7 +7,7 @@
 
 enum { AOV_ALBEDO = 0, AOV_NORMAL = 3, AOV_DEPTH = 6, AOV_ALPHA = 7 };
 
-ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, ec_error *err)
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_cut, ec_error *err)
 {
     const size_t pixel_count = (size_t)width * rows;
     *picture = (ec_picture){.width = width, .height = rows};
@@ -16,6 +16,7 @@ ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, 
     static const size_t values[] = {3, 2, 3, 1, 3, 3, 1};
     bool made = (picture->room = malloc(ec_resolve_room(width, rows) * sizeof *picture->room)) != NULL;
     for (int i = 0; made && i < (with_error ? 7 : 2); i++) made = (*planes[i] = malloc(pixel_count * values[i] * sizeof(float))) != NULL;
+    if (made && with_cut) made = (picture->clamped = malloc(pixel_count * 2 * sizeof(float))) != NULL;
     if (made) return EC_OK;
     ec_picture_free(picture);
     return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", width, rows);
@@ -25,7 +26,7 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
 {
     const size_t pixel_count = (size_t)film->width * rows;
     const ec_planes planes = {.rgb = picture->rgb, .stderr_rgb = picture->stderr_rgb, .stderr_y = picture->stderr_y,
-                              .samples = picture->constants, .samples_stride = 2,
+                              .samples = picture->constants, .samples_stride = 2, .clamped = picture->clamped,
                               .intervals = {picture->low, picture->high, picture->heavy}};
     picture->height = rows;
     picture->aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
@@ -38,6 +39,7 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
     const size_t before = (size_t)first * picture->width;
     ec_picture here = {.width = picture->width, .height = rows, .rgb = picture->rgb + 3 * before, .constants = picture->constants + 2 * before,
                        .aov = picture->aov ? picture->aov + EC_FILM_FEATURES * before : NULL};
+    if (picture->clamped) here.clamped = picture->clamped + 2 * before;
     if (!picture->heavy) return here;
     here.stderr_rgb = picture->stderr_rgb + 3 * before;
     here.stderr_y = picture->stderr_y + before;
@@ -49,7 +51,8 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
 
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err)
 {
-    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && ec_film_replicates(film) >= 2, err));
+    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && ec_film_replicates(film) >= 2,
+                             with_error && film->limit > 0, err));
     ec_picture_fill(picture, film, 0, film->height);
     return EC_OK;
 }
@@ -63,6 +66,7 @@ void ec_picture_free(ec_picture *picture)
     free(picture->high);
     free(picture->heavy);
     free(picture->constants);
+    free(picture->clamped);
     free(picture->room);
     *picture = (ec_picture){0};
 }
@@ -79,7 +83,8 @@ void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
                              *const low[] = {"low95.R", "low95.G", "low95.B"}, *const high[] = {"high95.R", "high95.G", "high95.B"},
                              *const error_y[] = {"stderr.Y"}, *const heavy[] = {"heavy"}, *const samples[] = {"samples"},
                              *const alpha[] = {"A"}, *const albedo[] = {"albedo.R", "albedo.G", "albedo.B"},
-                             *const normal[] = {"normal.X", "normal.Y", "normal.Z"}, *const depth[] = {"depth.Z"};
+                             *const normal[] = {"normal.X", "normal.Y", "normal.Z"}, *const depth[] = {"depth.Z"},
+                             *const clamped[] = {"clamped.Y", "clamped.stderr"};
     channels->count = 0;
     add_channels(channels, picture->rgb, 3, 3, colour);
     add_channels(channels, picture->constants, 2, 1, samples);
@@ -90,6 +95,7 @@ void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
         add_channels(channels, picture->high, 3, 3, high);
         add_channels(channels, picture->heavy, 1, 1, heavy);
     }
+    if (picture->clamped) add_channels(channels, picture->clamped, 2, 2, clamped);
     const float *aov = picture->aov;
     if (!aov) {
         add_channels(channels, picture->constants + 1, 2, 1, alpha);

@@ -17,6 +17,7 @@ typedef struct ec_picture {
     float *low, *high; /* 3 per pixel: 95 % interval */
     float *heavy;      /* 1 per pixel: see film/interval.h */
     uint64_t heavy_count;
+    float *clamped;    /* 2 per pixel: luminance that a clamp took away, and its standard error; NULL: there is none. Owned */
     float *constants;  /* 2 per pixel: samples, and the alpha of a film without first-hit features; owned */
     ec_pixel *room;    /* for ec_film_resolve_rows; owned */
     const float *aov;  /* the film's: 8 per pixel, or NULL */
@@ -26,7 +27,7 @@ typedef struct ec_picture {
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
 
 /* A picture in pieces: create makes room for `rows` rows, fill writes rows [first, first + rows) of the film there. */
-ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, ec_error *err);
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_cut, ec_error *err);
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
 
 /* A part of it, which owns nothing: to be filled by itself. */

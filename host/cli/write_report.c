@@ -14,6 +14,7 @@ static ec_result write_slice(ec_outputs *outputs, const ec_film *film, const ec_
     ec_result result = EC_OK;
     EC_TRY_CLEANUP(ec_picture_resolve(film, true, &picture, err));
     report->heavy_pixels = picture.heavy_count;
+    report->clamp = ec_film_clamp_error(film);
     ec_hash_rgb(picture.rgb, (uint64_t)picture.width * picture.height, sha256);
     report->image_sha256 = sha256;
     ec_render_report_attributes(report, &attributes);
@@ -53,6 +54,7 @@ ec_result ec_report_rows_close(ec_row_writer *writer, ec_render_report *report, 
 {
     ec_report_attributes attributes;
     report->heavy_pixels = told->heavy;
+    report->clamp = told->clamp;
     report->image_sha256 = told->sha256;
     ec_render_report_attributes(report, &attributes);
     return ec_row_writer_close(writer, attributes.list, attributes.count, err);

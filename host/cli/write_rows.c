@@ -32,6 +32,7 @@ struct ec_row_writer {
     ec_tonemap tonemap;
     ec_hash hash;
     ec_error_sums sums;
+    ec_cut_sums cut;
     uint64_t heavy;
 };
 
@@ -61,7 +62,7 @@ static ec_result told_if_none_is_left(const ec_row_writer *w, ec_error *err)
 static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
 {
     const uint32_t rows = w->height < w->band_rows ? w->height : w->band_rows;
-    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, err));
+    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, film->limit > 0, err));
     w->rooms = malloc((size_t)omp_get_max_threads() * ec_resolve_room(w->width, SEAM) * sizeof *w->rooms);
     if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
     w->band.aov = film->aov;
@@ -226,6 +227,7 @@ ec_result ec_row_writer_put(ec_row_writer *w, const ec_film *film, ec_error *err
 {
     const uint32_t all = w->come + film->height;
     ec_film_sum_errors(film, &w->sums);
+    ec_film_sum_cut(film, &w->cut);
     write_up_to(w, film, all == w->height ? all : all - SEAM);
     if (all < w->height) EC_TRY(keep_waiting(w, film, err));
     w->come = all;
@@ -243,6 +245,7 @@ static void blank_band(ec_row_writer *w, uint32_t rows, const float *no_features
     b->aov = no_features;
     memset(b->rgb, 0, pixels * 12);
     memset(b->constants, 0, pixels * 8);
+    if (b->clamped) memset(b->clamped, 0, pixels * 8);
     if (!b->heavy) return;
     memset(b->stderr_rgb, 0, pixels * 12);
     memset(b->stderr_y, 0, pixels * 4);
@@ -267,6 +270,7 @@ ec_result ec_row_writer_finish(ec_row_writer *w, ec_rows_told *told, ec_error *e
     *told = (ec_rows_told){.rows = w->come, .replicates = w->replicates, .heavy = w->heavy};
     told->error = ec_film_error_of(&w->sums, (double)w->width * w->height, w->replicates, &w->rare);
     if (!is_whole) told->error.error = told->error.error_bound = told->error.relmse = INFINITY;
+    told->clamp = ec_clamp_error_of(&w->cut, &told->error, (double)w->width * w->height);
     ec_hash_end(&w->hash, told->sha256);
     return EC_OK;
 }

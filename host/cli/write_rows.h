@@ -4,6 +4,7 @@
 
 #include "cli/hash.h"
 #include "cli/write_outputs.h"
+#include "film/clamp.h"
 
 typedef struct ec_row_writer ec_row_writer;
 
@@ -24,6 +25,7 @@ typedef struct ec_rows_told {
     uint32_t rows, replicates;
     uint64_t heavy;           /* pixels, known once they are written: in the end all */
     ec_film_error error;
+    ec_clamp_error clamp;
     char sha256[EC_HASH_SIZE];
 } ec_rows_told;
 

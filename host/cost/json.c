@@ -27,6 +27,10 @@ static void add_settings(cJSON *to, const ec_render_options *o)
         ec_json_whole(settings, "max_depth", o->max_depth);
     else
         cJSON_AddNullToObject(settings, "max_depth");
+    if (o->clamp > 0)
+        ec_json_real(settings, "clamp", o->clamp);
+    else
+        cJSON_AddNullToObject(settings, "clamp");
     ec_json_text(settings, "scattering", ec_scattering_names[o->scattering]);
     ec_json_text(settings, "accel", o->accel ? o->accel : "auto");
     if (o->lanes)

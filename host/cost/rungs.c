@@ -76,6 +76,20 @@ static void add_roulettes(rung_list *list)
     off->unbiased = false;
 }
 
+/* What fireflies cost, and what it costs to be rid of them: the floor is the light that is missing. */
+static void add_clamps(rung_list *list)
+{
+    static const double limits[] = {1, 10, 100};
+    begin(list, "clamp", "Most of a sample's indirect light, in mean luminances, instead of no limit");
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+        char id[48];
+        snprintf(id, sizeof id, "clamp-%g", limits[i]);
+        ec_cost_rung *clamp = add(list, id, "%g", limits[i]);
+        clamp->options.clamp = limits[i];
+        clamp->unbiased = false;
+    }
+}
+
 /* Another model of the surface, so another picture: the floor is the light that is lost by scattering once. */
 static void add_scattering(rung_list *list)
 {
@@ -189,6 +203,7 @@ ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_
     add_integrators(&list);
     add_roulettes(&list);
     add_scattering(&list);
+    add_clamps(&list);
     add_arithmetic(&list);
     add_effects(&list);
     add_speeds(&list);

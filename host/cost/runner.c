@@ -11,8 +11,10 @@ static ec_result open_session(ec_cost_study *study, const ec_cost_rung *rung, ec
                               ec_render_stats *stats, ec_error *err)
 {
     uint64_t before = study->cl->allocated_bytes;
+    ec_render_options options = rung->options;
+    options.clamp_luminance = options.clamp * study->reference.mean_luminance; /* no pilot knows it better */
     study->cl->peak_allocated_bytes = before;
-    ec_result result = ec_session_open(study->cl, study->scene, &rung->options, LARGEST_BATCH, session, stats, err);
+    ec_result result = ec_session_open(study->cl, study->scene, &options, LARGEST_BATCH, session, stats, err);
     stats->device_bytes = study->cl->peak_allocated_bytes - before;
     return result;
 }

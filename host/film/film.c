@@ -108,6 +108,7 @@ ec_result ec_film_create_like(ec_film *film, const ec_film *like, uint32_t rows,
     EC_TRY(ec_film_create(film, like->width, rows, like->replicates, err));
     film->batch_count = like->batch_count;
     film->cut = like->cut;
+    film->limit = like->limit;
     film->aov_batches = like->aov_batches;
     memcpy(film->samples, like->samples, sizeof film->samples);
     EC_TRY(ec_film_set_rare(film, like->rare, err));

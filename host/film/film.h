@@ -28,6 +28,7 @@ typedef struct ec_film {
     uint32_t cut;                 /* samples that the last batch lacks: the picture ended within it. No batch comes after that */
     uint32_t *counts;             /* of adaptive renders: samples of each replicate of each pixel; else NULL. Owned */
     double samples[EC_REPLICATES_MOST]; /* of each replicate, in pixels without counts */
+    float limit;                  /* of the luminance of a sample's indirect light (film/clamp.h); 0: none */
     uint64_t invalid_count;       /* values that were NaN or infinite and counted as 0 */
     /* First-hit features: the average over batches [0, aov_batches). albedo 3, normal 3, depth 1, alpha 1 per pixel; NULL: none. Owned. */
     float *aov;

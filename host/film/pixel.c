@@ -27,7 +27,7 @@ static void replicate_mean(const ec_film *film, uint64_t p, uint32_t r, double m
     }
 }
 
-static void look_at_tail(const ec_film *film, uint64_t p, float tail[3])
+void ec_film_tail(const ec_film *film, uint64_t p, float tail[3])
 {
     for (uint32_t i = 0; i < film->part_count; i++) {
         const ec_film_part *part = &film->parts[i];
@@ -60,7 +60,7 @@ static void look_at(const ec_film *film, uint64_t p, ec_pixel *out)
     }
     for (uint32_t r = 0; r < replicates; r++)
         if (film->samples[r] > 0) add_deviation(out, mean[r], sqrt(out->n * film->samples[r] / all));
-    look_at_tail(film, p, out->tail);
+    ec_film_tail(film, p, out->tail);
     out->samples = ec_film_samples(film, p);
 }
 

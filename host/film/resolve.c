@@ -2,11 +2,20 @@
 
 #include <math.h>
 
+#include "film/clamp.h"
+
 static uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
 uint64_t ec_resolve_room(uint32_t width, uint32_t rows)
 {
     return (uint64_t)width * (least(rows, EC_RESOLVE_ROWS) + 2 * EC_INTERVAL_REACH);
+}
+
+static void write_cut(const ec_film *film, uint64_t place, float clamped[2])
+{
+    const ec_cut cut = ec_film_cut(film, place);
+    clamped[0] = (float)cut.mean;
+    clamped[1] = (float)sqrt(cut.se2);
 }
 
 static void write(const ec_film *film, uint64_t place, const ec_pixel *pixel, uint64_t i, const ec_planes *planes)
@@ -16,6 +25,7 @@ static void write(const ec_film *film, uint64_t place, const ec_pixel *pixel, ui
         if (planes->stderr_rgb) planes->stderr_rgb[3 * i + (uint64_t)c] = (float)sqrt(ec_pixel_se2(pixel, c));
     }
     if (planes->stderr_y) planes->stderr_y[i] = (float)sqrt(ec_pixel_se2(pixel, 3));
+    if (planes->clamped) write_cut(film, place, planes->clamped + 2 * i);
     const bool has_samples = !film->unsampled || !film->unsampled[place];
     if (planes->samples) planes->samples[i * planes->samples_stride] = has_samples ? (float)pixel->samples : 0.0f;
 }

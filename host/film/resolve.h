@@ -4,12 +4,13 @@
 
 #include "film/interval.h"
 
-/* rgb 3 a pixel, stderr_rgb 3 and stderr_y 1 (0 with fewer than two replicates), samples 1, every samples_stride-th; and the intervals. Any
- * may be NULL. */
+/* rgb 3 a pixel, stderr_rgb 3 and stderr_y 1 (0 with fewer than two replicates), samples 1, every samples_stride-th; the intervals; and
+ * clamped 2, what a clamp took away and its standard error. Any may be NULL. */
 typedef struct ec_planes {
     float *rgb, *stderr_rgb, *stderr_y, *samples;
     uint32_t samples_stride;
     ec_intervals_of intervals;
+    float *clamped;
 } ec_planes;
 
 enum { EC_RESOLVE_ROWS = 16 }; /* at a time */

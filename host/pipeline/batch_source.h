@@ -36,6 +36,7 @@ typedef struct ec_batch_order {
     double patience, until;           /* … where it is foretold to be over after so many seconds, and by then (base/clock.h) */
     const uint32_t *list;             /* of one pass of an adaptive render, EC_LIST_WORDS an entry; NULL: all pixels */
     uint32_t samples;                 /* of each of its entries */
+    float limit;                      /* ec_params.limit: the same for all samples of a picture */
     uint32_t count, done;
     const float *before;              /* what the done ones came to, EC_BATCH_FIELDS a position; NULL: somebody else has that */
     float *into;                      /* room for EC_BATCH_FIELDS of each position from `done` on; NULL: the source's own */

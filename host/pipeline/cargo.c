@@ -143,6 +143,8 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->panes_count = o->integrator == EC_INTEGRATOR_PATH;
     set_roulette(o->survival, params);
     params->sample = o->sample;
+    params->apart = o->clamp > 0.0;
+    params->limit = (float)o->clamp_luminance;
     params->light_count = ec_pipeline_joins(o, pack) ? pack->light_count : 0;
     set_environment(pack, params);
     params->nested = pack->bodies.count > 0;

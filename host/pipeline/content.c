@@ -65,6 +65,7 @@ static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
 static void add_params(SHA2_CTX *digests, ec_params p)
 {
     p.batch = p.first_sample = p.wave = p.part = 0;
+    p.limit = 0; /* follows from what else there is */
     TAKE(EC_CONTENT_CAMERA, camera_origin);
     TAKE(EC_CONTENT_CAMERA, camera_right);
     TAKE(EC_CONTENT_CAMERA, camera_up);

@@ -34,7 +34,10 @@ static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, e
     ec_pipeline *p = &s->pipeline;
     cl_mem *list = &p->buffers[EC_ARG_PIXEL_LIST];
     const uint64_t slack = 64; /* lanes past the last sample look too */
-    if (!order->list) return EC_OK;
+    if (!order->list) {
+        ec_buffer_release(p->cl, list); /* of a pilot */
+        return EC_OK;
+    }
     const uint64_t entry = 4 * EC_LIST_WORDS;
     if (!*list) EC_TRY(ec_buffer_create(p->cl, "pixel list", (positions_of(s) + slack) * entry, NULL, list, err));
     return ec_buffer_write(p->cl, *list, entry * order->done, entry * (order->count - order->done), order->list + EC_LIST_WORDS * order->done, err);
@@ -83,9 +86,10 @@ static ec_result choose_samples(ec_device_source *s, const ec_batch_order *order
     const uint32_t samples = order->list ? order->samples : range.samples - order->cut, first = order->list ? 0 : (uint32_t)range.first;
     *numbers = order->list ? 0 : range.replicate * params->width * params->height + params->film_row * params->width;
     s->base.least = p->wave / samples;
-    if (params->batch == samples && params->first_sample == first) return EC_OK;
+    if (params->batch == samples && params->first_sample == first && params->limit == order->limit) return EC_OK;
     params->batch = samples;
     params->first_sample = first;
+    params->limit = order->limit;
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
 }
 

@@ -34,7 +34,7 @@ static ec_result add_up(ec_batch_source *source, const ec_batch_order *order, co
     const uint32_t end = order->index + order->batches;
     for (uint32_t index = order->index; index < end && *complete; index += parts->batches) {
         const ec_batch_order part = {.index = index, .end = end, .batches = parts->batches, .done = order->done, .count = order->count, .into = into,
-                                     .go_on = order->go_on, .user = order->user};
+                                     .limit = order->limit, .go_on = order->go_on, .user = order->user};
         EC_TRY(parts->take(source, &part, complete, err));
         if (*complete) EC_TRY(add(source, &part, film, err));
     }

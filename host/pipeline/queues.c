@@ -4,6 +4,9 @@
 
 #define EC_SMALLEST_WAVE 4096
 
+/* A slot has R, G, B, and again of indirect light where it is kept apart. */
+static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3; }
+
 /* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads. (Queues that
  * stay in the cache gain 5 % of processor time there; launches of a tenth the size lose 40 % of wall time.) */
 static uint64_t fit_wave(const ec_pipeline *p)
@@ -11,7 +14,7 @@ static uint64_t fit_wave(const ec_pipeline *p)
     const ec_device_info *device = &p->cl->info;
     uint64_t wave = device->type & CL_DEVICE_TYPE_CPU ? (uint64_t)1 << 18 : (uint64_t)1 << 20;
     uint64_t stack = p->integrator == EC_INTEGRATOR_WHITTED ? ec_whitted_stack_words(p->params.max_depth) : 0;
-    uint64_t words = 2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + 3 + EC_AOV_FIELDS + stack;
+    uint64_t words = 2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + radiance_fields(p) + EC_AOV_FIELDS + stack;
     uint64_t widest = stack > EC_PATH_FIELDS ? stack : EC_PATH_FIELDS;
     while (wave > EC_SMALLEST_WAVE &&
            (wave * 4 * words > device->memory_bytes / 4 || wave * 4 * widest > device->max_allocation_bytes))
@@ -50,7 +53,7 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
     for (int i = 0; i < 2; i++) EC_TRY(create(p, "path queue", field * path_fields + slack, &p->path_queues[i], err));
     EC_TRY(create(p, "hits", field * EC_HIT_FIELDS + slack, &p->buffers[EC_ARG_HITS], err));
     EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));
-    EC_TRY(create(p, "radiance", field * 3 + slack, &p->buffers[EC_ARG_RADIANCE], err));
+    EC_TRY(create(p, "radiance", field * radiance_fields(p) + slack, &p->buffers[EC_ARG_RADIANCE], err));
     EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
     if (p->effects.called.bits & EC_FEATURE_MOTION)
         EC_TRY(create(p, "times of paths", field + slack, &p->buffers[EC_ARG_TIMES], err));

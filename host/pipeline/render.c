@@ -114,7 +114,9 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err));
     EC_TRY(open_sources(r, log, err));
     if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);
-    return choose_film(r, log, err);
+    EC_TRY(choose_film(r, log, err));
+    if (past) r->limit = r->film->limit;
+    return r->strip_rows ? EC_OK : ec_render_find_limit(r, 0, r->options->height, log, err);
 }
 
 ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene,

@@ -54,6 +54,8 @@ typedef struct ec_render_options {
     ec_integrator integrator;
     uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited, Whitted: 10 */
     double cutoff;              /* Whitted: branches of less weight than this are not followed */
+    double clamp;               /* most luminance of a sample's indirect light, in mean luminances of the picture (limit.c); 0 = no limit */
+    double clamp_luminance;     /* the same in itself, where it is known beforehand; 0 = a pilot finds the picture's mean */
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
@@ -108,6 +110,7 @@ typedef struct ec_render_stats {
     double samples_per_second, rays_per_second;
     ec_film_error film;           /* the error, its bound, or why there is none */
     ec_forecast forecast;         /* the pilot's */
+    double clamp_luminance;       /* most of a sample's indirect light; 0: no limit */
     double allotment_gain;        /* adaptive: error^2 over uniform sampling's, foretold; 1 where there was nothing to gain */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */

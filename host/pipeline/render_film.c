@@ -118,7 +118,7 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     ec_allotment *a = &r->past.allotment;
     EC_TRY(take_features(r, err));
     r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r), .aov = r->aov,
-                                .cut = r->past.next == r->end ? r->cut : 0, .whole = whole_from, .patience = patience(r),
+                                .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
                                 .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY,
                                 .go_on = goes_on, .user = r};
     if (a->weight) {
@@ -272,6 +272,7 @@ static ec_result take_up_goal(ec_render_state *r, ec_error *err)
 ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     ec_result result = EC_OK;
+    r->film->limit = r->limit;
     r->last_report = r->kept_at = ec_now();
     r->render_start = ec_now() - r->past.seconds;
     r->batch_end = r->past.seconds;

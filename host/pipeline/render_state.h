@@ -36,6 +36,7 @@ typedef struct ec_render_state {
     double kept_at;
     uint32_t kept_next, kept_under_way;
     float *aov;                /* first-hit features of a batch, until it is in the film */
+    float limit;               /* ec_params.limit; 0: none, or not known yet */
     const char *stopped_by;
     uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
     uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
@@ -51,6 +52,9 @@ ec_mark ec_render_mark(const ec_render_state *r);
 
 /* render_film.c: until a limit is met; what is there before stays in the film. */
 ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
+
+/* limit.c: once, before the first sample of a render that has a clamp; the source has been turned to these rows, and is so again. */
+ec_result ec_render_find_limit(ec_render_state *r, uint32_t first_row, uint32_t rows, const ec_log *log, ec_error *err);
 
 /* render_strips.c: all rows, or as many as there is memory for, into r->strip_rows. Small pictures do not ask. */
 ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error *err);

@@ -43,6 +43,7 @@ static ec_result render_strip(ec_render_state *r, uint32_t first_row, uint32_t r
     EC_TRY(ec_film_create(r->film, r->options->width, rows, r->replicates, err));
     EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
     EC_TRY(r->source->turn_to(r->source, first_row, rows, err));
+    EC_TRY(ec_render_find_limit(r, first_row, rows, log, err));
     EC_TRY(ec_render_film(r, log, err));
     if (strcmp(r->stopped_by, "spp")) return EC_OK;
     r->samples_before += r->past.samples;

@@ -24,8 +24,9 @@ static void work_piece(member *m)
     const slot *s = m->slot;
     const bool is_block = s->batches > 1;
     const ec_sums sums = is_block ? ec_sums_from(&s->sums, m->first - s->from) : (ec_sums){0};
-    const ec_batch_order order = {.index = s->index, .batches = s->batches, .cut = s->cut, .list = s->list, .samples = s->samples, .done = m->first, .count = m->end,
-                                  .aov = s->aov, .into = is_block ? NULL : s->mean + (uint64_t)EC_BATCH_FIELDS * m->first, .sums = is_block ? &sums : NULL,
+    const ec_batch_order order = {.index = s->index, .batches = s->batches, .cut = s->cut, .list = s->list, .samples = s->samples,
+                                  .limit = s->limit, .done = m->first, .count = m->end, .aov = s->aov,
+                                  .into = is_block ? NULL : s->mean + (uint64_t)EC_BATCH_FIELDS * m->first, .sums = is_block ? &sums : NULL,
                                   .go_on = carries_on, .user = m};
     bool complete = false;
     m->is_busy = true;
@@ -118,6 +119,7 @@ static slot *open_ordered(ec_team *t, const ec_batch_order *order)
     t->step = order->batches;
     t->done = order->batches ? order->done : 0;
     t->last = order->batches ? order->count : (uint32_t)t->pixels;
+    t->limit = order->limit;
     t->whole = order->whole;
     t->user = order->user;
     t->patience = order->patience;

@@ -11,6 +11,7 @@
 typedef struct slot {
     uint32_t index, batches;          /* from that one on */
     uint32_t cut, samples;            /* of the order: what is not wanted of it; of each entry of a list */
+    float limit;                      /* likewise */
     const uint32_t *list;
     float *mean, *aov;                /* of a batch: EC_BATCH_FIELDS a position */
     ec_sums sums;                     /* of a block: of positions from `from` on */
@@ -46,6 +47,7 @@ struct ec_team {
     uint32_t room, next, opened;      /* [next, opened) are open */
     uint32_t from, end;               /* batches [from, end) may be opened next … */
     uint32_t step, done, last;        /* … so many at once, 0: as it suits; positions [done, last) of them */
+    float limit;                      /* of the order */
     bool is_out;                      /* the unit `next` has come out */
     uint64_t rays;                    /* in pieces that are over */
     bool sends;                       /* pieces of some members come from afar, and blocks are worth it */

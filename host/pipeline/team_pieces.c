@@ -124,7 +124,7 @@ static bool open_unit(ec_team *t, const slot *unit)
 
 bool ec_team_open_unit(ec_team *t, const ec_batch_order *o)
 {
-    slot unit = {.index = o->index, .batches = o->batches, .cut = o->cut, .list = o->list, .samples = o->samples, .aov = o->aov,
+    slot unit = {.index = o->index, .batches = o->batches, .cut = o->cut, .list = o->list, .samples = o->samples, .limit = o->limit, .aov = o->aov,
                  .from = o->done, .count = o->count, .handed = o->done};
     const bool may_choose = !o->batches && !o->list && !o->aov && !o->done && !o->cut;
     if (!unit.batches) unit.batches = may_choose ? unit_from(t, o->index) : 1;
@@ -148,7 +148,8 @@ static bool has_room(const ec_team *t, uint32_t batches)
 static bool open_ahead(ec_team *t)
 {
     if (t->opened == t->next || t->from >= t->end) return false;
-    const slot unit = {.index = t->from, .batches = t->step ? t->step : unit_from(t, t->from), .from = t->done, .handed = t->done, .count = t->last};
+    const slot unit = {.index = t->from, .batches = t->step ? t->step : unit_from(t, t->from), .from = t->done, .handed = t->done, .count = t->last,
+                       .limit = t->limit};
     return has_room(t, unit.batches) && open_unit(t, &unit);
 }
 

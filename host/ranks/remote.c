@@ -24,6 +24,7 @@ static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_letter
     letter->numbers[EC_ORDER_SAMPLES] = order->samples;
     letter->numbers[EC_ORDER_FROM] = order->done;
     letter->numbers[EC_ORDER_TO] = order->count;
+    memcpy(&letter->numbers[EC_ORDER_LIMIT], &order->limit, sizeof order->limit);
     letter->numbers[EC_ORDER_FEATURES] = order->aov != NULL;
     return box;
 }

@@ -48,9 +48,11 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     const uint64_t bytes = (batches > 1 ? ec_sums_bytes(s->replicates) : 4 * (EC_BATCH_FIELDS + features)) * positions;
     float *aov = features ? malloc(4 * features * s->pixels) : NULL, *body = malloc(bytes);
     ec_result result = body && (aov || !features) ? EC_OK : ec_fail(err, "out of memory for a batch of %u pixels", positions);
+    float limit;
+    memcpy(&limit, &letter->numbers[EC_ORDER_LIMIT], sizeof limit);
     const ec_batch_order order = {.index = index, .end = index + batches, .batches = batches, .cut = (uint32_t)letter->numbers[EC_ORDER_CUT],
                                   .list = letter->body, .samples = (uint32_t)letter->numbers[EC_ORDER_SAMPLES], .done = first,
-                                  .count = first + positions, .aov = aov, .go_on = goes_on, .user = s};
+                                  .count = first + positions, .limit = limit, .aov = aov, .go_on = goes_on, .user = s};
     const uint64_t rays = source->rays;
     uint32_t invalid[EC_STAGE_COUNT];
     bool complete = false;

@@ -2,18 +2,23 @@
 
 #include <math.h>
 
+#include "report/clamp_report.h"
 #include "report/error_text.h"
 #include "report/json.h"
 
 void ec_merge_report_text(const ec_merge_report *r, FILE *to)
 {
-    char error[EC_ERROR_TEXT], help[EC_ERROR_TEXT];
+    char error[EC_ERROR_TEXT], help[EC_ERROR_TEXT], clamped[256];
     fprintf(to, "%d %s, %llu samples a pixel in %llu replicates\n", r->files, r->files == 1 ? "file" : "files",
             (unsigned long long)r->samples_per_pixel, (unsigned long long)r->replicates);
     if (isfinite(r->error.error)) {
         ec_error_text(&r->error, error, sizeof error);
         ec_error_help(&r->error, help, sizeof help);
         fprintf(to, "%s\n%s%s%s", error, *help ? "helps: " : "", help, *help ? "\n" : "");
+    }
+    if (r->limit > 0) {
+        ec_clamp_text(&r->clamp, clamped, sizeof clamped);
+        fprintf(to, "clamped: %s\n", clamped);
     }
     for (int i = 0; i < r->output_count; i++) fprintf(to, "%s\n", r->outputs[i]);
 }
@@ -31,6 +36,7 @@ ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err
     ec_json_real(object, "relmse", r->error.relmse);
     ec_json_real(object, "mean_luminance", r->error.mean_luminance);
     ec_json_whole(object, "heavy_pixels", r->heavy_pixels);
+    ec_clamp_json(object, r->limit, r->luminance, &r->clamp);
     ec_json_text(object, "image_sha256", r->image_sha256);
     outputs = cJSON_AddArrayToObject(object, "outputs");
     for (int i = 0; i < r->output_count; i++) ec_json_text(outputs, NULL, r->outputs[i]);

@@ -6,12 +6,14 @@
 #include <stdio.h>
 
 #include "base/error.h"
-#include "film/film.h"
+#include "film/clamp.h"
 
 typedef struct ec_merge_report {
     int files;
     uint64_t samples_per_pixel, replicates, heavy_pixels;
     ec_film_error error;
+    double limit, luminance; /* of --clamp, and of that a sample's most; 0: there is none */
+    ec_clamp_error clamp;
     const char *image_sha256;
     const char **outputs;
     int output_count;

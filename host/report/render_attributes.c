@@ -134,6 +134,18 @@ static void add_effects(ec_report_attributes *attributes, const ec_render_effect
     add_made(attributes, "eclat.kernels", "%s", text);
 }
 
+static void add_clamp(ec_report_attributes *attributes, const ec_render_report *report)
+{
+    if (!(report->options->clamp > 0)) return;
+    add_real(attributes, "eclat.clamp.limit", report->options->clamp);
+    add_real(attributes, "eclat.clamp.luminance", report->stats->clamp_luminance);
+    add_real(attributes, "eclat.clamp.missing", report->clamp.missing);
+    add_real(attributes, "eclat.clamp.missingStderr", report->clamp.missing_stderr);
+    add_real(attributes, "eclat.clamp.noise", report->clamp.noise);
+    add_real(attributes, "eclat.clamp.bias", report->clamp.bias);
+    add_real(attributes, "eclat.clamp.error", report->clamp.error);
+}
+
 static void add_result(ec_report_attributes *attributes, const ec_render_report *report)
 {
     const ec_render_stats *stats = report->stats;
@@ -195,6 +207,7 @@ void ec_render_report_attributes(const ec_render_report *report, ec_report_attri
     attributes->text_used = 0;
     add_setting(attributes, report);
     add_result(attributes, report);
+    add_clamp(attributes, report);
     add_text(attributes, "eclat.imageSha256", report->image_sha256);
     add_machine(attributes, report->device);
     add_shares(attributes, report);

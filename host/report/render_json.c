@@ -1,3 +1,4 @@
+#include "report/clamp_report.h"
 #include "report/device_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
@@ -157,6 +158,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     cJSON *root = cJSON_CreateObject();
     add_setting(root, report);
     add_result(root, report);
+    ec_clamp_json(root, report->options->clamp, report->stats->clamp_luminance, &report->clamp);
     add_forecast(root, &report->stats->forecast);
     ec_json_real(root, "allotment_gain", report->stats->allotment_gain);
     add_cost(root, report);

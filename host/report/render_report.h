@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "cl/cl.h"
+#include "film/clamp.h"
 #include "image/image.h"
 #include "pipeline/render.h"
 
@@ -33,6 +34,7 @@ typedef struct ec_render_report {
     ec_tonemap tonemap;
     double mean_luminance;
     uint32_t replicates;            /* that have samples; with fewer than two no error is known */
+    ec_clamp_error clamp;           /* where options have one */
     uint64_t heavy_pixels;          /* see film/interval.h */
     double load_seconds;            /* scene and environment */
     double write_seconds, total_seconds; /* known only after the files are written */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "report/clamp_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
 #include "report/forecast_text.h"
@@ -32,6 +33,14 @@ static void print_shared(const ec_render_stats *stats, FILE *to)
             ec_follow_names[f->what], seconds, f->expense, build, stats->programs_found, stats->programs_built, kept, uploaded);
 }
 
+static void print_clamped(const ec_render_report *report, FILE *to)
+{
+    char text[256];
+    if (!(report->options->clamp > 0)) return;
+    ec_clamp_text(&report->clamp, text, sizeof text);
+    fprintf(to, "clamped  %s\n", text);
+}
+
 void ec_frame_report_text(const ec_render_report *report, FILE *to)
 {
     char summary[EC_ERROR_TEXT + 128];
@@ -39,6 +48,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
     for (int i = 0; i < report->output_count; i++) fprintf(to, "%s %s", i ? "," : " →", report->outputs[i]);
     fputc('\n', to);
+    print_clamped(report, to);
     if (report->verbose) print_shared(report->stats, to);
 }
 
@@ -114,6 +124,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     ec_format_bytes(stats->allied_bytes, received, sizeof received);
     fprintf(to, "result   %s, %s rays/s\n", summary, rays);
     print_help(&stats->film, to);
+    print_clamped(report, to);
     if (stats->forecast.pilot_samples > 0) {
         char forecast[256];
         ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);

@@ -40,6 +40,7 @@ void ec_identity_of(const ec_render_options *o, const ec_content *content, ec_id
     add(identity, "--sample", "%s", ec_sample_names[o->sample]);
     add(identity, "--max-depth", o->max_depth ? "%u" : "inf", o->max_depth);
     add(identity, "--rr", "%s", roulette);
+    add(identity, "--clamp", o->clamp > 0 ? "%.17g" : "off", o->clamp);
     add(identity, "--terminator", "%s", ec_terminator_names[o->terminator]);
     if (content) {
         add(identity, "--scattering", "%s",

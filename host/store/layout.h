@@ -16,6 +16,7 @@ char *ec_state_write(const ec_job *job, const ec_film *film, const ec_past *past
 /* Fills the job, the past but for its arrays, and what is to be known of the film before it is read. */
 typedef struct ec_state_film {
     uint32_t replicates, batch_count, part_count, cut, aov_batches;
+    float limit;
     uint64_t invalid_count;
     ec_film_part *parts; /* without sums; malloc'ed */
     bool has_counts, has_weights;

@@ -41,6 +41,9 @@ static ec_result check_same_job(const ec_merge *merge, const ec_stored *next, co
     if (ec_identity_differs(&here->identity, &there->identity, difference, sizeof difference))
         return ec_fail(err, "'%s' is not of the same job as '%s': %s; merge slices of one scene, with the same options and version", path,
                        merge->first_path, difference);
+    if (merge->all.film.limit != next->film.limit)
+        return ec_fail(err, "'%s' and '%s': --clamp limits a sample to a luminance of %g there and of %g here, since the devices' pilots are not the "
+                            "same; render slices on devices of one kind", merge->first_path, path, (double)merge->all.film.limit, (double)next->film.limit);
     if (next->film.counts || merge->all.film.counts)
         return ec_fail(err, "'%s': pixels of an adaptive render have samples of their own number, and cannot be merged; give it alone", path);
     if (strcmp(here->device, there->device))

@@ -132,7 +132,7 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     if (result == EC_OK) result = read_parts(file, path, &state, &s->film, err);
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);
-    if (result == EC_OK) s->film.invalid_count = state.invalid_count;
+    if (result == EC_OK) s->film.invalid_count = state.invalid_count, s->film.limit = state.limit;
     if (result == EC_OK && state.aov_batches) result = read_features(file, path, &s->film, err);
     if (s->film.aov) s->film.aov_batches = state.aov_batches;
     free(state.parts);

@@ -1,5 +1,6 @@
 /* The JSON object beside the sums. 64-bit counts are texts: JSON's numbers are doubles. */
 #include <cjson/cJSON.h>
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -69,6 +70,7 @@ static void add_film(cJSON *state, const ec_film *film)
     }
     cJSON_AddNumberToObject(state, "replicates", film->replicates);
     cJSON_AddNumberToObject(state, "cut", film->cut);
+    if (film->limit > 0) cJSON_AddNumberToObject(state, "limit", (double)film->limit);
     cJSON_AddNumberToObject(state, "featureBatches", film->aov_batches);
     cJSON_AddNumberToObject(state, "batches", film->batch_count);
     cJSON_AddBoolToObject(state, "hasCounts", film->counts != NULL);
@@ -208,6 +210,7 @@ static void read_film(reader *r, ec_state_film *film)
     const cJSON *item, *parts = cJSON_GetObjectItemCaseSensitive(r->state, "parts");
     film->replicates = whole(r, "replicates");
     film->cut = whole(r, "cut");
+    film->limit = cJSON_HasObjectItem(r->state, "limit") ? (float)number(r, "limit", FLT_MAX) : 0;
     film->aov_batches = whole(r, "featureBatches");
     film->batch_count = whole(r, "batches");
     film->has_counts = flag(r, "hasCounts");

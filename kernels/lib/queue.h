@@ -78,6 +78,13 @@ EC_FN void queue_push_v3(global float *queue, uint wave, uint field, uint i, v3 
     queue_push_f(queue, wave, field + 2, i, v.z, bits);
 }
 
+/* Slots' radiance, for light that paths of so many segments bring: R, G, B of direct light, then those of indirect light where it is kept
+ * apart. */
+EC_FN global float *radiance_of(constant ec_params *params, global float *radiance, uint segments)
+{
+    return params->apart && segments > EC_DIRECT_SEGMENTS ? radiance + 3 * (ulong)params->wave : radiance;
+}
+
 /* Adds light to the samples' slots; what is not finite is dropped and counted. */
 EC_FN void radiance_add(global float *radiance, uint wave, lane_u slot, v3 light, lane_i m, volatile global uint *invalid)
 {

@@ -168,6 +168,7 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
     const accel a = ACCEL_ARGUMENTS;
     hit_filter filter = {FILTER_GEOMETRY, U(0), false, 0};
     walk walks[INTERLEAVE];
+    radiance = radiance_of(params, radiance, bounce + 2);
     for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {
         bool is_new = t.count < INTERLEAVE && t.next < t.left;
         if (is_new) k = t.order[t.count] = t.count, t.count++;

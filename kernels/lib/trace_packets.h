@@ -104,6 +104,6 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                 skip = walks ? h.prim : skip;
             }
         }
-        radiance_add(radiance, wave, slot, light, open, invalid + EC_STAGE_CONNECT);
+        radiance_add(radiance_of(params, radiance, bounce + 2), wave, slot, light, open, invalid + EC_STAGE_CONNECT);
     }
 }

@@ -82,6 +82,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
             h.prim = EC_NO_ID;
         }
     }
+    radiance = radiance_of(params, radiance, bounce + 2);
     radiance[slot] += light.x.s0;
     radiance[wave + slot] += light.y.s0;
     radiance[2 * wave + slot] += light.z.s0;

@@ -52,11 +52,17 @@ typedef struct ec_params {
     ec_uint multiple;             /* do facets scatter more than once (lib/multiscatter.h)? */
     ec_uint light_choices;        /* entries of the table by which a light is chosen */
     ec_uint environment_stretch[2]; /* floor(2^64 / numbers that choose the environment), the high word first (lib/choice.h) */
+    ec_uint apart;                /* do slots keep indirect light apart (radiance_of), so that it can be limited? */
+    ec_float limit;               /* of the luminance of a sample's indirect light; 0: none */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 296);
+EC_ASSERT_SIZE(ec_params, 304);
+
+/* Light is indirect where its path has more segments. */
+#define EC_DIRECT_SEGMENTS 2u
 
 /* What a batch tells of a pixel, floats: mean radiance R, G, B of its samples; of the samples' luminance the largest, and the sums of
- * its squares and fourth powers in units of that (1 to m, 0 where all are black). */
+ * its squares and fourth powers in units of that (1 to m, 0 where all are black). Where there is a limit: in place of these two the sums of
+ * the luminance that it cuts off, and of its squares, in units of largest^2 / limit, so that they add up by the same rule (film/clamp.h). */
 #define EC_BATCH_FIELDS 6
 enum ec_batch_field { EC_BATCH_R, EC_BATCH_G, EC_BATCH_B, EC_BATCH_LARGEST, EC_BATCH_SQUARES, EC_BATCH_FOURTHS };
 

@@ -1,5 +1,6 @@
-/* What the pixel's samples in this batch come to, added in sample order. Reads: the slots' radiance. Writes: the batch film,
- * EC_BATCH_FIELDS floats a pixel in row order from film_row on, or in the list's. Last stage of a wave. */
+/* What the pixel's samples in this batch come to, added in sample order, their indirect light limited where it is kept apart. Reads: the
+ * slots' radiance, which is changed then. Writes: the batch film, EC_BATCH_FIELDS floats a pixel in row order from film_row on, or in the
+ * list's. Last stage of a wave. */
 #include "../lib/film.h"
 #include "../lib/math.h"
 
@@ -42,8 +43,35 @@ static void write_tail(global const float *in, uint wave, uint count, global flo
     out[EC_BATCH_FOURTHS] = fourths;
 }
 
+/* Adds the indirect light of a pixel's samples to their direct light, scaled down to a luminance of `limit` where it has more. What was cut off
+ * stays in place of the indirect light's red. */
+static void limit_indirect(global float *direct, uint wave, uint count, float limit)
+{
+    global float *indirect = direct + 3 * (ulong)wave;
+    for (uint s = 0; s < count; s++) {
+        float y = luminance_of(indirect, wave, s);
+        y = is_finite_bits(y) ? y : MAXFLOAT;
+        float share = limit > 0.0f && y > limit ? limit / y : 1.0f;
+        for (uint c = 0; c < 3; c++) direct[c * wave + s] += share * indirect[c * wave + s];
+        indirect[s] = share < 1.0f ? y - limit : 0.0f;
+    }
+}
+
+/* In place of the tail's powers. The largest is over the limit where anything was cut off. */
+static void write_cut(global const float *cut, uint count, float limit, global float *out)
+{
+    float largest = out[EC_BATCH_LARGEST], unit = limit > 0.0f ? limit / largest / largest : 0.0f, sum = 0.0f, squares = 0.0f;
+    for (uint s = 0; s < count && largest > 0.0f; s++) {
+        float part = min(cut[s] * unit, 1e16f); /* so that no square leaves the range of a float */
+        sum += part;
+        squares += part * part;
+    }
+    out[EC_BATCH_SQUARES] = sum;
+    out[EC_BATCH_FOURTHS] = squares;
+}
+
 kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count,
-                          global const float *radiance, global float *batch_film)
+                          global float *radiance, global float *batch_film)
 {
     uint i = get_global_id(0), wave = params->wave, batch = params->batch;
     if (i >= pixel_count) return;
@@ -51,10 +79,12 @@ kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global c
     pixel_to_xy(params, first_pixel + i, &x, &y);
     global float *out = batch_film + EC_BATCH_FIELDS * (pixel_list ? (ulong)(first_pixel + i)
                                                                    : (ulong)(y - params->film_row) * params->width + x);
+    if (params->apart) limit_indirect(radiance + i * batch, wave, batch, params->limit);
     for (uint c = 0; c < 3; c++) {
         global const float *in = radiance + c * wave + i * batch;
         float mean = sum_of(in, batch, 1.0f) / (float)batch;
         out[c] = is_finite_bits(mean) ? mean : sum_of(in, batch, 1.0f / (float)batch); /* their sum is more than a float holds */
     }
     write_tail(radiance + i * batch, wave, batch, out);
+    if (params->apart) write_cut(radiance + 3 * (ulong)wave + i * batch, batch, params->limit, out);
 }

@@ -130,7 +130,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         emits = emits | m;
         scatters = scatters & !m;
     }
-    if (any_lane(emits)) radiance_add(radiance, wave, slot, v3_mul(beta, emitted), emits, invalid + EC_STAGE_SHADE);
+    if (any_lane(emits))
+        radiance_add(radiance_of(params, radiance, bounce + 1), wave, slot, v3_mul(beta, emitted), emits, invalid + EC_STAGE_SHADE);
 
     if (aov && bounce == 0) {
         v3 seen = v3_sub(s.p, o);

@@ -47,7 +47,7 @@ class FullStudy(Case):
 
     def test_every_rung_is_measured_or_says_why_not(self):
         expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "rr-0.8",
-                    "rr-0.5", "rr-off", "fast-math", "no-indirect", "no-lamps-3", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
+                    "rr-0.5", "rr-off", "clamp-1", "clamp-10", "clamp-100", "fast-math", "no-indirect", "no-lamps-3", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
                     "lanes-1", "lanes-4", "lanes-8", "lanes-16"]
         for name in expected:
             self.assertTrue(rung_of(self.report, name))

@@ -101,6 +101,12 @@ class SameBits(FramesCase):
         for row in frames[1:]:
             self.assertEqual(row["shared"]["structures"], "kept", row["frame"])
 
+    def test_a_limit_of_its_own(self):
+        """A clamp goes by each frame's mean luminance."""
+        frames = self.assert_as_alone(room().write(self.path("room.gltf")), "--animation", "all", "--env", "0.3,0.3,0.3", "--clamp", "0.5", *QUICK)
+        for row in frames:
+            self.assertGreater(row["clamp"]["missing"], 0)
+
     def test_skins_and_morph_targets(self):
         for name, half in (("AnimatedMorphCube", 2.5), ("Fox", 90)):
             with self.subTest(name):

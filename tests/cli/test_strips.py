@@ -36,7 +36,8 @@ class Strips(Case):
         self.assertEqual(sorted(left), sorted(right))
         for name in left:
             self.assertTrue(left[name] == right[name], name)  # not assertEqual: it would tell how they differ, for hours
-        for name in ["error", "errorBound", "relMSE", "heavyPixels", "imageSha256", "replicates", "samplesPerPixel", "stoppedBy", "invalid", "wave", "kernels"]:
+        for name in ["error", "errorBound", "relMSE", "heavyPixels", "imageSha256", "replicates", "samplesPerPixel", "stoppedBy", "invalid", "wave", "kernels", "clamp.luminance", "clamp.missing",
+                     "clamp.missingStderr", "clamp.noise", "clamp.bias", "clamp.error"]:
             self.assertEqual(attributes.get("eclat." + name), others.get("eclat." + name), name)
         with open(self.path(whole + ".png"), "rb") as one, open(self.path(strips + ".png"), "rb") as other:
             self.assertEqual(one.read(), other.read())
@@ -45,6 +46,7 @@ class Strips(Case):
         """Odd sizes: tiles and blocks of an EXR end where they will. One batch, several, and one that is cut."""
         for i, options in enumerate([["--size", "301x355", "--spp", "1"],
                                      ["--size", "97x450", "--spp", "19"], ["--size", "90x403", "--spp", "41", "--filter", "blackman-harris"],
+                                     ["--size", "150x420", "--spp", "9", "--clamp", "0.5"],
                                      ["--size", "200x420", "--spp", "2", "--integrator", "whitted"], ["--size", "200x420", "--spp", "2", "--integrator", "raster"]]):
             with self.subTest(options=options):
                 whole = self.render(f"whole{i}", *options)

@@ -117,6 +117,7 @@ class WrongOptions(Case):
             "--filter-width": ["0", "11", "nan", ""],
             "--fstop": ["0", "-2", "nan", "f/2", ""],
             "--focus": ["0", "-1", "nan", "inf", "2m", ""],
+            "--clamp": ["0", "-1", "off", "nan", "inf", "1e7", "10x", ""],
             "--cutoff": ["-0.1", "1.5", "nan", "1%", ""],
             "--rr": ["0", "-0.5", "1.5", "on", "nan", "inf", "50%", ""],
         }.items():
@@ -133,6 +134,7 @@ class WrongOptions(Case):
         for integrator, option, says in [("raster", ["--rr", "0.5"], "path"), ("raster", ["--sample", "light"], "path"), ("whitted", ["--light-choice", "tree"], "path"),
                                          ("raster", ["--max-depth", "3"], "path or whitted"), ("raster", ["--accel", "bvh8"], "path or whitted"),
                                          ("whitted", ["--rr", "0.5"], "path"), ("whitted", ["--terminator", "smooth"], "path"), ("whitted", ["--sample", "mis"], "path"),
+                                         ("whitted", ["--clamp", "1"], "path"), ("raster", ["--clamp", "1"], "path"),
                                          ("path", ["--cutoff", "0"], "whitted"), ("raster", ["--cutoff", "0"], "whitted")]:
             with self.subTest(integrator=integrator, option=option):
                 self.usage("render", "s.gltf", "--integrator", integrator, *option, says=f"{option[0]} belongs to --integrator {says};")

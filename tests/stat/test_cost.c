@@ -4,6 +4,7 @@
  * processor's, taken in turns. */
 #include <time.h>
 
+#include "film/clamp.h"
 #include "support/cost_reference.h"
 #include "support/gltf_writer.h"
 
@@ -101,6 +102,19 @@ static void slopes(void)
     }
     printf("without indirect light: bias %.4f +- %.4f, from long renders %.4f\n", sqrt(direct.bias2), 0.5 * direct.bias2_se / sqrt(direct.bias2), sqrt(square) / luminance);
     CHECK_NEAR(sqrt(direct.bias2), sqrt(square) / luminance, 0.01);
+
+    /* A clamp: the floor is the bias that a render states itself, which is relative to its own mean. */
+    o.max_depth = full.max_depth;
+    full.clamp = o.clamp = 0.5;
+    full.clamp_luminance = o.clamp_luminance = 0.5 * reference.mean_luminance;
+    ec_cost_row clamped = curve(scene, &o, &reference, 64);
+    case_image c = case_render(scene, &full);
+    const ec_clamp_error stated = ec_film_clamp_error(&c.film);
+    const double bias = stated.bias * ec_film_estimate_error(&c.film).mean_luminance / reference.mean_luminance;
+    printf("with a clamp: bias %.4f +- %.4f, stated %.4f\n", sqrt(clamped.bias2), 0.5 * clamped.bias2_se / sqrt(clamped.bias2), bias);
+    CHECK(c.stats.clamp_luminance == (double)(float)full.clamp_luminance);
+    CHECK_NEAR(sqrt(clamped.bias2), bias, 0.01);
+    case_free(&c);
     const ec_cost_point *last = &direct.points[direct.point_count - 1];
     CHECK_MSG(fabs(last->mse - direct.bias2) < 0.2 * direct.bias2, "at the end %g", last->mse);
     case_free(&a);

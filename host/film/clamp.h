@@ -1,0 +1,31 @@
+/* Light that a clamp takes away: where a film has a limit, of each pixel what was cut off its samples' indirect light, and so the picture's
+ * bias, measured. A sample's indirect light comes over paths of more than EC_DIRECT_SEGMENTS segments; what is cut off is counted in luminance. */
+#ifndef EC_FILM_CLAMP_H
+#define EC_FILM_CLAMP_H
+
+#include "film/film.h"
+
+/* Mean luminance that a pixel lacks, and the square of its standard error, from the spread of the samples: rather too large for stratified
+ * ones, too small where the rarest paths were not met. */
+typedef struct ec_cut {
+    double mean, se2;
+} ec_cut;
+ec_cut ec_film_cut(const ec_film *film, uint64_t pixel);
+
+/* Over pixels, one after the other: films that follow one another downwards come to the bits of the whole. Begin with zeros. */
+typedef struct ec_cut_sums {
+    double mean, square, se2;
+} ec_cut_sums;
+void ec_film_sum_cut(const ec_film *film, ec_cut_sums *sums);
+
+/* Figures relative to the picture's mean luminance, but for `missing`. NaN where nothing is known. */
+typedef struct ec_clamp_error {
+    double missing, missing_stderr; /* share of the light that the picture would have without a limit */
+    double noise;                   /* the picture's own standard error: ec_film_error.error */
+    double bias;                    /* root of the mean over pixels of the square of what they lack, its own noise subtracted */
+    double error;                   /* both together: root of the sum of their squares */
+} ec_clamp_error;
+ec_clamp_error ec_clamp_error_of(const ec_cut_sums *sums, const ec_film_error *noise, double pixels);
+ec_clamp_error ec_film_clamp_error(const ec_film *film); /* of a whole picture */
+
+#endif

@@ -1,0 +1,37 @@
+#include "report/clamp_report.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "report/format.h"
+
+void ec_clamp_text(const ec_clamp_error *c, char *text, size_t size)
+{
+    char missing[32], spread[32], noise[32], bias[32], error[32];
+    if (!isfinite(c->error)) {
+        snprintf(text, size, "how much light is missing is not known");
+        return;
+    }
+    ec_format_percent(c->missing, missing, sizeof missing);
+    ec_format_percent(c->missing_stderr, spread, sizeof spread);
+    ec_format_percent(c->noise, noise, sizeof noise);
+    ec_format_percent(c->bias, bias, sizeof bias);
+    ec_format_percent(c->error, error, sizeof error);
+    snprintf(text, size, "%s of the light is missing (standard error %s); noise %s, bias %s, together %s", missing, spread, noise, bias, error);
+}
+
+void ec_clamp_json(cJSON *root, double limit, double luminance, const ec_clamp_error *c)
+{
+    if (!(limit > 0)) {
+        cJSON_AddNullToObject(root, "clamp");
+        return;
+    }
+    cJSON *clamp = cJSON_AddObjectToObject(root, "clamp");
+    ec_json_real(clamp, "limit", limit);
+    ec_json_real(clamp, "luminance", luminance);
+    ec_json_real(clamp, "missing", c->missing);
+    ec_json_real(clamp, "missing_stderr", c->missing_stderr);
+    ec_json_real(clamp, "noise", c->noise);
+    ec_json_real(clamp, "bias", c->bias);
+    ec_json_real(clamp, "error", c->error);
+}
