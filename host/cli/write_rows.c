@@ -20,6 +20,7 @@ struct ec_row_writer {
     ec_error why;                     /* what failed first; empty: nothing */
     uint32_t width, height, replicates;
     ec_rare rare;
+    double limit;
     uint32_t band_rows;               /* a multiple of SEAM */
     uint32_t come, written;           /* rows */
     ec_film waiting, around;          /* the last rows that have come, at most WAITING; room for what a band looks at */
@@ -83,6 +84,7 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     w->band_rows = SEAM * CHUNKS_A_THREAD * (uint32_t)omp_get_max_threads();
     w->replicates = ec_film_replicates(film);
     if (film->rare) w->rare = *film->rare;
+    w->limit = film->limit;
     w->exposure = style->exposure;
     w->tonemap = style->tonemap;
     ec_hash_begin(&w->hash);
@@ -268,7 +270,7 @@ ec_result ec_row_writer_finish(ec_row_writer *w, ec_rows_told *told, ec_error *e
     }
     free(no_features);
     *told = (ec_rows_told){.rows = w->come, .replicates = w->replicates, .heavy = w->heavy};
-    told->error = ec_film_error_of(&w->sums, (double)w->width * w->height, w->replicates, &w->rare);
+    told->error = ec_film_error_of(&w->sums, (double)w->width * w->height, w->replicates, &w->rare, w->limit);
     if (!is_whole) told->error.error = told->error.error_bound = told->error.relmse = INFINITY;
     told->clamp = ec_clamp_error_of(&w->cut, &told->error, (double)w->width * w->height);
     ec_hash_end(&w->hash, told->sha256);

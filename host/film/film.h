@@ -133,8 +133,8 @@ typedef struct ec_error_sums {
 } ec_error_sums;
 void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums);
 
-/* The error of so many pixels that have `replicates` replicates each. rare: as ec_film's. */
-ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare);
+/* The error of so many pixels that have `replicates` replicates each. rare, limit: as ec_film's. */
+ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare, double limit);
 
 /* The bound of an error whose square is `square`. */
 double ec_film_error_bound(double square, double noisy_pixels, double pixels, double replicates);

@@ -49,7 +49,7 @@ static bool is_chain(const ec_params *params, float pdf)
     return pdf < 0 || pdf > EC_CHAIN_SHARP;
 }
 
-static void note_chain(tracer *t, uint32_t slot, uint32_t entry)
+static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
 {
     const float pdf = word(t, t->queue, EC_PATH_PDF, entry);
     const bool is_direct = !t->wide[slot] && (pdf < 0 || pdf > EC_CHAIN_SHARP);
@@ -68,6 +68,7 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry)
     c->reach = c->hit == EC_NO_ID ? INFINITY : NAN;
     c->place = t->places[t->first + slot];
     c->is_direct = is_direct;
+    c->segment = segment;
 }
 
 /* Where the path goes on, its last segment has ended. */
@@ -84,13 +85,13 @@ static void end_chain(tracer *t, uint32_t slot, uint32_t entry)
     t->last[slot] = -1;
 }
 
-static void look(tracer *t)
+static void look(tracer *t, uint32_t segment)
 {
     for (uint32_t slot = 0; slot < t->count; slot++) {
         const uint32_t entry = t->at[slot];
         if (entry != UINT32_MAX) end_chain(t, slot, entry);
         t->last[slot] = -1;
-        if (entry != UINT32_MAX) note_chain(t, slot, entry);
+        if (entry != UINT32_MAX) note_chain(t, slot, entry, segment);
     }
 }
 
@@ -121,7 +122,7 @@ static ec_result bounce(tracer *t, uint32_t *scalars, uint32_t number, ec_error 
     EC_TRY(read_fields(t, p->buffers[EC_ARG_PATHS], EC_PATH_FIELDS, t->queue, err));
     EC_TRY(read_fields(t, p->buffers[EC_ARG_HITS], EC_HIT_PRIM + 1, t->hits, err));
     find_paths(t, counters->rays[0]);
-    look(t);
+    look(t, number);
     EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     memcpy(counters->rays[0], counters->rays[1], sizeof counters->rays[0]);

@@ -16,6 +16,7 @@ typedef struct ec_chain {
     uint32_t prim;                 /* that it leaves: EC_NO_ID for the camera's */
     uint32_t hit;                  /* that it meets: EC_NO_ID on a miss */
     uint32_t place;                /* its pixel, in row order */
+    uint32_t segment;              /* of its path: 0 is the camera's */
     bool is_direct;                /* no segment before it left in a wider direction: the pixel sees through it as by way of mirrors */
 } ec_chain;
 

@@ -33,7 +33,7 @@ typedef struct selection {
 
 /* What a kind is summed from. */
 typedef struct sums {
-    double chance, luminance, share[EC_RARE_SHARES];
+    double chance, luminance, clamped, share[EC_RARE_SHARES];
     double *through; /* by material; the last one: the camera's */
 } sums;
 
@@ -99,6 +99,7 @@ static void add_chains(const ec_rare_lights *all, const beside *near, uint32_t c
         const double bright = weight * c->beta * radiance * own / cap;
         s->chance += weight * fmin(fmax(own, lobe) / cap, 1);
         s->luminance += bright;
+        if (c->segment >= EC_DIRECT_SEGMENTS) s->clamped += bright;
         s->share[ec_rare_tile(rare, c->place % rare->width, c->place / rare->width)] += bright;
         s->through[c->prim == EC_NO_ID ? all->material_count : ec_rare_material_of(all, c->prim)] += bright;
     }
@@ -202,6 +203,7 @@ static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, con
     ec_rare_kind *kind = &rare->kinds[at];
     kind->chance = s->chance;
     kind->luminance = s->luminance;
+    kind->clamped = s->clamped / s->luminance;
     kind->gathered = spread;
     double most = 0;
     for (int i = 0; i < EC_RARE_SHARES; i++) most = fmax(most, s->share[i]);

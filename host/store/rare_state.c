@@ -16,6 +16,7 @@ static void add_kind(cJSON *array, const ec_rare_kind *kind)
     cJSON_AddStringToObject(one, "light", kind->light);
     cJSON_AddNumberToObject(one, "chance", kind->chance);
     cJSON_AddNumberToObject(one, "luminance", kind->luminance);
+    cJSON_AddNumberToObject(one, "clamped", kind->clamped);
     cJSON_AddNumberToObject(one, "gathered", kind->gathered);
     cJSON_AddStringToObject(one, "share", share);
     cJSON_AddItemToArray(array, one);
@@ -63,7 +64,7 @@ bool ec_rare_state_read(const cJSON *state, ec_rare *rare)
     cJSON_ArrayForEach(one, array) {
         ec_rare_kind *kind = &rare->kinds[rare->count++];
         reads &= read_name(one, "through", kind->through) && read_name(one, "light", kind->light) && read_number(one, "chance", &kind->chance) &&
-                 read_number(one, "luminance", &kind->luminance) && read_number(one, "gathered", &kind->gathered) && read_share(one, kind->share);
+                 read_number(one, "luminance", &kind->luminance) && read_number(one, "clamped", &kind->clamped) && read_number(one, "gathered", &kind->gathered) && read_share(one, kind->share);
     }
     return reads;
 }

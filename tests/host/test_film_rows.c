@@ -44,7 +44,7 @@ static void sums_of_strips_are_those_of_the_whole(void)
             ec_film_sum_errors(&strip, &sums);
             ec_film_destroy(&strip);
         }
-        ec_film_error a = ec_film_estimate_error(&whole), b = ec_film_error_of(&sums, P, ec_film_replicates(&whole), NULL);
+        ec_film_error a = ec_film_estimate_error(&whole), b = ec_film_error_of(&sums, P, ec_film_replicates(&whole), NULL, 0);
         check_same_error(&a, &b);
         ec_film_destroy(&whole);
     }
