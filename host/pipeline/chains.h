@@ -4,7 +4,7 @@
 
 #include "pipeline/pipeline.h"
 
-enum { EC_CHAIN_PATHS = 1 << 14, EC_CHAIN_BOUNCES = 16 };
+enum { EC_CHAIN_PATHS = 1 << 14, EC_CHAIN_BOUNCES = 8 };
 #define EC_CHAIN_SHARP 32.0f /* 1/sr: directions of less density are no narrower than light sampling copes with */
 
 /* A path's segment. */

@@ -8,7 +8,7 @@
 #include "base/random.h"
 
 #define PI 3.14159265358979323846
-#define COMPARED (1 << 20)  /* chains times lamps that are compared, about, of each kind */
+#define COMPARED (1 << 19)  /* chains times lamps that are compared, about, of each kind */
 #define LEAST 1024          /* chains of a kind that are looked at in any case */
 #define NEAREST 12
 #define FEW 16              /* fewer chains say nothing of where they go: anywhere */

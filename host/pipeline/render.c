@@ -82,6 +82,20 @@ static uint32_t largest_batch(const ec_render_state *r)
     return is_known ? ec_schedule_batch(r->replicates, r->end ? r->end - (r->cut == 0) : 0).samples : EC_BATCH_MOST;
 }
 
+/* A device of several may fail: the others go on without it. */
+static ec_result foretell(ec_render_state *r, const ec_rare_lights *lights, const ec_log *log, ec_error *err)
+{
+    ec_pipeline *first = ec_sources_first(&r->sources);
+    ec_error why = {0};
+    if (!first || ec_rare_paths_foretell(lights, first, &r->rare, &why) == EC_OK) return EC_OK;
+    if (ec_sources_alone(&r->sources)) {
+        if (err) *err = why;
+        return EC_FAILED;
+    }
+    ec_warn(log, "the error's bound is without a look at light that samples may miss: %s", why.text);
+    return EC_OK;
+}
+
 /* Loads the devices, and has a first look at the picture's paths. */
 static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *err)
 {
@@ -90,8 +104,7 @@ static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *e
     if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same ways whatever the sample */
         result = ec_rare_lights_find(&r->sources.cargo.pack, &lights, err);
     if (result == EC_OK) result = ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err);
-    ec_pipeline *first = result == EC_OK ? ec_sources_first(&r->sources) : NULL;
-    if (first) result = ec_rare_paths_foretell(&lights, first, &r->rare, err);
+    if (result == EC_OK) result = foretell(r, &lights, log, err);
     ec_rare_lights_free(&lights);
     return result;
 }

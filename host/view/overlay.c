@@ -40,9 +40,15 @@ static void format_prediction(const ec_view_overlay *o, char *text, size_t size)
 static void format_state(const ec_view_overlay *o, char *text, size_t size)
 {
     const ec_view_status *s = o->status;
-    char error[32] = "?", bound[32] = "?", seconds[32], prediction[160];
+    char error[32] = "?", bound[48] = "bound unknown", seconds[32], prediction[160];
     if (isfinite(s->error)) ec_format_percent(s->error, error, sizeof error);
-    if (isfinite(s->error_bound)) ec_format_percent(s->error_bound, bound, sizeof bound);
+    if (isfinite(s->error_bound)) {
+        char percent[32];
+        ec_format_percent(s->error_bound, percent, sizeof percent);
+        snprintf(bound, sizeof bound, "95 %% bound %s", percent);
+    } else if (isfinite(s->error)) {
+        snprintf(bound, sizeof bound, "or more: rare bright paths decide");
+    }
     format_seconds(s->seconds, seconds, sizeof seconds);
     format_prediction(o, prediction, sizeof prediction);
     if (s->pictures == 0) snprintf(text, size, "no picture yet");
@@ -50,7 +56,7 @@ static void format_state(const ec_view_overlay *o, char *text, size_t size)
         snprintf(text, size, "%s, preview: a sample for %ux%u pixels", ec_integrator_names[s->integrator], s->preview,
                  s->preview);
     else
-        snprintf(text, size, "%s  %" PRIu64 " spp  error %s (95 %% bound %s)  %s  %s",
+        snprintf(text, size, "%s  %" PRIu64 " spp  error %s (%s)  %s  %s",
                  ec_integrator_names[s->integrator], s->samples, error, bound, seconds, prediction);
 }
 
