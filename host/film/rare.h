@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-#define EC_RARE_KINDS 8
+#define EC_RARE_KINDS 16
 #define EC_RARE_TILES 16   /* the picture is cut in as many columns and rows */
 #define EC_RARE_SHARES (EC_RARE_TILES * EC_RARE_TILES)
 #define EC_RARE_NAME 48

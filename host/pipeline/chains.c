@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film/film.h"
 #include "pipeline/adaptive.h"
 
 #define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
@@ -60,8 +61,7 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segmen
         c->origin[k] = word(t, t->queue, EC_PATH_OX + k, entry);
         c->direction[k] = word(t, t->queue, EC_PATH_DX + k, entry);
     }
-    c->beta = 0.2126f * word(t, t->queue, EC_PATH_BR, entry) + 0.7152f * word(t, t->queue, EC_PATH_BG, entry) +
-              0.0722f * word(t, t->queue, EC_PATH_BB, entry);
+    c->beta = (float)ec_luminance((double[3]){word(t, t->queue, EC_PATH_BR, entry), word(t, t->queue, EC_PATH_BG, entry), word(t, t->queue, EC_PATH_BB, entry)});
     c->pdf = pdf > EC_CHAIN_SHARP ? pdf : INFINITY;
     c->prim = word_u(t, t->queue, EC_PATH_PRIM, entry);
     c->hit = word_u(t, t->hits, EC_HIT_PRIM, entry);

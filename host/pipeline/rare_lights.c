@@ -6,13 +6,14 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "film/film.h"
 
 #define PI 3.14159265358979323846
 #define OCTAVES 24          /* of luminance below the map's brightest, each a light of its own */
 #define SMALL (4 * PI / 50) /* steradians: whatever is larger is met soon */
 #define GATHERED 0.9        /* length of the mean direction from which on a part lies in one place */
 
-static double luminance(const float rgb[3]) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
+static double luminance(const float rgb[3]) { return ec_luminance((double[3]){rgb[0], rgb[1], rgb[2]}); }
 
 /* An octave of a map's luminance. */
 typedef struct octave {

@@ -213,9 +213,8 @@ static void note_withheld(ec_render_state *r, const ec_log *log)
     const ec_film_error *e = &r->error;
     if (!r->goal.is_withheld || r->is_withheld_noted) return;
     r->is_withheld_noted = true;
-    ec_note(log, "the samples so far would do for --error %g, but there is no bound: rare bright paths (%s%s%sto %s) are hardly met yet; the render goes on%s",
-            r->goal.error, *e->through ? "through \"" : "straight ", e->through, *e->through ? "\" " : "", e->light,
-            r->goal.samples > 0 || r->goal.seconds > 0 ? " to its other limits" : ", and has no other limit: --spp or --time sets one");
+    ec_note(log, "the samples so far would do for --error %g, but there is no bound: rare bright paths (%s%s%sto %s) are hardly met yet; the render goes on to its other limits",
+            r->goal.error, *e->through ? "through \"" : "straight ", e->through, *e->through ? "\" " : "", e->light);
 }
 
 /* After a batch: is it enough? */
