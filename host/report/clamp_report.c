@@ -5,7 +5,7 @@
 
 #include "report/format.h"
 
-void ec_clamp_text(const ec_clamp_error *c, char *text, size_t size)
+void ec_clamp_text(const ec_clamp_error *c, bool is_open, char *text, size_t size)
 {
     char missing[32], spread[32], noise[32], bias[32], error[32];
     if (!isfinite(c->error)) {
@@ -17,7 +17,8 @@ void ec_clamp_text(const ec_clamp_error *c, char *text, size_t size)
     ec_format_percent(c->noise, noise, sizeof noise);
     ec_format_percent(c->bias, bias, sizeof bias);
     ec_format_percent(c->error, error, sizeof error);
-    snprintf(text, size, "%s of the light is missing (standard error %s); noise %s, bias %s, together %s", missing, spread, noise, bias, error);
+    snprintf(text, size, "%s%s of the light is missing (standard error %s); noise %s, bias %s, together %s", is_open ? "at least " : "", missing, spread, noise,
+             bias, error);
 }
 
 void ec_clamp_json(cJSON *root, double limit, double luminance, const ec_clamp_error *c)

@@ -17,7 +17,7 @@ void ec_merge_report_text(const ec_merge_report *r, FILE *to)
         fprintf(to, "%s\n%s%s%s", error, *help ? "helps: " : "", help, *help ? "\n" : "");
     }
     if (r->limit > 0) {
-        ec_clamp_text(&r->clamp, clamped, sizeof clamped);
+        ec_clamp_text(&r->clamp, r->error.is_open, clamped, sizeof clamped);
         fprintf(to, "clamped: %s\n", clamped);
     }
     for (int i = 0; i < r->output_count; i++) fprintf(to, "%s\n", r->outputs[i]);

@@ -37,7 +37,7 @@ static void print_clamped(const ec_render_report *report, FILE *to)
 {
     char text[256];
     if (!(report->options->clamp > 0)) return;
-    ec_clamp_text(&report->clamp, text, sizeof text);
+    ec_clamp_text(&report->clamp, report->stats->film.is_open, text, sizeof text);
     fprintf(to, "clamped  %s\n", text);
 }
 

@@ -14,7 +14,7 @@ KEPT = re.compile(r"the render failed after (\d+) samples a pixel: .*; the pictu
 
 
 class Device(FaultCase):
-    most = 6  # of each call; test_faults_every_call.py has more
+    most = 8  # of each call; test_faults_every_call.py has more
 
     def check_kept(self, run, folder, error):
         """What the line says is what the files hold: as many samples, and no sample of the batch that failed."""
