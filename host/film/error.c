@@ -116,18 +116,21 @@ double ec_film_error_bound(double square, double noisy_pixels, double pixels, do
 }
 
 /* No bound where light may be missing that would break it. Where some of it was met by chance, the picture is brighter and its error larger
- * for it; then a few samples hold most of the noise. */
+ * for it; then a few samples hold most of the noise, and what is missing is looked at beside what the picture is without them. */
 static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare, double limit, ec_film_error *e)
 {
     const ec_rare_kind *kind;
-    const double unmet = ec_rare_unmet(rare, sums->samples, limit, &kind), mean = e->mean_luminance;
-    double few = 0;
-    for (uint32_t i = 0; i < EC_TAIL_FEW && i < sums->tail.count; i++) few += sums->tail.largest[i] * sums->tail.largest[i];
+    const double mean = e->mean_luminance, unmet = ec_rare_unmet(rare, sums->samples, mean, limit, &kind);
+    double few = 0, rest = mean;
+    for (uint32_t i = 0; i < sums->tail.count; i++) {
+        few += sums->tail.largest[i] * sums->tail.largest[i];
+        rest -= sums->tail.largest[i] / pixels;
+    }
     e->unmet = sqrt(unmet) / mean;
     e->unmet_samples = kind ? EC_RARE_MET / kind->chance / pixels : 0;
     e->bound_if_met = e->error_bound;
     e->tail_share = sums->s2 > 0 ? fmin(few / sums->s2, 1) : 0;
-    e->is_open = hypot(e->error, EC_RARE_DOUBT * e->unmet) > e->error_bound || (e->unmet > EC_RARE_LEAST && e->tail_share > EC_RARE_TAIL);
+    e->is_open = hypot(e->error, EC_RARE_DOUBT * e->unmet) > e->error_bound || (sqrt(unmet) > EC_RARE_LEAST * rest && e->tail_share > EC_RARE_TAIL);
     if (kind) memcpy(e->through, kind->through, sizeof e->through), memcpy(e->light, kind->light, sizeof e->light);
     if (e->is_open) e->error_bound = INFINITY;
 }

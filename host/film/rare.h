@@ -8,6 +8,7 @@
 #ifndef EC_FILM_RARE_H
 #define EC_FILM_RARE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define EC_RARE_KINDS 16
@@ -15,7 +16,7 @@
 #define EC_RARE_SHARES (EC_RARE_TILES * EC_RARE_TILES)
 #define EC_RARE_NAME 48
 #define EC_RARE_MET 5.0    /* samples that a kind is expected to have once it is as good as met: 1 in 150 renders has none */
-#define EC_RARE_LEAST 0.05 /* of the mean luminance, root mean square: missing light that matters where … */
+#define EC_RARE_LEAST 0.05 /* of the mean luminance without these samples, root mean square: missing light that matters where … */
 #define EC_RARE_TAIL 0.5   /* … the largest few samples hold more than this share of the noise */
 #define EC_RARE_DOUBT 2.0  /* by which what is foretold of its light may be too low */
 
@@ -24,6 +25,7 @@ typedef struct ec_rare_kind {
     char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* names for messages; through is empty where the camera sees the light itself */
     double chance; /* that a sample of the picture is one of them */
     double luminance; /* that they bring to a pixel in the mean */
+    bool is_relative; /* luminance is relative to the picture's mean: how bright a picture it makes is not known */
     double clamped;   /* share of it that a clamp of indirect light limits (film/clamp.h) */
     double gathered;  /* root mean square over pixels of what they bring, over the mean: 1 where it is even */
     uint8_t share[EC_RARE_SHARES]; /* of their light in each tile, row by row, by the largest */
@@ -37,14 +39,14 @@ typedef struct ec_rare {
 } ec_rare;
 
 /* The mean over pixels of the square of the luminance that is missing where kinds that so many samples (of the whole picture) expect fewer
- * than EC_RARE_MET of are not met; *most: the kind that matters most, or NULL. rare may be NULL. limit: of a
+ * than EC_RARE_MET of are not met; *most: the kind that matters most, or NULL. rare may be NULL. mean: the picture's luminance. limit: of a
  * sample's indirect light, where the picture is clamped; else 0. */
-double ec_rare_unmet(const ec_rare *rare, double samples, double limit, const ec_rare_kind **most);
+double ec_rare_unmet(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most);
 
 /* Of the picture's pixel. */
 uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y);
 
 /* The mean luminance of such kinds around a pixel, in a picture whose pixels all have as many samples; y: row of the film. */
-double ec_rare_unmet_at(const ec_rare *rare, double samples_a_pixel, double limit, uint32_t x, uint32_t y);
+double ec_rare_unmet_at(const ec_rare *rare, double samples_a_pixel, double mean, double limit, uint32_t x, uint32_t y);
 
 #endif

@@ -41,7 +41,7 @@ static uint64_t mark_unmet(const ec_film *film, uint32_t first, uint32_t rows, c
     uint64_t count = 0, i = 0;
     for (uint32_t y = first; film->rare && y < first + rows; y++)
         for (uint32_t x = 0; x < film->width; x++, i++) {
-            const double unmet = ec_rare_unmet_at(film->rare, pixels[i].samples, film->limit, x, y);
+            const double unmet = ec_rare_unmet_at(film->rare, pixels[i].samples, ec_luminance(pixels[i].mean), film->limit, x, y);
             if (heavy[i] != 0.0f || unmet <= sqrt(ec_pixel_se2(&pixels[i], 3))) continue;
             heavy[i] = 1.0f;
             count++;

@@ -12,6 +12,7 @@
 /* What is looked at on the host between two kernels. */
 typedef struct tracer {
     ec_pipeline *p;
+    const ec_rare_lights *lights;
     ec_chains *found;
     uint32_t room, first, count;  /* chains there is room for; paths of this wave */
     const uint32_t *places;       /* of all paths */
@@ -91,7 +92,10 @@ static void look(tracer *t, uint32_t segment)
         const uint32_t entry = t->at[slot];
         if (entry != UINT32_MAX) end_chain(t, slot, entry);
         t->last[slot] = -1;
-        if (entry != UINT32_MAX) note_chain(t, slot, entry, segment);
+        if (entry == UINT32_MAX) continue;
+        note_chain(t, slot, entry, segment);
+        const uint32_t hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
+        if (hit != EC_NO_ID) t->found->visits[ec_rare_material_of(t->lights, hit)]++;
     }
 }
 
@@ -201,11 +205,12 @@ static void list_paths(const ec_params *params, const uint32_t *place_of, uint32
     }
 }
 
-ec_result ec_chains_trace(ec_pipeline *p, ec_chains *chains, ec_error *err)
+ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
 {
     const uint32_t wave = p->wave < EC_CHAIN_PATHS ? p->wave : EC_CHAIN_PATHS;
-    tracer t = {.p = p, .found = chains, .room = 8 * EC_CHAIN_PATHS};
-    *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains)};
+    tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * EC_CHAIN_PATHS};
+    *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains),
+                          .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
     uint32_t *place_of = malloc(4ull * p->params.width * p->params.height + 4), *places = malloc(4 * EC_CHAIN_PATHS);
     t.list = malloc(4 * EC_LIST_WORDS * EC_CHAIN_PATHS);
     t.at = malloc(4ull * wave);
@@ -214,7 +219,7 @@ ec_result ec_chains_trace(ec_pipeline *p, ec_chains *chains, ec_error *err)
     t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
     t.hits = malloc(4ull * (wave + p->params.part));
     ec_result result = EC_OK;
-    if (!chains->chains || !place_of || !places || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
+    if (!chains->chains || !chains->visits || !place_of || !places || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
         result = ec_fail(err, "out of memory for %d paths", EC_CHAIN_PATHS);
     if (result == EC_OK) {
         ec_number_pixels(&p->params, place_of);
@@ -236,5 +241,42 @@ ec_result ec_chains_trace(ec_pipeline *p, ec_chains *chains, ec_error *err)
 void ec_chains_free(ec_chains *chains)
 {
     free(chains->chains);
+    free(chains->visits);
     *chains = (ec_chains){0};
+}
+
+/* A queue of rays alone, part after part as fill_parts has them. */
+static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float *field, ec_error *err)
+{
+    const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
+    ec_counters *counters = &p->counters;
+    memset(counters, 0, sizeof *counters);
+    ec_pipeline_fill_parts(p, count);
+    ec_pipeline_swap_queues(p, 0);
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    for (uint32_t f = 0; f <= EC_PATH_PRIM; f++) {
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t k = f < EC_PATH_DX ? f : f - EC_PATH_DX;
+            if (f < EC_PATH_DX) field[i] = rays[i].origin[k];
+            else if (f < EC_PATH_BR) field[i] = rays[i].direction[k];
+            else memcpy(&field[i], f == EC_PATH_PRIM ? &rays[i].prim : &i, sizeof i); /* slots, and what nobody looks at */
+        }
+        EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave * f, 4ull * count, field, err));
+    }
+    EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], 4ull * p->wave * EC_HIT_PRIM, 4ull * count, field, err));
+    for (uint32_t i = 0; i < count; i++) memcpy(&rays[i].hit, &field[i], sizeof rays[i].hit);
+    return EC_OK;
+}
+
+ec_result ec_chains_meet(ec_pipeline *p, ec_chain *rays, uint32_t count, ec_error *err)
+{
+    float *field = malloc(4ull * count + 4);
+    ec_result result = field ? EC_OK : ec_fail(err, "out of memory for %u rays", count);
+    for (uint32_t first = 0, wave; result == EC_OK && first < count; first += wave) {
+        wave = count - first < p->wave ? count - first : p->wave;
+        result = meet_wave(p, rays + first, wave, field, err);
+    }
+    free(field);
+    return result;
 }

@@ -3,6 +3,7 @@
 #define EC_PIPELINE_CHAINS_H
 
 #include "pipeline/pipeline.h"
+#include "pipeline/rare_lights.h"
 
 enum { EC_CHAIN_PATHS = 1 << 14, EC_CHAIN_BOUNCES = 8 };
 #define EC_CHAIN_SHARP 32.0f /* 1/sr: directions of less density are no narrower than light sampling copes with */
@@ -22,12 +23,16 @@ typedef struct ec_chain {
 
 typedef struct ec_chains {
     uint32_t paths, count;
-    ec_chain *chains;              /* bounce by bounce, by path; owned */
+    ec_chain *chains;              /* bounce by bounce, by path; owned, as the next one */
+    uint32_t *visits;              /* by material: how often a path met it */
 } ec_chains;
 
 /* EC_CHAIN_PATHS paths, spread over the picture, with random numbers of their own: the same whatever the wave. Nothing else on the device
  * changes; no film is touched. */
-ec_result ec_chains_trace(ec_pipeline *pipeline, ec_chains *chains, ec_error *err);
+ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, ec_chains *chains, ec_error *err);
 void ec_chains_free(ec_chains *chains);
+
+/* What rays meet first: origin, direction and prim of each are looked at, and its hit is set. */
+ec_result ec_chains_meet(ec_pipeline *pipeline, ec_chain *rays, uint32_t count, ec_error *err);
 
 #endif

@@ -11,6 +11,7 @@
 #define PI 3.14159265358979323846
 #define OCTAVES 24          /* of luminance below the map's brightest, each a light of its own */
 #define SMALL (4 * PI / 50) /* steradians: whatever is larger is met soon */
+#define SHARP_ROUGHNESS 0.2f /* lobes of more are wider than EC_CHAIN_SHARP */
 #define GATHERED 0.9        /* length of the mean direction from which on a part lies in one place */
 
 static double luminance(const float rgb[3]) { return ec_luminance((double[3]){rgb[0], rgb[1], rgb[2]}); }
@@ -50,7 +51,8 @@ static void add_octave(const octave *o, ec_rare_lights *all)
 {
     ec_rare_light *light = &all->lights[all->count++];
     const double length = sqrt(o->direction[0] * o->direction[0] + o->direction[1] * o->direction[1] + o->direction[2] * o->direction[2]);
-    *light = (ec_rare_light){.material = UINT32_MAX, .radiance = o->light / o->solid_angle, .solid_angle = o->solid_angle};
+    *light = (ec_rare_light){.material = UINT32_MAX, .radiance = o->light / o->solid_angle, .solid_angle = o->solid_angle,
+                             .power = o->light * PI * all->radius * all->radius};
     snprintf(light->name, sizeof light->name, "the environment's brightest spot");
     for (int c = 0; c < 3 && length > GATHERED * o->solid_angle; c++) light->direction[c] = (float)(o->direction[c] / length);
 }
@@ -76,6 +78,8 @@ static void lamp_of(const ec_light_data *l, ec_rare_lamp *lamp)
     const double n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
     const double twice = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int c = 0; c < 3; c++) lamp->normal[c] = (float)(n[c] / fmax(twice, 1e-300));
+    for (int c = 0; c < 3; c++) lamp->corner[c] = l->a[c], lamp->edges[0][c] = (float)e[c], lamp->edges[1][c] = (float)f[c];
+    lamp->prim = l->prim;
     lamp->area = (float)(twice / 2);
     lamp->two_sided = l->kind & EC_LIGHT_TWO_SIDED;
 }
@@ -99,22 +103,50 @@ static void add_lamps(const ec_pack *pack, uint32_t material, uint32_t count, ec
         bright = fmax(bright, luminance(l->emission));
         lamp_of(l, &light->lamps[light->lamp_count++]);
     }
-    for (uint32_t i = 0; i < light->lamp_count; i++) light->lamps[i].weight = (float)count / (float)light->lamp_count;
     light->radiance = bright;
+    for (uint32_t i = 0; i < light->lamp_count; i++) {
+        ec_rare_lamp *lamp = &light->lamps[i];
+        lamp->weight = (float)count / (float)light->lamp_count;
+        light->power += PI * bright * lamp->area * lamp->weight * (lamp->two_sided ? 2 : 1);
+    }
+    all->power += light->power;
     snprintf(light->name, sizeof light->name, "\"%.*s\"", EC_CUT(all->materials[material], EC_RARE_NAME - 3));
 }
 
-static ec_result find_lamps(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+/* A material's lamps. */
+typedef struct lamp_group {
+    uint32_t count;
+    double power;
+} lamp_group;
+
+static void group_lamps(const ec_pack *pack, const ec_rare_lights *all, lamp_group *groups)
 {
-    uint32_t *counts = calloc(all->material_count + (size_t)1, sizeof *counts);
-    if (!counts) return ec_fail(err, "out of memory for %u materials", all->material_count);
     for (uint32_t i = 0; i < pack->light_count; i++) {
         const ec_light_data *l = &pack->lights[i];
-        if ((l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && l->prim < all->stored_count) counts[all->triangle_material[l->prim]]++;
+        if ((l->kind & EC_LIGHT_KIND_MASK) != EC_KIND_TRIANGLE || l->prim >= all->stored_count) continue;
+        lamp_group *group = &groups[all->triangle_material[l->prim]];
+        ec_rare_lamp lamp;
+        lamp_of(l, &lamp);
+        group->count++;
+        group->power += lamp.area * luminance(l->emission);
     }
-    for (uint32_t m = 0; m < all->material_count && all->count < EC_RARE_LIGHTS; m++)
-        if (counts[m]) add_lamps(pack, m, counts[m], all);
-    free(counts);
+}
+
+/* Those of the materials with the most power, as far as there is room. */
+static ec_result find_lamps(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    lamp_group *groups = calloc(all->material_count + (size_t)1, sizeof *groups);
+    if (!groups) return ec_fail(err, "out of memory for %u materials", all->material_count);
+    group_lamps(pack, all, groups);
+    while (all->count < EC_RARE_LIGHTS) {
+        uint32_t best = 0;
+        for (uint32_t m = 0; m < all->material_count; m++)
+            if (groups[m].count && (!groups[best].count || groups[m].power > groups[best].power)) best = m;
+        if (!groups[best].count) break;
+        add_lamps(pack, best, groups[best].count, all);
+        groups[best].count = 0;
+    }
+    free(groups);
     return EC_OK;
 }
 
@@ -123,6 +155,26 @@ static void *copy_of(const void *data, size_t bytes)
     void *copy = malloc(bytes + 1);
     if (copy && bytes) memcpy(copy, data, bytes);
     return copy;
+}
+
+/* Of light that falls on it head-on. Roughness by its factor alone: where a texture has a say, paths that get there tell. */
+static float sharp_share(const ec_material_data *m)
+{
+    const double f0 = luminance(m->f0), base = luminance(m->base_color);
+    double share = 0;
+    if (m->roughness < SHARP_ROUGHNESS) share = m->metallic * base + (1 - m->metallic) * (f0 + (1 - f0) * m->transmission * base);
+    if (m->coat_roughness < SHARP_ROUGHNESS) share = fmax(share, 0.04 * m->coat);
+    return (float)share;
+}
+
+/* Of lights that are no triangles'. */
+static double power_of_others(const ec_pack *pack)
+{
+    const ec_scene *scene = &pack->plain.scene;
+    const double disk = PI * pack->scene_radius * pack->scene_radius;
+    double power = scene->has_environment ? 4 * PI * disk * luminance(pack->environment_mean) : 0;
+    for (uint32_t i = 0; i < scene->light_count; i++) power += ec_pack_punctual_power(&scene->lights[i], pack->scene_radius);
+    return power;
 }
 
 /* The scene without its lights: which material a triangle has. */
@@ -136,7 +188,8 @@ static ec_result copy_materials(const ec_scene *scene, ec_rare_lights *all, ec_e
     all->shapes = copy_of(scene->shapes, scene->shape_count * sizeof *scene->shapes);
     all->placed = copy_of(scene->placed, scene->placed_count * sizeof *scene->placed);
     all->lights = calloc(EC_RARE_LIGHTS, sizeof *all->lights);
-    if (!all->triangle_material || !all->materials || !all->shapes || !all->placed || !all->lights)
+    all->sharp = calloc(scene->material_count + (size_t)1, sizeof *all->sharp);
+    if (!all->triangle_material || !all->materials || !all->shapes || !all->placed || !all->lights || !all->sharp)
         return ec_fail(err, "out of memory for the materials of %u triangles", scene->triangle_count);
     for (uint32_t m = 0; m < scene->material_count; m++) {
         const char *name = scene->materials[m].name;
@@ -150,6 +203,9 @@ ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error
 {
     *all = (ec_rare_lights){0};
     ec_result result = copy_materials(&pack->plain.scene, all, err);
+    all->radius = pack->scene_radius;
+    all->power = power_of_others(pack);
+    for (uint32_t m = 0; result == EC_OK && m < all->material_count && m < pack->material_count; m++) all->sharp[m] = sharp_share(&pack->materials[m]);
     if (result == EC_OK) find_in_environment(pack, all);
     if (result == EC_OK) result = find_lamps(pack, all, err);
     if (result != EC_OK || !all->count) ec_rare_lights_free(all);
@@ -159,6 +215,7 @@ ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error
 void ec_rare_lights_free(ec_rare_lights *all)
 {
     free(all->lights);
+    free(all->sharp);
     free(all->triangle_material);
     free(all->materials);
     free(all->shapes);
@@ -178,4 +235,12 @@ uint32_t ec_rare_material_of(const ec_rare_lights *all, uint32_t id)
         id = all->shapes[all->placed[low].shape].first + id - all->placed[low].id;
     }
     return id < all->stored_count ? all->triangle_material[id] : 0;
+}
+
+void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const float *turn = params->environment_turn + 4 * k, *d = light->direction;
+        direction[k] = params->environment_turned ? turn[0] * d[0] + turn[1] * d[1] + turn[2] * d[2] : d[k];
+    }
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "pipeline/rare_blind.h"
 
 #define PI 3.14159265358979323846
 #define COMPARED (1 << 19)  /* chains times lamps that are compared, about, of each kind */
@@ -49,12 +50,9 @@ static void place_beside(const ec_chain *chain, const double towards[3], beside 
 
 static void beside_environment(const ec_chain *chain, const ec_rare_light *light, const ec_params *params, beside *b)
 {
-    double towards[3];
-    for (int k = 0; k < 3; k++) {
-        const float *turn = params->environment_turn + 4 * k, *d = light->direction;
-        towards[k] = params->environment_turned ? (double)turn[0] * d[0] + (double)turn[1] * d[1] + (double)turn[2] * d[2] : d[k];
-    }
-    place_beside(chain, towards, b);
+    float towards[3];
+    ec_rare_light_direction(light, params, towards);
+    place_beside(chain, (double[3]){towards[0], towards[1], towards[2]}, b);
     b->solid_angle = chain->hit == EC_NO_ID ? light->solid_angle : 0;
 }
 
@@ -242,8 +240,9 @@ ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, e
     ec_chains chains = {0};
     *rare = (ec_rare){0};
     if (!lights->count || p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
-    ec_result result = ec_chains_trace(p, &chains, err);
+    ec_result result = ec_chains_trace(p, lights, &chains, err);
     if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, &p->params, rare, err);
+    if (result == EC_OK) result = ec_rare_blind_find(lights, &chains, p, rare, err);
     ec_chains_free(&chains);
     return result;
 }

@@ -16,6 +16,7 @@ static void add_kind(cJSON *array, const ec_rare_kind *kind)
     cJSON_AddStringToObject(one, "light", kind->light);
     cJSON_AddNumberToObject(one, "chance", kind->chance);
     cJSON_AddNumberToObject(one, "luminance", kind->luminance);
+    cJSON_AddBoolToObject(one, "isRelative", kind->is_relative);
     cJSON_AddNumberToObject(one, "clamped", kind->clamped);
     cJSON_AddNumberToObject(one, "gathered", kind->gathered);
     cJSON_AddStringToObject(one, "share", share);
@@ -63,6 +64,7 @@ bool ec_rare_state_read(const cJSON *state, ec_rare *rare)
     if (!reads) return false;
     cJSON_ArrayForEach(one, array) {
         ec_rare_kind *kind = &rare->kinds[rare->count++];
+        kind->is_relative = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(one, "isRelative"));
         reads &= read_name(one, "through", kind->through) && read_name(one, "light", kind->light) && read_number(one, "chance", &kind->chance) &&
                  read_number(one, "luminance", &kind->luminance) && read_number(one, "clamped", &kind->clamped) && read_number(one, "gathered", &kind->gathered) && read_share(one, kind->share);
     }

@@ -25,19 +25,21 @@ static void test_kinds(void)
 {
     const ec_rare rare = two_kinds();
     const ec_rare_kind *most;
-    CHECK_NEAR(ec_rare_unmet(&rare, 1, 0, &most), 64 + 1, 1e-12);
+    CHECK_NEAR(ec_rare_unmet(&rare, 1, 3, 0, &most), 64 + 1, 1e-12);
     CHECK(most == &rare.kinds[0]);
-    CHECK_NEAR(ec_rare_unmet(&rare, 1e4, 0, &most), 64, 1e-12); /* the second is met */
-    CHECK(ec_rare_unmet(&rare, EC_RARE_MET * 0x1p20, 0, &most) == 0 && !most);
-    CHECK(ec_rare_unmet(NULL, 1, 0, &most) == 0 && !most);
-    CHECK_NEAR(ec_rare_unmet_at(&rare, 64, 0, 0, 0), EC_RARE_SHARES, 1e-9); /* all of it in one of so many tiles */
-    CHECK(ec_rare_unmet_at(&rare, 64, 0, 2, 0) == 0);
+    CHECK_NEAR(ec_rare_unmet(&rare, 1e4, 3, 0, &most), 64, 1e-12); /* the second is met */
+    CHECK(ec_rare_unmet(&rare, EC_RARE_MET * 0x1p20, 3, 0, &most) == 0 && !most);
+    CHECK(ec_rare_unmet(NULL, 1, 3, 0, &most) == 0 && !most);
+    CHECK_NEAR(ec_rare_unmet_at(&rare, 64, 3, 0, 0, 0), EC_RARE_SHARES, 1e-9); /* all of it in one of so many tiles */
+    CHECK(ec_rare_unmet_at(&rare, 64, 3, 0, 2, 0) == 0);
     ec_rare clamped = rare;
     clamped.kinds[0].clamped = 0.5; /* half of its light, down to 4 a sample */
-    CHECK_NEAR(ec_rare_unmet(&clamped, 1e4, 4, &most), 64 * pow(0.5 + 4 * 0x1p-20, 2), 1e-12);
+    CHECK_NEAR(ec_rare_unmet(&clamped, 1e4, 3, 4, &most), 64 * pow(0.5 + 4 * 0x1p-20, 2), 1e-12);
+    clamped.kinds[0].is_relative = true;
+    CHECK_NEAR(ec_rare_unmet(&clamped, 1e4, 3, 0, &most), 64 * 9, 1e-12); /* three times the picture's mean */
     ec_rare strip = rare;
     strip.row = 2;
-    CHECK(ec_rare_unmet_at(&strip, 64, 0, 0, 0) == 0); /* another row of tiles */
+    CHECK(ec_rare_unmet_at(&strip, 64, 3, 0, 0, 0) == 0); /* another row of tiles */
 }
 
 /* Grey pixels with a little noise. */

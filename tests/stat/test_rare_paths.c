@@ -115,8 +115,37 @@ static void check_floor(void)
     CHECK_MSG(light > 0.6 * expected && light < 1.6 * expected, "light %g by way of the mirror, %g in a long render", light, expected);
 }
 
+/* A lamp in a glass bulb that is too small for the first look's paths to meet it, in a room with a window of light that they do. */
+static void check_bulb(double size, bool is_glass)
+{
+    gltf_writer *w = gltf_new();
+    const int grey = gltf_lambert(w, 0.5, 0), panel = gltf_lambert(w, 0, 1), filament = gltf_lambert(w, 0, 1 / (6 * size * size * 0.16));
+    const int bulb = is_glass ? gltf_add_glass(w, &(gltf_glass){.base = 1, .transmission = 1, .ior = 1.5}) : grey;
+    for (int k = 0; k < 3; k++) { /* walls that look inwards */
+        const double u[3] = {4 * (k == 1), 4 * (k == 2), 4 * (k == 0)}, v[3] = {4 * (k == 2), 4 * (k == 0), 4 * (k == 1)};
+        const double at[3] = {-2, -2, -2}, far[3] = {-2 + 4 * (k == 0), -2 + 4 * (k == 1), -2 + 4 * (k == 2)};
+        gltf_quad(w, grey, at, u, v);
+        gltf_quad(w, grey, far, v, u);
+    }
+    gltf_quad(w, panel, (double[3]){-0.5, 1.99, -0.5}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1});
+    gltf_box(w, filament, (double[3]){-0.2 * size, -0.2 * size, -0.2 * size}, (double[3]){0.2 * size, 0.2 * size, 0.2 * size});
+    if (is_glass) gltf_box(w, bulb, (double[3]){-size, -size, -size}, (double[3]){size, size, size});
+    gltf_camera(w, (double[3]){1, 0, 1.9}, (double[3]){1.5, -1, -2}, 0.6);
+    ec_scene *scene = case_load(gltf_write(w, "rare-bulb"), NULL);
+    free(w);
+    const ec_render_options o = case_options(16, 16, 16);
+    const ec_rare rare = foretell(scene, &o);
+    bool is_blind = false;
+    for (uint32_t i = 0; i < rare.count; i++) is_blind |= rare.kinds[i].is_relative;
+    printf("a bulb of %g m%s: %u kinds%s\n", 2 * size, is_glass ? "" : " without glass", rare.count, is_blind ? ", nobody has come near its light" : "");
+    CHECK(is_blind == is_glass);
+    ec_scene_free(scene);
+}
+
 int main(void)
 {
+    check_bulb(0.002, true);
+    check_bulb(0.002, false);
     check_plane("a mirror that shows the light", 1, 0.2, true);
     check_plane("a mirror that does not", 1, 0.6, false);
     check_plane("a matt plane", 0, 0.2, false);
