@@ -82,18 +82,20 @@ static uint32_t largest_batch(const ec_render_state *r)
     return is_known ? ec_schedule_batch(r->replicates, r->end ? r->end - (r->cut == 0) : 0).samples : EC_BATCH_MOST;
 }
 
-/* A device of several may fail: the others go on without it. */
-static ec_result foretell(ec_render_state *r, const ec_rare_lights *lights, const ec_log *log, ec_error *err)
+/* By the first device that is loaded. One of several may fail, which is told when it fails to take batches: another one does it then. */
+static ec_result foretell(ec_render_state *r, const ec_rare_lights *lights, ec_error *err)
 {
-    ec_pipeline *first = ec_sources_first(&r->sources);
+    bool is_tried[EC_DEVICES_MOST] = {0};
     ec_error why = {0};
-    if (!first || ec_rare_paths_foretell(lights, first, &r->rare, &why) == EC_OK) return EC_OK;
-    if (ec_sources_alone(&r->sources)) {
-        if (err) *err = why;
-        return EC_FAILED;
+    const uint32_t count = r->sources.count;
+    for (uint32_t i = 0; i < 2 * count; i++) {
+        ec_pipeline *p = is_tried[i % count] ? NULL : ec_sources_pipeline(&r->sources, i % count, i >= count);
+        if (p && ec_rare_paths_foretell(lights, p, &r->rare, &why) == EC_OK) return EC_OK;
+        is_tried[i % count] |= p != NULL;
     }
-    ec_warn(log, "the error's bound is without a look at light that samples may miss: %s", why.text);
-    return EC_OK;
+    if (!ec_sources_alone(&r->sources)) return EC_OK; /* none is left to render either */
+    if (err) *err = why;
+    return EC_FAILED;
 }
 
 /* Loads the devices, and has a first look at the picture's paths. */
@@ -104,7 +106,7 @@ static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *e
     if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same ways whatever the sample */
         result = ec_rare_lights_find(&r->sources.cargo.pack, &lights, err);
     if (result == EC_OK) result = ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err);
-    if (result == EC_OK) result = foretell(r, &lights, log, err);
+    if (result == EC_OK) result = foretell(r, &lights, err);
     ec_rare_lights_free(&lights);
     return result;
 }

@@ -76,11 +76,9 @@ ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_allies *allies,
 
 const ec_pipeline *ec_sources_alone(const ec_sources *s) { return s->team ? NULL : &s->recruits->source.pipeline; }
 
-ec_pipeline *ec_sources_first(ec_sources *s)
+ec_pipeline *ec_sources_pipeline(ec_sources *s, uint32_t device, bool waits)
 {
-    for (uint32_t i = 0; i < s->count; i++)
-        if (!s->team || ec_team_is_ready(s->team, i)) return &s->recruits[i].source.pipeline;
-    return NULL;
+    return !s->team || ec_team_is_ready(s->team, device, waits) ? &s->recruits[device].source.pipeline : NULL;
 }
 
 static void tell_shares(const ec_sources *s, ec_render_stats *stats)

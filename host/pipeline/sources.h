@@ -58,8 +58,8 @@ ec_result ec_sources_open(ec_sources *sources, uint64_t seed, const ec_allies *a
 /* The pipeline of a device that is alone, once it is loaded; NULL: there are several. */
 const ec_pipeline *ec_sources_alone(const ec_sources *sources);
 
-/* That of the first device that is loaded, of several too, while nothing is ordered; NULL: there is none. */
-ec_pipeline *ec_sources_first(ec_sources *sources);
+/* That of a device, of several too, while nothing is ordered; NULL: it is not loaded (yet, unless `waits`). */
+ec_pipeline *ec_sources_pipeline(ec_sources *sources, uint32_t device, bool waits);
 
 /* stats gets what is known of the devices then. */
 void ec_sources_close(ec_sources *sources, ec_render_stats *stats);

@@ -90,10 +90,12 @@ void ec_team_wait(ec_team *t, uint32_t count)
     pthread_mutex_unlock(&t->lock);
 }
 
-bool ec_team_is_ready(ec_team *t, uint32_t member)
+bool ec_team_is_ready(ec_team *t, uint32_t i, bool waits)
 {
+    const member *m = &t->members[i];
     pthread_mutex_lock(&t->lock);
-    const bool is_ready = t->members[member].is_ready && !t->members[member].has_failed;
+    while (waits && !m->is_ready && !m->has_failed) wait_for_news(t);
+    const bool is_ready = m->is_ready && !m->has_failed;
     pthread_mutex_unlock(&t->lock);
     return is_ready;
 }
