@@ -82,20 +82,20 @@ static uint32_t largest_batch(const ec_render_state *r)
     return is_known ? ec_schedule_batch(r->replicates, r->end ? r->end - (r->cut == 0) : 0).samples : EC_BATCH_MOST;
 }
 
-/* By the first device that is loaded. One of several may fail, which is told when it fails to take batches: another one does it then. */
+/* By the first device that is loaded, or another one where it fails, which is out then. */
 static ec_result foretell(ec_render_state *r, const ec_rare_lights *lights, ec_error *err)
 {
-    bool is_tried[EC_DEVICES_MOST] = {0};
-    ec_error why = {0};
     const uint32_t count = r->sources.count;
-    for (uint32_t i = 0; i < 2 * count; i++) {
-        ec_pipeline *p = is_tried[i % count] ? NULL : ec_sources_pipeline(&r->sources, i % count, i >= count);
-        if (p && ec_rare_paths_foretell(lights, p, &r->rare, &why) == EC_OK) return EC_OK;
-        is_tried[i % count] |= p != NULL;
+    for (uint32_t i = 0; i < 2 * count; i++) { /* those that are loaded already, then the others */
+        ec_error why = {0};
+        ec_pipeline *p = ec_sources_pipeline(&r->sources, i % count, i >= count);
+        if (!p) continue;
+        if (ec_rare_paths_foretell(lights, p, &r->rare, &why) == EC_OK) return EC_OK;
+        if (err) *err = why;
+        if (!r->sources.team) return EC_FAILED;
+        ec_team_leave_out(r->sources.team, i % count, &why);
     }
-    if (!ec_sources_alone(&r->sources)) return EC_OK; /* none is left to render either */
-    if (err) *err = why;
-    return EC_FAILED;
+    return EC_OK;
 }
 
 /* Loads the devices, and has a first look at the picture's paths. */

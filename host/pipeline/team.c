@@ -100,6 +100,15 @@ bool ec_team_is_ready(ec_team *t, uint32_t i, bool waits)
     return is_ready;
 }
 
+void ec_team_leave_out(ec_team *t, uint32_t i, const ec_error *why)
+{
+    pthread_mutex_lock(&t->lock);
+    t->members[i].has_failed = true;
+    t->members[i].why = *why;
+    pthread_cond_broadcast(&t->work);
+    pthread_mutex_unlock(&t->lock);
+}
+
 /* Until nobody is at work. */
 static void stop(ec_team *t)
 {
