@@ -91,8 +91,10 @@ static ec_result foretell(ec_render_state *r, const ec_rare_lights *lights, ec_e
         ec_pipeline *p = ec_sources_pipeline(&r->sources, i % count, i >= count);
         if (!p) continue;
         if (ec_rare_paths_foretell(lights, p, &r->rare, &why) == EC_OK) return EC_OK;
-        if (err) *err = why;
-        if (!r->sources.team) return EC_FAILED;
+        if (!r->sources.team) {
+            if (err) *err = why;
+            return EC_FAILED;
+        }
         ec_team_leave_out(r->sources.team, i % count, &why);
     }
     return EC_OK;
