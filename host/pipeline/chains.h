@@ -5,7 +5,7 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/rare_lights.h"
 
-enum { EC_CHAIN_PATHS = 1 << 14, EC_CHAIN_BOUNCES = 8 };
+enum { EC_CHAIN_PATHS = 1 << 14, EC_CHAIN_BOUNCES = 12 };
 #define EC_CHAIN_SHARP 32.0f /* 1/sr: directions of less density are no narrower than light sampling copes with */
 
 /* A path's segment. */

@@ -16,7 +16,8 @@
 
 static double luminance(const float rgb[3]) { return ec_luminance((double[3]){rgb[0], rgb[1], rgb[2]}); }
 
-/* An octave of a map's luminance. */
+/* An octave of a map's luminance, in one of the eight octants of directions: two suns are two lights. */
+enum { OCTANTS = 8 };
 typedef struct octave {
     double solid_angle, light, direction[3];
 } octave;
@@ -40,9 +41,10 @@ static void sort_into_octaves(const ec_pack *pack, float most, octave *octaves)
             const int k = bright > 0 ? ilogb(most) - ilogb(bright) : OCTAVES;
             if (k >= OCTAVES) continue;
             const double direction[3] = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
-            octaves[k].solid_angle += solid;
-            octaves[k].light += bright * solid;
-            for (int c = 0; c < 3; c++) octaves[k].direction[c] += direction[c] * solid;
+            octave *o = &octaves[k * OCTANTS + (direction[0] < 0) + 2 * (direction[1] < 0) + 4 * (direction[2] < 0)];
+            o->solid_angle += solid;
+            o->light += bright * solid;
+            for (int c = 0; c < 3; c++) o->direction[c] += direction[c] * solid;
         }
     }
 }
@@ -59,12 +61,12 @@ static void add_octave(const octave *o, ec_rare_lights *all)
 
 static void find_in_environment(const ec_pack *pack, ec_rare_lights *all)
 {
-    octave octaves[OCTAVES] = {0};
+    octave octaves[OCTAVES * OCTANTS] = {0};
     if (!pack->environment_texels || !pack->plain.scene.has_environment) return;
     const float most = brightest(pack);
     if (!(most > 0)) return;
     sort_into_octaves(pack, most, octaves);
-    for (int k = 0; k < OCTAVES; k++)
+    for (int k = 0; k < OCTAVES * OCTANTS && all->count < EC_RARE_LIGHTS / 2; k++) /* the brightest; the other half is the lamps' */
         if (octaves[k].solid_angle > 0 && octaves[k].solid_angle < SMALL) add_octave(&octaves[k], all);
 }
 

@@ -7,7 +7,7 @@
 #include "pack/pack.h"
 #include "shared/params.h"
 
-enum { EC_RARE_LAMPS = 32, EC_RARE_LIGHTS = 48 };
+enum { EC_RARE_LAMPS = 32, EC_RARE_LIGHTS = 96 };
 
 /* A lamp's triangle, which stands for `weight` of its group. */
 typedef struct ec_rare_lamp {
