@@ -52,15 +52,14 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     if (report->verbose) print_shared(report->stats, to);
 }
 
-/* What four times the samples would bring, by the slope that the pilot has shown. */
+/* What four times the samples would bring: half the error by independent samples, and less where their order tells. */
 static void format_more(const ec_render_stats *stats, char *text, size_t size)
 {
-    const double slope = stats->forecast.slope > 0 ? stats->forecast.slope : 1;
     char error[32];
-    ec_format_percent(stats->film.error * pow(4, -slope / 2), error, sizeof error);
+    ec_format_percent(stats->film.error / 2, error, sizeof error);
     *text = 0;
     if (isfinite(stats->film.error) && !stats->film.is_open)
-        snprintf(text, size, "; 4 times the samples would bring the picture's error to some %s", error);
+        snprintf(text, size, "; 4 times the samples would bring the picture's error to %s or less", error);
 }
 
 /* Which pixels' own errors can be trusted. Nothing to say without an error, or where every pixel's can. */
