@@ -66,7 +66,7 @@ static void format_more(const ec_render_stats *stats, char *text, size_t size)
 static void print_heavy(const ec_render_report *report, FILE *to)
 {
     if (report->replicates < 2 || report->heavy_pixels == 0) return;
-    char share[32], more[96];
+    char share[32], more[128];
     double pixels = (double)report->options->width * report->options->height;
     ec_format_percent((double)report->heavy_pixels / pixels, share, sizeof share);
     format_more(report->stats, more, sizeof more);
