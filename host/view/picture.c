@@ -44,11 +44,11 @@ void ec_view_picture_stop(ec_view_picture *p)
 
 uint64_t ec_view_picture_samples(const ec_view_picture *p) { return (uint64_t)ec_film_samples_of_all(&p->film); }
 
-/* Before the first error is stated. */
+/* With the second batch there is a first error to state. */
 static ec_result foretell(ec_view_picture *p, ec_session *session, ec_error *err)
 {
     ec_rare rare;
-    if (p->film.batch_count != p->film.replicates) return EC_OK;
+    if (p->film.batch_count != 2) return EC_OK;
     EC_TRY(ec_session_foretell(session, &rare, err));
     return ec_film_set_rare(&p->film, &rare, err);
 }
