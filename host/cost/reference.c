@@ -75,13 +75,14 @@ static ec_result foretell(ec_cost_runner *runner, ec_film *film, ec_error *err)
     return ec_film_set_rare(film, &rare, err);
 }
 
-/* What the reference has not met no rung will. */
+/* No rung meets light that the reference has not met. */
 static void warn_of_rare_paths(const ec_cost_study *study, const ec_film *film)
 {
     const ec_film_error e = ec_film_estimate_error(film);
+    char way[EC_RARE_WAY];
     if (!e.is_open) return;
-    ec_warn(study->log, "the reference has no bound of its error: rare bright paths (%s%s%sto %s) are hardly met yet; all errors are without their light",
-            *e.through ? "through \"" : "straight ", e.through, *e.through ? "\" " : "", e.light);
+    ec_rare_way(e.through, e.light, way, sizeof way);
+    ec_warn(study->log, "the reference has no bound of its error: rare bright paths (%s) are hardly met yet; all errors are without their light", way);
 }
 
 ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_error *err)

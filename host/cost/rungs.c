@@ -76,7 +76,7 @@ static void add_roulettes(rung_list *list)
     off->unbiased = false;
 }
 
-/* What fireflies cost, and what it costs to be rid of them: the floor is the light that is missing. */
+/* Fireflies have a cost, and so has getting rid of them: the floor is the light that is missing. */
 static void add_clamps(rung_list *list)
 {
     static const double limits[] = {1, 10, 100};

@@ -146,15 +146,13 @@ ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_
     double square = sums->s2 / pixels / (mean * mean);
     result.error = sqrt(square);
     result.error_bound = 0;
-    if (square == 0) {
-        judge(sums, pixels, rare, limit, &result);
-        return result;
+    if (square != 0) {
+        result.noisy_pixels = effective_pixels(sums, n, pixels);
+        /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */
+        double variance = n >= 4 ? fmax(sums->s4 - sums->v4, 0) : sums->s4 * 2 / (n + 1);
+        result.spread = sqrt(variance) / sums->s2;
+        result.error_bound = ec_film_error_bound(square, result.noisy_pixels, pixels, n);
     }
-    double nu = result.noisy_pixels = effective_pixels(sums, n, pixels);
-    /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */
-    double variance = n >= 4 ? fmax(sums->s4 - sums->v4, 0) : sums->s4 * 2 / (n + 1);
-    result.spread = sqrt(variance) / sums->s2;
-    result.error_bound = ec_film_error_bound(square, nu, pixels, n);
     judge(sums, pixels, rare, limit, &result);
     return result;
 }

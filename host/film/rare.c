@@ -1,11 +1,26 @@
 #include "film/rare.h"
 
 #include <math.h>
-#include <stddef.h>
+#include <stdio.h>
+
+ec_rare_kind *ec_rare_make_room(ec_rare *rare, double matters)
+{
+    uint32_t least = 0;
+    if (rare->count < EC_RARE_KINDS) return &rare->kinds[rare->count++];
+    for (uint32_t i = 1; i < EC_RARE_KINDS; i++)
+        if (rare->kinds[i].luminance * rare->kinds[i].gathered < rare->kinds[least].luminance * rare->kinds[least].gathered) least = i;
+    return rare->kinds[least].luminance * rare->kinds[least].gathered < matters ? &rare->kinds[least] : NULL;
+}
+
+void ec_rare_way(const char *through, const char *light, char *text, size_t size)
+{
+    if (*through) snprintf(text, size, "through \"%s\" to %s", through, light);
+    else snprintf(text, size, "straight to %s", light);
+}
 
 static int is_unmet(const ec_rare_kind *kind, double samples) { return samples * kind->chance < EC_RARE_MET; }
 
-/* What it brings to a picture with such a limit. */
+/* The luminance that a kind brings to a picture of that mean and limit. */
 static double luminance_of(const ec_rare_kind *kind, double mean, double limit)
 {
     const double all = kind->luminance * (kind->is_relative ? mean : 1), clamped = kind->clamped * all;
@@ -26,14 +41,6 @@ double ec_rare_unmet(const ec_rare *rare, double samples, double mean, double li
     return sum;
 }
 
-/* A tile's part of a kind's light, over the mean tile's. */
-static double share_of(const ec_rare_kind *kind, uint32_t tile)
-{
-    uint32_t sum = 0;
-    for (int i = 0; i < EC_RARE_SHARES; i++) sum += kind->share[i];
-    return sum ? (double)kind->share[tile] * EC_RARE_SHARES / sum : 1;
-}
-
 uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y)
 {
     return (uint32_t)((uint64_t)y * EC_RARE_TILES / rare->height) * EC_RARE_TILES + (uint32_t)((uint64_t)x * EC_RARE_TILES / rare->width);
@@ -45,6 +52,6 @@ double ec_rare_unmet_at(const ec_rare *rare, double samples_a_pixel, double mean
     const uint32_t tile = ec_rare_tile(rare, x, rare->row + y);
     double sum = 0;
     for (uint32_t i = 0; i < rare->count; i++)
-        if (is_unmet(&rare->kinds[i], samples)) sum += luminance_of(&rare->kinds[i], mean, limit) * share_of(&rare->kinds[i], tile);
+        if (is_unmet(&rare->kinds[i], samples)) sum += luminance_of(&rare->kinds[i], mean, limit) * rare->kinds[i].peak * rare->kinds[i].share[tile] / 255;
     return sum;
 }

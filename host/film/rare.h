@@ -9,12 +9,14 @@
 #define EC_FILM_RARE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #define EC_RARE_KINDS 16
 #define EC_RARE_TILES 16   /* the picture is cut in as many columns and rows */
 #define EC_RARE_SHARES (EC_RARE_TILES * EC_RARE_TILES)
 #define EC_RARE_NAME 48
+#define EC_RARE_WAY (2 * EC_RARE_NAME + 32) /* room for ec_rare_way */
 #define EC_RARE_MET 5.0    /* samples that a kind is expected to have once it is as good as met: 1 in 150 renders has none */
 #define EC_RARE_LEAST 0.05 /* of the mean luminance without these samples, root mean square: missing light that matters where … */
 #define EC_RARE_TAIL 0.5   /* … the largest few samples hold more than this share of the noise */
@@ -28,7 +30,8 @@ typedef struct ec_rare_kind {
     bool is_relative; /* luminance is relative to the picture's mean: how bright a picture it makes is not known */
     double clamped;   /* share of it that a clamp of indirect light limits (film/clamp.h) */
     double gathered;  /* root mean square over pixels of what they bring, over the mean: 1 where it is even */
-    uint8_t share[EC_RARE_SHARES]; /* of their light in each tile, row by row, by the largest */
+    uint8_t share[EC_RARE_SHARES]; /* of their light in each tile, row by row: 255 is the brightest tile's … */
+    double peak;                   /* … which has so many times the mean tile's */
 } ec_rare_kind;
 
 typedef struct ec_rare {
@@ -38,12 +41,19 @@ typedef struct ec_rare {
     ec_rare_kind kinds[EC_RARE_KINDS];
 } ec_rare;
 
+/* Room for a kind of which so much light matters (luminance * gathered): a new one, or in place of the kind of which the least does; NULL
+ * where that is more. */
+ec_rare_kind *ec_rare_make_room(ec_rare *rare, double matters);
+
+/* "through "glass" to "lamp"", or "straight to "lamp"" where nothing is passed through. */
+void ec_rare_way(const char *through, const char *light, char *text, size_t size);
+
 /* The mean over pixels of the square of the luminance that is missing where kinds that so many samples (of the whole picture) expect fewer
  * than EC_RARE_MET of are not met; *most: the kind that matters most, or NULL. rare may be NULL. mean: the picture's luminance. limit: of a
  * sample's indirect light, where the picture is clamped; else 0. */
 double ec_rare_unmet(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most);
 
-/* Of the picture's pixel. */
+/* The tile that a pixel of the picture lies in. */
 uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y);
 
 /* The mean luminance of such kinds around a pixel, in a picture whose pixels all have as many samples; y: row of the film. */

@@ -14,15 +14,14 @@
 #define MOST 24.0       /* of the mean */
 #define WORTH_IT 0.95
 
-/* Tile by tile, as kernels/lib/film.h has it. */
-void ec_number_pixels(const ec_params *params, uint32_t *place)
+/* Numbers go tile by tile, as pixel_to_xy of kernels/lib/film.h has it: rows of tiles first, the last of them lower, its last tile narrower. */
+uint32_t ec_pixel_place(const ec_params *params, uint32_t number)
 {
-    const uint32_t tile = 8, width = params->width, height = params->height;
-    uint32_t number = 0;
-    for (uint32_t y0 = 0; y0 < height; y0 += tile)
-        for (uint32_t x0 = 0; x0 < width; x0 += tile)
-            for (uint32_t y = y0; y < y0 + tile && y < height; y++)
-                for (uint32_t x = x0; x < x0 + tile && x < width; x++) place[number++] = y * width + x;
+    const uint32_t tile = EC_TILE_ROWS, width = params->width, height = params->height;
+    const uint32_t y0 = number / (width * tile) * tile, rows = height - y0 < tile ? height - y0 : tile;
+    const uint32_t in_row = number % (width * tile), x0 = in_row / (rows * tile) * tile, columns = width - x0 < tile ? width - x0 : tile;
+    const uint32_t in_tile = in_row - x0 * rows;
+    return (y0 + in_tile / columns) * width + x0 + in_tile % columns;
 }
 
 /* In row order, of all pixels: the variance of luminance, of a sample. */
@@ -91,7 +90,7 @@ static ec_result allocate(ec_allotment *a, const ec_params *params, ec_error *er
         return ec_fail(err, "out of memory for the allotment of samples to %u pixels; give --adaptive off",
                        params->width * params->height);
     }
-    ec_number_pixels(params, a->place);
+    for (uint32_t i = 0; i < a->pixels; i++) a->place[i] = ec_pixel_place(params, i);
     return EC_OK;
 }
 

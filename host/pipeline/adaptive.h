@@ -44,8 +44,8 @@ ec_pass ec_allotment_pass(ec_allotment *allotment, const ec_film *film, double m
 /* Has every pixel what it is due at this level? */
 bool ec_allotment_is_even(const ec_allotment *allotment, const ec_film *film);
 
-/* Of each pixel number (kernels/lib/film.h) the place in row order. */
-void ec_number_pixels(const ec_params *params, uint32_t *place);
+/* The place in row order of the pixel with that number (kernels/lib/film.h). */
+uint32_t ec_pixel_place(const ec_params *params, uint32_t number);
 
 void ec_allotment_free(ec_allotment *allotment);
 

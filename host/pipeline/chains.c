@@ -9,14 +9,13 @@
 
 #define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
 
-/* What is looked at on the host between two kernels. */
+/* The paths of a wave, as the host sees them between two kernels. */
 typedef struct tracer {
     ec_pipeline *p;
     const ec_rare_lights *lights;
     ec_chains *found;
     uint32_t room, first, count;  /* chains there is room for; paths of this wave */
-    const uint32_t *places;       /* of all paths */
-    uint32_t *list;               /* EC_LIST_WORDS a path of this wave */
+    uint32_t *list;               /* of all paths, EC_LIST_WORDS each */
     uint32_t *at;                 /* by slot: the path's entry in the queue, or UINT32_MAX */
     int64_t *last;                /* by slot: its chain that waits to know where it ended, or -1 */
     uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp? */
@@ -67,7 +66,7 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segmen
     c->prim = word_u(t, t->queue, EC_PATH_PRIM, entry);
     c->hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
     c->reach = c->hit == EC_NO_ID ? INFINITY : NAN;
-    c->place = t->places[t->first + slot];
+    c->place = ec_pixel_place(&t->p->params, t->list[EC_LIST_WORDS * (t->first + slot)]);
     c->is_direct = is_direct;
     c->segment = segment;
 }
@@ -168,13 +167,15 @@ static ec_result trace_all(tracer *t, ec_error *err)
     return EC_OK;
 }
 
-/* Paths are one sample a pixel, and no part of a batch; shading counts what is invalid, which is not these paths' to say. */
+/* Paths are one sample a pixel, and no part of a batch. Shading counts what is invalid: counts are put back as they were. */
 static ec_result trace_apart(tracer *t, ec_error *err)
 {
     ec_pipeline *p = t->p;
     const ec_params params = p->params;
     const cl_mem list = p->buffers[EC_ARG_PIXEL_LIST], aov = p->buffers[EC_ARG_AOV];
+    uint32_t invalid[EC_STAGE_COUNT];
     const uint64_t bytes = 4ull * EC_LIST_WORDS * EC_CHAIN_PATHS, slack = 64 * 4 * EC_LIST_WORDS; /* lanes past the last path look too */
+    EC_TRY(ec_pipeline_read_invalid(p, invalid, err));
     EC_TRY(ec_buffer_create(p->cl, "pixel list", bytes + slack, NULL, &t->pixels, err));
     p->params.batch = 1;
     p->params.first_sample = 0;
@@ -186,7 +187,7 @@ static ec_result trace_apart(tracer *t, ec_error *err)
     p->params = params;
     p->buffers[EC_ARG_PIXEL_LIST] = list;
     p->buffers[EC_ARG_AOV] = aov;
-    if (result == EC_OK) result = ec_buffer_zero(p->cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * 4, err);
+    if (result == EC_OK) result = ec_buffer_write(p->cl, p->buffers[EC_ARG_INVALID], 0, sizeof invalid, invalid, err);
     if (result == EC_OK) result = ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof params, &params, err);
     if (result == EC_OK) result = ec_cl_finish(p->cl, err);
     ec_buffer_release(p->cl, &t->pixels);
@@ -194,14 +195,12 @@ static ec_result trace_apart(tracer *t, ec_error *err)
 }
 
 /* Evenly over the numbers of pixels, which lie tile by tile; the next round over them takes their next samples. */
-static void list_paths(const ec_params *params, const uint32_t *place_of, uint32_t *list, uint32_t *places)
+static void list_paths(const ec_params *params, uint32_t *list)
 {
     const uint64_t pixels = (uint64_t)params->width * params->height;
     for (uint64_t i = 0; i < EC_CHAIN_PATHS; i++) {
-        const uint32_t number = (uint32_t)(pixels < EC_CHAIN_PATHS ? i % pixels : i * pixels / EC_CHAIN_PATHS);
-        list[EC_LIST_WORDS * i] = number;
+        list[EC_LIST_WORDS * i] = (uint32_t)(pixels < EC_CHAIN_PATHS ? i % pixels : i * pixels / EC_CHAIN_PATHS);
         list[EC_LIST_WORDS * i + 1] = (uint32_t)(pixels < EC_CHAIN_PATHS ? i / pixels : 0);
-        places[i] = place_of[number];
     }
 }
 
@@ -211,7 +210,6 @@ ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chain
     tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * EC_CHAIN_PATHS};
     *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains),
                           .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
-    uint32_t *place_of = malloc(4ull * p->params.width * p->params.height + 4), *places = malloc(4 * EC_CHAIN_PATHS);
     t.list = malloc(4 * EC_LIST_WORDS * EC_CHAIN_PATHS);
     t.at = malloc(4ull * wave);
     t.last = malloc(8ull * wave);
@@ -219,16 +217,12 @@ ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chain
     t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
     t.hits = malloc(4ull * (wave + p->params.part));
     ec_result result = EC_OK;
-    if (!chains->chains || !chains->visits || !place_of || !places || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
+    if (!chains->chains || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
         result = ec_fail(err, "out of memory for %d paths", EC_CHAIN_PATHS);
     if (result == EC_OK) {
-        ec_number_pixels(&p->params, place_of);
-        list_paths(&p->params, place_of, t.list, places);
-        t.places = places;
+        list_paths(&p->params, t.list);
         result = trace_apart(&t, err);
     }
-    free(place_of);
-    free(places);
     free(t.list);
     free(t.at);
     free(t.last);

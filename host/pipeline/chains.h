@@ -32,7 +32,7 @@ typedef struct ec_chains {
 ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, ec_chains *chains, ec_error *err);
 void ec_chains_free(ec_chains *chains);
 
-/* What rays meet first: origin, direction and prim of each are looked at, and its hit is set. */
+/* Sets the hit of each ray, which has origin, direction and prim, to what it meets first. */
 ec_result ec_chains_meet(ec_pipeline *pipeline, ec_chain *rays, uint32_t count, ec_error *err);
 
 #endif

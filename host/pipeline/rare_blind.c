@@ -62,23 +62,17 @@ static void start_rays(const ec_rare_lights *all, const ec_params *params, ec_ch
     }
 }
 
-/* The kind of which least is known takes the place of the one that matters least. */
+/* In place of any other where there is no room: nothing is known of it. */
 static void add_kind(const ec_rare_lights *all, const ec_rare_light *light, uint32_t material, double share, ec_rare *rare)
 {
-    uint32_t at = rare->count;
-    if (at == EC_RARE_KINDS) {
-        at = 0;
-        for (uint32_t i = 1; i < EC_RARE_KINDS; i++)
-            if (rare->kinds[i].luminance * rare->kinds[i].gathered < rare->kinds[at].luminance * rare->kinds[at].gathered) at = i;
-    } else rare->count++;
-    ec_rare_kind *kind = &rare->kinds[at];
-    *kind = (ec_rare_kind){.chance = CHANCE, .luminance = share / (1 - fmin(share, 0.9)), .is_relative = true, .clamped = 1, .gathered = 1};
+    ec_rare_kind *kind = ec_rare_make_room(rare, INFINITY);
+    *kind = (ec_rare_kind){.chance = CHANCE, .luminance = share / (1 - fmin(share, 0.9)), .is_relative = true, .clamped = 1, .gathered = 1, .peak = 1};
     memset(kind->share, 255, sizeof kind->share);
     snprintf(kind->through, sizeof kind->through, "%s", all->materials[material]);
     memcpy(kind->light, light->name, sizeof kind->light);
 }
 
-/* What each material sends on of a light's rays. */
+/* Adds a kind for each material that sends on much of a light's rays, and that paths hardly met. */
 static void judge_light(const ec_rare_lights *all, const ec_chains *chains, const ec_rare_light *light, const ec_chain *rays, double *shares, ec_rare *rare)
 {
     memset(shares, 0, all->material_count * sizeof *shares);

@@ -30,17 +30,18 @@ static float brightest(const ec_pack *pack)
     return most;
 }
 
-static void sort_into_octaves(const ec_pack *pack, float most, octave *octaves)
+/* columns: cosine and sine of each column's angle. */
+static void sort_into_octaves(const ec_pack *pack, float most, const double *columns, octave *octaves)
 {
     const uint32_t width = pack->environment_width, height = pack->environment_height;
     for (uint32_t y = 0; y < height; y++) {
-        const double theta = PI * (y + 0.5) / height, solid = 2 * PI * PI / width / height * sin(theta);
+        const double theta = PI * (y + 0.5) / height, sine = sin(theta), cosine = cos(theta), solid = 2 * PI * PI / width / height * sine;
         const float *row = pack->environment_texels + 4 * (size_t)width * (y + 1);
         for (uint32_t x = 0; x < width; x++) {
-            const double bright = luminance(row + 4 * (size_t)x), phi = 2 * PI * ((x + 0.5) / width - 0.5);
+            const double bright = luminance(row + 4 * (size_t)x);
             const int k = bright > 0 ? ilogb(most) - ilogb(bright) : OCTAVES;
             if (k >= OCTAVES) continue;
-            const double direction[3] = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
+            const double direction[3] = {sine * columns[2 * (size_t)x], cosine, sine * columns[2 * (size_t)x + 1]};
             octave *o = &octaves[k * OCTANTS + (direction[0] < 0) + 2 * (direction[1] < 0) + 4 * (direction[2] < 0)];
             o->solid_angle += solid;
             o->light += bright * solid;
@@ -59,15 +60,24 @@ static void add_octave(const octave *o, ec_rare_lights *all)
     for (int c = 0; c < 3 && length > GATHERED * o->solid_angle; c++) light->direction[c] = (float)(o->direction[c] / length);
 }
 
-static void find_in_environment(const ec_pack *pack, ec_rare_lights *all)
+static ec_result find_in_environment(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
 {
     octave octaves[OCTAVES * OCTANTS] = {0};
-    if (!pack->environment_texels || !pack->plain.scene.has_environment) return;
-    const float most = brightest(pack);
-    if (!(most > 0)) return;
-    sort_into_octaves(pack, most, octaves);
+    const uint32_t width = pack->environment_width;
+    const float most = pack->environment_texels && pack->plain.scene.has_environment ? brightest(pack) : 0;
+    if (!(most > 0)) return EC_OK;
+    double *columns = malloc(2 * sizeof *columns * width);
+    if (!columns) return ec_fail(err, "out of memory for an environment map %u texels wide", width);
+    for (uint32_t x = 0; x < width; x++) {
+        const double phi = 2 * PI * ((x + 0.5) / width - 0.5);
+        columns[2 * (size_t)x] = cos(phi);
+        columns[2 * (size_t)x + 1] = sin(phi);
+    }
+    sort_into_octaves(pack, most, columns, octaves);
+    free(columns);
     for (int k = 0; k < OCTAVES * OCTANTS && all->count < EC_RARE_LIGHTS / 2; k++) /* the brightest; the other half is the lamps' */
         if (octaves[k].solid_angle > 0 && octaves[k].solid_angle < SMALL) add_octave(&octaves[k], all);
+    return EC_OK;
 }
 
 static void lamp_of(const ec_light_data *l, ec_rare_lamp *lamp)
@@ -159,7 +169,8 @@ static void *copy_of(const void *data, size_t bytes)
     return copy;
 }
 
-/* Of light that falls on it head-on. Roughness by its factor alone: where a texture has a say, paths that get there tell. */
+/* Share of head-on light that a material sends on in a narrow lobe. Roughness by its factor alone: where a texture has a say, paths that get
+ * there tell. */
 static float sharp_share(const ec_material_data *m)
 {
     const double f0 = luminance(m->f0), base = luminance(m->base_color);
@@ -169,7 +180,7 @@ static float sharp_share(const ec_material_data *m)
     return (float)share;
 }
 
-/* Of lights that are no triangles'. */
+/* The power of all lights but triangles. */
 static double power_of_others(const ec_pack *pack)
 {
     const ec_scene *scene = &pack->plain.scene;
@@ -208,7 +219,7 @@ ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error
     all->radius = pack->scene_radius;
     all->power = power_of_others(pack);
     for (uint32_t m = 0; result == EC_OK && m < all->material_count && m < pack->material_count; m++) all->sharp[m] = sharp_share(&pack->materials[m]);
-    if (result == EC_OK) find_in_environment(pack, all);
+    if (result == EC_OK) result = find_in_environment(pack, all, err);
     if (result == EC_OK) result = find_lamps(pack, all, err);
     if (result != EC_OK || !all->count) ec_rare_lights_free(all);
     return result;

@@ -32,7 +32,7 @@ typedef struct selection {
     double weight;
 } selection;
 
-/* What a kind is summed from. */
+/* Sums over the chains of a kind. */
 typedef struct sums {
     double chance, luminance, clamped, share[EC_RARE_SHARES];
     double *through; /* by material; the last one: the camera's */
@@ -190,22 +190,14 @@ static double gathered(const sums *s, bool is_direct, double pixels)
 /* Keeps the kinds that matter most. */
 static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, const sums *s, double spread, ec_rare *rare)
 {
-    uint32_t at = rare->count;
-    if (!(s->luminance > 0) || s->chance > COMMON) return;
-    if (at == EC_RARE_KINDS) {
-        at = 0;
-        for (uint32_t i = 1; i < EC_RARE_KINDS; i++)
-            if (rare->kinds[i].luminance * rare->kinds[i].gathered < rare->kinds[at].luminance * rare->kinds[at].gathered) at = i;
-        if (rare->kinds[at].luminance * rare->kinds[at].gathered >= s->luminance * spread) return;
-    } else rare->count++;
-    ec_rare_kind *kind = &rare->kinds[at];
-    kind->chance = s->chance;
-    kind->luminance = s->luminance;
-    kind->clamped = s->clamped / s->luminance;
-    kind->gathered = spread;
+    ec_rare_kind *kind = s->luminance > 0 && s->chance <= COMMON ? ec_rare_make_room(rare, s->luminance * spread) : NULL;
+    uint32_t sum = 0;
     double most = 0;
+    if (!kind) return;
+    *kind = (ec_rare_kind){.chance = s->chance, .luminance = s->luminance, .clamped = s->clamped / s->luminance, .gathered = spread};
     for (int i = 0; i < EC_RARE_SHARES; i++) most = fmax(most, s->share[i]);
-    for (int i = 0; i < EC_RARE_SHARES; i++) kind->share[i] = (uint8_t)ceil(255 * s->share[i] / most);
+    for (int i = 0; i < EC_RARE_SHARES; i++) sum += kind->share[i] = (uint8_t)ceil(255 * s->share[i] / most);
+    kind->peak = 255.0 * EC_RARE_SHARES / sum;
     name_way(all, s, kind->through);
     memcpy(kind->light, light->name, sizeof kind->light);
 }

@@ -210,11 +210,12 @@ static ec_result allot(ec_render_state *r, ec_error *err)
 /* Once: why the render goes on though its samples would do. */
 static void note_withheld(ec_render_state *r, const ec_log *log)
 {
-    const ec_film_error *e = &r->error;
+    char way[EC_RARE_WAY];
     if (!r->goal.is_withheld || r->is_withheld_noted) return;
     r->is_withheld_noted = true;
-    ec_note(log, "the samples so far would do for --error %g, but there is no bound: rare bright paths (%s%s%sto %s) are hardly met yet; the render goes on to its other limits",
-            r->goal.error, *e->through ? "through \"" : "straight ", e->through, *e->through ? "\" " : "", e->light);
+    ec_rare_way(r->error.through, r->error.light, way, sizeof way);
+    ec_note(log, "the samples so far would do for --error %g, but there is no bound: rare bright paths (%s) are hardly met yet; the render goes on to its other limits",
+            r->goal.error, way);
 }
 
 /* After a batch: is it enough? */

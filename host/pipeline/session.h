@@ -23,7 +23,7 @@ typedef struct ec_session_view {
 /* The next batches are of this. The lens is that of the options. */
 ec_result ec_session_look(ec_session *session, const ec_session_view *view, ec_error *err);
 
-/* What is foretold of rare paths in the picture that the next batches are of; to be asked between batches. */
+/* Foretells the rare paths of the picture that the next batches are of; to be called between batches. */
 ec_result ec_session_foretell(ec_session *session, ec_rare *rare, ec_error *err);
 
 /* Most samples a pixel that one batch may have: a pixel's samples are in flight together. */

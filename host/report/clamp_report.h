@@ -1,4 +1,4 @@
-/* What a clamp took away, in words and figures, for renders and merged pictures alike. */
+/* A clamp's error in words and in JSON, for renders and merged pictures alike. */
 #ifndef EC_REPORT_CLAMP_REPORT_H
 #define EC_REPORT_CLAMP_REPORT_H
 

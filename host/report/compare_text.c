@@ -91,7 +91,7 @@ static void print_verdict(const ec_compare_report *report, FILE *to)
         fprintf(to, "they differ in %" PRIu64 " pixel%s; whether that is noise cannot be told\n", unequal, unequal == 1 ? "" : "s");
 }
 
-/* What the verdict does not know of. */
+/* The verdict does not know of light that a picture lacks. */
 static void print_unbound(char name, const char *why, FILE *to)
 {
     if (why) fprintf(to, "no bound  %c may lack light that shows in no standard error: %s\n", name, why);

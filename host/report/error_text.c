@@ -6,13 +6,6 @@
 #include "report/format.h"
 #include "report/json.h"
 
-static void format_paths(const ec_film_error *e, char *text, size_t size)
-{
-    if (*e->through) snprintf(text, size, "paths through \"%s\" to %s", e->through, e->light);
-    else snprintf(text, size, "paths straight to %s", e->light);
-}
-
-/* Up to which bound a picture is good for something; the scale is the manual's. */
 const char *ec_error_grade(const ec_film_error *e)
 {
     static const struct {
@@ -28,14 +21,14 @@ const char *ec_error_grade(const ec_film_error *e)
 
 void ec_error_why(const ec_film_error *e, char *text, size_t size)
 {
-    char paths[2 * EC_RARE_NAME + 32], unmet[32], share[32];
+    char way[EC_RARE_WAY], unmet[32], share[32];
     *text = 0;
     if (!e->is_open) return;
-    format_paths(e, paths, sizeof paths);
+    ec_rare_way(e->through, e->light, way, sizeof way);
     ec_format_percent(e->unmet, unmet, sizeof unmet);
     ec_format_percent(e->tail_share, share, sizeof share);
-    snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise; %s are hardly met yet: while their light is missing the error is some %s)",
-             EC_TAIL_FEW, share, paths, unmet);
+    snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise; paths %s are hardly met yet: while their light is missing the error is some %s)",
+             EC_TAIL_FEW, share, way, unmet);
 }
 
 void ec_error_help(const ec_film_error *e, char *text, size_t size)

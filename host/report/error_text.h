@@ -1,4 +1,4 @@
-/* What is said of an image's error: text and JSON, wherever one is stated. */
+/* An image's error in words and in JSON, for renders and merged pictures alike. */
 #ifndef EC_REPORT_ERROR_TEXT_H
 #define EC_REPORT_ERROR_TEXT_H
 
@@ -15,10 +15,10 @@ void ec_error_text(const ec_film_error *error, char *text, size_t size);
 /* Why there is no bound, without a full stop; empty where there is one. */
 void ec_error_why(const ec_film_error *error, char *text, size_t size);
 
-/* What the picture is good for, in words. */
+/* Names what the picture is good for: the scale is the manual's. */
 const char *ec_error_grade(const ec_film_error *error);
 
-/* What would help, where there is no bound; else empty. */
+/* Names what would bring a bound; empty where there is one. */
 void ec_error_help(const ec_film_error *error, char *text, size_t size);
 
 /* error_bound_why, null where there is a bound, and the figures that it goes by. */

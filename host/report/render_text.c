@@ -52,7 +52,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     if (report->verbose) print_shared(report->stats, to);
 }
 
-/* What four times the samples would bring: half the error by independent samples, and less where their order tells. */
+/* Four times the samples bring half the error where they are independent, and less where their order tells. */
 static void format_more(const ec_render_stats *stats, char *text, size_t size)
 {
     char error[32];
@@ -74,7 +74,6 @@ static void print_heavy(const ec_render_report *report, FILE *to)
             report->heavy_pixels, share, more);
 }
 
-/* What would bring a bound. */
 static void print_help(const ec_film_error *error, FILE *to)
 {
     char help[EC_ERROR_TEXT];

@@ -20,6 +20,7 @@ static void add_kind(cJSON *array, const ec_rare_kind *kind)
     cJSON_AddNumberToObject(one, "clamped", kind->clamped);
     cJSON_AddNumberToObject(one, "gathered", kind->gathered);
     cJSON_AddStringToObject(one, "share", share);
+    cJSON_AddNumberToObject(one, "peak", kind->peak);
     cJSON_AddItemToArray(array, one);
 }
 
@@ -44,6 +45,13 @@ static bool read_number(const cJSON *one, const char *key, double *number)
     return *number >= 0 && isfinite(*number);
 }
 
+static bool read_flag(const cJSON *one, const char *key, bool *flag)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(one, key);
+    *flag = cJSON_IsTrue(item);
+    return cJSON_IsBool(item);
+}
+
 static bool read_share(const cJSON *one, uint8_t share[EC_RARE_SHARES])
 {
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(one, "share");
@@ -64,8 +72,7 @@ bool ec_rare_state_read(const cJSON *state, ec_rare *rare)
     if (!reads) return false;
     cJSON_ArrayForEach(one, array) {
         ec_rare_kind *kind = &rare->kinds[rare->count++];
-        kind->is_relative = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(one, "isRelative"));
-        reads &= read_name(one, "through", kind->through) && read_name(one, "light", kind->light) && read_number(one, "chance", &kind->chance) &&
+        reads &= read_flag(one, "isRelative", &kind->is_relative) && read_number(one, "peak", &kind->peak) && read_name(one, "through", kind->through) && read_name(one, "light", kind->light) && read_number(one, "chance", &kind->chance) &&
                  read_number(one, "luminance", &kind->luminance) && read_number(one, "clamped", &kind->clamped) && read_number(one, "gathered", &kind->gathered) && read_share(one, kind->share);
     }
     return reads;

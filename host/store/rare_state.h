@@ -1,4 +1,4 @@
-/* What is foretold of rare paths (film/rare.h), in a checkpoint's or a slice's JSON object. */
+/* Rare paths (film/rare.h) in a checkpoint's or a slice's JSON object. */
 #ifndef EC_STORE_RARE_STATE_H
 #define EC_STORE_RARE_STATE_H
 

@@ -15,8 +15,8 @@ enum { WIDTH = 32, HEIGHT = 32, REPLICATES = 8 };
 static ec_rare two_kinds(void)
 {
     ec_rare rare = {.count = 2, .width = WIDTH, .height = HEIGHT};
-    rare.kinds[0] = (ec_rare_kind){.through = "glass", .light = "\"lamp\"", .chance = 0x1p-20, .luminance = 1, .gathered = 8, .share = {255}};
-    rare.kinds[1] = (ec_rare_kind){.through = "steel", .light = "\"lamp\"", .chance = 0.1, .luminance = 1, .gathered = 1};
+    rare.kinds[0] = (ec_rare_kind){.through = "glass", .light = "\"lamp\"", .chance = 0x1p-20, .luminance = 1, .gathered = 8, .share = {255}, .peak = EC_RARE_SHARES};
+    rare.kinds[1] = (ec_rare_kind){.through = "steel", .light = "\"lamp\"", .chance = 0.1, .luminance = 1, .gathered = 1, .peak = 1};
     for (int i = 0; i < EC_RARE_SHARES; i++) rare.kinds[1].share[i] = 255;
     return rare;
 }

@@ -1,4 +1,4 @@
-/* What is foretold of rare paths: against closed forms where a flat mirror shows a small light, and against long renders where a mirror
+/* Rare paths as they are foretold: against closed forms where a flat mirror shows a small light, and against long renders where a mirror
  * throws it onto a floor.
  *
  * ctest label: stat */
@@ -104,7 +104,7 @@ static double floor_light(double wall, const char *name, ec_rare *rare)
     return mean;
 }
 
-/* What a mirror throws onto the floor: the difference that it makes. */
+/* A mirror throws light onto the floor: as much as the difference that it makes. */
 static void check_floor(void)
 {
     ec_rare rare, none;

@@ -3,7 +3,7 @@
 import math
 
 from scenes.gltf import Gltf
-from scenes.mesh import Mesh, polygon
+from scenes.mesh import polygon, ring
 
 # Reflectance of the paints from 400 to 700 nm in steps of 4 nm, measured.
 WHITE = """.343 .445 .551 .624 .665 .687 .708 .723 .715 .710 .745 .758 .739 .767 .777 .765 .751 .745 .748 .729 .745 .757 .753 .750 .746
@@ -112,13 +112,7 @@ def two_triangles(corners):
 
 def ceiling_around_lamp():
     """The ceiling has a hole in which the lamp sits: four trapezoids between the two rings of corners."""
-    outer, inner = metres(CEILING), metres(LAMP)
-    out = Mesh()
-    for i in range(4):
-        j = (i + 1) % 4
-        out.append(polygon(outer[i], outer[j], inner[j], inner[i]))
-    out.uvs = []
-    return out
+    return ring(metres(CEILING), metres(LAMP))
 
 
 def make(folder):

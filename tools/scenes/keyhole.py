@@ -1,7 +1,7 @@
 """Two rooms and a hole of 5 cm in the wall between them. The lamp hangs on the other side of that wall, so no point of the camera's
 room sees it: all light comes through the hole from matt walls, and one path in some thousands finds the hole."""
 from scenes.gltf import Gltf
-from scenes.mesh import Mesh, box, polygon, sheet
+from scenes.mesh import Mesh, box, polygon, ring, sheet
 
 X, Y, Z = 3.0, 2.5, 3.0            # each room
 THICK, HOLE = 0.02, 0.05           # of the wall; the hole's edge
@@ -14,10 +14,7 @@ def pierced(x, side):
     y0, y1, z0, z1 = AT[0] - HOLE / 2, AT[0] + HOLE / 2, AT[1] - HOLE / 2, AT[1] + HOLE / 2
     outer = [(x, 0.0, Z), (x, 0.0, 0.0), (x, Y, 0.0), (x, Y, Z)]
     inner = [(x, y0, z1), (x, y0, z0), (x, y1, z0), (x, y1, z1)]
-    out = Mesh()
-    for i in range(4):
-        j = (i + 1) % 4
-        out.append(polygon(outer[i], outer[j], inner[j], inner[i]))
+    out = ring(outer, inner)
     return out if side > 0 else out.flipped()
 
 

@@ -78,6 +78,16 @@ def polygon(*points, uvs=None):
     return Mesh(points, [(0, i, i + 1) for i in range(1, len(points) - 1)], [n] * len(points), uvs or [])
 
 
+def ring(outer, inner):
+    """A polygon with a hole of as many corners: a quadrilateral from edge to edge."""
+    out = Mesh()
+    for i in range(len(outer)):
+        j = (i + 1) % len(outer)
+        out.append(polygon(outer[i], outer[j], inner[j], inner[i]))
+    out.uvs = []
+    return out
+
+
 def quad(center, u, v, uvs=None):
     """Centre and two half edges; the front is the side of u x v."""
     corner = lambda s, t: tuple(c + s * a + t * b for c, a, b in zip(center, u, v))

@@ -4,7 +4,7 @@ light sampling finds is the light that matt walls send round the screen, and tha
 unfolded.gltf has the same picture with the mirror left out: behind its frame is the mirrored room, with the mirrored lamp in it. Light
 sampling finds that lamp straight through the frame. The mirror reflects all light, so what one has is what the other has."""
 from scenes.gltf import Gltf
-from scenes.mesh import Mesh, polygon, sheet
+from scenes.mesh import Mesh, ring, sheet
 
 X, Y, Z = 3.0, 2.5, 3.0                       # room: 0 <= x <= X and so on, the mirror's wall at x = 0
 MIRROR = (0.3, 2.2, 1.0, 2.3)                 # y from, y to, z from, z to
@@ -16,12 +16,7 @@ def wall_around_mirror():
     y0, y1, z0, z1 = MIRROR
     outer = [(0.0, 0.0, Z), (0.0, 0.0, 0.0), (0.0, Y, 0.0), (0.0, Y, Z)]
     inner = [(0.0, y0, z1), (0.0, y0, z0), (0.0, y1, z0), (0.0, y1, z1)]
-    out = Mesh()
-    for i in range(4):
-        j = (i + 1) % 4
-        out.append(polygon(outer[i], outer[j], inner[j], inner[i]))
-    out.uvs = []
-    return out
+    return ring(outer, inner)
 
 
 def parts():
