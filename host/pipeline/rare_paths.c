@@ -196,7 +196,7 @@ static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, con
     if (!kind) return;
     *kind = (ec_rare_kind){.chance = s->chance, .luminance = s->luminance, .clamped = s->clamped / s->luminance, .gathered = spread};
     for (int i = 0; i < EC_RARE_SHARES; i++) most = fmax(most, s->share[i]);
-    for (int i = 0; i < EC_RARE_SHARES; i++) sum += kind->share[i] = (uint8_t)ceil(255 * s->share[i] / most);
+    for (int i = 0; i < EC_RARE_SHARES; i++) sum += kind->share[i] = (uint8_t)ceil(255 * (s->share[i] / most));
     kind->peak = 255.0 * EC_RARE_SHARES / sum;
     name_way(all, s, kind->through);
     memcpy(kind->light, light->name, sizeof kind->light);
