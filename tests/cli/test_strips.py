@@ -4,7 +4,9 @@ import os
 import re
 import unittest
 
-from support import CORNELL, RING, Case, eclat, read_exr
+from support import CORNELL, RING, SOURCE, Case, eclat, read_exr
+
+PINLAMP = os.path.join(SOURCE, "scenes", "pinlamp", "pinlamp.gltf")
 
 
 class Strips(Case):
@@ -36,7 +38,7 @@ class Strips(Case):
         self.assertEqual(sorted(left), sorted(right))
         for name in left:
             self.assertTrue(left[name] == right[name], name)  # not assertEqual: it would tell how they differ, for hours
-        for name in ["error", "errorBound", "relMSE", "heavyPixels", "imageSha256", "replicates", "samplesPerPixel", "stoppedBy", "invalid", "wave", "kernels", "clamp.luminance", "clamp.missing",
+        for name in ["error", "errorBound", "errorBoundWhy", "relMSE", "heavyPixels", "imageSha256", "replicates", "samplesPerPixel", "stoppedBy", "invalid", "wave", "kernels", "clamp.luminance", "clamp.missing",
                      "clamp.missingStderr", "clamp.noise", "clamp.bias", "clamp.error"]:
             self.assertEqual(attributes.get("eclat." + name), others.get("eclat." + name), name)
         with open(self.path(whole + ".png"), "rb") as one, open(self.path(strips + ".png"), "rb") as other:
@@ -55,6 +57,13 @@ class Strips(Case):
                 self.assertEqual(whole["strips"], 1)
                 for name in ["error", "error_bound", "relmse", "mean_luminance", "heavy_pixels", "image_sha256", "samples", "rays", "invalid_samples", "stopped_by"]:
                     self.assertEqual(whole[name], strips[name], name)
+
+    def test_light_that_may_be_missing(self):
+        """What is foretold of it goes by tiles of the whole picture, and so do its flags."""
+        options = ["--size", "200x500", "--spp", "9"]
+        self.assertIn("mirror", self.render("whole", *options, scene=PINLAMP)["error_bound_why"])
+        self.in_strips("strips", *options, scene=PINLAMP)
+        self.assert_same("whole", "strips")
 
     def test_lanes_and_waves(self):
         options = ["--size", "128x600", "--spp", "4"]

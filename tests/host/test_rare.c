@@ -104,6 +104,25 @@ static void test_film(void)
     ec_film_destroy(&film);
 }
 
+/* A sample that met the light by chance makes the picture brighter, and what is missing small beside it. */
+static void test_lucky_sample(void)
+{
+    ec_error err = {0};
+    ec_film film = make_film();
+    ec_rare rare = {.count = 1, .width = WIDTH, .height = HEIGHT};
+    for (int c = 0; c < 3; c++) film.parts[0].sums.mean[c] += 8e4f; /* the first replicate of a pixel: ten times the picture's light */
+    film.parts[0].sums.tail[0] += 8e4f;
+    rare.kinds[0] = (ec_rare_kind){.through = "glass", .light = "\"lamp\"", .chance = 0x1p-20, .luminance = 0.2, .gathered = 1};
+    CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
+    const ec_film_error lucky = ec_film_estimate_error(&film);
+    CHECK(lucky.unmet < EC_RARE_LEAST && lucky.unmet < lucky.bound_if_met - lucky.error && lucky.tail_share > 0.75);
+    CHECK(lucky.is_open);
+    rare.kinds[0].luminance = 0.01; /* next to nothing of what the picture is without that sample */
+    CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
+    CHECK(!ec_film_estimate_error(&film).is_open);
+    ec_film_destroy(&film);
+}
+
 static void test_tail(void)
 {
     ec_tail a = {0}, b = {0}, all = {0};
@@ -121,6 +140,7 @@ int main(void)
 {
     test_kinds();
     test_film();
+    test_lucky_sample();
     test_tail();
     TEST_END();
 }

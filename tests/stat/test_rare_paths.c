@@ -2,6 +2,7 @@
  * throws it onto a floor.
  *
  * ctest label: stat */
+#include "pipeline/rare_paths.h"
 #include "pipeline/session.h"
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
@@ -22,6 +23,19 @@ static void set_map(ec_scene *scene, int width, int height, int x, int y, float 
 }
 
 static double solid_angle(int width, int height, int y) { return 2 * PI / width * PI / height * sin(PI * (y + 0.5) / height); }
+
+/* A camera looks straight down at a plane that fills its view, `half` radians to each side. */
+static ec_scene *load_plane(double metallic, double half)
+{
+    gltf_writer *w = gltf_new();
+    const int plane = gltf_add(&w->materials, "{\"name\":\"plane\",\"pbrMetallicRoughness\":{\"metallicFactor\":%g,\"roughnessFactor\":%g},"
+                                              "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}}", metallic, metallic > 0 ? 0.0 : 1.0);
+    gltf_quad(w, plane, (double[3]){-9, 0, 9}, (double[3]){18, 0, 0}, (double[3]){0, 0, -18});
+    gltf_camera(w, (double[3]){0, 3, 0}, (double[3]){0, 0, 0}, 2 * half);
+    ec_scene *scene = case_load(gltf_write(w, "rare-plane"), "1,1,1");
+    free(w);
+    return scene;
+}
 
 static ec_rare foretell(const ec_scene *scene, const ec_render_options *options)
 {
@@ -50,17 +64,11 @@ static double light_of(const ec_rare *rare, double *chance, const char *name)
     return sum;
 }
 
-/* A camera looks straight down at a plane that fills its view, of `half` radians to each side; the texel lies at that angle from the zenith. */
+/* The texel lies at that angle from the zenith. */
 static void check_plane(const char *what, double metallic, double angle, bool is_seen)
 {
     const double half = 0.4;
-    gltf_writer *w = gltf_new();
-    const int plane = gltf_add(&w->materials, "{\"name\":\"plane\",\"pbrMetallicRoughness\":{\"metallicFactor\":%g,\"roughnessFactor\":%g},"
-                                              "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}}", metallic, metallic > 0 ? 0.0 : 1.0);
-    gltf_quad(w, plane, (double[3]){-9, 0, 9}, (double[3]){18, 0, 0}, (double[3]){0, 0, -18});
-    gltf_camera(w, (double[3]){0, 3, 0}, (double[3]){0, 0, 0}, 2 * half);
-    ec_scene *scene = case_load(gltf_write(w, "rare-plane"), "1,1,1");
-    free(w);
+    ec_scene *scene = load_plane(metallic, half);
     const int y = (int)(angle / PI * HEIGHT);
     const float bright = 1e6f;
     set_map(scene, WIDTH, HEIGHT, 40, y, 1, bright);
@@ -78,6 +86,68 @@ static void check_plane(const char *what, double metallic, double angle, bool is
     } else {
         CHECK_MSG(light < 0.02 * omega * bright, "light %g of paths that cannot be", light);
     }
+    ec_scene_free(scene);
+}
+
+static double light_above(ec_scene *scene)
+{
+    const ec_render_options o = case_options(40, 40, 16);
+    const ec_rare rare = foretell(scene, &o);
+    double chance;
+    return light_of(&rare, &chance, "plane");
+}
+
+/* The mirror's square view reaches farther into its corners: a texel that lies beyond an edge is seen once the map is turned by 45 degrees. */
+static void check_turned(void)
+{
+    ec_scene *scene = load_plane(1, 0.4);
+    set_map(scene, WIDTH, HEIGHT, WIDTH / 2, (int)(0.48 / PI * HEIGHT), 1, 1e6f); /* towards +x */
+    const double before = light_above(scene);
+    ec_scene_adjust_environment(scene, 45, 1, NULL);
+    const double turned = light_above(scene);
+    printf("  beyond an edge %.3g, in a corner %.3g\n", before, turned);
+    CHECK(before < 0.02 * turned && turned > 10);
+    ec_scene_free(scene);
+}
+
+/* Two suns of one radiance are not one between them: the mirror shows one, and nothing of the other. */
+static void check_two_suns(void)
+{
+    ec_scene *scene = load_plane(1, 0.4);
+    const int y = (int)(0.2 / PI * HEIGHT);
+    set_map(scene, WIDTH, HEIGHT, 40, y, 1, 1e6f);
+    const double one = light_above(scene);
+    scene->environment.rgb[3 * (100 * WIDTH + 190)] = scene->environment.rgb[3 * (100 * WIDTH + 190) + 1] = 1e6f;
+    scene->environment.rgb[3 * (100 * WIDTH + 190) + 2] = 1e6f; /* below the horizon */
+    const double two = light_above(scene);
+    CHECK_MSG(fabs(two - one) < 0.02 * one, "light %g with one sun, %g with another one out of sight", one, two);
+    ec_scene_free(scene);
+}
+
+/* Counts of samples that were dropped are the render's: foretelling leaves them alone. */
+static void check_invalid_counts(void)
+{
+    const uint32_t wanted[EC_STAGE_COUNT] = {1, 2, 3, 4, 5};
+    uint32_t found[EC_STAGE_COUNT];
+    ec_scene *scene = load_plane(1, 0.4);
+    ec_render_options o = case_options(40, 40, 16);
+    ec_error err = {0};
+    ec_render_stats stats = {0};
+    ec_cargo cargo;
+    ec_pipeline p = {0};
+    ec_rare_lights lights = {0};
+    ec_rare rare;
+    set_map(scene, WIDTH, HEIGHT, 40, 8, 1, 1e6f);
+    CHECK_OK(ec_cargo_make(scene, &o, 1, 1u << ec_device_kind_of(&case_cl()->info), &cargo, &stats, &err), err);
+    CHECK_OK(ec_rare_lights_find(&cargo.pack, &lights, &err), err);
+    CHECK_OK(ec_pipeline_create(case_cl(), &cargo, NULL, &p, &stats, &err), err);
+    CHECK_OK(ec_buffer_write(p.cl, p.buffers[EC_ARG_INVALID], 0, sizeof wanted, wanted, &err), err);
+    CHECK_OK(ec_rare_paths_foretell(&lights, &p, &rare, &err), err);
+    CHECK_OK(ec_pipeline_read_invalid(&p, found, &err), err);
+    CHECK(rare.count > 0 && !memcmp(found, wanted, sizeof found));
+    ec_pipeline_destroy(&p);
+    ec_rare_lights_free(&lights);
+    ec_cargo_free(&cargo);
     ec_scene_free(scene);
 }
 
@@ -169,6 +239,9 @@ int main(void)
     check_plane("a mirror that shows the light", 1, 0.2, true);
     check_plane("a mirror that does not", 1, 0.6, false);
     check_plane("a matt plane", 0, 0.2, false);
+    check_turned();
+    check_two_suns();
+    check_invalid_counts();
     check_floor();
     TEST_END();
 }
