@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "pipeline/rare_blind.h"
+#include "pipeline/rare_sight.h"
 
 #define PI 3.14159265358979323846
 #define COMPARED (1 << 19)  /* chains times lamps that are compared, about, of each kind */
@@ -30,6 +31,7 @@ typedef struct selection {
     const ec_chain **chains;
     uint32_t count;
     double weight;
+    const bool *in_sight;   /* as ec_rare_sight has it, of what add_light is called for; NULL: there are chains enough */
 } selection;
 
 /* Sums over the chains of a kind. */
@@ -48,6 +50,20 @@ static void place_beside(const ec_chain *chain, const double towards[3], beside 
     }
 }
 
+/* Solid angle of a light from where a chain starts. */
+static double size_of(const ec_chain *chain, const ec_rare_light *light, const ec_rare_lamp *lamp)
+{
+    double square = 0, projected = 0;
+    if (!lamp) return light->solid_angle;
+    for (int k = 0; k < 3; k++) {
+        const double way = (double)lamp->middle[k] - chain->origin[k];
+        square += way * way;
+        projected -= way * lamp->normal[k];
+    }
+    const double cosine = (lamp->two_sided ? fabs(projected) : projected) / fmax(sqrt(square), 1e-300);
+    return cosine <= 0 ? 0 : fmin(lamp->area * cosine / fmax(square, 1e-300), 2 * PI);
+}
+
 static void beside_environment(const ec_chain *chain, const ec_rare_light *light, const ec_params *params, beside *b)
 {
     float towards[3];
@@ -58,18 +74,14 @@ static void beside_environment(const ec_chain *chain, const ec_rare_light *light
 
 static void beside_lamp(const ec_rare_lights *all, const ec_chain *chain, const ec_rare_light *light, const ec_rare_lamp *lamp, beside *b)
 {
-    double way[3], square = 0, cosine = 0;
+    double way[3], square = 0;
     for (int k = 0; k < 3; k++) way[k] = (double)lamp->middle[k] - chain->origin[k], square += way[k] * way[k];
     const double distance = sqrt(square);
-    for (int k = 0; k < 3; k++) {
-        way[k] /= fmax(distance, 1e-300);
-        cosine -= way[k] * lamp->normal[k];
-    }
+    for (int k = 0; k < 3; k++) way[k] /= fmax(distance, 1e-300);
     place_beside(chain, way, b);
     const bool is_it = chain->hit != EC_NO_ID && ec_rare_material_of(all, chain->hit) == light->material;
     const bool is_hidden = !is_it && chain->reach < 0.99 * distance; /* false where it is not known */
-    if (lamp->two_sided) cosine = fabs(cosine);
-    b->solid_angle = is_hidden || cosine <= 0 ? 0 : fmin(lamp->area * cosine / fmax(square, 1e-300), 2 * PI);
+    b->solid_angle = is_hidden ? 0 : size_of(chain, light, lamp);
 }
 
 /* Do they lie around what they are beside, or all to one side: where directions end, there is nothing behind? */
@@ -121,7 +133,7 @@ static beside place(const ec_rare_lights *all, const ec_chain *chain, const ec_r
 }
 
 /* By those that are nearest to a light, or, where it is so large that more meet it, by these; by all of them where it lies all around, or where
- * they are too few to tell. */
+ * they are too few to tell, and it is in sight of them. */
 static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp,
                       const ec_params *params, const ec_rare *rare, sums *s)
 {
@@ -136,7 +148,8 @@ static void add_light(const ec_rare_lights *all, const selection *of, const ec_r
         keep_nearest(&next, near, &count);
     }
     for (uint32_t i = 0; i < of->count && (takes_all || met >= NEAREST); i++) {
-        const beside next = place(all, of->chains[i], light, lamp, params);
+        beside next = place(all, of->chains[i], light, lamp, params);
+        if (of->in_sight && !is_spread) next.solid_angle = of->in_sight[i] ? size_of(of->chains[i], light, lamp) : 0;
         if (takes_all || PI * next.square < next.solid_angle)
             add_chains(all, &next, 1, takes_all ? 4 * PI : next.solid_angle, weight, light->radiance, rare, s);
     }
@@ -202,25 +215,39 @@ static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, con
     memcpy(kind->light, light->name, sizeof kind->light);
 }
 
-ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, const ec_params *params, ec_rare *rare, ec_error *err)
+/* All that one kind of chains brings from each light. */
+static ec_result add_kind(const ec_rare_lights *all, selection *of, bool is_direct, ec_pipeline *p, double *through, ec_rare *rare, ec_error *err)
+{
+    const ec_params *params = &p->params;
+    bool *in_sight = NULL, *at;
+    if (of->count < FEW) EC_TRY(ec_rare_sight(all, of->chains, of->count, p, &in_sight, err));
+    at = in_sight;
+    for (uint32_t i = 0; of->count && i < all->count; i++) {
+        const ec_rare_light *light = &all->lights[i];
+        sums s = {.through = through};
+        memset(through, 0, (all->material_count + (size_t)1) * sizeof *through);
+        for (uint32_t l = 0; l < (light->lamp_count ? light->lamp_count : 1); l++, at += at ? of->count : 0) {
+            of->in_sight = at;
+            add_light(all, of, light, light->lamp_count ? &light->lamps[l] : NULL, params, rare, &s);
+        }
+        keep_kind(all, light, &s, gathered(&s, is_direct, (double)params->width * params->height), rare);
+    }
+    free(in_sight);
+    return EC_OK;
+}
+
+ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, ec_pipeline *p, ec_rare *rare, ec_error *err)
 {
     selection of = {.chains = malloc((chains->count + (size_t)1) * sizeof *of.chains)};
     double *through = malloc((all->material_count + (size_t)1) * sizeof *through);
-    *rare = (ec_rare){.width = params->width, .height = params->height};
+    *rare = (ec_rare){.width = p->params.width, .height = p->params.height};
     ec_result result = of.chains && through ? EC_OK : ec_fail(err, "out of memory for %u paths", chains->count);
     uint32_t compared = 1;
     for (uint32_t i = 0; i < all->count; i++) compared += all->lights[i].lamp_count ? all->lights[i].lamp_count : 1;
     const uint32_t most = COMPARED / compared > LEAST ? COMPARED / compared : LEAST;
     for (int k = 0; result == EC_OK && k < ALIKE; k++) {
         select_chains(chains, k, most, &of);
-        for (uint32_t i = 0; of.count && i < all->count; i++) {
-            const ec_rare_light *light = &all->lights[i];
-            sums s = {.through = through};
-            memset(through, 0, (all->material_count + (size_t)1) * sizeof *through);
-            for (uint32_t l = 0; l < light->lamp_count; l++) add_light(all, &of, light, &light->lamps[l], params, rare, &s);
-            if (!light->lamp_count) add_light(all, &of, light, NULL, params, rare, &s);
-            keep_kind(all, light, &s, gathered(&s, k >= 3, (double)params->width * params->height), rare);
-        }
+        result = add_kind(all, &of, k >= 3, p, through, rare, err);
     }
     free(of.chains);
     free(through);
@@ -233,7 +260,7 @@ ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, e
     *rare = (ec_rare){0};
     if (!lights->count || p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
     ec_result result = ec_chains_trace(p, lights, &chains, err);
-    if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, &p->params, rare, err);
+    if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, p, rare, err);
     if (result == EC_OK) result = ec_rare_blind_find(lights, &chains, p, rare, err);
     ec_chains_free(&chains);
     return result;

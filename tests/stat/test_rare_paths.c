@@ -212,6 +212,30 @@ static void check_bulb(double size, bool is_glass)
     ec_scene_free(scene);
 }
 
+/* A chrome ball so small that a few of the first look's paths meet it, in a room without a ceiling whose sun is low: behind the wall, or without
+ * that wall. */
+static void check_small_ball(bool has_wall)
+{
+    enum { W = 64, H = 32 };
+    gltf_writer *w = gltf_new();
+    const int grey = gltf_lambert(w, 0.5, 0);
+    const int chrome = gltf_add(&w->materials, "{\"name\":\"chrome\",\"pbrMetallicRoughness\":{\"metallicFactor\":1,\"roughnessFactor\":0}}");
+    gltf_quad(w, grey, (double[3]){-2, 0, 2}, (double[3]){4, 0, 0}, (double[3]){0, 0, -4});
+    if (has_wall) gltf_box(w, grey, (double[3]){2, 0, -20}, (double[3]){2.1, 20, 20});
+    gltf_box(w, chrome, (double[3]){-0.03, 0.5, -0.03}, (double[3]){0.03, 0.56, 0.03});
+    gltf_camera(w, (double[3]){-1.5, 1.5, 1.5}, (double[3]){0, 0.3, 0}, 0.8);
+    ec_scene *scene = case_load(gltf_write(w, "rare-ball"), "1,1,1");
+    free(w);
+    set_map(scene, W, H, W / 2, 12, 1, 1e5f); /* towards +x, 0.35 rad over the horizon */
+    const ec_render_options o = case_options(64, 64, 16);
+    const ec_rare rare = foretell(scene, &o);
+    printf("a small chrome ball, the sun %s:\n", has_wall ? "behind a wall" : "in sight");
+    double chance;
+    const double light = light_of(&rare, &chance, "chrome");
+    CHECK_MSG(has_wall ? light == 0 : light > 0.01, "light %g", light);
+    ec_scene_free(scene);
+}
+
 /* The brightest tile is 255 of 255, however its quotient rounds: in this picture it came out as 256, which a byte takes for none. */
 static void check_tiles(void)
 {
@@ -236,6 +260,8 @@ int main(void)
     check_tiles();
     check_bulb(0.002, true);
     check_bulb(0.002, false);
+    check_small_ball(false);
+    check_small_ball(true);
     check_plane("a mirror that shows the light", 1, 0.2, true);
     check_plane("a mirror that does not", 1, 0.6, false);
     check_plane("a matt plane", 0, 0.2, false);
