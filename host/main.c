@@ -34,6 +34,6 @@ int main(int argc, char **argv)
     keep_memory_small();
     ec_stop_watch_signals();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error to report, after the picture is safe */
-    signal(SIGXFSZ, SIG_IGN); /* so is a file larger than ulimit -f allows */
+    ec_stop_ignore_file_size();
     return ec_cli_main(argc, argv);
 }

@@ -42,6 +42,22 @@ static void log_write(const ec_log *log, ec_severity severity, const char *forma
     log->write(log->user, severity, text);
 }
 
+void ec_say(const ec_log *log, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    log_write(log, EC_STATUS, format, args);
+    va_end(args);
+}
+
+void ec_tell_failure(const ec_log *log, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    log_write(log, EC_FAILURE, format, args);
+    va_end(args);
+}
+
 void ec_note(const ec_log *log, const char *format, ...)
 {
     va_list args;

@@ -37,14 +37,21 @@ void ec_fail_more(ec_error *err, const char *format, ...) __attribute__((format(
         if (result != EC_OK) goto cleanup;                                                         \
     } while (0)
 
-/* Where warnings and notes go; zero-initialised means nowhere. `text` has no newline. */
-typedef enum ec_severity { EC_NOTE, EC_WARNING } ec_severity;
+/* Where messages go; zero-initialised means nowhere. `text` has no newline. */
+typedef enum ec_severity {
+    EC_STATUS,  /* what is being done */
+    EC_NOTE,
+    EC_WARNING,
+    EC_FAILURE  /* of a part, such as one frame of many; what ends the whole is an ec_error */
+} ec_severity;
 typedef struct ec_log {
     void (*write)(void *user, ec_severity severity, const char *text);
     void *user;
 } ec_log;
 
 /* log may be NULL. */
+void ec_say(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3))); /* EC_STATUS */
+void ec_tell_failure(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ec_note(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ec_warn(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -1,6 +1,7 @@
 /* The compiler's words: the few lines that help go into the message, all of them into a folder if asked. */
 #include "cl/build_log.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,28 +59,28 @@ ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log,
     return EC_FAILED;
 }
 
-static void write_file(const char *folder, const char *label, const char *suffix, const char *first, const char *rest)
+static ec_result write_file(const char *folder, const char *label, const char *suffix, const char *first, const char *rest, ec_error *err)
 {
     char path[4096];
-    if (snprintf(path, sizeof path, "%s/%s.%s", folder, label, suffix) >= (int)sizeof path) return;
-    FILE *file = fopen(path, "w");
-    if (!file) {
-        fprintf(stderr, "warning: ECLAT_DUMP_KERNELS: cannot write %s\n", path);
-        return;
-    }
-    fprintf(file, "%s%s", first, rest);
-    fclose(file);
+    FILE *file = snprintf(path, sizeof path, "%s/%s.%s", folder, label, suffix) < (int)sizeof path ? fopen(path, "w") : NULL;
+    if (!file) return ec_fail(err, "ECLAT_DUMP_KERNELS: cannot write '%s': %s", path, strerror(errno));
+    const bool is_written = fprintf(file, "%s%s", first, rest) >= 0;
+    return fclose(file) == 0 && is_written ? EC_OK : ec_fail(err, "ECLAT_DUMP_KERNELS: cannot write '%s': %s", path, strerror(errno));
 }
 
-bool ec_build_log_dump(const char *label, const char *source, const char *options, const char *log)
+bool ec_build_log_wanted(void)
 {
     const char *folder = getenv("ECLAT_DUMP_KERNELS");
-    if (!folder || !*folder) return false;
-    if (!source) return true;
+    return folder && *folder;
+}
+
+ec_result ec_build_log_dump(const char *label, const char *source, const char *options, const char *log, ec_error *err)
+{
+    if (!ec_build_log_wanted()) return EC_OK;
+    const char *folder = getenv("ECLAT_DUMP_KERNELS");
     mkdir(folder, 0777);
     char first[1024];
     snprintf(first, sizeof first, "// options: %s\n", options);
-    write_file(folder, label, "cl", first, source);
-    write_file(folder, label, "log", "", log ? log : "");
-    return true;
+    EC_TRY(write_file(folder, label, "cl", first, source, err));
+    return write_file(folder, label, "log", "", log ? log : "", err);
 }

@@ -10,7 +10,8 @@ char *ec_build_log(const ec_cl *cl, cl_program program);
 /* Fails with "kernels LABEL do not compile…" and the first lines of the log, those with an error first. */
 ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log, cl_int code, ec_error *err);
 
-/* With ECLAT_DUMP_KERNELS=DIR: source to DIR/label.cl, log to DIR/label.log. False if the variable is not set. */
-bool ec_build_log_dump(const char *label, const char *source, const char *options, const char *log);
+/* Is ECLAT_DUMP_KERNELS=DIR set? Then source goes to DIR/label.cl, the log to DIR/label.log. */
+bool ec_build_log_wanted(void);
+ec_result ec_build_log_dump(const char *label, const char *source, const char *options, const char *log, ec_error *err);
 
 #endif

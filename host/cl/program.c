@@ -62,14 +62,10 @@ static ec_result build_from_source(build *b, cl_program *program, ec_error *err)
     EC_TRY(ec_cl_check(code, "clCreateProgramWithSource", b->label, err));
     code = clBuildProgram(made, 1, &b->cl->info.id, b->options, NULL, NULL);
     char *log = ec_build_log(b->cl, made);
-    ec_build_log_dump(b->label, b->source, b->options, log);
-    ec_result result = EC_OK;
-    if (code != CL_SUCCESS) {
-        result = ec_build_log_fail(b->cl, b->label, log, code, err);
-        clReleaseProgram(made);
-    } else {
-        *program = made;
-    }
+    ec_result result = ec_build_log_dump(b->label, b->source, b->options, log, err);
+    if (code != CL_SUCCESS) result = ec_build_log_fail(b->cl, b->label, log, code, err);
+    if (result == EC_OK) *program = made;
+    else clReleaseProgram(made);
     free(log);
     return result;
 }
@@ -95,7 +91,7 @@ ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, con
     bool use = cl->cache == EC_CACHE_ON || (cl->cache == EC_CACHE_AUTO && !driver_needs_source(&cl->info));
     if (!use || !ec_cache_folder(cl->cache_dir, b.folder, sizeof b.folder)) b.folder[0] = 0;
     if (*b.folder || cl->keeps_programs) b.key = ec_cache_key_of(&cl->info, source, b.options);
-    bool dump = ec_build_log_dump(label, NULL, NULL, NULL);
+    bool dump = ec_build_log_wanted();
     ec_result result = EC_OK;
     cl_program kept = cl->keeps_programs ? ec_kept_find(cl, &b.key) : NULL;
     if (kept) {

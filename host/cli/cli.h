@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "cli/console.h"
+#include "jobs/options.h"
 #include "ranks/ranks.h"
 
 /* What a command gets: the console, and the whole command line as it was typed. */
@@ -32,5 +33,8 @@ ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err);
 /* Prints `eclat VERSION` or a command's help ("" for the program's own) to stdout. */
 void ec_print_version(void);
 void ec_print_help(const char *command);
+
+/* Does what --help and --version ask for; true when that was all. */
+bool ec_request_serve(ec_request request, const char *command);
 
 #endif

@@ -1,16 +1,13 @@
 /* eclat compare A.exr B.exr */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "cli/cli.h"
-#include "cli/compare_input.h"
-#include "cli/options.h"
-#include "cli/outputs.h"
-#include "cli/setters.h"
-#include "image/error_map.h"
-#include "report/compare_report.h"
+#include "jobs/compare_job.h"
+#include "jobs/options.h"
+#include "jobs/outputs.h"
+#include "jobs/setters.h"
 
 typedef struct compare_request {
     const char *a, *b, *diff;
@@ -51,50 +48,20 @@ static ec_result check_diff(const compare_request *request, ec_error *err)
     return ec_image_check_writable(request->diff, err);
 }
 
-static ec_result write_map(const char *path, const ec_measured *a, const ec_measured *b, ec_error *err)
-{
-    uint64_t pixels = (uint64_t)a->width * a->height;
-    uint8_t *map = malloc(3 * pixels);
-    if (!map) return ec_fail(err, "out of memory for '%s'", path);
-    ec_error_map(a->rgb, b->rgb, pixels, map);
-    ec_result result = ec_png_write(path, a->width, a->height, map, err);
-    free(map);
-    return result;
-}
-
-static ec_result measure(const compare_request *request, ec_compare_report *report, ec_error *err)
-{
-    const ec_measured *a = report->a, *b = report->b;
-    if (a->width != b->width || a->height != b->height)
-        return ec_fail(err, "cannot compare '%s' with '%s': %ux%u pixels against %ux%u; render both at one --size", request->a, request->b,
-                       a->width, a->height, b->width, b->height);
-    report->difference = ec_measure_difference(a, b);
-    report->tested = a->se || b->se;
-    if (report->tested) EC_TRY(ec_test_noise(a, b, &report->test, err));
-    report->differ = report->tested ? report->test.p < EC_NOISE_SIGNIFICANCE : report->difference.unequal > 0;
-    report->diff_path = request->diff;
-    return request->diff ? write_map(request->diff, a, b, err) : EC_OK;
-}
-
 static ec_result compare(const compare_request *request, bool *differ, ec_error *err)
 {
-    ec_compare_input a = {0}, b = {0};
-    ec_compare_report report = {.path_a = request->a, .path_b = request->b, .a = &a.measured, .b = &b.measured};
+    ec_compare_job job = {.a = {0}};
     ec_result result;
     EC_TRY_CLEANUP(check_diff(request, err));
-    EC_TRY_CLEANUP(ec_compare_input_load(request->a, &a, err));
-    EC_TRY_CLEANUP(ec_compare_input_load(request->b, &b, err));
-    report.why_a = a.why;
-    report.why_b = b.why;
-    EC_TRY_CLEANUP(measure(request, &report, err));
+    EC_TRY_CLEANUP(ec_compare_load(request->a, request->b, &job, err));
+    EC_TRY_CLEANUP(ec_compare_measure(&job.report, request->diff, err));
     if (request->json)
-        result = ec_compare_report_json(&report, stdout, err);
+        result = ec_compare_report_json(&job.report, stdout, err);
     else if (!request->quiet)
-        ec_compare_report_text(&report, stdout);
-    *differ = report.differ;
+        ec_compare_report_text(&job.report, stdout);
+    *differ = job.report.differ;
 cleanup:
-    ec_compare_input_free(&a);
-    ec_compare_input_free(&b);
+    ec_compare_free(&job);
     return result;
 }
 

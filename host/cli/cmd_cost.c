@@ -7,10 +7,10 @@
 #include "base/text.h"
 #include "cli/cli.h"
 #include "cli/cost_request.h"
-#include "cli/defaults.h"
-#include "cli/render_job.h"
+#include "jobs/defaults.h"
+#include "jobs/render_job.h"
 #include "cli/stop.h"
-#include "cli/usage.h"
+#include "jobs/usage.h"
 #include "cost/report.h"
 #include "image/image.h"
 
@@ -76,6 +76,7 @@ static ec_result run_study(ec_cost_study *study, const ec_render_job *job, ec_co
                    job->devices->name, study->budget);
     ec_result result = ec_cost_run(study, err);
     ec_console_erase(console);
+    ec_stop_ignore_file_size();
     ec_cl_close(&cl);
     return result;
 }
@@ -101,13 +102,14 @@ ec_result ec_cmd_cost(ec_cli *cli, int argc, char **argv, ec_error *err)
     cli->console.quiet = request.render.quiet;
     ec_log log = ec_console_log(&cli->console);
 
-    ec_render_job job = {.request = &request.render, .command = cli->line};
+    const ec_listener listener = {.log = log};
+    ec_render_job job = {.request = &request.render, .listener = &listener, .command = cli->line};
     ec_cost_study study = {.start = start, .budget = request.budget, .reference_file = request.reference, .log = &log};
     ec_result result = EC_OK;
     EC_TRY_CLEANUP(check_outputs(&request, err));
     EC_TRY_CLEANUP(take_size(&request, err));
     request.render.default_height = EC_COST_HEIGHT;
-    EC_TRY_CLEANUP(ec_render_job_load(&job, &cli->console, err));
+    EC_TRY_CLEANUP(ec_render_job_load(&job, err));
     study.scene = job.scene;
     study.options = request.render.options;
     result = run_study(&study, &job, &cli->console, err);

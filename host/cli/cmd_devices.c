@@ -3,8 +3,8 @@
 
 #include "cl/cl.h"
 #include "cli/cli.h"
-#include "cli/options.h"
-#include "cli/usage.h"
+#include "jobs/options.h"
+#include "jobs/usage.h"
 #include "report/device_report.h"
 
 static ec_result set_json(void *target, const char *option, const char *value, ec_error *err)

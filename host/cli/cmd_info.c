@@ -4,10 +4,10 @@
 
 #include "base/clock.h"
 #include "cli/cli.h"
-#include "cli/combinations.h"
-#include "cli/defaults.h"
-#include "cli/render_job.h"
-#include "cli/setters.h"
+#include "jobs/combinations.h"
+#include "jobs/defaults.h"
+#include "jobs/render_job.h"
+#include "jobs/setters.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
@@ -105,14 +105,15 @@ static ec_result tell(info_request *request, const ec_log *log, ec_error *err)
 {
     ec_render_request *render = &request->render;
     ec_scene_report report = {.path = render->scene};
-    ec_render_job job = {.request = render};
+    const ec_listener listener = {.log = *log};
+    ec_render_job job = {.request = render, .listener = &listener};
     double start = ec_now();
     EC_TRY(ec_scene_load_choice(render->scene, &render->choice, &job.scene, log, err));
     report.load_seconds = ec_now() - start;
     report.scene = job.scene;
 
     ec_device_info device;
-    ec_result result = render->environment || render->adjusts_env ? ec_render_job_light(&job, log, err) : EC_OK;
+    ec_result result = render->environment || render->adjusts_env ? ec_render_job_light(&job, err) : EC_OK;
     if (result == EC_OK) result = measure(render, &report, err);
     if (result == EC_OK && request->accel) result = probe(request, &report, &device, err);
     if (result == EC_OK && render->json)

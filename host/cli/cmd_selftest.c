@@ -2,8 +2,8 @@
 #include <stdio.h>
 
 #include "cli/cli.h"
-#include "cli/options.h"
-#include "cli/setters.h"
+#include "jobs/options.h"
+#include "jobs/setters.h"
 #include "cli/stop.h"
 #include "selftest/report.h"
 

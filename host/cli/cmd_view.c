@@ -4,12 +4,12 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "cli/defaults.h"
-#include "cli/render_job.h"
-#include "cli/setters.h"
+#include "jobs/defaults.h"
+#include "jobs/render_job.h"
+#include "jobs/setters.h"
 #include "cli/stop.h"
 #include "cli/view_command.h"
-#include "cli/write_report.h"
+#include "jobs/write_report.h"
 #include "pack/view.h"
 #include "report/names.h"
 #include "report/scene_report.h"
@@ -117,9 +117,10 @@ static ec_result load(void *user, ec_scene **scene, ec_render_options *options, 
 {
     view_job *job = user;
     ec_render_request request = job->render;
-    ec_render_job render = {.request = &request};
+    const ec_listener listener = {.log = ec_console_log(job->console)};
+    ec_render_job render = {.request = &request, .listener = &listener};
     request.env_degrees = 0;
-    ec_result result = ec_render_job_load(&render, job->console, err);
+    ec_result result = ec_render_job_load(&render, err);
     if (result != EC_OK) {
         ec_render_job_free(&render);
         return result;
@@ -197,6 +198,7 @@ static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told,
 static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
 {
     view_job *job = user;
+    ec_stop_ignore_file_size();
     ec_result result = write_shot(job, shot, told, size, err);
     job->unsaved = result == EC_OK ? (ec_error){.kind = EC_ERROR_OTHER} : *err;
     return result;
@@ -209,7 +211,8 @@ ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
     EC_TRY(parse(argc, argv, &job, &done, err));
     if (done) return EC_OK;
     cli->console.quiet = job.render.quiet;
-    EC_TRY(ec_view_available(err));
+    const ec_view_module *window;
+    EC_TRY(ec_view_load(&window, err));
     EC_TRY(check_outputs(&job, &job.render.outputs, err));
     EC_TRY(ec_device_find(job.render.device, &job.device, &job.device_index, &job.device_why, err));
     if (job.against) {
@@ -224,6 +227,6 @@ ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
         .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_descriptor(),
     };
     ec_stop_catch_signals(false);
-    EC_TRY(ec_view_run(&request, err));
+    EC_TRY(window->run(&request, err));
     return *job.unsaved.text ? ec_fail(err, "%s", job.unsaved.text) : EC_OK;
 }

@@ -6,11 +6,11 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
-#include "cli/command_line.h"
+#include "jobs/command_line.h"
 #include "cli/help.h"
 #include "cli/stop.h"
-#include "cli/suggest.h"
-#include "cli/usage.h"
+#include "jobs/suggest.h"
+#include "jobs/usage.h"
 
 static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err);
 

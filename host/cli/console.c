@@ -79,11 +79,10 @@ static bool was_said(ec_console *console, const char *text)
 static void write_log(void *user, ec_severity severity, const char *text)
 {
     ec_console *console = user;
-    if (console->says_once && was_said(console, text)) return;
-    if (severity == EC_WARNING)
-        print_message(console, "warning: ", text);
-    else if (!console->quiet)
-        print_message(console, "note: ", text);
+    static const char *const kinds[] = {[EC_STATUS] = "", [EC_NOTE] = "note: ", [EC_WARNING] = "warning: ", [EC_FAILURE] = "error: "};
+    const bool may_repeat = severity == EC_STATUS || severity == EC_FAILURE;
+    if (console->says_once && !may_repeat && was_said(console, text)) return;
+    if (severity >= EC_WARNING || !console->quiet) print_message(console, kinds[severity], text);
 }
 
 ec_log ec_console_log(ec_console *console)

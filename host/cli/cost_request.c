@@ -3,10 +3,11 @@
 #include <string.h>
 #include <strings.h>
 
-#include "cli/defaults.h"
-#include "cli/options.h"
-#include "cli/scene_choice.h"
-#include "cli/setters.h"
+#include "cli/cli.h"
+#include "jobs/defaults.h"
+#include "jobs/options.h"
+#include "jobs/scene_choice.h"
+#include "jobs/setters.h"
 
 #define REQUEST ((ec_cost_request *)target)
 

@@ -2,7 +2,7 @@
 #ifndef EC_CLI_COST_REQUEST_H
 #define EC_CLI_COST_REQUEST_H
 
-#include "cli/render_request.h"
+#include "jobs/render_request.h"
 
 typedef struct ec_cost_request {
     ec_render_request render;  /* scene, camera, environment, device, size, seed; no outputs */

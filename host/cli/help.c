@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "cli/defaults.h"
+#include "jobs/defaults.h"
 #include "view/view.h"
 
 #define EC_TEXT_COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */
@@ -356,10 +356,18 @@ void ec_print_help(const char *command)
     if (!strcmp(command, "selftest")) text = help_selftest;
     if (!strcmp(command, "view")) text = help_view;
     fputs(text, stdout);
-    if (text == help_view) ec_view_print_keys();
+    const ec_view_module *window;
+    if (text == help_view && ec_view_load(&window, NULL) == EC_OK) window->print_keys();
 }
 
 void ec_print_version(void)
 {
     puts("eclat " ECLAT_VERSION);
+}
+
+bool ec_request_serve(ec_request request, const char *command)
+{
+    if (request == EC_REQUEST_HELP) ec_print_help(command);
+    if (request == EC_REQUEST_VERSION) ec_print_version();
+    return request != EC_REQUEST_RUN;
 }

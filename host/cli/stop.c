@@ -61,6 +61,8 @@ void ec_stop_watch_signals(void)
     else pthread_sigmask(SIG_UNBLOCK, &signals, NULL); /* they end the process as ever */
 }
 
+void ec_stop_ignore_file_size(void) { signal(SIGXFSZ, SIG_IGN); }
+
 void ec_stop_catch_signals(bool tell)
 {
     atomic_store(&manner, tell ? TELLS : CATCHES);

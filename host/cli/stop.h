@@ -9,6 +9,9 @@
  * signals stay ignored (nohup). */
 void ec_stop_watch_signals(void);
 
+/* Files larger than `ulimit -f` allows are to be an error like others. Again where a driver's compiler may have taken the signal since. */
+void ec_stop_ignore_file_size(void);
+
 /* From here on the first one only makes ec_stop_requested() true, and says so on standard error if `tell`. */
 void ec_stop_catch_signals(bool tell);
 bool ec_stop_requested(void);

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/combinations.h"
-#include "cli/command_line.h"
+#include "jobs/combinations.h"
+#include "jobs/command_line.h"
 #include "report/names.h"
 
 void ec_kept_options_add(ec_kept_options *kept, const char *option, const char *value)

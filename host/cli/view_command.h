@@ -2,7 +2,7 @@
 #ifndef EC_CLI_VIEW_COMMAND_H
 #define EC_CLI_VIEW_COMMAND_H
 
-#include "cli/render_request.h"
+#include "jobs/render_request.h"
 #include "view/view.h"
 
 /* Options of `render` as they were given, but for those that the window sets. */

@@ -4,7 +4,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
-#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -131,7 +130,6 @@ ec_result ec_atomic_open(ec_atomic_file *file, const char *path, ec_error *err)
     if (path[strlen(path) - 1] == '/')
         return ec_fail(err, "cannot write '%s': it names a folder; give a file name", path);
     EC_TRY(check_replaceable(path, err));
-    signal(SIGXFSZ, SIG_IGN); /* a driver's compiler may have taken it since the program began: `ulimit -f` is to be an error like others */
 
     file->target = ec_link_end(path); /* so that a symbolic link stays one */
     size_t size = file->target ? strlen(file->target) + 64 : 0;

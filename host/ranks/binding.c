@@ -5,7 +5,7 @@
 
 #include "ranks/ranks.h"
 
-void ec_ranks_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log)
+void ec_mpi_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log)
 {
     cpu_set_t own;
     const long all = sysconf(_SC_NPROCESSORS_ONLN);

@@ -176,7 +176,7 @@ static ec_result find_devices(const ec_ranks *r, const char *id, ec_device_info 
 {
     uint32_t indices[EC_DEVICES_MOST];
     EC_TRY(ec_device_find_several(id, devices, indices, EC_DEVICES_MOST, count, NULL, err));
-    ec_ranks_share_devices(r, devices, indices, count);
+    ec_mpi_share_devices(r, devices, indices, count);
     return EC_OK;
 }
 

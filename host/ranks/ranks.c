@@ -17,7 +17,7 @@ static ec_result fail_of_launcher(int size, ec_error *err)
                         "one, or build eclat with the launcher's (cmake -DMPI_C_COMPILER=MPICC)", ec_ranks_launched(), size, library);
 }
 
-ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err)
+ec_result ec_mpi_join(ec_ranks **ranks, ec_error *err)
 {
     ec_ranks *r = *ranks = calloc(1, sizeof *r);
     if (!r) return ec_fail(err, "out of memory");
@@ -32,10 +32,10 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err)
     return r->remotes ? EC_OK : ec_fail(err, "out of memory for %u ranks", r->remote_count);
 }
 
-int ec_ranks_number(const ec_ranks *ranks) { return ranks->rank; }
-int ec_ranks_count(const ec_ranks *ranks) { return ranks->size; }
+int ec_mpi_number(const ec_ranks *ranks) { return ranks->rank; }
+int ec_mpi_count(const ec_ranks *ranks) { return ranks->size; }
 
-void ec_ranks_share_devices(const ec_ranks *r, ec_device_info *devices, uint32_t *indices, uint32_t *count)
+void ec_mpi_share_devices(const ec_ranks *r, ec_device_info *devices, uint32_t *indices, uint32_t *count)
 {
     const uint32_t of = (uint32_t)ec_post_local_size(r->post), first = (uint32_t)ec_post_local_rank(r->post) % *count;
     uint32_t kept = 0;
@@ -61,7 +61,7 @@ bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit)
     return m->is_ready;
 }
 
-ec_allies ec_ranks_allies(ec_ranks *r, const char *device, const char *own, bool own_round)
+ec_allies ec_mpi_allies(ec_ranks *r, const char *device, const char *own, bool own_round)
 {
     r->device = device;
     r->own = own;
@@ -88,7 +88,7 @@ static bool say_end(ec_ranks *r, int to, uint32_t kind, bool lost)
 
 /* What a rank sent last may still be on its way, and MPI does not end before it is taken: so they say farewell, behind all else. And it does not
  * end at all where one is lost, of whom only some know: so the farewells say that, and the root tells all. */
-void ec_ranks_leave(ec_ranks *r)
+void ec_mpi_leave(ec_ranks *r)
 {
     if (!r) return;
     const int children = (int)r->remote_count, parent = r->rank > 0 ? ec_post_parent(r->post) : -1;

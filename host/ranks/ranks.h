@@ -1,7 +1,8 @@
 /* The processes of an MPI job (mpirun -n 8 eclat render …), its ranks, as one renderer. Rank 0 reads the command line, loads the scene and
  * sends what a device is given of it to all others; they know no files. Pieces of batches go down a tree of ranks (post.h) as ranks get free: a
  * rank is a team of its own devices and its children, and to its parent one source. What comes up are sums over the samples of a batch, or of a
- * block of batches where they come fast: the picture has the same bits as that of one process. Without MPI at build time no_mpi.c takes the place of all but launch.c and plan.c. */
+ * block of batches where they come fast: the picture has the same bits as that of one process.
+ * Those that call MPI are a module (module.c), loaded by processes that a launcher started. */
 #ifndef EC_RANKS_RANKS_H
 #define EC_RANKS_RANKS_H
 
@@ -29,9 +30,9 @@ ec_allies ec_ranks_allies(ec_ranks *ranks, const char *device, const char *own, 
 /* Leaves those that are this process', where several on one host are to use several devices: every n-th, or if there are fewer devices one. */
 void ec_ranks_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count);
 /* Where these are processors and the launcher lets this process use some of the cores only. */
-void ec_ranks_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log);
+void ec_ranks_note_binding(const ec_ranks *ranks, const ec_device_info *devices, uint32_t count, const ec_log *log);
 
-void ec_ranks_leave(ec_ranks *ranks); /* sends all below home. NULL is fine */
+void ec_ranks_leave(ec_ranks *ranks); /* ends the job of all ranks below. NULL is fine */
 
 /* All that other ranks do: waits for rank 0's word, and renders as it says, if it does. log is told which devices and ranks below are out. */
 ec_result ec_ranks_serve(ec_ranks *ranks, const ec_log *log, ec_error *err);

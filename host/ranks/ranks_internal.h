@@ -4,10 +4,13 @@
 
 #include <pthread.h>
 
+#include "ranks/module.h"
+#include "ranks/mpi.h"
 #include "ranks/post.h"
 #include "ranks/ranks.h"
 
 struct ec_ranks {
+    ec_ranks_head head;
     ec_post *post;
     int rank, size;
     pthread_mutex_t lock;

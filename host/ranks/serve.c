@@ -162,7 +162,7 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, const ec_log *log
     return result;
 }
 
-ec_result ec_ranks_serve(ec_ranks *r, const ec_log *log, ec_error *err)
+ec_result ec_mpi_serve(ec_ranks *r, const ec_log *log, ec_error *err)
 {
     for (;;) {
         ec_letter word;

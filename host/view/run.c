@@ -16,12 +16,6 @@
 #define RESTS_AFTER 0.12  /* seconds without a move */
 #define PATIENCE 0.35     /* seconds that the window waits for the scene, whose camera says how wide it is */
 
-ec_result ec_view_available(ec_error *err)
-{
-    (void)err;
-    return EC_OK;
-}
-
 void ec_view_print_keys(void)
 {
     puts("\nKeys and mouse");

@@ -40,13 +40,17 @@ typedef struct ec_view_request {
     int stop;                        /* a descriptor, readable once the window is to close (Ctrl-C); -1: none */
 } ec_view_request;
 
-/* Fails at once where this build has no preview, and says how to get one. */
-ec_result ec_view_available(ec_error *err);
-
 /* Until the window is closed. Fails where there is no window to be had, or the first load fails. */
 ec_result ec_view_run(const ec_view_request *request, ec_error *err);
 
 /* The keys as --help prints them: a line each. */
 void ec_view_print_keys(void);
+
+/* Both of the module that has the window, for programs that do without where it is missing. */
+typedef struct ec_view_module {
+    ec_result (*run)(const ec_view_request *request, ec_error *err);
+    void (*print_keys)(void);
+} ec_view_module;
+ec_result ec_view_load(const ec_view_module **module, ec_error *err);
 
 #endif

@@ -1,0 +1,21 @@
+/* Two pictures are compared: see eclat compare. */
+#ifndef EC_JOBS_COMPARE_JOB_H
+#define EC_JOBS_COMPARE_JOB_H
+
+#include "jobs/compare_input.h"
+#include "report/compare_report.h"
+
+/* The report points into the inputs: not to be moved. */
+typedef struct ec_compare_job {
+    ec_compare_input a, b;
+    ec_compare_report report;
+} ec_compare_job;
+
+/* Reads both. To be freed on failure too; zero-initialised is fine. */
+ec_result ec_compare_load(const char *path_a, const char *path_b, ec_compare_job *job, ec_error *err);
+
+/* Fills in the report of what was read; diff: a .png for the map of errors, or NULL. */
+ec_result ec_compare_measure(ec_compare_report *report, const char *diff, ec_error *err);
+void ec_compare_free(ec_compare_job *job);
+
+#endif

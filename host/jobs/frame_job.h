@@ -1,0 +1,35 @@
+/* What a frame of a sequence is of, in words that its files keep: so that a later run knows whether it is done. */
+#ifndef EC_JOBS_FRAME_JOB_H
+#define EC_JOBS_FRAME_JOB_H
+
+#include "jobs/outputs.h"
+#include "jobs/render_request.h"
+
+/* Options as they were given, in their order; texts are the command line's. */
+enum { EC_GIVEN_MAX = 128 };
+typedef struct ec_given_options {
+    struct {
+        const char *option, *value; /* value NULL: a flag */
+    } list[EC_GIVEN_MAX];
+    int count;
+} ec_given_options;
+ec_result ec_given_options_read(int argc, char *const *argv, ec_given_options *given, ec_error *err);
+
+/* What all frames are of: version, kernels, the bytes of the scene's files (their digest) and of the environment's, and every option that a
+ * picture may depend on, as it was given. */
+ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files,
+                             ec_identity *all, ec_error *err);
+/* One of them: the same at its moment. */
+void ec_frame_identify(const ec_identity *all, const ec_render_request *request, uint32_t frame, ec_identity *identity);
+
+/* The command that renders this frame alone to the same bits; malloc'ed, NULL when out of memory. */
+char *ec_frame_command(const ec_given_options *given, const ec_render_request *request, const ec_outputs *outputs, uint32_t frame);
+
+typedef enum ec_frame_state { EC_FRAME_DONE, EC_FRAME_MISSING, EC_FRAME_DAMAGED, EC_FRAME_OTHER } ec_frame_state;
+/* Are its files there, as they were written and of this job? The worst of them counts; difference says which one is
+ * damaged or other, and how. */
+ec_frame_state ec_frame_look(const ec_outputs *outputs, const ec_identity *identity, char *difference, size_t size);
+
+#define EC_FRAME_ATTRIBUTE "eclat.frame.job" /* of an EXR, and the keyword of a text in a PNG */
+
+#endif

@@ -1,0 +1,190 @@
+#include "jobs/frames.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "jobs/frame_job.h"
+#include "jobs/frame_names.h"
+#include "jobs/render_job.h"
+#include "store/identity_text.h"
+
+typedef struct sequence {
+    const ec_listener *listener;
+    const ec_render_request *request;
+    ec_ranks *ranks;            /* the other processes of an MPI job; NULL: there are none */
+    const ec_given_options *given;
+    ec_identity identity;       /* of all frames */
+    ec_frame_share share;
+    ec_frame_state *states;     /* by frame, as they were found */
+    uint32_t count, rendered, skipped, failed;
+} sequence;
+
+static ec_result outputs_of(const sequence *s, uint32_t frame, ec_outputs *outputs, ec_error *err)
+{
+    const ec_render_request *r = s->request;
+    outputs->count = 0;
+    if (r->outputs.count == 0) return ec_outputs_add_frame(outputs, r->scene, frame, err);
+    return ec_frame_outputs(&r->outputs, frame, s->count > 1, outputs, err);
+}
+
+static ec_scene_choice choice_of(const sequence *s, uint32_t frame)
+{
+    ec_scene_choice choice = s->request->choice;
+    double at = ec_frame_seconds(&s->request->frames, frame);
+    choice.animated = choice.frame = true;
+    choice.at = at;
+    choice.opens += at; /* a shutter is told from where the frame is */
+    choice.closes += at;
+    return choice;
+}
+
+/* Before anything is rendered: names, folders, what is there already. */
+static ec_result look_around(sequence *s, ec_inputs *inputs, ec_error *err)
+{
+    const ec_render_request *r = s->request;
+    const ec_log *log = &s->listener->log;
+    char difference[PATH_MAX + 1400];
+    ec_outputs outputs;
+    ec_identity identity;
+    uint32_t others = 0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        uint32_t frame = ec_frame_number(&r->frames, i);
+        EC_TRY(outputs_of(s, frame, &outputs, err));
+        ec_frame_identify(&s->identity, r, frame, &identity);
+        s->states[i] = ec_frame_look(&outputs, &identity, difference, sizeof difference);
+        if (s->states[i] != EC_FRAME_DONE) EC_TRY(ec_outputs_check(&outputs, inputs, err));
+        if (s->states[i] == EC_FRAME_DAMAGED) ec_warn(log, "%s: frame %u is rendered again", difference, frame);
+        if (s->states[i] == EC_FRAME_OTHER && !r->overwrite && others++ == 0) ec_fail(err, "%s", difference);
+    }
+    if (!others) return EC_OK;
+    if (others > 1) ec_fail_more(err, " (so with %u frames)", others);
+    ec_fail_more(err, "; --overwrite renders what is not of this sequence again, -o names other files");
+    return EC_FAILED;
+}
+
+static ec_result tell_end(const sequence *s, uint32_t frame, ec_frame_end end, const char *error, const ec_outputs *names, ec_error *err)
+{
+    const ec_frame_told told = {frame, ec_frame_seconds(&s->request->frames, frame), end, error, names};
+    return ec_listener_frame(s->listener, &told, err);
+}
+
+/* *stopped: by the listener, before it was done; nothing of it is written then. */
+static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t i, bool *stopped, ec_error *err)
+{
+    uint32_t frame = ec_frame_number(&s->request->frames, i);
+    double start = ec_now();
+    ec_identity identity;
+    ec_frame_identify(&s->identity, s->request, frame, &identity);
+    char *words = ec_identity_write(&identity), *command = ec_frame_command(s->given, s->request, &request->outputs, frame);
+    ec_render_job job = {.request = request, .listener = s->listener, .command = command, .ranks = s->ranks, .share = &s->share,
+                         .frame = {frame, i + 1, s->count, ec_frame_seconds(&s->request->frames, frame), words}};
+    ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
+    if (result == EC_OK) result = ec_render_job_load(&job, err);
+    if (result == EC_OK) result = ec_render_job_run(&job, err);
+    *stopped = ec_listener_should_stop(s->listener) && (result != EC_OK || !strcmp(job.stats.stopped_by, "user"));
+    if (result == EC_OK && !*stopped) result = ec_render_job_deliver(&job, start, err);
+    ec_render_job_free(&job);
+    free(words);
+    free(command);
+    return result;
+}
+
+static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *err)
+{
+    uint32_t frame = ec_frame_number(&s->request->frames, i);
+    ec_render_request *request = malloc(sizeof *request); /* what a frame finds out, as its size, is its own */
+    if (!request) return ec_fail(err, "out of memory");
+    *request = *s->request;
+    request->choice = choice_of(s, frame);
+    if (request->seed_is_frame) request->options.seed = frame;
+    ec_error why = {0};
+    ec_result told = EC_OK, result = outputs_of(s, frame, &request->outputs, &why);
+    if (s->states[i] == EC_FRAME_DONE) {
+        s->skipped++;
+        told = tell_end(s, frame, EC_FRAME_SKIPPED, NULL, &request->outputs, err);
+    } else {
+        if (result == EC_OK) result = render_frame(s, request, i, stopped, &why);
+        if (result == EC_OK && !*stopped) s->rendered++;
+        if (result != EC_OK && !*stopped) {
+            ec_tell_failure(&s->listener->log, "frame %u: %s", frame, why.text);
+            s->failed++;
+            told = tell_end(s, frame, EC_FRAME_FAILED, why.text, &request->outputs, err);
+            ec_frame_share_close(&s->share); /* what a device has forgotten or not done right is not to be taken for there */
+        }
+    }
+    free(request);
+    return told;
+}
+
+static ec_result conclude(const sequence *s, bool stopped, double start, ec_error *err)
+{
+    uint32_t there = s->rendered + s->skipped;
+    const ec_sequence_told told = {s->count, s->rendered, s->skipped, s->failed, ec_now() - start};
+    EC_TRY(ec_listener_sequence(s->listener, &told, err));
+    if (s->skipped) ec_say(&s->listener->log, "%u of %u frames were there already", s->skipped, s->count);
+    if (stopped)
+        return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there,
+                       s->count);
+    if (s->failed)
+        return ec_fail(err, "%u of %u frames failed; the same command renders only those once that is mended",
+                       s->failed, s->count);
+    return EC_OK;
+}
+
+static ec_result find_devices(sequence *s, ec_error *err)
+{
+    ec_render_request request = *s->request;
+    ec_render_job job = {.request = &request, .listener = s->listener, .ranks = s->ranks, .takes_several = true};
+    EC_TRY(ec_render_job_find_devices(&job, err));
+    memcpy(s->share.devices, job.devices, sizeof job.devices);
+    memcpy(s->share.device_indices, job.device_indices, sizeof job.device_indices);
+    s->share.device_count = job.device_count;
+    s->share.device_why = job.device_why;
+    return EC_OK;
+}
+
+static ec_result begin(sequence *s, ec_error *err)
+{
+    const ec_log *log = &s->listener->log;
+    const ec_render_request *r = s->request;
+    ec_scene_choice first = choice_of(s, r->frames.first);
+    ec_outputs outputs;
+    char files[65];
+    EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* patterns first of all */
+    EC_TRY(find_devices(s, err));
+    EC_TRY(ec_animation_open(r->scene, &first, &s->share.animation, log, err));
+    ec_animation_digest(s->share.animation, files);
+    EC_TRY(ec_frames_identify(s->given, r, files, &s->identity, err));
+    ec_inputs inputs = {.scene = r->scene, .files = &r->environment, .file_count = 1};
+    ec_result result = look_around(s, &inputs, err);
+    ec_inputs_free(&inputs);
+    return result;
+}
+
+static ec_result render_all(sequence *s, double start, ec_error *err)
+{
+    bool stopped = false;
+    EC_TRY(begin(s, err));
+    for (uint32_t i = 0; i < s->count && !stopped; i++) {
+        EC_TRY(take_frame(s, i, &stopped, err));
+        stopped |= ec_listener_should_stop(s->listener) && i + 1 < s->count;
+    }
+    return conclude(s, stopped, start, err);
+}
+
+ec_result ec_frames_render(const ec_listener *listener, const ec_render_request *request, ec_ranks *ranks,
+                           const ec_given_options *given, double start, ec_error *err)
+{
+    sequence s = {.listener = listener, .request = request, .ranks = ranks, .given = given, .count = ec_frame_count(&request->frames)};
+    s.states = calloc(s.count, sizeof *s.states);
+    ec_result result = s.states ? render_all(&s, start, err) : ec_fail(err, "out of memory for %u frames", s.count);
+    ec_animation_close(s.share.animation);
+    free(s.share.environment.rgb);
+    ec_packed_map_free(&s.share.packed);
+    ec_followed_free(&s.share.followed);
+    ec_frame_share_close(&s.share);
+    free(s.states);
+    return result;
+}

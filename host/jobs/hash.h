@@ -1,0 +1,23 @@
+/* A fingerprint of the picture itself, free of dates and compression: two renders gave the same bits or they did not. */
+#ifndef EC_JOBS_HASH_H
+#define EC_JOBS_HASH_H
+
+#include <stdint.h>
+#include <sys/types.h>
+
+#include <sha2.h>
+
+enum { EC_HASH_SIZE = 65 };
+
+/* Of pixels that come one after the other. */
+typedef struct ec_hash {
+    SHA2_CTX context;
+} ec_hash;
+void ec_hash_begin(ec_hash *hash);
+void ec_hash_add(ec_hash *hash, const float *rgb, uint64_t pixel_count);
+void ec_hash_end(ec_hash *hash, char text[EC_HASH_SIZE]);
+
+/* SHA-256 of 3 floats a pixel as little-endian IEEE bytes, in hexadecimal. */
+void ec_hash_rgb(const float *rgb, uint64_t pixel_count, char text[EC_HASH_SIZE]);
+
+#endif

@@ -1,0 +1,34 @@
+/* Slices of one job come together: see eclat merge. */
+#ifndef EC_JOBS_MERGE_JOB_H
+#define EC_JOBS_MERGE_JOB_H
+
+#include "film/clamp.h"
+#include "jobs/hash.h"
+#include "jobs/write_outputs.h"
+#include "report/error_text.h"
+#include "store/merge.h"
+
+typedef struct ec_merged {
+    const char *command;
+    ec_merge slices;
+    ec_film_error error;
+    ec_clamp_error clamp;
+    ec_picture picture;
+    uint64_t samples_per_pixel;
+    char sha256[EC_HASH_SIZE], why[EC_ERROR_TEXT]; /* why there is no bound */
+} ec_merged;
+
+/* Sorts paths. is_partial: samples may be missing. To be freed on failure too. */
+ec_result ec_merged_make(char **paths, int count, bool is_partial, const char *command, ec_merged *merged, const ec_log *log, ec_error *err);
+
+/* --clamp, as the slices had it; 0: they had none. */
+double ec_merged_clamp(const ec_merged *merged);
+
+/* What goes into its file; texts are its own. How many there are. */
+enum { EC_MERGED_ATTRIBUTES = 16 };
+uint32_t ec_merged_attributes(const ec_merged *merged, ec_attribute list[EC_MERGED_ATTRIBUTES]);
+
+ec_result ec_merged_write(const ec_merged *merged, ec_outputs *outputs, double exposure, ec_tonemap tonemap, ec_error *err);
+void ec_merged_free(ec_merged *merged); /* zero-initialised is fine */
+
+#endif

@@ -1,0 +1,140 @@
+#include "jobs/outputs.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+
+#include "jobs/usage.h"
+#include "image/atomic_file.h"
+#include "image/image.h"
+#include "report/format.h"
+
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static bool kind_of(const char *path, ec_output_kind *kind)
+{
+    const char *name = name_of(path), *dot = strrchr(name, '.');
+    if (!dot || dot == name) return false;
+    *kind = strcasecmp(dot, ".png") == 0 ? EC_OUTPUT_PNG : EC_OUTPUT_EXR;
+    return *kind == EC_OUTPUT_PNG || strcasecmp(dot, ".exr") == 0;
+}
+
+ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
+{
+    ec_output_kind kind;
+    if (!kind_of(path, &kind))
+        return ec_usage(err, "-o: '%s' must be named NAME.exr (all data) or NAME.png (picture)", path);
+    if (strlen(path) >= sizeof outputs->file[0].path)
+        return ec_usage(err, "-o: the path is longer than %d bytes", PATH_MAX - 1);
+    for (int i = 0; i < outputs->count; i++)
+        if (!strcmp(outputs->file[i].path, path)) return ec_usage(err, "-o: '%s' is given twice", path);
+    if (outputs->count == EC_OUTPUTS_MAX)
+        return ec_usage(err, "-o: at most %d files, '%s' is one too many", EC_OUTPUTS_MAX, path);
+    ec_output *output = &outputs->file[outputs->count++];
+    output->kind = kind;
+    snprintf(output->path, sizeof output->path, "%s", path);
+    return EC_OK;
+}
+
+/* The scene's base name, with this behind it. */
+static ec_result add_named(ec_outputs *outputs, const char *scene, const char *ending, ec_error *err)
+{
+    char path[PATH_MAX];
+    const char *name = name_of(scene), *dot = strrchr(name, '.');
+    int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
+    int size = snprintf(path, sizeof path, "%.*s%s", stem, name, ending);
+    if (stem == 0 || size >= (int)sizeof path) return ec_usage(err, "'%s' gives the picture no name: add -o FILE", scene);
+    return ec_outputs_add(outputs, path, err);
+}
+
+ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err)
+{
+    EC_TRY(add_named(outputs, scene, ".exr", err));
+    return add_named(outputs, scene, ".png", err);
+}
+
+ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t first, uint32_t end, ec_error *err)
+{
+    char ending[40];
+    snprintf(ending, sizeof ending, ".%u-%u.exr", first, end);
+    return add_named(outputs, scene, ending, err);
+}
+
+ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err)
+{
+    char ending[40];
+    snprintf(ending, sizeof ending, ".%04u.exr", frame);
+    EC_TRY(add_named(outputs, scene, ending, err));
+    snprintf(ending, sizeof ending, ".%04u.png", frame);
+    return add_named(outputs, scene, ending, err);
+}
+
+bool ec_same_file(const char *a, const char *b)
+{
+    struct stat sa, sb;
+    return stat(a, &sa) == 0 && stat(b, &sb) == 0 && sa.st_dev == sb.st_dev && sa.st_ino == sb.st_ino;
+}
+
+static void folder_of(const char *path, char folder[PATH_MAX])
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, PATH_MAX, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
+}
+
+bool ec_same_target(const char *a, const char *b)
+{
+    char folder_a[PATH_MAX], folder_b[PATH_MAX], *end_a = ec_link_end(a), *end_b = ec_link_end(b);
+    bool is_same = false;
+    if (end_a && end_b) {
+        folder_of(end_a, folder_a);
+        folder_of(end_b, folder_b);
+        is_same = !strcmp(name_of(end_a), name_of(end_b)) && ec_same_file(folder_a, folder_b);
+    }
+    free(end_a);
+    free(end_b);
+    return is_same || ec_same_file(a, b);
+}
+
+ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_error *err)
+{
+    for (int i = 0; i < outputs->count; i++) {
+        const char *path = outputs->file[i].path;
+        for (int k = 0; k < i; k++)
+            if (ec_same_target(path, outputs->file[k].path))
+                return ec_usage(err, "-o: '%s' and '%s' are the same file; leave one out", outputs->file[k].path, path);
+        if (ec_inputs_have(inputs, path))
+            return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
+        EC_TRY(ec_image_check_writable(path, err));
+    }
+    return EC_OK;
+}
+
+/* Of the file system that path's folder is on; UINT64_MAX: unknown. */
+static uint64_t room_for(const char *path)
+{
+    char folder[PATH_MAX];
+    struct statvfs disk;
+    folder_of(path, folder);
+    return statvfs(folder, &disk) == 0 ? (uint64_t)disk.f_bavail * disk.f_frsize : UINT64_MAX;
+}
+
+void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log)
+{
+    const uint64_t bytes_per_pixel[] = {[EC_OUTPUT_EXR] = 25 * 4, [EC_OUTPUT_PNG] = 3}; /* uncompressed */
+    char needed_text[32], room_text[32];
+    for (int i = 0; i < outputs->count; i++) {
+        const ec_output *output = &outputs->file[i];
+        uint64_t needed = pixel_count * bytes_per_pixel[output->kind], room = room_for(output->path);
+        if (needed <= room) continue;
+        ec_format_bytes(needed, needed_text, sizeof needed_text);
+        ec_format_bytes(room, room_text, sizeof room_text);
+        ec_warn(log, "'%s' may take up to %s, and its disk has %s left", output->path, needed_text, room_text);
+    }
+}

@@ -1,0 +1,49 @@
+/* The files a render writes: which, of what kind, and may they be written? */
+#ifndef EC_JOBS_OUTPUTS_H
+#define EC_JOBS_OUTPUTS_H
+
+#include <limits.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "jobs/inputs.h"
+
+typedef enum ec_output_kind { EC_OUTPUT_EXR, EC_OUTPUT_PNG } ec_output_kind;
+
+enum { EC_OUTPUTS_MAX = 16 };
+
+typedef struct ec_output {
+    ec_output_kind kind;
+    char path[PATH_MAX]; /* as given; absolute once written */
+} ec_output;
+
+typedef struct ec_outputs {
+    ec_output file[EC_OUTPUTS_MAX];
+    int count;
+} ec_outputs;
+
+/* -o FILE; the kind follows the extension. EC_USAGE for other kinds, too many or the same twice. */
+ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err);
+
+/* Without -o: the scene's base name with .exr and .png, in the current directory. */
+ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err);
+
+/* The same for a slice of samples first to end: NAME.first-end.exr. */
+ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t first, uint32_t end, ec_error *err);
+
+/* The same for a frame: NAME.0007.exr and .png. */
+ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err);
+
+/* Before any work: can all be written, and would none overwrite another or an input? */
+ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_error *err);
+
+/* Warns where a disk has less room than the files may need; no more, since nobody knows how well they will compress. */
+void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log);
+
+/* Do two paths lead to one file that exists? */
+bool ec_same_file(const char *a, const char *b);
+/* The same, or to one that both would make? */
+bool ec_same_target(const char *a, const char *b);
+
+#endif

@@ -1,0 +1,212 @@
+/* What a render takes up and what it leaves behind: checkpoints and slices. */
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cl/workarounds.h"
+#include "jobs/command_line.h"
+#include "jobs/defaults.h"
+#include "jobs/render_job.h"
+#include "jobs/write_report.h"
+
+/* Is argv[*i] one of these options? Then *i moves on to its value, if that is a word of its own. */
+static bool is_one_of(char *const *argv, int *i, const char *const *names)
+{
+    const char *word = argv[*i];
+    for (; *names; names++) {
+        size_t size = strlen(*names);
+        if (strncmp(word, *names, size) || (word[size] && word[size] != '=' && word[1] == '-')) continue;
+        *i += !word[size];
+        return true;
+    }
+    return false;
+}
+
+/* What a command lacks that has other limits than the one which chose where samples go; NULL: nothing. */
+static const char *adaptive_word(const ec_render_options *o, int count, char *const *words)
+{
+    bool is_told = o->adaptive == (o->error_target > 0);
+    for (int i = 0; i < count; i++) is_told |= !strncmp(words[i], "--adaptive", 10) && strcmp(words[i], "--adaptive=auto") != 0;
+    return is_told ? NULL : o->adaptive ? "--adaptive=on" : "--adaptive=off";
+}
+
+/* The job's command with the options of now in place of those that they replace: what renders the picture without a break. */
+static ec_result make_command(ec_render_job *job, int argc, char *const *argv, ec_error *err)
+{
+    static const char *const limits[] = {"--spp", "--time", "--error", NULL}, *const outputs[] = {"--output", "-o", NULL},
+                             *const files[] = {"--resume", "--checkpoint", "--every", NULL};
+    const ec_job *before = &job->stored.job;
+    bool has_limit = false, has_output = false;
+    char **words = malloc(((size_t)before->argc + (size_t)argc + 4) * sizeof *words);
+    int count = 0;
+    if (!words) return ec_fail(err, "out of memory");
+    for (int i = 1; i < argc; i++) {
+        has_limit |= is_one_of(argv, &i, limits);
+        has_output |= i < argc && is_one_of(argv, &i, outputs);
+    }
+    words[count++] = (char[]){"eclat"};
+    for (int i = 0; i < before->argc; i++) {
+        bool is_replaced = is_one_of(before->argv, &i, files) ||
+                           (has_limit && is_one_of(before->argv, &i, limits)) ||
+                           (has_output && is_one_of(before->argv, &i, outputs));
+        if (!is_replaced && i < before->argc) words[count++] = before->argv[i];
+    }
+    for (int i = 1; i < argc; i++)
+        if (!is_one_of(argv, &i, files) && i < argc) words[count++] = argv[i];
+    const char *adaptive = adaptive_word(&job->request->options, count, words);
+    if (adaptive) words[count++] = (char *)(uintptr_t)adaptive;
+    job->whole_command = ec_command_line(count, words);
+    free(words);
+    if (!job->whole_command) return ec_fail(err, "out of memory");
+    job->command = job->whole_command;
+    return EC_OK;
+}
+
+ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err)
+{
+    const char *path = job->request->resume;
+    EC_TRY(ec_store_read(path, &job->stored, err));
+    if (job->stored.job.merged)
+        return ec_fail(err, "cannot go on from '%s': it was merged; render what is missing with --samples, and merge that", path);
+    EC_TRY(ec_render_request_resume(&job->stored.job, argc, argv, job->request, err));
+    EC_TRY(make_command(job, job->job.argc, job->job.argv, err)); /* as given: getopt has changed argv's order */
+    job->job.argc = job->stored.job.argc;
+    job->job.argv = job->stored.job.argv;
+    job->job.folder = job->stored.job.folder;
+    const ec_render_request *r = job->request;
+    const uint32_t first = r->has_slice ? r->options.slice_first : 0, end = r->has_slice ? r->options.slice_end : 0;
+    if (first != job->stored.job.first || end != job->stored.job.end)
+        return ec_fail(err, "cannot go on from '%s': it is of other samples than --samples %u:%u; leave that out", path,
+                       r->slice_first, r->slice_end);
+    return EC_OK;
+}
+
+/* A render that is begun anew by mistake, where it was to be gone on with, would write over hours of samples: others' files are replaced like
+ * any output. */
+static void warn_of_older(const ec_render_job *job, const ec_log *log)
+{
+    const char *path = job->request->checkpoint;
+    char difference[1200];
+    ec_stored old = {0};
+    uint32_t first;
+    if (path && ec_store_peek(path, &old, &first) &&
+        !ec_identity_differs(&old.job.identity, &job->job.identity, difference, sizeof difference))
+        ec_warn(log, "'%s' has %llu samples a pixel of this render, which begins anew and writes over them; '--resume %s' goes on", path,
+                (unsigned long long)ec_schedule_samples(old.film.replicates, old.film.batch_count), path);
+    ec_stored_free(&old);
+}
+
+/* What is rendered is known: is it what was rendered before? */
+static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
+{
+    ec_render_job *job = user;
+    const ec_log *log = &job->listener->log;
+    char difference[1200];
+    ec_identity_of(&job->request->options, &stats->content, &job->job.identity);
+    if (!job->request->resume) {
+        warn_of_older(job, log);
+        return EC_OK;
+    }
+    if (ec_identity_differs(&job->stored.job.identity, &job->job.identity, difference, sizeof difference))
+        return ec_fail(err, "cannot go on from '%s': %s; use the scene, options and version that it was made with, or start anew",
+                       job->request->resume, difference);
+    if (strcmp(job->stored.job.device, job->device_text))
+        ec_warn(log, "'%s' was rendered on %s: where that rounds otherwise than %s, the last bits are not those of one run",
+                job->request->resume, job->stored.job.device, job->device_text);
+    return EC_OK;
+}
+
+/* A frame's scene shares data with the next one's. */
+static void drop_scene(void *user)
+{
+    ec_render_job *job = user;
+    if (!job->share) ec_scene_drop_data(job->scene);
+}
+
+static bool keep(void *user, const ec_film *film, const ec_past *past)
+{
+    ec_render_job *job = user;
+    const ec_log *log = &job->listener->log;
+    ec_picture picture = {0};
+    const ec_attribute attributes[] = {{.name = "eclat.command", .type = EC_ATTR_STRING, .string = job->command},
+                                       {.name = "eclat.version", .type = EC_ATTR_STRING, .string = ECLAT_VERSION}};
+    const ec_picture_style style = {.attributes = attributes, .attribute_count = 2, .job = &job->job, .film = film, .past = past};
+    job->keep_error.text[0] = 0;
+    ec_result result = ec_picture_resolve(film, false, &picture, &job->keep_error);
+    if (result == EC_OK) result = ec_picture_write_exr(job->request->checkpoint, &picture, &style, &job->keep_error);
+    ec_picture_free(&picture);
+    job->has_kept |= result == EC_OK;
+    if (result != EC_OK) ec_warn(log, "%s; the render goes on, and the checkpoint will be tried again", job->keep_error.text);
+    return result == EC_OK;
+}
+
+/* What cannot be had strip by strip. */
+const char *ec_render_whole_for(const ec_render_request *r)
+{
+    if (r->adaptive == EC_ADAPTIVE_ON) return "--adaptive"; /* the allotment looks at all pixels */
+    if (r->options.error_target > 0) return "--error"; /* of the whole image */
+    if (r->options.time_limit > 0 || r->capped) return "--time";
+    if (r->resume) return "--resume";
+    if (r->checkpoint) return "--checkpoint";
+    return r->has_slice ? "--samples" : NULL;
+}
+
+/* Strips go to the files as they come. */
+static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row, const ec_render_stats *stats, ec_error *err)
+{
+    enum { ROOM = 256 }; /* for how it ended, and counts that grow beyond a number's size */
+    ec_render_job *job = user;
+    const char *outputs[EC_OUTPUTS_MAX];
+    if (first_row == 0) {
+        ec_render_report report = ec_render_job_report(job, outputs);
+        report.stats = stats;
+        report.replicates = ec_film_replicates(film);
+        EC_TRY(ec_report_rows_open(&job->rows, &job->request->outputs, film, job->request->options.height, &report, ROOM, err));
+    }
+    ec_result result = ec_row_writer_put(job->rows, film, err);
+    if (result == EC_OK) return EC_OK;
+    ec_row_writer_abort(job->rows); /* no file is left */
+    job->rows = NULL;
+    return result;
+}
+
+static bool all_round(const ec_render_job *job)
+{
+    bool all = true;
+    for (uint32_t i = 0; i < job->device_count; i++) all &= ec_device_rounds(&job->devices[i]);
+    return all;
+}
+
+ec_course ec_render_job_course(ec_render_job *job)
+{
+    ec_render_request *request = job->request;
+    ec_device_drivers(job->devices, job->device_count, job->device_text, sizeof job->device_text);
+    if (job->ranks) job->allies = ec_ranks_allies(job->ranks, request->device, job->device_text, all_round(job));
+    job->job.device = job->device_text;
+    job->job.spp = request->slice_of_any ? 0 : request->options.spp;
+    job->job.error_target = request->options.error_target;
+    job->job.time_limit = request->options.time_limit;
+    request->options.identify = request->has_slice || request->checkpoint;
+    const char *whole_for = job->in_memory ? "a picture without output files" : ec_render_whole_for(request);
+    ec_course course = {.admit = request->options.identify ? admit : NULL,
+                        .loaded = drop_scene,
+                        .keep = request->checkpoint ? keep : NULL,
+                        .strip = whole_for ? NULL : take_strip,
+                        .whole_for = whole_for,
+                        .every = request->every,
+                        .most = request->capped ? EC_SAFETY_SPP : 0,
+                        .allies = job->ranks ? &job->allies : NULL,
+                        .user = job};
+    if (request->has_slice) {
+        course.first = job->job.first = request->options.slice_first;
+        course.end = job->job.end = request->options.slice_end;
+        course.cut = job->job.cut = request->slice_cut;
+    }
+    if (!request->resume) return course;
+    course.past = &job->stored.past;
+    course.past_is_kept = ec_same_file(request->checkpoint, request->resume);
+    job->film = job->stored.film;
+    job->stored.film = (ec_film){0};
+    return course;
+}

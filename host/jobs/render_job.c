@@ -1,0 +1,231 @@
+#include "jobs/render_job.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "jobs/defaults.h"
+#include "jobs/numbers.h"
+#include "jobs/usage.h"
+#include "pipeline/strips.h"
+#include "report/scene_report.h"
+
+/* A slice is its sums: a PNG alone would throw them away. */
+static ec_result check_slice_output(const ec_render_request *request, ec_error *err)
+{
+    bool has_exr = !request->has_slice;
+    for (int i = 0; i < request->outputs.count; i++) has_exr |= request->outputs.file[i].kind == EC_OUTPUT_EXR;
+    return has_exr ? EC_OK : ec_usage(err, "--samples: a slice is an .exr, which eclat merge adds to others; give -o NAME.exr");
+}
+
+static ec_result check_checkpoint(const ec_render_request *request, ec_inputs *inputs, ec_error *err)
+{
+    const char *path = request->checkpoint;
+    if (!path) return EC_OK;
+    if (ec_inputs_have(inputs, path))
+        return ec_fail(err, "'%s' is an input of this render; give --checkpoint another name", path);
+    for (int i = 0; i < request->outputs.count; i++)
+        if (ec_same_target(path, request->outputs.file[i].path))
+            return ec_usage(err, "'%s' is both the checkpoint and the picture; give one of them another name", path);
+    return ec_image_check_writable(path, err);
+}
+
+/* What is gone on from may be the next checkpoint, but no picture. */
+static ec_result check_files(const ec_render_request *request, ec_error *err)
+{
+    const char *const files[] = {request->environment, request->resume};
+    ec_inputs inputs = {.scene = request->scene, .files = files, .file_count = 1};
+    ec_result result = check_checkpoint(request, &inputs, err);
+    inputs.file_count = 2;
+    if (result == EC_OK) result = ec_outputs_check(&request->outputs, &inputs, err);
+    ec_inputs_free(&inputs);
+    return result;
+}
+
+static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
+{
+    ec_outputs *outputs = &request->outputs;
+    request->default_outputs = outputs->count == 0;
+    if (request->default_outputs && request->has_slice)
+        EC_TRY(ec_outputs_add_slice(outputs, request->scene, request->slice_first, request->slice_end, err));
+    else if (request->default_outputs)
+        EC_TRY(ec_outputs_add_default(outputs, request->scene, err));
+    EC_TRY(check_slice_output(request, err));
+    return check_files(request, err);
+}
+
+/* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */
+static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error *err)
+{
+    ec_frame_share *share = job->share;
+    if (!share || !is_of_all || share->environment_known) return EC_OK;
+    if (job->scene->environment.rgb) EC_TRY(ec_pack_map(&job->scene->environment, &share->packed, err));
+    share->environment = job->scene->environment;
+    share->has_environment = job->scene->has_environment;
+    share->environment_known = true;
+    if (share->environment.rgb) share->environment.packed = &share->packed;
+    job->scene->environment = share->environment;
+    job->scene->environment.lent = true;
+    return EC_OK;
+}
+
+ec_result ec_render_job_light(ec_render_job *job, ec_error *err)
+{
+    const ec_log *log = &job->listener->log;
+    const char *environment = job->request->environment;
+    bool is_of_all = environment || job->scene->has_environment;
+    if (job->share && job->share->environment_known) {
+        job->scene->environment = job->share->environment;
+        job->scene->environment.lent = true;
+        job->scene->has_environment = job->share->has_environment;
+    } else if (environment) {
+        if (job->scene->has_environment) ec_note(log, "--env takes the place of the image-based light that the scene has");
+        EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
+    } else if (!job->request->adjusts_env) {
+        ec_scene_light light;
+        EC_TRY(ec_scene_find_light(job->scene, &light, err));
+        if (!light.any) {
+            ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");
+            environment = "1,1,1";
+            EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
+        }
+    }
+    if (job->request->adjusts_env && !(job->share && job->share->environment_known)) {
+        if (!environment && !job->scene->has_environment)
+            return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --env, or leave them out");
+        ec_scene_adjust_environment(job->scene, job->request->env_degrees, job->request->env_strength, log);
+    }
+    EC_TRY(share_environment(job, is_of_all, err));
+    if (!environment) environment = job->scene->has_environment ? "the scene's" : "none";
+    int used = snprintf(job->environment_text, sizeof job->environment_text, "%s", environment);
+    if (job->request->adjusts_env && used > 0 && (size_t)used < sizeof job->environment_text)
+        snprintf(job->environment_text + used, sizeof job->environment_text - (size_t)used, ", turned by %g degrees, strength %g",
+                 job->request->env_degrees, job->request->env_strength);
+    return EC_OK;
+}
+
+/* Without --size: a fixed height, and a width that shows what the camera is meant to. */
+static void choose_size(ec_render_options *options, uint32_t height, const ec_camera *camera)
+{
+    double aspect = camera->aspect;
+    if (!(aspect > 0) && camera->type == EC_CAMERA_ORTHOGRAPHIC && camera->ymag > 0)
+        aspect = fabs((double)camera->xmag / camera->ymag);
+    if (!(aspect > 0)) aspect = 1;
+    options->height = height ? height : EC_DEFAULT_HEIGHT;
+    options->width = (uint32_t)fmin(fmax(round(options->height * aspect), 1), EC_SIZE_MAX_SIDE);
+}
+
+static ec_result prepare_camera(ec_render_job *job, ec_error *err)
+{
+    ec_render_options *options = &job->request->options;
+    options->camera = job->scene->default_camera;
+    if (job->request->camera) EC_TRY(ec_scene_find_camera(job->scene, job->request->camera, &options->camera, err));
+    EC_TRY(ec_camera_change_apply(&job->request->look, job->scene, options->camera, &job->viewpoint, err));
+    if (!job->request->has_size) choose_size(options, job->request->default_height, &job->scene->cameras[options->camera]);
+    ec_camera_describe(job->scene, options->camera, job->camera_text, sizeof job->camera_text);
+    return EC_OK;
+}
+
+/* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. What is told here early is looked
+ * at again when the scene is on the device. */
+static ec_result check_memory(const ec_render_job *job, ec_error *err)
+{
+    const ec_render_options *options = &job->request->options;
+    const uint32_t allies = job->ranks ? (uint32_t)ec_ranks_count(job->ranks) - 1 : 0;
+    const char *reason = ec_render_whole_for(job->request), *instead = "leave it out";
+    if (job->in_memory) reason = "a picture without output files", instead = "name one by the option output";
+    if (allies) reason = "an MPI job", instead = "start one process without mpirun";
+    if (job->device_count > 1) reason = "more than one --device", instead = "name one";
+    uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count, allies);
+    uint64_t present = ec_memory_of_machine();
+    int64_t budget = options->memory ? ec_strip_budget(options, 0) : (int64_t)present;
+    if (reason && (int64_t)needed > budget) return ec_strip_refuse(options, needed, budget, reason, instead, err);
+    return EC_OK;
+}
+
+ec_result ec_render_job_prepare(ec_render_job *job, ec_error *err)
+{
+    const ec_render_options *options = &job->request->options;
+    EC_TRY(prepare_outputs(job->request, err));
+    EC_TRY(ec_render_job_load(job, err));
+    ec_outputs_check_room(&job->request->outputs, (uint64_t)options->width * options->height, &job->listener->log);
+    return EC_OK;
+}
+
+ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
+{
+    const char *wanted = job->request->device;
+    job->device_count = 1;
+    if (!job->takes_several) return ec_device_find(wanted, job->devices, job->device_indices, &job->device_why, err);
+    EC_TRY(ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count,
+                                  &job->device_why, err));
+    if (job->request->plan_ranks && job->device_count > 1)
+        return ec_fail(err, "--plan takes one device, which stands for those of all machines; name one with --device");
+    if (job->ranks) ec_ranks_share_devices(job->ranks, job->devices, job->device_indices, &job->device_count);
+    return EC_OK;
+}
+
+/* Those of all frames. */
+static void take_devices(ec_render_job *job)
+{
+    const ec_frame_share *share = job->share;
+    memcpy(job->devices, share->devices, sizeof job->devices);
+    memcpy(job->device_indices, share->device_indices, sizeof job->device_indices);
+    job->device_count = share->device_count;
+    job->device_why = share->device_why;
+}
+
+ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
+{
+    const ec_log *log = &job->listener->log;
+    const ec_render_request *request = job->request;
+    if (!job->share) EC_TRY(ec_render_job_find_devices(job, err));
+    else take_devices(job);
+    double start = ec_now();
+    if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, log, err));
+    else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, log, err));
+    EC_TRY(ec_render_job_light(job, err));
+    job->load_seconds = ec_now() - start;
+    EC_TRY(prepare_camera(job, err));
+    return check_memory(job, err);
+}
+
+ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX])
+{
+    const ec_render_request *request = job->request;
+    for (int i = 0; i < request->outputs.count; i++) outputs[i] = request->outputs.file[i].path;
+    return (ec_render_report){
+        .frame = job->share ? &job->frame : NULL,
+        .command = job->command,
+        .scene = request->scene,
+        .camera = job->camera_text,
+        .viewpoint = job->viewpoint,
+        .environment = job->environment_text,
+        .options = &request->options,
+        .stats = &job->stats,
+        .verbose = request->verbose,
+        .device = job->devices,
+        .device_why = job->device_why,
+        .device_index = job->device_indices,
+        .exposure = request->exposure,
+        .tonemap = request->tonemap,
+        .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
+        .replicates = ec_film_replicates(&job->film),
+        .load_seconds = job->load_seconds,
+        .image_sha256 = job->image_sha256,
+        .outputs = outputs,
+        .output_count = request->outputs.count,
+    };
+}
+
+void ec_render_job_free(ec_render_job *job)
+{
+    ec_scene_free(job->scene);
+    ec_film_destroy(&job->film);
+    ec_row_writer_abort(job->rows);
+    ec_stored_free(&job->stored);
+    free(job->whole_command);
+}

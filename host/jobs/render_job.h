@@ -1,0 +1,96 @@
+/* One render from request to film. */
+#ifndef EC_JOBS_RENDER_JOB_H
+#define EC_JOBS_RENDER_JOB_H
+
+#include "cl/cl.h"
+#include "jobs/hash.h"
+#include "jobs/listener.h"
+#include "jobs/render_request.h"
+#include "jobs/write_rows.h"
+#include "film/film.h"
+#include "pack/pack.h"
+#include "ranks/ranks.h"
+#include "report/render_report.h"
+
+/* What the frames of a sequence share. */
+typedef struct ec_frame_share {
+    ec_animation *animation;
+    ec_device_info devices[EC_DEVICES_MOST];
+    uint32_t device_indices[EC_DEVICES_MOST], device_count;
+    const char *device_why;
+    ec_cl cl[EC_DEVICES_MOST];   /* of these, once they are open */
+    bool is_open;
+    ec_followed followed;        /* acceleration structures */
+    ec_environment environment;  /* that of all frames, once the first one has made it; its picture is owned */
+    ec_packed_map packed;        /* of its picture */
+    bool has_environment, environment_known;
+} ec_frame_share;
+
+void ec_frame_share_close(ec_frame_share *share); /* the devices, with what they keep; the next frame opens them anew */
+
+typedef struct ec_render_job {
+    ec_render_request *request;
+    const ec_listener *listener; /* never NULL */
+    const char *program;         /* as it was called; NULL: the job has no checkpoint */
+    const char *command;         /* the command line */
+    ec_scene *scene;             /* owned */
+    ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
+    ec_allies allies;            /* the same as the render has them */
+    ec_frame_share *share;       /* NULL: it is no frame of a sequence */
+    ec_frame_facts frame;        /* with that */
+    bool takes_several;          /* devices; else a list of them is refused */
+    bool in_memory;              /* the whole film is wanted, not files */
+    ec_device_info devices[EC_DEVICES_MOST];
+    uint32_t device_indices[EC_DEVICES_MOST], device_count;
+    const char *device_why;
+    ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
+    ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
+    ec_render_stats stats;
+    double load_seconds;
+    char camera_text[256];
+    ec_viewpoint viewpoint;
+    char environment_text[256];
+    char image_sha256[EC_HASH_SIZE];
+    ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
+    ec_stored stored;            /* what is gone on from. Owned */
+    char device_text[1024];      /* their drivers: cl/workarounds.h */
+    char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
+    bool has_kept;               /* a checkpoint */
+    ec_error keep_error;         /* why the last one is not there; empty: it is, or none was wanted */
+} ec_render_job;
+
+/* All that can fail early does so here: outputs, device, scene, environment, camera. */
+ec_result ec_render_job_prepare(ec_render_job *job, ec_error *err);
+
+/* By the request: one, or with takes_several all that it names. */
+ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err);
+
+/* The same without the outputs: device, scene, environment, camera, size. */
+ec_result ec_render_job_load(ec_render_job *job, ec_error *err);
+
+/* Part of that: the environment that the request asks for, or a white one where job->scene has no light. */
+ec_result ec_render_job_light(ec_render_job *job, ec_error *err);
+
+/* With --resume, first of all: reads the checkpoint and completes the request by it. */
+ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err);
+
+/* Which batches are taken, from what on, and what is kept on the way. Takes the film of a checkpoint over. */
+ec_course ec_render_job_course(ec_render_job *job);
+
+/* Renders into job->film; the listener may end it early and well. On failure too there may be batches in the film. */
+ec_result ec_render_job_run(ec_render_job *job, ec_error *err);
+
+/* render_deliver.c: writes the film to the outputs and reports it; start: when the job, or the frame, began. */
+ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err);
+
+/* All of a prepared job: runs and delivers it. Where the device fails, the picture so far is written, and the job fails all the same. */
+ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err);
+/* What is known of the job by now, in figures; outputs: room for the paths. Texts are the job's. */
+ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
+
+/* render_course.c: why a picture of this request has to be rendered whole; NULL: it need not */
+const char *ec_render_whole_for(const ec_render_request *request);
+
+void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */
+
+#endif

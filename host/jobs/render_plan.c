@@ -1,0 +1,109 @@
+#include "jobs/render_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+
+enum { PILOT_ROUNDS = 5 }; /* the first ones also warm the device up; a forecast wants EC_PILOT_SAMPLES of each replicate */
+
+#define ENOUGH_SECONDS 5.0
+
+typedef struct pilot {
+    const ec_listener *listener;
+    uint64_t pixels;
+    double rounds[PILOT_ROUNDS]; /* samples in all after each of the first ones */
+    bool is_foretold;            /* by its film */
+    ec_mark first, last;         /* when the first round was done, and what was done last */
+} pilot;
+
+static bool watch(void *user, const ec_progress *progress)
+{
+    pilot *p = user;
+    const double done = (double)progress->samples;
+    if (p->first.samples == 0 && done >= p->rounds[0]) p->first = (ec_mark){done, progress->seconds};
+    if (done > p->last.samples) p->last = (ec_mark){done, progress->seconds};
+    const bool suffices = done >= p->rounds[1] && !p->is_foretold && progress->seconds > ENOUGH_SECONDS;
+    return done < p->rounds[PILOT_ROUNDS - 1] && !suffices && !ec_listener_should_stop(p->listener);
+}
+
+enum { TIMES = 3 }; /* and once before, which touches the memory */
+
+/* As the render does with each batch. */
+static ec_result time_batches(ec_film *film, const float *batch, double *seconds, ec_error *err)
+{
+    double start = 0;
+    for (uint32_t i = 0; i <= TIMES; i++) {
+        if (i == 1) start = ec_now();
+        EC_TRY(ec_film_add(film, i, batch, err));
+        (void)ec_film_estimate_error(film);
+    }
+    *seconds = (ec_now() - start) / TIMES;
+    return EC_OK;
+}
+
+/* And with each block. */
+static ec_result time_blocks(ec_film *film, double *seconds, ec_error *err)
+{
+    const uint64_t pixels = (uint64_t)film->width * film->height;
+    *seconds = 0;
+    for (uint32_t i = 0; i <= TIMES; i++) {
+        ec_film_part part = {.first = EC_FILM_FIRST * i, .count = EC_FILM_FIRST};
+        if (!ec_sums_create(&part.sums, film->replicates, pixels)) return ec_fail(err, "out of memory for a block of batches");
+        const double start = ec_now();
+        EC_TRY(ec_film_insert(film, &part, err));
+        (void)ec_film_estimate_error(film);
+        if (i > 0) *seconds += (ec_now() - start) / TIMES;
+    }
+    return EC_OK;
+}
+
+static ec_result time_sums(const ec_film *like, ec_plan *plan, ec_error *err)
+{
+    ec_film batches = {0}, blocks = {0};
+    float *batch = calloc((uint64_t)like->width * like->height, EC_BATCH_FIELDS * sizeof *batch);
+    if (!batch) return ec_fail(err, "out of memory for a batch");
+    ec_result result = ec_film_create(&batches, like->width, like->height, like->replicates, err);
+    if (result == EC_OK) result = time_batches(&batches, batch, &plan->add, err);
+    ec_film_destroy(&batches);
+    if (result == EC_OK) result = ec_film_create(&blocks, like->width, like->height, like->replicates, err);
+    if (result == EC_OK) result = time_blocks(&blocks, &plan->add_block, err);
+    ec_film_destroy(&blocks);
+    free(batch);
+    return result;
+}
+
+ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
+{
+    const ec_listener *listener = job->listener;
+    ec_render_options options = job->request->options;
+    const uint32_t replicates = ec_render_replicates(&options);
+    pilot p = {.listener = listener, .pixels = (uint64_t)options.width * options.height, .is_foretold = !options.spp};
+    for (uint32_t i = 0, batch = 0; i < PILOT_ROUNDS; i++) {
+        batch = (uint32_t)ec_schedule_round(replicates, batch);
+        p.rounds[i] = (double)(ec_schedule_samples(replicates, batch) * p.pixels);
+    }
+    options.adaptive = false;
+    ec_cl cl = {0};
+    EC_TRY(ec_cl_open(job->devices, &cl, err));
+    ec_listener_begin(listener, &options);
+    ec_say(&listener->log, "measuring up to %.0f samples a pixel on %s", p.rounds[PILOT_ROUNDS - 1] / (double)p.pixels, job->devices->name);
+    ec_result result = ec_render(&cl, job->scene, &options, watch, &p, &job->film, &job->stats, &listener->log, err);
+    ec_cl_close(&cl);
+    ec_listener_end(listener);
+    EC_TRY(result);
+    if (!(p.last.samples > p.first.samples)) return ec_fail(err, "--plan: the pilot was over before its second round; give more --spp or --time");
+    const ec_render_stats *s = &job->stats;
+    const double samples = options.spp ? options.spp : s->forecast.samples;
+    if (!(samples < 1e9)) return ec_fail(err, "--plan: how many samples it takes is not known; give --spp N, or an --error that a pilot can foretell");
+    uint32_t before;
+    const double batches = ec_schedule_find(replicates, (uint64_t)samples, &before) + (before > 0), a_batch = samples / batches;
+    const double a_sample = (p.last.seconds - p.first.seconds) / (p.last.samples - p.first.samples) * (double)p.pixels;
+    *plan = (ec_plan){.load = job->load_seconds + s->accel_seconds + s->pack_seconds, .start = s->kernel_seconds,
+                    .batch = a_batch * a_sample, .scene_bytes = s->scene_bytes, .pixels = p.pixels,
+                    .batches = batches, .batches_foretold = !options.spp, .samples = a_batch, .replicates = replicates,
+                    .gbit = job->request->plan_gbit, .microseconds = job->request->plan_microseconds, .ranks = job->request->plan_ranks};
+    const uint64_t rows = 8ull * options.width, wave = (uint64_t)(s->wave / a_batch); /* as pipeline/team.c cuts them */
+    plan->least = (uint64_t)fmin(fmax((double)rows, (double)wave), (double)plan->pixels);
+    return time_sums(&job->film, plan, err);
+}

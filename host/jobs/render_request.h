@@ -1,0 +1,71 @@
+/* What `eclat render` was asked for. */
+#ifndef EC_JOBS_RENDER_REQUEST_H
+#define EC_JOBS_RENDER_REQUEST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "jobs/camera_change.h"
+#include "jobs/frame_range.h"
+#include "jobs/options.h"
+#include "jobs/outputs.h"
+#include "image/image.h"
+#include "pipeline/render.h"
+#include "store/store.h"
+
+/* auto: where an error is asked for. */
+typedef enum ec_adaptive { EC_ADAPTIVE_AUTO, EC_ADAPTIVE_ON, EC_ADAPTIVE_OFF } ec_adaptive;
+
+typedef struct ec_render_request {
+    const char *scene;
+    ec_scene_choice choice;
+    ec_outputs outputs;
+    bool default_outputs;      /* no -o was given */
+    ec_render_options options; /* complete but for the camera and, without --size, the size */
+    bool has_size;
+    uint32_t default_height;   /* without --size; 0: that of `eclat render` */
+    bool endless;              /* --max-depth inf was given */
+    bool capped;               /* neither --spp nor the default: the safety cap applies */
+    const char *camera;        /* NULL: the scene's default */
+    ec_camera_change look;
+    const char *environment;   /* NULL: the scene's own */
+    double env_degrees, env_strength; /* 0 and 1: as it is */
+    bool adjusts_env;          /* one of these was given */
+    const char *device;        /* NULL: chosen */
+    double exposure;           /* EV */
+    ec_frame_range frames;     /* of a sequence; not given: one picture */
+    bool seed_is_frame;        /* --seed frame */
+    bool overwrite;            /* frames that are there and of another job */
+    bool has_slice;            /* --samples A:B: */
+    uint32_t slice_first, slice_end; /* samples a pixel */
+    uint32_t slice_cut;        /* samples that its last batch lacks */
+    bool slice_of_any;         /* of a job without an end: no --spp */
+    ec_adaptive adaptive;
+    const char *checkpoint;    /* NULL: none */
+    double every;              /* seconds between two of them */
+    const char *resume;        /* a checkpoint to go on from; NULL: from the start */
+    ec_tonemap tonemap;
+    uint32_t plan_ranks;       /* say what up to so many ranks would buy, and render no picture; 0: render */
+    double plan_gbit, plan_microseconds; /* what is assumed for that */
+    bool quiet, verbose, json;
+} ec_render_request;
+
+/* Its options, for commands that take most of them too: their target begins with an ec_render_request. Defaults before they are read,
+ * what follows from them and what does not go together after that. */
+extern const ec_option ec_render_rows[];
+extern const int ec_render_row_count;
+void ec_render_request_start(ec_render_request *request);
+ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
+                                   ec_error *err);
+
+/* Does anything end it: samples, time or an error? */
+bool ec_render_has_limit(const ec_render_options *options);
+
+/* Reads the arguments of `render`; unless *asked is EC_REQUEST_RUN nothing else is read. */
+ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, ec_request *asked, ec_error *err);
+
+/* After --resume: the request that began the job, its limits as they were last, and these arguments over it: an output or a limit
+ * replaces all that there were. */
+ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_render_request *request, ec_error *err);
+
+#endif

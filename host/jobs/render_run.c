@@ -1,0 +1,177 @@
+/* A job that is ready is rendered: on which devices, and what is said of it before. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cl/workarounds.h"
+#include "jobs/command_line.h"
+#include "jobs/render_job.h"
+
+/* Samples a pixel that a checkpoint has; 0: there is none. */
+static uint64_t samples_there(const ec_render_job *job)
+{
+    const ec_render_options *options = &job->request->options;
+    return job->stored.past.samples / ((uint64_t)options->width * options->height);
+}
+
+/* The most that are asked for; 0: other limits end the render. */
+static uint32_t samples_asked(const ec_render_request *request)
+{
+    return request->has_slice ? request->slice_end - request->slice_first : request->options.spp;
+}
+
+static bool is_complete(const ec_render_job *job)
+{
+    const uint32_t asked = samples_asked(job->request);
+    return asked && samples_there(job) >= asked;
+}
+
+/* What goes on from the checkpoint, to be typed as it is: malloc'ed. Said before there is one: a SIGKILL leaves no time for words. */
+static char *say_how_to_go_on(const ec_render_job *job)
+{
+    char *words[] = {(char *)job->program, (char[]){"render"}, (char[]){"--resume"}, (char *)job->request->checkpoint};
+    char *command = job->request->checkpoint && !is_complete(job) ? ec_command_line(4, words) : NULL;
+    if (command) ec_say(&job->listener->log, "should this be cut off, it goes on from the last checkpoint with: %s", command);
+    return command;
+}
+
+/* Where a rank dies, mpirun ends all others: a signal is the last that rank 0 hears of it. */
+static void hint_at_resume(const ec_render_job *job, const char *command)
+{
+    char hint[5000];
+    const char *how = job->share != NULL ? "the same command goes on behind the frames that are done"
+                      : command ? "it goes on from the last checkpoint, alone or behind mpirun, with: "
+                                : "with --checkpoint FILE it could be gone on with";
+    snprintf(hint, sizeof hint, "asked to stop, as mpirun asks all where one rank has died; %s%s", how, command ? command : "");
+    ec_listener_hint(job->listener, hint);
+}
+
+/* ", with 3 more processes,": who renders beside the first device. */
+static void describe_helpers(const ec_render_job *job, char *text, size_t size)
+{
+    const int ranks = job->ranks ? ec_ranks_count(job->ranks) - 1 : 0;
+    int used = 0;
+    if (job->device_count > 1)
+        used = snprintf(text, size, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
+    if (ranks) snprintf(text + used, size - (size_t)used, ", with %d more process%s,", ranks, ranks > 1 ? "es" : "");
+}
+
+static void announce(const ec_render_job *job)
+{
+    const ec_render_options *options = &job->request->options;
+    char limits[160] = "", range[64] = "", more[64] = "";
+    int used = 0;
+    if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
+    if (options->time_limit > 0)
+        used += snprintf(limits + used, sizeof limits - (size_t)used, "%s%g s", used ? " or " : "", options->time_limit);
+    if (options->error_target > 0)
+        snprintf(limits + used, sizeof limits - (size_t)used, "%s%g %% error", used ? " or " : "",
+                 100 * options->error_target);
+    if (job->request->default_outputs && !job->share)
+        ec_say(&job->listener->log, "note: no -o given: the picture goes to %s and %s in the current directory",
+                       job->request->outputs.file[0].path, job->request->outputs.file[1].path);
+    if (job->request->has_slice)
+        snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
+    const unsigned long long there = samples_there(job);
+    if (is_complete(job)) {
+        ec_say(&job->listener->log, "'%s' has %llu samples a pixel already, and %u are asked for: the picture is written "
+                       "as it is", job->request->resume, there, samples_asked(job->request));
+        return;
+    }
+    if (job->request->resume)
+        ec_say(&job->listener->log, "going on from '%s', %llu samples a pixel", job->request->resume, there);
+    if (job->share)
+        snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place,
+                 job->frame.count, job->frame.seconds);
+    describe_helpers(job, more, sizeof more);
+    ec_say(&job->listener->log, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height,
+                   job->devices[0].name, more, limits);
+}
+
+/* Bits are the same wherever division and square root are correctly rounded. */
+static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
+{
+    for (uint32_t i = 0; i < job->device_count; i++) {
+        const ec_device_info *one = &job->devices[i];
+        bool is_alike = true;
+        for (uint32_t k = 0; k < job->device_count; k++)
+            is_alike &= !strcmp(one->name, job->devices[k].name) && !strcmp(one->driver, job->devices[k].driver);
+        if (is_alike || ec_device_rounds(one)) continue;
+        ec_warn(log, "%s does not say that it rounds division and square root correctly: where it does not, the last bits are not those of one "
+                     "device", one->name);
+    }
+}
+
+/* Those that do not open are left out, if there are others. */
+static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *log, ec_error *err)
+{
+    uint32_t count = 0, wanted = job->device_count;
+    for (uint32_t i = 0; i < wanted; i++) {
+        ec_error why = {0};
+        if (ec_cl_open(&job->devices[i], &devices[count], &why) == EC_OK) {
+            job->devices[count] = job->devices[i];
+            job->device_indices[count++] = job->device_indices[i];
+        } else if (count || i + 1 < wanted) {
+            ec_warn(log, "%s is out, and the others take over its work: %s", job->devices[i].name, why.text);
+        } else if (err) {
+            *err = why;
+        }
+    }
+    job->device_count = count;
+    if (count) warn_of_rounding(job, log);
+    return count ? EC_OK : EC_FAILED;
+}
+
+/* Once for all frames, and again after one that failed; what does not open is out for the rest of them. */
+static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *err)
+{
+    ec_frame_share *share = job->share;
+    job->request->options.followed = &share->followed;
+    if (share->is_open) return EC_OK;
+    EC_TRY(open_devices(job, share->cl, log, err));
+    memcpy(share->devices, job->devices, sizeof share->devices);
+    memcpy(share->device_indices, job->device_indices, sizeof share->device_indices);
+    share->device_count = job->device_count;
+    for (uint32_t i = 0; i < share->device_count; i++) share->cl[i].keeps_programs = share->cl[i].keeps_buffers = true;
+    share->is_open = true;
+    return EC_OK;
+}
+
+void ec_frame_share_close(ec_frame_share *share)
+{
+    for (uint32_t i = 0; share->is_open && i < share->device_count; i++) ec_cl_close(&share->cl[i]);
+    share->is_open = false;
+}
+
+ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
+{
+    const ec_listener *listener = job->listener;
+    const ec_log *log = &listener->log;
+    const ec_course course = ec_render_job_course(job);
+    ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : own;
+    if (!job->share) EC_TRY(open_devices(job, devices, log, err));
+    else EC_TRY(open_shared(job, log, err));
+    ec_listener_begin(listener, &job->request->options); /* until here there is nothing to save */
+    if (job->ranks) ec_ranks_note_binding(job->ranks, job->devices, job->device_count, log);
+    else if (!job->share && !job->request->has_slice && ec_ranks_apart() > 1)
+        ec_warn(log, "srun started %d processes that know nothing of one another: each renders all of the picture; with 'srun --mpi=pmix', or what "
+                      "'srun --mpi=list' has, they render it together", ec_ranks_apart());
+    announce(job);
+    char *going_on = say_how_to_go_on(job);
+    if (job->ranks) hint_at_resume(job, going_on);
+    free(going_on);
+    ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course,
+                                        ec_listener_progress, (void *)(uintptr_t)listener, &job->film, &job->stats, log, err);
+    ec_listener_end(listener);
+    for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
+    if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
+    const bool has_picture = job->film.batch_count || job->rows;
+    if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");
+    if (result != EC_OK && !has_picture && ec_listener_should_stop(listener) && job->has_kept)
+        return ec_fail(err, "interrupted before there was a picture; 'eclat render --resume %s' goes on", job->request->checkpoint);
+    if (result != EC_OK && !has_picture && ec_listener_should_stop(listener))
+        return ec_fail(err, "interrupted before there was a picture; nothing is written");
+    if (result == EC_OK && job->film.unsampled && job->request->checkpoint && !job->has_kept && !*job->keep_error.text)
+        ec_warn(log, "no checkpoint is written: there was no whole wave of samples yet");
+    return result;
+}

@@ -1,0 +1,153 @@
+#include "jobs/write_outputs.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+
+enum { AOV_ALBEDO = 0, AOV_NORMAL = 3, AOV_DEPTH = 6, AOV_ALPHA = 7 };
+
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_cut, ec_error *err)
+{
+    const size_t pixel_count = (size_t)width * rows;
+    *picture = (ec_picture){.width = width, .height = rows};
+    float **const planes[] = {&picture->rgb, &picture->constants, &picture->stderr_rgb, &picture->stderr_y,
+                              &picture->low, &picture->high,      &picture->heavy};
+    static const size_t values[] = {3, 2, 3, 1, 3, 3, 1};
+    bool made = (picture->room = malloc(ec_resolve_room(width, rows) * sizeof *picture->room)) != NULL;
+    for (int i = 0; made && i < (with_error ? 7 : 2); i++) made = (*planes[i] = malloc(pixel_count * values[i] * sizeof(float))) != NULL;
+    if (made && with_cut) made = (picture->clamped = malloc(pixel_count * 2 * sizeof(float))) != NULL;
+    if (made) return EC_OK;
+    ec_picture_free(picture);
+    return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", width, rows);
+}
+
+void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows)
+{
+    const size_t pixel_count = (size_t)film->width * rows;
+    const ec_planes planes = {.rgb = picture->rgb, .stderr_rgb = picture->stderr_rgb, .stderr_y = picture->stderr_y,
+                              .samples = picture->constants, .samples_stride = 2, .clamped = picture->clamped,
+                              .intervals = {picture->low, picture->high, picture->heavy}};
+    picture->height = rows;
+    picture->aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
+    picture->heavy_count = ec_film_resolve_rows(film, first, rows, &planes, picture->room);
+    for (size_t i = 0; i < pixel_count; i++) picture->constants[2 * i + 1] = 1;
+}
+
+ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t rows)
+{
+    const size_t before = (size_t)first * picture->width;
+    ec_picture here = {.width = picture->width, .height = rows, .rgb = picture->rgb + 3 * before, .constants = picture->constants + 2 * before,
+                       .aov = picture->aov ? picture->aov + EC_FILM_FEATURES * before : NULL};
+    if (picture->clamped) here.clamped = picture->clamped + 2 * before;
+    if (!picture->heavy) return here;
+    here.stderr_rgb = picture->stderr_rgb + 3 * before;
+    here.stderr_y = picture->stderr_y + before;
+    here.low = picture->low + 3 * before;
+    here.high = picture->high + 3 * before;
+    here.heavy = picture->heavy + before;
+    return here;
+}
+
+ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err)
+{
+    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && ec_film_replicates(film) >= 2,
+                             with_error && film->limit > 0, err));
+    ec_picture_fill(picture, film, 0, film->height);
+    return EC_OK;
+}
+
+void ec_picture_free(ec_picture *picture)
+{
+    free(picture->rgb);
+    free(picture->stderr_rgb);
+    free(picture->stderr_y);
+    free(picture->low);
+    free(picture->high);
+    free(picture->heavy);
+    free(picture->constants);
+    free(picture->clamped);
+    free(picture->room);
+    *picture = (ec_picture){0};
+}
+
+static void add_channels(ec_channel_list *channels, const float *data, uint32_t stride, uint32_t count, const char *const *names)
+{
+    for (uint32_t i = 0; i < count; i++) channels->list[channels->count++] = (ec_channel){.name = names[i], .data = data + i, .stride = stride};
+}
+
+/* Layers by name, so that every viewer groups them. No error and no first hit: no such channels. */
+void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
+{
+    static const char *const colour[] = {"R", "G", "B"}, *const error[] = {"stderr.R", "stderr.G", "stderr.B"},
+                             *const low[] = {"low95.R", "low95.G", "low95.B"}, *const high[] = {"high95.R", "high95.G", "high95.B"},
+                             *const error_y[] = {"stderr.Y"}, *const heavy[] = {"heavy"}, *const samples[] = {"samples"},
+                             *const alpha[] = {"A"}, *const albedo[] = {"albedo.R", "albedo.G", "albedo.B"},
+                             *const normal[] = {"normal.X", "normal.Y", "normal.Z"}, *const depth[] = {"depth.Z"},
+                             *const clamped[] = {"clamped.Y", "clamped.stderr"};
+    channels->count = 0;
+    add_channels(channels, picture->rgb, 3, 3, colour);
+    add_channels(channels, picture->constants, 2, 1, samples);
+    if (picture->stderr_rgb) {
+        add_channels(channels, picture->stderr_rgb, 3, 3, error);
+        add_channels(channels, picture->stderr_y, 1, 1, error_y);
+        add_channels(channels, picture->low, 3, 3, low);
+        add_channels(channels, picture->high, 3, 3, high);
+        add_channels(channels, picture->heavy, 1, 1, heavy);
+    }
+    if (picture->clamped) add_channels(channels, picture->clamped, 2, 2, clamped);
+    const float *aov = picture->aov;
+    if (!aov) {
+        add_channels(channels, picture->constants + 1, 2, 1, alpha);
+        return;
+    }
+    add_channels(channels, aov + AOV_ALPHA, EC_FILM_FEATURES, 1, alpha);
+    add_channels(channels, aov + AOV_ALBEDO, EC_FILM_FEATURES, 3, albedo);
+    add_channels(channels, aov + AOV_NORMAL, EC_FILM_FEATURES, 3, normal);
+    add_channels(channels, aov + AOV_DEPTH, EC_FILM_FEATURES, 1, depth);
+}
+
+ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
+{
+    ec_channel_list channels;
+    ec_picture_channels(picture, &channels);
+    const ec_exr_part part = {.channels = channels.list, .channel_count = channels.count, .attributes = style->attributes,
+                              .attribute_count = style->attribute_count};
+    if (style->job) return ec_store_write(path, style->job, style->film, style->past, &part, err);
+    return ec_exr_write(path, picture->width, picture->height, channels.list, channels.count, style->attributes,
+                        style->attribute_count, err);
+}
+
+static ec_result write_png(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
+{
+    size_t pixel_count = (size_t)picture->width * picture->height;
+    uint8_t *bytes = malloc(pixel_count * 3);
+    if (!bytes) return ec_fail(err, "out of memory for '%s'", path);
+    ec_tonemap_rgb(picture->rgb, bytes, pixel_count, style->exposure, style->tonemap);
+    ec_result result = ec_png_write(path, picture->width, picture->height, bytes, err);
+    free(bytes);
+    return result;
+}
+
+void ec_output_settle(ec_output *output)
+{
+    char absolute[PATH_MAX];
+    if (realpath(output->path, absolute)) snprintf(output->path, sizeof output->path, "%s", absolute);
+}
+
+ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
+{
+    ec_result result = EC_OK;
+    for (int i = 0; i < outputs->count; i++) {
+        ec_output *output = &outputs->file[i];
+        ec_error *first = result == EC_OK ? err : NULL; /* the first failure is told */
+        ec_result written = output->kind == EC_OUTPUT_PNG ? write_png(output->path, picture, style, first)
+                                                          : ec_picture_write_exr(output->path, picture, style, first);
+        if (written != EC_OK) {
+            result = written;
+            continue;
+        }
+        ec_output_settle(output);
+    }
+    return result;
+}

@@ -1,0 +1,68 @@
+/* Film to files. */
+#ifndef EC_JOBS_WRITE_OUTPUTS_H
+#define EC_JOBS_WRITE_OUTPUTS_H
+
+#include "jobs/outputs.h"
+#include "film/resolve.h"
+#include "image/image.h"
+#include "store/store.h"
+
+/* Float planes of a film or of some of its rows, ready to be written and hashed. 64 bytes a pixel, 20 where no error is known. */
+typedef struct ec_picture {
+    uint32_t width, height;
+    float *rgb;        /* 3 per pixel, owned */
+    /* The error of each pixel; all NULL with fewer than two replicates. Owned. */
+    float *stderr_rgb; /* 3 per pixel */
+    float *stderr_y;   /* 1 per pixel: of luminance */
+    float *low, *high; /* 3 per pixel: 95 % interval */
+    float *heavy;      /* 1 per pixel: see film/interval.h */
+    uint64_t heavy_count;
+    float *clamped;    /* 2 per pixel: luminance that a clamp took away, and its standard error; NULL: there is none. Owned */
+    float *constants;  /* 2 per pixel: samples, and the alpha of a film without first-hit features; owned */
+    ec_pixel *room;    /* for ec_film_resolve_rows; owned */
+    const float *aov;  /* the film's: 8 per pixel, or NULL */
+} ec_picture;
+
+/* with_error false: what is known of the error stays NULL in any case. */
+ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
+
+/* A picture in pieces: create makes room for `rows` rows, fill writes rows [first, first + rows) of the film there. */
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_cut, ec_error *err);
+void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
+
+/* A part of it, which owns nothing: to be filled by itself. */
+ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t rows);
+
+/* What of it goes into an EXR. No error and no first hit: no such channels. */
+enum { EC_CHANNELS_MAX = 26 };
+typedef struct ec_channel_list {
+    ec_channel list[EC_CHANNELS_MAX];
+    uint32_t count;
+} ec_channel_list;
+void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels);
+
+void ec_picture_free(ec_picture *picture); /* zero-initialised ones are fine */
+
+typedef struct ec_picture_style {
+    float exposure; /* EV, PNG only */
+    ec_tonemap tonemap;
+    const ec_attribute *attributes; /* EXR only */
+    uint32_t attribute_count;
+    ec_png_text text; /* PNG: kept in it by ec_row_writer */
+    bool is_sealed;   /* EXR, by ec_row_writer: damage is to be known */
+    /* EXR only: with sums, to go on from or to merge; all NULL: a picture alone */
+    const ec_job *job;
+    const ec_film *film;
+    const ec_past *past;
+} ec_picture_style;
+
+/* One EXR, as ec_outputs_write does it. */
+ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err);
+
+/* Once it is written: its absolute path. */
+void ec_output_settle(ec_output *output);
+
+/* Writes every output and makes its path absolute. One that fails does not keep the others from being written. */
+ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const ec_picture_style *style, ec_error *err);
+
+#endif

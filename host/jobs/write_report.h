@@ -1,0 +1,28 @@
+/* A film with its report to the files that were asked for. */
+#ifndef EC_JOBS_WRITE_REPORT_H
+#define EC_JOBS_WRITE_REPORT_H
+
+#include "jobs/hash.h"
+#include "jobs/outputs.h"
+#include "jobs/write_rows.h"
+#include "film/film.h"
+#include "report/render_report.h"
+#include "store/store.h"
+
+/* What makes the picture a part of a job that `eclat merge` can add to others. */
+typedef struct ec_slice {
+    const ec_job *job;
+    const ec_past *past;
+} ec_slice;
+
+/* The same of rows as they come: open with what is known by then, as of `film`; put all of the rows; close with what has
+ * become known meanwhile. outputs and report must live as long. */
+ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height,
+                              ec_render_report *report, uint32_t room, ec_error *err);
+ec_result ec_report_rows_close(ec_row_writer *writer, ec_render_report *report, const ec_rows_told *told, ec_error *err);
+
+/* slice may be NULL. Counts the report's heavy pixels, hashes the picture into sha256 (to which the report may point already), and writes. */
+ec_result ec_write_report(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report,
+                          char sha256[EC_HASH_SIZE], ec_error *err);
+
+#endif

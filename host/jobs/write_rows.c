@@ -1,0 +1,310 @@
+/* A band of rows is resolved, hashed and handed to every file, by all threads. A pixel's interval looks at the rows around it, so that the last
+ * SEAM rows of what has come wait for the rows below; with them, and what they look at above, wait SEAM + REACH rows of the film. */
+#include "jobs/write_rows.h"
+
+#include <float.h>
+#include <math.h>
+#include <omp.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "film/interval.h"
+
+enum { CHUNKS_A_THREAD = 2, SEAM = EC_EXR_ROWS, REACH = EC_INTERVAL_REACH, WAITING = SEAM + REACH, AROUND = SEAM + 2 * REACH };
+
+struct ec_row_writer {
+    ec_outputs *outputs;
+    ec_exr_rows *exr[EC_OUTPUTS_MAX]; /* NULL: no EXR, or one that failed */
+    ec_png_rows *png[EC_OUTPUTS_MAX];
+    ec_error why;                     /* what failed first; empty: nothing */
+    uint32_t width, height, replicates;
+    ec_rare rare;
+    double limit;
+    uint32_t band_rows;               /* a multiple of SEAM */
+    uint32_t come, written;           /* rows */
+    ec_film waiting, around;          /* the last rows that have come, at most WAITING; room for what a band looks at */
+    ec_picture band;
+    ec_pixel *rooms;                  /* for ec_film_resolve_rows, of each thread */
+    ec_channel_list channels;         /* of the EXRs' header */
+    ec_exr_part part;
+    uint8_t *bytes;                   /* the band as a PNG has it */
+    float exposure;
+    ec_tonemap tonemap;
+    ec_hash hash;
+    ec_error_sums sums;
+    ec_cut_sums cut;
+    uint64_t heavy;
+};
+
+static void fail_file(ec_row_writer *w, int i, const ec_error *why)
+{
+    if (!*w->why.text) w->why = *why;
+    ec_exr_rows_abort(w->exr[i]);
+    ec_png_rows_abort(w->png[i]);
+    w->exr[i] = NULL;
+    w->png[i] = NULL;
+}
+
+static bool any_left(const ec_row_writer *w)
+{
+    for (int i = 0; i < w->outputs->count; i++)
+        if (w->exr[i] || w->png[i]) return true;
+    return false;
+}
+
+static ec_result told_if_none_is_left(const ec_row_writer *w, ec_error *err)
+{
+    if (any_left(w)) return EC_OK;
+    if (err) *err = w->why;
+    return EC_FAILED;
+}
+
+static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
+{
+    const uint32_t rows = w->height < w->band_rows ? w->height : w->band_rows;
+    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, film->limit > 0, err));
+    w->rooms = malloc((size_t)omp_get_max_threads() * ec_resolve_room(w->width, SEAM) * sizeof *w->rooms);
+    if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
+    w->band.aov = film->aov;
+    ec_picture_channels(&w->band, &w->channels);
+    w->bytes = malloc((size_t)w->width * rows * 3);
+    return w->bytes ? EC_OK : ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
+}
+
+ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec_film *film, uint32_t height,
+                             const ec_picture_style *style, uint32_t room, ec_error *err)
+{
+    ec_row_writer *w = calloc(1, sizeof *w);
+    *made = NULL;
+    if (!w) return ec_fail(err, "out of memory for the picture");
+    w->outputs = outputs;
+    w->width = film->width;
+    w->height = height;
+    w->band_rows = SEAM * CHUNKS_A_THREAD * (uint32_t)omp_get_max_threads();
+    w->replicates = ec_film_replicates(film);
+    if (film->rare) w->rare = *film->rare;
+    w->limit = film->limit;
+    w->exposure = style->exposure;
+    w->tonemap = style->tonemap;
+    ec_hash_begin(&w->hash);
+    if (create(w, film, err) != EC_OK) {
+        ec_row_writer_abort(w);
+        return EC_FAILED;
+    }
+    w->part = (ec_exr_part){.name = "", .channels = w->channels.list, .channel_count = w->channels.count, .attributes = style->attributes,
+                            .attribute_count = style->attribute_count, .is_sealed = style->is_sealed};
+    for (int i = 0; i < outputs->count; i++) {
+        ec_error why = {0};
+        const char *path = outputs->file[i].path;
+        ec_result begun = outputs->file[i].kind == EC_OUTPUT_EXR
+                              ? ec_exr_rows_begin(&w->exr[i], path, w->width, height, &w->part, 1, room, &why)
+                              : ec_png_rows_begin(&w->png[i], path, w->width, height, &style->text, &why);
+        if (begun != EC_OK) fail_file(w, i, &why);
+    }
+    w->part.attributes = NULL; /* those of the end are given then */
+    w->part.attribute_count = 0;
+    if (told_if_none_is_left(w, err) != EC_OK) {
+        ec_row_writer_abort(w);
+        return EC_FAILED;
+    }
+    *made = w;
+    return EC_OK;
+}
+
+/* SEAM rows by each thread in turn: the film is only looked at. */
+static void fill_band(ec_row_writer *w, const ec_film *film, uint32_t first, uint32_t rows)
+{
+    uint64_t heavy = 0;
+    w->band.height = rows;
+    w->band.aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
+#pragma omp parallel for schedule(dynamic, 1) reduction(+ : heavy) if ((uint64_t)w->width * rows > 1 << 14)
+    for (uint32_t k = 0; k < rows; k += SEAM) {
+        const uint32_t count = rows - k < SEAM ? rows - k : SEAM;
+        ec_picture part = ec_picture_rows(&w->band, k, count);
+        part.room = w->rooms + (size_t)omp_get_thread_num() * ec_resolve_room(w->width, SEAM);
+        ec_picture_fill(&part, film, first + k, count);
+        heavy += part.heavy_count;
+    }
+    w->band.heavy_count = heavy;
+}
+
+typedef struct hash_task {
+    ec_hash *hash;
+    const float *rgb;
+    uint64_t pixels;
+} hash_task;
+
+/* One hash cannot be shared out, so that it goes beside the files. */
+static void *hash_band(void *user)
+{
+    const hash_task *task = user;
+    ec_hash_add(task->hash, task->rgb, task->pixels);
+    return NULL;
+}
+
+/* The band, to all files. */
+static void write_band(ec_row_writer *w)
+{
+    const uint32_t rows = w->band.height;
+    const uint64_t pixels = (uint64_t)w->width * rows;
+    ec_channel_list channels;
+    ec_picture_channels(&w->band, &channels);
+    const ec_exr_part part = {.channels = channels.list, .channel_count = channels.count};
+    bool is_toned = false;
+    hash_task task = {&w->hash, w->band.rgb, pixels};
+    pthread_t hasher;
+    const bool is_beside = pthread_create(&hasher, NULL, hash_band, &task) == 0;
+    if (!is_beside) hash_band(&task);
+    w->heavy += w->band.heavy_count;
+    w->written += rows;
+    for (int i = 0; i < w->outputs->count; i++) {
+        ec_error why = {0};
+        if (w->png[i] && !is_toned) ec_tonemap_rgb(w->band.rgb, w->bytes, pixels, w->exposure, w->tonemap);
+        is_toned |= w->png[i] != NULL;
+        if (w->exr[i] && ec_exr_rows_put(w->exr[i], &part, rows, &why) != EC_OK) fail_file(w, i, &why);
+        if (w->png[i] && ec_png_rows_put(w->png[i], w->bytes, rows, &why) != EC_OK) fail_file(w, i, &why);
+    }
+    if (is_beside) pthread_join(hasher, NULL);
+}
+
+static uint32_t first_waiting(const ec_row_writer *w) { return w->come < WAITING ? 0 : w->come - WAITING; }
+
+/* Rows [from, to) of the picture into the first of `to_film`: of those that wait, and of `film`, which comes after them (NULL: nothing does). */
+static void gather(const ec_row_writer *w, const ec_film *film, uint32_t from, uint32_t to, ec_film *to_film)
+{
+    uint32_t seam = to < w->come ? to : w->come < from ? from : w->come;
+    if (from < seam) ec_film_copy_rows(to_film, 0, &w->waiting, from - first_waiting(w), seam - from);
+    if (seam < to) ec_film_copy_rows(to_film, seam - from, film, seam - w->come, to - seam);
+}
+
+/* A film of the picture's rows from `first_row` on. */
+static void fill_band_from(ec_row_writer *w, const ec_film *film, uint32_t first_row, uint32_t first, uint32_t rows)
+{
+    ec_rare rare = w->rare;
+    ec_film here = *film;
+    rare.row = first_row;
+    here.rare = rare.count ? &rare : NULL;
+    fill_band(w, &here, first, rows);
+}
+
+/* Up to row `end`; the film's rows come after those that wait. */
+static void write_up_to(ec_row_writer *w, const ec_film *film, uint32_t end)
+{
+    const uint32_t all = w->come + (film ? film->height : 0);
+    while (w->written < end) {
+        const uint32_t first = w->written, from = first < REACH ? 0 : first - REACH, most = from < w->come ? SEAM : w->band_rows;
+        const uint32_t rows = end - first < most ? end - first : most, to = all - first - rows < REACH ? all : first + rows + REACH;
+        if (from >= w->come) {
+            fill_band_from(w, film, w->come, first - w->come, rows);
+        } else {
+            gather(w, film, from, to, &w->around);
+            ec_film around = w->around;
+            around.height = to - from;
+            fill_band_from(w, &around, from, first - from, rows);
+        }
+        write_band(w);
+    }
+}
+
+static ec_result make_room(const ec_film *like, ec_film *film, ec_error *err)
+{
+    return film->width ? EC_OK : ec_film_create_like(film, like, AROUND, err);
+}
+
+/* The last rows, for what comes after them. */
+static ec_result keep_waiting(ec_row_writer *w, const ec_film *film, ec_error *err)
+{
+    const uint32_t all = w->come + film->height, from = all < WAITING ? 0 : all - WAITING;
+    EC_TRY(make_room(film, &w->waiting, err));
+    EC_TRY(make_room(film, &w->around, err));
+    gather(w, film, from, all, &w->around);
+    const ec_film other = w->waiting;
+    w->waiting = w->around;
+    w->around = other;
+    return EC_OK;
+}
+
+ec_result ec_row_writer_put(ec_row_writer *w, const ec_film *film, ec_error *err)
+{
+    const uint32_t all = w->come + film->height;
+    ec_film_sum_errors(film, &w->sums);
+    ec_film_sum_cut(film, &w->cut);
+    write_up_to(w, film, all == w->height ? all : all - SEAM);
+    if (all < w->height) EC_TRY(keep_waiting(w, film, err));
+    w->come = all;
+    return told_if_none_is_left(w, err);
+}
+
+uint32_t ec_row_writer_rows(const ec_row_writer *w) { return w->come; }
+
+/* Nothing is known of these: an error of 0 in a pixel that is heavy is a lower bound. */
+static void blank_band(ec_row_writer *w, uint32_t rows, const float *no_features)
+{
+    const size_t pixels = (size_t)w->width * rows;
+    ec_picture *b = &w->band;
+    b->height = rows;
+    b->aov = no_features;
+    memset(b->rgb, 0, pixels * 12);
+    memset(b->constants, 0, pixels * 8);
+    if (b->clamped) memset(b->clamped, 0, pixels * 8);
+    if (!b->heavy) return;
+    memset(b->stderr_rgb, 0, pixels * 12);
+    memset(b->stderr_y, 0, pixels * 4);
+    memset(b->low, 0, pixels * 12);
+    for (size_t i = 0; i < 3 * pixels; i++) b->high[i] = FLT_MAX;
+    for (size_t i = 0; i < pixels; i++) b->heavy[i] = 1;
+    b->heavy_count = pixels;
+}
+
+ec_result ec_row_writer_finish(ec_row_writer *w, ec_rows_told *told, ec_error *err)
+{
+    const bool is_whole = w->come == w->height;
+    float *no_features = NULL;
+    write_up_to(w, NULL, w->come);
+    if (!is_whole && w->band.aov && !(no_features = calloc((size_t)w->width * w->band_rows, EC_FILM_FEATURES * sizeof *no_features)))
+        return ec_fail(err, "out of memory for rows of a picture");
+    while (w->written < w->height) {
+        blank_band(w, w->height - w->written < w->band_rows ? w->height - w->written : w->band_rows, no_features);
+        write_band(w);
+    }
+    free(no_features);
+    *told = (ec_rows_told){.rows = w->come, .replicates = w->replicates, .heavy = w->heavy};
+    told->error = ec_film_error_of(&w->sums, (double)w->width * w->height, w->replicates, &w->rare, w->limit);
+    if (!is_whole) told->error.error = told->error.error_bound = told->error.relmse = INFINITY;
+    told->clamp = ec_clamp_error_of(&w->cut, &told->error, (double)w->width * w->height);
+    ec_hash_end(&w->hash, told->sha256);
+    return EC_OK;
+}
+
+ec_result ec_row_writer_close(ec_row_writer *w, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err)
+{
+    for (int i = 0; i < w->outputs->count; i++) {
+        ec_error why = {0};
+        ec_result ended = w->exr[i] ? ec_exr_rows_end(w->exr[i], attributes, attribute_count, &why) : w->png[i] ? ec_png_rows_end(w->png[i], &why) : EC_OK;
+        bool had = w->exr[i] || w->png[i];
+        w->exr[i] = NULL;
+        w->png[i] = NULL;
+        if (ended != EC_OK) fail_file(w, i, &why);
+        else if (had) ec_output_settle(&w->outputs->file[i]);
+    }
+    ec_result result = *w->why.text ? EC_FAILED : EC_OK;
+    if (result != EC_OK && err) *err = w->why;
+    ec_row_writer_abort(w);
+    return result;
+}
+
+void ec_row_writer_abort(ec_row_writer *w)
+{
+    if (!w) return;
+    for (int i = 0; i < w->outputs->count; i++) {
+        ec_exr_rows_abort(w->exr[i]);
+        ec_png_rows_abort(w->png[i]);
+    }
+    ec_film_destroy(&w->waiting);
+    ec_film_destroy(&w->around);
+    ec_picture_free(&w->band);
+    free(w->rooms);
+    free(w->bytes);
+    free(w);
+}

@@ -1,0 +1,236 @@
+/* libeclat by its public functions alone: options, pictures, stopping, threads, files, and that it prints nothing. */
+#include <eclat/eclat.h>
+
+#include <math.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "support/test.h"
+
+#define SCENE ECLAT_SOURCE_DIR "/scenes/cornell-box/cornell-box.gltf"
+#define OUT ECLAT_TEST_OUT "/library-"
+
+static eclat_job *make_job(const char *spp)
+{
+    eclat_error err;
+    eclat_job *job = NULL;
+    CHECK_MSG(eclat_job_new(SCENE, &job, &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_job_set(job, "size", "24x16", &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_job_set(job, "spp", spp, &err) == ECLAT_OK, "%s", err.text);
+    return job;
+}
+
+static eclat_picture *render(eclat_job *job)
+{
+    eclat_error err;
+    eclat_picture *picture = NULL;
+    CHECK_MSG(eclat_job_render(job, &picture, &err) == ECLAT_OK, "%s", err.text);
+    if (!picture) exit(1);
+    return picture;
+}
+
+static bool is_alike(const eclat_picture *a, const eclat_picture *b, const char *name)
+{
+    const eclat_channel x = eclat_picture_channel(a, name), y = eclat_picture_channel(b, name);
+    bool same = x.data && y.data && eclat_picture_width(a) == eclat_picture_width(b) && eclat_picture_height(a) == eclat_picture_height(b);
+    const size_t pixels = (size_t)eclat_picture_width(a) * eclat_picture_height(a);
+    for (size_t i = 0; same && i < pixels; i++) same = x.data[i * x.stride] == y.data[i * y.stride];
+    return same;
+}
+
+static void test_options(void)
+{
+    eclat_error err;
+    eclat_job *job = make_job("8");
+    size_t count = 0;
+    while (eclat_option_at(count).name) count++;
+    CHECK(count > 40 && !eclat_option_at(count + 5).name);
+    CHECK(eclat_job_set(job, "sppp", "8", &err) == ECLAT_USAGE && strstr(err.text, "sppp"));
+    CHECK(eclat_job_set(job, "spp", "0", &err) == ECLAT_USAGE && strstr(err.text, "spp"));
+    CHECK(eclat_job_set(job, "spp", NULL, &err) == ECLAT_USAGE && eclat_job_set(job, "overwrite", "yes", &err) == ECLAT_USAGE);
+    CHECK(eclat_job_set(job, "json", NULL, &err) == ECLAT_USAGE && strstr(err.text, "command line"));
+    CHECK(eclat_job_set(job, "adaptive", NULL, &err) == ECLAT_OK && eclat_job_set(job, NULL, NULL, NULL) == ECLAT_USAGE);
+    CHECK(!strcmp(eclat_version(), EC_VERSION));
+    /* What does not go together is said when it renders, and so is a scene that is not there. */
+    eclat_picture *picture = (eclat_picture *)job;
+    CHECK(eclat_job_set(job, "samples", "0:8", &err) == ECLAT_OK);
+    CHECK(eclat_job_render(job, &picture, &err) == ECLAT_USAGE && !picture && strstr(err.text, "--adaptive"));
+    eclat_job_free(job);
+    CHECK(eclat_job_new("no-such-scene.gltf", &job, &err) == ECLAT_OK);
+    CHECK(eclat_job_render(job, &picture, &err) == ECLAT_FAILED && !picture && strstr(err.text, "no-such-scene.gltf"));
+    eclat_job_free(job);
+    CHECK(eclat_job_new("", &job, &err) == ECLAT_USAGE && !job);
+    eclat_job_free(NULL);
+    eclat_picture_free(NULL);
+}
+
+static void test_picture(void)
+{
+    eclat_error err;
+    eclat_job *job = make_job("64");
+    CHECK(eclat_job_set(job, "seed", "7", &err) == ECLAT_OK);
+    eclat_picture *picture = render(job), *other = render(job);
+    eclat_job_free(job); /* pictures outlive it */
+    CHECK(eclat_picture_width(picture) == 24 && eclat_picture_height(picture) == 16);
+    const eclat_picture_error error = eclat_picture_get_error(picture);
+    CHECK(error.error > 0.001 && error.error < 1 && error.error_bound > error.error && isfinite(error.error_bound) && !error.why);
+    CHECK(error.samples_per_pixel == 64 && error.replicates > 1 && error.mean_luminance > 0);
+    CHECK(eclat_picture_channel(picture, "stderr.Y").data && !eclat_picture_channel(picture, "X").data);
+    CHECK(eclat_picture_channel_count(picture) > 10 && eclat_picture_channel_at(picture, 0).data && !eclat_picture_channel_at(picture, 999).name);
+    CHECK(!strcmp(eclat_picture_attribute(picture, "eclat.seed").text, "7"));
+    CHECK(eclat_picture_attribute(picture, "eclat.error").number == error.error && !eclat_picture_attribute(picture, "eclat.error").text);
+    CHECK(strstr(eclat_picture_attribute(picture, "eclat.command").text, "--seed=7") != NULL);
+    CHECK(!eclat_picture_attribute(picture, "eclat.none").name && eclat_picture_attribute_count(picture) > 20);
+    CHECK(is_alike(picture, other, "R") && is_alike(picture, other, "stderr.G"));
+
+    eclat_comparison comparison;
+    CHECK_MSG(eclat_picture_write(picture, OUT "a.exr", &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_picture_write(picture, OUT "a.png", &err) == ECLAT_OK, "%s", err.text);
+    CHECK(eclat_picture_write(picture, OUT "a.gif", &err) != ECLAT_OK && access(OUT "a.gif", F_OK) != 0);
+    CHECK(eclat_picture_write(picture, OUT "none/a.exr", &err) == ECLAT_FAILED && strstr(err.text, "none"));
+    CHECK_MSG(eclat_compare(OUT "a.exr", OUT "a.exr", &comparison, &err) == ECLAT_OK, "%s", err.text);
+    CHECK(comparison.rmse == 0 && !comparison.differ && comparison.p > 0.05);
+    CHECK(eclat_compare(OUT "a.exr", "none.exr", &comparison, &err) == ECLAT_FAILED);
+    eclat_picture_free(picture);
+    eclat_picture_free(other);
+}
+
+/* What the listener hears, and when it stops the render. */
+typedef struct heard {
+    eclat_job *job;
+    atomic_int events;
+    int messages, stops_by; /* 0: not; 1: its answer; 2: eclat_job_stop */
+} heard;
+
+static void count_message(void *user, eclat_severity severity, const char *text)
+{
+    ((heard *)user)->messages += severity <= ECLAT_FAILURE && *text;
+}
+
+static int count_progress(void *user, const eclat_progress *progress)
+{
+    heard *h = user;
+    atomic_fetch_add(&h->events, 1);
+    CHECK(progress->fraction >= 0 && progress->fraction <= 1);
+    if (h->stops_by == 2) eclat_job_stop(h->job);
+    return h->stops_by != 1;
+}
+
+static void *stop_after_progress(void *user)
+{
+    heard *h = user;
+    while (atomic_load(&h->events) == 0) sched_yield();
+    eclat_job_stop(h->job);
+    return NULL;
+}
+
+static void test_stopping(void)
+{
+    for (int how = 0; how < 3; how++) { /* by another thread, by the answer, within the callback */
+        eclat_job *job = make_job("16000000");
+        heard h = {.job = job, .stops_by = how};
+        const eclat_listener listener = {.user = &h, .message = count_message, .progress = count_progress};
+        pthread_t thread;
+        eclat_job_listen(job, &listener);
+        if (how == 0) pthread_create(&thread, NULL, stop_after_progress, &h);
+        eclat_picture *picture = render(job);
+        if (how == 0) pthread_join(thread, NULL);
+        CHECK(eclat_picture_get_error(picture).samples_per_pixel < 16000000 && h.messages > 0 && h.events > 0);
+        CHECK(!strcmp(eclat_picture_attribute(picture, "eclat.stoppedBy").text, "user"));
+        eclat_picture_free(picture);
+        CHECK(eclat_job_set(job, "spp", "8", NULL) == ECLAT_OK);
+        h.stops_by = 0;
+        picture = render(job); /* a stop is of one render */
+        CHECK(eclat_picture_get_error(picture).samples_per_pixel == 8);
+        eclat_picture_free(picture);
+        eclat_job_free(job);
+    }
+}
+
+static void *render_apart(void *job) { return render(job); }
+
+static void test_threads(void)
+{
+    enum { THREADS = 3 };
+    pthread_t threads[THREADS];
+    eclat_job *jobs[THREADS];
+    void *pictures[THREADS];
+    for (int i = 0; i < THREADS; i++) {
+        jobs[i] = make_job("32");
+        CHECK(pthread_create(&threads[i], NULL, render_apart, jobs[i]) == 0);
+    }
+    for (int i = 0; i < THREADS; i++) pthread_join(threads[i], &pictures[i]);
+    for (int i = 1; i < THREADS; i++) CHECK(is_alike(pictures[0], pictures[i], "G"));
+    for (int i = 0; i < THREADS; i++) eclat_picture_free(pictures[i]), eclat_job_free(jobs[i]);
+}
+
+static void test_files(void)
+{
+    static const char *const slices[] = {OUT "0.exr", OUT "1.exr"}, *const samples[] = {"0:64", "64:128"};
+    eclat_error err;
+    eclat_job *job = make_job("128");
+    eclat_picture *whole = render(job), *merged = NULL;
+    for (int i = 0; i < 2; i++) {
+        eclat_job *slice = make_job("128");
+        CHECK(eclat_job_set(slice, "samples", samples[i], &err) == ECLAT_OK && eclat_job_set(slice, "output", slices[i], &err) == ECLAT_OK);
+        eclat_picture *part = render(slice);
+        CHECK(eclat_picture_get_error(part).samples_per_pixel == 64);
+        eclat_picture_free(part);
+        eclat_job_free(slice);
+    }
+    CHECK(eclat_merge(slices, 1, 0, NULL, &merged, &err) == ECLAT_FAILED && !merged && strstr(err.text, "64:128"));
+    CHECK_MSG(eclat_merge(slices, 2, 0, NULL, &merged, &err) == ECLAT_OK, "%s", err.text);
+    CHECK(is_alike(whole, merged, "R") && is_alike(whole, merged, "stderr.B"));
+    CHECK(eclat_picture_get_error(merged).error == eclat_picture_get_error(whole).error);
+    CHECK(eclat_picture_attribute(merged, "eclat.samplesPerPixel").number == 128);
+    CHECK_MSG(eclat_picture_write(merged, OUT "merged.exr", &err) == ECLAT_OK, "%s", err.text);
+    eclat_picture_free(whole);
+    eclat_picture_free(merged);
+    eclat_job_free(job);
+    CHECK(eclat_merge(NULL, 0, 0, NULL, &merged, &err) == ECLAT_USAGE);
+}
+
+static void test_devices(void)
+{
+    eclat_error err;
+    eclat_device *devices;
+    size_t count, usable = 0;
+    CHECK_MSG(eclat_devices_list(&devices, &count, &err) == ECLAT_OK, "%s", err.text);
+    for (size_t i = 0; i < count; i++) usable += devices[i].is_usable && *devices[i].name && devices[i].compute_units > 0;
+    CHECK(usable > 0);
+    eclat_devices_free(devices);
+}
+
+/* Everything with both standard streams in a file, which stays empty. */
+int main(void)
+{
+    const char *path = OUT "printed.txt";
+    FILE *printed = fopen(path, "w+");
+    const int out = dup(STDOUT_FILENO), error = dup(STDERR_FILENO);
+    if (!printed) return 1;
+    test_devices();
+    test_options();
+    fflush(stdout);
+    dup2(fileno(printed), STDOUT_FILENO);
+    dup2(fileno(printed), STDERR_FILENO);
+    eclat_picture *picture = NULL;
+    eclat_job *job = make_job("16");
+    const eclat_result result = eclat_job_render(job, &picture, NULL);
+    eclat_picture_free(picture);
+    eclat_job_free(job);
+    fflush(NULL);
+    const off_t size = lseek(fileno(printed), 0, SEEK_END);
+    dup2(out, STDOUT_FILENO);
+    dup2(error, STDERR_FILENO);
+    CHECK_MSG(result == ECLAT_OK && size == 0, "a render printed %ld bytes to %s", (long)size, path);
+    fclose(printed);
+    test_picture();
+    test_stopping();
+    test_threads();
+    test_files();
+    TEST_END();
+}
