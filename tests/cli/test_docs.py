@@ -1,5 +1,6 @@
 """README and manual: links lead somewhere, commands are known to the program, generated parts are fresh, the site builds and asks nobody."""
 import glob
+import json
 import os
 import re
 import shlex
@@ -10,7 +11,7 @@ import unicodedata
 import unittest
 
 from browser import CHROMIUM, Browser
-from support import SOURCE, Case, eclat
+from support import CORNELL, QUICK, SOURCE, Case, eclat, read_exr
 
 ROOT = os.path.realpath(SOURCE)
 MANUAL = [os.path.join(ROOT, "README.md"), *sorted(glob.glob(os.path.join(ROOT, "docs", "*.md")))]
@@ -114,6 +115,29 @@ class Text(Case):
         for tool in ("docs_cli.py", "docs_tables.py"):
             run = subprocess.run([sys.executable, os.path.join(ROOT, "tools", tool), "--check"], capture_output=True, text=True, env=environment)
             self.assertEqual(run.returncode, 0, run.stderr)
+
+
+class Facts(Case):
+    """What the manual lists is what the program has."""
+
+    def test_json_keys_and_channels(self):
+        page = read(os.path.join(ROOT, "docs", "library.md"))
+        keys, channels = (re.findall(r"^\| (`.*?) \|", page.split(head)[1].split("\n\n")[0], re.M) for head in ("| key of a render |", "| channel |"))
+        run = self.assert_ok(eclat("render", CORNELL, *QUICK, "--size", "8x8", "--spp", "8", "--clamp", "10", "--json", "-q", "-o", "a.exr", cwd=self.folder))
+        report, planes = json.loads(run.stdout), read_exr(self.path("a.exr"))[1]
+        for key in re.findall(r"`(\w+)`", " ".join(keys)):
+            self.assertIn(key, report)
+        listed, stem = set(), ""
+        for name in re.findall(r"`([\w.]+)`", " ".join(channels)):
+            stem = stem if name.startswith(".") else name.split(".")[0]
+            listed.add(stem + name if name.startswith(".") else name)
+        self.assertEqual(listed, set(planes))
+
+    def test_extensions(self):
+        listed = re.findall(r"^\| `((?:KHR|EXT)_\w+)` \|", read(os.path.join(ROOT, "docs", "materials.md")).split("## Extensions")[1].split("## ")[0], re.M)
+        known = re.findall(r'"((?:KHR|EXT)_\w+)"', read(os.path.join(ROOT, "host", "scene", "gltf_shim.cpp")))
+        self.assertEqual(sorted(listed), sorted(set(known) - {"KHR_texture_basisu"}))  # which is never decoded
+        self.assertIn(f"[{len(listed)} extensions]", read(MANUAL[0]))
 
 
 class Pictures(unittest.TestCase):
