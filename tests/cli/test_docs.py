@@ -11,7 +11,7 @@ import unicodedata
 import unittest
 
 from browser import CHROMIUM, Browser
-from support import CORNELL, QUICK, SOURCE, Case, eclat, read_exr
+from support import CORNELL, SOURCE, Case, eclat, read_exr
 
 ROOT = os.path.realpath(SOURCE)
 MANUAL = [os.path.join(ROOT, "README.md"), *sorted(glob.glob(os.path.join(ROOT, "docs", "*.md")))]
@@ -123,7 +123,7 @@ class Facts(Case):
     def test_json_keys_and_channels(self):
         page = read(os.path.join(ROOT, "docs", "library.md"))
         keys, channels = (re.findall(r"^\| (`.*?) \|", page.split(head)[1].split("\n\n")[0], re.M) for head in ("| key of a render |", "| channel |"))
-        run = self.assert_ok(eclat("render", CORNELL, *QUICK, "--size", "8x8", "--spp", "8", "--clamp", "10", "--json", "-q", "-o", "a.exr", cwd=self.folder))
+        run = self.assert_ok(eclat("render", CORNELL, "--lanes", "4", "--size", "8x8", "--spp", "8", "--clamp", "10", "--json", "-q", "-o", "a.exr", cwd=self.folder))
         report, planes = json.loads(run.stdout), read_exr(self.path("a.exr"))[1]
         self.assertEqual(set(re.findall(r"`(\w+)`", " ".join(keys))) - set(report), set())
         listed, stem = set(), ""
