@@ -2,7 +2,7 @@
 """Flattens kernel sources and writes them as C strings.
 
 An #include "x" is looked for beside the including file, then under --root. #line directives keep the real file and line
-in compiler messages. Every unit starts with FP_CONTRACT OFF (shared/NUMERICS.md: contraction opens cracks).
+in compiler messages. Every unit starts with FP_CONTRACT OFF: contraction opens cracks.
 """
 import argparse
 import os

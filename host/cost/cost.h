@@ -2,7 +2,7 @@
  * 1, 2, 4, … samples a pixel, each in replicates as `eclat render` takes them (film/schedule.h), and compared with a reference of the whole
  * scene, within a budget of time.
  *
- * Definitions, the same as host/README.md's. y is luminance, M the reference's mean of it, all errors are relative to M.
+ * Definitions, as in docs/cost.md. y is luminance, M the reference's mean of it, all errors are relative to M.
  *   error(n)   root of the mean over pixels of (y - reference)^2 for one picture of n samples a pixel, the reference's own variance
  *              subtracted; averaged over the independent pictures of that n
  *   relmse(n)  mean over pixels of (y - reference)^2 / (reference + 0.01)^2, likewise: dark pixels count as much as bright ones

@@ -1,4 +1,4 @@
-/* How far a picture is from a reference, in the usual figures. Definitions are host/README.md's. */
+/* How far a picture is from a reference, in the usual figures. docs/error.md has the definitions. */
 #ifndef EC_FILM_DIFFERENCE_H
 #define EC_FILM_DIFFERENCE_H
 

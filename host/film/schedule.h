@@ -15,7 +15,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define EC_REPLICATES 8        /* R by default: host/README.md says what others cost */
+#define EC_REPLICATES 8        /* R by default: docs/sampling.md says what others cost */
 #define EC_REPLICATES_MOST 16
 #define EC_BATCH_MOST 64u      /* samples of a batch */
 #define EC_PILOT_SAMPLES 4u    /* of each replicate: before these no error is judged */

@@ -47,7 +47,7 @@
     CASE("environment/cube", false, ec_selftest_image_light, "image-based light mirrored, turned back to front, or seamed (EXT_lights_image_based)") \
     CASE("scatter/fresnel", false, ec_selftest_fresnel, "black or bright rims where total reflection sets in")                     \
     CASE("scatter/film", false, ec_selftest_film, "rainbows on films of nothing; black or bright rims")                            \
-    CASE("scatter/ggx", false, ec_selftest_ggx, "narrow lobes from 1 - cos^2: no digit is left at roughness 0.01 (NUMERICS)")      \
+    CASE("scatter/ggx", false, ec_selftest_ggx, "narrow lobes from 1 - cos^2: no digit is left at roughness 0.01")                  \
     CASE("scatter/chi-square", false, ec_selftest_chi_square, "sampled otherwise than divided by")                                 \
     CASE("scatter/energy", false, ec_selftest_energy, "materials that glow")                                                       \
     CASE("scatter/multiple", true, ec_selftest_multiple, "rough metal and glass that darken, or glow")                            \
@@ -63,12 +63,12 @@
     CASE("scatter/sheen", true, ec_selftest_sheen, "velvet that glows or goes black at its rim")                                   \
     CASE("scatter/diffuse transmission", true, ec_selftest_seeping, "leaves that lose light or shine on both sides")               \
     CASE("scatter/dispersion", true, ec_selftest_dispersion, "colours whose sum is not white (Cauchy's index by colour)")          \
-    CASE("numbers/arithmetic", false, ec_selftest_arithmetic, "cracks between triangles: products contracted (NUMERICS: half of all)") \
+    CASE("numbers/arithmetic", false, ec_selftest_arithmetic, "cracks between triangles: products contracted (half of all)")        \
     CASE("numbers/functions", false, ec_selftest_functions, "directions off the sphere")                                           \
     CASE("numbers/not finite", false, ec_selftest_not_finite, "tests for NaN folded away: black pixels that nobody counts")        \
     CASE("numbers/mis weights", false, ec_selftest_mis_weights, "a^2 overflows at 1.8e19: light lost or NaN (Mitsuba 3 zeroes it)")\
     CASE("numbers/roulette", false, ec_selftest_survival, "fireflies from dim paths that survive too often")                       \
-    CASE("numbers/random", false, ec_selftest_random, "numbers of 1 (30 a second, NUMERICS), patterns between pixels")             \
+    CASE("numbers/random", false, ec_selftest_random, "numbers of 1 (30 a second), patterns between pixels")                        \
     CASE("numbers/sums", false, ec_selftest_sums, "pictures that darken with more samples: float sums (-58 % at 1e8)")             \
     CASE("numbers/many samples", true, ec_selftest_many_samples, "pictures that darken with more samples: float sums (-58 % at 1e8)")\
     CASE("numbers/range", false, ec_selftest_range, "suns that turn black: sums over 3.4e38")                                      \

@@ -68,7 +68,7 @@ static const shape shapes[] = {
     {"icosphere far away", 4, 0, {1, 1, 1}, {700, -300, 1.0 / 3}, true},
 };
 
-/* NUMERICS A1: Moeller and Trumbore's test misses 9 % of rays aimed at vertices of a closed mesh, 11 % of those at edges. */
+/* Moeller and Trumbore's test misses 9 % of rays aimed at vertices of a closed mesh, 11 % of those at edges. */
 ec_result ec_selftest_watertight(ec_selftest *t, ec_error *err)
 {
     enum { COUNT = sizeof shapes / sizeof shapes[0], LONG_RUNS = 96 }; /* 10^8 rays in all */

@@ -46,7 +46,7 @@ static ec_result leave_all(ec_tracer *r, uint64_t *random, uint32_t first, tally
     return result;
 }
 
-/* NUMERICS A1: without an offset 45 % of such rays meet their triangle again, with a fixed one of 1e-4 41 % at coordinates of 1e6.
+/* Without an offset 45 % of such rays meet their triangle again, with a fixed one of 1e-4 41 % at coordinates of 1e6.
  * What the pipeline does besides, passing through the triangle that a ray leaves, is not in use here. */
 ec_result ec_selftest_self_intersection(ec_selftest *t, ec_error *err)
 {
@@ -125,7 +125,7 @@ static ec_result lit_pixels(ec_selftest *t, double ulps, bool tilted, uint32_t *
     return EC_OK;
 }
 
-/* Under four ulp there is no room for a camera. Offsets that are too large pass through what is near: those of Waechter and Binder are 25 times as long (NUMERICS A1). */
+/* Under four ulp there is no room for a camera. Offsets that are too large pass through what is near: those of Waechter and Binder are 25 times as long. */
 ec_result ec_selftest_gap(ec_selftest *t, ec_error *err)
 {
     for (int tilted = 0; tilted < 2; tilted++) {

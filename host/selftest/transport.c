@@ -151,7 +151,7 @@ ec_result ec_selftest_corridor(ec_selftest *t, ec_error *err)
     return EC_OK;
 }
 
-/* GGX of reflectance 1 scatters once: its directional albedo under light from everywhere, by quadrature (NUMERICS.md, A2). */
+/* GGX of reflectance 1 scatters once: its directional albedo under light from everywhere, by quadrature. */
 ec_result ec_selftest_metal(ec_selftest *t, ec_error *err)
 {
     static const double alphas[] = {0.1, 0.5, 1}, cosines[] = {1, 0.5, 0.1};

@@ -213,8 +213,7 @@ static void brdf_is_reciprocal(void)
               (double)materials[8 * N + at], (double)materials[7 * N + at]);
 }
 
-/* One-bounce albedo of a white metal (Smith, height-correlated), by 2000^2-point quadrature in double over visible normals.
- * (NUMERICS A2 has the same table; its row of alpha = 0.1 is off by up to 3e-4.) */
+/* One-bounce albedo of a white metal (Smith, height-correlated), by 2000^2-point quadrature in double over visible normals. */
 static void albedo_is_that_of_ggx(void)
 {
     static const double expected[9] = {.98831, .96920, .88345, .68785, .69825, .86010, .30685, .45069, .76021};

@@ -58,7 +58,7 @@ static void reflectances(void)
         else if (error > worst) worst = error, worst_at = cosines[i], worst_eta = etas[i];
     }
     printf("fresnel_dielectric: error %.1e, within 1e-6 rad of the critical angle %.1e\n", worst, near);
-    /* NUMERICS.md, A2: cos_t^2 is a difference there, and R falls as its root. */
+    /* cos_t^2 is a difference there, and R falls as its root. */
     CHECK_MSG(worst <= 1e-6, "fresnel_dielectric: error %g at cosine %g, index %.7g", worst, worst_at, worst_eta);
     CHECK_MSG(near <= 2e-3, "fresnel_dielectric: error %g at the critical angle", near);
 }

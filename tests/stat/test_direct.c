@@ -2,7 +2,7 @@
  * number in a check stands beside its derivation. (Lamps that touch what they light: test_near_lamps.c.) */
 #include "support/floor_case.h"
 
-/* Radiance 1 from triangles on a Lambert floor of albedo 0.5; numbers from Nori's polylum.py by way of ASSETS.md. */
+/* Radiance 1 from triangles on a Lambert floor of albedo 0.5; numbers from Nori's polylum.py. */
 static void check_polylum(void)
 {
     static const double expected[3] = {0.0898394, 0.02292, 0.0534198};
@@ -121,7 +121,7 @@ static void check_constant_environment(void)
     gltf_writer *w = floor_scene(0.5);
     check_point(gltf_write(w, "direct-environment"), "2,2,2", 0.6 * 2, ALL, 4096, 2e-3);
     /* Under an infinite-looking half wall: a wall of height 1 along x at z = -1 hides part of the sky. For a long wall the
-     * hidden part of the irradiance is (1 - d / sqrt(d^2 + h^2)) / 2 (NUMERICS.md D 7); here the wall is 2000 long and black:
+     * hidden part of the irradiance is (1 - d / sqrt(d^2 + h^2)) / 2; here the wall is 2000 long and black:
      * the ends cost less than 1e-6. */
     gltf_quad(w, gltf_lambert(w, 0, 0), (double[3]){-1000, 0, -1}, (double[3]){2000, 0, 0}, (double[3]){0, 1, 0});
     check_point(gltf_write(w, "direct-environment-wall"), "2,2,2", 0.6 * 2 * 0.85355339, ALL, 16384, 2e-3);

@@ -1,4 +1,4 @@
-/* Lamps that touch what they light, fill its sky, or are smaller than it can tell (NUMERICS.md A3): the mean in closed form, and
+/* Lamps that touch what they light, fill its sky, or are smaller than it can tell: the mean in closed form, and
  * a relative standard deviation of one sample that stays under 2 wherever the lamp is. By area the latter goes as 1 / distance.
  * (A lamp of two triangles of which one fills the sky has 1.2 from choosing between them.) */
 #include "support/floor_case.h"
@@ -65,7 +65,7 @@ static double form_factor(const double (*corners)[3])
     return lambert(corners, 4, up) / PI;
 }
 
-/* A lamp of 2 x 2 and radiance 3 at height h, its centre over (x, z). Over the middle the form factors are NUMERICS.md A3's.
+/* A lamp of 2 x 2 and radiance 3 at height h, its centre over (x, z). Over the middle the form factors are known in closed form.
  * A point of the lamp is the sum of three rounded products: 1.5e-7 off, it turns its direction from a height h by 1.5e-7 / h, and the
  * mean of many by about the square of that. */
 static void check_above(int askew, double x, double z, double h)

@@ -70,7 +70,22 @@ def print_rows(rows):
         print(f"  {r['figure']:<58} {r['value']:>14} {r['target']:>12}  {met:<8}{r['note']}")
 
 
+def commit():
+    """Of the sources, and its date; nothing where they are no git checkout."""
+    done = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%h %cs"], capture_output=True, text=True)
+    return done.stdout.split() if done.returncode == 0 else ["", ""]
+
+
+def write_table(path, setting, columns, rows):
+    """What tools/docs_tables.py makes a table of docs/ from. Cells are text."""
+    hash_, date = commit()
+    words = [os.path.relpath(sys.argv[0], ROOT) if os.path.exists(sys.argv[0]) else sys.argv[0], *sys.argv[1:]]
+    if "--table" in words:
+        del words[words.index("--table"):words.index("--table") + 2]
+    write_json(path, {"command": " ".join(words), "commit": hash_, "date": date, "setting": setting, "columns": columns, "rows": rows})
+
+
 def write_json(path, data):
     with open(path, "w", encoding="utf-8") as file:
-        json.dump(data, file, indent=1)
+        json.dump(data, file, indent=1, ensure_ascii=False)
         file.write("\n")

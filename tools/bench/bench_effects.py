@@ -118,6 +118,7 @@ def main():
     parser.add_argument("--before", metavar="ECLAT", help="a program of an earlier commit, to take turns with too")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
     parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
+    parser.add_argument("--table", metavar="FILE", help="write the manual's table to FILE: docs/data/effects.json, for tools/docs_tables.py")
     options = parser.parse_args()
     eclat, results, rows = common.eclat_path(options.eclat), [], []
     names = [name for name, _, _ in scenes()]
@@ -132,6 +133,9 @@ def main():
             common.print_rows(rows[-1])
     if options.json:
         common.write_json(options.json, {"scenes": results, "rows": [row for part in rows for row in part]})
+    if options.table:
+        common.write_table(options.table, f"{options.runs} turns of {options.spp} samples at {options.size} pixels", ["figure", "value", "note"],
+                           [[row["figure"], row["value"], row["note"]] for part in rows for row in part])
 
 
 if __name__ == "__main__":

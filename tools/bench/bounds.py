@@ -79,6 +79,7 @@ def parse():
     parser.add_argument("--extra", default="", metavar="OPTIONS", help="options of every render that is judged")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
     parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
+    parser.add_argument("--table", metavar="FILE", help="write the manual's table to FILE: docs/data/bounds.json, for tools/docs_tables.py")
     options = parser.parse_args()
     options.scene = options.scene + (options.scenes.split(",") if options.scenes else []) or list(SCENES)
     for name in options.scene:
@@ -175,6 +176,7 @@ def per_cent(x):
     return "-" if x is None else f"{100 * x:.3g} %" if x < 9.995 else f"{100 * x:.0f} %"
 
 
+BRIEF = ["scene", "bound, medians", "true error, medians", "stated", "of these held"]
 HEAD = ("| scene | reference | samples a pixel | bound, median | true error, median | at most | stated | of these held | refused |\n"
         "|---|---|---|---|---|---|---|---|---|")
 
@@ -189,15 +191,12 @@ def lines(result):
                                   str(c["refused"]))) + " |"
 
 
-def brief(results, budgets):
+def brief(results):
     """The manual's table: a line a scene, figures of the budgets with commas between."""
-    yield f"| scene | bound, medians at {', '.join(budgets)} | true error, medians | renders | stated | of these held |"
-    yield "|---|---|---|---|---|---|"
     for r in results:
         stated, held, renders = (sum(c[k] for c in r["cells"]) for k in ("stated", "held", "count"))
-        row = [r["title"], ", ".join(per_cent(c["bound"]) for c in r["cells"]), ", ".join(per_cent(c["true"]) for c in r["cells"]), str(renders),
+        yield [r["title"], ", ".join(per_cent(c["bound"]) for c in r["cells"]), ", ".join(per_cent(c["true"]) for c in r["cells"]),
                f"{100 * stated / renders:.3g} %", f"{100 * held / stated:.3g} %" if stated else "-"]
-        yield "| " + " | ".join(row) + " |"
 
 
 def rows_of(result):
@@ -224,8 +223,11 @@ def main():
             if options.json:
                 common.write_json(options.json, {"results": results, "rows": rows})
     if results:
-        print("\n" + "\n".join(brief(results, options.budgets.split(","))) + "\n")
+        print()
     common.print_rows(rows)
+    if options.table:
+        common.write_table(options.table, f"{options.seeds} renders of each scene at {options.budgets} samples per pixel, against long renders", BRIEF,
+                           list(brief(results)))
     sys.exit(not all(r["met"] for r in rows))
 
 

@@ -51,6 +51,7 @@ def parse():
     parser.add_argument("--clock", choices=("cpu", "wall"), default="cpu", help="which seconds count; wall needs a quiet machine (default: cpu)")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
     parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
+    parser.add_argument("--table", metavar="FILE", help="write the manual's table to FILE: docs/data/race.json, for tools/docs_tables.py")
     options = parser.parse_args()
     if options.seeds < 2:
         parser.error("--seeds: a spread needs two")
@@ -133,6 +134,17 @@ def rows_of(result):
         yield row(f"efficiency of Mitsuba 3, {result['scene']}, {name}", e["efficiency_ratio"], EFFICIENCY.get(name))
 
 
+def brief(results):
+    """The manual's table: names of its columns, and a line a scene."""
+    ours = [n for n in results[0]["entrants"] if not n.startswith("Mitsuba")]
+    yield ["scene", "samples per second", *(f"efficiency (trimmed), {n}" for n in ours), "mean (± 1 standard error)"]
+    for r in results:
+        entrants = [r["entrants"][n] for n in ours]
+        yield [f"{r['scene']}, {r['size'][0]} x {r['size'][1]}", f"{entrants[0]['rate_ratio']:.2f}",
+               *(f"{e['efficiency_ratio']:.3g} ({e['trimmed_efficiency_ratio']:.3g})" for e in entrants),
+               f"{100 * entrants[0]['off']:+.2f} % ({100 * entrants[0]['off_error']:.2f})"]
+
+
 def main():
     options = parse()
     race_mitsuba.enter(common.fail)
@@ -143,6 +155,9 @@ def main():
         print(f"geometric mean of efficiency, {name}: {math.exp(sum(map(math.log, ratios)) / len(ratios)):.2f}")
     if options.json:
         common.write_json(options.json, {"results": results, "rows": [line for r in results for line in rows_of(r)]})
+    if options.table and results:
+        columns, *rows = brief(results)
+        common.write_table(options.table, f"{options.clock} seconds, Mitsuba {results[0]['mitsuba']}, {options.spp} samples per pixel", columns, rows)
     sys.exit(not results)
 
 
