@@ -125,6 +125,6 @@ double ec_goal_fraction(const ec_goal *g, ec_mark at)
     if (isfinite(g->forecast.seconds) && g->forecast.seconds > 0) return fmin(at.seconds / g->forecast.seconds, 1);
     if (g->samples > 0) f = at.samples / g->samples;
     if (g->seconds > 0) f = fmax(f, at.seconds / g->seconds);
-    if (g->error > 0 && isfinite(g->now.error_bound)) f = fmax(f, pow(g->error / g->now.error_bound, 2 / fmax(g->slope.value, 1)));
+    if (g->error > 0 && g->now.error_bound > 0 && isfinite(g->now.error_bound)) f = fmax(f, pow(g->error / g->now.error_bound, 2 / fmax(g->slope.value, 1)));
     return fmin(f, 1);
 }

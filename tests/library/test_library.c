@@ -104,6 +104,7 @@ typedef struct heard {
     eclat_job *job;
     atomic_int events;
     int messages, stops_by; /* 0: not; 1: its answer; 2: eclat_job_stop */
+    double first_fraction;
 } heard;
 
 static void count_message(void *user, eclat_severity severity, const char *text)
@@ -116,8 +117,22 @@ static int count_progress(void *user, const eclat_progress *progress)
     heard *h = user;
     atomic_fetch_add(&h->events, 1);
     CHECK(progress->fraction >= 0 && progress->fraction <= 1);
+    if (atomic_load(&h->events) == 1) h->first_fraction = progress->fraction;
     if (h->stops_by == 2) eclat_job_stop(h->job);
     return h->stops_by != 1;
+}
+
+/* Before an error is known nothing of the way to it is done. */
+static void test_fraction(void)
+{
+    eclat_error err;
+    eclat_job *job = make_job("16000000");
+    heard h = {.job = job, .stops_by = 1, .first_fraction = -1};
+    eclat_job_listen(job, &(eclat_listener){.user = &h, .progress = count_progress});
+    CHECK(eclat_job_set(job, "error", "0.01%", &err) == ECLAT_OK);
+    eclat_picture_free(render(job));
+    CHECK_MSG(h.first_fraction >= 0 && h.first_fraction < 0.5, "%g of the way is done at first", h.first_fraction);
+    eclat_job_free(job);
 }
 
 static void *stop_after_progress(void *user)
@@ -230,6 +245,7 @@ int main(void)
     fclose(printed);
     test_picture();
     test_stopping();
+    test_fraction();
     test_threads();
     test_files();
     TEST_END();
