@@ -58,7 +58,7 @@ typedef struct ec_accel_kind {
 
 #define EC_GRID_DENSITY 27.0f   /* three cells along each axis for every object that a row holds */
 
-/* Every kind: name, lanes, summary; ec_NAME_accel builds it. Packets come first: trials begin with them (pipeline/trace.c). */
+/* Every kind: name, lanes, summary; ec_NAME_accel builds it. Packets come first: trials begin with them (device/trace.c). */
 #define EC_ACCELS(X)                                                                               \
     X(bvh2, 0, "binary BVH, packets of rays")                                                      \
     X(bvh8, 8, "8-wide BVH, one ray against eight boxes")                                          \

@@ -7,6 +7,7 @@
 #include "jobs/combinations.h"
 #include "jobs/defaults.h"
 #include "jobs/render_job.h"
+#include "device/estimate.h"
 #include "jobs/setters.h"
 #include "report/scene_report.h"
 

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "cli/console.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 
 typedef struct ec_progress_view {
     ec_console *console;

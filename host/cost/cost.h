@@ -15,7 +15,7 @@
 #define EC_COST_COST_H
 
 #include "film/film.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 
 enum { EC_COST_LEVELS_MOST = 15, EC_COST_TARGETS = 4, EC_COST_UNIT = 16 };
 extern const double ec_cost_targets[EC_COST_TARGETS]; /* 5, 2, 1, 0.5 % */

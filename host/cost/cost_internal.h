@@ -3,7 +3,7 @@
 #define EC_COST_COST_INTERNAL_H
 
 #include "cost/cost.h"
-#include "pipeline/session.h"
+#include "render/session.h"
 
 /* Streams of random numbers: the reference's is none of the rungs'. */
 enum { EC_COST_STREAM_REFERENCE = 1, EC_COST_STREAM_RUNGS = 2 };

@@ -2,6 +2,8 @@
 #ifndef EC_FILM_FORECAST_H
 #define EC_FILM_FORECAST_H
 
+#include <stdbool.h>
+
 #include "film/film.h"
 
 /* The squared error falls as samples^-slope: 1 for independent samples, more where their order tells. */
@@ -30,5 +32,17 @@ void ec_slope_add(ec_slope *slope, double samples, const ec_film_error *error);
 /* From here on samples go to the pixels that hold the noise, where their order tells less: halfway between 1 and what it was, and rounds
  * are looked at anew. */
 void ec_slope_restart(ec_slope *slope);
+
+/* Samples and time that the render is foretold to take. Low and high: 95 % interval. Infinite where no limit would end it. */
+typedef struct ec_forecast {
+    double pilot_samples;               /* a pixel, that it is judged by; 0: there was no forecast yet */
+    double pilot_seconds;
+    double samples, samples_low, samples_high; /* a pixel, in all */
+    double seconds, seconds_low, seconds_high; /* of rendering, in all */
+    double error_bound;                 /* of the image then; infinite where it is not known */
+    double slope;                       /* error^2 falls as samples^-slope: 1 for independent samples */
+    bool is_open;                       /* rare bright paths decide (film/rare.h): no error can be foretold */
+    double spread;                      /* relative uncertainty of error^2: over 0.3 a few pixels hold most of it */
+} ec_forecast;
 
 #endif

@@ -1,7 +1,7 @@
 /* Light that hardly any sample meets: paths whose last direction light sampling cannot choose (a mirror's, glass's, the camera's own) and
  * whose light is so small that few of those directions lead to it. While a render expects only a handful of such samples it may have met
  * none: that light is missing, and the samples' spread says nothing of it. How often they come and what they bring is foretold by
- * pipeline/rare_paths.h; here is what that means for an error.
+ * rare/paths.h; here is what that means for an error.
  *
  * What is missing is an error of the size of that light, pixel by pixel: its root mean square. Once samples meet it, however few, they
  * tell of it themselves, in the variance of the pixels that they are in. */

@@ -11,7 +11,7 @@
 #include "jobs/command_line.h"
 #include "image/exr_header.h"
 #include "image/seal.h"
-#include "pipeline/content.h"
+#include "device/content.h"
 #include "store/identity_text.h"
 
 static ec_result note(void *target, const char *option, const char *value, ec_error *err)

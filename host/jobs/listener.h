@@ -3,7 +3,7 @@
 #define EC_JOBS_LISTENER_H
 
 #include "jobs/outputs.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 #include "report/render_report.h"
 
 typedef enum ec_frame_end { EC_FRAME_SKIPPED, EC_FRAME_FAILED } ec_frame_end;

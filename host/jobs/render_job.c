@@ -10,7 +10,7 @@
 #include "jobs/defaults.h"
 #include "jobs/numbers.h"
 #include "jobs/usage.h"
-#include "pipeline/strips.h"
+#include "render/strips.h"
 #include "report/scene_report.h"
 
 /* A slice is its sums: a PNG alone would throw them away. */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "render/goal.h"
 
 enum { PILOT_ROUNDS = 5 }; /* the first ones also warm the device up; a forecast wants EC_PILOT_SAMPLES of each replicate */
 
@@ -103,7 +104,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
                     .batch = a_batch * a_sample, .scene_bytes = s->scene_bytes, .pixels = p.pixels,
                     .batches = batches, .batches_foretold = !options.spp, .samples = a_batch, .replicates = replicates,
                     .gbit = job->request->plan_gbit, .microseconds = job->request->plan_microseconds, .ranks = job->request->plan_ranks};
-    const uint64_t rows = 8ull * options.width, wave = (uint64_t)(s->wave / a_batch); /* as pipeline/team.c cuts them */
+    const uint64_t rows = 8ull * options.width, wave = (uint64_t)(s->wave / a_batch); /* as render/team.c cuts them */
     plan->least = (uint64_t)fmin(fmax((double)rows, (double)wave), (double)plan->pixels);
     return time_sums(&job->film, plan, err);
 }

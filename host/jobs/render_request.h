@@ -10,7 +10,7 @@
 #include "jobs/options.h"
 #include "jobs/outputs.h"
 #include "image/image.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 #include "store/store.h"
 
 /* auto: where an error is asked for. */

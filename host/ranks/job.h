@@ -3,7 +3,7 @@
 #define EC_RANKS_JOB_H
 
 #include "cl/cl.h"
-#include "pipeline/cargo.h"
+#include "device/cargo.h"
 #include "ranks/ranks_internal.h"
 
 /* Rank 0: each rank says which devices it has for the job, by --device as rank 0 was given it, and all get the cargo. Then r->remotes says who

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "film/parts.h"
-#include "pipeline/team.h"
+#include "render/team.h"
 #include "ranks/post.h"
 #include "report/format.h"
 #include "report/json.h"
@@ -34,7 +34,7 @@ typedef struct mixture {
     double largest;           /* batches of a unit */
 } mixture;
 
-/* As pipeline/team_pieces.c chooses: not within the first batches, before all is aligned, and not towards the end, where pieces have to be small. */
+/* As render/team_pieces.c chooses: not within the first batches, before all is aligned, and not towards the end, where pieces have to be small. */
 static mixture mixture_of(const ec_plan *p, uint32_t ranks)
 {
     mixture m = {.largest = 1};

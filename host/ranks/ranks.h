@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "pipeline/sources.h"
+#include "render/sources.h"
 
 /* launch.c: as one of how many was this process started, by an MPI launcher? And as the first of them? Tells by its environment, without MPI. */
 int ec_ranks_launched(void);
@@ -24,7 +24,7 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err);
 int ec_ranks_number(const ec_ranks *ranks); /* this process' */
 int ec_ranks_count(const ec_ranks *ranks);
 
-/* On rank 0: the others as allies of a render (pipeline/sources.h), which find their devices by --device (NULL: not given). Where one has other
+/* On rank 0: the others as allies of a render (render/sources.h), which find their devices by --device (NULL: not given). Where one has other
  * devices than rank 0, `own` by ec_device_drivers, a text that stays, and not all round alike (own_round: these do), there is a warning. */
 ec_allies ec_ranks_allies(ec_ranks *ranks, const char *device, const char *own, bool own_round);
 /* Leaves those that are this process', where several on one host are to use several devices: every n-th, or if there are fewer devices one. */

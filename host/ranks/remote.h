@@ -2,7 +2,7 @@
 #ifndef EC_RANKS_REMOTE_H
 #define EC_RANKS_REMOTE_H
 
-#include "pipeline/team.h"
+#include "render/team.h"
 #include "ranks/ranks_internal.h"
 
 typedef struct ec_remote {

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pipeline/sources.h"
+#include "render/sources.h"
 #include "ranks/job.h"
 #include "ranks/remote.h"
 

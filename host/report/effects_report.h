@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "pipeline/effects.h"
+#include "device/effects.h"
 #include "report/json.h"
 
 /* "effects", the names of what is built in, and "effect_list", an object for each effect there is; "kernels", those launched. */

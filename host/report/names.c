@@ -3,7 +3,7 @@
 #include <stddef.h>
 
 #include "image/image.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 
 const char *const ec_instancing_names[] = {
     [EC_INSTANCING_AUTO] = "auto", [EC_INSTANCING_OFF] = "off", [EC_INSTANCING_ON] = "on", NULL};

@@ -8,7 +8,7 @@
 #include "cl/cl.h"
 #include "film/clamp.h"
 #include "image/image.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 
 /* Of a frame of a sequence. */
 typedef struct ec_frame_facts {

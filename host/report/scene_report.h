@@ -5,8 +5,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "pipeline/effects.h"
-#include "pipeline/probe.h"
+#include "device/effects.h"
+#include "device/probe.h"
 #include "scene/scene.h"
 
 /* One accelerator, measured; refused: why it was not, or empty. */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 #include "selftest/cases.h"
 #include "selftest/tracer.h"
 

@@ -2,7 +2,7 @@
 #ifndef EC_SELFTEST_SHOT_H
 #define EC_SELFTEST_SHOT_H
 
-#include "pipeline/render.h"
+#include "render/render.h"
 #include "selftest/cases.h"
 
 typedef struct ec_shot {

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "pipeline/render.h"
+#include "render/render.h"
 
 typedef struct ec_trait {
     char name[32], value[512];

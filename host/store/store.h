@@ -4,7 +4,7 @@
 #define EC_STORE_STORE_H
 
 #include "image/image.h"
-#include "pipeline/course.h"
+#include "render/course.h"
 #include "store/identity.h"
 
 /* What a file says beside the film. */

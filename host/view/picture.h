@@ -2,7 +2,7 @@
 #ifndef EC_VIEW_PICTURE_H
 #define EC_VIEW_PICTURE_H
 
-#include "pipeline/goal.h"
+#include "render/goal.h"
 #include "view/shared.h"
 
 typedef struct ec_view_picture {

@@ -4,7 +4,7 @@
 
 #include <pthread.h>
 
-#include "pipeline/session.h"
+#include "render/session.h"
 #include "view/view.h"
 
 typedef enum ec_view_second { EC_SECOND_ERROR, EC_SECOND_SAMPLES, EC_SECOND_RUNG, EC_SECOND_FILE, EC_SECOND_COUNT } ec_view_second;

@@ -8,7 +8,7 @@
 #include "cl/cl.h"
 #include "film/film.h"
 #include "image/image.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 #include "scene/scene.h"
 
 /* A picture that is to be saved. Valid during the call. */

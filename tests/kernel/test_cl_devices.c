@@ -1,6 +1,6 @@
 /* Which device is chosen, and what is known of its driver. Asks no device. */
 #include "cl/workarounds.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 #include "support/cl_case.h"
 
 /* The index that `id` chooses among the first `count` fake devices, or -1. */

@@ -1,6 +1,6 @@
 /* Places that the pixel filter's table gives to uniform numbers, against the density of Blackman and Harris' window by chi-square. */
 #include "kernel/chi2.h"
-#include "pipeline/pixel_filter.h"
+#include "device/pixel_filter.h"
 
 #define CELLS 64
 

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "../support/films.h"
-#include "pipeline/fold.h"
-#include "pipeline/team.h"
+#include "device/fold.h"
+#include "render/team.h"
 
 enum { WIDTH = 40, HEIGHT = 37, PIXELS = WIDTH * HEIGHT, MEMBERS = 5, BATCHES = 60, REPLICATES = EC_REPLICATES, FIELDS = EC_BATCH_FIELDS };
 

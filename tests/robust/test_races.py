@@ -12,7 +12,7 @@ import unittest
 from support import SOURCE
 
 CLANG = shutil.which("clang")
-TEAM = ["pipeline/team*.c", "pipeline/fold.c", "film/film.c", "film/parts.c", "film/pixel.c", "film/schedule.c", "film/sums.c"]
+TEAM = ["render/team*.c", "device/fold.c", "film/film.c", "film/parts.c", "film/pixel.c", "film/schedule.c", "film/sums.c"]
 
 
 class Races(unittest.TestCase):

@@ -3,7 +3,7 @@
  *
  * ctest label: slow */
 #include "film/difference.h"
-#include "pipeline/adaptive.h"
+#include "device/adaptive.h"
 #include "support/gltf_writer.h"
 #include "support/random.h"
 #include "support/render_case.h"

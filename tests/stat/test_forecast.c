@@ -2,7 +2,7 @@
  * to sample; and one whose error falls faster. After the pilot a goal says how many samples it will take; then batches come until the bound is
  * there. The 95 % interval must hold the truth in at least 90 % of the repeats (80 % where six pixels hold all noise: their own spread is hardly
  * known), the number it names must be near, and the slope must be found. At 95 % of 200, fewer than 180 happen once in 500 seeds; this one is fixed. */
-#include "pipeline/goal.h"
+#include "render/goal.h"
 #include "support/films.h"
 #include "support/random.h"
 #include "support/test.h"

@@ -2,8 +2,8 @@
  * throws it onto a floor.
  *
  * ctest label: stat */
-#include "pipeline/rare_paths.h"
-#include "pipeline/session.h"
+#include "rare/paths.h"
+#include "render/session.h"
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 

@@ -2,7 +2,7 @@
  * those called for. One build of all effects renders them; what is built for the scene without an effect gives the same bits
  * (test_effects_fuzz.c). */
 #include "pack/pack.h"
-#include "pipeline/effects.h"
+#include "device/effects.h"
 #include "support/effect_model.h"
 #include "support/render_case.h"
 

@@ -10,7 +10,7 @@
 #define EC_TESTS_SUPPORT_BATCHES_H
 
 #include "film/pixel.h"
-#include "pipeline/session.h"
+#include "render/session.h"
 #include "support/render_case.h"
 
 typedef struct case_batches {

@@ -18,7 +18,7 @@
 #include "cl/cl.h"
 #include "film/film.h"
 #include "film/resolve.h"
-#include "pipeline/render.h"
+#include "render/render.h"
 #include "scene/scene.h"
 #include "support/light.h"
 #include "support/test.h"

@@ -7,7 +7,7 @@
 #include "accel/accel.h"
 #include "bench_rays.h"
 #include "cl/cl.h"
-#include "pipeline/stages.h"
+#include "device/stages.h"
 
 /* One set of kernels: the embedded ones, or those of another kernels/ folder. */
 typedef struct bench_kernels {

@@ -1,0 +1,72 @@
+/* Where batches come from: a device, a team of them, or whatever else has these functions. A source knows no film, no limits and no other
+ * source; a batch's numbers depend on its index alone, so that any source may take any batch, or any piece of one. */
+#ifndef EC_DEVICE_BATCH_SOURCE_H
+#define EC_DEVICE_BATCH_SOURCE_H
+
+#include "base/error.h"
+#include "film/sums.h"
+#include "device/options.h"
+#include "device/stats.h"
+#include "shared/path_state.h"
+
+#define EC_TILE_ROWS 8u /* kernels/lib/film.h */
+
+/* Positions that an order has at most: the pixels, and of a pass of an adaptive render of a small picture so many, since short passes cost
+ * what their launches do. */
+#define EC_PASS_POSITIONS (1u << 18)
+static inline uint64_t ec_order_positions(uint64_t pixels, uint32_t replicates)
+{
+    const uint64_t all = pixels * replicates, most = all < EC_PASS_POSITIONS ? all : EC_PASS_POSITIONS;
+    return pixels > most ? pixels : most;
+}
+
+/* Positions done to count - 1 of a batch. A position is a place in `list`; without one a pixel number, and then both ends of what is not a
+ * whole batch are whole rows of tiles (kernels/lib/film.h), whose numbers and places in row order are the same range. */
+typedef struct ec_batch_order {
+    uint32_t index;                   /* of the batch, in the whole job: film/schedule.h says which samples it is */
+    uint32_t cut;                     /* samples that are not wanted at its end */
+    /* Batches before this one will be ordered next if no limit is met: they may be begun. All pixels of each, or where `batches` is set the same
+     * positions, and as many at once. */
+    uint32_t end;
+    /* A block: so many batches from `index` on, EC_FILM_FIRST or 16 times that and index a multiple of it, whose sums are wanted in place of
+     * what each of them tells. 1: none. 0: none, or what is chosen by `whole`. */
+    uint32_t batches;
+    /* How many from this or a later batch on are wanted in any case, all pixels of each, without a look at what is there in between: a source
+     * may take a block of its own accord. The same answer always, to any thread. NULL: one. */
+    uint32_t (*whole)(const void *user, uint32_t index);
+    double patience, until;           /* … where it is foretold to be over after so many seconds, and by then (base/clock.h) */
+    const uint32_t *list;             /* of one pass of an adaptive render, EC_LIST_WORDS an entry; NULL: all pixels */
+    uint32_t samples;                 /* of each of its entries */
+    float limit;                      /* ec_params.limit: the same for all samples of a picture */
+    uint32_t count, done;
+    const float *before;              /* what the done ones came to, EC_BATCH_FIELDS a position; NULL: somebody else has that */
+    float *into;                      /* room for EC_BATCH_FIELDS of each position from `done` on; NULL: the source's own */
+    const ec_sums *sums;              /* the same for a block; NULL: the source's own */
+    float *aov;                       /* first-hit features too: ec_film's, of the same positions; NULL: not wanted */
+    /* Asked between waves, with the positions that are done, the first time when the device has done them; false gives the batch up. */
+    bool (*go_on)(void *user, uint32_t done);
+    void *user;
+} ec_batch_order;
+
+/* What mean[EC_BATCH_FIELDS i] holds of a pixel that a first batch which was given up has not reached: radiance is never negative. */
+#define EC_NOT_REACHED (-1.0f)
+
+typedef struct ec_batch_source ec_batch_source;
+struct ec_batch_source {
+    /* *complete: false where go_on said no; positions not reached then hold what was there before, in a first batch EC_NOT_REACHED. */
+    ec_result (*take)(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err);
+    /* From go_on alone: mean becomes what the batch under way has come to so far, and features, rays and invalid too. */
+    ec_result (*look)(ec_batch_source *source, const ec_batch_order *order, ec_error *err);
+    /* Which rows of the picture the next orders are of; positions count from the first of them. NULL: all, always. */
+    ec_result (*turn_to)(ec_batch_source *source, uint32_t first_row, uint32_t rows, ec_error *err);
+    void (*close)(ec_batch_source *source); /* the figures stay */
+    uint32_t batches;                 /* that the order under way, or the last one, is for: as go_on is called it is known */
+    float *mean;                      /* EC_BATCH_FIELDS a position: of the batch taken last, until the next one is */
+    ec_sums sums;                     /* of the block taken last, from order->done on; owned, until somebody else takes it (and sets zeros) */
+    uint64_t rays;                    /* traced so far */
+    double clocked_seconds, clocked_rays; /* those of launches that were clocked, if any were */
+    uint32_t invalid[EC_STAGE_COUNT]; /* samples dropped in batches taken so far, by ec_stage */
+    uint32_t least;                   /* positions under which an order is not worth its launches; 0: any */
+};
+
+#endif

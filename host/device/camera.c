@@ -1,0 +1,61 @@
+/* The camera's part of the kernels' parameters. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/pipeline.h"
+
+/* glTF says nothing of lenses. This one stands before a sensor 24 mm high, that of small-picture film, so that its focal length
+ * follows from the field of view; it is that of focus at infinity whatever is in focus, and the field of view stays: a lens that is
+ * focused nearer would show a little less. */
+#define EC_SENSOR_HEIGHT 0.024
+
+static ec_result set_lens(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)
+{
+    if (o->fstop == 0) return EC_OK;
+    if (c->type == EC_CAMERA_ORTHOGRAPHIC)
+        return ec_fail(err, "camera %u is orthographic, its rays do not meet in a lens: choose a perspective one, or leave out --fstop and --focus",
+                       o->camera);
+    if (!(o->fstop > 0 && o->focus > 0)) return ec_fail(err, "a lens needs a positive fstop and a positive focus");
+    double focal_length = EC_SENSOR_HEIGHT / (2 * tan(0.5 * c->yfov)), radius = focal_length / (2 * o->fstop);
+    for (int k = 0; k < 3; k++) {
+        params->lens_right[k] = (float)(c->right[k] * radius);
+        params->lens_up[k] = (float)(c->up[k] * radius);
+    }
+    params->lens_nearness = (float)(1 / o->focus);
+    return EC_OK;
+}
+
+ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)
+{
+    double aspect = (double)o->width / o->height;
+    bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
+    double half_height = is_flat ? c->ymag : tan(0.5 * c->yfov);
+    double half_width = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f ? c->xmag : half_height * aspect;
+    for (int k = 0; k < 3; k++) {
+        params->camera_origin[k] = c->position[k];
+        params->camera_right[k] = (float)(c->right[k] * half_width);
+        params->camera_up[k] = (float)(c->up[k] * half_height);
+        params->camera_forward[k] = c->forward[k];
+    }
+    params->orthographic = is_flat;
+    return set_lens(c, o, params, err);
+}
+
+ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
+{
+    const ec_motion *motion = &scene->motion;
+    const size_t keys = motion->segments + 1;
+    uint32_t moves = scene->cameras[o->camera].moves;
+    if (!motion->segments || !moves) return EC_OK;
+    float *table = calloc(keys * EC_CAMERA_VECTORS * 4, sizeof *table);
+    if (!table) return ec_fail(err, "out of memory for a camera at %zu moments", keys);
+    ec_cargo_add(cargo, EC_ARG_CAMERA_KEYS, "camera keys", keys * EC_CAMERA_VECTORS * 16, 0, table, table);
+    for (size_t k = 0; k < keys; k++) {
+        ec_params params = {.orthographic = 0};
+        EC_TRY(ec_pipeline_set_camera(&motion->cameras[(moves - 1) * keys + k], o, &params, err));
+        for (size_t v = 0; v < EC_CAMERA_VECTORS; v++)
+            memcpy(table + (v * keys + k) * 4, (const float *)&params + 4 * v, 4 * sizeof *table);
+    }
+    return EC_OK;
+}

@@ -1,0 +1,262 @@
+/* What a cargo holds, and how it is filled: params first, then buffers. */
+#include "device/cargo.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "device/pipeline.h"
+#include "device/pixel_filter.h"
+
+void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned)
+{
+    if (!data) return;
+    ec_cargo_buffer *buffer = &cargo->buffers[cargo->head.buffer_count++];
+    *buffer = (ec_cargo_buffer){.arg = arg, .accel = EC_ACCEL_COUNT, .bytes = bytes, .slack = slack, .data = data, .owned = owned};
+    snprintf(buffer->label, sizeof buffer->label, "%s", label);
+}
+
+static void add_accel_buffers(ec_cargo *cargo, uint32_t which, const ec_accel *accel, bool owned)
+{
+    char label[64];
+    for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++) {
+        const ec_accel_buffer *buffer = &accel->buffers[k];
+        uint32_t before = cargo->head.buffer_count;
+        snprintf(label, sizeof label, "%s %s", ec_accels[which].name, buffer->label);
+        ec_cargo_add(cargo, EC_ARG_ACCEL + k, label, buffer->bytes, 0, buffer->data, owned ? buffer->data : NULL);
+        if (cargo->head.buffer_count > before) cargo->buffers[before].accel = which;
+    }
+}
+
+ec_result ec_cargo_add_accel(ec_cargo *cargo, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)
+{
+    ec_accel accel = {0};
+    EC_TRY(ec_accel_build(which, input, &accel, err));
+    add_accel_buffers(cargo, which, &accel, true);
+    if (stats) *stats = accel.stats;
+    return EC_OK;
+}
+
+static ec_result choose_accels(ec_cargo_head *head, const ec_scene *scene, const char *name, uint32_t kinds, ec_error *err)
+{
+    if (scene->placed_count) name = "twolevel"; /* the others would have had them written out */
+    for (uint32_t kind = 0; kind < EC_KIND_COUNT; kind++)
+        if (kinds >> kind & 1) EC_TRY(ec_accels_choose(name, scene->triangle_count, kind == EC_KIND_CPU, &head->accels[kind], err));
+    return EC_OK;
+}
+
+/* They stay where they are, for the next render to follow. */
+static ec_result follow_accels(ec_cargo *cargo, ec_followed *followed, ec_accel_input *input, uint32_t wanted, ec_error *err)
+{
+    EC_TRY(ec_accels_follow(followed, input, wanted, err));
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
+        if (wanted >> a & 1) add_accel_buffers(cargo, a, &followed->accels[a], false);
+    return EC_OK;
+}
+
+static ec_result add_accels(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
+{
+    ec_accel_input input = ec_accel_input_of(scene, o->grid_density);
+    uint32_t wanted = 0;
+    ec_result result = EC_OK;
+    for (uint32_t kind = 0; kind < EC_KIND_COUNT; kind++) wanted |= cargo->head.accels[kind];
+    if (o->followed) result = follow_accels(cargo, o->followed, &input, wanted, err);
+    for (uint32_t a = 0; !o->followed && result == EC_OK && a < EC_ACCEL_COUNT; a++)
+        if (wanted >> a & 1) result = ec_cargo_add_accel(cargo, a, &input, NULL, err);
+    ec_accel_input_free(&input);
+    return result;
+}
+
+static ec_result add_filter(ec_cargo *cargo, const ec_render_options *o, ec_error *err)
+{
+    if (o->filter == EC_FILTER_BOX) return EC_OK;
+    float *table = malloc(EC_FILTER_ENTRIES * sizeof *table);
+    if (!table) return ec_fail(err, "out of memory for a pixel filter");
+    ec_pixel_filter_blackman_harris(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH, table);
+    ec_cargo_add(cargo, EC_ARG_PIXEL_FILTER, "pixel filter", EC_FILTER_ENTRIES * sizeof *table, 0, table, table);
+    return EC_OK;
+}
+
+static ec_result choose_lights(const ec_render_options *o, ec_pack *pack, ec_error *err)
+{
+    if (o->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return EC_OK;
+    if (pack->lamps_move) return EC_OK; /* a tree's bounds would hold for one moment only */
+    if (o->light_choice == EC_LIGHTS_AUTO && !ec_pack_wants_light_tree(pack)) return EC_OK;
+    return ec_pack_light_tree(pack, err);
+}
+
+/* called_for: the scene itself, or that of which it is what is written out: rounding may not change effects. */
+static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_pack *pack,
+                           ec_error *err)
+{
+    EC_TRY(ec_pack_scene(scene, pack, err));
+    if (called_for != scene) {
+        EC_TRY(ec_scene_calls(called_for, &pack->effects, err));
+        pack->effects.bits &= ~EC_FEATURE_INSTANCES;
+    }
+    if (o->integrator != EC_INTEGRATOR_PATH) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));
+    return ec_pipeline_joins(o, pack) ? choose_lights(o, pack, err) : EC_OK;
+}
+
+ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
+                        ec_error *err)
+{
+    EC_TRY(fill_pack(scene, called_for, o, &cargo->pack, err));
+    ec_pipeline_effects(o, &cargo->pack, &cargo->head.effects);
+    return EC_OK;
+}
+
+/* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
+ * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
+ * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
+static void set_roulette(double survival, ec_params *params)
+{
+    params->first_roulette = survival == 0.0 ? 5 : survival < 1.0 ? 1 : UINT32_MAX;
+    params->survival = survival == 0.0 ? 0.0f : (float)ldexp(fmax(floor(ldexp(survival, 24)), 1.0), -24);
+}
+
+static void set_environment(const ec_pack *pack, ec_params *params)
+{
+    const ec_scene *plain = &pack->plain.scene;
+    params->environment_width = pack->environment_width;
+    params->environment_height = pack->environment_height;
+    params->environment_pmf = pack->environment_pmf;
+    params->environment_stretch[0] = (uint32_t)(pack->environment_stretch >> 32);
+    params->environment_stretch[1] = (uint32_t)pack->environment_stretch;
+    for (int k = 0; k < 3; k++)
+        params->environment[k] = !plain->has_environment ? 0.0f : plain->environment.rgb ? 1.0f : plain->environment.constant[k];
+    params->environment_turned = plain->has_environment && plain->environment.turned;
+    for (int k = 0; k < 9; k++) params->environment_turn[k / 3 * 4 + k % 3] = plain->environment.turn[k];
+    memcpy(params->environment_mean, pack->environment_mean, sizeof pack->environment_mean);
+}
+
+static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack *pack, uint64_t called, ec_params *params)
+{
+    const uint32_t unlimited = o->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
+    params->width = o->width;
+    params->height = o->height;
+    params->batch = batch;
+    params->max_depth = o->max_depth ? o->max_depth : unlimited;
+    params->cutoff = (float)o->cutoff;
+    params->panes_count = o->integrator == EC_INTEGRATOR_PATH;
+    set_roulette(o->survival, params);
+    params->sample = o->sample;
+    params->apart = o->clamp > 0.0;
+    params->limit = (float)o->clamp_luminance;
+    params->light_count = ec_pipeline_joins(o, pack) ? pack->light_count : 0;
+    set_environment(pack, params);
+    params->nested = pack->bodies.count > 0;
+    params->terminator = (called & EC_FEATURE_TERMINATOR) != 0;
+    params->multiple = (called & EC_FEATURE_MULTISCATTER) != 0;
+    params->light_choices = pack->light_choices;
+    params->light_tree_numbers = pack->light_tree_numbers;
+    params->scene_radius = pack->scene_radius;
+    params->scene_max = pack->scene_max;
+}
+
+/* Of a scene that is written out the one with its meshes kept once, so that the job is the same with any accelerator. */
+static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+                              const ec_render_options *o, uint32_t batch, ec_content *content, ec_error *err)
+{
+    if (!o->identify) return EC_OK;
+    if (scene == called_for) {
+        ec_cargo_content(&cargo->head, scene, &cargo->pack, content);
+        return EC_OK;
+    }
+    ec_pack kept = {0};
+    ec_cargo_head head = cargo->head;
+    ec_result result = fill_pack(called_for, called_for, o, &kept, err);
+    if (result == EC_OK) {
+        ec_pipeline_effects(o, &kept, &head.effects);
+        set_params(o, batch, &kept, head.effects.called.bits, &head.params);
+        ec_cargo_content(&head, called_for, &kept, content);
+    }
+    ec_pack_free(&kept);
+    return result;
+}
+
+static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+                            const ec_render_options *o, uint32_t batch, ec_render_stats *stats, ec_error *err)
+{
+    ec_pack *pack = &cargo->pack;
+    ec_cargo_head *head = &cargo->head;
+    EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, err));
+    set_params(o, batch, pack, head->effects.called.bits, &head->params);
+    head->bodies_too_many = pack->bodies.too_many;
+    EC_TRY(ec_insides_make(pack, &cargo->insides, err));
+    head->params.camera_medium = ec_insides_of(&cargo->insides, &scene->cameras[o->camera]);
+    EC_TRY(tell_content(cargo, scene, called_for, o, batch, &stats->content, err));
+    EC_TRY(ec_cargo_add_scene(cargo, scene, pack, err));
+    EC_TRY(ec_cargo_add_camera(cargo, scene, o, err));
+    return add_filter(cargo, o, err);
+}
+
+static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
+                      uint32_t batch, uint32_t kinds, ec_render_stats *stats, ec_error *err)
+{
+    ec_cargo_head *head = &cargo->head;
+    head->triangle_count = scene->triangle_count;
+    head->integrator = o->integrator;
+    head->replicates = ec_render_replicates(o);
+    head->fast_math = o->fast_math;
+    head->lanes = o->lanes;
+    head->wave = o->wave;
+    if (scene->motion.segments && o->integrator != EC_INTEGRATOR_PATH)
+        return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");
+    EC_TRY(ec_pipeline_set_camera(&scene->cameras[o->camera], o, &head->params, err));
+    double start = ec_now();
+    if (o->integrator != EC_INTEGRATOR_RASTER) {
+        EC_TRY(choose_accels(head, scene, o->accel, kinds, err));
+        EC_TRY(add_accels(cargo, scene, o, err));
+        if (o->followed) stats->followed = o->followed->report;
+    }
+    stats->accel_seconds = ec_now() - start;
+    start = ec_now();
+    EC_TRY(add_packed(cargo, scene, called_for, o, batch, stats, err));
+    stats->pack_seconds = ec_now() - start;
+    stats->replicates = head->replicates;
+    stats->instances = scene->placed_count;
+    stats->triangles = ec_scene_met_count(scene);
+    stats->stored_triangles = scene->triangle_count;
+    stats->effects = head->effects;
+    for (uint32_t i = 0; i < head->buffer_count; i++) stats->scene_bytes += cargo->buffers[i].bytes;
+    return EC_OK;
+}
+
+ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
+                          const ec_render_options *o, ec_error *err)
+{
+    if (o->without) {
+        EC_TRY(ec_scene_view_without(*scene, o->without, (int64_t)o->without_of - 1, &cargo->view, err));
+        *scene = &cargo->view.scene;
+    }
+    /* Meshes that are kept once are written out where an accelerator or an integrator knows one level only. */
+    bool keeps = o->integrator != EC_INTEGRATOR_RASTER && (!o->accel || !strcmp(o->accel, "auto") || !strcmp(o->accel, "twolevel"));
+    *called_for = *scene;
+    if ((*scene)->placed_count && !keeps) {
+        EC_TRY(ec_scene_write_out(*scene, &cargo->written, err));
+        *scene = &cargo->written;
+    }
+    return EC_OK;
+}
+
+ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *o, uint32_t batch, uint32_t kinds, ec_cargo *cargo,
+                        ec_render_stats *stats, ec_error *err)
+{
+    const ec_scene *called_for;
+    memset(cargo, 0, sizeof *cargo);
+    EC_TRY(ec_cargo_choose(cargo, &scene, &called_for, o, err));
+    return fill(cargo, scene, called_for, o, batch, kinds, stats, err);
+}
+
+void ec_cargo_free(ec_cargo *cargo)
+{
+    for (uint32_t i = 0; i < cargo->head.buffer_count; i++) free(cargo->buffers[i].owned);
+    cargo->head.buffer_count = 0;
+    ec_insides_free(&cargo->insides);
+    ec_pack_free(&cargo->pack);
+    ec_scene_written_free(&cargo->written);
+    ec_scene_view_free(&cargo->view);
+}

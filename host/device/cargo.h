@@ -1,0 +1,83 @@
+/* A scene and its options made ready for devices: everything that goes to one, and nothing of the scene beside it. Made once and then
+ * only read, so that any number of devices can be loaded from it, by several threads at once. */
+#ifndef EC_DEVICE_CARGO_H
+#define EC_DEVICE_CARGO_H
+
+#include "accel/accel.h"
+#include "pack/pack.h"
+#include "device/insides.h"
+#include "device/options.h"
+#include "device/stats.h"
+#include "device/stages.h"
+#include "shared/params.h"
+
+/* Devices of one kind go through the same acceleration structures. */
+typedef enum ec_device_kind { EC_KIND_OTHER, EC_KIND_CPU, EC_KIND_COUNT } ec_device_kind;
+static inline ec_device_kind ec_device_kind_of(const ec_device_info *info)
+{
+    return info->type & CL_DEVICE_TYPE_CPU ? EC_KIND_CPU : EC_KIND_OTHER;
+}
+
+/* Plain values: their bytes mean the same to another process of this program. */
+typedef struct ec_cargo_head {
+    ec_params params;                /* but for wave and part, which depend on the device */
+    ec_render_effects effects;
+    ec_integrator integrator;
+    uint32_t replicates;             /* film/schedule.h */
+    bool fast_math;
+    uint32_t lanes, wave;            /* as in the options: 0 = what suits the device */
+    uint32_t accels[EC_KIND_COUNT];  /* 1 << which: those that devices of a kind go through */
+    uint32_t triangle_count;
+    uint32_t bodies_too_many;        /* materials of bodies, more than can be told apart; else 0 */
+    uint32_t buffer_count;
+} ec_cargo_head;
+
+typedef struct ec_cargo_buffer {
+    uint32_t arg;                    /* ec_arg; EC_ARG_ACCEL + k for the k-th of an accelerator's */
+    uint32_t accel;                  /* which one's; EC_ACCEL_COUNT: it is no accelerator's */
+    char label[64];                  /* for messages */
+    uint64_t bytes;                  /* of data … */
+    uint64_t slack;                  /* … and so many more on the device, of any value */
+    const void *data;
+    void *owned;                     /* data, if it is to be freed; NULL: it lies in what the cargo was made of */
+} ec_cargo_buffer;
+
+enum { EC_CARGO_BUFFERS = EC_SCENE_BUFFERS + 2 + EC_ACCEL_COUNT * EC_ACCEL_BUFFERS };
+
+/* Not to be copied: buffers point into it. */
+typedef struct ec_cargo {
+    ec_cargo_head head;
+    ec_cargo_buffer buffers[EC_CARGO_BUFFERS];
+    ec_insides insides;              /* what a camera can be inside of: no device asks */
+    ec_pack pack;                    /* these three hold what buffers do not own; all zero in a cargo that came from elsewhere */
+    ec_scene written;
+    ec_scene_view view;
+} ec_cargo;
+
+/* For devices of these kinds (1 << ec_device_kind). The scene must stay as long as the cargo does. stats gets what is known then: times,
+ * counts, content. The cargo is to be freed on failure too. */
+ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *options, uint32_t batch, uint32_t kinds, ec_cargo *cargo,
+                        ec_render_stats *stats, ec_error *err);
+void ec_cargo_free(ec_cargo *cargo); /* zero-initialised or freed is fine */
+
+/* The two steps of it that tell effects. First what of the scene is rendered, and, for called_for, what says which effects
+ * that takes: they are the cargo's or the scene itself. Then its pack, and the head's effects. */
+ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
+                          const ec_render_options *options, ec_error *err);
+ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+                        const ec_render_options *options, ec_error *err);
+
+/* The next buffer; NULL data adds none. owned as in ec_cargo_buffer, the cargo's from here on. */
+void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned);
+
+/* Builds an accelerator and adds its buffers; stats may be NULL. */
+ec_result ec_cargo_add_accel(ec_cargo *cargo, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
+
+/* camera.c: the same at every moment; nothing for a camera that stands still */
+ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *options, ec_error *err);
+/* upload_plan.c: the scene's own, those that are called for */
+ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, const ec_pack *pack, ec_error *err);
+/* content.c: what is rendered; params must be complete */
+void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content);
+
+#endif

@@ -1,0 +1,126 @@
+/* Digests of the buffers as they are planned, so that a new one is in without a line here. Not of acceleration structures, lanes and
+ * waves: they make no difference to a sample. */
+#include "device/content.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/types.h>
+
+#include <sha2.h>
+
+#include "device/pipeline.h"
+
+static void add(SHA2_CTX *digests, ec_content_id id, const void *bytes, uint64_t size)
+{
+    SHA256Update(&digests[id], (const uint8_t *)&size, sizeof size);
+    if (size) SHA256Update(&digests[id], bytes, (size_t)size);
+}
+
+static ec_content_id group_of(ec_arg arg)
+{
+    switch (arg) {
+    case EC_ARG_MATERIALS: return EC_CONTENT_MATERIALS;
+    case EC_ARG_TEXTURE_TABLE:
+    case EC_ARG_TEXELS:
+    case EC_ARG_SRGB: return EC_CONTENT_TEXTURES;
+    case EC_ARG_LIGHT_TABLE:
+    case EC_ARG_LIGHT_SHARES:
+    case EC_ARG_LIGHT_TREE:
+    case EC_ARG_LIGHT_TRAILS: return EC_CONTENT_LIGHTS;
+    case EC_ARG_ENVIRONMENT_TEXELS:
+    case EC_ARG_ENVIRONMENT_TABLE: return EC_CONTENT_ENVIRONMENT;
+    default: return EC_CONTENT_GEOMETRY;
+    }
+}
+
+static void add_buffers(SHA2_CTX *digests, const ec_scene *scene, const ec_pack *pack, ec_render_effects effects)
+{
+    ec_upload plan[EC_SCENE_BUFFERS];
+    uint32_t count = ec_upload_plan(scene, pack, plan, &effects);
+    for (uint32_t i = 0; i < count; i++) {
+        const ec_upload *u = &plan[i];
+        ec_content_id id = group_of(u->arg);
+        SHA256Update(&digests[id], (const uint8_t *)u->buffer.label, strlen(u->buffer.label));
+        if (u->data) add(digests, id, u->data, u->buffer.bytes ? u->buffer.bytes - u->slack : 0);
+        for (int set = 0; !u->data && u->buffer.bytes && set < 2; set++)
+            add(digests, id, scene->uv[set], scene->uv[set] ? 8ull * scene->vertex_count : 0);
+    }
+}
+
+/* Not with the scene's buffers: only that of the chosen camera goes to the device. */
+static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
+{
+    for (uint32_t i = 0; i < motion->camera_count * (motion->segments + 1); i++) {
+        const ec_camera *c = &motion->cameras[i];
+        const float *const vectors[] = {c->position, c->right, c->up, c->forward};
+        for (int v = 0; v < 4; v++) add(digests, EC_CONTENT_CAMERA, vectors[v], 3 * sizeof(float));
+        const float view[] = {c->yfov, c->aspect, c->xmag, c->ymag};
+        add(digests, EC_CONTENT_CAMERA, view, sizeof view);
+    }
+}
+
+#define TAKE(id, field) (add(digests, id, &p.field, sizeof p.field), memset(&p.field, 0, sizeof p.field))
+
+/* Field by field what is the camera's and the environment's; what is left is settings. */
+static void add_params(SHA2_CTX *digests, ec_params p)
+{
+    p.batch = p.first_sample = p.wave = p.part = 0;
+    p.limit = 0; /* follows from what else there is */
+    TAKE(EC_CONTENT_CAMERA, camera_origin);
+    TAKE(EC_CONTENT_CAMERA, camera_right);
+    TAKE(EC_CONTENT_CAMERA, camera_up);
+    TAKE(EC_CONTENT_CAMERA, camera_forward);
+    TAKE(EC_CONTENT_CAMERA, lens_right);
+    TAKE(EC_CONTENT_CAMERA, lens_up);
+    TAKE(EC_CONTENT_CAMERA, lens_nearness);
+    TAKE(EC_CONTENT_CAMERA, orthographic);
+    TAKE(EC_CONTENT_CAMERA, camera_medium);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_mean);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_turn);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_turned);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_width);
+    TAKE(EC_CONTENT_ENVIRONMENT, environment_height);
+    TAKE(EC_CONTENT_LIGHTS, environment_pmf);
+    TAKE(EC_CONTENT_LIGHTS, light_count);
+    TAKE(EC_CONTENT_LIGHTS, light_choices);
+    TAKE(EC_CONTENT_LIGHTS, light_tree_numbers);
+    TAKE(EC_CONTENT_LIGHTS, environment_stretch);
+    TAKE(EC_CONTENT_GEOMETRY, scene_radius);
+    TAKE(EC_CONTENT_GEOMETRY, scene_max);
+    add(digests, EC_CONTENT_SETTINGS, &p, sizeof p);
+}
+
+static void add_kernels(SHA2_CTX *digests)
+{
+    for (const char *const *name = ec_kernel_source_names(); *name; name++)
+        add(digests, EC_CONTENT_KERNELS, ec_kernel_source(*name), strlen(ec_kernel_source(*name)));
+}
+
+static void write_digest(SHA2_CTX *digest, char text[33])
+{
+    uint8_t bytes[SHA256_DIGEST_LENGTH];
+    SHA256Final(bytes, digest);
+    for (int k = 0; k < 16; k++) snprintf(text + 2 * k, 3, "%02x", bytes[k]);
+}
+
+void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content)
+{
+    SHA2_CTX digests[EC_CONTENT_COUNT];
+    for (int i = 0; i < EC_CONTENT_COUNT; i++) SHA256Init(&digests[i]);
+    add_buffers(digests, scene, pack, head->effects);
+    add_params(digests, head->params);
+    const uint64_t called = content->called = head->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
+    add(digests, EC_CONTENT_SETTINGS, &called, sizeof called);
+    if (called & EC_FEATURE_MOTION) add_moving_cameras(digests, &scene->motion);
+    add_kernels(digests);
+    for (int i = 0; i < EC_CONTENT_COUNT; i++) write_digest(&digests[i], content->digest[i]);
+}
+
+void ec_content_kernels(char digest[33])
+{
+    SHA2_CTX digests[EC_CONTENT_COUNT];
+    SHA256Init(&digests[EC_CONTENT_KERNELS]);
+    add_kernels(digests);
+    write_digest(&digests[EC_CONTENT_KERNELS], digest);
+}

@@ -1,0 +1,23 @@
+/* Batches from one device. */
+#ifndef EC_DEVICE_DEVICE_SOURCE_H
+#define EC_DEVICE_DEVICE_SOURCE_H
+
+#include "device/batch_source.h"
+#include "device/pipeline.h"
+
+typedef struct ec_device_source {
+    ec_batch_source base;
+    ec_pipeline pipeline;
+    uint64_t seed;
+    uint32_t replicates;
+    float *own;                       /* room for a batch, where orders bring none */
+    uint32_t rows;                    /* that it renders: from params.film_row on */
+    uint32_t unfit;                   /* values of batches in blocks that were not finite */
+    bool has_begun;
+} ec_device_source;
+
+/* spent: as for ec_pipeline_create. To be turned to its rows before the first order, and closed on failure too. */
+ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *source,
+                                ec_render_stats *stats, ec_error *err);
+
+#endif

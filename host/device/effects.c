@@ -1,0 +1,75 @@
+#include "device/effects.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "device/pipeline.h"
+
+void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects)
+{
+    ec_effects *called = &effects->called;
+    *called = pack->effects;
+    if (options->scattering == EC_SCATTERING_MULTIPLE) ec_pack_rough(&pack->plain.scene, called);
+    effects->without = options->without_of ? 0 : options->without;
+    if (options->sampler == EC_SAMPLER_SOBOL) ec_effects_call(called, EC_FEATURE_SOBOL, "--sampler sobol");
+    if (options->terminator == EC_TERMINATOR_SMOOTH && (called->bits & EC_FEATURE_SMOOTH_NORMALS))
+        ec_effects_call(called, EC_FEATURE_TERMINATOR, "--terminator smooth, and there are vertex normals");
+    if (pack->light_node_count) ec_effects_call(called, EC_FEATURE_LIGHT_TREE, "%u lights are chosen among", pack->light_count);
+    if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
+    if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
+    effects->built = called->bits | (options->all_effects ? EC_FEATURE_ALL & ~EC_FEATURE_SOBOL /* other random numbers, not more */ : options->more_effects);
+    effects->built &= ~(effects->without & EC_FEATURE_PANES); /* paths through panes count on shadow rays to pass them too */
+    for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
+        if (ec_stages[id].integrators >> options->integrator & 1) effects->launched |= 1u << id;
+    if (!ec_pipeline_joins(options, pack)) effects->launched &= ~(1u << EC_CONNECT | 1u << EC_WHITTED_LIGHT);
+}
+
+/* Lights without extent are met no other way, whatever --sample is. */
+bool ec_pipeline_joins(const ec_render_options *options, const ec_pack *pack)
+{
+    bool asked = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT;
+    return pack->light_count && (asked || (pack->effects.bits & EC_FEATURE_PUNCTUAL_LIGHTS));
+}
+
+/* Alpha decides by base colour, panes by all of the surface; without them the traversal does not look at it. Who shades looks at the
+ * alpha of lamps alone. */
+uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features)
+{
+    uint64_t f = features & stage->features;
+    const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
+    if (stage->features & EC_FEATURE_AREA_LIGHTS) return f & EC_FEATURE_AREA_LIGHTS ? f : f & ~EC_FEATURE_ALPHA;
+    if (!(stage->features & EC_FEATURE_ALPHA) || (f & EC_FEATURE_PANES)) return f;
+    return f & (EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION |
+                (f & EC_FEATURE_ALPHA ? EC_FEATURE_ALPHA | of_alpha : 0));
+}
+
+static void add_word(char *text, size_t size, const char *word)
+{
+    size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", used ? ", " : "", word);
+}
+
+ec_effect_row ec_effect_describe(const ec_render_effects *effects, uint32_t i)
+{
+    uint64_t bit = ec_features[i].bit;
+    ec_effect_row row = {.name = ec_features[i].name, .called = effects->called.bits & bit, .built = effects->built & bit,
+                         .left_out = effects->without & bit};
+    ec_effects_why(&effects->called, bit, row.why, sizeof row.why);
+    for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
+        if ((effects->launched >> id & 1) && (ec_stage_features(&ec_stages[id], effects->built) & bit))
+            add_word(row.kernels, sizeof row.kernels, ec_stages[id].source);
+    for (uint32_t k = 0; row.called && k < effects->buffer_count; k++) {
+        const ec_scene_buffer *buffer = &effects->buffers[k];
+        if (!(buffer->effects & bit) || !buffer->bytes) continue;
+        add_word(row.buffers, sizeof row.buffers, buffer->label);
+        row.bytes += buffer->bytes;
+    }
+    return row;
+}
+
+void ec_effects_kernels(const ec_render_effects *effects, char *text, size_t size)
+{
+    text[0] = 0;
+    for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
+        if (effects->launched >> id & 1) add_word(text, size, ec_stages[id].source);
+}

@@ -1,0 +1,41 @@
+/* What a render makes of each effect: is it called for, why, which kernels it is built into, which buffers it takes. */
+#ifndef EC_DEVICE_EFFECTS_H
+#define EC_DEVICE_EFFECTS_H
+
+#include <stdbool.h>
+
+#include "pack/effects.h"
+
+/* A buffer of the scene's data on the device. */
+typedef struct ec_scene_buffer {
+    char label[24];
+    uint64_t effects; /* any of these makes it; 0: there in any case */
+    uint64_t bytes;   /* 0: not allocated */
+} ec_scene_buffer;
+
+enum { EC_SCENE_BUFFERS = 18 };
+
+typedef struct ec_render_effects {
+    ec_effects called;   /* by the scene and the options */
+    uint64_t built;      /* EC_FEATURE_* in the kernels: more than that with all_effects */
+    uint64_t without;    /* switched off on purpose */
+    uint32_t launched;   /* stages: 1 << ec_stage_id */
+    ec_scene_buffer buffers[EC_SCENE_BUFFERS];
+    uint32_t buffer_count;
+} ec_render_effects;
+
+/* One effect in words, as every report has it; empty texts where there is nothing. */
+typedef struct ec_effect_row {
+    const char *name;
+    bool called, built, left_out; /* left_out: by --without, whether it was called for or not */
+    char why[EC_EFFECT_WHY + 24];
+    char kernels[128], buffers[192]; /* ", " between them */
+    uint64_t bytes;                  /* of these buffers; others may share them */
+} ec_effect_row;
+/* i under ec_feature_count */
+ec_effect_row ec_effect_describe(const ec_render_effects *effects, uint32_t i);
+
+/* "generate, intersect, shade, connect": those that are launched. */
+void ec_effects_kernels(const ec_render_effects *effects, char *text, size_t size);
+
+#endif

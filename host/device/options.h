@@ -1,0 +1,81 @@
+/* How a picture is to be rendered. */
+#ifndef EC_DEVICE_OPTIONS_H
+#define EC_DEVICE_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "film/schedule.h"
+#include "shared/params.h"
+
+typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
+
+/* Where rays leave a facet with vertex normals: kernels/lib/terminator.h. */
+typedef enum ec_scattering { EC_SCATTERING_SINGLE, EC_SCATTERING_MULTIPLE } ec_scattering; /* by rough facets: kernels/lib/multiscatter.h */
+typedef enum ec_terminator { EC_TERMINATOR_GEOMETRIC, EC_TERMINATOR_SMOOTH } ec_terminator;
+
+/* Which light a surface is joined to: by power wherever it is, or by a tree that knows where lights are (kernels/lib/light_tree.h). */
+typedef enum ec_light_choice { EC_LIGHTS_AUTO, EC_LIGHTS_BY_POWER, EC_LIGHTS_BY_TREE } ec_light_choice;
+
+/* What makes the picture; the words are in report/names.c, the functions in wave.c, the options of each in
+ * cli/combinations.c. */
+typedef enum ec_integrator {
+    EC_INTEGRATOR_PATH,   /* global illumination */
+    EC_INTEGRATOR_WHITTED, /* a tree of mirrored and refracted rays, direct light from the lights' centres */
+    EC_INTEGRATOR_RASTER, /* direct light from the lights' centres, without shadows */
+    EC_INTEGRATOR_COUNT
+} ec_integrator;
+
+#define EC_WHITTED_DEPTH 10     /* segments of Whitted's trees where max_depth is 0 */
+#define EC_WHITTED_DEPTH_MOST 64 /* each takes 48 bytes a path in flight */
+
+/* Rasterising has the box alone: its samples look at the triangles of their pixel's tile. */
+typedef enum ec_pixel_filter { EC_FILTER_BOX, EC_FILTER_BLACKMAN_HARRIS } ec_pixel_filter;
+#define EC_FILTER_WIDTH 1.5 /* as Cycles has it */
+
+typedef struct ec_render_options {
+    uint32_t width, height;     /* pixels */
+    uint32_t camera;            /* index into the scene's cameras */
+    ec_pixel_filter filter;
+    double filter_width;        /* pixels from the centre to the edge, of other filters than the box; 0 = EC_FILTER_WIDTH */
+    double fstop;               /* of a thin lens; 0 = a pinhole. The aperture's diameter is focal length / fstop */
+    double focus;               /* metres to the plane in focus, along the camera's axis */
+    uint32_t spp;               /* stop after so many samples a pixel; 0 = no such limit */
+    double time_limit;          /* stop before this many seconds of rendering; 0 = none */
+    double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */
+    uint32_t replicates;        /* independent copies of the sample sequence, up to EC_REPLICATES_MOST; 0 = EC_REPLICATES */
+    ec_integrator integrator;
+    uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited, Whitted: 10 */
+    double cutoff;              /* Whitted: branches of less weight than this are not followed */
+    double clamp;               /* most luminance of a sample's indirect light, in mean luminances of the picture (limit.c); 0 = no limit */
+    double clamp_luminance;     /* the same in itself, where it is known beforehand; 0 = a pilot finds the picture's mean */
+    double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
+    ec_sampler_type sampler;
+    ec_sample sample;           /* all converge to the same image */
+    ec_light_choice light_choice;
+    ec_scattering scattering;
+    ec_terminator terminator;   /* smooth: rays start on the smooth surface, not on its facets */
+    uint64_t seed;
+    uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
+    uint32_t wave;              /* paths in flight; 0 = fitted to the device */
+    uint64_t memory;            /* bytes that the process should not exceed: else it renders strips (strips.h); 0 = what is free */
+    uint32_t slice_first, slice_end; /* batches (film/schedule.h) of a slice, for what they take of it; slice_end 0: it is none */
+    bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
+    bool all_effects;           /* build the universal kernels instead of the specialised ones */
+    uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */
+    uint32_t without_of;        /* in material n - 1 alone; 0: in all */
+    uint64_t more_effects;      /* EC_FEATURE_*, built in though the scene may not call for them: so that scenes share kernels */
+    const char *accel;          /* "auto" (NULL), or the name of an acceleration structure: see accel/accel.h */
+    float grid_density;         /* cells a reference, where that is a grid; 0 = EC_GRID_DENSITY */
+    struct ec_followed *followed; /* acceleration structures of the render before, which goes on with them (accel/follow.h); NULL: none */
+    bool identify;              /* say in the stats what is rendered: content */
+    bool fast_math;             /* kernels by -cl-fast-relaxed-math: for `eclat cost` alone, to see what exact arithmetic costs */
+} ec_render_options;
+
+/* Replicates of the options. */
+static inline uint32_t ec_render_replicates(const ec_render_options *o) { return o->replicates ? o->replicates : EC_REPLICATES; }
+
+/* What the kernels seed a render of that seed with. */
+uint32_t ec_render_seed(uint64_t seed);
+
+#endif

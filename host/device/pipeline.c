@@ -1,0 +1,76 @@
+/* Set-up and tear-down of a render on one device, from a cargo. */
+#include "device/pipeline.h"
+
+#include <string.h>
+
+#include "base/clock.h"
+#include "cl/workarounds.h"
+
+ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err)
+{
+    const ec_workaround *driver = ec_workaround_for(&cl->info);
+    uint32_t most = driver && driver->most_lanes ? driver->most_lanes : 16, n = wanted;
+    if (wanted > most)
+        return ec_fail(err, "--lanes %u on %s: %s (%s %s); leave --lanes out or choose %u", wanted, cl->info.name, driver->what,
+                       driver->driver, driver->seen, most);
+    if (!wanted) n = cl->info.type & CL_DEVICE_TYPE_GPU ? 1 : cl->info.native_float_width < most ? cl->info.native_float_width : most;
+    *lanes = n >= 16 ? 16 : n >= 8 ? 8 : n >= 4 ? 4 : 1;
+    return EC_OK;
+}
+
+ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *p, ec_render_stats *stats,
+                             ec_error *err)
+{
+    const ec_cargo_head *head = &cargo->head;
+    memset(p, 0, sizeof *p);
+    p->cl = cl;
+    p->integrator = head->integrator;
+    p->params = head->params;
+    p->effects = head->effects;
+    p->triangle_count = head->triangle_count;
+    p->fast_math = head->fast_math;
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) p->accels[a].in_use = head->accels[ec_device_kind_of(&cl->info)] >> a & 1;
+    EC_TRY(ec_pipeline_lanes(cl, head->lanes, &p->lanes, err));
+    double start = ec_now();
+    uint64_t uploaded = cl->uploaded_bytes, found = cl->found_bytes;
+    uint32_t programs = cl->programs_found;
+    ec_result result = spent ? ec_pipeline_unload(p, spent, err) : ec_pipeline_upload(p, cargo, err);
+    if (result == EC_OK) result = ec_pipeline_create_queues(p, head->wave, err);
+    stats->pack_seconds += ec_now() - start;
+    if (result != EC_OK) return result;
+    start = ec_now();
+    result = ec_pipeline_build(p, err);
+    stats->kernel_seconds = ec_now() - start;
+    for (int i = 0; i <= EC_LANES_MOST; i++) stats->programs_built += p->programs[i] != NULL;
+    stats->programs_found = cl->programs_found - programs;
+    stats->programs_built -= stats->programs_found;
+    stats->bytes_uploaded = cl->uploaded_bytes - uploaded;
+    stats->bytes_found = cl->found_bytes - found;
+    stats->lanes = p->lanes;
+    stats->wave = p->wave;
+    return result;
+}
+
+ec_result ec_pipeline_read_invalid(ec_pipeline *p, uint32_t counts[EC_STAGE_COUNT], ec_error *err)
+{
+    return ec_buffer_read(p->cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * sizeof *counts, counts, err);
+}
+
+void ec_pipeline_destroy(ec_pipeline *p)
+{
+    if (!p->cl) return;
+    for (int i = 0; i < EC_STAGE_ID_COUNT; i++)
+        if (p->kernels[i]) clReleaseKernel(p->kernels[i]);
+    for (int a = 0; a < EC_ACCEL_COUNT; a++) {
+        for (int i = 0; i < 2; i++)
+            if (p->accels[a].kernels[i]) clReleaseKernel(p->accels[a].kernels[i]);
+        for (int k = 0; k < EC_ACCEL_BUFFERS; k++) ec_buffer_release(p->cl, &p->accels[a].buffers[k]);
+    }
+    for (int i = 0; i <= EC_LANES_MOST; i++)
+        if (p->programs[i]) clReleaseProgram(p->programs[i]);
+    p->buffers[EC_ARG_PATHS] = p->buffers[EC_ARG_NEXT] = NULL; /* views of path_queues, as these of accels */
+    memset(&p->buffers[EC_ARG_ACCEL], 0, EC_ACCEL_BUFFERS * sizeof *p->buffers);
+    for (int i = 0; i < EC_ARG_COUNT; i++) ec_buffer_release(p->cl, &p->buffers[i]);
+    for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);
+    memset(p, 0, sizeof *p);
+}

@@ -1,0 +1,108 @@
+/* Kernels and buffers of one render on one device, and the bounce loop. Internal to pipeline/. */
+#ifndef EC_DEVICE_PIPELINE_H
+#define EC_DEVICE_PIPELINE_H
+
+#include "device/cargo.h"
+#include "device/options.h"
+#include "device/stats.h"
+#include "device/stages.h"
+#include "shared/params.h"
+#include "shared/path_state.h"
+
+#define EC_LANES_MOST 16
+#define EC_TUNED_BOUNCES 4 /* bounces with a choice of their own; later ones share the last */
+
+typedef struct ec_pipeline {
+    ec_cl *cl;
+    ec_integrator integrator;
+    ec_params params;
+    ec_counters counters;         /* the host's copy */
+    ec_render_effects effects;
+    uint32_t lanes, wave, triangle_count;
+    uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
+    uint64_t wave_bytes;          /* of the wave's buffers, which drivers may not have given yet */
+    uint64_t film_pixels;         /* that the films have room for */
+    bool fast_math, wave_is_given;
+    cl_mem buffers[EC_ARG_COUNT];
+    cl_mem path_queues[2];
+    cl_program programs[EC_LANES_MOST + 1]; /* by lane width */
+    cl_kernel kernels[EC_STAGE_ID_COUNT];
+    struct {
+        bool in_use;
+        cl_mem buffers[EC_ACCEL_BUFFERS];
+        cl_kernel kernels[2];     /* [0] intersect, [1] connect, as everywhere */
+        /* Where there are several ways, all give the same hits: rays a second of each, the best trial at each bounce. */
+        struct {
+            double best_rate;
+            uint32_t trials;
+        } tuning[2][EC_TUNED_BOUNCES][2]; /* rays as they come, and sorted */
+    } accels[EC_ACCEL_COUNT];
+    uint64_t rays;                /* traced so far, shadow rays included */
+    double clocked_seconds, clocked_rays; /* of trials (trace.c) */
+} ec_pipeline;
+
+/* Puts a cargo on a device and builds the kernels that it calls for. spent: the same cargo, where nobody else wants it: each of its buffers
+ * is freed as soon as the device has it, and then the rest; else NULL. stats gets times, lanes and wave. */
+ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *pipeline,
+                             ec_render_stats *stats, ec_error *err);
+void ec_pipeline_destroy(ec_pipeline *pipeline);
+
+/* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
+ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
+                               bool with_features, ec_error *err);
+/* Samples dropped so far, by ec_stage. */
+ec_result ec_pipeline_read_invalid(ec_pipeline *pipeline, uint32_t counts[EC_STAGE_COUNT], ec_error *err);
+/* What an integrator does with a wave's camera rays: adds to their slots' radiance. scalars: by ec_arg. */
+typedef ec_result ec_integrate(ec_pipeline *pipeline, uint32_t *scalars, ec_error *err);
+ec_integrate ec_integrate_paths;   /* wave.c */
+ec_integrate ec_integrate_whitted; /* whitted.c */
+ec_integrate ec_integrate_raster;  /* raster.c */
+
+/* wave.c: the sum of a queue's parts; the first paths, one part after the other; which queue is read and which written */
+uint64_t ec_pipeline_total(const uint32_t *parts);
+void ec_pipeline_fill_parts(ec_pipeline *pipeline, uint32_t paths);
+void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
+
+/* raster.c: triangles are sorted into tiles once a camera */
+void ec_raster_forget(ec_pipeline *pipeline);
+
+/* whitted.c: of the stack of a slot; max_depth as in the options */
+uint64_t ec_whitted_stack_words(uint32_t max_depth);
+
+/* camera.c */
+ec_result ec_pipeline_set_camera(const ec_camera *camera, const ec_render_options *options, ec_params *params, ec_error *err);
+/* upload.c */
+ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_cargo *cargo, ec_error *err);
+ec_result ec_pipeline_unload(ec_pipeline *pipeline, ec_cargo *cargo, ec_error *err); /* the same, and the cargo is freed on the way */
+/* upload_plan.c: what of the scene goes to the device, and for which effects */
+typedef struct ec_upload {
+    ec_arg arg;
+    const void *data; /* NULL: made as it is uploaded */
+    uint64_t slack;   /* spare bytes behind the end, for streams that are read in more words than they are made of */
+    ec_scene_buffer buffer;
+} ec_upload;
+uint32_t ec_upload_plan(const ec_scene *scene, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects);
+/* The scene's triangles and instances, as builders take them. */
+ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density);
+/* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. wave: paths in flight; 0 = what
+ * suits the device. */
+ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
+/* Room for films of so many pixels and batches of so many positions, which ec_pipeline_run_wave wants; what was in them is lost where they grow. */
+ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, uint64_t positions, ec_error *err);
+/* build.c */
+ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
+/* launch.c */
+ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
+ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
+/* trace.c: the closest hits or the shadow rays of a bounce, in the way that has proved the fastest there; sets EC_ARG_SORTS. */
+ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce, uint32_t *scalars, ec_error *err);
+
+/* effects.c: which are called for, built and launched; which can change a stage's code; is light looked for by shadow rays? */
+void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects);
+uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features);
+bool ec_pipeline_joins(const ec_render_options *options, const ec_pack *pack);
+
+/* How many lanes a device gets; wanted 0: what suits it. Fails where its compiler cannot do what is wanted. */
+ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err);
+
+#endif

@@ -1,0 +1,133 @@
+/* The wave: how many paths are in flight, and the buffers that hold them. */
+#include "cl/workarounds.h"
+#include "device/pipeline.h"
+
+#define EC_SMALLEST_WAVE 4096
+
+/* A slot has R, G, B, and again of indirect light where it is kept apart. */
+static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3; }
+
+/* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads. (Queues that
+ * stay in the cache gain 5 % of processor time there; launches of a tenth the size lose 40 % of wall time.) */
+static uint64_t fit_wave(const ec_pipeline *p)
+{
+    const ec_device_info *device = &p->cl->info;
+    uint64_t wave = device->type & CL_DEVICE_TYPE_CPU ? (uint64_t)1 << 18 : (uint64_t)1 << 20;
+    uint64_t stack = p->integrator == EC_INTEGRATOR_WHITTED ? ec_whitted_stack_words(p->params.max_depth) : 0;
+    uint64_t words = 2 * EC_PATH_FIELDS + EC_HIT_FIELDS + EC_SHADOW_FIELDS + radiance_fields(p) + EC_AOV_FIELDS + stack;
+    uint64_t widest = stack > EC_PATH_FIELDS ? stack : EC_PATH_FIELDS;
+    while (wave > EC_SMALLEST_WAVE &&
+           (wave * 4 * words > device->memory_bytes / 4 || wave * 4 * widest > device->max_allocation_bytes))
+        wave /= 2;
+    return wave;
+}
+
+/* No more than the picture has samples, no fewer than a pixel's; every part of a queue holds whole packets. */
+static void set_wave(ec_pipeline *p, uint64_t wave)
+{
+    uint64_t samples = (uint64_t)p->params.width * p->params.height * p->params.batch;
+    if (wave > samples) wave = samples;
+    if (wave < p->params.batch) wave = p->params.batch;
+    uint64_t unit = (uint64_t)EC_PARTS * p->lanes;
+    p->wave = (uint32_t)((wave + unit - 1) / unit * unit);
+    p->params.wave = p->wave;
+    p->params.part = p->wave / EC_PARTS;
+}
+
+/* Drivers give memory when it is first used. Used here it is missed while there is a remedy. */
+static ec_result create(ec_pipeline *p, const char *label, uint64_t bytes, cl_mem *buffer, ec_error *err)
+{
+    const ec_workaround *workaround = ec_workaround_for(&p->cl->info);
+    EC_TRY(ec_buffer_create(p->cl, label, bytes, NULL, buffer, err));
+    if (workaround && workaround->no_touch) return EC_OK;
+    EC_TRY(ec_buffer_zero(p->cl, *buffer, 0, 4, err));
+    return ec_cl_finish(p->cl, err);
+}
+
+static ec_result create_wave(ec_pipeline *p, ec_error *err)
+{
+    /* Lane-wide loads may read a packet past the last entry. */
+    const uint64_t field = (uint64_t)p->wave * 4, slack = 64;
+    const uint64_t path_fields = p->effects.built & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS
+                                 : p->effects.built & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
+    for (int i = 0; i < 2; i++) EC_TRY(create(p, "path queue", field * path_fields + slack, &p->path_queues[i], err));
+    EC_TRY(create(p, "hits", field * EC_HIT_FIELDS + slack, &p->buffers[EC_ARG_HITS], err));
+    EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));
+    EC_TRY(create(p, "radiance", field * radiance_fields(p) + slack, &p->buffers[EC_ARG_RADIANCE], err));
+    EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
+    if (p->effects.called.bits & EC_FEATURE_MOTION)
+        EC_TRY(create(p, "times of paths", field + slack, &p->buffers[EC_ARG_TIMES], err));
+    if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->effects.built & EC_FEATURE_TRANSMISSION)) return EC_OK; /* only what passes light branches */
+    return create(p, "ray trees", field * ec_whitted_stack_words(p->params.max_depth), &p->buffers[EC_ARG_BRANCHES], err);
+}
+
+static void release_wave(ec_pipeline *p)
+{
+    static const ec_arg of_wave[] = {EC_ARG_HITS, EC_ARG_SHADOWS, EC_ARG_RADIANCE, EC_ARG_AOV, EC_ARG_TIMES, EC_ARG_BRANCHES};
+    for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);
+    for (size_t i = 0; i < sizeof of_wave / sizeof of_wave[0]; i++) ec_buffer_release(p->cl, &p->buffers[of_wave[i]]);
+}
+
+/* Other programs may be using what a device says it has. Fewer paths in flight cost speed only, so the wave is halved until it fits. */
+static ec_result create_wave_that_fits(ec_pipeline *p, uint32_t wanted, ec_error *err)
+{
+    ec_error why = {0};
+    set_wave(p, wanted ? wanted : fit_wave(p));
+    p->first_wave = p->wave;
+    for (uint32_t refused = 0; create_wave(p, &why) != EC_OK; release_wave(p)) {
+        bool lacks_memory = why.kind == EC_ERROR_DEVICE_MEMORY,
+             is_last = wanted || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
+        if (lacks_memory && wanted) ec_fail_more(&why, ", or a smaller --wave");
+        if (err) *err = why;
+        if (!lacks_memory || is_last) return EC_FAILED;
+        refused = p->wave;
+        set_wave(p, refused / 2);
+    }
+    return EC_OK;
+}
+
+ec_result ec_pipeline_create_queues(ec_pipeline *p, uint32_t wave, ec_error *err)
+{
+    ec_cl *cl = p->cl;
+    EC_TRY(ec_buffer_create(cl, "counters", sizeof(ec_counters), NULL, &p->buffers[EC_ARG_COUNTERS], err));
+    EC_TRY(ec_buffer_create(cl, "invalid counts", EC_STAGE_COUNT * 4, NULL, &p->buffers[EC_ARG_INVALID], err));
+    EC_TRY(ec_buffer_zero(cl, p->buffers[EC_ARG_INVALID], 0, EC_STAGE_COUNT * 4, err));
+    const uint64_t before = cl->allocated_bytes;
+    EC_TRY(create_wave_that_fits(p, wave, err));
+    p->wave_bytes = cl->allocated_bytes - before;
+    p->wave_is_given = wave != 0;
+    return ec_buffer_create(cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
+}
+
+static ec_result create_films(ec_pipeline *p, uint64_t pixels, uint64_t positions, ec_error *err)
+{
+    ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
+    ec_buffer_release(p->cl, &p->buffers[EC_ARG_FEATURE_FILM]);
+    EC_TRY(create(p, "batch film", positions * 4 * EC_BATCH_FIELDS, &p->buffers[EC_ARG_BATCH_FILM], err));
+    return create(p, "feature film", pixels * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err);
+}
+
+static ec_result halve_wave(ec_pipeline *p, ec_error *err)
+{
+    release_wave(p);
+    set_wave(p, p->wave / 2);
+    EC_TRY(create_wave(p, err));
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
+}
+
+/* Here too paths in flight make room. */
+ec_result ec_pipeline_fit_films(ec_pipeline *p, uint64_t pixels, uint64_t positions, ec_error *err)
+{
+    ec_error why = {0};
+    if (pixels <= p->film_pixels) return EC_OK;
+    p->film_pixels = 0;
+    for (uint32_t refused = 0; create_films(p, pixels, positions, &why) != EC_OK;) {
+        bool is_last = p->wave_is_given || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
+        if (err) *err = why;
+        if (why.kind != EC_ERROR_DEVICE_MEMORY || is_last) return EC_FAILED;
+        refused = p->wave;
+        EC_TRY(halve_wave(p, err));
+    }
+    p->film_pixels = pixels;
+    return EC_OK;
+}

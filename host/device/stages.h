@@ -1,0 +1,110 @@
+/* The stage table: which kernel a stage is, what it is built with, which arguments it takes in which order. */
+#ifndef EC_DEVICE_STAGES_H
+#define EC_DEVICE_STAGES_H
+
+#include <stdint.h>
+
+#include "cl/cl.h"
+#include "device/options.h"
+#include "device/stats.h"
+#include "shared/accel.h"
+#include "shared/features.h"
+
+/* Everything a kernel can be handed. The first ones are scalars that change from launch to launch. */
+typedef enum ec_arg {
+    EC_ARG_SEED,
+    EC_ARG_FIRST_PIXEL,
+    EC_ARG_BOUNCE,
+    EC_ARG_STEP,
+    EC_ARG_SORTS,      /* do packets sort their rays (lib/sort_rays.h)? */
+    EC_ARG_PATH_COUNT,
+    EC_ARG_PIXEL_COUNT,
+    EC_ARG_TRIANGLE_COUNT,
+    EC_ARG_LIGHT,
+    EC_ARG_SCALAR_COUNT,
+    EC_ARG_PARAMS = EC_ARG_SCALAR_COUNT,
+    EC_ARG_PIXEL_LIST, /* of a pass over some of the pixels; else NULL */
+    EC_ARG_PIXEL_FILTER, /* NULL: a box */
+    EC_ARG_COUNTERS,
+    EC_ARG_INVALID,
+    EC_ARG_PATHS,      /* the queue that is read … */
+    EC_ARG_NEXT,       /* … and the one that is written: they change places every bounce */
+    EC_ARG_HITS,
+    EC_ARG_SHADOWS,
+    EC_ARG_BRANCHES,
+    EC_ARG_RADIANCE,
+    EC_ARG_AOV,
+    EC_ARG_BATCH_FILM,
+    EC_ARG_FEATURE_FILM,
+    EC_ARG_ACCEL,      /* the buffers of the accelerator that the launch goes through */
+    EC_ARG_ACCEL_END = EC_ARG_ACCEL + EC_ACCEL_BUFFERS - 1,
+    EC_ARG_RASTER_TRIS,
+    EC_ARG_TILE_STARTS,
+    EC_ARG_TILE_ENDS,
+    EC_ARG_TILE_LIST,
+    EC_ARG_PRIMS,
+    EC_ARG_INDICES,
+    EC_ARG_NORMALS,
+    EC_ARG_TANGENTS,
+    EC_ARG_UVS,
+    EC_ARG_COLORS,
+    EC_ARG_MATERIALS,
+    EC_ARG_TEXTURE_TABLE,
+    EC_ARG_TEXELS,
+    EC_ARG_SRGB,
+    EC_ARG_PLACES,
+    EC_ARG_MOTION,
+    EC_ARG_TIMES,      /* of paths, by slot */
+    EC_ARG_CAMERA_KEYS, /* NULL: it stands still */
+    EC_ARG_LIGHT_TABLE,
+    EC_ARG_LIGHT_SHARES,
+    EC_ARG_LIGHT_TREE,
+    EC_ARG_LIGHT_TRAILS,
+    EC_ARG_ENVIRONMENT_TEXELS,
+    EC_ARG_ENVIRONMENT_TABLE,
+    EC_ARG_COUNT
+} ec_arg;
+
+typedef enum ec_stage_id {
+    EC_GENERATE,
+    EC_INTERSECT,
+    EC_SHADE,
+    EC_CONNECT,
+    EC_RASTER_SETUP,
+    EC_RASTER_FILL,
+    EC_RASTER,
+    EC_SHADE_RASTER,
+    EC_WHITTED,
+    EC_WHITTED_LIGHT,
+    EC_ACCUMULATE,
+    EC_STORE_FEATURES,
+    EC_STAGE_ID_COUNT
+} ec_stage_id;
+
+#define EC_OF(integrator) (1u << EC_INTEGRATOR_##integrator)
+#define EC_OF_ALL UINT32_MAX
+
+/* How many lanes a stage's program is built with: the pipeline's, the accelerator's, or a fixed number. */
+#define EC_LANES_OF_PIPELINE 0
+#define EC_LANES_OF_ACCEL UINT32_MAX
+
+typedef struct ec_stage_entry {
+    const char *source;        /* kernels/stages/SOURCE.cl; its kernel is ec_SOURCE. With EC_LANES_OF_ACCEL there is one
+                                  for each accelerator: ec_SOURCE_NAME in kernels/lib/traverse_NAME.h */
+    const char *label;         /* for messages and profiles */
+    uint32_t integrators;      /* EC_OF(x): those that launch it */
+    uint32_t lanes;
+    uint64_t features;         /* bits that can change its code; others do not multiply binaries */
+    uint32_t argument_count;
+    const ec_arg *arguments;
+} ec_stage_entry;
+
+extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
+
+/* What an accelerator's kernels are built with besides lanes and features: bvh8 interleaves its rays (lib/trace_interleaved.h) where its
+ * buffers, `bytes` in all, are larger than the device's cache. Static text, "" for nothing. features: those that are built. */
+const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features);
+
+#define EC_LOCAL_SIZE 16 /* one fixed local size a kernel: PoCL compiles again for each new one */
+
+#endif

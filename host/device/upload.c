@@ -1,0 +1,48 @@
+/* A cargo's buffers, put on a device. */
+#include <stdlib.h>
+
+#include "device/pipeline.h"
+
+/* NULL: this device has no use for it. */
+static cl_mem *place_of(ec_pipeline *p, const ec_cargo_buffer *b)
+{
+    if (b->accel == EC_ACCEL_COUNT) return &p->buffers[b->arg];
+    return p->accels[b->accel].in_use ? &p->accels[b->accel].buffers[b->arg - EC_ARG_ACCEL] : NULL;
+}
+
+/* What another render has left on the device and this one has no use for goes first: there may not be room for both. */
+static void make_room(ec_pipeline *p, const ec_cargo *cargo, ec_fingerprint keys[EC_CARGO_BUFFERS])
+{
+    for (uint32_t i = 0; i < cargo->head.buffer_count; i++) {
+        const ec_cargo_buffer *b = &cargo->buffers[i];
+        keys[i] = place_of(p, b) ? ec_buffer_key(b->label, b->bytes, b->slack, b->data) : (ec_fingerprint){{0}};
+    }
+    ec_buffers_keep_only(p->cl, keys, cargo->head.buffer_count);
+}
+
+/* spent: NULL, or the cargo, whose buffers are freed as the device has them. */
+static ec_result upload(ec_pipeline *p, const ec_cargo *cargo, ec_cargo *spent, ec_error *err)
+{
+    ec_fingerprint keys[EC_CARGO_BUFFERS];
+    bool keeps = p->cl->keeps_buffers;
+    ec_result result = EC_OK;
+    if (keeps) make_room(p, cargo, keys);
+    for (uint32_t i = 0; i < cargo->head.buffer_count && result == EC_OK; i++) {
+        const ec_cargo_buffer *b = &cargo->buffers[i];
+        cl_mem *place = place_of(p, b);
+        if (place) result = ec_buffer_put(p->cl, b->label, b->bytes, b->slack, b->data, keeps ? &keys[i] : NULL, place, err);
+        if (!spent) continue;
+        free(spent->buffers[i].owned);
+        spent->buffers[i].owned = NULL;
+    }
+    return result;
+}
+
+ec_result ec_pipeline_upload(ec_pipeline *p, const ec_cargo *cargo, ec_error *err) { return upload(p, cargo, NULL, err); }
+
+ec_result ec_pipeline_unload(ec_pipeline *p, ec_cargo *cargo, ec_error *err)
+{
+    ec_result result = upload(p, cargo, cargo, err);
+    ec_cargo_free(cargo);
+    return result;
+}

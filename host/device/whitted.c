@@ -1,0 +1,60 @@
+/* Whitted's ray trees: one ray of each slot's tree at a time, and behind each hit one light at a time, so that a slot's sums come
+ * in the same order always and memory is bounded by depth, not by the number of branches. */
+#include <string.h>
+
+#include "device/pipeline.h"
+
+uint64_t ec_whitted_stack_words(uint32_t max_depth)
+{
+    return 1 + (uint64_t)((max_depth ? max_depth : EC_WHITTED_DEPTH) - 1) * EC_BRANCH_FIELDS;
+}
+
+/* Counters to the device, with nothing in the shadow queues. */
+static ec_result clear_shadows(ec_pipeline *p, ec_error *err)
+{
+    memset(p->counters.shadows, 0, sizeof p->counters.shadows);
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof p->counters, &p->counters, err);
+}
+
+static ec_result read_counters(ec_pipeline *p, ec_error *err)
+{
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof p->counters, &p->counters, err));
+    for (int k = 0; k < EC_SEGMENT; k++) p->rays += ec_pipeline_total(p->counters.shadows[k]);
+    return EC_OK;
+}
+
+/* The lights in turn; after every EC_SEGMENT the shadow queues' counters are used up. */
+static ec_result shade_lights(ec_pipeline *p, uint32_t *scalars, ec_error *err)
+{
+    for (uint32_t k = 0; k < p->params.light_count; k++) {
+        scalars[EC_ARG_LIGHT] = k;
+        scalars[EC_ARG_STEP] = k % EC_SEGMENT;
+        if (k && k % EC_SEGMENT == 0) {
+            EC_TRY(read_counters(p, err));
+            EC_TRY(clear_shadows(p, err));
+        }
+        EC_TRY(ec_pipeline_launch(p, EC_WHITTED_LIGHT, scalars, err));
+        EC_TRY(ec_pipeline_trace(p, 1, scalars[EC_ARG_BOUNCE], scalars, err));
+    }
+    return EC_OK;
+}
+
+ec_result ec_integrate_whitted(ec_pipeline *p, uint32_t *scalars, ec_error *err)
+{
+    ec_counters *counters = &p->counters;
+    ec_pipeline_fill_parts(p, scalars[EC_ARG_PATH_COUNT]);
+    for (uint32_t step = 0; ec_pipeline_total(counters->rays[0]); step++) {
+        p->rays += ec_pipeline_total(counters->rays[0]);
+        memset(counters->rays[1], 0, sizeof counters->rays[1]);
+        EC_TRY(clear_shadows(p, err));
+        scalars[EC_ARG_BOUNCE] = step;
+        scalars[EC_ARG_STEP] = 0;
+        ec_pipeline_swap_queues(p, step);
+        EC_TRY(ec_pipeline_trace(p, 0, step, scalars, err));
+        EC_TRY(ec_pipeline_launch(p, EC_WHITTED, scalars, err));
+        if (p->params.max_depth > 1) EC_TRY(shade_lights(p, scalars, err));
+        EC_TRY(read_counters(p, err));
+        memcpy(counters->rays[0], counters->rays[1], sizeof counters->rays[0]);
+    }
+    return EC_OK;
+}

@@ -1,0 +1,103 @@
+#include "rare/blind.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+
+#define PI 3.14159265358979323846
+#define CHANCE 1e-7 /* that a sample meets such light: so many paths would not have */
+enum { RAYS = 128 }; /* of each light */
+
+/* Two unit vectors at right angles to a third and to each other. */
+static void make_frame(const float normal[3], double u[3], double v[3])
+{
+    const int k = fabsf(normal[0]) < 0.6f ? 0 : 1;
+    double square = 0;
+    for (int c = 0; c < 3; c++) u[c] = (c == k) - (double)normal[k] * normal[c], square += u[c] * u[c];
+    for (int c = 0; c < 3; c++) u[c] /= sqrt(square);
+    for (int c = 0; c < 3; c++) v[c] = normal[(c + 1) % 3] * u[(c + 2) % 3] - normal[(c + 2) % 3] * u[(c + 1) % 3];
+}
+
+/* From anywhere on a lamp, as it shines. */
+static void start_at_lamp(const ec_rare_lamp *lamp, uint64_t *random, ec_chain *ray)
+{
+    const double root = sqrt(ec_random_unit(random)), b = ec_random_unit(random) * root, sine2 = ec_random_unit(random);
+    const double angle = 2 * PI * ec_random_unit(random), side = lamp->two_sided && ec_random_unit(random) < 0.5 ? -1 : 1;
+    double u[3], v[3];
+    make_frame(lamp->normal, u, v);
+    for (int c = 0; c < 3; c++) {
+        ray->origin[c] = (float)(lamp->corner[c] + (root - b) * lamp->edges[0][c] + b * lamp->edges[1][c]);
+        ray->direction[c] = (float)(sqrt(sine2) * (cos(angle) * u[c] + sin(angle) * v[c]) + side * sqrt(1 - sine2) * lamp->normal[c]);
+    }
+    ray->prim = lamp->prim;
+}
+
+/* From an environment's part, through a disk as large as the scene. */
+static void start_far_away(const ec_rare_light *light, const ec_params *params, double radius, uint64_t *random, ec_chain *ray)
+{
+    const double r = radius * sqrt(ec_random_unit(random)), angle = 2 * PI * ec_random_unit(random);
+    float towards[3];
+    double u[3], v[3];
+    ec_rare_light_direction(light, params, towards);
+    make_frame(towards, u, v);
+    for (int c = 0; c < 3; c++) {
+        ray->origin[c] = (float)(2 * radius * towards[c] + r * (cos(angle) * u[c] + sin(angle) * v[c]));
+        ray->direction[c] = -towards[c];
+    }
+    ray->prim = EC_NO_ID;
+}
+
+static bool is_all_around(const ec_rare_light *l) { return !l->lamp_count && l->direction[0] == 0 && l->direction[1] == 0 && l->direction[2] == 0; }
+
+static void start_rays(const ec_rare_lights *all, const ec_params *params, ec_chain *rays)
+{
+    uint64_t random = 7;
+    for (uint32_t i = 0; i < all->count * RAYS; i++) {
+        const ec_rare_light *light = &all->lights[i / RAYS];
+        if (light->lamp_count) start_at_lamp(&light->lamps[i % light->lamp_count], &random, &rays[i]);
+        else start_far_away(light, params, all->radius, &random, &rays[i]);
+    }
+}
+
+/* In place of any other where there is no room: nothing is known of it. */
+static void add_kind(const ec_rare_lights *all, const ec_rare_light *light, uint32_t material, double share, ec_rare *rare)
+{
+    ec_rare_kind *kind = ec_rare_make_room(rare, INFINITY);
+    *kind = (ec_rare_kind){.chance = CHANCE, .luminance = share / (1 - fmin(share, 0.9)), .is_relative = true, .clamped = 1, .gathered = 1, .peak = 1};
+    memset(kind->share, 255, sizeof kind->share);
+    snprintf(kind->through, sizeof kind->through, "%s", all->materials[material]);
+    memcpy(kind->light, light->name, sizeof kind->light);
+}
+
+/* Adds a kind for each material that sends on much of a light's rays, and that paths hardly met. */
+static void judge_light(const ec_rare_lights *all, const ec_chains *chains, const ec_rare_light *light, const ec_chain *rays, double *shares, ec_rare *rare)
+{
+    memset(shares, 0, all->material_count * sizeof *shares);
+    for (int k = 0; k < RAYS; k++) {
+        if (rays[k].hit == EC_NO_ID) continue;
+        const uint32_t m = ec_rare_material_of(all, rays[k].hit);
+        shares[m] += all->sharp[m] * light->power / all->power / RAYS;
+    }
+    for (uint32_t m = 0; m < all->material_count; m++)
+        if (shares[m] >= EC_BLIND_SHARE && chains->visits[m] < EC_BLIND_VISITS) add_kind(all, light, m, shares[m], rare);
+}
+
+ec_result ec_rare_blind_find(const ec_rare_lights *all, const ec_chains *chains, ec_pipeline *p, ec_rare *rare, ec_error *err)
+{
+    bool any = false;
+    for (uint32_t m = 0; m < all->material_count; m++) any |= all->sharp[m] >= EC_BLIND_SHARE && chains->visits[m] < EC_BLIND_VISITS;
+    if (!any || !(all->power > 0)) return EC_OK;
+    ec_chain *rays = calloc((size_t)all->count * RAYS, sizeof *rays);
+    double *shares = malloc((all->material_count + (size_t)1) * sizeof *shares);
+    ec_result result = rays && shares ? EC_OK : ec_fail(err, "out of memory for %u rays", all->count * RAYS);
+    if (result == EC_OK) start_rays(all, &p->params, rays);
+    if (result == EC_OK) result = ec_chains_meet(p, rays, all->count * RAYS, err);
+    for (uint32_t i = 0; result == EC_OK && i < all->count; i++)
+        if (!is_all_around(&all->lights[i])) judge_light(all, chains, &all->lights[i], rays + (size_t)i * RAYS, shares, rare);
+    free(rays);
+    free(shares);
+    return result;
+}

@@ -1,0 +1,276 @@
+#include "rare/chains.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "film/film.h"
+#include "device/adaptive.h"
+
+#define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
+
+/* The paths of a wave, as the host sees them between two kernels. */
+typedef struct tracer {
+    ec_pipeline *p;
+    const ec_rare_lights *lights;
+    ec_chains *found;
+    uint32_t room, first, count;  /* chains there is room for; paths of this wave */
+    uint32_t *list;               /* of all paths, EC_LIST_WORDS each */
+    uint32_t *at;                 /* by slot: the path's entry in the queue, or UINT32_MAX */
+    int64_t *last;                /* by slot: its chain that waits to know where it ended, or -1 */
+    uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp? */
+    uint32_t stride;              /* entries of the queue that this wave's paths can be in */
+    float *queue, *hits;          /* fields of the device's, `stride` entries each */
+    cl_mem pixels;
+} tracer;
+
+static float word(const tracer *t, const float *queue, int field, uint32_t entry) { return queue[(size_t)field * t->stride + entry]; }
+
+static uint32_t word_u(const tracer *t, const float *queue, int field, uint32_t entry)
+{
+    uint32_t value;
+    memcpy(&value, &queue[(size_t)field * t->stride + entry], sizeof value);
+    return value;
+}
+
+/* Where each path stands in the queue, whose order is the threads'. */
+static void find_paths(tracer *t, const uint32_t *parts)
+{
+    memset(t->at, 0xff, t->count * sizeof *t->at);
+    for (uint32_t k = 0; k < EC_PARTS; k++)
+        for (uint32_t i = 0; i < parts[k * EC_PART_STRIDE]; i++) {
+            const uint32_t entry = k * t->p->params.part + i, slot = word_u(t, t->queue, EC_PATH_SLOT, entry);
+            if (slot < t->count) t->at[slot] = entry;
+        }
+}
+
+static bool is_chain(const ec_params *params, float pdf)
+{
+    if (params->sample == EC_SAMPLE_BSDF || params->sample == EC_SAMPLE_HEMISPHERE) return true;
+    return pdf < 0 || pdf > EC_CHAIN_SHARP;
+}
+
+static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
+{
+    const float pdf = word(t, t->queue, EC_PATH_PDF, entry);
+    const bool is_direct = !t->wide[slot] && (pdf < 0 || pdf > EC_CHAIN_SHARP);
+    if (!is_direct) t->wide[slot] = 1;
+    if (t->found->count == t->room || !is_chain(&t->p->params, pdf)) return;
+    ec_chain *c = &t->found->chains[t->last[slot] = t->found->count++];
+    for (int k = 0; k < 3; k++) {
+        c->origin[k] = word(t, t->queue, EC_PATH_OX + k, entry);
+        c->direction[k] = word(t, t->queue, EC_PATH_DX + k, entry);
+    }
+    c->beta = (float)ec_luminance((double[3]){word(t, t->queue, EC_PATH_BR, entry), word(t, t->queue, EC_PATH_BG, entry), word(t, t->queue, EC_PATH_BB, entry)});
+    c->pdf = pdf > EC_CHAIN_SHARP ? pdf : INFINITY;
+    c->prim = word_u(t, t->queue, EC_PATH_PRIM, entry);
+    c->hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
+    c->reach = c->hit == EC_NO_ID ? INFINITY : NAN;
+    c->place = ec_pixel_place(&t->p->params, t->list[EC_LIST_WORDS * (t->first + slot)]);
+    c->is_direct = is_direct;
+    c->segment = segment;
+}
+
+/* Where the path goes on, its last segment has ended. */
+static void end_chain(tracer *t, uint32_t slot, uint32_t entry)
+{
+    double squares = 0;
+    if (t->last[slot] < 0) return;
+    ec_chain *c = &t->found->chains[t->last[slot]];
+    for (int k = 0; k < 3; k++) {
+        const double way = (double)word(t, t->queue, EC_PATH_OX + k, entry) - c->origin[k];
+        squares += way * way;
+    }
+    c->reach = (float)sqrt(squares);
+    t->last[slot] = -1;
+}
+
+static void look(tracer *t, uint32_t segment)
+{
+    for (uint32_t slot = 0; slot < t->count; slot++) {
+        const uint32_t entry = t->at[slot];
+        if (entry != UINT32_MAX) end_chain(t, slot, entry);
+        t->last[slot] = -1;
+        if (entry == UINT32_MAX) continue;
+        note_chain(t, slot, entry, segment);
+        const uint32_t hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
+        if (hit != EC_NO_ID) t->found->visits[ec_rare_material_of(t->lights, hit)]++;
+    }
+}
+
+static uint32_t accel_of(const ec_pipeline *p)
+{
+    uint32_t accel = 0;
+    while (!p->accels[accel].in_use) accel++;
+    return accel;
+}
+
+static ec_result read_fields(const tracer *t, cl_mem from, int fields, float *into, ec_error *err)
+{
+    for (int f = 0; f < fields; f++)
+        EC_TRY(ec_buffer_read(t->p->cl, from, 4ull * t->p->wave * (uint32_t)f, 4ull * t->stride, into + (size_t)t->stride * (uint32_t)f, err));
+    return EC_OK;
+}
+
+/* One bounce: rays[0] of the counters says what each part of the queue holds, and at the end what is left. */
+static ec_result bounce(tracer *t, uint32_t *scalars, uint32_t number, ec_error *err)
+{
+    ec_pipeline *p = t->p;
+    ec_counters *counters = &p->counters;
+    memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    scalars[EC_ARG_BOUNCE] = number;
+    ec_pipeline_swap_queues(p, number);
+    EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
+    EC_TRY(read_fields(t, p->buffers[EC_ARG_PATHS], EC_PATH_FIELDS, t->queue, err));
+    EC_TRY(read_fields(t, p->buffers[EC_ARG_HITS], EC_HIT_PRIM + 1, t->hits, err));
+    find_paths(t, counters->rays[0]);
+    look(t, number);
+    EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    memcpy(counters->rays[0], counters->rays[1], sizeof counters->rays[0]);
+    return EC_OK;
+}
+
+/* Where nothing is more than diffuse only the camera's own directions are sharp. */
+static uint32_t bounces_of(const ec_pipeline *p)
+{
+    const bool all = (p->effects.called.bits & EC_FEATURE_SPECULAR) || p->params.sample == EC_SAMPLE_BSDF || p->params.sample == EC_SAMPLE_HEMISPHERE;
+    const uint32_t most = all ? EC_CHAIN_BOUNCES : 1;
+    return most < p->params.max_depth ? most : p->params.max_depth;
+}
+
+static ec_result trace_wave(tracer *t, ec_error *err)
+{
+    ec_pipeline *p = t->p;
+    uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_SEED] = SEED, [EC_ARG_PATH_COUNT] = t->count, [EC_ARG_PIXEL_COUNT] = t->count,
+                                             [EC_ARG_TRIANGLE_COUNT] = p->triangle_count};
+    memset(t->last, 0xff, t->count * sizeof *t->last);
+    memset(t->wide, 0, t->count);
+    EC_TRY(ec_buffer_write(p->cl, t->pixels, 0, 4ull * EC_LIST_WORDS * t->count, t->list + (size_t)EC_LIST_WORDS * t->first, err));
+    ec_pipeline_swap_queues(p, 0);
+    EC_TRY(ec_pipeline_launch(p, EC_GENERATE, scalars, err));
+    ec_pipeline_fill_parts(p, t->count);
+    for (uint32_t b = 0; b < bounces_of(p) && ec_pipeline_total(p->counters.rays[0]); b++)
+        EC_TRY(bounce(t, scalars, b, err));
+    return EC_OK;
+}
+
+static ec_result trace_all(tracer *t, ec_error *err)
+{
+    for (t->first = 0; t->first < EC_CHAIN_PATHS; t->first += t->count) {
+        const uint32_t left = EC_CHAIN_PATHS - t->first;
+        t->count = left < t->p->wave ? left : t->p->wave;
+        t->stride = (t->count + t->p->params.part - 1) / t->p->params.part * t->p->params.part;
+        EC_TRY(trace_wave(t, err));
+    }
+    return EC_OK;
+}
+
+/* Paths are one sample a pixel, and no part of a batch. Shading counts what is invalid: counts are put back as they were. */
+static ec_result trace_apart(tracer *t, ec_error *err)
+{
+    ec_pipeline *p = t->p;
+    const ec_params params = p->params;
+    const cl_mem list = p->buffers[EC_ARG_PIXEL_LIST], aov = p->buffers[EC_ARG_AOV];
+    uint32_t invalid[EC_STAGE_COUNT];
+    const uint64_t bytes = 4ull * EC_LIST_WORDS * EC_CHAIN_PATHS, slack = 64 * 4 * EC_LIST_WORDS; /* lanes past the last path look too */
+    EC_TRY(ec_pipeline_read_invalid(p, invalid, err));
+    EC_TRY(ec_buffer_create(p->cl, "pixel list", bytes + slack, NULL, &t->pixels, err));
+    p->params.batch = 1;
+    p->params.first_sample = 0;
+    p->params.film_row = 0;
+    p->buffers[EC_ARG_PIXEL_LIST] = t->pixels;
+    p->buffers[EC_ARG_AOV] = NULL;
+    ec_result result = ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
+    if (result == EC_OK) result = trace_all(t, err);
+    p->params = params;
+    p->buffers[EC_ARG_PIXEL_LIST] = list;
+    p->buffers[EC_ARG_AOV] = aov;
+    if (result == EC_OK) result = ec_buffer_write(p->cl, p->buffers[EC_ARG_INVALID], 0, sizeof invalid, invalid, err);
+    if (result == EC_OK) result = ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof params, &params, err);
+    if (result == EC_OK) result = ec_cl_finish(p->cl, err);
+    ec_buffer_release(p->cl, &t->pixels);
+    return result;
+}
+
+/* Evenly over the numbers of pixels, which lie tile by tile; the next round over them takes their next samples. */
+static void list_paths(const ec_params *params, uint32_t *list)
+{
+    const uint64_t pixels = (uint64_t)params->width * params->height;
+    for (uint64_t i = 0; i < EC_CHAIN_PATHS; i++) {
+        list[EC_LIST_WORDS * i] = (uint32_t)(pixels < EC_CHAIN_PATHS ? i % pixels : i * pixels / EC_CHAIN_PATHS);
+        list[EC_LIST_WORDS * i + 1] = (uint32_t)(pixels < EC_CHAIN_PATHS ? i / pixels : 0);
+    }
+}
+
+ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
+{
+    const uint32_t wave = p->wave < EC_CHAIN_PATHS ? p->wave : EC_CHAIN_PATHS;
+    tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * EC_CHAIN_PATHS};
+    *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains),
+                          .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
+    t.list = malloc(4 * EC_LIST_WORDS * EC_CHAIN_PATHS);
+    t.at = malloc(4ull * wave);
+    t.last = malloc(8ull * wave);
+    t.wide = malloc(wave);
+    t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
+    t.hits = malloc(4ull * (wave + p->params.part));
+    ec_result result = EC_OK;
+    if (!chains->chains || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
+        result = ec_fail(err, "out of memory for %d paths", EC_CHAIN_PATHS);
+    if (result == EC_OK) {
+        list_paths(&p->params, t.list);
+        result = trace_apart(&t, err);
+    }
+    free(t.list);
+    free(t.at);
+    free(t.last);
+    free(t.wide);
+    free(t.queue);
+    free(t.hits);
+    return result;
+}
+
+void ec_chains_free(ec_chains *chains)
+{
+    free(chains->chains);
+    free(chains->visits);
+    *chains = (ec_chains){0};
+}
+
+/* A queue of rays alone, part after part as fill_parts has them. */
+static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float *field, ec_error *err)
+{
+    const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
+    ec_counters *counters = &p->counters;
+    memset(counters, 0, sizeof *counters);
+    ec_pipeline_fill_parts(p, count);
+    ec_pipeline_swap_queues(p, 0);
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    for (uint32_t f = 0; f <= EC_PATH_PRIM; f++) {
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t k = f < EC_PATH_DX ? f : f - EC_PATH_DX;
+            if (f < EC_PATH_DX) field[i] = rays[i].origin[k];
+            else if (f < EC_PATH_BR) field[i] = rays[i].direction[k];
+            else memcpy(&field[i], f == EC_PATH_PRIM ? &rays[i].prim : &i, sizeof i); /* slots, and what nobody looks at */
+        }
+        EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave * f, 4ull * count, field, err));
+    }
+    EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], 4ull * p->wave * EC_HIT_PRIM, 4ull * count, field, err));
+    for (uint32_t i = 0; i < count; i++) memcpy(&rays[i].hit, &field[i], sizeof rays[i].hit);
+    return EC_OK;
+}
+
+ec_result ec_chains_meet(ec_pipeline *p, ec_chain *rays, uint32_t count, ec_error *err)
+{
+    float *field = malloc(4ull * count + 4);
+    ec_result result = field ? EC_OK : ec_fail(err, "out of memory for %u rays", count);
+    for (uint32_t first = 0, wave; result == EC_OK && first < count; first += wave) {
+        wave = count - first < p->wave ? count - first : p->wave;
+        result = meet_wave(p, rays + first, wave, field, err);
+    }
+    free(field);
+    return result;
+}

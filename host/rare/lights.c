@@ -1,0 +1,259 @@
+#include "rare/lights.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "film/film.h"
+
+#define PI 3.14159265358979323846
+#define OCTAVES 24          /* of luminance below the map's brightest, each a light of its own */
+#define SMALL (4 * PI / 50) /* steradians: whatever is larger is met soon */
+#define SHARP_ROUGHNESS 0.2f /* lobes of more are wider than EC_CHAIN_SHARP */
+#define GATHERED 0.9        /* length of the mean direction from which on a part lies in one place */
+
+static double luminance(const float rgb[3]) { return ec_luminance((double[3]){rgb[0], rgb[1], rgb[2]}); }
+
+/* An octave of a map's luminance, in one of the eight octants of directions: two suns are two lights. */
+enum { OCTANTS = 8 };
+typedef struct octave {
+    double solid_angle, light, direction[3];
+} octave;
+
+static float brightest(const ec_pack *pack)
+{
+    float most = 0;
+    const size_t texels = (size_t)pack->environment_width * (pack->environment_height + 1);
+    for (size_t i = 0; i < texels; i++) most = fmaxf(most, (float)luminance(pack->environment_texels + 4 * i));
+    return most;
+}
+
+/* columns: cosine and sine of each column's angle. */
+static void sort_into_octaves(const ec_pack *pack, float most, const double *columns, octave *octaves)
+{
+    const uint32_t width = pack->environment_width, height = pack->environment_height;
+    for (uint32_t y = 0; y < height; y++) {
+        const double theta = PI * (y + 0.5) / height, sine = sin(theta), cosine = cos(theta), solid = 2 * PI * PI / width / height * sine;
+        const float *row = pack->environment_texels + 4 * (size_t)width * (y + 1);
+        for (uint32_t x = 0; x < width; x++) {
+            const double bright = luminance(row + 4 * (size_t)x);
+            const int k = bright > 0 ? ilogb(most) - ilogb(bright) : OCTAVES;
+            if (k >= OCTAVES) continue;
+            const double direction[3] = {sine * columns[2 * (size_t)x], cosine, sine * columns[2 * (size_t)x + 1]};
+            octave *o = &octaves[k * OCTANTS + (direction[0] < 0) + 2 * (direction[1] < 0) + 4 * (direction[2] < 0)];
+            o->solid_angle += solid;
+            o->light += bright * solid;
+            for (int c = 0; c < 3; c++) o->direction[c] += direction[c] * solid;
+        }
+    }
+}
+
+static void add_octave(const octave *o, ec_rare_lights *all)
+{
+    ec_rare_light *light = &all->lights[all->count++];
+    const double length = sqrt(o->direction[0] * o->direction[0] + o->direction[1] * o->direction[1] + o->direction[2] * o->direction[2]);
+    *light = (ec_rare_light){.material = UINT32_MAX, .radiance = o->light / o->solid_angle, .solid_angle = o->solid_angle,
+                             .power = o->light * PI * all->radius * all->radius};
+    snprintf(light->name, sizeof light->name, "the environment's brightest spot");
+    for (int c = 0; c < 3 && length > GATHERED * o->solid_angle; c++) light->direction[c] = (float)(o->direction[c] / length);
+}
+
+static ec_result find_in_environment(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    octave octaves[OCTAVES * OCTANTS] = {0};
+    const uint32_t width = pack->environment_width;
+    const float most = pack->environment_texels && pack->plain.scene.has_environment ? brightest(pack) : 0;
+    if (!(most > 0)) return EC_OK;
+    double *columns = malloc(2 * sizeof *columns * width);
+    if (!columns) return ec_fail(err, "out of memory for an environment map %u texels wide", width);
+    for (uint32_t x = 0; x < width; x++) {
+        const double phi = 2 * PI * ((x + 0.5) / width - 0.5);
+        columns[2 * (size_t)x] = cos(phi);
+        columns[2 * (size_t)x + 1] = sin(phi);
+    }
+    sort_into_octaves(pack, most, columns, octaves);
+    free(columns);
+    for (int k = 0; k < OCTAVES * OCTANTS && all->count < EC_RARE_LIGHTS / 2; k++) /* the brightest; the other half is the lamps' */
+        if (octaves[k].solid_angle > 0 && octaves[k].solid_angle < SMALL) add_octave(&octaves[k], all);
+    return EC_OK;
+}
+
+static void lamp_of(const ec_light_data *l, ec_rare_lamp *lamp)
+{
+    double e[3], f[3];
+    for (int c = 0; c < 3; c++) {
+        e[c] = (double)l->b[c] - l->a[c], f[c] = (double)l->c[c] - l->a[c];
+        lamp->middle[c] = (l->a[c] + l->b[c] + l->c[c]) / 3;
+    }
+    const double n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+    const double twice = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int c = 0; c < 3; c++) lamp->normal[c] = (float)(n[c] / fmax(twice, 1e-300));
+    for (int c = 0; c < 3; c++) lamp->corner[c] = l->a[c], lamp->edges[0][c] = (float)e[c], lamp->edges[1][c] = (float)f[c];
+    lamp->prim = l->prim;
+    lamp->area = (float)(twice / 2);
+    lamp->two_sided = l->kind & EC_LIGHT_TWO_SIDED;
+}
+
+static bool is_lamp(const ec_rare_lights *all, const ec_light_data *l, uint32_t material)
+{
+    return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && l->prim < all->stored_count && all->triangle_material[l->prim] == material;
+}
+
+/* Up to EC_RARE_LAMPS of a material's lamps, evenly among them. */
+static void add_lamps(const ec_pack *pack, uint32_t material, uint32_t count, ec_rare_lights *all)
+{
+    const uint32_t stride = (count + EC_RARE_LAMPS - 1) / EC_RARE_LAMPS;
+    ec_rare_light *light = &all->lights[all->count++];
+    double bright = 0;
+    uint32_t seen = 0;
+    *light = (ec_rare_light){.material = material};
+    for (uint32_t i = 0; i < pack->light_count; i++) {
+        const ec_light_data *l = &pack->lights[i];
+        if (!is_lamp(all, l, material) || seen++ % stride) continue;
+        bright = fmax(bright, luminance(l->emission));
+        lamp_of(l, &light->lamps[light->lamp_count++]);
+    }
+    light->radiance = bright;
+    for (uint32_t i = 0; i < light->lamp_count; i++) {
+        ec_rare_lamp *lamp = &light->lamps[i];
+        lamp->weight = (float)count / (float)light->lamp_count;
+        light->power += PI * bright * lamp->area * lamp->weight * (lamp->two_sided ? 2 : 1);
+    }
+    all->power += light->power;
+    snprintf(light->name, sizeof light->name, "\"%.*s\"", EC_CUT(all->materials[material], EC_RARE_NAME - 3));
+}
+
+/* A material's lamps. */
+typedef struct lamp_group {
+    uint32_t count;
+    double power;
+} lamp_group;
+
+static void group_lamps(const ec_pack *pack, const ec_rare_lights *all, lamp_group *groups)
+{
+    for (uint32_t i = 0; i < pack->light_count; i++) {
+        const ec_light_data *l = &pack->lights[i];
+        if ((l->kind & EC_LIGHT_KIND_MASK) != EC_KIND_TRIANGLE || l->prim >= all->stored_count) continue;
+        lamp_group *group = &groups[all->triangle_material[l->prim]];
+        ec_rare_lamp lamp;
+        lamp_of(l, &lamp);
+        group->count++;
+        group->power += lamp.area * luminance(l->emission);
+    }
+}
+
+/* Those of the materials with the most power, as far as there is room. */
+static ec_result find_lamps(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    lamp_group *groups = calloc(all->material_count + (size_t)1, sizeof *groups);
+    if (!groups) return ec_fail(err, "out of memory for %u materials", all->material_count);
+    group_lamps(pack, all, groups);
+    while (all->count < EC_RARE_LIGHTS) {
+        uint32_t best = 0;
+        for (uint32_t m = 0; m < all->material_count; m++)
+            if (groups[m].count && (!groups[best].count || groups[m].power > groups[best].power)) best = m;
+        if (!groups[best].count) break;
+        add_lamps(pack, best, groups[best].count, all);
+        groups[best].count = 0;
+    }
+    free(groups);
+    return EC_OK;
+}
+
+static void *copy_of(const void *data, size_t bytes)
+{
+    void *copy = malloc(bytes + 1);
+    if (copy && bytes) memcpy(copy, data, bytes);
+    return copy;
+}
+
+/* Share of head-on light that a material sends on in a narrow lobe. Roughness by its factor alone: where a texture has a say, paths that get
+ * there tell. */
+static float sharp_share(const ec_material_data *m)
+{
+    const double f0 = luminance(m->f0), base = luminance(m->base_color);
+    double share = 0;
+    if (m->roughness < SHARP_ROUGHNESS) share = m->metallic * base + (1 - m->metallic) * (f0 + (1 - f0) * m->transmission * base);
+    if (m->coat_roughness < SHARP_ROUGHNESS) share = fmax(share, 0.04 * m->coat);
+    return (float)share;
+}
+
+/* The power of all lights but triangles. */
+static double power_of_others(const ec_pack *pack)
+{
+    const ec_scene *scene = &pack->plain.scene;
+    const double disk = PI * pack->scene_radius * pack->scene_radius;
+    double power = scene->has_environment ? 4 * PI * disk * luminance(pack->environment_mean) : 0;
+    for (uint32_t i = 0; i < scene->light_count; i++) power += ec_pack_punctual_power(&scene->lights[i], pack->scene_radius);
+    return power;
+}
+
+/* The scene without its lights: which material a triangle has. */
+static ec_result copy_materials(const ec_scene *scene, ec_rare_lights *all, ec_error *err)
+{
+    all->stored_count = scene->triangle_count;
+    all->material_count = scene->material_count;
+    all->placed_count = scene->placed_count;
+    all->triangle_material = copy_of(scene->triangle_material, 4ull * scene->triangle_count);
+    all->materials = calloc(scene->material_count + (size_t)1, sizeof *all->materials);
+    all->shapes = copy_of(scene->shapes, scene->shape_count * sizeof *scene->shapes);
+    all->placed = copy_of(scene->placed, scene->placed_count * sizeof *scene->placed);
+    all->lights = calloc(EC_RARE_LIGHTS, sizeof *all->lights);
+    all->sharp = calloc(scene->material_count + (size_t)1, sizeof *all->sharp);
+    if (!all->triangle_material || !all->materials || !all->shapes || !all->placed || !all->lights || !all->sharp)
+        return ec_fail(err, "out of memory for the materials of %u triangles", scene->triangle_count);
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        const char *name = scene->materials[m].name;
+        if (name && *name) snprintf(all->materials[m], EC_RARE_NAME, "%.*s", EC_CUT(name, EC_RARE_NAME - 1));
+        else snprintf(all->materials[m], EC_RARE_NAME, "material %u", m);
+    }
+    return EC_OK;
+}
+
+ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    *all = (ec_rare_lights){0};
+    ec_result result = copy_materials(&pack->plain.scene, all, err);
+    all->radius = pack->scene_radius;
+    all->power = power_of_others(pack);
+    for (uint32_t m = 0; result == EC_OK && m < all->material_count && m < pack->material_count; m++) all->sharp[m] = sharp_share(&pack->materials[m]);
+    if (result == EC_OK) result = find_in_environment(pack, all, err);
+    if (result == EC_OK) result = find_lamps(pack, all, err);
+    if (result != EC_OK || !all->count) ec_rare_lights_free(all);
+    return result;
+}
+
+void ec_rare_lights_free(ec_rare_lights *all)
+{
+    free(all->lights);
+    free(all->sharp);
+    free(all->triangle_material);
+    free(all->materials);
+    free(all->shapes);
+    free(all->placed);
+    *all = (ec_rare_lights){0};
+}
+
+uint32_t ec_rare_material_of(const ec_rare_lights *all, uint32_t id)
+{
+    if (all->placed_count && id >= all->placed[0].id) {
+        uint32_t low = 0, high = all->placed_count - 1;
+        while (low < high) {
+            const uint32_t middle = (low + high + 1) / 2;
+            if (all->placed[middle].id <= id) low = middle;
+            else high = middle - 1;
+        }
+        id = all->shapes[all->placed[low].shape].first + id - all->placed[low].id;
+    }
+    return id < all->stored_count ? all->triangle_material[id] : 0;
+}
+
+void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const float *turn = params->environment_turn + 4 * k, *d = light->direction;
+        direction[k] = params->environment_turned ? turn[0] * d[0] + turn[1] * d[1] + turn[2] * d[2] : d[k];
+    }
+}

@@ -1,0 +1,173 @@
+/* A render from set-up to the end. */
+#include "render/render.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "device/adaptive.h"
+#include "rare/paths.h"
+#include "render/render_state.h"
+
+/* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
+static ec_result check_ends(const ec_render_options *o, ec_error *err)
+{
+    bool ends = (o->survival >= 0.0 && o->survival < 1.0) || o->max_depth;
+    if (o->integrator != EC_INTEGRATOR_PATH || ends) return EC_OK;
+    return ec_fail(err, "a survival probability of %g with unlimited depth: nothing would end a path; set max_depth, or a survival under 1", o->survival);
+}
+
+/* No option is without effect in silence. */
+static ec_result note_unneeded(const ec_scene *scene, uint64_t without, const ec_log *log, ec_error *err)
+{
+    ec_effects effects;
+    char names[EC_EFFECT_NAMES];
+    if (!without) return EC_OK;
+    EC_TRY(ec_scene_calls(scene, &effects, err));
+    ec_feature_names(without & ~effects.bits, names, sizeof names);
+    if (*names) ec_note(log, "--without: the scene does not call for %s", names);
+    return EC_OK;
+}
+
+/* Film and figures of the course's past, or of none. */
+static void take_up(ec_render_state *r, const ec_past *past)
+{
+    r->past.allotment.gain = 1.0;
+    r->past.next = r->kept_next = r->course->first;
+    if (!past) return;
+    r->past = *past;
+    r->past.allotment.weight = NULL;
+    r->rays_before = past->rays;
+    memcpy(r->invalid_before, past->invalid, sizeof r->invalid_before);
+    r->kept_next = r->course->past_is_kept ? past->next : UINT32_MAX; /* of which there is no batch: all is new */
+    r->kept_under_way = past->under_way;
+}
+
+/* Of one device, told once it is loaded, since that is what its films have to fit beside; several devices have all rows. */
+static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *err)
+{
+    const ec_pipeline *alone = ec_sources_alone(&r->sources);
+    if (alone) EC_TRY(ec_render_choose_rows(r, log, err));
+    if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, r->replicates, err));
+    if (!r->strip_rows) EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
+    if (!alone) return EC_OK;
+    if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
+    r->stats->wave = alone->wave;
+    if (alone->wave < alone->first_wave)
+        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", alone->wave, alone->first_wave);
+    return EC_OK;
+}
+
+/* Where so many samples a pixel end, of the job or of its slice. */
+static void choose_end(ec_render_state *r)
+{
+    const ec_render_options *o = r->options;
+    const ec_course *course = r->course;
+    const uint64_t most = o->spp ? o->spp : course->most;
+    uint32_t before = 0;
+    r->end = UINT32_MAX;
+    if (course->end) r->end = course->end - (course->cut > 0), r->cut = course->cut;
+    else if (most) r->end = ec_schedule_find(r->replicates, most, &before);
+    if (before) r->cut = ec_schedule_batch(r->replicates, r->end).samples - before;
+    double samples = (double)most;
+    if (course->end)
+        samples = (double)(ec_schedule_samples(r->replicates, course->end) - ec_schedule_samples(r->replicates, course->first)) - course->cut;
+    ec_goal_set(&r->goal, samples, o->time_limit, o->error_target);
+}
+
+/* Samples of the largest batch, which a wave has to hold. Pixels of an adaptive render may get many times the mean. */
+static uint32_t largest_batch(const ec_render_state *r)
+{
+    const bool is_known = r->end != UINT32_MAX && !r->options->adaptive;
+    return is_known ? ec_schedule_batch(r->replicates, r->end ? r->end - (r->cut == 0) : 0).samples : EC_BATCH_MOST;
+}
+
+/* By the first device that is loaded, or another one where it fails, which is out then. */
+static ec_result foretell(ec_render_state *r, const ec_rare_lights *lights, ec_error *err)
+{
+    const uint32_t count = r->sources.count;
+    for (uint32_t i = 0; i < 2 * count; i++) { /* those that are loaded already, then the others */
+        ec_error why = {0};
+        ec_pipeline *p = ec_sources_pipeline(&r->sources, i % count, i >= count);
+        if (!p) continue;
+        if (ec_rare_paths_foretell(lights, p, &r->rare, &why) == EC_OK) return EC_OK;
+        if (!r->sources.team) {
+            if (err) *err = why;
+            return EC_FAILED;
+        }
+        ec_team_leave_out(r->sources.team, i % count, &why);
+    }
+    return EC_OK;
+}
+
+/* Loads the devices, and has a first look at the picture's paths. */
+static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *err)
+{
+    ec_rare_lights lights = {0};
+    ec_result result = EC_OK;
+    if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same ways whatever the sample */
+        result = ec_rare_lights_find(&r->sources.cargo.pack, &lights, err);
+    if (result == EC_OK) result = ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err);
+    if (result == EC_OK) result = foretell(r, &lights, err);
+    ec_rare_lights_free(&lights);
+    return result;
+}
+
+static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene,
+                        const ec_log *log, ec_error *err)
+{
+    const ec_past *past = r->course->past;
+    const ec_cargo_head *head = &r->sources.cargo.head;
+    take_up(r, past);
+    EC_TRY(ec_sources_pack(devices, device_count, r->course->allies != NULL, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
+    r->params = head->params;
+    const uint64_t called = head->effects.called.bits; /* the cargo is spent when it is loaded */
+    if (head->bodies_too_many)
+        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
+                head->bodies_too_many, EC_BODIES_MOST);
+    if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(called & EC_FEATURE_MULTISCATTER))
+        ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
+    if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
+    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err));
+    EC_TRY(open_sources(r, log, err));
+    if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);
+    EC_TRY(choose_film(r, log, err));
+    if (past) r->limit = r->film->limit;
+    return r->strip_rows ? EC_OK : ec_render_find_limit(r, 0, r->options->height, log, err);
+}
+
+ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene,
+                           const ec_render_options *options, const ec_course *course, ec_progress_fn progress,
+                           void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
+{
+    *stats = (ec_render_stats){.strips = 1};
+    EC_TRY(check_ends(options, err));
+    EC_TRY(note_unneeded(scene, options->without, log, err));
+    ec_render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
+    r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
+    r.replicates = ec_render_replicates(options);
+    r.goal.pixels = (double)options->width * options->height;
+    r.goal.replicates = r.replicates;
+    choose_end(&r);
+    ec_result result = set_up(&r, devices, device_count, scene, log, err);
+    if (result == EC_OK) {
+        ec_error why = {0};
+        const double cpu_start = ec_cpu_now();
+        result = r.strip_rows ? ec_render_strips(&r, log, &why) : ec_render_film(&r, log, &why);
+        stats->cpu_seconds = ec_cpu_now() - cpu_start;
+        if (result != EC_OK) r.stopped_by = why.kind == EC_ERROR_OTHER ? "failure" : "device";
+        if (result != EC_OK && err) *err = why;
+        ec_render_finish_stats(&r);
+    }
+    ec_allotment_free(&r.past.allotment);
+    free(r.aov);
+    ec_sources_close(&r.sources, stats);
+    return result;
+}
+
+ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
+                    void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
+{
+    const ec_course whole = {0};
+    return ec_render_course(cl, 1, scene, options, &whole, progress, user, film, stats, log, err);
+}

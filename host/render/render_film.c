@@ -1,0 +1,284 @@
+/* Batches until a limit is met. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "device/adaptive.h"
+#include "render/render_state.h"
+#include "render/team.h"
+
+/* With blocks of batches, since one that is given up is lost, and nothing of it is kept before it is whole: seconds, or a share of the time so far;
+ * and not longer than between two checkpoints. */
+static double patience(const ec_render_state *r)
+{
+    const double seconds = fmax(EC_TEAM_PATIENCE_SECONDS, EC_TEAM_PATIENCE_SHARE * (ec_now() - r->render_start));
+    return r->course->keep ? fmin(r->course->every, seconds) : seconds;
+}
+
+/* Features come with the first batch of each replicate. */
+static bool wants_features(const ec_render_state *r)
+{
+    return r->past.next < r->replicates && r->film->aov_batches == r->past.next && !r->past.allotment.weight;
+}
+
+/* Hands over what there is; of a batch that is under way too, but not of its features, nor of a pass that
+ * is larger than the picture. A batch that is cut short cannot be gone on from: what
+ * is kept ends before it. */
+static void keep(ec_render_state *r, uint32_t under_way)
+{
+    if (wants_features(r) || r->order.count > ec_render_film_pixels(r)) under_way = 0;
+    const bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way;
+    if (!r->course->keep || !is_new || !(r->film->batch_count || under_way) || r->film->unsampled || r->film->cut) return;
+    ec_past now = r->past;
+    now.slope = r->goal.slope;
+    now.seconds = ec_now() - r->render_start;
+    if (under_way) {
+        now.under_way = under_way;
+        now.batch = r->source->mean;
+        now.rays = r->rays_before + r->source->rays;
+        for (int i = 0; i < EC_STAGE_COUNT; i++) now.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
+    }
+    if (r->course->keep(r->course->user, r->film, &now)) r->kept_next = now.next, r->kept_under_way = under_way;
+    r->kept_at = ec_now();
+}
+
+ec_mark ec_render_mark(const ec_render_state *r) { return (ec_mark){ec_render_samples_done(r), ec_now() - r->render_start}; }
+
+/* Samples of each position of the order. */
+static uint64_t order_samples(const ec_render_state *r)
+{
+    const uint32_t batches = r->source->batches > 1 ? r->source->batches : 1;
+    if (r->order.list) return r->order.samples;
+    return ec_schedule_samples(r->replicates, r->order.index + batches) - ec_schedule_samples(r->replicates, r->order.index) - r->order.cut;
+}
+
+/* Between waves: goes on unless a limit or the caller ends the batch early. */
+static bool goes_on(void *user, uint32_t done)
+{
+    ec_render_state *r = user;
+    r->under_way = done * order_samples(r);
+    if (done > r->order.done && r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
+    if (done >= r->order.count) return true;
+    bool is_due = r->course->keep && r->source->batches == 1 && ec_now() - r->kept_at >= r->course->every;
+    r->look_failed = is_due && r->source->look(r->source, &r->order, &r->look_error) != EC_OK;
+    if (r->look_failed) return false;
+    if (is_due) keep(r, done);
+    double now = ec_now(), share = (double)r->under_way / ec_render_film_pixels(r);
+    bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
+    bool go_on = now - r->last_report < 0.1 || ec_render_tell(r, r->samples_before_it + share);
+    if (!out_of_time && go_on) return true;
+    r->stopped_by = go_on ? "time" : "user";
+    return false;
+}
+
+/* Up to which batch a source may look ahead: what comes after the pilot of an adaptive render, and each pass then, depends on the film. */
+static uint32_t known_end(const ec_render_state *r)
+{
+    const uint32_t next = r->past.next;
+    uint32_t end = next < r->end ? r->end : next + 1;
+    if (r->past.allotment.weight || wants_features(r)) return next + 1;
+    while (r->options->adaptive && !r->past.allotted && end > next + 1 && ec_schedule_has_pilot(r->replicates, end - 1)) {
+        const uint32_t pilot = (uint32_t)ec_schedule_round(r->replicates, next);
+        if (ec_schedule_has_pilot(r->replicates, pilot) || pilot >= end) return pilot < end ? pilot : end;
+        end = pilot;
+    }
+    return end;
+}
+
+static ec_result take_features(ec_render_state *r, ec_error *err)
+{
+    if (!wants_features(r)) free(r->aov), r->aov = NULL;
+    else if (!r->aov) r->aov = malloc((uint64_t)r->film->width * r->film->height * EC_AOV_FIELDS * sizeof *r->aov);
+    return r->aov || !wants_features(r) ? EC_OK : ec_fail(err, "out of memory for the first-hit features");
+}
+
+/* Of a batch that was under way: whole rows of tiles (batch_source.h), a wave may have ended within one. */
+static uint32_t gone_on_from(const ec_render_state *r)
+{
+    const uint32_t row = EC_TILE_ROWS * r->film->width, done = r->past.under_way < r->order.count ? r->past.under_way : 0;
+    return r->order.list ? done : done - done % row;
+}
+
+/* No look at the error falls in between. Limits of time are the order's. */
+static uint32_t whole_from(const void *user, uint32_t index)
+{
+    const ec_render_state *r = user;
+    return r->options->error_target > 0.0 ? (uint32_t)(ec_schedule_round(r->replicates, index) - index) : UINT32_MAX;
+}
+
+/* Samples left in all of what a number of them allows. */
+static double samples_left(const ec_render_state *r)
+{
+    return r->goal.samples > 0 ? r->goal.samples * ec_render_film_pixels(r) - (double)r->past.samples : INFINITY;
+}
+
+/* The pixels that the next batch is for: all, or the allotment's; and waves until they are done or *complete is false. */
+static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
+{
+    ec_allotment *a = &r->past.allotment;
+    EC_TRY(take_features(r, err));
+    r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r), .aov = r->aov,
+                                .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
+                                .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY,
+                                .go_on = goes_on, .user = r};
+    if (a->weight) {
+        const ec_pass pass = ec_allotment_pass(a, r->film, samples_left(r));
+        r->order.count = pass.count, r->order.samples = pass.samples, r->order.list = a->list, r->order.cut = 0;
+    }
+    r->order.done = gone_on_from(r);
+    if (r->order.done) r->order.before = r->past.batch;
+    r->past.under_way = 0;
+    r->past.batch = NULL;
+    r->samples_before_it = ec_render_samples_done(r);
+    r->under_way = 0;
+    ec_result result = r->source->take(r->source, &r->order, complete, err);
+    if (!r->look_failed) return result;
+    if (err) *err = r->look_error; /* a device tells of a failure once */
+    return EC_FAILED;
+}
+
+static ec_result mark_unsampled(ec_render_state *r, ec_error *err)
+{
+    uint64_t pixels = (uint64_t)r->film->width * r->film->height;
+    float *mean = r->source->mean;
+    r->film->unsampled = calloc(pixels, 1);
+    if (!r->film->unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
+    r->under_way = pixels * order_samples(r);
+    for (uint64_t i = 0; i < pixels; i++, mean += EC_BATCH_FIELDS) {
+        if (*mean != EC_NOT_REACHED) continue;
+        r->film->unsampled[i] = 1;
+        r->under_way -= order_samples(r);
+        for (int k = 0; k < EC_BATCH_FIELDS; k++) mean[k] = 0.0f;
+        for (int k = 0; r->aov && k < EC_AOV_FIELDS; k++) r->aov[EC_AOV_FIELDS * i + (uint64_t)k] = 0.0f;
+    }
+    return EC_OK;
+}
+
+static ec_result add_block(ec_render_state *r, ec_error *err)
+{
+    ec_film_part part = {.first = r->past.next, .count = r->source->batches, .sums = r->source->sums};
+    EC_TRY(ec_film_insert(r->film, &part, err));
+    r->source->sums = (ec_sums){0};
+    return EC_OK;
+}
+
+/* Or the block. */
+static ec_result add_batch(ec_render_state *r, bool complete, ec_error *err)
+{
+    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
+    if (!complete) EC_TRY(mark_unsampled(r, err));
+    if (r->aov) ec_film_add_features(r->film, &r->aov);
+    if (r->order.cut) keep(r, 0);
+    const float *mean = r->source->mean;
+    if (r->order.list) EC_TRY(ec_film_add_some(r->film, mean, r->past.allotment.places, r->order.count, r->order.samples, err));
+    else if (r->source->batches > 1) EC_TRY(add_block(r, err));
+    else if (r->order.cut) EC_TRY(ec_film_add_cut(r->film, r->past.next, r->order.cut, mean, err));
+    else EC_TRY(ec_film_add(r->film, r->past.next, mean, err));
+    r->past.samples += r->under_way;
+    r->past.rays = r->rays_before + r->source->rays;
+    r->past.next += r->source->batches;
+    return EC_OK;
+}
+
+/* Have all pixels what they are due, by the schedule or by the allotment's level? Limits of error are looked at then. */
+static bool is_round(const ec_render_state *r)
+{
+    if (r->past.allotment.weight) return ec_allotment_is_even(&r->past.allotment, r->film);
+    return ec_schedule_is_round(r->replicates, r->past.next);
+}
+
+static bool has_pilot(const ec_render_state *r) { return r->film->counts || ec_schedule_has_pilot(r->replicates, r->film->batch_count); }
+
+/* Samples a pixel of the next batch, as a limit of time asks. */
+static double next_samples(const ec_render_state *r)
+{
+    if (r->past.allotment.weight) return 0.0;
+    return (double)ec_schedule_batch(r->replicates, r->past.next).samples;
+}
+
+/* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
+static ec_result allot(ec_render_state *r, ec_error *err)
+{
+    const bool is_pilot = ec_schedule_is_round(r->replicates, r->past.next) && has_pilot(r);
+    if (!r->options->adaptive || r->past.allotted || !is_pilot || r->past.next >= r->end) return EC_OK;
+    r->past.allotted = true;
+    EC_TRY(ec_allot(r->film, &r->params, &r->past.allotment, err));
+    if (r->past.allotment.weight) ec_slope_restart(&r->goal.slope);
+    return EC_OK;
+}
+
+/* Once: why the render goes on though its samples would do. */
+static void note_withheld(ec_render_state *r, const ec_log *log)
+{
+    char way[EC_RARE_WAY];
+    if (!r->goal.is_withheld || r->is_withheld_noted) return;
+    r->is_withheld_noted = true;
+    ec_rare_way(r->error.through, r->error.light, way, sizeof way);
+    ec_note(log, "the samples so far would do for --error %g, but there is no bound: rare bright paths (%s) are hardly met yet; the render goes on to its other limits",
+            r->goal.error, way);
+}
+
+/* After a batch: is it enough? */
+static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
+{
+    const bool at_round = is_round(r);
+    const ec_mark at = ec_render_mark(r);
+    ec_goal_batch(&r->goal, at.samples, at.seconds, at.seconds - r->batch_end);
+    if (at_round) {
+        r->error = ec_film_estimate_error(r->film);
+        ec_goal_round(&r->goal, &r->error, at);
+        if (has_pilot(r)) note_withheld(r, log);
+        EC_TRY(allot(r, err));
+        const bool is_new = r->past.allotment.weight && !r->film->counts;
+        if (has_pilot(r)) ec_goal_foretell(&r->goal, at, is_new ? r->past.allotment.gain : 1.0);
+    }
+    r->stopped_by = ec_goal_met(&r->goal, at, at_round && has_pilot(r), next_samples(r));
+    if (!r->stopped_by && !ec_render_tell(r, at.samples)) r->stopped_by = "user";
+    r->batch_end = ec_render_mark(r).seconds;
+    return EC_OK;
+}
+
+/* One more for the film, or none; the batches before it stand, whatever happens. */
+static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err)
+{
+    bool complete;
+    const double start = ec_now();
+    EC_TRY(run_batch(r, &complete, err));
+    if (!complete) keep(r, r->source->batches == 1 ? (uint32_t)(r->under_way / order_samples(r)) : 0);
+    if (!complete && (r->past.next > 0 || r->course->end || r->strip_rows)) return EC_OK; /* part of a batch is of no use to a picture */
+    if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
+    EC_TRY(add_batch(r, complete, err));
+    if (!complete) return EC_OK;
+    EC_TRY(judge(r, log, err));
+    if (r->stopped_by) return EC_OK;
+    const double now = ec_now(), not_asked = r->source->batches > 1 ? now - start : 0.0; /* the next one may take as long, and keeps nothing */
+    if (now + not_asked - r->kept_at >= r->course->every) keep(r, 0);
+    return EC_OK;
+}
+
+/* What was done before; perhaps that is all. */
+static ec_result take_up_goal(ec_render_state *r, ec_error *err)
+{
+    const ec_mark at = ec_render_mark(r);
+    r->error = ec_film_estimate_error(r->film);
+    r->goal.slope = r->past.slope;
+    r->goal.now = r->error;
+    ec_goal_batch(&r->goal, at.samples, at.seconds, 0);
+    EC_TRY(allot(r, err)); /* where the pilot was the end */
+    r->stopped_by = ec_goal_met(&r->goal, at, is_round(r) && has_pilot(r), next_samples(r));
+    return EC_OK;
+}
+
+ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err)
+{
+    ec_result result = EC_OK;
+    r->film->limit = r->limit;
+    r->last_report = r->kept_at = ec_now();
+    r->render_start = ec_now() - r->past.seconds;
+    r->batch_end = r->past.seconds;
+    if (r->past.samples) result = take_up_goal(r, err);
+    while (result == EC_OK && !r->stopped_by) result = take_batch(r, log, err);
+    if (r->film->batch_count) r->error = ec_film_estimate_error(r->film);
+    keep(r, 0);
+    return result;
+}

@@ -1,0 +1,68 @@
+/* What the parts of ec_render share: render.c sets up, render_film.c takes batches until a limit is met, render_strips.c does so strip by strip,
+ * render_tell.c says how it goes. Inside host/pipeline/render*.c only. */
+#ifndef EC_RENDER_RENDER_STATE_H
+#define EC_RENDER_RENDER_STATE_H
+
+#include "render/course.h"
+#include "render/goal.h"
+#include "render/sources.h"
+
+typedef struct ec_render_state {
+    ec_sources sources;
+    ec_batch_source *source;
+    ec_params params;          /* width, height and batch are the render's */
+    const ec_render_options *options;
+    const ec_course *course;
+    ec_progress_fn progress;
+    void *user;
+    ec_film *film;
+    ec_render_stats *stats;
+    double start, render_start, last_report;
+    double batch_end;          /* when the last one was done */
+    ec_goal goal;
+    uint32_t replicates;
+    uint32_t end;              /* whole batches end before this one; UINT32_MAX where no number of samples ends them */
+    uint32_t cut;              /* samples that batch `end` lacks, where it is wanted: else 0 */
+    ec_film_error error;
+    bool is_withheld_noted;
+    ec_rare rare;              /* foretold before the first sample */
+    ec_past past;              /* samples: in the film */
+    uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
+    ec_batch_order order;      /* the batch under way */
+    bool look_failed;          /* at what it has come to so far */
+    ec_error look_error;
+    double samples_before_it;  /* a pixel */
+    uint64_t under_way;        /* samples of the batch that is not there yet */
+    double kept_at;
+    uint32_t kept_next, kept_under_way;
+    float *aov;                /* first-hit features of a batch, until it is in the film */
+    float limit;               /* ec_params.limit; 0: none, or not known yet */
+    const char *stopped_by;
+    uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
+    uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
+} ec_render_state;
+
+/* Of the film: the picture, or the strip under way. */
+static inline double ec_render_film_pixels(const ec_render_state *r) { return (double)r->film->width * r->film->height; }
+static inline double ec_render_picture_pixels(const ec_render_state *r) { return (double)r->options->width * r->options->height; }
+
+/* Samples a pixel, in the mean, and seconds. */
+static inline double ec_render_samples_done(const ec_render_state *r) { return (double)r->past.samples / ec_render_film_pixels(r); }
+ec_mark ec_render_mark(const ec_render_state *r);
+
+/* render_film.c: until a limit is met; what is there before stays in the film. */
+ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
+
+/* limit.c: once, before the first sample of a render that has a clamp; the source has been turned to these rows, and is so again. */
+ec_result ec_render_find_limit(ec_render_state *r, uint32_t first_row, uint32_t rows, const ec_log *log, ec_error *err);
+
+/* render_strips.c: all rows, or as many as there is memory for, into r->strip_rows. Small pictures do not ask. */
+ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error *err);
+ec_result ec_render_strips(ec_render_state *r, const ec_log *log, ec_error *err);
+
+/* render_tell.c: tells the caller; false means stop. samples a pixel, those under way too. */
+bool ec_render_tell(ec_render_state *r, double samples);
+/* Asks nothing of the device, which may be lost. */
+void ec_render_finish_stats(ec_render_state *r);
+
+#endif

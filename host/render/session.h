@@ -1,0 +1,57 @@
+/* A scene set up once, from which batches of any size are taken one at a time: for measuring, where ec_render's
+ * set-up for each number of samples would cost more than the samples. */
+#ifndef EC_RENDER_SESSION_H
+#define EC_RENDER_SESSION_H
+
+#include "render/render.h"
+
+typedef struct ec_session ec_session;
+
+/* options: limits are not looked at. The wave is fitted to batches of `largest` samples. stats gets what set-up knows
+ * (its seconds, lanes, wave, effects), device_bytes the buffers' peak so far. The scene is not needed afterwards. */
+ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, uint32_t largest,
+                          ec_session **session, ec_render_stats *stats, ec_error *err);
+void ec_session_close(ec_session *session); /* NULL is fine */
+
+/* What may change without setting up scene, structures and kernels again. */
+typedef struct ec_session_view {
+    ec_camera camera;
+    uint32_t width, height;          /* pixels */
+    double env_degrees;              /* turns the environment's map, from how the scene has it; kernels must be built for that:
+                                        EC_FEATURE_ENVIRONMENT_TURN in more_effects */
+} ec_session_view;
+/* The next batches are of this. The lens is that of the options. */
+ec_result ec_session_look(ec_session *session, const ec_session_view *view, ec_error *err);
+
+/* Foretells the rare paths of the picture that the next batches are of; to be called between batches. */
+ec_result ec_session_foretell(ec_session *session, ec_rare *rare, ec_error *err);
+
+/* Most samples a pixel that one batch may have: a pixel's samples are in flight together. */
+uint32_t ec_session_largest(const ec_session *session);
+
+typedef struct ec_session_batch {
+    uint32_t seed;
+    uint32_t replicate;              /* of that seed: another one, other random numbers */
+    uint32_t first, samples;         /* a pixel: of the replicate's, from number `first` on */
+    bool (*go_on)(void *user);       /* asked between waves; NULL: never stops */
+    void *user;
+    double slice;                    /* seconds that a wave may take, as far as one can know; 0: as long as it likes */
+    float *features;                 /* result, if not NULL: of first hits, 8 a pixel as in ec_film.aov */
+    float *batch;                    /* result, if not NULL: EC_BATCH_FIELDS a pixel (shared/params.h); not finite: 0, and counted */
+    float *rgb;                      /* the same: R, G, B of that alone */
+    double seconds;                  /* result */
+    uint64_t invalid;                /* result: values that were not finite */
+    bool complete;                   /* result: false where go_on said no; the results are then of no use */
+} ec_session_batch;
+ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error *err);
+
+/* Samples a second of the last waves of batches with a slice; 0: none yet. */
+double ec_session_rate(const ec_session *session);
+
+/* Samples dropped by the kernels so far because they were not finite. */
+ec_result ec_session_invalid(ec_session *session, uint64_t *samples, ec_error *err);
+
+/* A seed for picture `index` of stream `stream`: streams are independent of each other and of those of ec_render. */
+uint32_t ec_session_seed(uint64_t seed, uint32_t stream, uint32_t index);
+
+#endif

@@ -1,0 +1,127 @@
+#include "render/sources.h"
+
+#include <stdlib.h>
+
+ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_sources *s, ec_render_stats *stats, ec_error *err)
+{
+    s->devices = devices;
+    s->count = s->unloaded = count;
+    for (uint32_t i = 0; i < count; i++) EC_TRY(ec_pipeline_lanes(&devices[i], lanes, &stats->lanes, err)); /* before the work of what follows */
+    s->recruits = calloc(count + 1u, sizeof *s->recruits); /* there may be none, but allies */
+    return s->recruits ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
+}
+
+ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene,
+                          const ec_render_options *options, uint32_t batch, ec_sources *s, ec_render_stats *stats,
+                          ec_error *err)
+{
+    uint32_t kinds = for_all ? (1u << EC_KIND_COUNT) - 1 : 0;
+    EC_TRY(ec_sources_enlist(devices, count, options->lanes, s, stats, err));
+    for (uint32_t i = 0; i < count; i++) kinds |= 1u << ec_device_kind_of(&devices[i].info);
+    return ec_cargo_make(scene, options, batch, kinds, &s->cargo, stats, err);
+}
+
+/* By the member's thread. */
+static ec_result load(void *user, ec_batch_source **source, ec_error *err)
+{
+    ec_source_recruit *r = user;
+    ec_sources *s = r->all;
+    *source = &r->source.base;
+    ec_result result = ec_device_source_open(r->cl, &s->cargo, NULL, s->seed, &r->source, &r->stats, err);
+    pthread_mutex_lock(&s->lock);
+    if (--s->unloaded == 0) ec_cargo_free(&s->cargo);
+    pthread_mutex_unlock(&s->lock);
+    if (result == EC_OK) result = r->source.base.turn_to(*source, 0, r->source.pipeline.params.height, err);
+    r->stats.wave = r->source.pipeline.wave;
+    return result;
+}
+
+static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log *log, ec_error *err)
+{
+    ec_team_recruit *recruits = calloc(s->count + allies->count, sizeof *recruits);
+    if (!recruits) return ec_fail(err, "out of memory for a team of %u", s->count + allies->count);
+    pthread_mutex_init(&s->lock, NULL);
+    for (uint32_t i = 0; i < s->count; i++) {
+        s->recruits[i] = (ec_source_recruit){.all = s, .cl = &s->devices[i]};
+        recruits[i] = (ec_team_recruit){.name = s->devices[i].info.name, .open = load, .user = &s->recruits[i]};
+    }
+    for (uint32_t i = 0; i < allies->count; i++)
+        if (allies->recruit(allies->user, i, &recruits[s->count + s->allied]))
+            s->allied_processes += recruits[s->count + s->allied++].processes;
+    ec_result result = ec_team_open(recruits, s->count + s->allied, s->cargo.head.params.width,
+                                    s->cargo.head.params.height, s->cargo.head.replicates, log, &s->team, err);
+    free(recruits);
+    if (result == EC_OK) ec_team_wait(s->team, s->count); /* limits of time do not count compilers */
+    return result;
+}
+
+static uint64_t received(const ec_sources *s) { return s->allies.received ? s->allies.received(s->allies.user) : 0; }
+
+ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_allies *allies, const ec_log *log,
+                          ec_batch_source **source, ec_render_stats *stats, ec_error *err)
+{
+    const ec_allies none = {0};
+    s->seed = seed;
+    s->allies = allies ? *allies : none;
+    s->received_before = received(s);
+    if (allies) EC_TRY(allies->send(allies->user, &s->cargo, seed, log, err));
+    if (s->count > 1 || allies) {
+        EC_TRY(open_team(s, allies ? allies : &none, log, err));
+        *source = ec_team_source(s->team);
+        return EC_OK;
+    }
+    *source = &s->recruits->source.base;
+    return ec_device_source_open(s->devices, &s->cargo, &s->cargo, seed, &s->recruits->source, stats, err);
+}
+
+const ec_pipeline *ec_sources_alone(const ec_sources *s) { return s->team ? NULL : &s->recruits->source.pipeline; }
+
+ec_pipeline *ec_sources_pipeline(ec_sources *s, uint32_t device, bool waits)
+{
+    return !s->team || ec_team_is_ready(s->team, device, waits) ? &s->recruits[device].source.pipeline : NULL;
+}
+
+static void tell_shares(const ec_sources *s, ec_render_stats *stats)
+{
+    const double pixels = (double)s->cargo.head.params.width * s->cargo.head.params.height;
+    bool has_failed;
+    stats->share_count = s->count;
+    stats->allies = s->allied_processes;
+    stats->allied_bytes = received(s) - s->received_before;
+    for (uint32_t i = 0; i < s->allied; i++)
+        stats->allied_samples += ec_team_share(s->team, s->count + i, &has_failed) / pixels;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const ec_render_stats *own = &s->recruits[i].stats;
+        ec_render_share *share = &stats->shares[i];
+        share->samples = ec_team_share(s->team, i, &share->has_failed) / pixels;
+        share->lanes = own->lanes;
+        share->wave = own->wave;
+        share->device_bytes = s->devices[i].peak_allocated_bytes;
+        stats->programs_found += own->programs_found;
+        stats->programs_built += own->programs_built;
+        stats->bytes_found += own->bytes_found;
+        stats->bytes_uploaded += own->bytes_uploaded;
+        if (!stats->wave) stats->wave = own->wave, stats->lanes = own->lanes;
+        if (own->kernel_seconds > stats->kernel_seconds) stats->kernel_seconds = own->kernel_seconds;
+    }
+}
+
+void ec_sources_close(ec_sources *s, ec_render_stats *stats)
+{
+    if (s->team) {
+        ec_batch_source *team = ec_team_source(s->team);
+        team->close(team);
+        tell_shares(s, stats);
+        ec_team_free(s->team);
+        pthread_mutex_destroy(&s->lock);
+    } else if (s->recruits && s->recruits->source.base.close) {
+        s->recruits->source.base.close(&s->recruits->source.base);
+    }
+    for (uint32_t i = 0; i < s->count; i++) {
+        stats->device_bytes += s->devices[i].peak_allocated_bytes;
+        stats->cache_hits += s->devices[i].cache_hits;
+        stats->cache_misses += s->devices[i].cache_misses;
+    }
+    ec_cargo_free(&s->cargo);
+    free(s->recruits);
+}

@@ -1,0 +1,69 @@
+#include "render/strips.h"
+
+#include <omp.h>
+
+#include "base/memory.h"
+#include "film/pixel.h"
+#include "render/team.h"
+
+ec_strip_need ec_strip_needs(const ec_render_options *o)
+{
+    const uint32_t replicates = ec_render_replicates(o);
+    uint32_t before;
+    const uint64_t batches = o->spp ? ec_schedule_find(replicates, o->spp, &before) + 1ull : EC_FILM_FIRST;
+    const uint64_t threads = (uint64_t)omp_get_max_threads(), rows = 20 + 20; /* that wait: write_rows.c; a band, and what is being resolved and compressed of it: */
+    const uint64_t planes = threads * 2 * 16 * (64 + 3), coded = threads * 3 * 16 * 25 * 4, room = threads * 20 * sizeof(ec_pixel);
+    const uint64_t film = o->slice_end ? ec_film_bytes(replicates, o->slice_first, o->slice_end) : ec_film_bytes(replicates, 0, batches);
+    const uint64_t batch = 4 * EC_BATCH_FIELDS, features = 2 * 32; /* a batch's features and the film's */
+    return (ec_strip_need){.host = film + batch + features, .device = batch + 32,
+                           .column = rows * (film + 32) + room + planes + coded};
+}
+
+uint64_t ec_strip_whole(const ec_render_options *o, bool shared)
+{
+    const ec_strip_need n = ec_strip_needs(o);
+    return (uint64_t)o->width * o->height * (n.host + (shared ? n.device : 0)) + o->width * n.column;
+}
+
+uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *devices, uint32_t count, uint32_t allies)
+{
+    const uint64_t pixels = (uint64_t)o->width * o->height;
+    uint64_t bytes = ec_strip_whole(o, false);
+    for (uint32_t i = 0; i < count; i++) bytes += devices[i].type & CL_DEVICE_TYPE_CPU ? pixels * ec_strip_needs(o).device : 0;
+    return count + allies > 1 ? bytes + ec_team_bytes(count + allies, pixels, ec_render_replicates(o), allies > 0) : bytes;
+}
+
+static uint64_t rows_in(uint64_t bytes, uint64_t width, uint64_t per_pixel) { return bytes / (width * per_pixel); }
+
+uint32_t ec_strip_rows(const ec_render_options *o, bool shared, int64_t host, uint64_t device, uint64_t largest)
+{
+    const ec_strip_need n = ec_strip_needs(o);
+    const uint64_t aside = o->width * n.column, left = host > (int64_t)aside ? (uint64_t)host - aside : 0;
+    uint64_t rows = rows_in(left, o->width, n.host + (shared ? n.device : 0)), other = shared ? rows : rows_in(device, o->width, n.device);
+    if (other < rows) rows = other;
+    other = rows_in(largest, o->width, 32); /* first-hit features, on the device */
+    if (other < rows) rows = other;
+    return rows >= o->height ? o->height : (uint32_t)(rows / EC_STRIP_STEP * EC_STRIP_STEP);
+}
+
+int64_t ec_strip_budget(const ec_render_options *o, uint64_t coming)
+{
+    if (o->memory) return (int64_t)o->memory - (int64_t)(ec_memory_resident() + coming);
+    const uint64_t unused = ec_memory_free();
+    return unused >= INT64_MAX ? INT64_MAX : (int64_t)unused - (int64_t)coming;
+}
+
+uint64_t ec_strip_least(const ec_render_options *o, bool shared)
+{
+    ec_render_options one = *o;
+    one.height = o->height < EC_STRIP_STEP ? o->height : EC_STRIP_STEP;
+    return ec_strip_whole(&one, shared);
+}
+
+ec_result ec_strip_refuse(const ec_render_options *o, uint64_t whole, int64_t budget, const char *whole_for,
+                          const char *instead, ec_error *err)
+{
+    return ec_fail(err, "%ux%u pixels take %.0f MB and there are %.0f: they would be rendered in strips, one after the other, but %s is for pictures that "
+                        "are rendered whole; %s, or give more --memory or a smaller --size", o->width, o->height, (double)whole / 1e6,
+                   budget > 0 ? (double)budget / 1e6 : 0.0, whole_for ? whole_for : "this", instead);
+}
