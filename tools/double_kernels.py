@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Turns kernels/selftest/precision.cl and what it includes into C in double precision (host/selftest/double.h).
+"""Turns tests/robust/precision/precision.cl and what it includes into C in double precision (double.h beside it).
 
 The text is the kernels' own but for three things: float is double, except behind pointers to memory that is only read, so that
 both read the same numbers; constants lose their f; and headers that work on the bits of floats (--replaced) stand in double.h.
@@ -39,7 +39,7 @@ def main():
         sys.exit(f"double_kernels.py: {error}")
     text = in_double(without_comments(text.removeprefix(PRELUDE)))
     names = KERNEL.findall(text)
-    write_if_changed(arguments.output, '/* Written by tools/double_kernels.py; do not edit. */\n#include "selftest/double.h"\n' +
+    write_if_changed(arguments.output, '/* Written by tools/double_kernels.py; do not edit. */\n#include "robust/precision/double.h"\n' +
                      text + table(names))
 
 

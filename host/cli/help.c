@@ -310,7 +310,7 @@ static const char help_selftest[] =
     "\n"
     "Options\n"
     "      --device ID    as for eclat render\n"
-    "      --full         the long cases too: some minutes on a processor\n"
+    "      --full         more rays and samples, every lane width and structure: some minutes on a processor\n"
     "  -h, --help         show this\n"
     "      --json         print one JSON object instead of a table\n"
     "      --lanes N      paths in one work-item: 1, 4, 8, 16 or auto\n"

@@ -142,7 +142,4 @@ double ec_film_error_bound(double square, double noisy_pixels, double pixels, do
 /* Keeps relMSE finite on black: as in pbrt's imgtool (metric MRSE), so that figures compare. */
 #define EC_RELMSE_FLOOR 0.01
 
-/* Student's t quantile: P(T <= t) = p with nu degrees of freedom. */
-double ec_student_t_quantile(double p, double nu);
-
 #endif

@@ -21,6 +21,7 @@
 #include <math.h>
 
 #include "film/neighbourhood.h"
+#include "film/statistics.h"
 
 static const double gamma_most = 0.4, share_most = 0.2, scatter_most = 4;
 

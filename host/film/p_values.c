@@ -3,12 +3,6 @@
 
 #include "film/statistics.h"
 
-double ec_binomial_upper_tail(double k, double n, double p)
-{
-    if (k <= 0) return 1;
-    return k > n ? 0 : ec_incomplete_beta(k, n - k + 1, p, 1 - p); /* DLMF 8.17.5 */
-}
-
 double ec_p_of_least(double least, double n)
 {
     return least < 1 ? -expm1(n * log1p(-least)) : 1;

@@ -7,14 +7,16 @@
  * at 0.98 still in 189 of one case. */
 #define EC_BOUND_CONFIDENCE 0.99
 
-/* Regularised incomplete beta function I_x(a, b), a, b > 0; y must be 1 - x (given apart to keep its digits). */
-double ec_incomplete_beta(double a, double b, double x, double y);
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Standard normal: z with P(Z > z) = q, 0 < q < 1. */
 double ec_normal_upper_quantile(double q);
 
-/* Student's t: P(T > t) with nu degrees of freedom, precise in the tail too. */
+/* Student's t with nu degrees of freedom, INFINITY too: P(T > t), precise in the tail; t with P(T <= t) = p. */
 double ec_student_t_upper_tail(double t, double nu);
+double ec_student_t_quantile(double p, double nu);
 
 /* Fisher's F with d1 and d2 degrees of freedom (any positive reals): x with P(F <= x) = p. */
 double ec_f_quantile(double p, double d1, double d2);
@@ -28,5 +30,9 @@ double ec_p_of_least(double least, double n);
 /* One p-value of several tests on the same data, each with a weight: right for small values however the tests depend on each
  * other, where Bonferroni's is too large for tests that depend. See p_values.c. */
 double ec_p_combined(const double *p, const double *weight, int count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,4 +1,4 @@
-/* What cases are made of. Inside host/selftest only. */
+/* What cases are made of, in host/selftest and in those tests that are written as cases. */
 #ifndef EC_SELFTEST_CASES_H
 #define EC_SELFTEST_CASES_H
 
@@ -25,6 +25,10 @@ typedef struct ec_selftest_case {
     const char *breaks;
 } ec_selftest_case;
 
+/* As ec_selftest_run, for these cases. */
+ec_result ec_selftest_run_cases(ec_cl *cl, const ec_selftest_case *cases, uint32_t count, const ec_selftest_options *options,
+                                ec_selftest_report *report, ec_error *err);
+
 /* Each of these adds a row to the report. `what` follows the case's name; "" where it has only one row. All can only fail for want
  * of memory. */
 
@@ -33,9 +37,6 @@ ec_result ec_selftest_value(ec_selftest *t, const char *what, double expected, d
                             ec_error *err);
 /* The largest relative error of many values: expected 0. note (may be NULL): where it is. */
 ec_result ec_selftest_largest(ec_selftest *t, const char *what, double error, double tolerance, const char *note, ec_error *err);
-/* The same where digits are known otherwise. */
-ec_result ec_selftest_digits(ec_selftest *t, const char *what, double error, double tolerance, double digits,
-                             const char *note, ec_error *err);
 /* How many of so many are wrong: expected 0. Digits: -log10 of the share, were one wrong. */
 ec_result ec_selftest_none(ec_selftest *t, const char *what, uint64_t wrong, uint64_t of, const char *note, ec_error *err);
 /* The case could not be run. */

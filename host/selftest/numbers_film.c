@@ -1,9 +1,8 @@
-/* From samples to what is written: sums of many, very bright and very dark ones, variance, sRGB. */
+/* From samples to what is written: sums of many, very bright and very dark ones, sRGB. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "film/resolve.h"
 #include "image/image.h"
 #include "scene/model.h"
 #include "selftest/shot.h"
@@ -36,21 +35,6 @@ ec_result ec_selftest_sums(ec_selftest *t, ec_error *err)
     return lamp_row(t, "65 536 samples a pixel", 0.1, (double)0.1f, 4, 65536, err);
 }
 
-ec_result ec_selftest_many_samples(ec_selftest *t, ec_error *err)
-{
-    EC_TRY(lamp_row(t, "2^23 samples a pixel, 2^27 in all", 0.1, (double)0.1f, 4, 1u << 23, err));
-    ec_model *m = ec_model_new();
-    ec_scene *scene;
-    if (m) {
-        ec_material walls = ec_material_lambert(0.5, 1);
-        ec_model_box(m, ec_model_material(m, &walls), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1}, true);
-        ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0.3, 0.2, 0.1}, (double[3]){-1, -0.4, -0.7}, 0.9);
-    }
-    EC_TRY(ec_model_scene(m, &scene, err));
-    ec_render_options o = ec_shot_options(t, 2, 1u << 20);
-    return ec_shot_only_row(t, "furnace of 2^20 samples a pixel", scene, &o, 2, err);
-}
-
 /* Nothing in the way of an environment whose samples add up to more than a float holds. */
 static ec_result bright_sky(ec_selftest *t, double radiance, ec_error *err)
 {
@@ -70,25 +54,6 @@ ec_result ec_selftest_range(ec_selftest *t, ec_error *err)
     EC_TRY(lamp_row(t, "lamp of 1e38, taken for 1e30", 1e38, 1e30, 4, 64, err));
     EC_TRY(lamp_row(t, "lamp of 2e-38", 2e-38, 2e-38, 4, 64, err));
     return bright_sky(t, 1e38, err);
-}
-
-/* Mean 100, deviation 0.1 by turns: E[x^2] - E[x]^2 in floats gives -0.0127. Floats near 100 are 8e-6 apart, which is 8e-5 of 0.1. */
-ec_result ec_selftest_variance(ec_selftest *t, ec_error *err)
-{
-    ec_film film;
-    float error[3];
-    const uint32_t replicates = 8, batches = 125 * replicates;
-    EC_TRY(ec_film_create(&film, 1, 1, replicates, err));
-    ec_result result = EC_OK;
-    for (uint32_t i = 0; i < batches && result == EC_OK; i++) {
-        float x = i % 2 ? 100.1f : 99.9f;
-        result = ec_film_add(&film, i, (float[EC_BATCH_FIELDS]){x, x, x, x, 1, 1}, err);
-    }
-    ec_film_resolve(&film, NULL, error);
-    ec_film_destroy(&film);
-    if (result != EC_OK) return result;
-    return ec_selftest_value(t, "mean 100, deviation 0.1", 0.1 / sqrt(replicates - 1.0), (double)error[1], 0,
-                             1e-4 * 0.1 / sqrt(replicates), err);
 }
 
 /* A texture of all 256 sRGB values as an unlit surface, a texel a pixel. */

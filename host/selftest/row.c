@@ -6,7 +6,7 @@
 
 #include "selftest/cases.h"
 
-/* Of a relative error. */
+/* How many digits a relative error leaves. */
 static double digits_of(double relative)
 {
     if (!(relative < 1)) return 0; /* NaN too */
@@ -36,16 +36,10 @@ ec_result ec_selftest_value(ec_selftest *t, const char *what, double expected, d
     return add(t, what, row, NULL, err);
 }
 
-ec_result ec_selftest_digits(ec_selftest *t, const char *what, double error, double tolerance, double digits,
-                             const char *note, ec_error *err)
-{
-    ec_selftest_row row = {.measured = error, .tolerance = tolerance, .digits = fmin(digits, EC_SELFTEST_DIGITS)};
-    return add(t, what, row, note, err);
-}
-
 ec_result ec_selftest_largest(ec_selftest *t, const char *what, double error, double tolerance, const char *note, ec_error *err)
 {
-    return ec_selftest_digits(t, what, error, tolerance, digits_of(error), note, err);
+    ec_selftest_row row = {.measured = error, .tolerance = tolerance, .digits = digits_of(error)};
+    return add(t, what, row, note, err);
 }
 
 ec_result ec_selftest_none(ec_selftest *t, const char *what, uint64_t wrong, uint64_t of, const char *note, ec_error *err)

@@ -10,10 +10,6 @@
 #include "selftest/cases.h"
 #include "selftest/tracer.h"
 
-#define ROW(name, is_long, function, breaks) {name, is_long, function, breaks},
-static const ec_selftest_case cases[] = {EC_SELFTEST_CASES(ROW)};
-enum { CASE_COUNT = sizeof cases / sizeof cases[0] };
-
 static bool is_wanted(const ec_selftest_options *o, const ec_selftest_case *c)
 {
     return (o->full || !c->is_long) && (!o->only || strstr(c->name, o->only));
@@ -45,13 +41,14 @@ static void finish(ec_selftest_report *r)
     for (uint32_t i = 0; i < r->count; i++) r->failed += !r->rows[i].pass;
 }
 
-static ec_result run_cases(ec_selftest *t, const ec_selftest_options *options, uint32_t count, ec_error *err)
+static ec_result run_wanted(ec_selftest *t, const ec_selftest_case *cases, uint32_t count, const ec_selftest_options *options, uint32_t wanted,
+                            ec_error *err)
 {
     uint32_t done = 0;
-    for (int i = 0; i < CASE_COUNT; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const ec_selftest_case *c = &cases[i];
         if (!is_wanted(options, c)) continue;
-        if (options->go_on && !options->go_on(options->user, c->name, done, count))
+        if (options->go_on && !options->go_on(options->user, c->name, done, wanted))
             return ec_fail(err, "stopped before %s", c->name);
         EC_TRY(run_case(t, c, err));
         done++;
@@ -59,21 +56,29 @@ static ec_result run_cases(ec_selftest *t, const ec_selftest_options *options, u
     return EC_OK;
 }
 
-ec_result ec_selftest_run(ec_cl *cl, const ec_selftest_options *options, ec_selftest_report *report, ec_error *err)
+ec_result ec_selftest_run_cases(ec_cl *cl, const ec_selftest_case *cases, uint32_t count, const ec_selftest_options *options,
+                                ec_selftest_report *report, ec_error *err)
 {
     ec_selftest t = {.cl = cl, .full = options->full, .report = report};
-    uint32_t count = 0;
+    uint32_t wanted = 0;
     double start = ec_now();
     EC_TRY(ec_pipeline_lanes(cl, options->lanes, &t.lanes, err));
     report->lanes = t.lanes;
-    for (int i = 0; i < CASE_COUNT; i++) count += is_wanted(options, &cases[i]);
-    if (!count) return ec_fail(err, "no case of the self-test has '%s' in its name", options->only);
-    ec_result result = run_cases(&t, options, count, err);
+    for (uint32_t i = 0; i < count; i++) wanted += is_wanted(options, &cases[i]);
+    if (!wanted) return ec_fail(err, "no case of the self-test has '%s' in its name", options->only);
+    ec_result result = run_wanted(&t, cases, count, options, wanted, err);
     ec_tracer_close(t.tracer);
     EC_TRY(result);
     report->seconds = ec_now() - start;
     finish(report);
     return EC_OK;
+}
+
+ec_result ec_selftest_run(ec_cl *cl, const ec_selftest_options *options, ec_selftest_report *report, ec_error *err)
+{
+#define ROW(name, is_long, function, breaks) {name, is_long, function, breaks},
+    static const ec_selftest_case cases[] = {EC_SELFTEST_CASES(ROW)};
+    return ec_selftest_run_cases(cl, cases, sizeof cases / sizeof cases[0], options, report, err);
 }
 
 void ec_selftest_free(ec_selftest_report *r)

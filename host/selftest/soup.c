@@ -97,28 +97,3 @@ void ec_direction(uint64_t *random, double d[3])
     d[1] = r * sin(angle);
     d[2] = z;
 }
-
-ec_exact_hit ec_exact_meet(const float o[3], const float d[3], const float v[9])
-{
-    double e1[3], e2[3], normal[3], s[3], p[3], q[3], way[3];
-    edges_of(v, e1, e2);
-    cross(e1, e2, normal);
-    for (int k = 0; k < 3; k++) s[k] = (double)o[k] - v[k], way[k] = d[k];
-    cross(way, e2, p);
-    cross(s, e1, q);
-    double det = ec_dot(e1, p), area = sqrt(ec_dot(normal, normal)), longest = fmax(ec_dot(e1, e1), ec_dot(e2, e2)), third = 0;
-    ec_exact_hit h = {.cosine = fabs(ec_dot(normal, way)) / (area * sqrt(ec_dot(way, way)))};
-    if (!(det != 0) || !(h.cosine > 0)) return (ec_exact_hit){0};
-    h.t = ec_dot(e2, q) / det;
-    h.b1 = ec_dot(s, p) / det;
-    h.b2 = ec_dot(way, q) / det;
-    h.inside = fmin(fmin(h.b1, h.b2), 1 - h.b1 - h.b2);
-    for (int k = 0; k < 3; k++) third += (e2[k] - e1[k]) * (e2[k] - e1[k]);
-    for (int corner = 0; corner < 3; corner++) {
-        double distance2 = 0;
-        for (int k = 0; k < 3; k++) distance2 += ((double)v[3 * corner + k] - o[k]) * ((double)v[3 * corner + k] - o[k]);
-        h.reach = fmax(h.reach, sqrt(distance2));
-    }
-    h.least_height = area / sqrt(fmax(longest, third));
-    return h;
-}

@@ -35,11 +35,11 @@ static inline int kernel_open(ec_cl *cl)
     return test_failures ? 1 : 0;
 }
 
-/* The text of tests/kernel/FILE with its includes; NULL after a message from the tool. */
+/* The text of tests/FILE with its includes; NULL after a message from the tool. */
 static inline char *kernel_flatten(const char *file)
 {
     char command[4096];
-    snprintf(command, sizeof command, "python3 '%s/tools/embed_kernels.py' --stdout '%s/tests/kernel/%s'", ECLAT_SOURCE_DIR,
+    snprintf(command, sizeof command, "python3 '%s/tools/embed_kernels.py' --stdout '%s/tests/%s'", ECLAT_SOURCE_DIR,
              ECLAT_SOURCE_DIR, file);
     FILE *pipe = popen(command, "r");
     if (!pipe) return NULL;
@@ -62,7 +62,7 @@ static inline char *kernel_flatten(const char *file)
 static inline cl_program kernel_build(ec_cl *cl, const char *name, int lanes, const char *more)
 {
     char file[256], label[256], options[512];
-    snprintf(file, sizeof file, "run_%s.cl", name);
+    snprintf(file, sizeof file, "kernel/run_%s.cl", name);
     snprintf(label, sizeof label, "run_%s_%d", name, lanes);
     snprintf(options, sizeof options, "-DLANES=%d %s", lanes, more ? more : "");
     char *source = kernel_flatten(file);

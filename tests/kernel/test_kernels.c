@@ -27,7 +27,7 @@ static int find_tests(char **names, int capacity)
 static char *flatten(const char *name)
 {
     char file[512];
-    snprintf(file, sizeof file, "test_%s.cl", name);
+    snprintf(file, sizeof file, "kernel/test_%s.cl", name);
     return kernel_flatten(file);
 }
 

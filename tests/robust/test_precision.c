@@ -1,8 +1,8 @@
-/* Digits that the kernels' functions keep, against double precision; selftest/precision.h says how it is judged. Every lane width
+/* Digits that the kernels' functions keep, against double precision; precision/precision.h says how it is judged. Every lane width
  * must keep the same. */
 #include "kernel/kernel_run.h"
-#include "selftest/precision.h"
-#include "selftest/precision_internal.h"
+#include "robust/precision/internal.h"
+#include "robust/precision/precision.h"
 
 static ec_precision_row rows[EC_PRECISION_ROWS], others[EC_PRECISION_ROWS];
 
@@ -35,8 +35,10 @@ int main(void)
     uint32_t count, other_count;
     int opened = kernel_open(&cl);
     if (opened) return opened;
+    char *source = kernel_flatten("robust/precision/precision.cl");
+    CHECK(source);
     every_kernel_has_a_case();
-    CHECK_OK(ec_precision_run(&cl, 1, rows, &count, &err), err);
+    CHECK_OK(ec_precision_run(&cl, source, 1, rows, &count, &err), err);
     if (test_failures) return 1;
     printf("%-30s %-20s %-14s %6s %6s %6s %9s %4s %6s %8s\n", "function", "result", "kernels/lib", "digits", "median", "inputs", "times", "of",
            "lost", "hopeless");
@@ -47,9 +49,10 @@ int main(void)
         if (!rows[i].pass || i < 3) print_worst(&rows[i]);
     }
     for (int w = 1; w < LANE_WIDTHS; w++) {
-        CHECK_OK(ec_precision_run(&cl, (uint32_t)lane_widths[w], others, &other_count, &err), err);
+        CHECK_OK(ec_precision_run(&cl, source, (uint32_t)lane_widths[w], others, &other_count, &err), err);
         CHECK(other_count == count && !memcmp(others, rows, count * sizeof *rows));
     }
+    free(source);
     ec_cl_close(&cl);
     TEST_END();
 }

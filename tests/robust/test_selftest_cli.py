@@ -7,8 +7,8 @@ import unittest
 from support import ECLAT, Case, eclat
 
 KEYS = ["name", "expected", "measured", "tolerance", "digits", "pass", "noise", "note", "breaks", "seconds"]
-# Two rows of different digits; few kernels.
-SOME = ["selftest", "--only", "rays/slivers"]
+# Rows of different digits; one small kernel.
+SOME = ["selftest", "--only", "numbers/functions"]
 # tests/robust/wrong_device.c
 WRONG = {"LD_PRELOAD": os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "libwrong_device.so")}
 
@@ -29,7 +29,7 @@ class Selftest(Case):
         self.assertEqual([row[2] for row in rows], sorted(row[2] for row in rows))
         for state, name, _ in rows:
             self.assertEqual(state, "ok")
-            self.assertTrue(name.startswith("rays/slivers "), name)
+            self.assertTrue(name.startswith("numbers/functions "), name)
         self.assertRegex(run.stdout.splitlines()[-1], rf"^all {len(rows)} rows passed in .*; the fewest digits are \d")
 
     def test_json(self):

@@ -9,6 +9,7 @@
  *
  * ctest label: long */
 #include "film/interval.h"
+#include "film/statistics.h"
 #include "support/batches.h"
 
 enum { RENDERS = 100, SPP = 256 };

@@ -18,6 +18,7 @@
 #include <stdlib.h>
 
 #include "film/film.h"
+#include "film/statistics.h"
 #include "image/image.h"
 
 typedef struct ztest_picture {
