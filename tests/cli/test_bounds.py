@@ -1,3 +1,4 @@
+# tier: quick
 """The bound of the error: harmless scenes state one, and none is stated that does not hold. tools/bench/bounds.py counts the same over more
 scenes, seeds and budgets.
 

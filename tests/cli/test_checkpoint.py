@@ -1,3 +1,4 @@
+# tier: quick
 """A render that stops and goes on is the render that never stopped, bit for bit; checkpoints of anything else are refused."""
 import json
 import os
@@ -5,9 +6,9 @@ import shlex
 import shutil
 import signal
 import subprocess
-import time
 import unittest
 
+from polling import GUARD, poll_until, poll_writes
 from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, quad_scene, read_exr, write_gltf
 
 SIZE = ["--size", "20x18"]
@@ -66,7 +67,7 @@ class Checkpoint(Case):
                 self.assertLess(stops, 60)
                 now = ["--resume", self.kept] if os.path.exists(self.kept) else job
                 process = self.start(*now, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("a.exr"))
-                time.sleep(0.05 * (1 + stops % 7))  # machines differ in what they have done by then
+                poll_writes(self.kept, process, 1 + stops % 7)
                 done = process.poll() is not None
                 self.stop(process, [signal.SIGINT, signal.SIGKILL][stops % 2])
                 stops += 1
@@ -91,11 +92,7 @@ class Checkpoint(Case):
         features = set()
         for at in range(8):
             process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
-            deadline = time.monotonic() + 60
-            while process.poll() is None and time.monotonic() < deadline:
-                if os.path.exists(self.kept) and self.state()["batches"] > at:
-                    break
-                time.sleep(0.002)
+            poll_until(lambda: os.path.exists(self.kept) and self.state()["batches"] > at, process, 0.002)
             self.stop(process, signal.SIGKILL)
             state = self.state()
             if state["batches"] < 8:
@@ -158,11 +155,9 @@ class Checkpoint(Case):
                                 stderr=subprocess.PIPE, encoding="utf-8")
 
     def stop(self, process, number):
-        deadline = time.monotonic() + 60
-        while not os.path.exists(self.kept) and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+        poll_until(lambda: os.path.exists(self.kept), process)
         process.send_signal(number)
-        return process.communicate(timeout=60)
+        return process.communicate(timeout=GUARD)
 
     def test_asked_to_stop(self):
         """A last checkpoint is written, of all that the picture shows."""

@@ -1,3 +1,4 @@
+# tier: quick
 """--clamp: what it takes away is counted, pixel by pixel; the bits are the same however a job is shared out; without it nothing changes."""
 import json
 import math

@@ -1,3 +1,4 @@
+# tier: quick
 """eclat compare from end to end: figures, verdicts, exit codes, and files it cannot use."""
 import json
 import math

@@ -1,3 +1,4 @@
+# tier: quick
 """Sequences of frames: each the bits of that frame alone, skipped where it is done, refused where it is something else; and what the frames
 share."""
 import json
@@ -6,9 +7,9 @@ import os
 import signal
 import struct
 import subprocess
-import time
 import unittest
 
+from polling import GUARD, poll_until
 from support import ECLAT, ENVIRONMENT, QUICK, SHARED, Case, data_uri, eclat, read_exr, write_gltf
 from test_motion import GLOW, GREY, Builder, room, turn
 
@@ -298,10 +299,7 @@ class Going(FramesCase):
         kills, done = 0, 0
         while kills < 3:
             process = subprocess.Popen([ECLAT, "render", scene, *SMALL, *command], cwd=self.folder, env=ENVIRONMENT)
-            deadline = time.monotonic() + 60
-            while process.poll() is None and time.monotonic() < deadline:
-                if len([name for name in os.listdir(self.folder) if name.startswith("k.")]) > done + 1:
-                    break
+            poll_until(lambda: len([name for name in os.listdir(self.folder) if name.startswith("k.")]) > done + 1, process)
             process.send_signal(signal.SIGKILL)
             process.wait()
             kills += 1
@@ -316,10 +314,9 @@ class Going(FramesCase):
     def test_interrupted(self):
         scene, command = self.sliding(), ["--frames", "0:40", "--spp", "256", "--size", "64x64", "-o", "i.%02d.exr"]
         process = subprocess.Popen([ECLAT, "render", scene, "-q", *command], cwd=self.folder, env=ENVIRONMENT, stderr=subprocess.PIPE, encoding="utf-8")
-        while process.poll() is None and not os.path.exists(self.path("i.01.exr")):
-            time.sleep(0.01)
+        poll_until(lambda: os.path.exists(self.path("i.01.exr")), process)
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=60)
+        _, said = process.communicate(timeout=GUARD)
         self.assertEqual(process.returncode, 1)
         self.assertRegex(said, r"interrupted: (\d+) of 41 frames are there; the same command goes on")
         there = [name for name in os.listdir(self.folder) if name.startswith("i.")]

@@ -1,3 +1,4 @@
+# tier: quick
 """EXT_lights_image_based: the cube of a scene's light as its environment."""
 import struct
 import unittest

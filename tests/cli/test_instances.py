@@ -1,3 +1,4 @@
+# tier: quick
 """Meshes that are kept once, from end to end: the same picture as written out, and what is said of them."""
 import copy
 import glob

@@ -1,3 +1,4 @@
+# tier: quick
 """Motion blur, from end to end: closed forms, means of stills, the same bits everywhere, refusals.
 
 A picture of all moments of the shutter is the mean of stills. The stills stand at the middles of M equal parts; what that leaves out

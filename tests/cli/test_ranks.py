@@ -1,3 +1,4 @@
+# tier: quick
 """Processes of an MPI job make the picture that one makes, bit for bit, however many they are and wherever; and end well where something fails.
 Skipped where there is no mpirun, or eclat was built without MPI."""
 import json
@@ -6,10 +7,10 @@ import re
 import shutil
 import signal
 import subprocess
-import time
 import unittest
 
 from hosts import Hosts
+from polling import GUARD, poll_until
 from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, read_exr
 
 # As root, and more processes than processors: only here. Two threads a process are enough for pictures of 300 pixels. Without gl hwloc
@@ -18,11 +19,12 @@ MPI = dict(ENVIRONMENT, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFI
            POCL_MAX_PTHREAD_COUNT="2", HWLOC_COMPONENTS="-gl")
 RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates", "invalid_samples", "allotment_gain"]
 JOB = [CORNELL, "--size", "20x18"]
+NEVER_LOST = {"ECLAT_RANK_LOST": "1000000"}  # where one rank waits for another in vain, the job hangs
 
 
-def mpirun(ranks, *arguments, env=None, timeout=200):
+def mpirun(ranks, *arguments, env=None):
     return subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", "-n", str(ranks), ECLAT, *arguments], env=dict(MPI, **(env or {})),
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=timeout)
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=GUARD)
 
 
 def without_mpi():
@@ -108,11 +110,9 @@ class Ranks(Case):
         self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
 
     def test_a_limit_of_time(self):
-        start = time.monotonic()
-        run = self.assert_ok(mpirun(3, "render", *JOB, "--time", "1.5s", "--json", "-q", "-o", self.path("a.exr")))
+        run = self.assert_ok(mpirun(3, "render", *JOB, "--time", "1.5s", "--json", "-q", "-o", self.path("a.exr"), env=NEVER_LOST))
         report = json.loads(run.stdout)
         self.assertEqual(report["stopped_by"], "time")
-        self.assertLess(time.monotonic() - start, 40)  # where a rank waits for another, a minute
         whole, _ = self.render(*JOB, "--spp", str(report["samples_per_pixel"]))
         self.assertEqual(whole["image_sha256"], report["image_sha256"])
 
@@ -121,7 +121,7 @@ class Ranks(Case):
         for arguments, code, says in [(large, 1, "an MPI job is for pictures that are rendered whole; start one process without mpirun, or"),
                                       (["render", self.path("none.gltf")], 1, "none.gltf"), (["render", CORNELL, "--spp", "x"], 2, "--spp"),
                                       (["render", CORNELL, "-o", self.path("no", "a.exr")], 1, "No such file")]:
-            run = mpirun(2, *arguments, timeout=60)
+            run = mpirun(2, *arguments)
             self.assertEqual(run.returncode, code, run.stderr)
             lines = own_lines(run)
             self.assertEqual(len(lines), 1, run.stderr)
@@ -131,7 +131,7 @@ class Ranks(Case):
     def test_another_launcher(self):
         """MPI finds one process where that of another MPI started three: each would render all of the picture."""
         for number, lines in [("0", 1), ("1", 0)]:
-            run = eclat("render", *JOB, "--spp", "4", "-o", self.path("a.exr"), env=dict(MPI, PMI_SIZE="3", PMI_RANK=number), timeout=60)
+            run = eclat("render", *JOB, "--spp", "4", "-o", self.path("a.exr"), env=dict(MPI, PMI_SIZE="3", PMI_RANK=number))
             self.assertEqual(run.returncode, 1)
             self.assertEqual([line[:60] for line in own_lines(run)], ["eclat: error: 3 processes were started, but each finds 1: the la"[:60]] * lines)
         self.assertFalse(os.path.exists(self.path("a.exr")))
@@ -153,10 +153,7 @@ class Ranks(Case):
                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 
     def wait_for(self, path, process):
-        deadline = time.monotonic() + 60
-        while not os.path.exists(path) and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.02)
-        self.assertTrue(os.path.exists(path), "no checkpoint")
+        self.assertTrue(poll_until(lambda: os.path.exists(path), process), "no checkpoint")
 
     def ranks_of(self, process):
         """Process numbers by rank."""
@@ -181,7 +178,7 @@ class Ranks(Case):
             process = self.start(3, *job, "--spp", "200000", "--checkpoint", kept, "--every", "0.1s", "-o", self.path("b.exr"))
             self.wait_for(kept, process)
             os.kill(self.ranks_of(process)[victim], signal.SIGKILL)
-            _, error = process.communicate(timeout=60)
+            _, error = process.communicate(timeout=GUARD)
             self.assertNotEqual(process.returncode, 0, error)
             goes_on = f"{ECLAT} render --resume {kept}\n"  # to be typed as it is; said before, and where there is a rank 0 to say it, again
             self.assertEqual((error.count("from the last checkpoint with: " + goes_on), error.count("behind mpirun, with: " + goes_on)),
@@ -201,11 +198,11 @@ class Ranks(Case):
         for victim, number, env, launcher in [(5, signal.SIGKILL, {"ECLAT_RANK_FANOUT": "2"}, ["--enable-recovery"]), (2, signal.SIGSTOP, {}, [])]:
             kept = self.path("kept.exr")
             process = self.start(victim + 1, *job, "--checkpoint", kept, "--every", "0.1s", "--json", "-q", "-o", self.path("b.exr"), launcher=launcher,
-                                 env=dict(env, ECLAT_RANK_LOST="4"))
+                                 env=dict(env, ECLAT_RANK_LOST="10"))
             self.wait_for(kept, process)
             lost = self.ranks_of(process)[victim]
             os.kill(lost, number)
-            out, error = process.communicate(timeout=120)
+            out, error = process.communicate(timeout=GUARD)
             if number == signal.SIGSTOP and os.path.exists(f"/proc/{lost}"):
                 os.kill(lost, signal.SIGKILL)
             told = "told by rank 2: " if victim == 5 else ""
@@ -254,7 +251,7 @@ class Ranks(Case):
         script = f'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then export {on_rank_1}; fi; exec "$@"'
         run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", *launcher, "-n", "3", "sh", "-c", script, "sh", ECLAT, "render", *job, *more,
                               "--json", "-o", self.path("b.exr")], env=dict(MPI, **(env or {})), stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
-                             timeout=100)
+                             timeout=GUARD)
         self.assert_ok(run)
         whole, planes = self.render(*job)
         self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
@@ -279,7 +276,7 @@ class Ranks(Case):
         for binding, says in [("core", 1), ("none", 0)]:
             run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", binding, "--mca", "hwloc_base_binding_policy",
                                   f"{binding}:overload-allowed", "-n", "2", ECLAT, "render", *JOB, "--spp", "4", "-o", self.path("b.exr")], env=MPI, stdin=subprocess.DEVNULL, capture_output=True,
-                                 encoding="utf-8", timeout=60)
+                                 encoding="utf-8", timeout=GUARD)
             self.assertEqual(self.assert_ok(run).stderr.count("--bind-to none"), says, run.stderr)
 
     def test_hosts(self):
@@ -291,7 +288,7 @@ class Ranks(Case):
             with Hosts(3, self.folder, here) as hosts:
                 job = [scene, "--size", "20x18", "--spp", "41"]
                 run = subprocess.run(hosts.mpirun(ECLAT, "render", *job, "--json", "-o", os.path.join(here, "b.exr")), env=MPI, stdin=subprocess.DEVNULL,
-                                     capture_output=True, encoding="utf-8", timeout=100)
+                                     capture_output=True, encoding="utf-8", timeout=GUARD)
         except OSError as error:
             self.skipTest(f"no network namespaces here: {error}")
         self.assert_ok(run)

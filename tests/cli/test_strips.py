@@ -1,3 +1,4 @@
+# tier: quick
 """Pictures larger than memory, in strips of rows: the bits of the whole, and what strips cannot do."""
 import json
 import os

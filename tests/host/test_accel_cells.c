@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Grid and kd-tree: every triangle in every cell that its box needs, the same bytes for any number of threads, bounded stacks and
  * memory, on easy and hostile meshes; and the table of accelerators. */
 #include "accel/accel.h"

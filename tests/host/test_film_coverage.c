@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Is the 95 % bound a 95 % bound? Films of synthetic pixels whose true mean is known are filled over and over; the real
  * error must lie under the bound about as often as claimed: not less, and not always either. See host/film/error.c.
  *

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Student's t, Fisher's F and the incomplete beta function against values in closed form and from printed tables. */
 #include "film/film.h"
 #include "film/statistics.h"

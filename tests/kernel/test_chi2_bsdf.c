@@ -1,3 +1,4 @@
+/* tier: quick */
 /* What bsdf_sample samples against bsdf_eval's density, by chi-square; the density against 1. A sample where the density is 0 fails at
  * once. Polar cells about the mirrored direction above the surface and about the refracted one below, finer where the lobe is. */
 #include "kernel/chi2.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Kernel tests and renders once more inside Oclgrind's simulator: out-of-bounds accesses, data races, uninitialised values, wrong
  * API calls. Runs itself inside it too, with a kernel that is wrong on purpose, to know that it would be told.
  *

@@ -1,3 +1,4 @@
+# tier: quick
 """Every OpenCL call fails once: a clear line, no damaged file, and the samples so far where there are any."""
 import json
 import os

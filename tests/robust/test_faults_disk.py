@@ -1,3 +1,4 @@
+# tier: quick
 """Disks that are full or fail, and processes killed as they write: the file of before or the whole new one, nothing else."""
 import json
 import os

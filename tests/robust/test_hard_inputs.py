@@ -1,3 +1,4 @@
+# tier: quick
 """Numbers at the edge of float, and scenes that are degenerate on purpose: what is dropped is counted, what is clamped is said, the
 rest is the picture that it would be without."""
 import math

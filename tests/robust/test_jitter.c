@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Coordinates are known to an ulp at best, so a picture may not hang on one: with every vertex, light and camera moved by one ulp
  * at random it must be the same within noise, and with the same random numbers far closer than that. An epsilon in metres, a hash
  * of a position's bits or a cancellation would show here.

@@ -1,3 +1,4 @@
+# tier: quick
 """Materials that no exporter writes: all extensions in one, factors out of range, texture transforms to the end of float on every slot, 16 bits
 a channel, the second set of coordinates. A ball in a sky of 1 shows no NaN, nothing below 0 and, in the mean, no more light than comes in."""
 import math

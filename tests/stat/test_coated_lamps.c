@@ -1,3 +1,4 @@
+/* tier: quick */
 /* A clear coat lies over emission (KHR_materials_clearcoat, "Emission"): what a lamp sends along v is Le (1 - c F(n . v)) with Schlick's F,
  * f0 = 0.04, about the coat's normal. In closed form where it is seen, and where it lights a floor, however it is found. */
 #include "support/gltf_writer.h"

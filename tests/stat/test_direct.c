@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Direct light against closed forms: Lambert's formula, inverse squares, environments. Scenes are made here, so that every
  * number in a check stands beside its derivation. (Lamps that touch what they light: test_near_lamps.c.) */
 #include "support/floor_case.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Scenes whose radiance is known without rendering (NUMERICS.md D, rows 1, 3 and 13; scenes/furnace/README.md). */
 #include "report/names.h"
 #include "support/render_case.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Glass whose picture is known without rendering it: plates and slabs, of clear and of coloured glass, with something in them, and
  * boxes in a white environment. For every --sample, which must make no difference to what only one direction finds. */
 #include "report/names.h"

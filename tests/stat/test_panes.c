@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Light behind panes: thin, smooth walls, which shadow rays pass. What points, spots, suns and lamps give a floor through any number
  * of them, in closed form or by integration in double, for every --sample: nothing is lost or counted twice. */
 #include "support/floor_case.h"

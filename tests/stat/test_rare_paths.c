@@ -1,7 +1,6 @@
+/* tier: quick */
 /* Rare paths as they are foretold: against closed forms where a flat mirror shows a small light, and against long renders where a mirror
- * throws it onto a floor.
- *
- * ctest label: stat */
+ * throws it onto a floor. */
 #include "pipeline/rare_paths.h"
 #include "pipeline/session.h"
 #include "support/gltf_writer.h"

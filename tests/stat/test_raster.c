@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The rasteriser sees what camera rays see: first-hit depth and coverage of the same samples, one a pixel, in at least 99.9 % of
  * the pixels (only samples within rounding of a silhouette may differ). And its picture does not depend on the order of the
  * triangles or on how the work is cut. */

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The picture is a function of scene, seed and options, not of how it was computed: LANES, acceleration structure, density of its
  * grid, wave size, effects built in, and the time of day change no bit of any number in the film. (Threads: tests/cli/test_render.py.) */
 #include "accel/accel.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* A faceted ball with a round one's normals (NUMERICS.md A1, shading against geometric normal): no light gets in, none is won, and with
  * --terminator smooth none is lost. */
 #include "report/names.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Light sampling, BSDF sampling, both together and uniform directions must converge to one picture, whatever emits and
  * whatever stands in the way: they share no code for finding light. Small pictures with many samples, every pair compared by
  * ztest.h with no allowance for a common bias. BSDF sampling and uniform directions meet a lamp seldom, so that 32 batches of

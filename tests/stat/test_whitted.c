@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Whitted's ray trees against closed forms: what each is, stands beside its scene. A needle's eye of a camera sees one point. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"

@@ -1,12 +1,12 @@
-"""The preview window, by a hand that is not there: start, orbit, compare with eclat render, save and repeat, reload, resize, close.
-ctest label: slow"""
+# tier: full
+"""The preview window, by a hand that is not there: start, orbit, compare with eclat render, save and repeat, reload, resize, close."""
 import os
 import re
 import subprocess
-import time
 import unittest
 
 from desk import ViewCase, mean_difference, pixels
+from polling import GUARD
 from support import CORNELL, ENVIRONMENT, eclat, png_size, write_exr
 
 SIZE = ["--size", "200x150"]
@@ -31,7 +31,7 @@ class View(ViewCase):
             nonlocal shot
             shot = pixels(window.screenshot(), PLAIN)
             return mean_difference(shot, pixels(reference, PLAIN)) < 8
-        self.assertTrue(window.wait_until(near, 60), mean_difference(shot, pixels(reference, PLAIN)))
+        self.assertTrue(window.wait_until(near), mean_difference(shot, pixels(reference, PLAIN)))
         unmoved = self.path("unmoved.png")
         self.assert_ok(eclat("render", self.scene, *SIZE, "--spp", "64", "-o", unmoved))
         self.assertGreater(mean_difference(shot, pixels(unmoved, PLAIN)), 16)
@@ -46,13 +46,13 @@ class View(ViewCase):
         self.assert_repeats(window, plain)
         window.key("E", "E", "E", "t", "2")
         window.tool("mousemove", "--window", window.id, 100, 70, "click", 4)
-        changed = window.wait_until(lambda: (lambda c: c if "whitted" in c else None)(window.save()), 120, 0.5)
+        changed = window.wait_until(lambda: (lambda c: c if "whitted" in c else None)(window.save()), 0.5)
         for word in ["--exposure=1", "--tonemap=none", "--integrator=whitted", "--eye="]:
             self.assertIn(word, changed)
         self.assertNotIn("--rr", changed)  # a path tracer's
         self.assert_repeats(window, changed)
         window.key("r", "1")
-        again = window.wait_until(lambda: (lambda c: c if "whitted" not in c else None)(window.save()), 120, 0.5)
+        again = window.wait_until(lambda: (lambda c: c if "whitted" not in c else None)(window.save()), 0.5)
         strip = re.compile(r" -o \S+| --spp=\d+")
         self.assertEqual(strip.sub("", again).split()[:-1], strip.sub("", plain).split()[:-1])
         self.assertEqual(window.close(), 0)
@@ -63,19 +63,19 @@ class View(ViewCase):
         window = self.open(self.scene, *SIZE, "--spp", "4", "--env", sky)
         window.save()
         window.key("period", "period", "period")
-        turned = window.wait_until(lambda: (lambda c: c if "--env-rotate=15" in c else None)(window.save()), 60, 0.5)
+        turned = window.wait_until(lambda: (lambda c: c if "--env-rotate=15" in c else None)(window.save()), 0.5)
         self.assert_repeats(window, turned)
         window.key("3", "x", "1", "x")
-        lost = window.wait_until(lambda: (lambda c: c if "--integrator=raster" in c and "--without" in c else None)(window.save()), 60, 0.5)
+        lost = window.wait_until(lambda: (lambda c: c if "--integrator=raster" in c and "--without" in c else None)(window.save()), 0.5)
         self.assertIn("--without=emission", lost)
         self.assert_repeats(window, lost)
         self.assertEqual(window.close(), 0)
 
     def test_flying_and_panning_move_the_eye(self):
         window = self.open(self.scene, *SIZE, "--spp", "4")
-        window.save()
+        window.rest()
         eyes = []
-        for move in [lambda: window.hold("w", 0.5), lambda: window.drag(2, 100, 75, 120, 75), lambda: window.hold("s", 0.8)]:
+        for move in [lambda: window.hold("w"), lambda: window.drag(2, 100, 75, 120, 75), lambda: window.hold("s")]:
             move()
             window.rest()
             command = window.save()
@@ -88,12 +88,13 @@ class View(ViewCase):
         window.drag(1, 100, 75, 120, 70)
         before = window.save()
         camera = re.search(r"--eye.*?--fov=\S+", before)[0]
-        lit = pixels(window.screenshot(), PLAIN)
+        window.rest()
+        whole, lit = window.picture(), pixels(window.screenshot(), PLAIN)
         with open(self.scene, encoding="utf-8") as file:
             text = file.read()
         with open(self.scene, "w", encoding="utf-8") as file:
             file.write(text[:len(text) // 2])
-        time.sleep(2)
+        self.assertTrue(window.wait_until(lambda: mean_difference(window.picture(), whole) > 2), "not told of")
         broken = pixels(window.screenshot(), "200x40+0+70")
         self.assertIsNone(window.process.poll())
         self.assertGreater(len(set(broken[2])), 8)  # the picture stays
@@ -101,8 +102,8 @@ class View(ViewCase):
         self.assertNotEqual(dark, text)
         with open(self.scene, "w", encoding="utf-8") as file:
             file.write(dark)
-        self.assertTrue(window.wait_until(lambda: mean_difference(pixels(window.screenshot(), PLAIN), lit) > 10, 60, 0.5))
-        window.wait_until(lambda: False, 2)
+        self.assertTrue(window.wait_until(lambda: mean_difference(pixels(window.screenshot(), PLAIN), lit) > 10, 0.5))
+        window.rest()
         after = window.save()
         self.assertIn(camera, after)
         self.assert_repeats(window, after)
@@ -112,11 +113,11 @@ class View(ViewCase):
         window = self.open(self.scene, *SIZE, "--error", "20%")
         self.assertEqual(window.size(), (200, 150))
         window.tool("windowsize", "--sync", window.id, 180, 160)
-        command = window.wait_until(lambda: (lambda c: c if "180x160" in c else None)(window.save()), 60, 0.5)
+        command = window.wait_until(lambda: (lambda c: c if "180x160" in c else None)(window.save()), 0.5)
         attributes = self.assert_repeats(window, command)
         self.assertEqual(png_size(os.path.join(window.folder, re.search(r"-o (\S+\.png)", command)[1])), (180, 160))
         self.assertIn("eclat.camera.eye", attributes)
-        window.rest(120)
+        window.rest()
         self.assertEqual(window.close(), 0)
 
     def test_second_pictures(self):
@@ -142,7 +143,7 @@ class View(ViewCase):
         with open(script, "w", encoding="utf-8") as file:
             file.write("wait 0.2\nturn 30 5 1   # degrees\ndolly 0.8 0.5\nsettle\nkey Save\nquit\n")
         window = self.open(self.scene, *SIZE, "--spp", "8", "--script", script, "--stats")
-        self.assertEqual(window.process.wait(120), 0, window.text("err"))
+        self.assertEqual(window.process.wait(GUARD), 0, window.text("err"))
         text = window.text()
         self.assertRegex(text, r"(?m)^first light  [\d.]+ s$")
         self.assertRegex(text, r"(?m)^frames       \d+ in [\d.]+ s of camera moves, median [\d.]+ ms, 95 % under [\d.]+ ms, worst [\d.]+ ms$")
@@ -156,7 +157,7 @@ class Leaks(ViewCase):
         script = self.path("close.txt")
         with open(script, "w", encoding="utf-8") as file:
             file.write("turn 20 5 0.1\nkey v\nkey Save\nsettle\nkey 3\nwait 0.2\nquit\n")
-        run = subprocess.run([os.environ["ECLAT_TEN_WINDOWS"], CORNELL, script], capture_output=True, text=True, timeout=500, check=False,
+        run = subprocess.run([os.environ["ECLAT_TEN_WINDOWS"], CORNELL, script], capture_output=True, text=True, timeout=GUARD, check=False,
                              env=dict(ENVIRONMENT, DISPLAY=self.screen.display, LIBGL_ALWAYS_SOFTWARE="1", LSAN_OPTIONS="exitcode=0"))
         self.assertEqual((run.returncode, run.stdout), (0, "ten windows\n"), run.stderr[-4000:])
         # Drivers keep things until the process ends. What was allocated by or for eclat has one of its functions on the stack.
