@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """A render that stops and goes on is the render that never stopped, bit for bit; checkpoints of anything else are refused."""
 import json
 import os
@@ -10,6 +10,7 @@ import unittest
 
 from polling import GUARD, poll_until, poll_writes
 from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, quad_scene, read_exr, write_gltf
+from tiers import full
 
 SIZE = ["--size", "20x18"]
 RESULT = ["image_sha256", "samples", "rays", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates"]
@@ -41,11 +42,13 @@ class Checkpoint(Case):
         for first, all_of_it in [(2, 8), (32, 80), (101, 300), (37, 203)]:
             self.assert_same(["--spp", str(first)], ["--spp", str(all_of_it)], ["--spp", str(all_of_it)])
 
+    @full
     def test_other_numbers_of_replicates(self):
         for replicates, first, all_of_it in [(1, 3, 21), (3, 4, 50), (16, 40, 75)]:
             job = ["--replicates", str(replicates)]
             self.assert_same([*job, "--spp", str(first)], [*job, "--spp", str(all_of_it)], ["--spp", str(all_of_it)])
 
+    @full
     def test_other_integrators(self):
         for integrator in ["whitted", "raster"]:
             job = ["--integrator", integrator]
@@ -56,6 +59,7 @@ class Checkpoint(Case):
         for first in [12, 32, 50]:
             self.assert_same(["--adaptive", "--spp", str(first)], ["--adaptive", "--spp", "96"], ["--spp", "96"])
 
+    @full
     def test_in_the_middle_of_a_batch(self):
         """A wave of 256 paths is 1 of 22 and more of a batch: nearly every stop is within one."""
         for options in [["--spp", "96", "--adaptive"], ["--spp", "1280", "--samples", "1024:1280"]]:
@@ -84,6 +88,7 @@ class Checkpoint(Case):
     def state(self):
         return json.loads(read_exr(self.kept)[0]["eclat.state"])
 
+    @full
     def test_within_the_first_batches(self):
         """First-hit features are averaged over the first batch of each replicate: what is kept there is whole batches."""
         job = [CORNELL, "--size", "40x36", "--wave", "64", "--spp", "64"]  # 23 waves a batch
@@ -105,6 +110,7 @@ class Checkpoint(Case):
             os.remove(self.kept)
         self.assertTrue(features, "never stopped early enough")
 
+    @full
     def test_within_the_first_batch_of_a_slice(self):
         """It is cut as any other: on large pictures it takes minutes."""
         job = [CORNELL, "--size", "40x36", "--wave", "1024", "--spp", "4608", "--samples", "4096:4608"]  # a checkpoint after each of 90 waves
@@ -123,6 +129,7 @@ class Checkpoint(Case):
             self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
             os.remove(self.kept)
 
+    @full
     def test_until_an_error(self):
         """Also where samples go where noise is, which --resume keeps as it was: on by itself with --error, off without."""
         self.assert_same(["--spp", "12"], ["--error", "60%", "--adaptive=off"], ["--error", "60%"])
@@ -223,6 +230,7 @@ class Checkpoint(Case):
             self.assertIn(says, error)
             self.assertFalse(os.path.exists(self.path("b.exr")))
 
+    @full
     def test_meshes_that_are_kept_once_and_written_out(self):
         """Accelerators that know no instances have other triangles, and the same samples."""
         scene, _ = quad_scene(material={"doubleSided": True})
@@ -238,6 +246,7 @@ class Checkpoint(Case):
         error = self.assert_one_error(eclat("render", "--resume", self.kept, "--instancing", "off", "-q", "-o", self.path("b.exr")), 1)
         self.assertIn("not the same are the scene's geometry", error)
 
+    @full
     def test_what_a_scene_does_not_call_for_makes_no_difference(self):
         self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
         self.render("--resume", self.kept, "--scattering", "multiple")

@@ -1,4 +1,4 @@
-# tier: full
+# tiers: quick, full
 """eclat cost: the budget, the table, the JSON, what Ctrl-C leaves."""
 import json
 import math
@@ -10,6 +10,7 @@ import unittest
 
 from polling import GUARD
 from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, quad_scene, write_gltf
+from tiers import full
 
 SMALL = ("--size", "32x32")
 PATH = "path"
@@ -41,6 +42,7 @@ class FullStudy(Case):
     def setUpClass(cls):
         cls.table, cls.report = study_that_measures("raster", 15, CORNELL, *SMALL)
 
+    @full
     def test_every_rung_is_measured_or_says_why_not(self):
         expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "rr-0.8",
                     "rr-0.5", "rr-off", "clamp-1", "clamp-10", "clamp-100", "fast-math", "no-indirect", "no-lamps-3", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
@@ -61,6 +63,7 @@ class FullStudy(Case):
         self.assertEqual((base["state"], base["relative_time"]), ("measured", 1))
         self.assertEqual(sum(r["invalid_values"] for r in self.report["rungs"] if r["state"] == "measured" and r["id"] != "fast-math"), 0)
 
+    @full
     def test_biased_by_design(self):
         """Direct light from a point, without shadows, is another picture; and no time helps."""
         raster = rung_of(self.report, "raster")
@@ -69,12 +72,14 @@ class FullStudy(Case):
         self.assertGreater(raster["error_floor"], 0.1)
         self.assertTrue(all(t["never"] and t["seconds"] is None for t in raster["time_to"]))
 
+    @full
     def test_unbiased_by_design(self):
         """Each by chance once in 30 000."""
         for rung in self.report["rungs"]:
             if rung.get("unbiased_by_design") and rung["id"] in ("path", "sample-light", "rr-0.8", "sampler-independent"):
                 self.assertLess(abs(rung["bias_squared"]), 4 * rung["bias_squared_se"], rung["id"])
 
+    @full
     def test_table(self):
         self.assertIn("best: *", self.table)
         self.assertNotIn("\033", self.table)
@@ -82,6 +87,7 @@ class FullStudy(Case):
             self.assertIn(rung["name"][:32], self.table)
             self.assertIn(rung["group_title"], self.table)
 
+    @full
     def test_scattering_is_no_matter_where_all_is_matt(self):
         self.assertNotIn("scattering-multiple", [r["id"] for r in self.report["rungs"]])
 
@@ -111,6 +117,7 @@ class Study(Case):
             self.assertRegex(rung["note"], r"budget too small.*(--budget \d+m|about)")
         self.assertIn("budget too small", run.stdout)
 
+    @full
     def test_reference_from_a_file(self):
         self.assert_ok(eclat("render", CORNELL, *SMALL, "--spp", "256", "-o", self.path("ref.exr"), cwd=self.folder))
         _, report = study_that_measures(PATH, 3, CORNELL, "--reference", self.path("ref.exr"))
@@ -126,6 +133,7 @@ class Study(Case):
         self.assertIn("is 16x16 pixels and the study 32x32", run.stderr)
         self.assertEqual(run.returncode, 1)
 
+    @full
     def test_seed_changes_the_figures(self):
         first, second = (rung_of(study_that_measures(PATH, 3, CORNELL, *SMALL, "--seed", seed)[1], PATH)
                          for seed in ("1", "2"))
@@ -149,6 +157,7 @@ class Study(Case):
         self.assertLess(states, {"interrupted", "measured", "budget too small"})
         self.assertTrue(os.path.exists(self.path("cut.html")))
 
+    @full
     def test_scattering(self):
         """Where there is rough metal. White of roughness 1, seen head-on in a white sky, returns 1 - ln 2 by scattering once (Heitz 2014), and
         next to all by scattering again: the floor is what once loses."""

@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """Sequences of frames: each the bits of that frame alone, skipped where it is done, refused where it is something else; and what the frames
 share."""
 import json
@@ -12,6 +12,7 @@ import unittest
 from polling import GUARD, poll_until
 from support import ECLAT, ENVIRONMENT, QUICK, SHARED, Case, data_uri, eclat, read_exr, write_gltf
 from test_motion import GLOW, GREY, Builder, room, turn
+from tiers import full
 
 SMALL = ["--size", "16x12", "--spp", "4", "-q"]
 # Scenes of these call for what the Cornell box does, whose kernels other tests compile.
@@ -58,6 +59,7 @@ class FramesCase(Case):
         return b.write(self.path("slide.gltf"))
 
 
+@full
 class SameBits(FramesCase):
     def assert_as_alone(self, scene, *options, frames="0:4:2", fps="8", numbers=(0, 2, 4)):
         """The sequence, each frame by --at, and one by the command that its file has."""
@@ -214,6 +216,7 @@ class Going(FramesCase):
         for name in before:
             self.assertEqual(os.stat(self.path(name)).st_mtime_ns == before[name], name != "f.0002.exr")
 
+    @full
     def test_others_are_refused_before_anything_is_rendered(self):
         scene = self.sliding()
         self.frames(scene=scene)
@@ -293,6 +296,7 @@ class Going(FramesCase):
         _, last = self.frames("-o", "f.%d.png", scene=scene)
         self.assertEqual(last["rendered"], 4)
 
+    @full
     def test_killed_and_gone_on_with(self):
         scene, command = self.sliding(), ["--frames", "0:11", "--spp", "64", "-o", "k.%02d.exr"]
         whole, _ = rows_of(self.render(scene, *command[:-1], "whole.%02d.exr"))

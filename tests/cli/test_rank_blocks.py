@@ -1,4 +1,4 @@
-# tier: quick
+# tier: full
 """Only sums travel: where batches come fast, ranks send the sum of 128 or 2048 batches in place of each of them, to the same bits. Skipped where there
 is no mpirun, or eclat was built without MPI."""
 import json

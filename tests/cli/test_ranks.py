@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """Processes of an MPI job make the picture that one makes, bit for bit, however many they are and wherever; and end well where something fails.
 Skipped where there is no mpirun, or eclat was built without MPI."""
 import json
@@ -12,6 +12,7 @@ import unittest
 from hosts import Hosts
 from polling import GUARD, poll_until
 from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, read_exr
+from tiers import full
 
 # As root, and more processes than processors: only here. Two threads a process are enough for pictures of 300 pixels. Without gl hwloc
 # does not ask every X server it finds for its cards, and end with those that other tests close meanwhile.
@@ -61,17 +62,20 @@ class Ranks(Case):
         for ranks in 2, 3, 5:
             self.assert_same([*JOB, "--spp", "131"], ranks)  # 128:132 is a batch
 
+    @full
     def test_all_take_part(self):
         run = self.assert_ok(mpirun(3, "render", CORNELL, "--size", "64x64", "--spp", "1024", "--json", "-q", "-o", self.path("b.exr")))
         report = json.loads(run.stdout)
         self.assertGreater(report["other_ranks_samples_per_pixel"], 0.2 * 1024)
         self.assertLess(report["other_ranks_samples_per_pixel"], 1024)
 
+    @full
     def test_trees(self):
         """A chain of five, and two levels of two: nobody but neighbours exchanges letters."""
         self.assert_same([*JOB, "--adaptive", "--spp", "80"], 5, {"ECLAT_RANK_FANOUT": "1"})
         self.assert_same([*JOB, "--spp", "131"], 5, {"ECLAT_RANK_FANOUT": "2"})
 
+    @full
     def test_ranks_of_several_devices(self):
         """Pieces of one batch reach the same rank one after the other."""
         job = [CORNELL, "--size", "64x64", "--spp", "512", "--wave", "4096"]
@@ -80,9 +84,11 @@ class Ranks(Case):
     def test_one_process(self):
         self.assert_same([*JOB, "--spp", "16"], 1)
 
+    @full
     def test_more_ranks_than_batches(self):
         self.assert_same([*JOB, "--spp", "3"], 5)
 
+    @full
     def test_an_error(self):
         self.assert_same([*JOB, "--error", "30%", "--adaptive=off"], 3)
         self.assert_same([*JOB, "--error", "25%"], 3)
@@ -90,14 +96,17 @@ class Ranks(Case):
     def test_more_samples_where_they_tell(self):
         self.assert_same([*JOB, "--adaptive", "--spp", "80"], 3)
 
+    @full
     def test_a_slice(self):
         self.assert_same([*JOB, "--spp", "101", "--samples", "64:101"], 3)
         self.assert_same([*JOB, "--spp", "96", "--samples", "10:80"], 3)
 
+    @full
     def test_other_integrators(self):
         self.assert_same([*JOB, "--integrator", "whitted", "--spp", "18"], 2)
         self.assert_same([*JOB, "--integrator", "raster", "--spp", "18"], 2)
 
+    @full
     def test_going_on_with_other_ranks(self):
         """With more samples where they tell; test_rank_blocks goes on without."""
         job = [*JOB, "--adaptive"]
@@ -109,6 +118,7 @@ class Ranks(Case):
         self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
         self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
 
+    @full
     def test_a_limit_of_time(self):
         run = self.assert_ok(mpirun(3, "render", *JOB, "--time", "1.5s", "--json", "-q", "-o", self.path("a.exr"), env=NEVER_LOST))
         report = json.loads(run.stdout)
@@ -128,6 +138,7 @@ class Ranks(Case):
             self.assertIn(says, lines[0])
             self.assertEqual(run.stdout, "")
 
+    @full
     def test_another_launcher(self):
         """MPI finds one process where that of another MPI started three: each would render all of the picture."""
         for number, lines in [("0", 1), ("1", 0)]:
@@ -170,6 +181,7 @@ class Ranks(Case):
                 found[int(variables[b"OMPI_COMM_WORLD_RANK"])] = int(entry)
         return found
 
+    @full
     def test_a_rank_that_is_killed(self):
         """The checkpoint survives and can be gone on with; a line says how; the job fails."""
         job = [*JOB]
@@ -190,6 +202,7 @@ class Ranks(Case):
             self.assertEqual(whole["image_sha256"], json.loads(run.stdout)["image_sha256"])
             os.remove(kept)
 
+    @full
     def test_ranks_that_are_lost(self):
         """Where the launcher lets the others live: one below another, whose loss is told all the same; and one that hangs, for which the launcher
         says that not all ended as they should."""
@@ -213,6 +226,7 @@ class Ranks(Case):
                 self.assertEqual(process.returncode, 0, error)
             os.remove(kept)
 
+    @full
     def test_a_rank_that_is_lost_before_the_scene_comes(self):
         """It dies as it looks for devices: the others neither wait for it nor go without the scene."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
@@ -222,6 +236,7 @@ class Ranks(Case):
         self.assertRegex(run.stderr, "warning: rank 1 is lost: it has ended or cannot be reached; the others go on without it")
         self.assertEqual(json.loads(run.stdout)["ranks"], 2)
 
+    @full
     def test_devices_of_ranks_that_round_otherwise(self):
         """Rank 1's driver is another one, and says last how it rounds; where it is that of rank 0, there is nothing to warn of."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
@@ -236,6 +251,7 @@ class Ranks(Case):
             self.assertEqual(len(re.findall("warning: rank 1 has basic-.* and rank 0 pthread-.*: where one of these does not round", run.stderr)), warns,
                              run.stderr)
 
+    @full
     def test_a_device_of_a_rank_that_does_not_open(self):
         """It is told of, and the rank goes on with the other one."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
@@ -264,6 +280,7 @@ class Ranks(Case):
         self.assertRegex(run.stderr, "warning: rank 1 on .*; the others go on without it")
         self.assertEqual(json.loads(run.stdout)["ranks"], 2)
 
+    @full
     def test_a_rank_whose_device_fails(self):
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
@@ -271,6 +288,7 @@ class Ranks(Case):
         job = [CORNELL, "--size", "64x48", "--spp", "512"]
         self.assertRegex(self.render_with(fault, job).stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
 
+    @full
     def test_cores(self):
         """What a launcher binds to a core, as Open MPI does, is told of it."""
         for binding, says in [("core", 1), ("none", 0)]:
@@ -279,6 +297,7 @@ class Ranks(Case):
                                  encoding="utf-8", timeout=GUARD)
             self.assertEqual(self.assert_ok(run).stderr.count("--bind-to none"), says, run.stderr)
 
+    @full
     def test_hosts(self):
         """Only the first one has the scene, and the folder that the picture goes to."""
         here = self.path("only-here")

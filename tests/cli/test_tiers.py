@@ -27,7 +27,15 @@ class Rules(unittest.TestCase):
         files = glob.glob(os.path.join(TESTS, "*", "test_*.c")) + glob.glob(os.path.join(TESTS, "*", "test_*.py"))
         self.assertGreater(len(files), 100)
         without = [os.path.relpath(path, TESTS) for path in sorted(files) if not tiers.of_file(path)]
-        self.assertEqual(without, [], "the first line names no tier: '# tier: quick' or '/* tier: quick */'; quick, full or long")
+        self.assertEqual(without, [], "the first line names no tier: '# tier: quick' or '/* tier: quick */'; quick, full, long, or 'tiers: quick, full'")
+
+    def test_parts_are_named_where_there_are_some(self):
+        """What is marked and never run, or run twice, is a file whose first line does not tell of it."""
+        for path in glob.glob(os.path.join(TESTS, "*", "test_*.[cp]*")):
+            with open(path, encoding="utf-8") as file:
+                parts = re.search(r"^ *@full$|\btest_tier\(", file.read(), re.M)
+            with self.subTest(path):
+                self.assertEqual(bool(parts), tiers.of_file(path) == ["quick", "full"])
 
     def test_no_test_reads_a_clock_or_sleeps(self):
         found, read = [], set()
@@ -42,10 +50,6 @@ class Rules(unittest.TestCase):
                               if name not in ALLOWED and re.search(words, line)]
         self.assertLessEqual(set(ALLOWED), read)
         self.assertEqual(found, [], "wait for an event with polling.poll_until; what measures time belongs into tools/bench")
-
-    def test_unknown_tiers_are_refused(self):
-        with self.assertRaises(ValueError):
-            tiers.tier("slow")
 
 
 if __name__ == "__main__":

@@ -1,29 +1,24 @@
-"""Tiers of tests: the first line of a test file names the file's, and @tier another one for a class or a test within it.
+"""Tiers of tests: the first line of a test file names its own, '# tier: quick'. With '# tiers: quick, full' it has parts of both, and @full says
+which classes or tests are not quick; a C file asks test_tier() of support/test.h.
 usage: python3 -m tiers TIER MODULE   Runs the tests of MODULE that are of TIER."""
 import re
 import sys
 import unittest
 
-TIERS = ("quick", "full", "long")
-FIRST_LINE = re.compile(r"(?:# tier: (\w+)|/\* tier: (\w+) \*/)\n")
+FIRST_LINE = re.compile(r"(?:# (.*)|/\* (.*) \*/)\n")
+KINDS = {"tier: quick": ["quick"], "tier: full": ["full"], "tier: long": ["long"], "tiers: quick, full": ["quick", "full"]}
 
 
-def tier(name):
-    if name not in TIERS:
-        raise ValueError(f"'{name}' is no tier; name one of {', '.join(TIERS)}")
-
-    def mark(marked):
-        marked.tier = name
-        return marked
-    return mark
+def full(marked):
+    marked.tier = "full"
+    return marked
 
 
 def of_file(path):
-    """None where the first line names none that there is."""
+    """[] where the first line names none that there is."""
     with open(path, encoding="utf-8") as file:
         found = FIRST_LINE.fullmatch(file.readline())
-    name = found and (found[1] or found[2])
-    return name if name in TIERS else None
+    return KINDS.get(found and (found[1] or found[2]), [])
 
 
 def of_test(test, otherwise):
@@ -41,7 +36,7 @@ def flat(suite):
 
 def main(name, module):
     suite = unittest.defaultTestLoader.loadTestsFromName(module)
-    otherwise = of_file(module + ".py") or "quick"
+    otherwise = (of_file(module + ".py") or ["quick"])[0]
     tests = [test for test in flat(suite) if of_test(test, otherwise) == name]
     if not tests:
         sys.exit(f"{module} has no test of tier {name}")

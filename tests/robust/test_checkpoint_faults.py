@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """Checkpoints when all goes wrong: killed at any moment, disks that fail, files that are not as they were written."""
 import hashlib
 import json
@@ -10,6 +10,7 @@ import unittest
 
 from faults import FaultCase, at_once, spread
 from support import eclat, read_exr
+from tiers import full
 
 KILLS = 100
 CHAINS = 2
@@ -63,9 +64,11 @@ class CheckpointFaults(FaultCase):
         self.assertEqual(again, whole)
         return done
 
+    @full
     def test_killed_a_hundred_times(self):
         at_once(self.chain, [(seed,) for seed in range(CHAINS)])
 
+    @full
     def test_killed_at_any_call(self):
         """A checkpoint after every batch: what was written before stands, so that a batch is lost and no more."""
         kept = os.path.join(self.path("counted"), "kept.exr")

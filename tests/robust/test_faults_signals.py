@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """Signals at any moment: the picture of the complete batches, or the file of before; never half of one."""
 import glob
 import os
@@ -9,6 +9,7 @@ import unittest
 from faults import FaultCase, at_once, spread
 from polling import GUARD, poll_until
 from support import eclat, read_exr
+from tiers import full
 
 ENOUGH = ["--size", "24x24"]
 INTERRUPTED = "eclat: error: interrupted before there was a picture; nothing is written\n"
@@ -38,6 +39,7 @@ class Signals(FaultCase):
         self.assertEqual(files, {"a.exr": "old", "a.png": "old"})
         return code
 
+    @full
     def test_asked_to_stop_at_random_calls(self):
         def stop(i, call, n, number):
             code, error, folder = self.send(i, call, n, number)
@@ -58,6 +60,7 @@ class Signals(FaultCase):
         for end in [True, False]: # whether one at the start still kills depends on which thread is faster
             self.assertIn(end, ends)
 
+    @full
     def test_killed_at_random_calls(self):
         def kill(i, call, n, number):
             code, _, folder = self.send(i, call, n, number)

@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, full */
 /* Bodies in bodies: slabs of glass with liquids, ice and air between them, whose picture is that of a stack of layers (Fresnel and
  * Beer-Lambert in double), and balls in balls. Light goes to and fro between layers, so a stack is added up layer by layer. */
 #include "report/names.h"
@@ -275,11 +275,15 @@ static void not_seen(void)
 
 int main(void)
 {
-    slabs();
-    overlaps();
-    deep();
-    within();
-    balls();
-    not_seen();
+    if (test_tier("quick")) {
+        slabs();
+        deep();
+    }
+    if (test_tier("full")) {
+        overlaps();
+        within();
+        balls();
+        not_seen();
+    }
     TEST_END();
 }

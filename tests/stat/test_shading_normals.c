@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, full */
 /* A faceted ball with a round one's normals (NUMERICS.md A1, shading against geometric normal): no light gets in, none is won, and with
  * --terminator smooth none is lost. */
 #include "report/names.h"
@@ -123,8 +123,10 @@ static void check_strategies(void)
 
 int main(void)
 {
-    check_inside();
-    check_furnace();
-    check_strategies();
+    if (test_tier("quick")) check_inside();
+    if (test_tier("full")) {
+        check_furnace();
+        check_strategies();
+    }
     TEST_END();
 }

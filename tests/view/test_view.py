@@ -1,4 +1,4 @@
-# tier: full
+# tiers: quick, full
 """The preview window, by a hand that is not there: start, orbit, compare with eclat render, save and repeat, reload, resize, close."""
 import os
 import re
@@ -8,12 +8,14 @@ import unittest
 from desk import ViewCase, mean_difference, pixels
 from polling import GUARD
 from support import CORNELL, ENVIRONMENT, eclat, png_size, write_exr
+from tiers import full
 
 SIZE = ["--size", "200x150"]
 PLAIN = "200x90+0+0"  # above the overlay's lines
 
 
 class View(ViewCase):
+    @full
     def test_shows_what_render_makes_after_an_orbit_and_repeats_it(self):
         window = self.open(self.scene, *SIZE, "--spp", "64")
         window.drag(1, 100, 75, 130, 60)
@@ -38,6 +40,7 @@ class View(ViewCase):
         self.assertEqual(window.close(), 0)
         self.assertEqual(window.text("err"), "")
 
+    @full
     def test_keys_change_the_picture_and_the_command(self):
         window = self.open(self.scene, *SIZE, "--spp", "8", "--sampler", "independent", "--rr", "0.7")
         plain = window.save()
@@ -57,6 +60,7 @@ class View(ViewCase):
         self.assertEqual(strip.sub("", again).split()[:-1], strip.sub("", plain).split()[:-1])
         self.assertEqual(window.close(), 0)
 
+    @full
     def test_environment_effects_and_rungs_repeat_too(self):
         sky = write_exr(self.path("sky.exr"), 8, 4, {"R": [float(i % 5) for i in range(32)], "G": [float(i % 3) for i in range(32)],
                                                       "B": [float(i % 7) for i in range(32)]})
@@ -71,6 +75,7 @@ class View(ViewCase):
         self.assert_repeats(window, lost)
         self.assertEqual(window.close(), 0)
 
+    @full
     def test_flying_and_panning_move_the_eye(self):
         window = self.open(self.scene, *SIZE, "--spp", "4")
         window.rest()
@@ -83,6 +88,7 @@ class View(ViewCase):
         self.assertEqual(len({tuple(eye) for eye in eyes}), 3, eyes)
         self.assertEqual(window.close(), 0)
 
+    @full
     def test_reloads_and_keeps_the_picture_of_a_broken_file(self):
         window = self.open(self.scene, *SIZE, "--spp", "16")
         window.drag(1, 100, 75, 120, 70)
@@ -109,6 +115,7 @@ class View(ViewCase):
         self.assert_repeats(window, after)
         self.assertEqual(window.close(), 0)
 
+    @full
     def test_resize_and_limits(self):
         window = self.open(self.scene, *SIZE, "--error", "20%")
         self.assertEqual(window.size(), (200, 150))
@@ -120,6 +127,7 @@ class View(ViewCase):
         window.rest()
         self.assertEqual(window.close(), 0)
 
+    @full
     def test_second_pictures(self):
         other = self.path("other.exr")
         self.assert_ok(eclat("render", self.scene, *SIZE, "--spp", "4", "--env", "0,3,0", "-o", other))
@@ -153,6 +161,7 @@ class View(ViewCase):
 
 class Leaks(ViewCase):
     @unittest.skipUnless(os.environ.get("ECLAT_TEN_WINDOWS"), "ECLAT_TEN_WINDOWS is not set")
+    @full
     def test_ten_windows_leave_nothing_behind(self):
         script = self.path("close.txt")
         with open(script, "w", encoding="utf-8") as file:
