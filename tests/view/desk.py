@@ -172,11 +172,11 @@ class Window:
         for name in names:
             subprocess.run(["xdotool", "key", "--delay", "60", name], env=self.environment, check=True)
 
-    def hold(self, name):
-        """Down until the picture is another, of a window at rest."""
-        before = self.picture()
+    def hold(self, name, crop=None):
+        """Down until the picture is another, of a window at rest; crop: what has no words in it that come and go."""
+        before = self.picture(crop)
         self.tool("keydown", name)
-        self.wait_until(lambda: mean_difference(self.picture(), before) > 4)
+        self.wait_until(lambda: mean_difference(self.picture(crop), before) > 4)
         self.tool("keyup", name)
 
     def drag(self, button, x0, y0, x1, y1):
