@@ -21,9 +21,10 @@ def of_file(path):
     return KINDS.get(found and (found[1] or found[2]), [])
 
 
-def of_test(test, otherwise):
+def of_test(test, tiers):
+    """Marks count in files of several tiers; others may take tests from such files."""
     method = getattr(test, getattr(test, "_testMethodName"))
-    return getattr(method, "tier", None) or getattr(test, "tier", None) or otherwise
+    return tiers[0] if len(tiers) == 1 else getattr(method, "tier", None) or getattr(test, "tier", None) or tiers[0]
 
 
 def flat(suite):
@@ -36,8 +37,8 @@ def flat(suite):
 
 def main(name, module):
     suite = unittest.defaultTestLoader.loadTestsFromName(module)
-    otherwise = (of_file(module + ".py") or ["quick"])[0]
-    tests = [test for test in flat(suite) if of_test(test, otherwise) == name]
+    tiers = of_file(module + ".py") or ["quick"]
+    tests = [test for test in flat(suite) if of_test(test, tiers) == name]
     if not tests:
         sys.exit(f"{module} has no test of tier {name}")
     passed = unittest.TextTestRunner(verbosity=2).run(unittest.TestSuite(tests)).wasSuccessful()

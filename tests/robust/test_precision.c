@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tier: full */
 /* Digits that the kernels' functions keep, against double precision; selftest/precision.h says how it is judged. Every lane width
  * must keep the same. */
 #include "kernel/kernel_run.h"

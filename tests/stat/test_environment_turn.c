@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tier: full */
 /* Environments that are turned and made brighter: against maps that are drawn that way. */
 #include "support/floor_case.h"
 

@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tier: full */
 /* Bodies in bodies: slabs of glass with liquids, ice and air between them, whose picture is that of a stack of layers (Fresnel and
  * Beer-Lambert in double), and balls in balls. Light goes to and fro between layers, so a stack is added up layer by layer. */
 #include "report/names.h"
@@ -275,15 +275,11 @@ static void not_seen(void)
 
 int main(void)
 {
-    if (test_tier("quick")) {
-        slabs();
-        deep();
-    }
-    if (test_tier("full")) {
-        overlaps();
-        within();
-        balls();
-        not_seen();
-    }
+    slabs();
+    overlaps();
+    deep();
+    within();
+    balls();
+    not_seen();
     TEST_END();
 }
