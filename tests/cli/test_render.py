@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """eclat render from end to end: files, reports, and the same bits."""
 import hashlib
 import json
@@ -9,6 +9,7 @@ import struct
 import unittest
 
 from support import CORNELL, RING, Case, eclat, png_size, quad_scene, read_exr, write_gltf
+from tiers import full
 
 SMALL = ["--size", "24x16", "--spp", "16"]
 KEYS = """seconds samples_per_pixel samples_per_second rays_per_second error error_bound relmse heavy_pixels replicates invalid_samples
@@ -289,6 +290,7 @@ class SameBits(Render):
                 self.assertEqual((report["adaptive"], report["allotment_gain"] < 0.95, len(set(read_exr(self.path("a.exr"))[1]["samples"])) > 1), (told, spends, spends))
         self.assertEqual(self.render("--size", "8x8", "--spp", "48", "--adaptive")["allotment_gain"], 1)  # a quad that emits has no noise
 
+    @full
     def test_nothing_but_the_seed_and_the_sampler_changes_a_bit(self):
         options = ["--size", "33x17", "--spp", "8", "--max-depth", "5"]
         first = self.render(*options, scene=CORNELL)["image_sha256"]
