@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """eclat info: the figures of scenes whose contents are known."""
 import json
 import os
@@ -7,6 +7,7 @@ import unittest
 import zlib
 
 from support import CORNELL, SHARED, SOURCE, Case, data_uri, eclat, quad_scene, write_glb, write_gltf
+from tiers import full
 
 
 def png(*texels):
@@ -353,6 +354,7 @@ class Info(Case):
                      "memory", "BVH"]:
             self.assertRegex(run.stdout, rf"(?m)^{word} ")
 
+    @full
     def test_accelerators_are_measured(self):
         report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", "all", CORNELL)).stdout)
         rows = {row["name"]: row for row in report["accels"]}
@@ -373,6 +375,7 @@ class Info(Case):
         self.assertNotIn("kdtree", run.stdout)
         self.assert_one_error(eclat("info", "--accel", "octree", CORNELL), 2)
 
+    @full
     def test_grid_density_changes_the_cells(self):
         def grid(*options, scene=CORNELL):
             report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", *options, scene)).stdout)

@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tier: full */
 /* A faceted ball with a round one's normals (NUMERICS.md A1, shading against geometric normal): no light gets in, none is won, and with
  * --terminator smooth none is lost. */
 #include "report/names.h"
@@ -123,10 +123,8 @@ static void check_strategies(void)
 
 int main(void)
 {
-    if (test_tier("quick")) check_inside();
-    if (test_tier("full")) {
-        check_furnace();
-        check_strategies();
-    }
+    check_inside();
+    check_furnace();
+    check_strategies();
     TEST_END();
 }
