@@ -88,6 +88,14 @@ class Checkpoint(Case):
     def state(self):
         return json.loads(read_exr(self.kept)[0]["eclat.state"])
 
+    def signalled(self, number, write, *job):
+        """A render with a checkpoint after each wave, which is sent the signal as the next one takes the place of that one."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        fault = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_FOLDER": self.folder, "FAULT_CALL": "rename", "FAULT_AT": str(write),
+                 "FAULT_SIGNAL": str(int(number))}
+        return eclat("render", *job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"), env=fault)
+
     @full
     def test_within_the_first_batches(self):
         """First-hit features are averaged over the first batch of each replicate: what is kept there is whole batches."""
@@ -96,9 +104,7 @@ class Checkpoint(Case):
         planes = read_exr(self.path("a.exr"))[1]
         features = set()
         for at in range(8):
-            process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
-            poll_until(lambda: os.path.exists(self.kept) and self.state()["batches"] > at, process, 0.002)
-            self.stop(process, signal.SIGKILL)
+            self.signalled(signal.SIGKILL, at + 1, *job)
             state = self.state()
             if state["batches"] < 8:
                 self.assertEqual(state["underWay"], 0)
@@ -117,8 +123,7 @@ class Checkpoint(Case):
         whole = self.render(*job)
         planes = read_exr(self.path("a.exr"))[1]
         for number in [signal.SIGKILL, signal.SIGINT]:
-            process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
-            _, said = self.stop(process, number)
+            said = self.signalled(number, 3, *job).stderr
             self.assertEqual("goes on" in said, number == signal.SIGINT, said)
             state = self.state()
             self.assertEqual((state["batches"], state["parts"], state["underWay"] > 0), (0, [], True))
