@@ -20,8 +20,8 @@ OWN = os.path.join(BUILD, "opencl")
 INTEL = ["intel-opencl-rt", "intel-cmplr-lib-rt", "tbb"]
 
 TOGETHER = "^robust/test_devices_agree$"  # looks at all devices itself
-USUAL = ["-R", "^(kernel/|robust/|stat/test_(same_bits|furnace|whitted)$|image/test_cornell$|cli/test_devices$)",
-         "-E", "oclgrind|test_devices_agree", "-LE", "long"]
+USUAL = ["-R", "^(kernel/|robust/|stat/test_(same_bits|furnace|whitted)(\\.full)?$|image/test_cornell$|cli/test_devices$)",
+         "-E", "oclgrind|test_devices_agree", "-LE", "^long$"]
 # For llvmpipe. Not robust/selftest: kernels with every effect, which its compiler takes many minutes for. Not kernel/test_cl_cache: it hands
 # the driver a broken binary, which ends the process in rusticl 22.3.6.
 SLOW = ["-R", "^(kernel/test_(cl|cl_devices|cl_embed|rounding|layouts|texture|ray|kernels)|cli/test_devices)$"]

@@ -1,4 +1,4 @@
-/* Kernels and buffers of one render on one device, and the bounce loop. Internal to pipeline/. */
+/* Kernels and buffers of one render on one device, and the bounce loop. Inside host/device and host/rare only. */
 #ifndef EC_DEVICE_PIPELINE_H
 #define EC_DEVICE_PIPELINE_H
 

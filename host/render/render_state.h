@@ -1,5 +1,5 @@
 /* What the parts of ec_render share: render.c sets up, render_film.c takes batches until a limit is met, render_strips.c does so strip by strip,
- * render_tell.c says how it goes. Inside host/pipeline/render*.c only. */
+ * render_tell.c says how it goes. Inside host/render/render*.c only. */
 #ifndef EC_RENDER_RENDER_STATE_H
 #define EC_RENDER_RENDER_STATE_H
 

@@ -44,7 +44,7 @@ static ec_result leave_all(ec_tracer *r, uint64_t *random, uint32_t first, tally
     return result;
 }
 
-/* NUMERICS A1: without an offset 45 % of such rays meet their triangle again, with a fixed one of 1e-4 41 % at coordinates of 1e6.
+/* Without an offset 45 % of such rays meet their triangle again, with a fixed one of 1e-4 41 % at coordinates of 1e6.
  * What the pipeline does besides, passing through the triangle that a ray leaves, is not in use here. */
 ec_result ec_selftest_self_intersection(ec_selftest *t, ec_error *err)
 {

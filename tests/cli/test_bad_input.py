@@ -1,3 +1,4 @@
+# tier: quick
 """Everything that can be wrong with what a render is given: one clear line, the right exit code, no partial file."""
 import os
 import stat
@@ -15,7 +16,7 @@ class BadInput(Case):
 
     def refuse(self, scene, *options, code=1, says=()):
         run = eclat("render", scene, "--size", "16x16", "--spp", "4", "-o", os.path.join(self.out, "a.exr"), "-o",
-                    os.path.join(self.out, "a.png"), *options, timeout=60)
+                    os.path.join(self.out, "a.png"), *options)
         line = self.assert_one_error(run, code)
         for word in says if isinstance(says, tuple) else (says,):
             self.assertIn(word, line)
@@ -167,7 +168,7 @@ class BadRequests(BadInput):
             for command in [["render", "--resume", path], ["merge", path, "-o", other], ["compare", path, other],
                             ["render", self.quad(), "--env", path, "-o", other]]:
                 with self.subTest(command=command):
-                    line = self.assert_one_error(eclat(*command, "-q", timeout=20), 1)
+                    line = self.assert_one_error(eclat(*command, "-q"), 1)
                     self.assertIn(f"'{path}': {says}", line)
 
     def test_unknown_device(self):

@@ -1,3 +1,4 @@
+# tiers: quick, full
 """The bound of the error: harmless scenes state one, and none is stated that does not hold. tools/bench/bounds.py counts the same over more
 scenes, seeds and budgets.
 
@@ -11,6 +12,7 @@ import struct
 import unittest
 
 from support import CORNELL, SOURCE, Case, eclat, read_exr, write_exr
+from tiers import full
 
 SEEDS = range(10)
 SIZE = 12
@@ -68,11 +70,13 @@ class Bounds(Case):
             with self.subTest(seed=seed):
                 self.assertIsNotNone(bound)
 
+    @full
     def test_lamp_that_no_path_meets_has_no_bound_that_fails(self):
         # unfolded.gltf is the same picture (scenes/pinlamp/README.md)
         _, reference = self.render(UNFOLDED, "--spp", "4096", "--seed", "1000")
         self.assert_bounds_hold(reference, PINLAMP, "--spp", "256")
 
+    @full
     def test_sun_through_glass_has_no_bound_that_fails(self):
         reference = struct.unpack(f"<{SIZE * SIZE}e", base64.b64decode(VASE_REFERENCE))
         self.assert_bounds_hold(reference, VASE, "--env", sky(self.path("sky.exr")), "--spp", "64")

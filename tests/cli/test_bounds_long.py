@@ -1,6 +1,5 @@
-"""The bounds of thirteen scenes, 200 renders at each of three budgets, against long renders: tools/bench/bounds.py.
-
-ctest label: long"""
+# tier: long
+"""The bounds of thirteen scenes, 200 renders at each of three budgets, against long renders: tools/bench/bounds.py."""
 import importlib.util
 import os
 import subprocess

@@ -1,3 +1,4 @@
+# tiers: quick, full
 """A render that stops and goes on is the render that never stopped, bit for bit; checkpoints of anything else are refused."""
 import json
 import os
@@ -5,10 +6,11 @@ import shlex
 import shutil
 import signal
 import subprocess
-import time
 import unittest
 
+from polling import GUARD, poll_until, poll_writes
 from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, quad_scene, read_exr, write_gltf
+from tiers import full
 
 SIZE = ["--size", "20x18"]
 RESULT = ["image_sha256", "samples", "rays", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates"]
@@ -40,11 +42,13 @@ class Checkpoint(Case):
         for first, all_of_it in [(2, 8), (32, 80), (101, 300), (37, 203)]:
             self.assert_same(["--spp", str(first)], ["--spp", str(all_of_it)], ["--spp", str(all_of_it)])
 
+    @full
     def test_other_numbers_of_replicates(self):
         for replicates, first, all_of_it in [(1, 3, 21), (3, 4, 50), (16, 40, 75)]:
             job = ["--replicates", str(replicates)]
             self.assert_same([*job, "--spp", str(first)], [*job, "--spp", str(all_of_it)], ["--spp", str(all_of_it)])
 
+    @full
     def test_other_integrators(self):
         for integrator in ["whitted", "raster"]:
             job = ["--integrator", integrator]
@@ -55,6 +59,7 @@ class Checkpoint(Case):
         for first in [12, 32, 50]:
             self.assert_same(["--adaptive", "--spp", str(first)], ["--adaptive", "--spp", "96"], ["--spp", "96"])
 
+    @full
     def test_in_the_middle_of_a_batch(self):
         """A wave of 256 paths is 1 of 22 and more of a batch: nearly every stop is within one."""
         for options in [["--spp", "96", "--adaptive"], ["--spp", "1280", "--samples", "1024:1280"]]:
@@ -66,7 +71,7 @@ class Checkpoint(Case):
                 self.assertLess(stops, 60)
                 now = ["--resume", self.kept] if os.path.exists(self.kept) else job
                 process = self.start(*now, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("a.exr"))
-                time.sleep(0.05 * (1 + stops % 7))  # machines differ in what they have done by then
+                poll_writes(self.kept, process, 1 + stops % 7)
                 done = process.poll() is not None
                 self.stop(process, [signal.SIGINT, signal.SIGKILL][stops % 2])
                 stops += 1
@@ -83,6 +88,15 @@ class Checkpoint(Case):
     def state(self):
         return json.loads(read_exr(self.kept)[0]["eclat.state"])
 
+    def signalled(self, number, write, *job):
+        """A render with a checkpoint after each wave, which is sent the signal as the next one takes the place of that one."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        fault = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_FOLDER": self.folder, "FAULT_CALL": "rename", "FAULT_AT": str(write),
+                 "FAULT_SIGNAL": str(int(number))}
+        return eclat("render", *job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"), env=fault)
+
+    @full
     def test_within_the_first_batches(self):
         """First-hit features are averaged over the first batch of each replicate: what is kept there is whole batches."""
         job = [CORNELL, "--size", "40x36", "--wave", "64", "--spp", "64"]  # 23 waves a batch
@@ -90,13 +104,7 @@ class Checkpoint(Case):
         planes = read_exr(self.path("a.exr"))[1]
         features = set()
         for at in range(8):
-            process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
-            deadline = time.monotonic() + 60
-            while process.poll() is None and time.monotonic() < deadline:
-                if os.path.exists(self.kept) and self.state()["batches"] > at:
-                    break
-                time.sleep(0.002)
-            self.stop(process, signal.SIGKILL)
+            self.signalled(signal.SIGKILL, at + 1, *job)
             state = self.state()
             if state["batches"] < 8:
                 self.assertEqual(state["underWay"], 0)
@@ -108,14 +116,14 @@ class Checkpoint(Case):
             os.remove(self.kept)
         self.assertTrue(features, "never stopped early enough")
 
+    @full
     def test_within_the_first_batch_of_a_slice(self):
         """It is cut as any other: on large pictures it takes minutes."""
         job = [CORNELL, "--size", "40x36", "--wave", "1024", "--spp", "4608", "--samples", "4096:4608"]  # a checkpoint after each of 90 waves
         whole = self.render(*job)
         planes = read_exr(self.path("a.exr"))[1]
         for number in [signal.SIGKILL, signal.SIGINT]:
-            process = self.start(*job, "--checkpoint", self.kept, "--every", "0.000001s", "-q", "-o", self.path("b.exr"))
-            _, said = self.stop(process, number)
+            said = self.signalled(number, 3, *job).stderr
             self.assertEqual("goes on" in said, number == signal.SIGINT, said)
             state = self.state()
             self.assertEqual((state["batches"], state["parts"], state["underWay"] > 0), (0, [], True))
@@ -126,6 +134,7 @@ class Checkpoint(Case):
             self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
             os.remove(self.kept)
 
+    @full
     def test_until_an_error(self):
         """Also where samples go where noise is, which --resume keeps as it was: on by itself with --error, off without."""
         self.assert_same(["--spp", "12"], ["--error", "60%", "--adaptive=off"], ["--error", "60%"])
@@ -158,11 +167,9 @@ class Checkpoint(Case):
                                 stderr=subprocess.PIPE, encoding="utf-8")
 
     def stop(self, process, number):
-        deadline = time.monotonic() + 60
-        while not os.path.exists(self.kept) and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+        poll_until(lambda: os.path.exists(self.kept), process)
         process.send_signal(number)
-        return process.communicate(timeout=60)
+        return process.communicate(timeout=GUARD)
 
     def test_asked_to_stop(self):
         """A last checkpoint is written, of all that the picture shows."""
@@ -228,6 +235,7 @@ class Checkpoint(Case):
             self.assertIn(says, error)
             self.assertFalse(os.path.exists(self.path("b.exr")))
 
+    @full
     def test_meshes_that_are_kept_once_and_written_out(self):
         """Accelerators that know no instances have other triangles, and the same samples."""
         scene, _ = quad_scene(material={"doubleSided": True})
@@ -243,6 +251,7 @@ class Checkpoint(Case):
         error = self.assert_one_error(eclat("render", "--resume", self.kept, "--instancing", "off", "-q", "-o", self.path("b.exr")), 1)
         self.assertIn("not the same are the scene's geometry", error)
 
+    @full
     def test_what_a_scene_does_not_call_for_makes_no_difference(self):
         self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
         self.render("--resume", self.kept, "--scattering", "multiple")

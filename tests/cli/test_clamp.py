@@ -1,3 +1,4 @@
+# tiers: quick, full
 """--clamp: what it takes away is counted, pixel by pixel; the bits are the same however a job is shared out; without it nothing changes."""
 import json
 import math
@@ -6,6 +7,7 @@ import unittest
 
 from support import CORNELL, QUICK, Case, eclat, read_exr
 from test_ranks import mpirun, without_mpi
+from tiers import full
 
 JOB = [CORNELL, "--size", "20x18", *QUICK]
 CUT = ["clamped.Y", "clamped.stderr"]
@@ -37,6 +39,7 @@ class Clamp(Case):
             lost += cut
         self.assertGreater(lost, 0.02 * sum(luminance(free)))
 
+    @full
     def test_picture_and_cut_are_the_whole_light(self):
         for job in [["--spp", "64"], ["--spp", "301", "--sampler", "independent"], ["--spp", "20", "--replicates", "1"],
                     ["--spp", "48", "--adaptive=off", "--filter", "blackman-harris", "--accel", "bvh2"]]:
@@ -69,6 +72,7 @@ class Clamp(Case):
         run = self.assert_ok(eclat("render", *JOB, "--spp", "1", "--clamp", "0.5", "-o", self.path("a.exr")))
         self.assertIn("clamped  how much light is missing is not known\n", run.stdout)
 
+    @full
     def test_standard_error(self):
         """Over independent renders of one limit (another seed may round to another one) the spread of what is cut off, and of its share of the
         light, is what they state of it. A variance of 20 has a relative error of 32 %; one of 10 000 is under 0.2 or over 2.5 times what is
@@ -89,6 +93,7 @@ class Clamp(Case):
         self.assertIsNone(report["clamp"])
         self.assertFalse([name for name in planes if name in CUT] + [name for name in attributes if "clamp" in name])
 
+    @full
     def test_direct_light_stays(self):
         """Two segments: emission, and light reflected once. And a limit over all there is cuts nothing off."""
         for more, clamp in [(["--max-depth", "2"], "0.01"), ([], "1000000")]:
@@ -102,12 +107,14 @@ class Clamp(Case):
             for y, other in zip(luminance(planes), luminance(others)):
                 self.assertAlmostEqual(y, other, delta=1e-6 * y)
 
+    @full
     def test_same_bits(self):
         job = ["--spp", "101", "--clamp", "1"]
         whole = self.render(*job)
         for more in [["--lanes", "1"], ["--lanes", "16"], ["--wave", "777"], ["--accel", "bvh2"]]:
             self.assert_same(whole, self.render(*job, "--effects", "needed", *more))
 
+    @full
     def test_slices(self):
         _, attributes, planes = self.render("--spp", "101", "--clamp", "1", name="whole.exr")
         for i, part in enumerate(["0:26", "26:64", "64:101"]):
@@ -125,6 +132,7 @@ class Clamp(Case):
         self.assertIn("--clamp is 1 there and off here", self.assert_one_error(eclat("merge", self.path("s0.exr"), self.path("s2.exr"), "-o", merged), 1)
                       .replace("off there and 1 here", "1 there and off here"))
 
+    @full
     def test_resume(self):
         whole = self.render("--spp", "101", "--clamp", "1")
         kept = self.path("kept.exr")
@@ -132,6 +140,7 @@ class Clamp(Case):
         run = self.assert_ok(eclat("render", "--resume", kept, "--spp", "101", "--json", "-q", "-o", self.path("b.exr")))
         self.assert_same(whole, (json.loads(run.stdout), *read_exr(self.path("b.exr"))))
 
+    @full
     def test_adaptive(self):
         """What pixels are due goes by the clamped picture; what is missing is a mean over each pixel's own samples."""
         job = ["--spp", "200", "--adaptive", "--clamp", "1"]
@@ -142,6 +151,7 @@ class Clamp(Case):
         spread = math.hypot(uniform["missing_stderr"], whole[0]["clamp"]["missing_stderr"])
         self.assertLess(abs(whole[0]["clamp"]["missing"] - uniform["missing"]), 5 * spread)
 
+    @full
     def test_devices(self):
         """Two of PoCL's single-threaded driver, where there is that."""
         whole = self.render("--spp", "101", "--clamp", "1")
@@ -152,12 +162,14 @@ class Clamp(Case):
         self.assert_same(whole, (report, *read_exr(self.path("b.exr"))))
 
     @unittest.skipIf(without_mpi(), "no MPI")
+    @full
     def test_ranks(self):
         for job in [["--spp", "101", "--clamp", "1"], ["--spp", "200", "--adaptive", "--clamp", "1"]]:
             whole = self.render(*job)
             run = self.assert_ok(mpirun(3, "render", *JOB, *job, "--json", "-q", "-o", self.path("b.exr")))
             self.assert_same(whole, (json.loads(run.stdout), *read_exr(self.path("b.exr"))))
 
+    @full
     def test_a_job_with_a_clamp_is_another_job(self):
         kept = self.path("kept.exr")
         self.render("--spp", "16", "--clamp", "1", "--checkpoint", kept)

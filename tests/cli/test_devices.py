@@ -1,3 +1,4 @@
+# tier: quick
 """eclat devices."""
 import json
 import unittest

@@ -1,3 +1,4 @@
+# tier: quick
 """README and manual: links lead somewhere, commands are known to the program, generated parts are fresh, the site builds and asks nobody."""
 import glob
 import json

@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Sequences of frames: each the bits of that frame alone, skipped where it is done, refused where it is something else; and what the frames
 share."""
 import json
@@ -6,11 +7,12 @@ import os
 import signal
 import struct
 import subprocess
-import time
 import unittest
 
+from polling import GUARD, poll_until
 from support import ECLAT, ENVIRONMENT, QUICK, SHARED, Case, data_uri, eclat, read_exr, write_gltf
 from test_motion import GLOW, GREY, Builder, room, turn
+from tiers import full
 
 SMALL = ["--size", "16x12", "--spp", "4", "-q"]
 # Scenes of these call for what the Cornell box does, whose kernels other tests compile.
@@ -57,6 +59,7 @@ class FramesCase(Case):
         return b.write(self.path("slide.gltf"))
 
 
+@full
 class SameBits(FramesCase):
     def assert_as_alone(self, scene, *options, frames="0:4:2", fps="8", numbers=(0, 2, 4)):
         """The sequence, each frame by --at, and one by the command that its file has."""
@@ -213,6 +216,7 @@ class Going(FramesCase):
         for name in before:
             self.assertEqual(os.stat(self.path(name)).st_mtime_ns == before[name], name != "f.0002.exr")
 
+    @full
     def test_others_are_refused_before_anything_is_rendered(self):
         scene = self.sliding()
         self.frames(scene=scene)
@@ -292,16 +296,14 @@ class Going(FramesCase):
         _, last = self.frames("-o", "f.%d.png", scene=scene)
         self.assertEqual(last["rendered"], 4)
 
+    @full
     def test_killed_and_gone_on_with(self):
         scene, command = self.sliding(), ["--frames", "0:11", "--spp", "64", "-o", "k.%02d.exr"]
         whole, _ = rows_of(self.render(scene, *command[:-1], "whole.%02d.exr"))
         kills, done = 0, 0
         while kills < 3:
             process = subprocess.Popen([ECLAT, "render", scene, *SMALL, *command], cwd=self.folder, env=ENVIRONMENT)
-            deadline = time.monotonic() + 60
-            while process.poll() is None and time.monotonic() < deadline:
-                if len([name for name in os.listdir(self.folder) if name.startswith("k.")]) > done + 1:
-                    break
+            poll_until(lambda: len([name for name in os.listdir(self.folder) if name.startswith("k.")]) > done + 1, process)
             process.send_signal(signal.SIGKILL)
             process.wait()
             kills += 1
@@ -316,10 +318,9 @@ class Going(FramesCase):
     def test_interrupted(self):
         scene, command = self.sliding(), ["--frames", "0:40", "--spp", "256", "--size", "64x64", "-o", "i.%02d.exr"]
         process = subprocess.Popen([ECLAT, "render", scene, "-q", *command], cwd=self.folder, env=ENVIRONMENT, stderr=subprocess.PIPE, encoding="utf-8")
-        while process.poll() is None and not os.path.exists(self.path("i.01.exr")):
-            time.sleep(0.01)
+        poll_until(lambda: os.path.exists(self.path("i.01.exr")), process)
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=60)
+        _, said = process.communicate(timeout=GUARD)
         self.assertEqual(process.returncode, 1)
         self.assertRegex(said, r"interrupted: (\d+) of 41 frames are there; the same command goes on")
         there = [name for name in os.listdir(self.folder) if name.startswith("i.")]

@@ -1,9 +1,11 @@
+# tiers: quick, full
 """EXT_lights_image_based: the cube of a scene's light as its environment."""
 import struct
 import unittest
 import zlib
 
 from support import QUICK, Case, data_uri, eclat, quad_scene, read_exr, write_gltf
+from tiers import full
 
 EXTENSION = "EXT_lights_image_based"
 # +x, -x, +y, -y, +z, -z
@@ -82,6 +84,7 @@ class ImageLight(Case):
             with self.subTest(direction=DIRECTIONS[i]):
                 self.assert_colour(self.colour(scene, i + 1), [3 * linear(v * 124 // 255) for v in colour], 1e-5)
 
+    @full
     def test_pixels_of_a_face_lie_as_opengl_samples_them(self):
         # bright where s is right of the middle, and green above it: +z has s along +x and its top at +y; +y its s along +x, its top at -z
         def quarters(x, y):
@@ -95,6 +98,7 @@ class ImageLight(Case):
             with self.subTest(direction=direction):
                 self.assert_colour(self.colour(scene, i + 1)[:2], [linear(v) for v in seen], 1e-3)
 
+    @full
     def test_rotation_turns_the_cube(self):
         faces = [png(8, lambda x, y, c=colour: c) for colour in COLOURS]
         quaternion = [0.2, 0.7071, -0.3, 0.6]
@@ -108,6 +112,7 @@ class ImageLight(Case):
         scene = lit_scene(faces, directions=[turned([0, 0.5 ** 0.5, 0, 0.5 ** 0.5], turned(unit, (0, 0, 1)))], rotation=quaternion)
         self.assert_colour(self.colour(scene, 1, "--env-rotate", "90"), [linear(v) for v in COLOURS[4]], 1e-5)
 
+    @full
     def test_alpha_divides(self):
         # RGBD: 51 / 255 = 0.2, so 5 times as bright; alpha 0 counts as 1
         for alpha, times in [(51, 5), (255, 1), (1, 255), (0, 255)]:
@@ -116,6 +121,7 @@ class ImageLight(Case):
                 scene = lit_scene([face] * 6, directions=[(0, 0, 1)], size=4)
                 self.assert_colour(self.colour(scene, 1), [times * linear(v) for v in (188, 255, 10)], 1e-5)
 
+    @full
     def test_constant_cube_is_the_constant_environment(self):
         matt = {"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0}, "doubleSided": True}
         scene = lit_scene([png(8, lambda x, y: (255, 255, 255))] * 6, material=matt)
@@ -152,6 +158,7 @@ class ImageLight(Case):
         run = self.assert_ok(eclat("info", write_gltf(self.path("scene.gltf"), unused)))
         self.assertIn("no environment", run.stdout)
 
+    @full
     def test_only_the_shown_scene(self):
         scene = lit_scene([png(8, lambda x, y: (255, 0, 0))] * 6, directions=[(0, 0, 1)])
         scene["scenes"].append({"nodes": scene["scenes"][0]["nodes"]})
@@ -198,12 +205,14 @@ class ImageLight(Case):
                 run = eclat("render", "--size", "4x4", "--spp", "4", "-o", self.path("a.exr"), write_gltf(self.path("scene.gltf"), scene))
                 self.assertIn(says, self.assert_one_error(run, 1))
 
+    @full
     def test_an_intensity_that_is_not_taken_is_told(self):
         for intensity, taken in ((-3, "0"), (1e35, "1e+30")):
             scene = write_gltf(self.path("scene.gltf"), lit_scene([png(8, lambda x, y: (9, 9, 9))] * 6, intensity=intensity))
             run = self.assert_ok(eclat("info", "-q", scene))
             self.assertIn(f"image-based light 0 has intensity {intensity:g}, which is taken as {taken}\n", run.stderr)
 
+    @full
     def test_another_size_than_stated_is_a_warning(self):
         scene = write_gltf(self.path("scene.gltf"), lit_scene([png(8, lambda x, y: (9, 9, 9))] * 6, size=256))
         run = self.assert_ok(eclat("render", "-q", *QUICK, "--size", "4x4", "--spp", "4", "-o", self.path("a.exr"), scene))

@@ -1,3 +1,4 @@
+# tiers: quick, full
 """eclat info: the figures of scenes whose contents are known."""
 import json
 import os
@@ -6,6 +7,7 @@ import unittest
 import zlib
 
 from support import CORNELL, SHARED, SOURCE, Case, data_uri, eclat, quad_scene, write_glb, write_gltf
+from tiers import full
 
 
 def png(*texels):
@@ -352,6 +354,7 @@ class Info(Case):
                      "memory", "BVH"]:
             self.assertRegex(run.stdout, rf"(?m)^{word} ")
 
+    @full
     def test_accelerators_are_measured(self):
         report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", "all", CORNELL)).stdout)
         rows = {row["name"]: row for row in report["accels"]}
@@ -372,6 +375,7 @@ class Info(Case):
         self.assertNotIn("kdtree", run.stdout)
         self.assert_one_error(eclat("info", "--accel", "octree", CORNELL), 2)
 
+    @full
     def test_grid_density_changes_the_cells(self):
         def grid(*options, scene=CORNELL):
             report = json.loads(self.assert_ok(eclat("info", "--json", "--accel", *options, scene)).stdout)
@@ -462,7 +466,7 @@ class Info(Case):
                 if not name.endswith((".gltf", ".glb")):
                     continue
                 with self.subTest(file=os.path.join(parent, name)):
-                    run = eclat("info", "--json", os.path.join(parent, name), timeout=60)
+                    run = eclat("info", "--json", os.path.join(parent, name))
                     self.assertIn(run.returncode, (0, 1), run.stderr)
                     if run.returncode == 0:
                         json.loads(run.stdout)

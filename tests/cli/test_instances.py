@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Meshes that are kept once, from end to end: the same picture as written out, and what is said of them."""
 import copy
 import glob
@@ -9,6 +10,7 @@ import shutil
 import unittest
 
 from support import SOURCE, Case, eclat, read_exr
+from tiers import full
 
 LAMPS = os.path.join(SOURCE, "scenes", "lamps")  # every effect of core glTF: textures, normal maps, alpha, vertex colours
 
@@ -48,6 +50,7 @@ class Instances(Case):
                                    cwd=self.folder))
         return json.loads(run.stdout)
 
+    @full
     def test_the_picture_is_that_of_what_is_written_out(self):
         kept = self.render("--instancing", "on", "-o", "kept.exr")
         self.assertGreater(kept["instances"], 20)
@@ -68,6 +71,7 @@ class Instances(Case):
         error = math.hypot(*(r["error"] * r["mean_luminance"] for r in (off, kept))) / math.sqrt(40 * 30)
         self.assertAlmostEqual(off["mean_luminance"], kept["mean_luminance"], delta=4 * error)
 
+    @full
     def test_other_integrators(self):
         """Without random light the picture is the same but for roundings: 3e-3 is a texel or a pixel at an edge here and there."""
         for integrator in ["whitted", "raster"]:

@@ -1,6 +1,5 @@
-"""What is installed: the library as a stranger links it, by pkg-config and by CMake; the manual's example; the program with its modules.
-
-ctest label: slow"""
+# tier: quick
+"""What is installed: the library as a stranger links it, by pkg-config and by CMake; the manual's example; the program with its modules."""
 import os
 import re
 import shutil

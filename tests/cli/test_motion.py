@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Motion blur, from end to end: closed forms, means of stills, the same bits everywhere, refusals.
 
 A picture of all moments of the shutter is the mean of stills. The stills stand at the middles of M equal parts; what that leaves out
@@ -10,6 +11,7 @@ import struct
 import unittest
 
 from support import QUICK, SHARED, Case, data_uri, eclat, read_exr, write_gltf
+from tiers import full
 
 STILLS = 8
 
@@ -159,6 +161,7 @@ class Motion(Case):
             error = math.sqrt(wanted * (1 - wanted) / spp)
             self.assertLessEqual(abs(planes["G"][row * side + x] - wanted), 4.5 * error + 1e-3 * (0 < wanted), f"column {x}")
 
+    @full
     def test_a_turning_quad_keeps_its_corners(self):
         """At radius r between 0.5 and its corner's a square is seen for 1 - 4 / pi acos(0.5 / r) of a quarter turn."""
         b = Builder()
@@ -185,11 +188,13 @@ class Motion(Case):
             self.assertLess(abs(got - wanted), 4.5 * math.sqrt(variance) + 0.004 * count, f"ring {radius}")
         self.assertIn("straight ways", json.dumps(stats["effect_list"]))
 
+    @full
     def test_lamps_spots_bodies_and_cameras_are_means_of_stills(self):
         scene = room().write(self.path("room.gltf"))
         self.assert_mean_of_stills(scene, 0, 1, "--animation", "all")
         self.assert_mean_of_stills(scene, 0.25, 0.75, "--animation", "all", "--sample", "light")
 
+    @full
     def test_morph_targets_and_skins_are_means_of_stills(self):
         for name, opens, closes, half in (("AnimatedMorphCube", 0.2, 1.2, 2.5), ("RiggedSimple", 0.2, 1.0, 6)):
             path = os.path.join(SHARED, "assets", "gltf", name, "glTF", name + ".gltf")
@@ -198,6 +203,7 @@ class Motion(Case):
             with self.subTest(name):
                 self.assert_mean_of_stills(self.with_camera(path, half), opens, closes, by=4)
 
+    @full
     def test_the_same_bits_in_every_structure_and_width(self):
         scene = room().write(self.path("room.gltf"))
         common = ["--animation", "all", "--shutter", "0:1", "--size", "24x24", "--spp", "16", "--env", "0.3,0.3,0.3"]
@@ -222,6 +228,7 @@ class Motion(Case):
         self.assertNotIn("motion-blur", self.called_for(stats))
         self.assertEqual(stats["image_sha256"], self.sha(scene, "--at", "0.5", *common))
 
+    @full
     def test_what_moves_is_not_kept_once(self):
         b = Builder()
         moving = b.add(GREY, translation=[-1, 0, 0])
@@ -236,6 +243,7 @@ class Motion(Case):
         self.assertIn("motion-blur", self.called_for(on))
         self.assertEqual(on["image_sha256"], self.sha(scene, "--instancing", "off", *common))
 
+    @full
     def test_what_appears_from_nothing(self):
         """Without area at the first moments, and in the middle of the shutter for one of the two."""
         b = Builder()

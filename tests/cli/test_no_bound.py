@@ -1,3 +1,4 @@
+# tier: quick
 """A scene whose light may be missing states no error bound: every output says so and why, however the samples were taken."""
 import json
 import os

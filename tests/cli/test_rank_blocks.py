@@ -1,12 +1,13 @@
+# tier: full
 """Only sums travel: where batches come fast, ranks send the sum of 128 or 2048 batches in place of each of them, to the same bits. Skipped where there
 is no mpirun, or eclat was built without MPI."""
 import json
 import os
 import signal
-import time
 import unittest
 
 import test_ranks
+from polling import GUARD, poll_writes
 from support import CORNELL, Case, eclat, read_exr
 
 SIZE = ["--size", "8x8"]
@@ -71,12 +72,11 @@ class RankBlocks(Case):
         whole = self.render(*job)
         now, stops = job, 0
         for ranks in [2, 3]:
-            process = self.start(ranks, *now, "--checkpoint", kept, "--every", "0.5s", "-q", "-o", self.path("b.exr"))
-            self.wait_for(kept, process)
-            time.sleep(0.3)
+            process = self.start(ranks, *now, "--checkpoint", kept, "--every", "0.1s", "-q", "-o", self.path("b.exr"))
+            poll_writes(kept, process, 4)
             stops += process.poll() is None
             process.send_signal(signal.SIGINT)
-            process.communicate(timeout=60)
+            process.communicate(timeout=GUARD)
             now = ["--resume", kept]
         self.assertGreater(stops, 0)
         self.assert_same(whole, self.render_on(3, "--resume", kept))
@@ -100,21 +100,16 @@ class RankBlocks(Case):
         job = [*MANY[:-1], "600000"]
         whole = self.render(*job)
         process = self.start(3, *job, "--checkpoint", self.path("kept.exr"), "--every", "0.3s", "--json", "-o", self.path("b.exr"),
-                             launcher=["--enable-recovery", "-x", "ECLAT_RANK_FANOUT=1"])
+                             launcher=["--enable-recovery", "-x", "ECLAT_RANK_FANOUT=1"], env=test_ranks.NEVER_LOST)
         self.wait_for(self.path("kept.exr"), process)
         os.kill(test_ranks.Ranks.ranks_of(self, process)[1], signal.SIGKILL)
-        killed = time.monotonic()
-        output, error = process.communicate(timeout=100)
-        self.assertLess(time.monotonic() - killed, 40)  # before it was noticed that nothing comes of it, a minute
+        output, error = process.communicate(timeout=GUARD)
         self.assertIn("rank 1 is lost", error)
         self.assertEqual(whole[0]["image_sha256"], json.loads(output)["image_sha256"])
 
     def test_a_limit_of_time(self):
-        start = time.monotonic()
-        report, _ = self.render_on(3, *JOB, "--time", "1.5s")
+        report, _ = self.render_on(3, *JOB, "--time", "1.5s", env=test_ranks.NEVER_LOST)
         self.assertEqual(report["stopped_by"], "time")
-        self.assertLess(report["seconds"], 3)
-        self.assertLess(time.monotonic() - start, 40)
         whole, _ = self.render(*JOB, "--spp", str(report["samples_per_pixel"]))
         self.assertEqual(whole["image_sha256"], report["image_sha256"])
 

@@ -1,3 +1,4 @@
+# tier: quick
 """--scene, --variant, --animation and --at, as every command that reads a scene takes them."""
 import json
 import struct

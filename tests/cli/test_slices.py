@@ -1,3 +1,4 @@
+# tier: quick
 """Slices of a job, rendered apart and merged: the bits of one render, in any order; and what cannot be merged."""
 import itertools
 import json

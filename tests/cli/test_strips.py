@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Pictures larger than memory, in strips of rows: the bits of the whole, and what strips cannot do."""
 import json
 import os
@@ -5,6 +6,7 @@ import re
 import unittest
 
 from support import CORNELL, RING, SOURCE, Case, eclat, read_exr
+from tiers import full
 
 PINLAMP = os.path.join(SOURCE, "scenes", "pinlamp", "pinlamp.gltf")
 
@@ -45,11 +47,17 @@ class Strips(Case):
             self.assertEqual(one.read(), other.read())
 
     def test_the_bits_of_the_whole(self):
-        """Odd sizes: tiles and blocks of an EXR end where they will. One batch, several, and one that is cut."""
-        for i, options in enumerate([["--size", "301x355", "--spp", "1"],
-                                     ["--size", "97x450", "--spp", "19"], ["--size", "90x403", "--spp", "41", "--filter", "blackman-harris"],
-                                     ["--size", "150x420", "--spp", "9", "--clamp", "0.5"],
-                                     ["--size", "200x420", "--spp", "2", "--integrator", "whitted"], ["--size", "200x420", "--spp", "2", "--integrator", "raster"]]):
+        """Odd sizes: tiles and blocks of an EXR end where they will. One batch, and several."""
+        self.assert_bits_of_the_whole(["--size", "301x355", "--spp", "1"], ["--size", "97x450", "--spp", "19"])
+
+    @full
+    def test_the_bits_of_other_wholes(self):
+        """A batch that is cut; what else adds up; other integrators."""
+        self.assert_bits_of_the_whole(["--size", "90x403", "--spp", "41", "--filter", "blackman-harris"], ["--size", "150x420", "--spp", "9", "--clamp", "0.5"],
+                                      ["--size", "200x420", "--spp", "2", "--integrator", "whitted"], ["--size", "200x420", "--spp", "2", "--integrator", "raster"])
+
+    def assert_bits_of_the_whole(self, *jobs):
+        for i, options in enumerate(jobs):
             with self.subTest(options=options):
                 whole = self.render(f"whole{i}", *options)
                 strips = self.in_strips(f"strips{i}", *options)
@@ -58,6 +66,7 @@ class Strips(Case):
                 for name in ["error", "error_bound", "relmse", "mean_luminance", "heavy_pixels", "image_sha256", "samples", "rays", "invalid_samples", "stopped_by"]:
                     self.assertEqual(whole[name], strips[name], name)
 
+    @full
     def test_light_that_may_be_missing(self):
         """What is foretold of it goes by tiles of the whole picture, and so do its flags."""
         options = ["--size", "200x500", "--spp", "9"]
@@ -65,6 +74,7 @@ class Strips(Case):
         self.in_strips("strips", *options, scene=PINLAMP)
         self.assert_same("whole", "strips")
 
+    @full
     def test_lanes_and_waves(self):
         options = ["--size", "128x600", "--spp", "4"]
         self.render("whole", *options, "--lanes", "4", "--wave", "9999", scene=RING)
@@ -87,6 +97,7 @@ class Strips(Case):
             self.assertRegex(line, r"4096x4096 pixels take [\d.]+ MB and there are [\d.]+")
             self.assertEqual(os.listdir(self.folder), [])
 
+    @full
     def test_slices_whose_sums_wait(self):
         """74 batches, whose left neighbours are in other slices, 24 bytes a pixel each: more than the picture from its beginning."""
         job = ["--size", "256x256", "--spp", "256", "--integrator", "raster"]

@@ -1,3 +1,4 @@
+# tier: quick
 """The command line itself: help, versions, wrong options. Nothing here renders."""
 import os
 import re

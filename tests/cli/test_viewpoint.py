@@ -1,3 +1,4 @@
+# tier: quick
 """--eye, --look-at, --up, --fov and --parallel: a camera from the command line."""
 import json
 import math

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The binary tree: its promises on easy and hostile meshes, the same bits for any number of threads, its cost. */
 #include "accel/bvh.h"
 #include "test_accel_meshes.h"

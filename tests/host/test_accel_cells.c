@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* Grid and kd-tree: every triangle in every cell that its box needs, the same bytes for any number of threads, bounded stacks and
  * memory, on easy and hostile meshes; and the table of accelerators. */
 #include "accel/accel.h"
@@ -279,14 +280,20 @@ int main(void)
     static const float densities[] = {0.0f, 0.01f, 10000.0f}; /* the default, and the ends of what --grid-density takes */
     for (size_t k = 0; k < MESH_KIND_COUNT; k++) {
         mesh m = mesh_make(&mesh_kinds[k]);
+        if (!test_tier(m.triangle_count > 5000 ? "full" : "quick")) {
+            mesh_free(&m);
+            continue;
+        }
         for (int i = 0; i < (m.triangle_count > 20000 ? 1 : 3); i++) check_grid(&m, densities[i]);
         check_kdtree(&m);
         check_threads(&m);
         mesh_free(&m);
     }
-    test_not_numbers();
-    test_density();
-    test_table();
-    test_brute_force_is_refused();
+    if (test_tier("quick")) {
+        test_not_numbers();
+        test_density();
+        test_table();
+        test_brute_force_is_refused();
+    }
     TEST_END();
 }

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* A triangle cut by a plane: the boxes of its parts against points calculated by hand, and in whole numbers, where nothing is
  * rounded. They must hold the exact parts, and be larger by a few ulps only. */
 #include <float.h>

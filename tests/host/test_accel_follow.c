@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Structures that follow what moves: kept where nothing does, refitted or built again by what is clocked, never wrong; and trees of meshes
  * that stand elsewhere are not built again. That refitted trees find every hit is kernel/test_refit's matter. */
 #include <math.h>

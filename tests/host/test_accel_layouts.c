@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The two layouts: every triangle once with its own bits, rays that find what a search of all triangles finds, stacks
  * that suffice. */
 #include <omp.h>

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* What a film says of its pixels against the two-pass formulas, what it resolves to, and the error's corner cases. */
 #include "film/resolve.h"
 #include "support/films.h"

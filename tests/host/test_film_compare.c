@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The figures of a comparison against sums by hand, and the noise test on synthetic pictures: how often pairs of one truth raise
  * an alarm, and what differences are found. On renders: tests/stat/test_false_alarms.c. */
 #include "film/difference.h"

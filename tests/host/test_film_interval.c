@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Intervals of pixels against what is known of them: normal noise, skewed noise, fireflies, few replicates, none. */
 #include "film/resolve.h"
 #include "film/statistics.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The same bits, whoever adds the batches, in whatever order, in whatever slices; and the figures are those of the definition. */
 #include "support/films.h"
 #include "support/random.h"

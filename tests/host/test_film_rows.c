@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Films of some of a picture's rows, one after the other, come to the bits of the whole: sums of its error, intervals. */
 #include "film/resolve.h"
 #include "support/films.h"

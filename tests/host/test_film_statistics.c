@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Student's t, Fisher's F and the binomial distribution against values in closed form and of other programs. */
 #include "film/statistics.h"
 #include "support/test.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The picture comparison itself: it must pass equal pictures nearly always and catch the errors it exists for. */
 #include "film/resolve.h"
 #include "support/films.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* OpenEXR out and in again: the bits come back and the attributes stand in the file. */
 #include <OpenEXR/openexr.h>
 #include <stdint.h>

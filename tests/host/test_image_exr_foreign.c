@@ -1,3 +1,4 @@
+/* tier: quick */
 /* OpenEXR files by other hands: every compression, pixel type and storage that we claim to read, and those we refuse. */
 #include <OpenEXR/openexr.h>
 #include <stdint.h>

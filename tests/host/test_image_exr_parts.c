@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Several parts in one sealed file: every bit comes back, the first part is a picture to other readers, and a file that is not as it was
  * written is refused. */
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Never half a picture: where writing fails, nothing new stands in the folder and what stood there is as it was. */
 #include <dirent.h>
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Damaged pictures: cut anywhere, or with a few bits flipped. Whatever comes out, it is an answer: a picture of a sane size or
  * one line that names the file. The sanitizers watch our side; a crash in a library would end the test. */
 #include <stdint.h>

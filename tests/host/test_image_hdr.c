@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Radiance pictures made by hand: both run-length encodings and plain pixels, and files that break off anywhere. */
 #include "image/image.h"
 #include "support/test.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Pictures written row by row are those written at once; what an EXR says of itself may change until the end. */
 #include <stdlib.h>
 #include <sys/stat.h>

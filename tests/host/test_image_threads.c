@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Pictures are compressed by all threads: their files are the same bytes for any number of them and any puts, and hold the same values. */
 #include <omp.h>
 #include <png.h>

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Exposure, Khronos PBR Neutral and the sRGB curve; and the PNG they end up in. */
 #include <float.h>
 #include <png.h>

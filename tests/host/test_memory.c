@@ -1,3 +1,4 @@
+/* tier: quick */
 /* How much memory there is: what the process has touched, and limits that it is under. */
 #include <stdlib.h>
 #include <sys/resource.h>

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Camera moves of the preview: what they keep and what they change, by geometry. */
 #include <math.h>
 

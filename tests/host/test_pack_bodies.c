@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Which bodies may lie in one another, which of two displaces the other, and what a point is in. */
 #include "pack/pack.h"
 #include "scene/model.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Lights of integrators that sum over all of them: one of which nothing comes is none of them. */
 #include "pack/pack.h"
 #include "textured_triangle.h"

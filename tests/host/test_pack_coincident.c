@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Lamps that lie exactly on one another are one light, of which all their triangles know the density. Expected counts by hand. */
 #include "pack/pack.h"
 #include "support/gltf_writer.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The scan is exact: for each effect a pair, which calls for it and which does not, though it nearly does. */
 #include "pack/pack.h"
 #include "support/effect_model.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* A texture of one colour becomes part of its factors, and --without puts the mean in a texture's place. Values are by the
  * specifications' words: which channel multiplies what, and which slots are sRGB. */
 #include <stddef.h>

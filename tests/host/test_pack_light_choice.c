@@ -1,3 +1,4 @@
+/* tier: quick */
 /* When --light-choice auto takes the tree: lamps far apart that give a part of the light worth its time. And what a tree leaves
  * to the sky. */
 #include "pack/pack.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Lights in their table: the environment first, then directional lights, then lamps, of which neighbours in the table are near each other. */
 #include "pack/light_order.h"
 #include "support/random.h"

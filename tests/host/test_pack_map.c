@@ -1,3 +1,4 @@
+/* tier: quick */
 /* An environment map's probabilities against those of the definition, written down patch by patch; and the same bytes for any number of
  * threads. */
 #include <omp.h>

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Animations at a moment: every interpolation against its formula, clamping, what channels may point at, defects. */
 #include "test_scene_files.h"
 

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Cameras, punctual lights, the environment. */
 #include "image/image.h"
 #include "support/light.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Scenes and variants by name and index. */
 #include "test_scene_files.h"
 

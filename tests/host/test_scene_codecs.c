@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Compressed meshes and textures: one triangle as the libraries' own encoders pack it, and what a build without them says. */
 #include "scene/codecs.h"
 #include "test_scene_files.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* A cube's six faces as an equirectangular map: a smooth function of direction, drawn on the faces by the formulas of OpenGL's table
  * 8.19, must come out as itself everywhere, across edges and corners too. */
 #include <math.h>

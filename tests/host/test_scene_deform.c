@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Morph targets and skins against what glTF's formulas give by hand. */
 #include "test_scene_files.h"
 

@@ -1,9 +1,9 @@
+/* tier: quick */
 /* Mutated glTF files, always the same ones: bytes flipped, numbers replaced by awkward ones, pieces cut, doubled and
  * moved. The sanitizers are the judge. ECLAT_FUZZ_RUNS and ECLAT_FUZZ_SEED make it longer or different. */
 #include "test_scene_files.h"
 
 #include <sys/stat.h>
-#include <time.h>
 
 typedef struct seed_file {
     unsigned char *bytes;
@@ -117,11 +117,7 @@ static void run(int count)
         memcpy(bytes, seed->bytes, size);
         for (uint32_t k = random_below(4) + 1; k; k--) size = mutate(bytes, size);
         write_file(ECLAT_TEST_OUT "/fuzz-last.gltf", bytes, size); /* survives a crash */
-        struct timespec start, end;
-        clock_gettime(CLOCK_MONOTONIC, &start);
         ec_scene *scene = load_bytes(bytes, size, ".gltf", &err);
-        clock_gettime(CLOCK_MONOTONIC, &end);
-        CHECK_MSG(end.tv_sec - start.tv_sec < 10, "run %d takes %ld s", i, (long)(end.tv_sec - start.tv_sec));
         loaded += scene != NULL;
         ec_scene_free(scene);
     }

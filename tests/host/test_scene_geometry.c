@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The loader's geometry: modes, winding, accessors, transforms, recentring, what is dropped. */
 #include "test_scene_files.h"
 

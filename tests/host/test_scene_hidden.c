@@ -1,3 +1,4 @@
+/* tier: quick */
 /* What is not seen is not there: nodes by KHR_node_visibility with all below them, surfaces whose alpha is 0 everywhere. */
 #include "support/light.h"
 #include "test_scene_files.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* EXT_mesh_gpu_instancing: the mesh at every place given, in the node's frame, and not at the node itself. */
 #include "test_scene_files.h"
 

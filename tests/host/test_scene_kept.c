@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Meshes that are kept once: which are, what they become, and that written out they are what a loader without instances makes. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* What lies over a surface, passes it or bends it: coat, sheen, anisotropy, thin film, diffuse transmission, dispersion. */
 #include "textured_triangle.h"
 

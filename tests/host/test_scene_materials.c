@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Materials, textures, images and extensions. */
 #include "support/light.h"
 #include "textured_triangle.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Scenes made in memory go the way of those from files: matrices in double, the centre subtracted, triangles without area dropped. */
 #include <math.h>
 #include <stdlib.h>

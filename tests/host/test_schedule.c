@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Which samples a batch is: every sample of every replicate once, rounds where limits are looked at, and the ways back from samples to batches. */
 #include "film/schedule.h"
 #include "support/test.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Texts are cut between characters: of one, two, three and four bytes. */
 #include "base/error.h"
 #include "base/text.h"

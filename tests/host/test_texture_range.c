@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The least and largest values of an image's channels, wherever in it they stand. */
 #include "scene/texture_range.h"
 #include "support/test.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* What threads share out when a scene is read and packed: the same bytes, and the same words, for any number of them. */
 #include <omp.h>
 

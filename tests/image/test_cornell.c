@@ -1,3 +1,4 @@
+/* tier: full */
 /* The Cornell box against the Mitsuba 3.9 reference: 256 x 256, depth 8, 16 384 samples in 64 batches, with its
  * standard errors. Every direct-light strategy and both samplers converge to it. BSDF sampling meets the small lamp in one
  * path of fifty, so that 16 batches of a single dark pixel say little of its variance: its squares are of 8 x 8 pixels. */

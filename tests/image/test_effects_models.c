@@ -1,5 +1,5 @@
-/* On every model under shared/assets/gltf the kernels for what it calls for and those for every effect give the same bits.
- * ctest label: long */
+/* tier: long */
+/* On every model under shared/assets/gltf the kernels for what it calls for and those for every effect give the same bits. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "support/light.h"
 #include "support/models.h"

@@ -1,5 +1,6 @@
+/* tier: full */
 /* Every model under shared/assets/gltf that asks for nothing unsupported renders: no failure, no invalid sample, finite, not
- * black. In a child process, so that a crash is one failed check. And the peak memory of one of them. (ctest label: slow) */
+ * black. In a child process, so that a crash is one failed check. And the peak memory of one of them. */
 #define _GNU_SOURCE /* nftw, wait4, MAP_ANONYMOUS */
 #include <signal.h>
 #include <sys/mman.h>

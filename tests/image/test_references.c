@@ -1,3 +1,4 @@
+/* tier: full */
 /* Pictures of other renderers, and one scene in many guises.
  *
  * Bitterli's Cornell box (Tungsten) and Veach's plates come without standard errors, so they are compared in blocks whose

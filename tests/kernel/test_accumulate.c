@@ -1,3 +1,4 @@
+/* tier: quick */
 /* What a batch tells of a pixel against sums in double: mean radiance, and of the samples' luminance the largest and the powers in units of that.
  * Means are of floats added one by one, 64 at a time: 64 roundings of half an ulp, of sums of what is not negative. A luminance is rounded five
  * times, a ratio twice more; a fourth power takes four times that. */

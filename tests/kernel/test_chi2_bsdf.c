@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* What bsdf_sample samples against bsdf_eval's density, by chi-square; the density against 1. A sample where the density is 0 fails at
  * once. Polar cells about the mirrored direction above the surface and about the refracted one below, finer where the lobe is. */
 #include "kernel/chi2.h"
@@ -252,22 +253,28 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
-    glass_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
-    layered_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION)");
-    multi_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_MULTISCATTER)");
-    if (!test_failures) {
+    if (test_tier("quick")) {
+        chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
+        glass_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
+    }
+    if (test_tier("full")) {
+        layered_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION)");
+        multi_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_MULTISCATTER)");
+    }
+    if (!test_failures && test_tier("quick")) {
         check_opaque();
         check_glass();
+    }
+    if (!test_failures && test_tier("full")) {
         check_coat();
         check_sheen();
         check_anisotropy();
         check_film();
         check_seeping();
         check_multiscatter();
-        printf("%d chi-square tests\n", tests);
-        CHECK(tests <= TESTS - 20); /* the lights' */
     }
+    printf("%d chi-square tests\n", tests);
+    CHECK(tests <= TESTS - 20); /* the lights' */
     chi2_release(programs);
     chi2_release(glass_programs);
     chi2_release(layered_programs);

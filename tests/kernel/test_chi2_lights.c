@@ -1,3 +1,4 @@
+/* tier: quick */
 /* What light_sample_one samples, triangles and environments, against its densities by chi-square; the environment's density against 1. */
 #include "kernel/chi2.h"
 #include "pack/distribution.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Numbers that choose and go on: what is left of evenly spread ones is evenly spread in each of the things they choose, in its order, and
  * whole numbers are stretched exactly. */
 #include "kernel/kernel_run.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* host/cl: builds and their logs, kernels and buffers. */
 #include "support/cl_case.h"
 

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* host/cl/cache: what an entry's key covers, entries that are damaged, where they are kept, and programs that come from there. */
 #include <dirent.h>
 

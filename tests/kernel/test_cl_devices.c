@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Which device is chosen, and what is known of its driver. Asks no device. */
 #include "cl/workarounds.h"
 #include "render/render.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* tools/embed_kernels.py: includes flattened, lines kept, headers once, mistakes named; and what it embedded here. */
 #include <sys/stat.h>
 #include <unistd.h>

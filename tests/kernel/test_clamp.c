@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Indirect light limited by the accumulate stage, against sums in double, and what is cut off by way of a film: several batches, whose units
  * differ. A luminance is rounded five times, the scaled light three times more, sums of up to 64 once a sample. */
 #include "film/clamp.h"

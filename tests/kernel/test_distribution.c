@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Distributions sampled by inversion: every entry has its share of the 2^32 numbers, exactly and in order, and kernels find it. */
 #include "kernel/kernel_run.h"
 #include "kernel/sampler_hash.h"

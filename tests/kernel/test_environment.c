@@ -1,3 +1,4 @@
+/* tier: quick */
 /* An environment map of 4096 x 2048 whose sun is one texel of 1e6 in a sky of 1, with a hundred black rows: the density is the one sampled.
  * In 32 bits a patch by the pole would have less than one random number to itself; a row has some, and its patches all. */
 #include "kernel/kernel_run.h"

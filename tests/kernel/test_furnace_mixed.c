@@ -1,3 +1,4 @@
+/* tier: full */
 /* White surfaces that mix all effects, at random and at the ends of their ranges, in white light: no more comes back than comes in where
  * nothing is scattered diffusely under Fresnel's reflection (that is glTF's own mix, which returns up to twice what comes along the
  * surface); nowhere is a weight negative or not a number. */

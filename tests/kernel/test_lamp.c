@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Triangles as lamps, against double precision: solid angle, the map from random numbers to points, densities that are the same
  * from both sides, and nothing that is not a number where a point touches its lamp. (Distributions: test_chi2_lights.c.) */
 #include "kernel/kernel_reference.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The structs of kernels/shared are the same bytes to the device's compiler as to the host's. */
 #include <stddef.h>
 

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The light tree's probabilities, lamp by lamp and point by point: they add up to the share of all lamps, are those sampled, are the same
  * found from the lamp's trail, and no lamp that shines on a point is left without. What is left of the numbers that choose is uniform. */
 #include "kernel/chi2.h"

@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* Kernel tests and renders once more inside Oclgrind's simulator: out-of-bounds accesses, data races, uninitialised values, wrong
  * API calls. Runs itself inside it too, with a kernel that is wrong on purpose, to know that it would be told.
  *
@@ -84,14 +85,18 @@ int main(int argc, char **argv)
     else snprintf(folder, sizeof folder, ".");
     snprintf(driver, sizeof driver, "%s/kernel_test_kernels", folder);
     static const char *const ways[3] = {"", "--data-races", "--uninitialized"};
-    for (int how = 0; how < 3; how++) {
+    for (int how = 0; how < 3 && test_tier("quick"); how++) {
         snprintf(command, sizeof command, "'%s' %d", argv[0], how);
         CHECK_MSG(simulate(ways[how], command, false) > 0, "oclgrind did not see mistake %d", how);
     }
-    snprintf(command, sizeof command, "'%s' driver lanes math", driver);
-    CHECK_MSG(simulate("--data-races", command, true) == 0, "driver, lanes, math: see above");
-    snprintf(command, sizeof command, "'%s' driver hash", driver);
-    CHECK_MSG(simulate("--data-races --uninitialized", command, true) == 0, "driver, hash: see above");
-    check_renders(folder);
+    if (test_tier("quick")) {
+        snprintf(command, sizeof command, "'%s' driver hash", driver);
+        CHECK_MSG(simulate("--data-races --uninitialized", command, true) == 0, "driver, hash: see above");
+    }
+    if (test_tier("full")) {
+        snprintf(command, sizeof command, "'%s' driver lanes math", driver);
+        CHECK_MSG(simulate("--data-races", command, true) == 0, "driver, lanes, math: see above");
+        check_renders(folder);
+    }
     TEST_END();
 }

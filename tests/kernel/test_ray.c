@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Ray against triangle, compared with double precision; every lane width must give the same bits. */
 #include "kernel/kernel_reference.h"
 

@@ -1,3 +1,4 @@
+/* tier: full */
 /* What lies over a surface against double precision, by the formulas of the extensions' texts; the energy of all of it, at roughness and
  * angles from end to end. */
 #include "kernel/film_reference.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* What ec_render refuses by itself, whoever calls it, and what it does not. The scene is open, so that even a path that only
  * leaving it can end does so: the test fails then rather than hang. */
 #include "support/render_case.h"

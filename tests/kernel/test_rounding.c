@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The bits of a picture are the same on two devices if these operations are correctly rounded on both. Expected values are the
  * host's, which rounds as IEEE 754 asks. Sum, product and fma have to be right on every device of OpenCL 1.2; quotient and root
  * where the device says so, elsewhere within the 2.5 and 3 ulp of the specification (7.4), and how often is printed. Numbers

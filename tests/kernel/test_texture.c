@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Texture look-ups against double precision: wrap modes, nearest and bilinear, sRGB, float texels, uv transforms. */
 #include "kernel/kernel_reference.h"
 #include "image/image.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Closed surfaces from inside, through every accelerator: no ray may leave, least of all at vertices and edges. */
 #include "kernel/traversal_run.h"
 

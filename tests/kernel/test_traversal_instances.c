@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Two levels against the same triangles written out, bit by bit: one mesh at places that are turned, mirrored, sheared, tiny and huge,
  * among triangles that stand alone. The reference is no structure at all, which culls nothing. */
 #include "kernel/traversal_run.h"

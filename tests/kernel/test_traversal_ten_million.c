@@ -1,4 +1,5 @@
-/* The same hits from every accelerator, on ten million rays in each scene. ctest label: long */
+/* tier: long */
+/* The same hits from every accelerator, on ten million rays in each scene. */
 #include "kernel/traversal_scenes.h"
 
 int main(void) { return check_scenes(10000000); }

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* libeclat by its public functions alone: options, pictures, stopping, threads, files, and that it prints nothing. */
 #include <eclat/eclat.h>
 

@@ -2,8 +2,8 @@
  * variables:
  *   FAULT_CALL=clCreateBuffer   which call; FAULT_AT=3: the third one (1 if not given)
  *   FAULT_CODE=-5               what it answers: an OpenCL code, or an errno for calls on files; default CL_OUT_OF_RESOURCES, ENOSPC
- *   FAULT_SIGNAL=9              instead: the process is sent this signal there, and the call goes on when it has had time to arrive
- *   FAULT_SLEEP=60              instead: the call takes so many seconds, as with a device that hangs
+ *   FAULT_SIGNAL=9              instead: the process is sent this signal there, and the call goes on when it has been taken
+ *   FAULT_HANG=FILE             instead: the call never ends, as with a device that hangs; FILE is there from then on
  *   FAULT_PAUSE=5               instead: from that call on each takes so many milliseconds more, as with a slow device
  *   FAULT_DEVICE=1              only calls on the second context that was created count
  *   FAULT_LOST=1                from then on every OpenCL call answers so, as with a device that was lost
@@ -21,6 +21,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <link.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -88,6 +89,20 @@ static bool is_chosen_device(void)
     return !getenv("FAULT_DEVICE") || (unsigned)number("FAULT_DEVICE", 0) == here;
 }
 
+static void send_signal(int which)
+{
+    sigset_t pending;
+    kill(getpid(), which);
+    while (sigpending(&pending) == 0 && sigismember(&pending, which) > 0) sched_yield(); /* it is another thread that waits for it */
+}
+
+static void hang(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (file) fclose(file);
+    for (;;) pause();
+}
+
 /* Is it this call's turn? */
 static bool is_due(enum call call)
 {
@@ -99,9 +114,9 @@ static bool is_due(enum call call)
     if (memory) return allocated > (size_t)memory;
     if (getenv("FAULT_PAUSE") && count >= (unsigned)number("FAULT_AT", 1)) usleep(1000 * (unsigned)number("FAULT_PAUSE", 0));
     if (getenv("FAULT_PAUSE") || count != (unsigned)number("FAULT_AT", 1)) return false;
-    if (signal_number) kill(getpid(), (int)signal_number), usleep(200000); /* it is another thread that waits for it */
-    if (getenv("FAULT_SLEEP")) sleep((unsigned)number("FAULT_SLEEP", 0));
-    return !signal_number && !getenv("FAULT_SLEEP");
+    if (signal_number) send_signal((int)signal_number);
+    if (getenv("FAULT_HANG")) hang(getenv("FAULT_HANG"));
+    return !signal_number;
 }
 
 static cl_int device_fault(enum call call)

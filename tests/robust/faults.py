@@ -87,6 +87,11 @@ class FaultCase(Case):
         """How often each call is met in a render without a fault."""
         run, folder = self.run_with("counted", *options, **more)
         self.assertEqual(self.check_files(folder), {"a.exr": "new", "a.png": "new"}, run.stderr)
+        return self.counts(folder)
+
+    @staticmethod
+    def counts(folder):
+        """How often each call was met in the render into the folder."""
         with open(folder + ".counts", encoding="utf-8") as file:
             return {call: int(count) for call, count in (line.split() for line in file)}
 

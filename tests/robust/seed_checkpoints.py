@@ -7,10 +7,10 @@ import pathlib
 import struct
 import subprocess
 import sys
-import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "cli"))
+from polling import poll_until
 from support import CORNELL, read_header
 
 ECLAT = os.path.abspath(os.environ["ECLAT"])
@@ -44,10 +44,9 @@ def make(name):
     path = FOLDER / kept
     path.unlink(missing_ok=True)
     process = subprocess.Popen(["eclat", *JOB, *options], executable=ECLAT, cwd=FOLDER)
-    while name == "under-way" and process.poll() is None:
-        if path.exists() and state_of(path.read_bytes())["underWay"]:
-            process.kill()
-        time.sleep(0.001)
+    if name == "under-way":
+        poll_until(lambda: path.exists() and state_of(path.read_bytes())["underWay"], process, 0.001)
+        process.kill()
     assert process.wait() in (0, -9), name
     return path.read_bytes()[:-SEAL]
 

@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Checkpoints when all goes wrong: killed at any moment, disks that fail, files that are not as they were written."""
 import hashlib
 import json
@@ -5,15 +6,15 @@ import os
 import random
 import resource
 import signal
-import subprocess
-import time
 import unittest
 
 from faults import FaultCase, at_once, spread
 from support import eclat, read_exr
+from tiers import full
 
 KILLS = 100
 CHAINS = 2
+AGAIN_AND_AGAIN = ["clEnqueueNDRangeKernel", "clEnqueueReadBuffer", "pwrite", "fsync", "rename"]
 MARK = b"eclat: sealed by SHA-256\n"
 CORPUS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus", "checkpoint")
 STRAY = r"^\.eclat-\d+-[0-9a-f]{8}\.tmp$"
@@ -43,17 +44,14 @@ class CheckpointFaults(FaultCase):
         dice, done, kept, kills = random.Random(seed), 0, None, 0
         folder = self.new_folder(f"chain{seed}", old=False)
         kept = os.path.join(folder, "kept.exr")
-        start = time.monotonic()
-        self.run_with(f"timed{seed}", "--checkpoint", kept, "--every", "0.001s", spp=32)
-        took = time.monotonic() - start
+        _, counted = self.run_with(f"counted{seed}", "--checkpoint", kept, "--every", "0.001s", spp=32)
+        counts = {call: count for call, count in self.counts(counted).items() if call in AGAIN_AND_AGAIN}
         os.remove(kept)
         while kills < KILLS // CHAINS:
-            process, _ = self.start(f"run{seed}-{kills}", "--resume", kept, "--every", "0.001s", spp=1000000) if done else \
-                self.start(f"run{seed}-{kills}", "--checkpoint", kept, "--every", "0.001s", spp=1000000)
-            time.sleep(dice.uniform(0, 1.5 * took))
-            process.send_signal(signal.SIGKILL)
-            error = process.communicate()[1]
-            self.assertEqual((process.returncode, error), (-signal.SIGKILL, ""))
+            call, = dice.choices(list(counts), list(counts.values()))
+            run, _ = self.run_with(f"run{seed}-{kills}", "--resume" if done else "--checkpoint", kept, "--every", "0.001s", spp=1000000,
+                                   call=call, at=dice.randint(1, counts[call]), signal=int(signal.SIGKILL))
+            self.assertEqual((run.returncode, run.stderr), (-signal.SIGKILL, ""))
             for name in os.listdir(folder):  # killed in the moment in which the new one takes the old one's place
                 self.assertRegex(name, rf"kept\.exr|{STRAY}")
             now = self.samples(kept)
@@ -66,15 +64,16 @@ class CheckpointFaults(FaultCase):
         self.assertEqual(again, whole)
         return done
 
+    @full
     def test_killed_a_hundred_times(self):
         at_once(self.chain, [(seed,) for seed in range(CHAINS)])
 
+    @full
     def test_killed_at_any_call(self):
         """A checkpoint after every batch: what was written before stands, so that a batch is lost and no more."""
         kept = os.path.join(self.path("counted"), "kept.exr")
         _, folder = self.run_with("counted", "--checkpoint", kept, "--every", "0.0000001s", spp=6)
-        with open(folder + ".counts", encoding="utf-8") as file:
-            counts = {call: int(count) for call, count in (line.split() for line in file)}
+        counts = self.counts(folder)
         self.assertGreaterEqual(counts["fsync"], 6)
 
         def kill(call, n):

@@ -1,7 +1,6 @@
+# tier: full
 """The same picture on every OpenCL device: each number of each channel, bit for bit, at each lane width. What the kernels compute
-with is correctly rounded everywhere (tests/kernel/test_rounding.c), and nothing depends on an order.
-
-ctest label: slow"""
+with is correctly rounded everywhere (tests/kernel/test_rounding.c), and nothing depends on an order."""
 import os
 import struct
 import sys

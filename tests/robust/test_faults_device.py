@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Every OpenCL call fails once: a clear line, no damaged file, and the samples so far where there are any."""
 import json
 import os
@@ -6,6 +7,7 @@ import unittest
 
 from faults import SHIM, FaultCase, at_once, spread
 from support import CORNELL, eclat, read_exr
+from tiers import full
 
 HARMLESS = ["clGetPlatformInfo", "clGetDeviceInfo", "clGetProgramBuildInfo", "clGetProgramInfo"]  # a render may do without
 CACHED = ["clCreateProgramWithBinary", "clBuildProgram"]  # and without its cache: where the driver's binaries are kept, sources stand by
@@ -44,6 +46,7 @@ class Device(FaultCase):
         for samples in range(1, 5):
             self.pictures(samples)
 
+    @full
     def test_any_call_fails(self):
         counts = self.count_calls()
         self.keeps_binaries = "clCreateProgramWithBinary" in counts
@@ -96,6 +99,7 @@ class Others(FaultCase):
                 [(info, call) for call in ["clCreateContext", "clCreateBuffer", "clBuildProgram", "clCreateKernel",
                                            "clEnqueueNDRangeKernel", "clEnqueueReadBuffer", "clFinish", "clGetEventInfo"]])
 
+    @full
     def test_a_study_reports_what_was_measured_before(self):
         builds = self.count_calls()["clBuildProgram"]  # for each of reference, base and rungs
         run = eclat("cost", CORNELL, "--size", "16x16", "--budget", "8s", "--json", self.path("a.json"),
@@ -159,6 +163,7 @@ class Kernels(FaultCase):
         self.assertEqual(report["kernel_cache_misses"] > 0, misses, name)
         return report["image_sha256"]
 
+    @full
     def test_a_damaged_cache_costs_time_only(self):
         cache = self.path("cache")
         first = self.render_with_cache("cold", cache, True)

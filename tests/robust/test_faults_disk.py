@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Disks that are full or fail, and processes killed as they write: the file of before or the whole new one, nothing else."""
 import json
 import os
@@ -8,12 +9,14 @@ import unittest
 
 from faults import FaultCase, at_once, spread
 from support import CORNELL, ECLAT, ENVIRONMENT, eclat, read_exr
+from tiers import full
 
 ENOSPC, EIO, SIGKILL = 28, 5, 9
 CALLS = ["open", "pwrite", "write", "fsync", "close", "linkat", "rename"]
 NAMED = {"no_tmpfile": 1}  # as on a file system where files must have names
 
 
+@full
 class Calls(FaultCase):
     def each_call(self, most, variants):
         """(call, n, before, named): before: are there files of the outputs' names; named: has the temporary file a name?"""

@@ -1,4 +1,5 @@
-"""test_faults_device.py's sweep with ten times the moments. ctest label: long"""
+# tier: long
+"""test_faults_device.py's sweep with ten times the moments."""
 import unittest
 
 import test_faults_device

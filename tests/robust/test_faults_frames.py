@@ -1,3 +1,4 @@
+# tier: full
 """A sequence in which a call of OpenCL's or a write fails once: at most one frame goes with it, no file is damaged, and the same command
 makes what is missing, to the same bits."""
 import json

@@ -1,3 +1,4 @@
+# tier: quick
 """Every allocation of eclat's own fails once: a clear line and no damaged file, or the picture after all."""
 import os
 import unittest

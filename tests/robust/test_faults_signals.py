@@ -1,14 +1,15 @@
+# tiers: quick, full
 """Signals at any moment: the picture of the complete batches, or the file of before; never half of one."""
 import glob
 import os
 import random
 import signal
-import subprocess
-import time
 import unittest
 
 from faults import FaultCase, at_once, spread
+from polling import GUARD, poll_until
 from support import eclat, read_exr
+from tiers import full
 
 ENOUGH = ["--size", "24x24"]
 INTERRUPTED = "eclat: error: interrupted before there was a picture; nothing is written\n"
@@ -16,23 +17,15 @@ INTERRUPTED = "eclat: error: interrupted before there was a picture; nothing is 
 
 class Signals(FaultCase):
     def at_random(self, count, numbers):
-        """Moments from the start to a little behind the end of a render, and a signal for each."""
+        """Calls from the first to a little behind the last of a render, and a signal for each."""
         dice = random.Random(20)
-        times = []
-        for i in range(3):
-            start = time.monotonic()
-            self.run_with(f"timed{i}", *ENOUGH, spp=128)
-            times.append(time.monotonic() - start)
-        return [(i, dice.uniform(0, 1.8 * max(times)), dice.choice(numbers)) for i in range(count)]
+        counts = self.count_calls(*ENOUGH, spp=128)
+        calls = dice.choices(list(counts), list(counts.values()), k=count)
+        return [(i, call, dice.randrange(1, 2 + round(1.2 * counts[call])), dice.choice(numbers)) for i, call in enumerate(calls)]
 
-    def send(self, i, delay, number):
-        process, folder = self.start(f"run{i}", *ENOUGH, spp=128)
-        try:
-            process.wait(delay)
-        except subprocess.TimeoutExpired:
-            process.send_signal(number)
-        out, error = process.communicate(timeout=600)
-        return process.returncode, out, error, folder
+    def send(self, i, call, n, number):
+        run, folder = self.run_with(f"run{i}", *ENOUGH, spp=128, call=call, at=n, signal=int(number))
+        return run.returncode, run.stderr, folder
 
     def check_interrupted(self, code, error, folder, number):
         files = self.check_files(folder)
@@ -46,10 +39,11 @@ class Signals(FaultCase):
         self.assertEqual(files, {"a.exr": "old", "a.png": "old"})
         return code
 
-    def test_asked_to_stop_at_random_moments(self):
-        def stop(i, delay, number):
-            code, _, error, folder = self.send(i, delay, number)
-            with self.subTest(delay=delay, signal=number):
+    @full
+    def test_asked_to_stop_at_random_calls(self):
+        def stop(i, call, n, number):
+            code, error, folder = self.send(i, call, n, number)
+            with self.subTest(call=call, n=n, signal=number):
                 return self.check_interrupted(code, error, folder, number)
         ends = at_once(stop, self.at_random(40, [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]))
         self.assertGreater(len(set(ends)), 1, ends)
@@ -66,10 +60,11 @@ class Signals(FaultCase):
         for end in [True, False]: # whether one at the start still kills depends on which thread is faster
             self.assertIn(end, ends)
 
-    def test_killed_at_random_moments(self):
-        def kill(i, delay, number):
-            code, _, _, folder = self.send(i, delay, number)
-            with self.subTest(delay=delay):
+    @full
+    def test_killed_at_random_calls(self):
+        def kill(i, call, n, number):
+            code, _, folder = self.send(i, call, n, number)
+            with self.subTest(call=call, n=n):
                 for name in set(os.listdir(folder)) - {"a.exr", "a.png"}:
                     self.assertRegex(name, r"^\.eclat-\d+-[0-9a-f]{8}\.tmp$")
                     os.remove(os.path.join(folder, name))
@@ -79,17 +74,23 @@ class Signals(FaultCase):
         self.assertEqual(set(at_once(kill, self.at_random(40, [signal.SIGKILL]))), {0, -signal.SIGKILL})
 
     def test_the_second_signal_ends_even_a_device_that_hangs(self):
-        process, folder = self.start("hangs", call="clEnqueueNDRangeKernel", at=30, sleep=100)
-        time.sleep(5)
-        process.send_signal(signal.SIGINT)
-        time.sleep(0.02)
-        process.send_signal(signal.SIGTERM)  # the same wish, told twice
-        time.sleep(0.8)
+        hangs = self.path("it-hangs")
+        process, folder = self.start("hangs", call="clEnqueueNDRangeKernel", at=30, hang=hangs)
+        poll_until(lambda: os.path.exists(hangs), process)
+        for number in [signal.SIGSTOP, signal.SIGINT, signal.SIGTERM, signal.SIGCONT]:  # both are there at once: the same wish, told twice
+            process.send_signal(number)
+        poll_until(lambda: not self.pending(process), process)
         self.assertIsNone(process.poll())
-        process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=20)
+        poll_until(lambda: process.send_signal(signal.SIGTERM), process, pause=0.2)
+        process.communicate(timeout=GUARD)
         self.assertEqual(process.returncode, -signal.SIGTERM)
         self.assertEqual(self.check_files(folder), {"a.exr": "old", "a.png": "old"})
+
+    @staticmethod
+    def pending(process):
+        """Have signals been sent to the process that none of its threads has taken?"""
+        with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+            return any(line.startswith("ShdPnd:") and int(line.split()[1], 16) for line in file)
 
     def test_ctrl_c_while_the_driver_runs_a_program_of_its_own(self):
         """A terminal sends SIGINT to the linker that PoCL has started too, whose death PoCL answers by abort()."""
@@ -106,7 +107,7 @@ class Signals(FaultCase):
                     pass
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGINT)
-        _, error = process.communicate(timeout=600)
+        _, error = process.communicate(timeout=GUARD)
         if not children and process.returncode == 0:
             self.skipTest("this driver starts no program")
         self.assertEqual([process.returncode, self.check_files(folder)], [0, {"a.exr": "new", "a.png": "new"}], error)

@@ -1,3 +1,4 @@
+# tier: full
 """Every file under shared/assets/hard by every integrator: no NaN, no crash, something to see, and structures no larger than their
 triangles call for. Self-intersecting and non-manifold meshes, slivers to 1e8, the Cornell box at 1e-4, 1e4 and far away."""
 import glob

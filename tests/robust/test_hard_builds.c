@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Meshes that could make a builder explode: the memory of every structure grows with the triangles and no faster, on a stack that a
  * recursion as deep as the mesh is large would overflow. Counts, not seconds: no machine is too slow. A quadratic build of the
  * largest, 10^10 steps, would end in ctest's timeout. */

@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Numbers at the edge of float, and scenes that are degenerate on purpose: what is dropped is counted, what is clamped is said, the
 rest is the picture that it would be without."""
 import math
@@ -5,6 +6,7 @@ import unittest
 
 from hard_scene import LAMP, NORMAL, QUAD, UV, WHITE, HardCase, Scene, one_pixel_png, write_exr
 from support import eclat
+from tiers import full
 
 FLOAT_1E30 = 1.0000000150474662e30  # 1e30 as a float
 STRENGTH = "KHR_materials_emissive_strength"
@@ -160,6 +162,7 @@ class Geometry(HardCase):
         for scale in [[-1, 1, 1], [-1, -1, 1]]:
             self.assert_same(self.render(Scene(LAMP).add(QUAD, scale=scale)), expected)
 
+    @full
     def test_a_hundred_thousand_coincident_triangles(self):
         count = 100000
         scene = Scene(LAMP).add(QUAD[:9], indices=[0, 1, 2] * count)

@@ -1,3 +1,4 @@
+/* tier: full */
 /* A cube map's light on a floor (EXT_lights_image_based). */
 #include <math.h>
 #include <stdlib.h>

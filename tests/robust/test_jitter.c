@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* Coordinates are known to an ulp at best, so a picture may not hang on one: with every vertex, light and camera moved by one ulp
  * at random it must be the same within noise, and with the same random numbers far closer than that. An epsilon in metres, a hash
  * of a position's bits or a cancellation would show here.
@@ -136,7 +137,8 @@ static ec_scene *far_room(void)
 int main(void)
 {
     static const char shared[] = SHARED("assets/classic/gltf/veach-mis/veach-mis.gltf");
-    check("cornell-box", case_load(OWN_SCENE("cornell-box/cornell-box.gltf"), NULL), true);
+    if (test_tier("quick")) check("cornell-box", case_load(OWN_SCENE("cornell-box/cornell-box.gltf"), NULL), true);
+    if (!test_tier("full")) TEST_END();
     check("glass", case_load(OWN_SCENE("glass/glass.gltf"), NULL), true);
     check("veach-plates", case_load(OWN_SCENE("veach-plates/veach-plates.gltf"), NULL), false);
     check("ladder", case_load(OWN_SCENE("ladder/ladder.gltf"), NULL), false);

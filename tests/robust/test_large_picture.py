@@ -1,4 +1,5 @@
-"""Six million pixels in 250 MB: the bits of the picture that takes 1.0 GB. ctest label: slow"""
+# tier: full
+"""Six million pixels in 250 MB: the bits of the picture that takes 1.0 GB."""
 import json
 import os
 import sys

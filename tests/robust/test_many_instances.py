@@ -1,4 +1,5 @@
-"""Ten thousand places of a mesh of a hundred thousand triangles: 10^9 triangles in less than 1 GB. ctest label: slow"""
+# tier: full
+"""Ten thousand places of a mesh of a hundred thousand triangles: 10^9 triangles in less than 1 GB."""
 import json
 import math
 import os

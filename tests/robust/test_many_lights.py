@@ -1,4 +1,5 @@
-"""A million lights: read, built, packed and rendered, in memory that grows with their number and no faster (ctest label: slow).
+# tier: full
+"""A million lights: read, built, packed and rendered, in memory that grows with their number and no faster.
 A step that took time with the square of it, 10^12, would end in the timeout of five minutes."""
 import array
 import unittest

@@ -1,4 +1,5 @@
-/* Sums of more samples than a float counts to. ctest label: slow */
+/* tier: full */
+/* Sums of more samples than a float counts to. */
 #include "robust/cases.h"
 #include "scene/model.h"
 #include "selftest/shot.h"

@@ -1,3 +1,4 @@
+# tiers: quick, full
 """Materials that no exporter writes: all extensions in one, factors out of range, texture transforms to the end of float on every slot, 16 bits
 a channel, the second set of coordinates. A ball in a sky of 1 shows no NaN, nothing below 0 and, in the mean, no more light than comes in."""
 import math
@@ -6,6 +7,7 @@ import unittest
 import zlib
 
 from hard_scene import HardCase, Scene
+from tiers import full
 
 KHR = "KHR_materials_"
 COLUMNS, ROWS = 16, 8
@@ -82,6 +84,7 @@ class OddMaterials(HardCase):
         picture = self.shine(ball(layered(unlit={}, **LAYERS)))
         self.assertEqual((min(picture.channels["R"]), max(picture.channels["R"])), (1, 1))
 
+    @full
     def test_factors_out_of_range_are_clamped_and_said(self):
         def with_factor(layer, key, value):
             if layer is None:
@@ -97,6 +100,7 @@ class OddMaterials(HardCase):
                 with self.subTest(key=key, value=value):
                     self.assertIn("they are clamped", self.shine(ball(with_factor(layer, key, value))).messages)
 
+    @full
     def test_texture_transforms(self):
         """On every slot: the second set, turned and mirrored; and as far as float goes."""
         core = {name: {name: None} for name in ("normalTexture", "emissiveTexture")}

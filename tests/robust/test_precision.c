@@ -1,3 +1,4 @@
+/* tier: full */
 /* Digits that the kernels' functions keep, against double precision; precision/precision.h says how it is judged. Every lane width
  * must keep the same. */
 #include "kernel/kernel_run.h"

@@ -1,3 +1,4 @@
+# tier: full
 """ThreadSanitizer watches four threads build every acceleration structure, decode pictures and weigh a map, and five sources of batches
 work as a team. clang with its own OpenMP run-time (libomp), whose libarcher tells the sanitizer of OpenMP's barriers and tasks; gcc's
 libgomp does not, and every barrier would be a finding."""

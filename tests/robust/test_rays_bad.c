@@ -1,3 +1,4 @@
+/* tier: full */
 /* What files hold that is no surface: triangles without area or numbers, nodes that flatten, normals and tangents of zeros. */
 #include <float.h>
 #include <math.h>

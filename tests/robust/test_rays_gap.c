@@ -1,3 +1,4 @@
+/* tier: full */
 /* Rays that leave a surface do not start behind the next one. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* tier: full */
 /* The same room in other sizes, places and orientations: the same hits and the same picture. No epsilon in it may have a unit. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* tier: full */
 /* Hits against double precision: under grazing angles, on slivers. */
 #include <math.h>
 #include <stdio.h>

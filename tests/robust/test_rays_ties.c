@@ -1,3 +1,4 @@
+/* tier: full */
 /* Rays whose answer is known exactly: along planes and edges of whole numbers, and where several triangles are equally near. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* tier: full */
 /* Stretched lobes (KHR_materials_anisotropy): as wide as they get along x while they are next to smooth across, of metal and of glass. */
 #include "robust/cases.h"
 #include "selftest/scatter.h"

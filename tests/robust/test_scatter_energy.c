@@ -1,3 +1,4 @@
+/* tier: full */
 /* Light that a surface returns: no more than it gets where the model promises so, and what it should where glTF's does not. */
 #include <stdio.h>
 

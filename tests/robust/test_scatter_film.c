@@ -1,3 +1,4 @@
+/* tier: full */
 /* What a thin film on a surface reflects, where the answer is known without a film. */
 #include "robust/cases.h"
 #include "selftest/scatter.h"

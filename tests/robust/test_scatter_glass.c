@@ -1,3 +1,4 @@
+/* tier: full */
 /* Glass in glass, and surfaces that are next to smooth: small pictures whose radiance is known. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* tier: full */
 /* Effects beyond glass and metal where they are hardest: coats and sheen along the surface, diffuse transmission, glass that disperses. They share
  * one build of kernels. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* tier: full */
 /* Does light go both ways alike? */
 #include "robust/cases.h"
 #include "selftest/scatter.h"

@@ -1,3 +1,4 @@
+# tier: quick
 """eclat selftest: its table, its JSON, what it says of a device that computes wrongly."""
 import json
 import os

@@ -1,3 +1,4 @@
+/* tier: full */
 /* What a shutter makes of a lamp and of a shade that move. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+# tier: quick
 """A picture in strips whose render is stopped, killed, or finds its disk full: complete strips or nothing, never half a file."""
 import json
 import os

@@ -1,5 +1,6 @@
+# tier: full
 """valgrind's memcheck on whole commands: no invalid access, no branch on what was never written, nothing lost. The kernels, as PoCL
-makes them, run under it too. The first run compiles them under valgrind, which is what takes time (ctest label: slow); later
+makes them, run under it too. The first run compiles them under valgrind, which is what takes time; later
 ones find them in build/tests/cache-valgrind."""
 import os
 import shutil

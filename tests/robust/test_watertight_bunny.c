@@ -1,3 +1,4 @@
+/* tier: quick */
 /* A scanned mesh from inside, its holes closed: no ray leaves it through any accelerator. */
 #include <math.h>
 #include <unistd.h>

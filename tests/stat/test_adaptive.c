@@ -1,7 +1,6 @@
+/* tier: full */
 /* Adaptive sampling: no bias where stopping pixels by their own samples has one, the stated error is the real one, a target is
- * reached with fewer samples where noise is uneven and with hardly more where it is not, and pictures keep their bits.
- *
- * ctest label: slow */
+ * reached with fewer samples where noise is uneven and with hardly more where it is not, and pictures keep their bits. */
 #include "film/difference.h"
 #include "device/adaptive.h"
 #include "support/gltf_writer.h"

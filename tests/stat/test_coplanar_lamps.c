@@ -1,3 +1,4 @@
+/* tier: full */
 /* Lamps in one plane, over a floor: what lies on a lamp does not shade it. Expected are form factors in closed form (Lambert 1760). A shadow
  * ray that ends behind a twin of its lamp, or starts under a twin of the floor, is lost: in flat scenes, where rays are grazing, that
  * was 20 % of them. */

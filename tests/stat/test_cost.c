@@ -1,9 +1,7 @@
-/* What `eclat cost` measures, against theory. ctest label: slow
+/* tier: full */
+/* What `eclat cost` measures, against theory.
  *
- * Numbers of samples are fixed here, not times, so that the figures are the same in every run; only one efficiency holds a time, the
- * processor's, taken in turns. */
-#include <time.h>
-
+ * Numbers of samples are fixed here, not times, so that the figures are the same in every run. */
 #include "film/clamp.h"
 #include "support/cost_reference.h"
 #include "support/gltf_writer.h"
@@ -14,7 +12,6 @@ typedef struct strategy {
     ec_cost_row row;
     float *mean;
     uint32_t index;
-    double seconds;
 } strategy;
 
 static strategy open_strategy(const ec_scene *scene, const ec_render_options *o, const ec_cost_reference *reference)
@@ -35,16 +32,13 @@ static void close_strategy(strategy *s)
     free(s->mean);
 }
 
-/* Processor seconds, of all threads: what else runs on the machine counts for nothing. */
-static double take(strategy *s, uint32_t samples)
+static void take(strategy *s, uint32_t samples)
 {
-    const clock_t start = clock();
     ec_error err = {0};
     ec_session_batch batch = {.seed = ec_session_seed(7, EC_COST_STREAM_RUNGS, s->index++), .samples = samples, .rgb = s->mean};
     CHECK_OK(ec_session_take(s->session, &batch, &err), err);
     CHECK(batch.complete && batch.invalid == 0);
     ec_cost_tally_add(&s->tally, s->mean);
-    return (double)(clock() - start) / CLOCKS_PER_SEC;
 }
 
 static void take_level(strategy *s, uint32_t samples, uint32_t pictures)
@@ -193,9 +187,8 @@ static void area_of_the_light(void)
     CHECK_NEAR(measured[1][1] / measured[0][1], 1, 0.05);
 }
 
-/* Small lamps on rough plates want light sampling, big lamps on smooth plates BSDF sampling: both must not beat their combination on
- * the whole picture, by more than three standard errors: by MSE with as many samples, by relMSE in as much time. (By MSE, which the few
- * brightest pixels make, BSDF sampling is the better bargain here: it takes a quarter of the time.) */
+/* Small lamps on rough plates want light sampling, big lamps on smooth plates BSDF sampling: with as many samples both must not beat
+ * their combination on the whole picture, by more than three standard errors, neither by MSE nor by relMSE. */
 static void veach(void)
 {
     enum { ROUNDS = 24, SAMPLES = 16 };
@@ -205,34 +198,19 @@ static void veach(void)
     ec_render_options o = case_options(96, 64, 0);
     ec_cost_reference reference = cost_reference(scene, &o, 1024);
     strategy s[3];
-    double seconds[3][ROUNDS];
     for (int k = 0; k < 3; k++) {
         o.sample = samples[k];
         s[k] = open_strategy(scene, &o, &reference);
         ec_cost_tally_begin(&s[k].tally, SAMPLES);
-        take(&s[k], SAMPLES); /* compiles */
-        s[k].index = 0;
-        ec_cost_tally_begin(&s[k].tally, SAMPLES);
-    }
-    for (int i = 0; i < ROUNDS; i++)
-        for (int k = 0; k < 3; k++) seconds[k][i] = take(&s[k], SAMPLES);
-    for (int k = 0; k < 3; k++) {
-        double log_ratio = 0, log_square = 0; /* of time, to mis */
-        for (int i = 0; i < ROUNDS; i++) {
-            double r = log(seconds[k][i] / seconds[0][i]);
-            log_ratio += r / ROUNDS;
-            log_square += r * r / ROUNDS;
-        }
-        double time_se = sqrt(fmax(log_square - log_ratio * log_ratio, 0) / (ROUNDS - 1));
+        for (int i = 0; i < ROUNDS; i++) take(&s[k], SAMPLES);
         ec_cost_tally_end(&s[k].tally, &s[k].row);
         const ec_cost_point *p = &s[k].row.points[0], *mis = &s[0].row.points[0];
-        printf("veach %-6s mse %.4g +- %.2g, relmse %.4g +- %.2g, time x%.2f +- %.2f\n", names[k], p->mse, p->mse_se, p->relmse, p->relmse_se, exp(log_ratio), time_se);
+        printf("veach %-6s mse %.4g +- %.2g, relmse %.4g +- %.2g\n", names[k], p->mse, p->mse_se, p->relmse, p->relmse_se);
         if (k == 0) continue;
-        double advantage = log(p->mse / mis->mse), relative = log(p->relmse / mis->relmse) + log_ratio;
+        double advantage = log(p->mse / mis->mse), relative = log(p->relmse / mis->relmse);
         double se = hypot(p->mse_se / p->mse, mis->mse_se / mis->mse);
-        double relative_se = hypot(time_se, hypot(p->relmse_se / p->relmse, mis->relmse_se / mis->relmse));
-        printf("  mis is better by mse x%.2f a sample (log +- %.2f), by relmse x%.2f a second (log +- %.2f)\n", exp(advantage), se,
-               exp(relative), relative_se);
+        double relative_se = hypot(p->relmse_se / p->relmse, mis->relmse_se / mis->relmse);
+        printf("  mis is better by mse x%.2f a sample (log +- %.2f), by relmse x%.2f (log +- %.2f)\n", exp(advantage), se, exp(relative), relative_se);
         CHECK_MSG(advantage > -3 * se, "%s beats mis: log %g +- %g", names[k], advantage, se);
         CHECK_MSG(relative > -3 * relative_se, "%s beats mis by relmse: log %g +- %g", names[k], relative, relative_se);
     }

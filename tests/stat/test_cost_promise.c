@@ -1,9 +1,8 @@
+/* tier: full */
 /* What `eclat cost` promises, `eclat render --error` keeps: on four scenes pictures of 1, 2, 4, … samples a pixel are measured as a study
  * does, and a render for an error target stops. The error that the study foretells for as many samples, and the one that the render states,
  * agree within their standard errors: 4 of them, which a right program exceeds in one run of ten thousand, and a tenth for the straight
- * line between two points of the curve.
- *
- * ctest label: slow */
+ * line between two points of the curve. */
 #include "support/cost_reference.h"
 
 enum { PICTURES = 12, MOST = 256, REFERENCE = 8192 };

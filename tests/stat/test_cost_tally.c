@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The tally of `eclat cost` on made-up pictures whose bias and noise are known, with a reference as noisy as they are: 60 studies of
  * 4000 pixels, and what they find must scatter about the truth by as much as they state. Fixed seed; each check would fail by chance
  * once in ten thousand seeds at most. */

@@ -1,3 +1,4 @@
+/* tier: long */
 /* Do the intervals of single pixels hold the truth as often as they say? Each scene is rendered 100 times at 256 samples a pixel;
  * the truth is the mean of the other 99 renders. Counted are values (pixel and channel) that are not exact and
  * whose pixel is not flagged as heavy-tailed: 94 to 96 % of them have to be held.
@@ -5,9 +6,7 @@
  * The truth's own noise, a hundredth of the render's variance, makes for 0.1 % too few. The count itself is good to 0.1 %.
  *
  * `lamps` has a bulb smaller than a pixel that lights a whole room from behind a shade: 14 pixels of 15 are flagged, and the few
- * others, of which no neighbour has met the worst paths, hold the truth less often: 91 %. That may not get worse.
- *
- * ctest label: long */
+ * others, of which no neighbour has met the worst paths, hold the truth less often: 91 %. That may not get worse. */
 #include "film/interval.h"
 #include "film/statistics.h"
 #include "support/batches.h"

@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* Direct light against closed forms: Lambert's formula, inverse squares, environments. Scenes are made here, so that every
  * number in a check stands beside its derivation. (Lamps that touch what they light: test_near_lamps.c.) */
 #include "support/floor_case.h"
@@ -156,11 +157,14 @@ static void check_hot_texel(uint32_t tx, uint32_t ty, float background)
 
 int main(void)
 {
-    check_polylum();
+    if (test_tier("quick")) {
+        check_polylum();
+        check_punctual();
+        check_constant_environment();
+    }
+    if (!test_tier("full")) TEST_END();
     check_random_triangles();
-    check_punctual();
     check_single_sided();
-    check_constant_environment();
     check_hot_texel(20, 6, 0.1f);
     check_hot_texel(0, 10, 0); /* across the seam */
     check_hot_texel(40, 15, 0); /* half of it under the horizon */

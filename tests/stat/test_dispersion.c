@@ -1,3 +1,4 @@
+/* tier: full */
 /* KHR_materials_dispersion: where a prism sends each line, by Snell's law; and each channel of a picture with dispersion is that of a
  * picture whose glass has that channel's index in all. */
 #include "support/gltf_writer.h"

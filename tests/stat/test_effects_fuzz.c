@@ -1,3 +1,4 @@
+/* tier: full */
 /* Random scenes: does the scan miss an effect? A few tens of scenes of few sets of effects, half with multiple
  * scattering and a smooth terminator; test_effects_fuzz_many.c has more. */
 #include "support/effect_fuzz.h"

@@ -1,4 +1,5 @@
-/* Hundreds of random scenes: what they nearly call for, through each integrator, and each with its own kernels. ctest label: long */
+/* tier: long */
+/* Hundreds of random scenes: what they nearly call for, through each integrator, and each with its own kernels. */
 #include "support/effect_fuzz.h"
 
 int main(void)

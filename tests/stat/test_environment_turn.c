@@ -1,3 +1,4 @@
+/* tier: full */
 /* Environments that are turned and made brighter: against maps that are drawn that way. */
 #include "support/floor_case.h"
 

@@ -1,3 +1,4 @@
+/* tier: full */
 /* The stated error against the real one: of 200 renders with different seeds the real relative RMS error, against a converged
  * picture, must lie under error_bound in at least 95 % (190; it aims at 198), and `error` must equal it on average. So must relMSE of the noise equal
  * relMSE as measured where tails are not heavy (see film.h); the other ratios are printed.
@@ -6,9 +7,7 @@
  * its own, independent of the render's, so its share is taken off the mean square.
  *
  * The first case takes 200 seeds and a reference of 512 times the samples. The others take 200 renders from one
- * session (support/batches.h), and the other 199 as the reference.
- *
- * ctest label: slow */
+ * session (support/batches.h), and the other 199 as the reference. */
 #include "film/difference.h"
 #include "support/batches.h"
 

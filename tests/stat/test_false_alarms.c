@@ -1,11 +1,10 @@
+/* tier: long */
 /* `eclat compare` on renders of one scene that differ in their seeds alone: how often does it say that they differ by more than
  * noise? Stated is at most 1 in 100 at p < 0.01, and 5 in 100 below 0.05. And a picture one per cent brighter is found.
  *
  * Each scene is rendered 100 times with 256 samples, of which pairs are made: one against one, 50 pairs, and one
  * against the replicates of twenty others joined, 100 pairs, twenty to a reference. Over all scenes more than the stated share and three standard errors
- * would be a fault; in one scene 9 % below 0.05 and 4 % below 0.01, which 150 pairs exceed by chance in one case of 100.
- *
- * ctest label: long */
+ * would be a fault; in one scene 9 % below 0.05 and 4 % below 0.01, which 150 pairs exceed by chance in one case of 100. */
 #include "film/noise_test.h"
 #include "support/batches.h"
 

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Forecasts on synthetic films: pixels whose noise is exponential, or fireflies on a grey ground, or in few pixels only, independent from sample
  * to sample; and one whose error falls faster. After the pilot a goal says how many samples it will take; then batches come until the bound is
  * there. The 95 % interval must hold the truth in at least 90 % of the repeats (80 % where six pixels hold all noise: their own spread is hardly

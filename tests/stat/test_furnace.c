@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* Scenes whose radiance is known without rendering (scenes/furnace/README.md). */
 #include "report/names.h"
 #include "support/render_case.h"
@@ -140,11 +141,15 @@ static void check_spheres(void)
 
 int main(void)
 {
-    check_box(SHARED("assets/classic/gltf/furnace-nori/furnace-albedo-0.5.gltf"), 0.5);
-    check_box(OWN_SCENE("furnace/box-albedo-0.8.gltf"), 0.8);
-    check_roulette();
-    check_mixed_box();
-    check_plates();
-    check_spheres();
+    if (test_tier("quick")) {
+        check_box(OWN_SCENE("furnace/box-albedo-0.8.gltf"), 0.8);
+        check_roulette();
+        check_plates();
+    }
+    if (test_tier("full")) {
+        check_box(SHARED("assets/classic/gltf/furnace-nori/furnace-albedo-0.5.gltf"), 0.5);
+        check_mixed_box();
+        check_spheres();
+    }
     TEST_END();
 }

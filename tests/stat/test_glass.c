@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* Glass whose picture is known without rendering it: plates and slabs, of clear and of coloured glass, with something in them, and
  * boxes in a white environment. For every --sample, which must make no difference to what only one direction finds. */
 #include "report/names.h"
@@ -258,13 +259,17 @@ static void nothing_of_index_1(void)
 
 int main(void)
 {
-    thin_plates();
-    rough_plates();
-    slabs();
-    within();
-    boxes_in_white();
-    half_clear_box_in_white();
-    rough_boxes_in_white();
-    nothing_of_index_1();
+    if (test_tier("quick")) {
+        thin_plates();
+        within();
+        boxes_in_white();
+    }
+    if (test_tier("full")) {
+        rough_plates();
+        slabs();
+        half_clear_box_in_white();
+        rough_boxes_in_white();
+        nothing_of_index_1();
+    }
     TEST_END();
 }

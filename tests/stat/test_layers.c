@@ -1,3 +1,4 @@
+/* tier: full */
 /* Materials with layers in whole pictures: tiles of each on a floor, between a lamp and a sky. Ways of finding light must agree, and the
  * picture is the same bits for all lanes and with every effect built in. */
 #include "support/gltf_writer.h"

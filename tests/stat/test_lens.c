@@ -1,3 +1,4 @@
+/* tier: full */
 /* The thin lens: what it makes of a small square lamp, pixel by pixel. A point at depth z seen from the lens' point p lies where the
  * pinhole sees it, moved by p (1 / D - 1 / z) along the plane at distance 1: that is the thin-lens formula's circle of confusion,
  * A |z - D| v / (z D) across on the sensor at distance v. */

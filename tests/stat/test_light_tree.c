@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Lamps chosen by the tree light the same picture as those chosen by power, whichever way they are found, with less noise. */
 #include "support/lantern_hall.h"
 

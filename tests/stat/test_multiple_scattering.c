@@ -1,3 +1,4 @@
+/* tier: full */
 /* --scattering multiple in whole pictures: rough metal and rough glass under a lamp and a sky. Ways of finding light agree, what is
  * given back is seen, and white metal in white light returns no more than comes in. */
 #include "support/gltf_writer.h"

@@ -1,3 +1,4 @@
+/* tier: full */
 /* Lamps that touch what they light, fill its sky, or are smaller than it can tell: the mean in closed form, and
  * a relative standard deviation of one sample that stays under 2 wherever the lamp is. By area the latter goes as 1 / distance.
  * (A lamp of two triangles of which one fills the sky has 1.2 from choosing between them.) */

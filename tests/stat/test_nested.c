@@ -1,3 +1,4 @@
+/* tier: full */
 /* Bodies in bodies: slabs of glass with liquids, ice and air between them, whose picture is that of a stack of layers (Fresnel and
  * Beer-Lambert in double), and balls in balls. Light goes to and fro between layers, so a stack is added up layer by layer. */
 #include "report/names.h"

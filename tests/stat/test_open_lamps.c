@@ -1,3 +1,4 @@
+/* tier: full */
 /* A lamp with holes, or one that is half there, gives what its coverage leaves, however it is found: a path meets it as seldom as that, and a
  * light sample knows. In closed form under a ceiling without end that shines. */
 #include "support/gltf_writer.h"

@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* Light behind panes: thin, smooth walls, which shadow rays pass. What points, spots, suns and lamps give a floor through any number
  * of them, in closed form or by integration in double, for every --sample: nothing is lost or counted twice. */
 #include "support/floor_case.h"
@@ -201,10 +202,12 @@ static void textured_alpha(void)
 
 int main(void)
 {
-    colours();
-    textured_alpha();
-    punctual();
-    mixed();
-    lamp();
+    if (test_tier("quick")) colours();
+    if (test_tier("full")) {
+        textured_alpha();
+        punctual();
+        mixed();
+        lamp();
+    }
     TEST_END();
 }

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Blackman and Harris' filter: a square lamp's picture pixel by pixel, the light in it, the bits, and whether errors are what is said. */
 #include "support/lamp_picture.h"
 

@@ -1,7 +1,6 @@
+/* tiers: quick, full */
 /* Rare paths as they are foretold: against closed forms where a flat mirror shows a small light, and against long renders where a mirror
- * throws it onto a floor.
- *
- * ctest label: stat */
+ * throws it onto a floor. */
 #include "rare/paths.h"
 #include "render/session.h"
 #include "support/gltf_writer.h"
@@ -257,12 +256,15 @@ static void check_tiles(void)
 
 int main(void)
 {
-    check_tiles();
+    if (test_tier("quick")) {
+        check_tiles();
+        check_plane("a mirror that shows the light", 1, 0.2, true);
+    }
+    if (!test_tier("full")) TEST_END();
     check_bulb(0.002, true);
     check_bulb(0.002, false);
     check_small_ball(false);
     check_small_ball(true);
-    check_plane("a mirror that shows the light", 1, 0.2, true);
     check_plane("a mirror that does not", 1, 0.6, false);
     check_plane("a matt plane", 0, 0.2, false);
     check_turned();

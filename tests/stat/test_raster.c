@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* The rasteriser sees what camera rays see: first-hit depth and coverage of the same samples, one a pixel, in at least 99.9 % of
  * the pixels (only samples within rounding of a silhouette may differ). And its picture does not depend on the order of the
  * triangles or on how the work is cut. */
@@ -112,8 +113,11 @@ static void check_brushed(void)
 
 int main(void)
 {
-    check_brushed();
-    check_agreement(OWN_SCENE("cornell-box/cornell-box.gltf"), 0);
+    if (test_tier("quick")) {
+        check_brushed();
+        check_agreement(OWN_SCENE("cornell-box/cornell-box.gltf"), 0);
+    }
+    if (!test_tier("full")) TEST_END();
     check_agreement(OWN_SCENE("showcase/showcase.gltf"), 0);
     check_agreement(OWN_SCENE("lamps/lamps.gltf"), 0);
     check_agreement(OWN_SCENE("lamps/lamps.gltf"), 1); /* orthographic */

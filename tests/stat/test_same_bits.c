@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* The picture is a function of scene, seed and options, not of how it was computed: LANES, acceleration structure, density of its
  * grid, wave size, effects built in, and the time of day change no bit of any number in the film. (Threads: tests/cli/test_render.py.) */
 #include "accel/accel.h"
@@ -85,7 +86,7 @@ int main(void)
         all_scenes |= called.bits;
     }
     for (int i = 0; i < SCENES; i++) {
-        check_scene(names[i], scenes[i], all_scenes, i == 0 ? 4 : 1);
+        if (test_tier(i == 0 ? "quick" : "full")) check_scene(names[i], scenes[i], all_scenes, i == 0 ? 4 : 1);
         ec_scene_free(scenes[i]);
     }
     TEST_END();

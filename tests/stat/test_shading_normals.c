@@ -1,3 +1,4 @@
+/* tier: full */
 /* A faceted ball with a round one's normals: no light gets in, none is won, and with
  * --terminator smooth none is lost. */
 #include "report/names.h"

@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Stratified numbers stay stratified down to a texel of an environment map: with light sampling alone, 256 samples a pixel in one
  * replicate, Sobol's error is under a third of independent numbers'. (0.005; texels picked by hashed numbers, as by an alias table: 0.98.) */
 #include "support/floor_case.h"

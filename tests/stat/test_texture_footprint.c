@@ -1,3 +1,4 @@
+/* tier: quick */
 /* Textures have no footprint: a look-up is bilinear or nearest at full resolution, and pixels are supersampled. So a picture converges to
  * the texture's own mean over a pixel, however small it is shown, and what a file says of minification and mipmaps changes no bit. */
 #include "image/image.h"

@@ -1,3 +1,4 @@
+/* tiers: quick, full */
 /* Whitted's ray trees against closed forms: what each is, stands beside its scene. A needle's eye of a camera sees one point. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
@@ -248,11 +249,14 @@ static void pictures_have_the_same_bits(void)
 
 int main(void)
 {
-    mirrors_reflect_by_fresnel();
-    slabs_share_light_out();
+    if (test_tier("quick")) {
+        mirrors_reflect_by_fresnel();
+        slabs_share_light_out();
+        lamps_shine_from_their_centres();
+    }
+    if (!test_tier("full")) TEST_END();
     trees_are_whole();
     total_reflection_loses_nothing();
-    lamps_shine_from_their_centres();
     bodies_shine_as_points();
     highlights_are_blinns();
     far_lights_are_not_absorbed();

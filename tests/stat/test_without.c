@@ -1,3 +1,4 @@
+/* tier: full */
 /* Every effect that --without can leave out, left out of a scene that calls for it: another picture, and the effect is no more among
  * those called for. One build of all effects renders them; what is built for the scene without an effect gives the same bits
  * (test_effects_fuzz.c). */

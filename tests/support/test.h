@@ -10,6 +10,13 @@
 
 static int test_failures, test_checks;
 
+/* Is it the turn of the parts of that tier, in a file of several? ctest says whose; by hand it is that of all. */
+static inline int test_tier(const char *name)
+{
+    const char *chosen = getenv("ECLAT_TIER");
+    return !chosen || !strcmp(chosen, name);
+}
+
 #define CHECK(condition)                                                                           \
     do {                                                                                           \
         test_checks++;                                                                             \

@@ -8,9 +8,9 @@ import shutil
 import signal
 import subprocess
 import tempfile
-import time
 import unittest
 
+from polling import GUARD, over_a_while, poll_until
 from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, read_exr
 
 TOOLS = ["Xvfb", "xdotool", "import", "convert", "xrdb", "xprop", "xrandr", "xwininfo", "setxkbmap", "openbox"]
@@ -49,10 +49,8 @@ class Screen:
     def manage(self):
         self.manager = subprocess.Popen(["openbox", "--config-file", "/dev/null"], env=self.environment, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
-        until = time.monotonic() + 20
-        while "window id" not in self.run("xprop", "-root", "_NET_SUPPORTING_WM_CHECK"):
-            assert time.monotonic() < until, "openbox does not manage windows"
-            time.sleep(0.05)
+        manages = poll_until(lambda: "window id" in self.run("xprop", "-root", "_NET_SUPPORTING_WM_CHECK"), self.manager)
+        assert manages, "openbox does not manage windows"
 
     def run(self, *arguments):
         return subprocess.run(arguments, env=self.environment, capture_output=True, text=True, check=True).stdout
@@ -144,14 +142,9 @@ class Window:
     def tool(self, *arguments):
         return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, capture_output=True, text=True, check=False).stdout
 
-    def wait_until(self, what, seconds=120, every=0.1):
+    def wait_until(self, what, pause=0.1):
         """what() until it is true; its last value."""
-        until = time.monotonic() + seconds
-        while True:
-            value = what()
-            if value or time.monotonic() > until or self.process.poll() is not None:
-                return value
-            time.sleep(every)
+        return poll_until(what, self.process, pause)
 
     def appear(self):
         found = self.wait_until(lambda: self.tool("search", "--onlyvisible", "--name", self.name))
@@ -171,17 +164,19 @@ class Window:
     def move(self, x, y):
         """Until it stands there. xdotool's --sync is content with any move, also that by which a window manager first places a window."""
         self.tool("windowmove", self.id, x, y)
-        assert self.wait_until(lambda: self.place()[:2] == (x, y), 20), f"it does not move to {x}, {y}: {self.place()}"
+        assert self.wait_until(lambda: self.place()[:2] == (x, y)), f"it does not move to {x}, {y}: {self.place()}"
 
     def key(self, *names):
         """By the server, as a keyboard does it; events sent to the window itself carry no time, and some get lost. No quicker than a hand:
         GLFW takes what goes up and down within 20 ms for a key that repeats itself."""
         for name in names:
-            subprocess.run(["xdotool", "key", name, "sleep", "0.03"], env=self.environment, check=True)
+            subprocess.run(["xdotool", "key", "--delay", "60", name], env=self.environment, check=True)
 
-    def hold(self, name, seconds):
+    def hold(self, name, crop=None):
+        """Down until the picture is another, of a window at rest; crop: what has no words in it that come and go."""
+        before = self.picture(crop)
         self.tool("keydown", name)
-        time.sleep(seconds)
+        self.wait_until(lambda: mean_difference(self.picture(crop), before) > 4)
         self.tool("keyup", name)
 
     def drag(self, button, x0, y0, x1, y1):
@@ -199,7 +194,7 @@ class Window:
         """Taps S and waits for the command that repeats the picture."""
         before = self.text().count("\n")
         self.key("s")
-        self.wait_until(lambda: self.text().count("\n") > before, 30)
+        self.wait_until(lambda: self.text().count("\n") > before)
         lines = self.text().splitlines()
         assert len(lines) > before, self.text("err")
         return lines[-1]
@@ -217,21 +212,21 @@ class Window:
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK"), switches
 
     def uses(self, seconds):
-        before = self.used()
-        time.sleep(seconds)
-        return tuple(b - a for a, b in zip(before, self.used()))
+        """As used() tells it, of so long."""
+        before, after = over_a_while(self.used, seconds)
+        return tuple(b - a for a, b in zip(before, after))
 
-    def rest(self, seconds=60):
+    def rest(self):
         """Until nothing goes on; a thread that only waits for a processor does not rest."""
         def rests():
             return not any(self.uses(0.2)) and all(status["State"].startswith("S") for status in self.statuses())
-        assert self.wait_until(rests, seconds, 0), "the window finds no rest"  # a compiler need not wait for anything
+        assert self.wait_until(rests, 0), "the window finds no rest"  # a compiler need not wait for anything
 
     def close(self):
         """By Q; the exit code."""
         try:
             self.key("q")
-            return self.process.wait(60)
+            return self.process.wait(GUARD)
         except subprocess.TimeoutExpired:
             raise AssertionError(f"Q does not end it; the keyboard is with {self.tool('getwindowfocus').strip()}, not {self.id}?\n"
                                  + "\n".join(self.threads()) + "\n" + self.text("err")) from None
@@ -308,14 +303,14 @@ class ViewCase(Case):
         """Runs the command that the window printed, in another folder; {name: path} of its pictures."""
         words = shlex.split(command)
         self.assertEqual(words[:2], ["eclat", "render"])
-        os.makedirs(folder)
+        os.makedirs(folder, exist_ok=True)
         self.assert_ok(eclat(*words[1:], cwd=folder))
         return {name: os.path.join(folder, name) for name in os.listdir(folder)}
 
     def assert_repeats(self, window, command):
         words = shlex.split(command)
         attributes, planes = read_exr(os.path.join(window.folder, next(path for o, path in zip(words, words[1:]) if o == "-o" and path.endswith(".exr"))))
-        pictures = self.repeat(command, self.path(f"again{time.monotonic_ns()}"))
+        pictures = self.repeat(command, tempfile.mkdtemp(dir=self.folder))
         for name, path in pictures.items():
             if name.endswith(".png"):
                 with open(path, "rb") as a, open(os.path.join(window.folder, name), "rb") as b:

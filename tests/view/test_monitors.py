@@ -1,6 +1,6 @@
+# tier: full
 """The preview window where there are several monitors: Xorg with its dummy driver, which has several outputs; with openbox, and with no
-window manager at all.
-ctest label: slow"""
+window manager at all."""
 import shutil
 import subprocess
 import unittest
@@ -36,7 +36,7 @@ class Unmanaged(ViewCase):
         self.left, self.right = self.screen.places
 
     def assert_place(self, window, place, why):
-        self.assertTrue(window.wait_until(lambda: window.place() == place, 20), f"{why}: {window.place()}, not {place}")
+        self.assertTrue(window.wait_until(lambda: window.place() == place), f"{why}: {window.place()}, not {place}")
 
     def is_on(self, window, monitors):
         """Wholly on one of them?"""
@@ -46,13 +46,13 @@ class Unmanaged(ViewCase):
     def assert_works(self, window):
         """It draws, and what it saves is as large as it is."""
         width, height = window.size()
-        self.assertTrue(window.wait_until(lambda: f"--size={width}x{height} " in window.save(), 20, 0.5), window.text())
+        self.assertTrue(window.wait_until(lambda: f"--size={width}x{height} " in window.save(), 0.5), window.text())
         self.assertGreater(len(set(window.picture(f"{width // 2}x{height // 3}+{width // 4}+{height // 4}")[2])), 8)
 
     def test_opens_wholly_on_one(self):
         for size in ["300x200", "700x560", "5000x400"]:
             window = self.open(self.scene, "--size", size, "--spp", "1")
-            self.assertTrue(window.wait_until(lambda w=window: self.is_on(w, self.screen.places), 20), f"{size}: {window.place()}")
+            self.assertTrue(window.wait_until(lambda w=window: self.is_on(w, self.screen.places)), f"{size}: {window.place()}")
             self.assertEqual(window.close(), 0)
 
     def test_full_screen_is_all_of_the_monitor_that_it_is_on(self):
@@ -92,7 +92,7 @@ class Unmanaged(ViewCase):
                 window.key("F11")
                 self.assert_place(window, self.right, "full screen")
             self.screen.output(1, False)
-            self.assertTrue(window.wait_until(lambda: self.is_on(window, [self.left]) and window.size() == (200, 150), 20),
+            self.assertTrue(window.wait_until(lambda: self.is_on(window, [self.left]) and window.size() == (200, 150)),
                             f"full {full}: {window.place()}")
             self.assert_works(window)
             window.key("F11")
@@ -101,7 +101,7 @@ class Unmanaged(ViewCase):
             window.rest()
             self.assertEqual(window.place(), self.left)
             window.key("F11")
-            self.assertTrue(window.wait_until(lambda: window.size() == (200, 150) and self.is_on(window, self.screen.places), 20), window.place())
+            self.assertTrue(window.wait_until(lambda: window.size() == (200, 150) and self.is_on(window, self.screen.places)), window.place())
         self.assertEqual(window.close(), 0)
 
 

@@ -1,5 +1,5 @@
-"""The preview window in odd hands: wheels turned too far, scripts that wait, cameras by the dozen, places that cannot be written to.
-ctest label: slow"""
+# tier: full
+"""The preview window in odd hands: wheels turned too far, scripts that wait, cameras by the dozen, places that cannot be written to."""
 import json
 import os
 import shutil
@@ -7,6 +7,7 @@ import struct
 import subprocess
 
 from desk import ViewCase, mean_difference
+from polling import GUARD
 from support import ECLAT, data_uri, eclat, quad_scene, read_exr, write_exr, write_gltf
 
 SIZE = ["--size", "200x150"]
@@ -31,7 +32,7 @@ class Odd(ViewCase):
         path = self.path("script.txt")
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(lines))
-        return subprocess.run([ECLAT, "view", scene, "--script", path, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120,
+        return subprocess.run([ECLAT, "view", scene, "--script", path, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=GUARD,
                               check=False, env=dict(self.screen.environment, LIBGL_ALWAYS_SOFTWARE="1"))
 
     def change_scene(self, change):
@@ -181,12 +182,12 @@ class Odd(ViewCase):
             values = window.picture(crop)[2]
             return values == values[:3] * (len(values) // 3)
         window.key("Tab", "i", "i", "i")  # how many samples
-        self.assertTrue(window.wait_until(is_even, 10), "not as many samples everywhere")
+        self.assertTrue(window.wait_until(is_even), "not as many samples everywhere")
         window.tool("keydown", "d")
-        self.assertTrue(window.wait_until(lambda: not is_even(), 10, 0.05), "samples of another camera")
+        self.assertTrue(window.wait_until(lambda: not is_even(), 0.05), "samples of another camera")
         window.tool("keyup", "d")
         window.rest()
-        self.assertTrue(window.wait_until(is_even, 10), "not as many samples everywhere, again")
+        self.assertTrue(window.wait_until(is_even), "not as many samples everywhere, again")
         self.assertEqual(window.close(), 0)
 
     def test_a_script_settles_on_what_its_keys_asked_for(self):
@@ -211,7 +212,7 @@ class Odd(ViewCase):
     def test_a_picture_that_is_asked_for_as_one_leaves_is_waited_for(self):
         window = self.open(self.scene, "--size", "300x200", "--spp", "64")
         window.key("s", "q")
-        self.assertEqual((window.process.wait(60), window.text("err")), (0, ""))
+        self.assertEqual((window.process.wait(GUARD), window.text("err")), (0, ""))
         self.assertIn("--size=300x200", window.text())
 
     def test_few_samples_have_an_error_too(self):
@@ -231,7 +232,7 @@ class Odd(ViewCase):
         window = self.open(self.scene, *SIZE, "--spp", "1")
         before = window.save()
         stand(0.2, 0.3, -0.9)
-        after = window.wait_until(lambda: (lambda c: c if "--eye" in c else None)(window.save()), 20, 0.5)
+        after = window.wait_until(lambda: (lambda c: c if "--eye" in c else None)(window.save()), 0.5)
         self.assertNotIn("--eye", before)
         self.assert_repeats(window, after)
         self.assertEqual(window.close(), 0)
@@ -256,7 +257,7 @@ class Odd(ViewCase):
         plain = window.picture("200x60+0+0")
         os.rmdir(self.path("away"))
         window.key("s")
-        self.assertTrue(window.wait_until(lambda: mean_difference(window.picture("200x60+0+0"), plain) > 1, 10))
+        self.assertTrue(window.wait_until(lambda: mean_difference(window.picture("200x60+0+0"), plain) > 1))
         self.assertEqual(window.close(), 1)
         self.assertRegex(window.text("err"), rf"\Aeclat: error: .*{name}.*\n\Z")
         window = self.open(self.scene, *SIZE, "--spp", "2")  # where that mends itself nothing is left to tell

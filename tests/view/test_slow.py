@@ -1,5 +1,5 @@
-"""A scene that takes longer to read than a window waits for.
-ctest label: slow"""
+# tier: full
+"""A scene that takes longer to read than a window waits for."""
 import unittest
 
 from desk import ViewCase
@@ -25,7 +25,7 @@ class Slow(ViewCase):
             values = window.picture()[2]
             return sum(value > 100 for value in values) / len(values)
         seen = []
-        window.wait_until(lambda: seen.append(lit()) or seen[-1] > 0.2, 60, 0.05)
+        window.wait_until(lambda: seen.append(lit()) or seen[-1] > 0.2, 0.05)
         self.assertTrue(any(0.005 < share < 0.1 for share in seen), f"no words before the picture: {seen}")
         self.assertGreater(seen[-1], 0.2, "no picture")
         self.assertEqual(window.size(), (300, 200))
