@@ -1,6 +1,7 @@
 /* tier: quick */
 /* Which device is chosen, and what is known of its driver. Asks no device. */
 #include "cl/workarounds.h"
+#include "device/pipeline.h"
 #include "render/render.h"
 #include "support/cl_case.h"
 

@@ -1,0 +1,87 @@
+# tier: quick
+"""The rooms of host/: each includes and links only those that host/rooms.cmake gives it, and these come before it."""
+import collections
+import functools
+import glob
+import os
+import re
+import subprocess
+import unittest
+
+from support import ECLAT, SOURCE
+
+BUILD = os.path.dirname(os.path.abspath(ECLAT))
+HOST = os.path.join(SOURCE, "host")
+
+
+def permitted():
+    """{room: the rooms it may use}, in the order of the list."""
+    with open(os.path.join(HOST, "rooms.cmake"), encoding="utf-8") as file:
+        return {name: set(rest.split()) for name, rest in re.findall(r"^eclat_room\((\w+)(.*)\)$", file.read(), re.M)}
+
+
+def included():
+    """(room, room, where) of each include from one room to another."""
+    for path in glob.glob(os.path.join(HOST, "*", "**", "*.*"), recursive=True):
+        room = os.path.relpath(path, HOST).split(os.sep)[0]
+        if not path.endswith((".c", ".h", ".cpp")):
+            continue
+        with open(path, encoding="utf-8") as file:
+            for other in re.findall(r'^#include "(\w+)/', file.read(), re.M):
+                yield room, other, os.path.relpath(path, HOST)
+
+
+@functools.lru_cache(maxsize=None)
+def symbols(room):
+    """What the room's archive defines, and what it needs, its module included."""
+    module = os.path.join(BUILD, {"view": "eclat-view.so", "ranks": "eclat-mpi.so"}.get(room, "none"))
+    text = subprocess.run(["nm", os.path.join(BUILD, f"libroom_{room}.a")], capture_output=True, text=True, check=True).stdout
+    if os.path.exists(module):
+        text += subprocess.run(["nm", module], capture_output=True, text=True, check=True).stdout
+    rows = [line.split() for line in text.splitlines() if line]
+    defined = {row[2] for row in rows if len(row) == 3 and row[1] in "TDBRC"}
+    return defined, {row[1] for row in rows if len(row) == 2 and row[0] == "U"} - defined
+
+
+class Rooms(unittest.TestCase):
+    def test_the_list_leads_one_way(self):
+        before = set()
+        for room, neighbours in permitted().items():
+            self.assertLessEqual(neighbours, before, f"{room} uses a room that comes behind it")
+            before.add(room)
+
+    def test_every_folder_is_a_room(self):
+        folders = {name for name in os.listdir(HOST) if glob.glob(os.path.join(HOST, name, "*.c"))}
+        self.assertEqual(folders - {"cli"}, set(permitted()))
+
+    def test_includes(self):
+        rooms = permitted()
+        for room, other, where in included():
+            if room in rooms and other in rooms and other != room:
+                self.assertIn(other, rooms[room], f"{where} includes {other}/")
+            self.assertFalse(other == "cli" and room != "cli", f"{where} includes cli/")
+
+    def test_symbols(self):
+        rooms = permitted()
+        owner, needs = {}, collections.defaultdict(set)
+        for room in rooms:
+            defined, needs[room] = symbols(room)
+            owner.update(dict.fromkeys((name for name in defined if name.startswith(("ec_", "eclat_"))), room))
+        self.assertGreater(len(owner), 500)
+        for room, names in needs.items():
+            for name in names & owner.keys():
+                self.assertIn(owner[name], rooms[room], f"{room} calls {name} of {owner[name]}")
+
+    def test_none_is_permitted_in_vain(self):
+        used = collections.defaultdict(set)
+        for room, other, _ in included():
+            used[room].add(other)
+        for room, neighbours in permitted().items():
+            defined_of = {other: symbols(other)[0] for other in neighbours}
+            needs = symbols(room)[1]
+            vain = {other for other in neighbours if other not in used[room] and not needs & defined_of[other]}
+            self.assertEqual(vain, set(), f"{room} need not be given them")
+
+
+if __name__ == "__main__":
+    unittest.main()
