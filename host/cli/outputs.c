@@ -7,8 +7,8 @@
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 
+#include "base/atomic_file.h"
 #include "cli/usage.h"
-#include "image/atomic_file.h"
 #include "image/image.h"
 #include "report/format.h"
 
