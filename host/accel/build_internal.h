@@ -91,6 +91,9 @@ static inline ec_i4 ec_bin_of(const ec_binning *binning, ec_v4 centroid)
 void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, const float *swept,
                    uint32_t swept_count, ec_prim *prims, ec_range *bounds);
 void ec_prims_bound(const ec_prim *prims, uint32_t count, ec_range *bounds);
+/* Numbers of the children; the places left over are shared out among them, `slack` of these to the left one. */
+void ec_range_place(const ec_range *range, uint32_t left_count, uint32_t right_count, uint32_t slack, uint32_t buffer,
+                    ec_range children[2]);
 void ec_prim_vertices(const float *positions, const uint32_t *indices, uint32_t id, ec_v4 vertices[3]);
 /* Copies prims to *left or *right, which move on, in their order; bounds the sides, but for their boxes. */
 void ec_prims_partition(const ec_prim *prims, uint32_t count, const ec_binning *binning, const ec_split *split,
@@ -129,9 +132,6 @@ typedef struct ec_builder {
     int failed;    /* out of memory somewhere; written atomically */
 } ec_builder;
 int ec_range_split(ec_builder *builder, const ec_range *range, ec_range children[2]);
-/* Numbers of the children; the places left over are shared out among them, `slack` of these to the left one. */
-void ec_range_place(const ec_range *range, uint32_t left_count, uint32_t right_count, uint32_t slack, uint32_t buffer,
-                    ec_range children[2]);
 
 /* cut.c: splits a range by a plane that cuts triangles, where there are places for the parts and that is cheaper than
  * `objects`, the best split of whole ones. */

@@ -61,3 +61,19 @@ void ec_prims_partition(const ec_prim *prims, uint32_t count, const ec_binning *
         ec_range_add(&sides[side], lo, hi);
     }
 }
+
+void ec_range_place(const ec_range *range, uint32_t left_count, uint32_t right_count, uint32_t slack, uint32_t buffer,
+                    ec_range children[2])
+{
+    children[0].first = range->first;
+    children[0].count = left_count;
+    children[0].capacity = left_count + slack;
+    children[1].first = range->first + children[0].capacity;
+    children[1].count = right_count;
+    children[1].capacity = range->capacity - children[0].capacity;
+    for (int side = 0; side < 2; side++) {
+        ec_range_clear(&children[side]);
+        children[side].depth = range->depth + 1;
+        children[side].buffer = buffer;
+    }
+}

@@ -51,22 +51,6 @@ static void deal(const ec_builder *builder, const ec_range *range, const ec_binn
         for (uint32_t i = 0; i < chunk_count; i++) ec_range_join(&children[side], &chunks[i].sides[side]);
 }
 
-void ec_range_place(const ec_range *range, uint32_t left_count, uint32_t right_count, uint32_t slack, uint32_t buffer,
-                    ec_range children[2])
-{
-    children[0].first = range->first;
-    children[0].count = left_count;
-    children[0].capacity = left_count + slack;
-    children[1].first = range->first + children[0].capacity;
-    children[1].count = right_count;
-    children[1].capacity = range->capacity - children[0].capacity;
-    for (int side = 0; side < 2; side++) {
-        ec_range_clear(&children[side]);
-        children[side].depth = range->depth + 1;
-        children[side].buffer = buffer;
-    }
-}
-
 /* Halves the range where it lies: for coincident triangles, for boxes without a finite area, and for trees that grow
  * too deep. */
 static void split_in_the_middle(const ec_builder *builder, const ec_range *range, ec_range children[2])

@@ -54,11 +54,18 @@ ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const v
     return EC_OK;
 }
 
+static bool is_kept(const ec_cl *cl, cl_mem buffer)
+{
+    for (uint32_t i = 0; i < cl->kept_buffer_count; i++)
+        if (cl->kept_buffers[i].buffer == buffer) return true;
+    return false;
+}
+
 void ec_buffer_release(ec_cl *cl, cl_mem *buffer)
 {
     if (!*buffer) return;
     size_t size = 0;
-    if (ec_kept_buffer_has(cl, *buffer)) {
+    if (is_kept(cl, *buffer)) { /* its memory is counted until that reference goes */
         clReleaseMemObject(*buffer);
         *buffer = NULL;
         return;

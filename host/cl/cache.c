@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/atomic_file.h"
+
 #define EC_CACHE_MAGIC "eclatkb1"
 #define EC_CACHE_LARGEST ((uint64_t)1 << 30)
 
@@ -72,17 +74,6 @@ static bool read_all(int file, void *to, size_t bytes)
     return true;
 }
 
-static bool write_all(int file, const void *from, size_t bytes)
-{
-    for (size_t done = 0; done < bytes;) {
-        ssize_t put = write(file, (const char *)from + done, bytes - done);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) return false;
-        done += (size_t)put;
-    }
-    return true;
-}
-
 static bool header_fits(const cache_header *header, const ec_cache_key *key, uint64_t file_bytes)
 {
     return memcmp(header->magic, EC_CACHE_MAGIC, sizeof header->magic) == 0 &&
@@ -138,21 +129,16 @@ static bool make_folders(const char *folder)
 
 bool ec_cache_store(const char *folder, const ec_cache_key *key, const unsigned char *binary, size_t bytes)
 {
-    char path[4096], temporary[4096];
-    if (snprintf(path, sizeof path, "%s/%s.bin", folder, key->hex) >= (int)sizeof path ||
-        snprintf(temporary, sizeof temporary, "%s/.%.16s.XXXXXX", folder, key->hex) >= (int)sizeof temporary)
-        return false;
-    if (!make_folders(folder)) return false;
-    int file = mkstemp(temporary);
-    if (file < 0) return false;
-    cache_header header = {.magic = {0}, .bytes = bytes};
+    char path[4096];
+    ec_error ignored;
+    if (snprintf(path, sizeof path, "%s/%s.bin", folder, key->hex) >= (int)sizeof path || !make_folders(folder)) return false;
+    cache_header header = {.bytes = bytes};
     memcpy(header.magic, EC_CACHE_MAGIC, sizeof header.magic);
     memcpy(header.key, key->bytes, sizeof header.key);
     sha256(binary, bytes, header.checksum);
-    /* fsync before the rename: after a power cut the name must not stand for an empty file. */
-    bool good = write_all(file, &header, sizeof header) && write_all(file, binary, bytes) && fsync(file) == 0;
-    good = close(file) == 0 && good;
-    good = good && rename(temporary, path) == 0;
-    if (!good) unlink(temporary);
-    return good;
+    ec_atomic_file file;
+    if (ec_atomic_open(&file, path, &ignored) != EC_OK) return false;
+    (void)fchmod(file.fd, 0600);
+    return ec_atomic_append(&file, &header, sizeof header, &ignored) == EC_OK &&
+           ec_atomic_append(&file, binary, bytes, &ignored) == EC_OK && ec_atomic_commit(&file, &ignored) == EC_OK;
 }

@@ -10,9 +10,11 @@ cl_program ec_kept_find(const ec_cl *cl, const ec_cache_key *key); /* borrowed; 
 void ec_kept_add(ec_cl *cl, const ec_cache_key *key, cl_program program); /* retains it; without memory it is just not kept */
 void ec_kept_release(ec_cl *cl);
 
-typedef struct ec_kept_buffer ec_kept_buffer;
+typedef struct ec_kept_buffer {
+    ec_fingerprint key;
+    cl_mem buffer;
+} ec_kept_buffer;
 
-bool ec_kept_buffer_has(const ec_cl *cl, cl_mem buffer); /* its own reference is not counted as memory twice */
 void ec_kept_buffers_release(ec_cl *cl);
 
 #endif

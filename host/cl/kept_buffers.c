@@ -4,22 +4,10 @@
 
 #include "cl/kept.h"
 
-struct ec_kept_buffer {
-    ec_fingerprint key;
-    cl_mem buffer;
-};
-
 ec_fingerprint ec_buffer_key(const char *label, uint64_t bytes, uint64_t slack, const void *data)
 {
     ec_fingerprint key = ec_fingerprint_add((ec_fingerprint){{slack}}, label, strlen(label));
     return ec_fingerprint_add(key, data, bytes);
-}
-
-bool ec_kept_buffer_has(const ec_cl *cl, cl_mem buffer)
-{
-    for (uint32_t i = 0; i < cl->kept_buffer_count; i++)
-        if (cl->kept_buffers[i].buffer == buffer) return true;
-    return false;
 }
 
 static void drop(ec_cl *cl, uint32_t i)

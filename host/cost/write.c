@@ -1,8 +1,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/atomic_file.h"
 #include "cost/report.h"
-#include "image/atomic_file.h"
 
 ec_result ec_cost_write(const char *path, ec_cost_put *put, const void *what, ec_error *err)
 {

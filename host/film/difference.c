@@ -7,22 +7,17 @@ typedef struct sums {
     double noise_luminance, noise_relative;
 } sums;
 
-static double luminance(const float *rgb)
-{
-    return ec_luminance((double[3]){rgb[0], rgb[1], rgb[2]});
-}
-
 /* Variance of luminance; without se_y from the channels, as if their noise were one: never too little. */
 static double luminance_variance(const ec_measured *image, uint64_t p)
 {
     if (!image->se) return 0;
-    double se = image->se_y ? image->se_y[p] : luminance(image->se + 3 * p);
+    double se = image->se_y ? image->se_y[p] : ec_luminance_of_floats(image->se + 3 * p);
     return se * se;
 }
 
 static int add_pixel(const ec_measured *a, const ec_measured *b, uint64_t p, sums *s)
 {
-    double ya = luminance(a->rgb + 3 * p), yb = luminance(b->rgb + 3 * p);
+    double ya = ec_luminance_of_floats(a->rgb + 3 * p), yb = ec_luminance_of_floats(b->rgb + 3 * p);
     int unequal = 0;
     s->luminance_a += ya;
     s->luminance_b += yb;

@@ -10,15 +10,10 @@
 #define EC_FILM_FILM_H
 
 #include "base/error.h"
+#include "base/luminance.h"
 #include "film/parts.h"
 #include "film/rare.h"
 #include "film/tail.h"
-
-/* Relative luminance of linear Rec.709 colour (IEC 61966-2-1); the weights sum to 1. */
-static inline double ec_luminance(const double rgb[3])
-{
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
 
 enum { EC_FILM_FEATURES = 8 };
 

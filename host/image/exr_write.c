@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/exr_blocks.h"
 #include "image/image.h"
 #include "image/seal.h"

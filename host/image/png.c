@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/image.h"
 #include "image/png_strips.h"
 

@@ -7,9 +7,9 @@
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 
-#include "jobs/usage.h"
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/image.h"
+#include "jobs/usage.h"
 #include "report/format.h"
 
 static const char *name_of(const char *path)

@@ -5,15 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/luminance.h"
 #include "pack/distribution.h"
 #include "pack/pack.h"
 
 #define PI 3.14159265358979323846
-
-static double luminance(const float *rgb)
-{
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
 
 /* So many rows below the upper pole. */
 static double sine_at(double rows, uint32_t height)
@@ -43,8 +39,8 @@ static patch_row patch_row_of(const ec_environment *e, uint32_t y)
 static double patch_weight(const patch_row *row, uint32_t x)
 {
     const size_t left = 3 * (size_t)x, right = x + 1 < row->width ? left + 3 : 0;
-    return 0.5 * (row->of_upper * (luminance(row->upper + left) + luminance(row->upper + right)) +
-                  row->of_lower * (luminance(row->lower + left) + luminance(row->lower + right)));
+    return 0.5 * (row->of_upper * (ec_luminance_of_floats(row->upper + left) + ec_luminance_of_floats(row->upper + right)) +
+                  row->of_lower * (ec_luminance_of_floats(row->lower + left) + ec_luminance_of_floats(row->lower + right)));
 }
 
 /* The weights of a row, and their sum. */
@@ -170,7 +166,7 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
     if (!scene->has_environment) return EC_OK;
     for (int k = 0; k < 3; k++) pack->environment_mean[k] = e->constant[k];
     if (!e->rgb) {
-        *mean_luminance = luminance(e->constant);
+        *mean_luminance = ec_luminance_of_floats(e->constant);
         return EC_OK;
     }
     pack->environment_lent = e->packed != NULL;

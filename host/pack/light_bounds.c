@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
+#include "base/vec3.h"
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+#define PI 3.14159265358979323846
 
 static void take_point(ec_light_bounds *b, const float p[3])
 {
@@ -17,7 +17,7 @@ static void take_point(ec_light_bounds *b, const float p[3])
 
 static void set_axis(ec_light_bounds *b, const double axis[3], double cos_spread)
 {
-    double length = sqrt(dot(axis, axis));
+    double length = sqrt(ec_dot(axis, axis));
     bool usable = length > 0 && isfinite(length);
     for (int k = 0; k < 3; k++) b->axis[k] = usable ? axis[k] / length : k == 2;
     b->cos_spread = usable ? cos_spread : -1;
@@ -44,8 +44,8 @@ ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power)
 static void join_cones(ec_light_bounds *a, const ec_light_bounds *b)
 {
     if (a->cos_spread <= -1) return; /* all ways already, as large clusters are */
-    if (b->cos_spread >= 1 && dot(a->axis, b->axis) >= a->cos_spread) return; /* one lamp within: no angle is asked for */
-    double angle = acos(fmin(fmax(dot(a->axis, b->axis), -1), 1)), sa = acos(a->cos_spread), sb = acos(b->cos_spread);
+    if (b->cos_spread >= 1 && ec_dot(a->axis, b->axis) >= a->cos_spread) return; /* one lamp within: no angle is asked for */
+    double angle = acos(fmin(fmax(ec_dot(a->axis, b->axis), -1), 1)), sa = acos(a->cos_spread), sb = acos(b->cos_spread);
     if (fmin(angle + sb, PI) <= sa) return;
     if (fmin(angle + sa, PI) <= sb) {
         memcpy(a->axis, b->axis, sizeof a->axis);

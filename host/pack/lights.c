@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/luminance.h"
 #include "pack/coincident.h"
 #include "pack/distribution.h"
 #include "pack/light_order.h"
@@ -11,11 +12,6 @@
 #include "pack/texture_mean.h"
 
 #define PI 3.14159265358979323846
-
-static double luminance(const double rgb[3])
-{
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
 
 /* A triangle's mean emission colour. Its own part of the texture decides how often it is sampled; a little of the whole
  * texture's mean keeps what the points below miss from never being sampled at all. */
@@ -60,7 +56,7 @@ static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec
               (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_LIGHT_OPEN : 0);
     l->prim = prim;
     l->pdf_a = (float)(1.0 / area); /* times pmf once that is known */
-    return PI * area * luminance(radiance) * (m->double_sided ? 2.0 : 1.0);
+    return PI * area * ec_luminance(radiance) * (m->double_sided ? 2.0 : 1.0);
 }
 
 /* Each of those that lie in one place once. whole: by material. */
@@ -82,7 +78,7 @@ static void add_triangles(const ec_scene *scene, const ec_pack *pack, const bool
 double ec_pack_punctual_power(const ec_light *in, double scene_radius)
 {
     double intensity[3] = {in->intensity[0], in->intensity[1], in->intensity[2]};
-    double power = luminance(intensity);
+    double power = ec_luminance(intensity);
     if (in->type == EC_LIGHT_POINT) power *= 4.0 * PI;
     if (in->type == EC_LIGHT_SPOT) power *= 2.0 * PI * (1.0 - 0.5 * (in->cos_inner + in->cos_outer));
     if (in->type == EC_LIGHT_DIRECTIONAL) power *= PI * scene_radius * scene_radius;
@@ -184,7 +180,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
     for (uint32_t m = 0; m < scene->material_count; m++) {
         const ec_material *material = &scene->materials[m];
         double e[3] = {material->emission[0], material->emission[1], material->emission[2]};
-        emits[m] = luminance(e) > 0.0 && !material->unlit;
+        emits[m] = ec_luminance(e) > 0.0 && !material->unlit;
         if (emits[m]) mean[m] = ec_texture_whole_mean(scene, &material->textures[EC_SLOT_EMISSION]);
     }
     uint32_t most = scene->light_count + 1, *first = NULL;

@@ -5,33 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool normalize(double v[3])
-{
-    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(length > 0) || !isfinite(length)) return false;
-    for (int i = 0; i < 3; i++) v[i] /= length;
-    return true;
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int i = 0; i < 3; i++) out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
+#include "base/vec3.h"
 
 /* An orthonormal frame nearest to looking along `forward` with `up` up; scale, shear and mirroring of the node do not
  * belong to a camera and are dropped. */
 static void set_frame(ec_camera *camera, double forward[3], double up[3])
 {
     double right[3];
-    if (!normalize(forward)) memcpy(forward, (double[3]){0, 0, -1}, 3 * sizeof *forward);
-    cross(forward, up, right);
-    if (!normalize(right)) {
+    if (!ec_normalize(forward)) memcpy(forward, (double[3]){0, 0, -1}, 3 * sizeof *forward);
+    ec_cross(forward, up, right);
+    if (!ec_normalize(right)) {
         int axis = fabs(forward[1]) < 0.9 ? 1 : 2;
         double other[3] = {0, axis == 1, axis == 2};
-        cross(forward, other, right);
-        normalize(right);
+        ec_cross(forward, other, right);
+        ec_normalize(right);
     }
-    cross(right, forward, up);
+    ec_cross(right, forward, up);
     for (int i = 0; i < 3; i++) {
         camera->right[i] = (float)right[i];
         camera->up[i] = (float)up[i];
@@ -53,10 +42,10 @@ ec_result ec_camera_look(const ec_viewpoint *v, const double center[3], ec_camer
         camera->position[i] = (float)(v->eye[i] - center[i]);
         finite = finite && isfinite(camera->position[i]) && isfinite(up[i]);
     }
-    if (!finite || !normalize(forward))
+    if (!finite || !ec_normalize(forward))
         return ec_fail(err, "a camera at %g,%g,%g cannot look at %g,%g,%g: give two points that are apart", v->eye[0],
                        v->eye[1], v->eye[2], v->target[0], v->target[1], v->target[2]);
-    if (!normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
+    if (!ec_normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
     set_frame(camera, forward, up);
     return EC_OK;
 }
@@ -89,7 +78,7 @@ static bool place_camera(const ec_placement *at, const double center[3], ec_came
         camera->position[i] = (float)(at->origin[i] - center[i]);
         finite = finite && isfinite(camera->position[i]);
     }
-    if (!normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
+    if (!ec_normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
     set_frame(camera, forward, up);
     return finite;
 }
@@ -105,7 +94,7 @@ static ec_camera framing_camera(const ec_scene *s)
     }
     radius = sqrt(radius);
     double forward[3] = {-0.5, -0.35, -1}, up[3] = {0, 1, 0};
-    normalize(forward);
+    ec_normalize(forward);
     set_frame(&camera, forward, up);
     double distance = radius / sin(0.5 * camera.yfov);
     for (int i = 0; i < 3; i++) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3.h"
 #include "scene/gltf.h"
 
 enum { WIDTH_MOST = 4096 };
@@ -20,19 +21,14 @@ void ec_cube_free(ec_cube *cube)
     *cube = (ec_cube){0};
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* The face that direction d (of any length) meets, and where on it, from -1 to 1. */
 static int meet(const double d[3], double *right, double *down)
 {
     int axis = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
     if (fabs(d[2]) > fabs(d[axis])) axis = 2;
     int f = 2 * axis + (d[axis] < 0);
-    *right = dot(d, frames[f].right) / fabs(d[axis]);
-    *down = dot(d, frames[f].down) / fabs(d[axis]);
+    *right = ec_dot(d, frames[f].right) / fabs(d[axis]);
+    *down = ec_dot(d, frames[f].down) / fabs(d[axis]);
     return f;
 }
 

@@ -1,4 +1,4 @@
-/* What the parts of flattening share. Only flatten.c, flatten_vertex.c and keep.c include this. */
+/* What the parts of flattening share: flatten*.c, keep*.c, empty.c and motion*.c. */
 #ifndef EC_SCENE_FLATTEN_VERTEX_H
 #define EC_SCENE_FLATTEN_VERTEX_H
 
@@ -35,11 +35,11 @@ typedef struct ec_flattener {
 } ec_flattener;
 
 typedef ec_result (*ec_draw_function)(ec_flattener *f, const ec_draw *d);
-/* flatten.c: all primitives of a mesh at one place. */
+/* flatten_draw.c: all primitives of a mesh at one place. */
 ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, const ec_placement *at, const double *center,
                             ec_draw_function function);
-ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d); /* how much there can be at most */
-ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d);  /* appends its triangles */
+ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d); /* first pass: how much there can be at most */
+ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d);  /* second pass: appends its triangles */
 
 /* Are all three places numbers that a scene can hold? */
 bool ec_is_placeable(const double world[3][3]);

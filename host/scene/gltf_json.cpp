@@ -84,3 +84,9 @@ container parse_container(const uint8_t *bytes, uint64_t length)
 }
 
 } // namespace eclat
+
+extern "C" void ec_gltf_tree_free(ec_gltf *gltf)
+{
+    delete static_cast<eclat::posable *>(gltf->tree);
+    gltf->tree = nullptr;
+}

@@ -217,13 +217,6 @@ static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
     convert_materials(model, gltf, log);
 }
 
-/* What another moment is written into. */
-struct posable {
-    json root;
-    std::vector<uint32_t> animations;
-    bool more; /* than nodes and weights is moved */
-};
-
 static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice *choice, const ec_log *log)
 {
     container file = parse_container(gltf->file, length);
@@ -318,10 +311,4 @@ extern "C" ec_result ec_gltf_pose(ec_gltf *gltf, const ec_scene_choice *choice, 
         eclat::pose(gltf, choice, whole, log);
         return EC_OK;
     });
-}
-
-extern "C" void ec_gltf_tree_free(ec_gltf *gltf)
-{
-    delete static_cast<eclat::posable *>(gltf->tree);
-    gltf->tree = nullptr;
 }

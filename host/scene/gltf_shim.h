@@ -57,6 +57,13 @@ std::vector<uint32_t> choose_animations(const nlohmann::json &root, const ec_sce
 bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice,
                   ec_gltf *gltf, const ec_log *log);
 
+/* What another moment is written into. */
+struct posable {
+    nlohmann::json root;
+    std::vector<uint32_t> animations;
+    bool more; /* than nodes and weights is moved */
+};
+
 /* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);
 void convert_image_light(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log); /* the shown scene's */

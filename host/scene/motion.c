@@ -177,14 +177,3 @@ ec_result ec_gltf_move(const ec_scene_choice *choice, ec_gltf *base, ec_scene *s
                 s->motion.segments, 100 * s->motion.deviation);
     return EC_OK;
 }
-
-void ec_motion_free(ec_motion *m)
-{
-    free(m->positions);
-    free(m->normals);
-    free(m->tangents);
-    free(m->swept);
-    free(m->lights);
-    free(m->cameras);
-    *m = (ec_motion){0};
-}

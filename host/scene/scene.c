@@ -29,6 +29,17 @@ void ec_scene_drop_data(ec_scene *s)
     if (!s->environment.lent) DROP(s->environment.rgb);
 }
 
+void ec_motion_free(ec_motion *m)
+{
+    free(m->positions);
+    free(m->normals);
+    free(m->tangents);
+    free(m->swept);
+    free(m->lights);
+    free(m->cameras);
+    *m = (ec_motion){0};
+}
+
 void ec_scene_free(ec_scene *s)
 {
     if (!s) return;

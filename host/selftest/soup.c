@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/vec3.h"
 #include "scene/model.h"
 
 ec_result ec_soup_make(uint32_t count, ec_soup *soup, ec_error *err)
@@ -68,15 +69,6 @@ ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const 
     return EC_OK;
 }
 
-double ec_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void cross(const double a[3], const double b[3], double c[3])
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 static void edges_of(const float v[9], double e1[3], double e2[3])
 {
     for (int k = 0; k < 3; k++) e1[k] = (double)v[3 + k] - v[k], e2[k] = (double)v[6 + k] - v[k];
@@ -86,7 +78,7 @@ void ec_triangle_normal(const float v[9], double normal[3])
 {
     double e1[3], e2[3];
     edges_of(v, e1, e2);
-    cross(e1, e2, normal);
+    ec_cross(e1, e2, normal);
 }
 
 void ec_direction(uint64_t *random, double d[3])

@@ -3,6 +3,7 @@
 #define EC_SELFTEST_SOUP_H
 
 #include "base/random.h"
+#include "base/vec3.h"
 #include "scene/scene.h"
 
 typedef struct ec_soup {
@@ -22,7 +23,6 @@ ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const 
 
 /* Twice its area, along its normal. */
 void ec_triangle_normal(const float v[9], double normal[3]);
-double ec_dot(const double a[3], const double b[3]);
 /* The larger; NaN once there is one, which fmax would pass over. */
 static inline double ec_worse(double worst, double value) { return value <= worst || worst != worst ? worst : value; }
 void ec_direction(uint64_t *random, double d[3]); /* uniform */

@@ -5,21 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3.h"
+
 #define NEAREST_POLE 0.01 /* radians */
 static const double half_turn = 3.14159265358979323846;
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-static void normalize(double v[3])
-{
-    double length = sqrt(dot(v, v));
-    for (int k = 0; k < 3; k++) v[k] /= length > 0 ? length : 1;
-}
 
 /* right, upright and forward, all of length 1, as ec_camera_look has them. */
 typedef struct axes {
@@ -31,24 +20,24 @@ static axes axes_of(const ec_viewpoint *v)
     axes a;
     double up[3];
     memcpy(up, v->up, sizeof up);
-    normalize(up);
+    ec_normalize(up);
     for (int k = 0; k < 3; k++) a.forward[k] = v->target[k] - v->eye[k];
-    normalize(a.forward);
-    cross(a.forward, up, a.right);
-    if (dot(a.right, a.right) < 1e-12) { /* along the pole any direction will do */
+    ec_normalize(a.forward);
+    ec_cross(a.forward, up, a.right);
+    if (ec_dot(a.right, a.right) < 1e-12) { /* along the pole any direction will do */
         const double other[3] = {fabs(up[0]) < 0.9, fabs(up[0]) >= 0.9, 0};
-        cross(up, other, a.right);
+        ec_cross(up, other, a.right);
     }
-    normalize(a.right);
-    cross(a.right, a.forward, a.up);
+    ec_normalize(a.right);
+    ec_cross(a.right, a.forward, a.up);
     return a;
 }
 
 /* v turned about a unit axis (Rodrigues). */
 static void rotate(double v[3], const double axis[3], double angle)
 {
-    double c = cos(angle), s = sin(angle), along = dot(v, axis), side[3];
-    cross(axis, v, side);
+    double c = cos(angle), s = sin(angle), along = ec_dot(v, axis), side[3];
+    ec_cross(axis, v, side);
     for (int k = 0; k < 3; k++) v[k] = v[k] * c + side[k] * s + axis[k] * along * (1 - c);
 }
 
@@ -56,10 +45,10 @@ static void rotate(double v[3], const double axis[3], double angle)
 static void turn_direction(const ec_viewpoint *v, double d[3], double yaw, double pitch)
 {
     axes a = axes_of(v);
-    double pole[3], length = sqrt(dot(d, d));
+    double pole[3], length = sqrt(ec_dot(d, d));
     memcpy(pole, v->up, sizeof pole);
-    normalize(pole);
-    double sine = dot(d, pole) / (length > 0 ? length : 1), height = asin(fmin(fmax(sine, -1), 1));
+    ec_normalize(pole);
+    double sine = ec_dot(d, pole) / (length > 0 ? length : 1), height = asin(fmin(fmax(sine, -1), 1));
     double most = 0.5 * half_turn - NEAREST_POLE;
     double wanted = fmin(fmax(height + pitch, -most), most);
     if (fabs(height) > most && fabs(height + pitch) > fabs(height)) wanted = height; /* stays where it was put */
@@ -71,7 +60,7 @@ double ec_orbit_distance(const ec_viewpoint *v)
 {
     double d[3];
     for (int k = 0; k < 3; k++) d[k] = v->target[k] - v->eye[k];
-    return sqrt(dot(d, d));
+    return sqrt(ec_dot(d, d));
 }
 
 void ec_orbit_settle(ec_viewpoint *v)

@@ -15,11 +15,6 @@ typedef struct exact_hit {
     double least_height;   /* of the triangle */
 } exact_hit;
 
-static inline void exact_cross(const double a[3], const double b[3], double c[3])
-{
-    for (int k = 0; k < 3; k++) c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
 static inline exact_hit exact_meet(const float o[3], const float d[3], const float v[9])
 {
     double e1[3], e2[3], normal[3], s[3], p[3], q[3], way[3];
@@ -28,8 +23,8 @@ static inline exact_hit exact_meet(const float o[3], const float d[3], const flo
         e1[k] = (double)v[3 + k] - v[k], e2[k] = (double)v[6 + k] - v[k];
         s[k] = (double)o[k] - v[k], way[k] = d[k];
     }
-    exact_cross(way, e2, p);
-    exact_cross(s, e1, q);
+    ec_cross(way, e2, p);
+    ec_cross(s, e1, q);
     double det = ec_dot(e1, p), area = sqrt(ec_dot(normal, normal)), longest = fmax(ec_dot(e1, e1), ec_dot(e2, e2)), third = 0;
     exact_hit h = {.cosine = fabs(ec_dot(normal, way)) / (area * sqrt(ec_dot(way, way)))};
     if (!(det != 0) || !(h.cosine > 0)) return (exact_hit){0};

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* O_TMPFILE */
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,8 +11,6 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
-
-#include "image/image.h"
 
 ec_result ec_write_failed(ec_error *err, const char *path, int error_number)
 {
@@ -126,7 +124,7 @@ static void release(ec_atomic_file *file)
 ec_result ec_atomic_open(ec_atomic_file *file, const char *path, ec_error *err)
 {
     *file = (ec_atomic_file){.fd = -1};
-    if (!path[0]) return ec_fail(err, "cannot write an image: the output path is empty; give a file name");
+    if (!path[0]) return ec_fail(err, "cannot write: the output path is empty; give a file name");
     if (path[strlen(path) - 1] == '/')
         return ec_fail(err, "cannot write '%s': it names a folder; give a file name", path);
     EC_TRY(check_replaceable(path, err));
@@ -187,27 +185,25 @@ ec_result ec_atomic_commit(ec_atomic_file *file, ec_error *err)
     return failed ? EC_FAILED : EC_OK;
 }
 
+ec_result ec_atomic_append(ec_atomic_file *file, const void *bytes, size_t size, ec_error *err)
+{
+    for (size_t done = 0; done < size;) {
+        ssize_t put = write(file->fd, (const char *)bytes + done, size - done);
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) {
+            ec_write_failed(err, file->target, put < 0 ? errno : ENOSPC);
+            ec_atomic_abort(file);
+            return EC_FAILED;
+        }
+        done += (size_t)put;
+    }
+    return EC_OK;
+}
+
 ec_result ec_atomic_write(const char *path, const void *bytes, size_t size, ec_error *err)
 {
     ec_atomic_file file;
     EC_TRY(ec_atomic_open(&file, path, err));
-    for (size_t done = 0; done < size;) {
-        ssize_t put = write(file.fd, (const char *)bytes + done, size - done);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) {
-            int reason = put < 0 ? errno : ENOSPC;
-            ec_atomic_abort(&file);
-            return ec_write_failed(err, path, reason);
-        }
-        done += (size_t)put;
-    }
+    EC_TRY(ec_atomic_append(&file, bytes, size, err));
     return ec_atomic_commit(&file, err);
-}
-
-ec_result ec_image_check_writable(const char *path, ec_error *err)
-{
-    ec_atomic_file file;
-    EC_TRY(ec_atomic_open(&file, path, err));
-    ec_atomic_abort(&file);
-    return EC_OK;
 }

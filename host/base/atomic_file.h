@@ -1,6 +1,6 @@
 /* A file that appears under its name only when it is whole: written without a name or beside the target, then put in its place. */
-#ifndef EC_IMAGE_ATOMIC_FILE_H
-#define EC_IMAGE_ATOMIC_FILE_H
+#ifndef EC_BASE_ATOMIC_FILE_H
+#define EC_BASE_ATOMIC_FILE_H
 
 #include <stddef.h>
 
@@ -15,6 +15,9 @@ typedef struct ec_atomic_file {
 
 /* Creates the temporary file; fails if the target could not be replaced. After success: commit or abort, once. */
 ec_result ec_atomic_open(ec_atomic_file *file, const char *path, ec_error *err);
+
+/* On failure the file is aborted. */
+ec_result ec_atomic_append(ec_atomic_file *file, const void *bytes, size_t size, ec_error *err);
 
 /* Flushes to disk and gives it its name. On failure the temporary file is gone and an older target is as it was. */
 ec_result ec_atomic_commit(ec_atomic_file *file, ec_error *err);

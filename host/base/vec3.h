@@ -1,0 +1,24 @@
+/* Vectors of three doubles. Host references repeat these bits: the order of operations is part of them. */
+#ifndef EC_BASE_VEC3_H
+#define EC_BASE_VEC3_H
+
+#include <math.h>
+#include <stdbool.h>
+
+static inline double ec_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static inline void ec_cross(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* False, and v as it was, where it has no length or no finite one. */
+static inline bool ec_normalize(double v[3])
+{
+    double length = sqrt(ec_dot(v, v));
+    if (!(length > 0) || !isfinite(length)) return false;
+    for (int k = 0; k < 3; k++) v[k] /= length;
+    return true;
+}
+
+#endif
