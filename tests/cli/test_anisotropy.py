@@ -1,4 +1,4 @@
-# tier: quick
+# tier: full
 """Which way brushed metal and brushed glass are brushed: KHR_materials_anisotropy's rotation counter-clockwise from the tangent, its texture's direction, the
 bitangent's sign, coordinates where there are no tangents. A sun lights a plate directly, so pictures are free of noise; those that mean
 the same direction agree to what rounding leaves."""

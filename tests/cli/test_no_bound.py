@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """A scene whose light may be missing states no error bound: every output says so and why, however the samples were taken."""
 import json
 import os
@@ -6,6 +6,7 @@ import re
 import unittest
 
 from support import CORNELL, SOURCE, Case, eclat, read_exr
+from tiers import full
 
 PINLAMP = os.path.join(SOURCE, "scenes", "pinlamp", "pinlamp.gltf")
 SIZE = ["--size", "24x20"]
@@ -52,6 +53,7 @@ class NoBound(Case):
         text = self.assert_ok(eclat("merge", "b.exr", "a.exr", "-o", "all.exr", cwd=self.folder)).stdout
         self.assertRegex(text, r"(?m)^error at least .* no bound, since ")
 
+    @full
     def test_any_wave_width_and_structure_say_the_same(self):
         """Strips do too: test_strips.py."""
         _, (attributes, whole) = self.render("--spp", "16", "--size", "96x300")

@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """Slices of a job, rendered apart and merged: the bits of one render, in any order; and what cannot be merged."""
 import itertools
 import json
@@ -10,6 +10,7 @@ import subprocess
 import unittest
 
 from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, read_exr
+from tiers import full
 
 SIZE = ["--size", "20x18"]
 
@@ -106,6 +107,7 @@ class Slices(Case):
         self.assertEqual(process.returncode, 0)
         return usage.ru_maxrss
 
+    @full
     def test_memory_does_not_go_by_the_order(self):
         """Batches whose left neighbours come later would wait, 24 of them here, 4 MB each."""
         cuts = [0, 8, 16, 32, 64, 80, 96]
@@ -121,6 +123,7 @@ class Slices(Case):
         self.assertEqual(run.stderr, "eclat: warning: samples 8:12, 24:33 are missing: the picture is of the others\n")
         self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {20.0})
 
+    @full
     def test_many_gaps_are_named_or_counted(self):
         slices = [self.render(f"s{a}.exr", "--spp", "2000000", "--samples", f"{a}:{a + 64}") for a in range(1000000, 1000000 + 30 * 128, 128)]
         error = self.assert_one_error(self.merge(*slices), 1)

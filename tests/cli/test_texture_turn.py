@@ -1,4 +1,4 @@
-# tier: quick
+# tier: full
 """KHR_texture_transform turns and mirrors a picture on the surface, and what its texels call right and up goes with it: a normal map and a
 direction of brushing look the same as where the mesh's own coordinates are turned. A sun lights a plate directly, so pictures are free of
 noise."""

@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tier: full */
 /* Every allocation of eclat's own fails in turn while a scene is read, packed and built: each time there is an error of one line,
  * nothing that was half made is left (the sanitizers tell at the end), and once there is memory again all is as before. The linker
  * leads calls of malloc and its like from eclat's objects here (--wrap, CMakeLists.txt); those of libraries are not ours to judge. */

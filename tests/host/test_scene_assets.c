@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tier: full */
 /* Every .gltf and .glb under the shared assets, good and bad, each in its own process with a time limit: no crash, no
  * hang, finite data; good files load, and files in which Khronos' validator finds no error load. */
 #define _XOPEN_SOURCE 700

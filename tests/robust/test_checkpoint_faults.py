@@ -44,13 +44,14 @@ class CheckpointFaults(FaultCase):
         dice, done, kept, kills = random.Random(seed), 0, None, 0
         folder = self.new_folder(f"chain{seed}", old=False)
         kept = os.path.join(folder, "kept.exr")
-        _, counted = self.run_with(f"counted{seed}", "--checkpoint", kept, "--every", "0.001s", spp=32)
+        everywhere = {"FAULT_FOLDER": self.folder + "/"}
+        _, counted = self.run_with(f"counted{seed}", "--checkpoint", kept, "--every", "0.001s", spp=32, env=everywhere)
         counts = {call: count for call, count in self.counts(counted).items() if call in AGAIN_AND_AGAIN}
         os.remove(kept)
         while kills < KILLS // CHAINS:
             call, = dice.choices(list(counts), list(counts.values()))
             run, _ = self.run_with(f"run{seed}-{kills}", "--resume" if done else "--checkpoint", kept, "--every", "0.001s", spp=1000000,
-                                   call=call, at=dice.randint(1, counts[call]), signal=int(signal.SIGKILL))
+                                   env=everywhere, call=call, at=dice.randint(1, counts[call]), signal=int(signal.SIGKILL))
             self.assertEqual((run.returncode, run.stderr), (-signal.SIGKILL, ""))
             for name in os.listdir(folder):  # killed in the moment in which the new one takes the old one's place
                 self.assertRegex(name, rf"kept\.exr|{STRAY}")

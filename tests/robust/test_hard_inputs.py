@@ -48,6 +48,7 @@ class Emission(HardCase):
         self.assertIn("256 samples were not finite and count as black", picture.messages)
 
 
+@full
 class Lights(HardCase):
     def test_emitters_without_area_are_left_out(self):
         with_lamp = Scene(WHITE, LAMP).add(QUAD).add(QUAD, 1, scale=[0.2, 0.2, 1], rotation=[1, 0, 0, 0], translation=[0, 0, 1])
@@ -122,6 +123,7 @@ class Environments(HardCase):
         self.assertGreater(picture.mean, 0)
 
 
+@full
 class Geometry(HardCase):
     def assert_no_difference(self, scene, message):
         """Two triangles more, which are dropped."""
@@ -162,7 +164,6 @@ class Geometry(HardCase):
         for scale in [[-1, 1, 1], [-1, -1, 1]]:
             self.assert_same(self.render(Scene(LAMP).add(QUAD, scale=scale)), expected)
 
-    @full
     def test_a_hundred_thousand_coincident_triangles(self):
         count = 100000
         scene = Scene(LAMP).add(QUAD[:9], indices=[0, 1, 2] * count)

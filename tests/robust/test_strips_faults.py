@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """A picture in strips whose render is stopped, killed, or finds its disk full: complete strips or nothing, never half a file."""
 import json
 import os
@@ -8,6 +8,7 @@ import unittest
 
 from faults import FaultCase, at_once
 from support import eclat, read_exr
+from tiers import full
 
 ENOSPC, SIGINT, SIGKILL = 28, int(signal.SIGINT), int(signal.SIGKILL)
 SIDE = 256
@@ -58,6 +59,7 @@ class Strips(FaultCase):
         self.assertRegex(self.check_error(run), rf"error: cannot write '{folder}/a.exr': No space left on device; ")
         self.assertEqual(self.check_files(folder), {"a.exr": "old", "a.png": "old"})
 
+    @full
     def test_ctrl_c_keeps_the_strips_that_are_complete(self):
         counts = self.count_in_strips()
         _, whole = read_exr(os.path.join(self.whole, "a.exr"))

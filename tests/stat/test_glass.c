@@ -262,9 +262,9 @@ int main(void)
     if (test_tier("quick")) {
         thin_plates();
         within();
-        boxes_in_white();
     }
     if (test_tier("full")) {
+        boxes_in_white();
         rough_plates();
         slabs();
         half_clear_box_in_white();
