@@ -6,9 +6,9 @@
 
 #include "report/effects_report.h"
 #include "report/error_text.h"
-#include "report/format.h"
 #include "report/names.h"
 #include "report/render_report.h"
+#include "report/settings.h"
 
 static void add_text(ec_report_attributes *attributes, const char *name, const char *text)
 {
@@ -58,9 +58,20 @@ static void add_viewpoint(ec_report_attributes *attributes, const ec_viewpoint *
     else add_made(attributes, "eclat.camera.parallel", "%.9g", v->tall);
 }
 
+/* Whole numbers are texts: those of a seed fit no int. */
+static void add_option(ec_report_attributes *attributes, const ec_setting *setting, const ec_render_options *options)
+{
+    ec_setting_value value;
+    ec_setting_get(setting, options, &value);
+    if (!setting->exr || value.is_unsaid) return;
+    if (value.kind == EC_SETTING_REAL) add_real(attributes, setting->exr, value.real);
+    else if (value.kind == EC_SETTING_WHOLE) add_made(attributes, setting->exr, "%" PRIu64, value.whole);
+    else if (value.kind == EC_SETTING_SWITCH) add_text(attributes, setting->exr, value.on ? "yes" : "no");
+    else add_made(attributes, setting->exr, "%s", value.text);
+}
+
 static void add_setting(ec_report_attributes *attributes, const ec_render_report *report)
 {
-    const ec_render_options *options = report->options;
     add_text(attributes, "eclat.command", report->command);
     add_text(attributes, "eclat.version", ECLAT_VERSION);
     add_text(attributes, "eclat.scene", report->scene);
@@ -72,29 +83,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_text(attributes, "eclat.camera", report->camera);
     add_viewpoint(attributes, &report->viewpoint);
     add_text(attributes, "eclat.environment", report->environment);
-    add_made(attributes, "eclat.seed", "%" PRIu64, options->seed);
-    add_text(attributes, "eclat.integrator", ec_integrator_names[options->integrator]);
-    char roulette[32];
-    ec_format_roulette(options->survival, roulette, sizeof roulette);
-    add_made(attributes, "eclat.rr", "%s", roulette);
-    add_text(attributes, "eclat.sample", ec_sample_names[options->sample]);
-    add_text(attributes, "eclat.sampler", ec_sampler_names[options->sampler]);
-    add_text(attributes, "eclat.scattering", ec_scattering_names[options->scattering]);
-    add_text(attributes, "eclat.terminator", ec_terminator_names[options->terminator]);
-    add_text(attributes, "eclat.accel", options->accel ? options->accel : "auto");
-    if (options->max_depth)
-        add_made(attributes, "eclat.maxDepth", "%u", options->max_depth);
-    else
-        add_text(attributes, "eclat.maxDepth", "inf");
-    add_text(attributes, "eclat.lightChoice", ec_light_choice_names[options->light_choice]);
-    add_text(attributes, "eclat.filter", ec_filter_names[options->filter]);
-    if (options->filter_width > 0) add_real(attributes, "eclat.filterWidth", options->filter_width);
-    if (options->fstop > 0) {
-        add_real(attributes, "eclat.fstop", options->fstop);
-        add_real(attributes, "eclat.focus", options->focus);
-    }
-    add_real(attributes, "eclat.cutoff", options->cutoff);
-    add_text(attributes, "eclat.adaptive", options->adaptive ? "yes" : "no");
+    for (int i = 0; i < ec_setting_count; i++) add_option(attributes, &ec_settings[i], report->options);
     add_real(attributes, "eclat.png.exposure", report->exposure);
     add_text(attributes, "eclat.png.tonemap", ec_tonemap_names[report->tonemap]);
 }

@@ -2,10 +2,10 @@
 #include "report/device_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
-#include "report/format.h"
 #include "report/json.h"
 #include "report/names.h"
 #include "report/render_report.h"
+#include "report/settings.h"
 
 /* What a frame has from those before it. */
 static void add_shared(cJSON *root, const ec_render_stats *stats)
@@ -27,9 +27,22 @@ static void add_shared(cJSON *root, const ec_render_stats *stats)
     ec_json_whole(shared, "bytes_uploaded", stats->bytes_uploaded);
 }
 
+static void add_option(cJSON *root, const ec_setting *setting, const ec_render_options *options)
+{
+    ec_setting_value value;
+    ec_setting_get(setting, options, &value);
+    if (!setting->json || value.is_unsaid) return;
+    switch (value.kind) {
+    case EC_SETTING_TEXT: ec_json_text(root, setting->json, value.text); break;
+    case EC_SETTING_WHOLE: ec_json_whole(root, setting->json, value.whole); break;
+    case EC_SETTING_REAL: ec_json_real(root, setting->json, value.real); break;
+    case EC_SETTING_SWITCH: cJSON_AddBoolToObject(root, setting->json, value.on); break;
+    case EC_SETTING_NONE: cJSON_AddNullToObject(root, setting->json); break;
+    }
+}
+
 static void add_setting(cJSON *root, const ec_render_report *report)
 {
-    const ec_render_options *options = report->options;
     if (report->frame) {
         ec_json_whole(root, "frame", report->frame->number);
         ec_json_real(root, "frame_seconds", report->frame->seconds);
@@ -41,31 +54,9 @@ static void add_setting(cJSON *root, const ec_render_report *report)
     ec_json_text(root, "scene", report->scene);
     ec_json_text(root, "camera", report->camera);
     ec_json_text(root, "environment", report->environment);
-    ec_json_whole(root, "width", options->width);
-    ec_json_whole(root, "height", options->height);
-    ec_json_text(root, "integrator", ec_integrator_names[options->integrator]);
-    char roulette[32];
-    ec_format_roulette(options->survival, roulette, sizeof roulette);
-    ec_json_text(root, "rr", roulette);
-    ec_json_text(root, "sample", ec_sample_names[options->sample]);
-    ec_json_text(root, "sampler", ec_sampler_names[options->sampler]);
-    ec_json_text(root, "scattering", ec_scattering_names[options->scattering]);
-    ec_json_text(root, "terminator", ec_terminator_names[options->terminator]);
-    ec_json_text(root, "accel", options->accel ? options->accel : "auto");
-    ec_json_whole(root, "seed", options->seed);
-    if (options->max_depth)
-        ec_json_whole(root, "max_depth", options->max_depth);
-    else
-        cJSON_AddNullToObject(root, "max_depth");
-    cJSON_AddBoolToObject(root, "adaptive", options->adaptive);
-    ec_json_text(root, "light_choice", ec_light_choice_names[options->light_choice]);
-    ec_json_text(root, "filter", ec_filter_names[options->filter]);
-    if (options->filter_width > 0) ec_json_real(root, "filter_width", options->filter_width);
-    if (options->fstop > 0) {
-        ec_json_real(root, "fstop", options->fstop);
-        ec_json_real(root, "focus", options->focus);
-    }
-    ec_json_real(root, "cutoff", options->cutoff);
+    ec_json_whole(root, "width", report->options->width);
+    ec_json_whole(root, "height", report->options->height);
+    for (int i = 0; i < ec_setting_count; i++) add_option(root, &ec_settings[i], report->options);
     ec_json_real(root, "exposure", report->exposure);
     ec_json_text(root, "tonemap", ec_tonemap_names[report->tonemap]);
 }

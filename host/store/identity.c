@@ -1,12 +1,11 @@
 #include "store/identity.h"
 
-#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "report/format.h"
 #include "report/names.h"
+#include "report/settings.h"
 
 /* What is said of digests, which nobody wants to read. In the order of ec_content_id. */
 static const char *const contents[EC_CONTENT_COUNT] = {"camera", "geometry", "materials", "textures", "lights", "environment",
@@ -23,38 +22,30 @@ __attribute__((format(printf, 3, 4))) static void add(ec_identity *identity, con
     va_end(args);
 }
 
+/* What the scene's data call for, not what was asked for: where nothing is rough, or no lights lie apart, it is all the same. */
+static const char *name_by_content(const char *option, uint64_t called)
+{
+    if (!strcmp(option, "scattering"))
+        return ec_scattering_names[called & EC_FEATURE_MULTISCATTER ? EC_SCATTERING_MULTIPLE : EC_SCATTERING_SINGLE];
+    return ec_light_choice_names[called & EC_FEATURE_LIGHT_TREE ? EC_LIGHTS_BY_TREE : EC_LIGHTS_BY_POWER];
+}
+
+static void add_setting(ec_identity *identity, const ec_setting *setting, const ec_render_options *options, const ec_content *content)
+{
+    char name[sizeof identity->traits->name], value[sizeof identity->traits->value];
+    const bool is_by_content = setting->identity == EC_IDENTITY_BY_CONTENT;
+    if (setting->identity == EC_NOT_IDENTITY || (is_by_content && !content)) return;
+    snprintf(name, sizeof name, "--%s", setting->option);
+    ec_setting_trait(setting, options, value, sizeof value);
+    add(identity, name, "%s", is_by_content ? name_by_content(setting->option, content->called) : value);
+}
+
 void ec_identity_of(const ec_render_options *o, const ec_content *content, ec_identity *identity)
 {
-    char names[EC_EFFECT_NAMES], roulette[32];
     memset(identity, 0, sizeof *identity);
-    ec_format_roulette(o->survival, roulette, sizeof roulette);
-    ec_feature_names(o->without, names, sizeof names);
     add(identity, "version", ECLAT_VERSION);
     if (content) add(identity, contents[EC_CONTENT_KERNELS], "%s", content->digest[EC_CONTENT_KERNELS]);
-    add(identity, "--size", "%ux%u", o->width, o->height);
-    add(identity, "--replicates", "%u", ec_render_replicates(o));
-    add(identity, "--seed", "%" PRIu64, o->seed);
-    add(identity, "--adaptive", "%s", o->adaptive ? "on" : "off");
-    add(identity, "--integrator", "%s", ec_integrator_names[o->integrator]);
-    add(identity, "--sampler", "%s", ec_sampler_names[o->sampler]);
-    add(identity, "--sample", "%s", ec_sample_names[o->sample]);
-    add(identity, "--max-depth", o->max_depth ? "%u" : "inf", o->max_depth);
-    add(identity, "--rr", "%s", roulette);
-    add(identity, "--clamp", o->clamp > 0 ? "%.17g" : "off", o->clamp);
-    add(identity, "--terminator", "%s", ec_terminator_names[o->terminator]);
-    if (content) {
-        add(identity, "--scattering", "%s",
-            ec_scattering_names[content->called & EC_FEATURE_MULTISCATTER ? EC_SCATTERING_MULTIPLE
-                                                                          : EC_SCATTERING_SINGLE]);
-        add(identity, "--light-choice", "%s",
-            ec_light_choice_names[content->called & EC_FEATURE_LIGHT_TREE ? EC_LIGHTS_BY_TREE : EC_LIGHTS_BY_POWER]);
-    }
-    add(identity, "--filter", "%s", ec_filter_names[o->filter]);
-    add(identity, "--filter-width", "%.17g", o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH);
-    add(identity, "--fstop", "%.17g", o->fstop);
-    add(identity, "--focus", "%.17g", o->focus);
-    add(identity, "--cutoff", "%.17g", o->integrator == EC_INTEGRATOR_WHITTED ? o->cutoff : 0);
-    add(identity, "--without", "%s", *names ? names : "nothing");
+    for (int i = 0; i < ec_setting_count; i++) add_setting(identity, &ec_settings[i], o, content);
     for (int i = 0; content && i < EC_CONTENT_COUNT; i++)
         if (i != EC_CONTENT_KERNELS) add(identity, contents[i], "%s", content->digest[i]);
 }
