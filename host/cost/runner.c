@@ -7,6 +7,15 @@
 
 enum { LARGEST_BATCH = 256 }; /* what waves are fitted to; pictures may have more samples */
 
+bool ec_cost_go_on(void *user)
+{
+    ec_cost_study *study = user;
+    ec_cost_progress progress = {.doing = study->doing, .count = study->row_count, .seconds = ec_now() - study->start, .budget = study->budget};
+    while (progress.done < study->row_count && study->rows[progress.done].state != EC_COST_PENDING) progress.done++;
+    if (study->go_on && !study->go_on(study->user, &progress)) study->interrupted = true;
+    return !study->interrupted;
+}
+
 static ec_result open_session(ec_cost_study *study, const ec_cost_rung *rung, ec_session **session,
                               ec_render_stats *stats, ec_error *err)
 {

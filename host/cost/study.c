@@ -24,15 +24,6 @@ static double weight(const ec_cost_rung *rung)
     return rung->is_base ? 1.5 : rung->speed_only ? 0.35 : rung->is_effect ? 0.7 : 1;
 }
 
-bool ec_cost_go_on(void *user)
-{
-    ec_cost_study *study = user;
-    ec_cost_progress progress = {.doing = study->doing, .count = study->row_count, .seconds = ec_now() - study->start, .budget = study->budget};
-    while (progress.done < study->row_count && study->rows[progress.done].state != EC_COST_PENDING) progress.done++;
-    if (study->go_on && !study->go_on(study->user, &progress)) study->interrupted = true;
-    return !study->interrupted;
-}
-
 static double share_of(const study_state *s, uint32_t row)
 {
     double all = 0;

@@ -4,19 +4,6 @@
 
 #include "device/pipeline.h"
 
-uint64_t ec_pipeline_total(const uint32_t *parts)
-{
-    uint64_t sum = 0;
-    for (int k = 0; k < EC_PARTS; k++) sum += parts[k * EC_PART_STRIDE];
-    return sum;
-}
-
-void ec_pipeline_swap_queues(ec_pipeline *p, uint32_t bounce)
-{
-    p->buffers[EC_ARG_PATHS] = p->path_queues[bounce & 1];
-    p->buffers[EC_ARG_NEXT] = p->path_queues[~bounce & 1];
-}
-
 /* Up to EC_SEGMENT bounces. In p->counters, rays[0] says how many paths each part holds at the start; at the end rays[0]
  * says what is left. */
 static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_bounce, ec_error *err)
@@ -37,14 +24,6 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_b
         p->rays += ec_pipeline_total(counters->rays[step]) + ec_pipeline_total(counters->shadows[step]);
     memcpy(counters->rays[0], counters->rays[EC_SEGMENT], sizeof counters->rays[0]);
     return EC_OK;
-}
-
-void ec_pipeline_fill_parts(ec_pipeline *p, uint32_t paths)
-{
-    for (uint32_t k = 0; k < EC_PARTS; k++) {
-        uint32_t before = k * p->params.part, left = paths > before ? paths - before : 0;
-        p->counters.rays[0][k * EC_PART_STRIDE] = left < p->params.part ? left : p->params.part;
-    }
 }
 
 ec_result ec_integrate_paths(ec_pipeline *p, uint32_t *scalars, ec_error *err)

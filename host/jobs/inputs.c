@@ -1,8 +1,13 @@
 #include "jobs/inputs.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include "jobs/outputs.h"
+bool ec_same_file(const char *a, const char *b)
+{
+    struct stat sa, sb;
+    return stat(a, &sa) == 0 && stat(b, &sb) == 0 && sa.st_dev == sb.st_dev && sa.st_ino == sb.st_ino;
+}
 
 bool ec_inputs_have(ec_inputs *inputs, const char *path)
 {

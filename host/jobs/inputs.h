@@ -17,4 +17,7 @@ typedef struct ec_inputs {
 bool ec_inputs_have(ec_inputs *inputs, const char *path);
 void ec_inputs_free(ec_inputs *inputs);
 
+/* Do two paths lead to one file that exists? */
+bool ec_same_file(const char *a, const char *b);
+
 #endif

@@ -76,12 +76,6 @@ ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t 
     return add_named(outputs, scene, ending, err);
 }
 
-bool ec_same_file(const char *a, const char *b)
-{
-    struct stat sa, sb;
-    return stat(a, &sa) == 0 && stat(b, &sb) == 0 && sa.st_dev == sb.st_dev && sa.st_ino == sb.st_ino;
-}
-
 static void folder_of(const char *path, char folder[PATH_MAX])
 {
     const char *slash = strrchr(path, '/');

@@ -41,9 +41,7 @@ ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_erro
 /* Warns where a disk has less room than the files may need; no more, since nobody knows how well they will compress. */
 void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log);
 
-/* Do two paths lead to one file that exists? */
-bool ec_same_file(const char *a, const char *b);
-/* The same, or to one that both would make? */
+/* Do two paths lead to one file that exists (ec_same_file), or that both would make? */
 bool ec_same_target(const char *a, const char *b);
 
 #endif

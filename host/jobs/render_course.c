@@ -141,17 +141,6 @@ static bool keep(void *user, const ec_film *film, const ec_past *past)
     return result == EC_OK;
 }
 
-/* What cannot be had strip by strip. */
-const char *ec_render_whole_for(const ec_render_request *r)
-{
-    if (r->adaptive == EC_ADAPTIVE_ON) return "--adaptive"; /* the allotment looks at all pixels */
-    if (r->options.error_target > 0) return "--error"; /* of the whole image */
-    if (r->options.time_limit > 0 || r->capped) return "--time";
-    if (r->resume) return "--resume";
-    if (r->checkpoint) return "--checkpoint";
-    return r->has_slice ? "--samples" : NULL;
-}
-
 /* Strips go to the files as they come. */
 static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row, const ec_render_stats *stats, ec_error *err)
 {

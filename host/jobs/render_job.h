@@ -88,9 +88,6 @@ ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err
 /* What is known of the job by now, in figures; outputs: room for the paths. Texts are the job's. */
 ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
 
-/* render_course.c: why a picture of this request has to be rendered whole; NULL: it need not */
-const char *ec_render_whole_for(const ec_render_request *request);
-
 void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */
 
 #endif

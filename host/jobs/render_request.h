@@ -61,6 +61,9 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
 /* Does anything end it: samples, time or an error? */
 bool ec_render_has_limit(const ec_render_options *options);
 
+/* Why a picture of this request has to be rendered whole, an option; NULL: it may be rendered in strips. */
+const char *ec_render_whole_for(const ec_render_request *request);
+
 /* Reads the arguments of `render`; unless *asked is EC_REQUEST_RUN nothing else is read. */
 ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, ec_request *asked, ec_error *err);
 

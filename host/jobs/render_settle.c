@@ -89,3 +89,14 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     if (!ec_render_has_limit(limits)) limits->spp = EC_DEFAULT_SPP;
     return EC_OK;
 }
+
+/* What cannot be had strip by strip. */
+const char *ec_render_whole_for(const ec_render_request *r)
+{
+    if (r->adaptive == EC_ADAPTIVE_ON) return "--adaptive"; /* the allotment looks at all pixels */
+    if (r->options.error_target > 0) return "--error"; /* of the whole image */
+    if (r->options.time_limit > 0 || r->capped) return "--time";
+    if (r->resume) return "--resume";
+    if (r->checkpoint) return "--checkpoint";
+    return r->has_slice ? "--samples" : NULL;
+}

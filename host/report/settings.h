@@ -3,7 +3,7 @@
 #define EC_REPORT_SETTINGS_H
 
 #include "pack/effects.h"
-#include "pipeline/render.h"
+#include "device/options.h"
 
 typedef enum ec_setting_kind {
     EC_SETTING_TEXT,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "device/pipeline.h"
 #include "render/render.h"
 #include "selftest/cases.h"
 #include "selftest/tracer.h"
