@@ -11,7 +11,7 @@
 #include "cli/defaults.h"
 #include "cli/scene_choice.h"
 #include "cli/setters.h"
-#include "pack/view.h"
+#include "pack/scene_view.h"
 #include "ranks/plan.h"
 #include "report/names.h"
 

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "pack/bodies.h"
-#include "pack/effects.h"
-#include "pack/view.h"
+#include "pack/called_effects.h"
+#include "pack/scene_view.h"
 #include "scene/scene.h"
 #include "shared/features.h"
 #include "shared/light_tree.h"

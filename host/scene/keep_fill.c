@@ -1,6 +1,6 @@
 /* The triangles of kept meshes, once each, and the matrices of the places where they stand. */
 #include "scene/keep.h"
-#include "scene/parts.h"
+#include "scene/node_parts.h"
 
 #include <float.h>
 #include <math.h>

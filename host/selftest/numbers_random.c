@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "selftest/numbers.h"
+#include "selftest/numbers_run.h"
 
 /* Owen-scrambled Sobol points, written as in the papers and not as in kernels/lib/sampler.h: bits are reversed one by one, and the
  * second dimension comes from its direction numbers v(k + 1) = v(k) ^ v(k) >> 1. */

@@ -1,4 +1,4 @@
-#include "pack/fold.h"
+#include "pack/texture_fold.h"
 
 #include <stddef.h>
 

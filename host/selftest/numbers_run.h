@@ -1,6 +1,6 @@
 /* Functions of numbers on the device, over arrays. Inside host/selftest only. */
-#ifndef EC_SELFTEST_NUMBERS_H
-#define EC_SELFTEST_NUMBERS_H
+#ifndef EC_SELFTEST_NUMBERS_RUN_H
+#define EC_SELFTEST_NUMBERS_RUN_H
 
 #include "base/bits.h"
 #include "base/random.h"
