@@ -85,7 +85,7 @@ static ec_result stratified(ec_selftest *t, ec_numbers_run *run, pairs *p, ec_er
     return ec_selftest_none(t, "empty boxes of Sobol points", empty, boxes, NULL, err);
 }
 
-/* Of numbers from 0 to 1, in 2^-32. */
+/* The numbers are from 0 to 1, in 2^-32. */
 static double correlation(const uint32_t *x, const uint32_t *y, uint32_t n)
 {
     double sum = 0;
