@@ -12,7 +12,7 @@ ec_binning ec_binning_of(const ec_range *range)
     return binning;
 }
 
-void ec_bins_fill(ec_bins *bins, const ec_binning *binning, const ec_prim *prims, uint32_t count)
+void ec_bins_fill(ec_bins *bins, const ec_binning *binning, const ec_build_prim *prims, uint32_t count)
 {
     for (int i = 0; i < EC_BINS; i++) {
         bins->box[i][0] = bins->box[i][1] = bins->box[i][2] = ec_box4_empty();

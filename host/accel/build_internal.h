@@ -17,10 +17,10 @@
 
 /* A triangle, or what planes have left of one, on its way down the tree; moved rather than pointed to, so that every pass
  * streams through memory. */
-typedef struct ec_prim {
+typedef struct ec_build_prim {
     ec_v4 lo; /* lane 3: the bits of the triangle's index */
     ec_v4 hi; /* lane 3: 0 */
-} ec_prim;
+} ec_build_prim;
 
 /* A node to be: prims[buffer][first .. first + count). */
 typedef struct ec_range {
@@ -72,16 +72,16 @@ static inline void ec_range_join(ec_range *range, const ec_range *part)
 }
 
 /* Reading and moving: prim.c */
-static inline ec_v4 ec_prim_lo(const ec_prim *prim)
+static inline ec_v4 ec_prim_lo(const ec_build_prim *prim)
 {
     /* Triangle indices look like denormal floats, which some processors add a hundred times slower. */
     return (ec_v4)((ec_i4)prim->lo & (ec_i4){-1, -1, -1, 0});
 }
-static inline uint32_t ec_prim_id(const ec_prim *prim) { return (uint32_t)((ec_i4)prim->lo)[3]; }
-static inline ec_prim ec_prim_of(const ec_box4 *box, uint32_t id)
+static inline uint32_t ec_prim_id(const ec_build_prim *prim) { return (uint32_t)((ec_i4)prim->lo)[3]; }
+static inline ec_build_prim ec_prim_of(const ec_box4 *box, uint32_t id)
 {
     const ec_i4 xyz = {-1, -1, -1, 0};
-    return (ec_prim){(ec_v4)(((ec_i4)box->lo & xyz) | (ec_i4){0, 0, 0, (int32_t)id}), (ec_v4)((ec_i4)box->hi & xyz)};
+    return (ec_build_prim){(ec_v4)(((ec_i4)box->lo & xyz) | (ec_i4){0, 0, 0, (int32_t)id}), (ec_v4)((ec_i4)box->hi & xyz)};
 }
 static inline ec_i4 ec_bin_of(const ec_binning *binning, ec_v4 centroid)
 {
@@ -89,19 +89,19 @@ static inline ec_i4 ec_bin_of(const ec_binning *binning, ec_v4 centroid)
 }
 
 void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, const float *swept,
-                   uint32_t swept_count, ec_prim *prims, ec_range *bounds);
-void ec_prims_bound(const ec_prim *prims, uint32_t count, ec_range *bounds);
+                   uint32_t swept_count, ec_build_prim *prims, ec_range *bounds);
+void ec_prims_bound(const ec_build_prim *prims, uint32_t count, ec_range *bounds);
 /* Numbers of the children; the places left over are shared out among them, `slack` of these to the left one. */
 void ec_range_place(const ec_range *range, uint32_t left_count, uint32_t right_count, uint32_t slack, uint32_t buffer,
                     ec_range children[2]);
 void ec_prim_vertices(const float *positions, const uint32_t *indices, uint32_t id, ec_v4 vertices[3]);
 /* Copies prims to *left or *right, which move on, in their order; bounds the sides, but for their boxes. */
-void ec_prims_partition(const ec_prim *prims, uint32_t count, const ec_binning *binning, const ec_split *split,
-                        ec_prim *left, ec_prim *right, ec_range sides[2]);
+void ec_prims_partition(const ec_build_prim *prims, uint32_t count, const ec_binning *binning, const ec_split *split,
+                        ec_build_prim *left, ec_build_prim *right, ec_range sides[2]);
 
 /* bins.c */
 ec_binning ec_binning_of(const ec_range *range);
-void ec_bins_fill(ec_bins *bins, const ec_binning *binning, const ec_prim *prims, uint32_t count);
+void ec_bins_fill(ec_bins *bins, const ec_binning *binning, const ec_build_prim *prims, uint32_t count);
 void ec_bins_merge(ec_bins *bins, const ec_bins *more);
 uint32_t ec_bins_left(const ec_bins *bins, const ec_split *split);
 /* ends: as bins->count, but of the last bins that triangles reach into. */
@@ -125,7 +125,7 @@ typedef struct ec_builder {
     const uint32_t *indices;
     const float *swept; /* 6 floats each of the first triangles: their boxes, in place of their vertices' */
     uint32_t swept_count;
-    ec_prim *prims[2];
+    ec_build_prim *prims[2];
     uint32_t *order;
     ec_box *boxes; /* NULL until triangles have been cut, unless some move */
     ec_box4 scene; /* the box of all */

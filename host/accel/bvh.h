@@ -39,7 +39,7 @@ typedef struct ec_bvh_stats {
  * deeper than 64 + log2 n, no quadratic time). */
 ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                        ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
-/* The same without cutting any. */
+/* Cuts no triangle. */
 ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                              ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
 /* Likewise; the first triangles move, and are sorted by boxes of their own, 6 floats each. boxes is never NULL then. */

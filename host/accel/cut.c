@@ -26,7 +26,7 @@ typedef struct plane {
     float area[2], count[2];
 } plane;
 
-static ec_box4 box_of(const ec_prim *prim) { return (ec_box4){ec_prim_lo(prim), prim->hi}; }
+static ec_box4 box_of(const ec_build_prim *prim) { return (ec_box4){ec_prim_lo(prim), prim->hi}; }
 
 static int is_empty(const ec_box4 *box)
 {
@@ -67,7 +67,7 @@ static void fill_parts(chunk *c, const ec_binning *binning, const ec_v4 vertices
     ec_box4_grow(&c->bins.box[last][axis], rest.lo, rest.hi);
 }
 
-static void fill_bins(const ec_builder *builder, const ec_binning *binning, const ec_prim *prims, uint32_t count, chunk *c)
+static void fill_bins(const ec_builder *builder, const ec_binning *binning, const ec_build_prim *prims, uint32_t count, chunk *c)
 {
     for (int i = 0; i < EC_BINS; i++) {
         c->bins.box[i][0] = c->bins.box[i][1] = c->bins.box[i][2] = ec_box4_empty();
@@ -90,7 +90,7 @@ static void fill_bins(const ec_builder *builder, const ec_binning *binning, cons
 
 static ec_split best_cut(const ec_builder *builder, const ec_range *range, const ec_binning *binning, chunk *chunks)
 {
-    const ec_prim *prims = builder->prims[range->buffer] + range->first;
+    const ec_build_prim *prims = builder->prims[range->buffer] + range->first;
     uint32_t chunk_count = ec_chunk_count(range);
 #pragma omp taskloop default(shared) if (chunk_count > 1)
     for (uint32_t i = 0; i < chunk_count; i++)
@@ -123,7 +123,7 @@ static plane plane_of(const ec_range *range, const ec_binning *binning, const ec
 
 /* Which sides a triangle goes to: 1 the left one, 2 the right one, 3 both, in parts. It stays whole where that costs
  * less (Stich et al., section 4.4). */
-static int sides_of(const ec_builder *builder, const plane *p, const ec_prim *prim, ec_box4 part[2])
+static int sides_of(const ec_builder *builder, const plane *p, const ec_build_prim *prim, ec_box4 part[2])
 {
     ec_box4 box = box_of(prim);
     if (box.hi[p->axis] <= p->at) return 1;
@@ -142,7 +142,7 @@ static int sides_of(const ec_builder *builder, const plane *p, const ec_prim *pr
     return both <= left && both <= right ? 3 : left <= right ? 1 : 2;
 }
 
-static void count_sides(const ec_builder *builder, const plane *p, const ec_prim *prims, uint32_t count, chunk *c)
+static void count_sides(const ec_builder *builder, const plane *p, const ec_build_prim *prims, uint32_t count, chunk *c)
 {
     ec_box4 part[2];
     c->left = c->right = 0;
@@ -153,10 +153,10 @@ static void count_sides(const ec_builder *builder, const plane *p, const ec_prim
     }
 }
 
-static void deal(const ec_builder *builder, const plane *p, const ec_prim *prims, uint32_t count, ec_prim *left,
-                 ec_prim *right, chunk *c)
+static void deal(const ec_builder *builder, const plane *p, const ec_build_prim *prims, uint32_t count, ec_build_prim *left,
+                 ec_build_prim *right, chunk *c)
 {
-    ec_prim *to[2] = {left, right};
+    ec_build_prim *to[2] = {left, right};
     for (uint32_t i = 0; i < count; i++) {
         ec_box4 part[2];
         int sides = sides_of(builder, p, &prims[i], part);
@@ -172,8 +172,8 @@ static void deal(const ec_builder *builder, const plane *p, const ec_prim *prims
 
 static int deal_all(const ec_builder *builder, const ec_range *range, const plane *p, chunk *chunks, ec_range children[2])
 {
-    const ec_prim *from = builder->prims[range->buffer] + range->first;
-    ec_prim *to = builder->prims[1 - range->buffer];
+    const ec_build_prim *from = builder->prims[range->buffer] + range->first;
+    ec_build_prim *to = builder->prims[1 - range->buffer];
     uint32_t chunk_count = ec_chunk_count(range);
 #pragma omp taskloop default(shared) if (chunk_count > 1)
     for (uint32_t i = 0; i < chunk_count; i++)

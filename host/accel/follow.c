@@ -65,7 +65,7 @@ static ec_result remember(ec_followed *f, const ec_accel_input *in, ec_error *er
     return copied ? EC_OK : ec_fail(err, "out of memory for what %u triangles were", in->triangle_count);
 }
 
-/* The same triangles of the same vertices, wherever they are. */
+/* Are the triangles made of the vertices that they were made of, wherever these are now? */
 static bool same_triangles(const struct ec_followed_input *i, const ec_accel_input *in)
 {
     return i && i->vertex_count == in->vertex_count && i->triangle_count == in->triangle_count &&

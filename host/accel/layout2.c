@@ -149,7 +149,7 @@ static ec_bvh2_node *build_large(plan *p, uint32_t *node_count)
     return nodes;
 }
 
-/* The same for any smaller tree. A root is always a node, if need be with a single child. */
+/* As above, for any smaller tree. A root is always a node, if need be with a single child. */
 static ec_bvh2_node *build_small(plan *p, uint32_t *node_count)
 {
     uint32_t count = p->bvh->ref_count;

@@ -15,7 +15,7 @@ void ec_prim_vertices(const float *positions, const uint32_t *indices, uint32_t 
 }
 
 void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t first, uint32_t count, const float *swept,
-                   uint32_t swept_count, ec_prim *prims, ec_range *bounds)
+                   uint32_t swept_count, ec_build_prim *prims, ec_range *bounds)
 {
     const ec_box4 none = ec_box4_empty(); /* below it, NaN vertices leave no mark */
     ec_range_clear(bounds);
@@ -38,7 +38,7 @@ void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t fir
     }
 }
 
-void ec_prims_bound(const ec_prim *prims, uint32_t count, ec_range *bounds)
+void ec_prims_bound(const ec_build_prim *prims, uint32_t count, ec_range *bounds)
 {
     ec_range_clear(bounds);
     for (uint32_t i = 0; i < count; i++) {
@@ -48,10 +48,10 @@ void ec_prims_bound(const ec_prim *prims, uint32_t count, ec_range *bounds)
     }
 }
 
-void ec_prims_partition(const ec_prim *prims, uint32_t count, const ec_binning *binning, const ec_split *split,
-                        ec_prim *left, ec_prim *right, ec_range sides[2])
+void ec_prims_partition(const ec_build_prim *prims, uint32_t count, const ec_binning *binning, const ec_split *split,
+                        ec_build_prim *left, ec_build_prim *right, ec_range sides[2])
 {
-    ec_prim *target[2] = {left, right};
+    ec_build_prim *target[2] = {left, right};
     for (int side = 0; side < 2; side++) ec_range_clear(&sides[side]);
     for (uint32_t i = 0; i < count; i++) {
         ec_v4 lo = ec_prim_lo(&prims[i]), hi = prims[i].hi;

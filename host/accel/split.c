@@ -9,7 +9,7 @@ typedef struct chunk {
     ec_range sides[2];
 } chunk;
 
-static ec_split bin(const ec_prim *prims, const ec_range *range, const ec_binning *binning, chunk *chunks,
+static ec_split bin(const ec_build_prim *prims, const ec_range *range, const ec_binning *binning, chunk *chunks,
                     uint32_t chunk_count)
 {
     if (chunk_count == 1) {
@@ -27,8 +27,8 @@ static ec_split bin(const ec_prim *prims, const ec_range *range, const ec_binnin
 static void deal(const ec_builder *builder, const ec_range *range, const ec_binning *binning, const ec_split *split,
                  chunk *chunks, uint32_t chunk_count, ec_range children[2])
 {
-    const ec_prim *from = builder->prims[range->buffer] + range->first;
-    ec_prim *to = builder->prims[1 - range->buffer] + range->first;
+    const ec_build_prim *from = builder->prims[range->buffer] + range->first;
+    ec_build_prim *to = builder->prims[1 - range->buffer] + range->first;
     uint32_t left = 0, right = children[1].first - range->first;
     if (chunk_count == 1) {
         ec_range sides[2];

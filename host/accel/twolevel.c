@@ -13,7 +13,7 @@
 #define OFF_BOUND 40.0 /* u |M^-1| (|o| + reach): derived in kernels/lib/traverse_twolevel.h */
 #define UNIT 0x1p-24
 
-/* Of one mesh, in its own space. */
+/* One mesh, in its own space. */
 typedef struct shape_facts {
     uint32_t root;
     double half[3];    /* largest |coordinate| */

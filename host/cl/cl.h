@@ -33,7 +33,7 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
 ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index,
                            const char **why, ec_error *err);
 
-/* The same for `all` (those that are available and have a compiler) and lists such as `0,2` or `pocl,intel`: several indices, `most` at
+/* Likewise for `all` (those that are available and have a compiler) and lists such as `0,2` or `pocl,intel`: several indices, `most` at
  * most, in the order given. */
 ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *indices, uint32_t most,
                                    uint32_t *chosen, const char **why, ec_error *err);

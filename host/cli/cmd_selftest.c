@@ -5,7 +5,7 @@
 #include "jobs/options.h"
 #include "jobs/setters.h"
 #include "cli/stop.h"
-#include "selftest/report.h"
+#include "selftest/report_print.h"
 
 typedef struct request {
     const char *device;

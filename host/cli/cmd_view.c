@@ -10,7 +10,7 @@
 #include "cli/stop.h"
 #include "cli/view_command.h"
 #include "jobs/write_report.h"
-#include "pack/view.h"
+#include "pack/scene_view.h"
 #include "report/names.h"
 #include "report/scene_report.h"
 #include "view/view.h"

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "pack/effects.h"
+#include "pack/called_effects.h"
 
 /* A buffer of the scene's data on the device. */
 typedef struct ec_scene_buffer {

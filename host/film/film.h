@@ -5,7 +5,7 @@
  * the replicates' means, and
  *     error = sqrt(mean_p SE_p^2) / mean luminance
  * error_bound is a 95 % upper confidence bound of the relative RMS difference between this image and the converged one.
- * See film/error.c for its derivation, film/interval.h for the error of single pixels. */
+ * See film/image_error.c for its derivation, film/interval.h for the error of single pixels. */
 #ifndef EC_FILM_FILM_H
 #define EC_FILM_FILM_H
 
@@ -101,14 +101,14 @@ typedef struct ec_film_error {
      * undefined, and having seen no light yet is no evidence that there is none. 0 only for a lit image whose replicates
      * all agree. Never NaN. */
     double error;
-    double error_bound;      /* 95 % upper bound; infinity when error is, and where light may be missing. Wants 4 replicates or more, see film/error.c */
+    double error_bound;      /* 95 % upper bound; infinity when error is, and where light may be missing. Wants 4 replicates or more, see film/image_error.c */
     bool is_open;            /* light that hardly any sample has met may decide: no bound, and `error` is the least that it is */
     double bound_if_met;     /* what the bound would be if no light were missing */
     double unmet;            /* the relative RMS error that there is where light that may not have been met was not (film/rare.h) */
     double unmet_samples;    /* a pixel, that it would take to expect EC_RARE_MET of those paths; 0: nothing is missing */
     double tail_share;       /* part of the noise that the EC_TAIL_FEW largest samples hold */
     char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* of the rare paths; through is empty where the camera sees the light itself */
-    double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/error.c */
+    double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/image_error.c */
     double spread;           /* standard error of ln(error^2); over 0.3 a few rare events decide */
     /* What noise alone makes of mean((x - r)^2 / (r + 0.01)^2) over pixels and channels, r the converged image: SE^2 in
      * place of (x - r)^2, x in place of r. Infinity with fewer than 2 replicates. Heavy tails make it too small: a pixel that

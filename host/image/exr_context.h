@@ -1,4 +1,4 @@
-/* Of those who read: an OpenEXRCore context that keeps its first message instead of printing it. */
+/* For those who read: an OpenEXRCore context that keeps its first message instead of printing it. */
 #ifndef EC_IMAGE_EXR_CONTEXT_H
 #define EC_IMAGE_EXR_CONTEXT_H
 

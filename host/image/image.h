@@ -28,7 +28,7 @@ typedef struct ec_attribute {
 ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const ec_channel *channels,
                        uint32_t channel_count, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err);
 
-/* The same of several parts of one size, each with a name of its own. The first is what viewers show. The file is sealed: see seal.h. */
+/* Writes several parts of one size, each with a name of its own. The first is what viewers show. The file is sealed: see seal.h. */
 typedef struct ec_exr_part {
     const char *name;
     const ec_channel *channels;
@@ -41,7 +41,7 @@ typedef struct ec_exr_part {
 ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts,
                              uint32_t part_count, ec_error *err);
 
-/* The same of rows that come one after the other, from the top; `parts` stay as they are until the end. room: bytes by which the attributes
+/* Writes rows that come one after the other, from the top; `parts` stay as they are until the end. room: bytes by which the attributes
  * of the end may be longer or shorter than those of the beginning, by blanks in an attribute eclat.room; 0: they are as long. */
 typedef struct ec_exr_rows ec_exr_rows;
 enum { EC_EXR_ROWS = 16 }; /* that are compressed together */
@@ -62,7 +62,7 @@ typedef struct ec_exr {
     float **planes;     /* owned, width * height each */
 } ec_exr;
 ec_result ec_exr_read(const char *path, ec_exr *exr, ec_error *err);
-/* Of these channels (NULL ends them; none: all) only: others are named, and their planes NULL. */
+/* Only these channels (NULL ends them; none: all): others are named, and their planes NULL. */
 ec_result ec_exr_read_some(const char *path, const char *const *wanted, ec_exr *exr, ec_error *err);
 const float *ec_exr_plane(const ec_exr *exr, const char *name); /* NULL if absent */
 void ec_exr_free(ec_exr *exr);
@@ -89,7 +89,7 @@ typedef struct ec_png_text {
     const char *keyword, *text; /* NULL: none */
 } ec_png_text;
 
-/* The same of rows that come one after the other, from the top. text: NULL is none. */
+/* Writes rows that come one after the other, from the top. text: NULL is none. */
 typedef struct ec_png_rows ec_png_rows;
 ec_result ec_png_rows_begin(ec_png_rows **rows, const char *path, uint32_t width, uint32_t height,
                             const ec_png_text *text, ec_error *err);

@@ -16,7 +16,7 @@
 static const char mark[] = "eclat: sealed by SHA-256\n";
 enum { MARK_SIZE = sizeof mark - 1, SEAL_SIZE = MARK_SIZE + SHA256_DIGEST_LENGTH, AT_ONCE = 1 << 20 };
 
-/* Of the first `size` bytes; 0 or an errno value. */
+/* The fingerprint of the first `size` bytes; 0 or an errno value. */
 static int digest_of(int fd, off_t size, uint8_t digest[SHA256_DIGEST_LENGTH])
 {
     uint8_t *bytes = malloc(AT_ONCE);

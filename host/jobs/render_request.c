@@ -11,7 +11,7 @@
 #include "jobs/defaults.h"
 #include "jobs/scene_choice.h"
 #include "jobs/setters.h"
-#include "pack/view.h"
+#include "pack/scene_view.h"
 #include "ranks/plan.h"
 #include "report/names.h"
 

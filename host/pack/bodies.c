@@ -126,7 +126,7 @@ static double largest_part(const ec_scene *scene, uint32_t material, desk *d)
     return most;
 }
 
-/* Of one of the materials. */
+/* The most triangles that one of the materials has. */
 static uint32_t most_triangles(const ec_scene *scene, const ec_bodies *bodies)
 {
     uint32_t most = 0;

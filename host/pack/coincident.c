@@ -21,7 +21,7 @@ static void swap(float *a, float *b)
     memcpy(b, old, sizeof old);
 }
 
-/* The same for every order of the corners that means the same emitter. */
+/* Equal for every order of the corners that means the same emitter. */
 static corners corners_of(const ec_prim *p, bool two_sided)
 {
     corners c;

@@ -225,7 +225,7 @@ static void look_at_material(const ec_scene *scene, uint32_t m, scan_fn *look, e
     ec_effects_add(effects, &s.found);
 }
 
-/* Of what shows. */
+/* Looks at materials that show. */
 static ec_result scan_materials(const ec_scene *scene, scan_fn *look, ec_effects *effects, ec_error *err)
 {
     bool *used = calloc(scene->material_count, sizeof *used);
@@ -266,7 +266,7 @@ static void scan_normals(const ec_scene *scene, ec_effects *effects)
     }
 }
 
-/* Of vertices that a triangle has. Alpha counts where something is left open by it. */
+/* Looks at vertices that a triangle has. Alpha counts where something is left open by it. */
 static void scan_colors(const ec_scene *scene, ec_effects *effects)
 {
     for (size_t i = 0; scene->colors && i < 3 * (size_t)scene->triangle_count; i++) {

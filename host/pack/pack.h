@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "pack/bodies.h"
-#include "pack/effects.h"
-#include "pack/view.h"
+#include "pack/called_effects.h"
+#include "pack/scene_view.h"
 #include "scene/scene.h"
 #include "shared/features.h"
 #include "shared/light_tree.h"
@@ -71,7 +71,7 @@ typedef struct ec_scene_light {
     uint32_t triangles; /* as stored */
 } ec_scene_light;
 ec_result ec_scene_find_light(const ec_scene *scene, ec_scene_light *light, ec_error *err);
-/* Of a plain scene: may light go straight on through it, somewhere: thin-walled and smooth? */
+/* For a plain scene: may light go straight on through it, somewhere: thin-walled and smooth? */
 bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m);
 /* Is there a body behind it? */
 bool ec_pack_is_body(const ec_material *m);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pack/fold.h"
+#include "pack/texture_fold.h"
 #include "pack/pack.h"
 #include "scene/texture_range.h"
 

@@ -8,7 +8,7 @@ typedef struct ec_texture_mean {
     double rgb[3]; /* linear */
 } ec_texture_mean;
 
-/* Of an sRGB texture's whole image; 1 without a texture. */
+/* The mean of an sRGB texture's whole image; 1 without a texture. */
 ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_use *use);
 
 /* Over triangle `prim`, from 64 nearest texels at stratified points. */

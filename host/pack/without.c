@@ -1,7 +1,7 @@
 /* A scene with effects switched off: what --without and `eclat cost` render. */
 #include <string.h>
 
-#include "pack/fold.h"
+#include "pack/texture_fold.h"
 #include "pack/pack.h"
 
 const uint64_t ec_effects_optional =

@@ -14,7 +14,7 @@ typedef struct ec_cube {
 
 void ec_cube_free(ec_cube *cube);
 
-/* The same picture equirectangular, oriented as ec_environment: width x height pixels, 3 floats each. A pixel is the mean of
+/* The cube as an equirectangular picture, oriented as ec_environment: width x height pixels, 3 floats each. A pixel is the mean of
  * samples x samples points of it, each interpolated bilinearly, also across the cube's edges. Any number of threads, the same bits. */
 void ec_cube_unroll(const ec_cube *cube, uint32_t width, uint32_t height, uint32_t samples, float *rgb);
 

@@ -13,7 +13,7 @@
 
 #define LARGEST_JSON (256u << 20)
 
-/* Of the folder and the name; what there is no memory for is left out. */
+/* Joins the folder and the name; what there is no memory for is left out. */
 static void add(ec_scene_files *files, const char *folder, int folder_length, const char *name)
 {
     char **more = realloc(files->paths, (files->count + 1) * sizeof *more);

@@ -1,6 +1,6 @@
 /* Flattens placed meshes into one triangle soup: positions go through double, are recentred and only then rounded. */
 #include "scene/keep.h"
-#include "scene/parts.h"
+#include "scene/node_parts.h"
 
 #include <float.h>
 #include <math.h>

@@ -38,10 +38,10 @@ ec_result ec_gltf_hide(ec_gltf *gltf, const ec_placement_list *placements, ec_sc
 /* image_light.c: the cube of EXT_lights_image_based as the scene's environment, where the file has one. */
 ec_result ec_gltf_image_light_load(const ec_gltf *gltf, ec_scene *scene, const ec_log *log, ec_error *err);
 
-/* camera.c */
+/* place_cameras.c */
 ec_result ec_gltf_cameras_place(ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
                                 ec_error *err);
-/* lights.c */
+/* place_lights.c */
 ec_result ec_gltf_lights_place(const ec_gltf *gltf, const ec_placement_list *placements, ec_scene *scene,
                                const ec_log *log, ec_error *err);
 

@@ -1,6 +1,6 @@
 /* One primitive at one place: how much of it there can be, and its triangles but for those that are none. */
 #include "scene/flatten_vertex.h"
-#include "scene/parts.h"
+#include "scene/node_parts.h"
 
 #include <float.h>
 #include <math.h>

@@ -222,7 +222,7 @@ uint32_t ec_gltf_accessor_index(const ec_gltf_accessor *accessor, uint64_t eleme
 /* gltf_primitive.c: checks a primitive's accessors and indices once; afterwards its triangles can be read freely. A
  * primitive without triangles is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
 ec_result ec_gltf_primitive_prepare(ec_gltf *gltf, ec_gltf_primitive *primitive, const char *where, ec_error *err);
-/* The same for what deforms a prepared primitive: one of its morph targets, and its joints and weights. */
+/* Likewise for what deforms a prepared primitive: one of its morph targets, and its joints and weights. */
 ec_result ec_gltf_target_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, uint32_t target, const char *where,
                                  ec_error *err);
 ec_result ec_gltf_influences_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, const char *where, ec_error *err);

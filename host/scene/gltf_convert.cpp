@@ -68,7 +68,7 @@ void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *
 
 static const double half_pi = 1.57079632679489662;
 
-/* Of what KHR_lights_punctual allows; colours over 1 do no harm, but intensities that floats
+/* Is it outside what KHR_lights_punctual allows? Colours over 1 do no harm, but intensities that floats
  * overflow by do. */
 static bool is_odd(const tinygltf::Light &light)
 {

@@ -182,7 +182,8 @@ static void pad_for_tinygltf(json &root)
                     if (camera.contains(kind)) default_member(camera[kind], member, 1);
 }
 
-/* Without what is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. */
+/* Without what is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. As text once more,
+ * because tinygltf 2 takes no parsed tree: LoadFromString is private, and what it calls is static in its source. */
 static void parse_rest(const json &root, tinygltf::Model &model)
 {
     static const std::set<std::string> done = {"accessors", "animations", "buffers", "bufferViews", "images",

@@ -95,7 +95,7 @@ inline std::string printable(std::string text)
         if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
     return text;
 }
-/* Of bytes at most so many. */
+/* At most so many bytes of a text. */
 inline std::string shortened(const std::string &text, int most)
 {
     return text.substr(0, size_t(ec_text_cut(text.c_str(), most)));

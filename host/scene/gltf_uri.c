@@ -75,7 +75,7 @@ static bool is_data_uri(const char *uri)
     return !strncasecmp(uri, "data:", 5);
 }
 
-/* Of what a scene may do without, this machine's lack is not the file's fault. */
+/* For what a scene may do without, this machine's lack is not the file's fault. */
 static ec_result out_of_memory(const char *where, uint64_t bytes, ec_error *err)
 {
     ec_fail(err, "%s: out of memory for %llu bytes", where, (unsigned long long)bytes);

@@ -21,7 +21,7 @@ static bool emits_or_transmits(const ec_gltf *g, int32_t mesh, const ec_scene *s
     return false;
 }
 
-/* Of the triangles whose corners are all numbers. */
+/* The extent of the triangles whose corners are all numbers. */
 static void span_mesh(const ec_gltf *g, ec_kept_mesh *m)
 {
     for (int k = 0; k < 3; k++) {

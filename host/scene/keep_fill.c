@@ -1,6 +1,6 @@
 /* The triangles of kept meshes, once each, and the matrices of the places where they stand. */
 #include "scene/keep.h"
-#include "scene/parts.h"
+#include "scene/node_parts.h"
 
 #include <float.h>
 #include <math.h>
@@ -88,7 +88,7 @@ static bool may_grow(const ec_kept_mesh *m, const ec_placement *at, const double
     return false;
 }
 
-/* The same values as for written-out triangles, so that the centre and cameras that frame the scene are the same. */
+/* Values as for written-out triangles, so that the centre and cameras that frame the scene are the same. */
 static void measure_place(const points *p, const ec_placement *at, double low[3], double high[3])
 {
     const double *m = at->linear;

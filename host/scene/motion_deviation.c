@@ -4,7 +4,7 @@
 
 #include "scene/motion_numbers.h"
 
-/* Of the first `count` numbers at all moments, from what the nearest keys on both sides say. Not a number counts as none. */
+/* How far the first `count` numbers are off at all moments, from what the nearest keys on both sides say. Not a number counts as none. */
 static double distance_of(const ec_tracks *t, numbers_at *at, uint32_t thing, int count)
 {
     const uint32_t stride = EC_MOMENTS / t->segments;

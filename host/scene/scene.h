@@ -33,7 +33,7 @@ typedef struct ec_texture {
     bool nearest;         /* magnification filter NEAREST; otherwise bilinear */
 } ec_texture;
 
-/* Of texture coordinates and of what transforms them: their products are floats. Beyond 2^24 a texture shows one texel anyway. */
+/* The largest texture coordinate, and factor of its transform: their products are floats. Beyond 2^24 a texture shows one texel anyway. */
 #define EC_UV_MOST 1e18f
 
 /* Use of a texture by a material; texture < 0 means none. */
@@ -191,7 +191,7 @@ typedef struct ec_scene {
     uint32_t default_camera;
     ec_environment environment;
     bool has_environment;         /* false: black outside */
-    /* Of views that leave effects out (pack/without.c): shadow rays end at panes; bodies know nothing of each other. */
+    /* In views that leave effects out (pack/without.c) shadow rays end at panes; bodies know nothing of each other. */
     bool solid_shadows, bodies_apart;
     double center[3];             /* what was subtracted from world coordinates */
     float bounds_min[3], bounds_max[3]; /* recentred */
@@ -264,7 +264,7 @@ static inline uint64_t ec_scene_met_count(const ec_scene *s)
 /* Its node, by a triangle's id; -1: not known. */
 int64_t ec_scene_node_of(const ec_scene *s, uint32_t id);
 
-/* The same scene with every instance written out, to the last bit: for what knows triangles only. What it shares with `scene` stays
+/* The scene with every instance written out, to the last bit: for what knows triangles only. What it shares with `scene` stays
  * that one's: ec_scene_written_free. Fails where this machine has no memory for it. */
 ec_result ec_scene_write_out(const ec_scene *scene, ec_scene *written, ec_error *err);
 void ec_scene_written_free(ec_scene *written);

@@ -4,7 +4,7 @@
 
 #define LANES 32 /* values side by side: compilers make a few instructions of them; a multiple of the channels */
 
-/* Of `count` values, those of lane k in low[k] and high[k]. */
+/* The range of `count` values: that of lane k in low[k] and high[k]. */
 #define FIND(type, name)                                                                           \
     static void name(const type *values, size_t count, type low[LANES], type high[LANES])          \
     {                                                                                              \

@@ -7,7 +7,7 @@
 /* Looks for the least and largest values of all channels, and notes them in the image: for pixels that stay as they are. */
 void ec_image_find_range(ec_image *image);
 
-/* Of one channel, as stored. An image without pixels has 0 and 0. */
+/* The range of one channel, as stored. An image without pixels has 0 and 0. */
 void ec_image_range(const ec_image *image, int channel, uint32_t *least, uint32_t *most);
 
 /* Least and largest value of a channel as it is stored, 0 to 1; 1 without a texture. */

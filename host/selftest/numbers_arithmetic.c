@@ -1,7 +1,7 @@
 /* What the renderer takes for granted of a device's floats. */
 #include <math.h>
 
-#include "selftest/numbers.h"
+#include "selftest/numbers_run.h"
 
 static const double u = 0x1p-24;
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "selftest/numbers.h"
+#include "selftest/numbers_run.h"
 
 static const double u = 0x1p-24, pi = 3.14159265358979323846;
 

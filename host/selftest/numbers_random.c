@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "selftest/numbers.h"
+#include "selftest/numbers_run.h"
 
 /* Owen-scrambled Sobol points, written as in the papers and not as in kernels/lib/sampler.h: bits are reversed one by one, and the
  * second dimension comes from its direction numbers v(k + 1) = v(k) ^ v(k) >> 1. */
@@ -85,7 +85,7 @@ static ec_result stratified(ec_selftest *t, ec_numbers_run *run, pairs *p, ec_er
     return ec_selftest_none(t, "empty boxes of Sobol points", empty, boxes, NULL, err);
 }
 
-/* Of numbers from 0 to 1, in 2^-32. */
+/* The numbers are from 0 to 1, in 2^-32. */
 static double correlation(const uint32_t *x, const uint32_t *y, uint32_t n)
 {
     double sum = 0;

@@ -52,7 +52,7 @@ void ec_scatter_put_direction(ec_scatter_run *run, int field, uint32_t i, double
 void ec_scatter_given3(const ec_scatter_run *run, int field, uint32_t i, double w[3]);
 void ec_scatter_got3(const ec_scatter_run *run, int field, uint32_t i, double w[3]);
 
-/* The same in double. GGX's density of normals and its masking cos sqrt(1 + alpha^2 tan^2); the density of wi sampled by visible
+/* In double: GGX's density of normals and its masking cos sqrt(1 + alpha^2 tan^2); the density of wi sampled by visible
  * normals of a reflecting surface; Fresnel's unpolarised reflectance. */
 double ec_exact_ggx(double alpha, const double h[3]);
 double ec_exact_masking(double alpha, double cosine);

@@ -37,7 +37,7 @@ void ec_tracer_ray(ec_tracer *tracer, uint32_t i, const float o[3], const float 
 void ec_tracer_given(const ec_tracer *tracer, uint32_t i, float o[3], float d[3]);
 /* The first `count` paths: their closest hits. */
 ec_result ec_tracer_trace(ec_tracer *tracer, uint32_t accel, uint32_t count, ec_error *err);
-/* The same by accelerators in turn: for (uint32_t a = 0; ec_tracer_next(r, &a, count, &result, err); a++), which steps over those that
+/* Traces by accelerators in turn: for (uint32_t a = 0; ec_tracer_next(r, &a, count, &result, err); a++), which steps over those that
  * are not built, and ends where *result is no longer EC_OK. */
 bool ec_tracer_next(ec_tracer *tracer, uint32_t *accel, uint32_t count, ec_result *result, ec_error *err);
 /* Gives paths that leave the hits in their directions their origins. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "pack/effects.h"
+#include "pack/called_effects.h"
 #include "view/block.h"
 #include "view/keys.h"
 

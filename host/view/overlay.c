@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "pack/effects.h"
+#include "pack/called_effects.h"
 #include "report/format.h"
 #include "report/names.h"
 #include "view/block.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "film/resolve.h"
-#include "pack/effects.h"
+#include "pack/called_effects.h"
 #include "view/renderer.h"
 #include "view/slice.h"
 

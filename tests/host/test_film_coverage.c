@@ -1,6 +1,6 @@
 /* tiers: quick, full */
 /* Is the 95 % bound a 95 % bound? Films of synthetic pixels whose true mean is known are filled over and over; the real
- * error must lie under the bound about as often as claimed: not less, and not always either. See host/film/error.c.
+ * error must lie under the bound about as often as claimed: not less, and not always either. See host/film/image_error.c.
  *
  * It aims at 99 %, so as to hold in 95 whatever the noise. What may be asserted differs. Light tails: at least 96 %. Skewed samples
  * and fireflies: at least 95 %, and 100 % is no fault

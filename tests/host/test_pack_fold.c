@@ -3,7 +3,7 @@
  * specifications' words: which channel multiplies what, and which slots are sRGB. */
 #include <stddef.h>
 
-#include "pack/fold.h"
+#include "pack/texture_fold.h"
 #include "support/test.h"
 
 #define AT(field) offsetof(ec_material, field)

@@ -40,7 +40,7 @@ static bool wants_tree_of(int side, double size, double gap, double sky)
 
 static bool wants_tree(double gap, double sky) { return wants_tree_of(SIDE, 0.01, gap, sky); }
 
-/* Half of all samples go to the sky, as by power (lights.c); densities of lamps are those of the one that the tree will have chosen. */
+/* Half of all samples go to the sky, as by power (light_table.c); densities of lamps are those of the one that the tree will have chosen. */
 static void the_sky_keeps_its_half(void)
 {
     ec_error err = {0};

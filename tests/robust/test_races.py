@@ -68,8 +68,8 @@ class Races(unittest.TestCase):
 
     def test_loading(self):
         self.check("race_load", "12 of 16 pictures by 4 threads, 4 warnings, densities as by one thread", "scene/textures.c", "scene/texture_range.c",
-                   "scene/image_decode.c", "scene/image_png.c", "scene/image_jpeg.c", "scene/codecs/no_webp.c", "scene/gltf_uri.c",
-                   "pack/environment.c", "pack/distribution.c", libraries=["-lpng", "-ljpeg"])
+                   "scene/image_decode.c", "scene/image_check.c", "scene/image_png.c", "scene/image_jpeg.c", "scene/codecs/no_webp.c", "scene/gltf_uri.c",
+                   "pack/environment_map.c", "pack/distribution.c", libraries=["-lpng", "-ljpeg"])
 
     def test_teams(self):
         self.check("race_team", "57 batches of 5 sources, 0 wrong, 2 warnings, all samples once", *TEAM)

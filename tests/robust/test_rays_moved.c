@@ -1,5 +1,5 @@
 /* tier: full */
-/* The same room in other sizes, places and orientations: the same hits and the same picture. No epsilon in it may have a unit. */
+/* A room in other sizes, places and orientations has the same hits and the same picture. No epsilon in it may have a unit. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

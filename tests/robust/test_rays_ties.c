@@ -140,7 +140,7 @@ static void put_crossing_rays(ec_tracer *r, uint64_t *random)
     }
 }
 
-/* Of what is equally near the least id must win, in every accelerator: then turning the list round cannot move the hit, and among
+/* The least id of what is equally near must win, in every accelerator: then turning the list round cannot move the hit, and among
  * equal triangles the first wins in one order and the last in the other. */
 static ec_result ties_case(ec_selftest *t, ec_error *err)
 {

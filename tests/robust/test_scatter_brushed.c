@@ -58,7 +58,7 @@ static ec_result closed_forms(ec_selftest *t, ec_scatter_run *run, ec_error *err
     return ec_selftest_largest(t, "masking", masking.value, 9 * EC_U, masking.note, err);
 }
 
-/* Of white metal, panes and glass from either side every sample carries at most what comes, as of round lobes. Metal's are as dense as Heitz
+/* From white metal, and from panes and glass from either side, every sample carries at most what comes, as of round lobes. Metal's are as dense as Heitz
  * 2018 has them. */
 static ec_result samples(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {

@@ -75,7 +75,7 @@ static ec_result albedo_row(ec_selftest *t, ec_scatter_run *run, const char *wha
     return ec_selftest_value(t, what, expected, mean, noise, 4 * noise + 1e-4, err);
 }
 
-/* Of white light no more than all is kept, and 1 % less at the least. */
+/* No more of white light than all is kept, and 1 % less at the least. */
 static ec_result kept_row(ec_selftest *t, ec_scatter_run *run, const char *what, const ec_scatter_material *m,
                           double cosine, ec_error *err)
 {

@@ -8,7 +8,7 @@ static void cross(const double *a, const double *b, double *c)
     for (int k = 0; k < 3; k++) c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Of size 1, a tenth of them slivers down to 1 : 10^5, half of them up to 10^4 sizes from the origin. */
+/* Triangles of size 1, a tenth of them slivers down to 1 : 10^5, half of them up to 10^4 sizes from the origin. */
 static void draw_triangle(uint64_t *random, double v[3][3])
 {
     double at[3], far = ec_random_unit(random) < 0.5 ? 0 : ec_draw_log(random, 1, 1e4);

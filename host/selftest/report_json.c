@@ -1,6 +1,6 @@
 #include "report/device_report.h"
 #include "report/json.h"
-#include "selftest/report.h"
+#include "selftest/report_print.h"
 
 static cJSON *row_json(const ec_selftest_row *row)
 {

@@ -1,6 +1,6 @@
 /* Which nodes triangles are of. Inside host/scene/ only; what is made of it is ec_scene.parts. */
-#ifndef EC_SCENE_PARTS_H
-#define EC_SCENE_PARTS_H
+#ifndef EC_SCENE_NODE_PARTS_H
+#define EC_SCENE_NODE_PARTS_H
 
 #include "scene/gltf.h"
 

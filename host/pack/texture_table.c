@@ -43,7 +43,7 @@ static void write_image(const ec_image *image, const float *linear, uint32_t *wo
     else memcpy(words, image->rgba8, 4 * image_texels(image)); /* little-endian words: R lowest */
 }
 
-/* Of materials that triangles show, through slots that the plain view has left. */
+/* Used are textures of materials that triangles show, through slots that the plain view has left. */
 static void find_used(const ec_scene *scene, bool *used)
 {
     for (uint32_t m = 0; m < scene->material_count; m++)

@@ -1,4 +1,4 @@
-#include "scene/parts.h"
+#include "scene/node_parts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Functions of numbers on the device, over arrays. Inside host/selftest only. */
-#ifndef EC_SELFTEST_NUMBERS_H
-#define EC_SELFTEST_NUMBERS_H
+#ifndef EC_SELFTEST_NUMBERS_RUN_H
+#define EC_SELFTEST_NUMBERS_RUN_H
 
 #include "base/bits.h"
 #include "base/random.h"
@@ -22,7 +22,7 @@ ec_result ec_numbers_go(ec_selftest *t, ec_numbers_run *run, uint32_t function, 
 ec_result ec_numbers_random(ec_selftest *t, ec_numbers_run *run, uint32_t seed, const uint32_t *pixel,
                             const uint32_t *index, uint32_t pair, uint32_t *pairs, ec_error *err);
 
-/* Of any size that leaves products, quotients and what rounding takes from them normal. */
+/* A float of any size that leaves products, quotients and what rounding takes from them normal. */
 static inline float ec_any_float(uint64_t *random)
 {
     uint32_t bits = (uint32_t)ec_random_bits(random);

@@ -1,4 +1,4 @@
-#include "pack/effects.h"
+#include "pack/called_effects.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Textures put into the factors that they multiply. */
-#ifndef EC_PACK_FOLD_H
-#define EC_PACK_FOLD_H
+#ifndef EC_PACK_TEXTURE_FOLD_H
+#define EC_PACK_TEXTURE_FOLD_H
 
 #include "scene/scene.h"
 

@@ -1,4 +1,4 @@
-#include "pack/view.h"
+#include "pack/scene_view.h"
 
 #include <stdlib.h>
 #include <string.h>

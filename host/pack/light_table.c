@@ -139,7 +139,7 @@ static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
     return result;
 }
 
-/* Of triangles that move, the area goes with the time: their densities lack it. */
+/* The area of a triangle that moves goes with the time: its density lacks it. */
 static void mark_moving(const ec_scene *scene, ec_pack *pack, light_list *list)
 {
     const uint32_t moving = scene->motion.segments ? scene->motion.triangle_count : 0;

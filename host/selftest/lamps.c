@@ -17,7 +17,7 @@ static double corner_factor(double a, double b, double h)
     return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * pi);
 }
 
-/* The same to a rectangle that stands on the element's plane at distance d, its corner nearest: `high` up, `wide` along (C-14). */
+/* Form factor to a rectangle that stands on the element's plane at distance d, its corner nearest: `high` up, `wide` along (C-14). */
 static double wall_factor(double high, double wide, double d)
 {
     return (atan(wide / d) - d / hypot(high, d) * atan(wide / hypot(high, d))) / (2 * pi);

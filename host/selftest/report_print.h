@@ -1,6 +1,6 @@
 /* What a self-test found, as a table and as JSON. */
-#ifndef EC_SELFTEST_REPORT_H
-#define EC_SELFTEST_REPORT_H
+#ifndef EC_SELFTEST_REPORT_PRINT_H
+#define EC_SELFTEST_REPORT_PRINT_H
 
 #include <stdio.h>
 

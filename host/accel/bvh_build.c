@@ -23,7 +23,7 @@ static void fail(ec_builder *builder)
 
 static void fill_leaf(const ec_builder *builder, const ec_range *range, uint32_t first)
 {
-    const ec_prim *prims = builder->prims[range->buffer] + range->first;
+    const ec_build_prim *prims = builder->prims[range->buffer] + range->first;
     for (uint32_t i = 0; i < range->count; i++) builder->order[first + i] = ec_prim_id(&prims[i]);
     for (uint32_t i = 0; builder->boxes && i < range->count; i++) {
         memcpy(builder->boxes[first + i].lo, &prims[i].lo, sizeof builder->boxes->lo);
@@ -152,7 +152,7 @@ static ec_branch *build_pieces(ec_builder *builder, uint32_t count, bool cut, in
     /* Memory for parts that nobody cuts is never touched. */
     uint32_t spare = cut && count < REFS_MAX ? REFS_MAX - count : 0, share = (uint32_t)(count * PARTS_SHARE);
     uint32_t capacity = count + (share < spare ? share : spare);
-    for (int i = 0; i < 2; i++) builder->prims[i] = ec_allocate_lines(capacity, sizeof(ec_prim));
+    for (int i = 0; i < 2; i++) builder->prims[i] = ec_allocate_lines(capacity, sizeof(ec_build_prim));
     if (builder->prims[0] && builder->prims[1]) {
 #pragma omp parallel num_threads(team)
 #pragma omp single

@@ -3,8 +3,8 @@
  *     ec_effects_call(effects, EC_FEATURE_SHEEN, "material %u has sheen", index);
  *
  * All reports read it from here. */
-#ifndef EC_PACK_EFFECTS_H
-#define EC_PACK_EFFECTS_H
+#ifndef EC_PACK_CALLED_EFFECTS_H
+#define EC_PACK_CALLED_EFFECTS_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "report/format.h"
-#include "selftest/report.h"
+#include "selftest/report_print.h"
 
 static void print_row(const ec_selftest_row *row, int width, FILE *to)
 {

@@ -1,4 +1,4 @@
-#include "selftest/numbers.h"
+#include "selftest/numbers_run.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* A scene with materials and lights of its own. It shares all else with the scene it was made of, and is valid as long as that is. */
-#ifndef EC_PACK_VIEW_H
-#define EC_PACK_VIEW_H
+#ifndef EC_PACK_SCENE_VIEW_H
+#define EC_PACK_SCENE_VIEW_H
 
 #include "scene/scene.h"
 

@@ -1,4 +1,4 @@
-#include "pack/fold.h"
+#include "pack/texture_fold.h"
 
 #include <stddef.h>
 
@@ -89,7 +89,7 @@ static double mean_of(const ec_image *image, int slot, int channel)
     return sum / (double)count;
 }
 
-/* Of channels before `end`. */
+/* Takes channels before `end`. */
 static void multiply_means(const ec_scene *scene, ec_material *m, int slot, int end)
 {
     const ec_texture_use *use = &m->textures[slot];
