@@ -2,7 +2,7 @@
 #ifndef EC_REPORT_SETTINGS_H
 #define EC_REPORT_SETTINGS_H
 
-#include "pack/effects.h"
+#include "pack/called_effects.h"
 #include "device/options.h"
 
 typedef enum ec_setting_kind {
