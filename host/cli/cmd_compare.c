@@ -28,7 +28,11 @@ SETTER(diff)
     return EC_OK;
 }
 
-static const ec_option options[] = {{"diff", 0, true, set_diff}, {"json", 0, false, set_json}, {"quiet", 'q', false, set_quiet}};
+static const ec_option options[] = {
+    {.name = "diff", .metavar = "FILE", .set = set_diff},
+    {.name = "json", .set = set_json},
+    {.name = "quiet", .letter = 'q', .set = set_quiet},
+};
 
 static ec_result take_operands(int argc, char **argv, int first, compare_request *request, ec_error *err)
 {

@@ -16,7 +16,7 @@ static ec_result set_json(void *target, const char *option, const char *value, e
 
 ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
-    static const ec_option options[] = {{"json", 0, false, set_json}};
+    static const ec_option options[] = {{.name = "json", .set = set_json}};
     bool json = false;
     int first = 0;
     ec_request asked;

@@ -31,21 +31,22 @@ SETTER(accel)
     return EC_OK;
 }
 
-/* Of `render`, those that have a say in what is built for a scene. */
-static const char *const of_render[] = {
-    "animation", "at", "device", "effects", "env", "env-rotate", "env-strength", "filter", "filter-width", "focus",
-    "fstop", "instancing", "integrator", "json", "light-choice", "quiet", "sample", "sampler", "scattering", "scene",
-    "shutter", "terminator", "variant", "without"};
+int ec_info_rows(ec_option *rows)
+{
+    int count = ec_render_rows_for(EC_OPTION_INFO, rows);
+    for (int i = 0; i < count; i++) {
+        if (!strcmp(rows[i].name, "accel")) rows[i].set = set_accel;
+        if (!strcmp(rows[i].name, "grid-density")) rows[i].set = set_grid_density;
+    }
+    return count;
+}
 
 static ec_result parse(int argc, char **argv, info_request *request, bool *done, ec_error *err)
 {
-    ec_option rows[EC_OPTIONS_MAX] = {{"accel", 0, true, set_accel}, {"grid-density", 0, true, set_grid_density}};
+    ec_option rows[EC_OPTIONS_MAX];
     bool given[EC_OPTIONS_MAX] = {false};
-    int count = 2, first = 0;
+    int count = ec_info_rows(rows), first = 0;
     ec_request asked;
-    for (int i = 0; i < ec_render_row_count; i++)
-        for (size_t k = 0; k < sizeof of_render / sizeof *of_render; k++)
-            if (!strcmp(ec_render_rows[i].name, of_render[k])) rows[count++] = ec_render_rows[i];
     ec_render_request_start(&request->render);
     EC_TRY(ec_options_parse(rows, count, request, argc, argv, &first, given, &asked, err));
     *done = ec_request_serve(asked, argv[0]);

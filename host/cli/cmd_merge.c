@@ -33,9 +33,14 @@ SETTER(output)
     return ec_outputs_add(&REQUEST->outputs, value, err);
 }
 
-static const ec_option options[] = {{"exposure", 0, true, set_exposure}, {"json", 0, false, set_json},
-                                    {"output", 'o', true, set_output},   {"partial", 0, false, set_partial},
-                                    {"quiet", 'q', false, set_quiet},    {"tonemap", 0, true, set_tonemap}};
+static const ec_option options[] = {
+    {.name = "exposure", .metavar = "EV", .set = set_exposure},
+    {.name = "json", .set = set_json},
+    {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output},
+    {.name = "partial", .set = set_partial},
+    {.name = "quiet", .letter = 'q', .set = set_quiet},
+    {.name = "tonemap", .metavar = "CURVE", .set = set_tonemap},
+};
 
 static ec_result check_request(const merge_request *request, ec_error *err)
 {

@@ -29,8 +29,12 @@ SETTER(only)
 }
 
 static const ec_option options[] = {
-    {"device", 0, true, set_device}, {"full", 0, false, set_full}, {"json", 0, false, set_json},
-    {"lanes", 0, true, set_lanes},   {"only", 0, true, set_only},  {"quiet", 'q', false, set_quiet},
+    {.name = "device", .metavar = "ID", .set = set_device},
+    {.name = "full", .set = set_full},
+    {.name = "json", .set = set_json},
+    {.name = "lanes", .metavar = "N", .set = set_lanes},
+    {.name = "only", .metavar = "NAME", .set = set_only},
+    {.name = "quiet", .letter = 'q', .set = set_quiet},
 };
 
 static bool show(void *user, const char *name, uint32_t done, uint32_t count)
