@@ -31,7 +31,13 @@ ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err);
 
 /* Their options, those borrowed from `render` included; return the number. */
+int ec_compare_rows(ec_option *rows);
+int ec_devices_rows(ec_option *rows);
+int ec_help_command_rows(ec_option *rows);
 int ec_info_rows(ec_option *rows);
+int ec_merge_rows(ec_option *rows);
+int ec_render_command_rows(ec_option *rows);
+int ec_selftest_rows(ec_option *rows);
 int ec_view_rows(ec_option *rows);
 
 /* Prints `eclat VERSION` or a command's help ("" for the program's own) to stdout. */

@@ -20,23 +20,43 @@ typedef struct info_request {
 
 RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
+#define NAME(name, lanes, summary) #name,
+static const char *const accel_choices[] = {"all", EC_ACCELS(NAME) NULL};
+
 SETTER(accel)
 {
-    static const char all[] = "all";
-    const char *names[EC_ACCEL_COUNT + 2] = {all};
     uint32_t index = 0;
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) names[a + 1] = ec_accels[a].name;
-    EC_TRY(ec_parse_choice(option, value, names, &index, err));
-    REQUEST->accel = names[index];
+    EC_TRY(ec_parse_choice(option, value, accel_choices, &index, err));
+    REQUEST->accel = accel_choices[index];
     return EC_OK;
+}
+
+/* What these do here is not what they do in `render`. */
+static const ec_option own[] = {
+    {.name = "accel", .set = set_accel,
+     .help = "also build this acceleration structure (bvh2, bvh8, grid, kdtree, none, twolevel, or all), trace rays through it, and report what both cost"},
+    {.name = "device", .help = "OpenCL device that traces the rays", .otherwise = "as for eclat render"},
+    {.name = "grid-density", .set = set_grid_density, .help = "cells per reference with --accel grid or all, as for eclat render", .otherwise = "27"},
+    {.name = "json", .help = "print one JSON object instead of text"},
+    {.name = "quiet", .help = "print no notes, only the result, warnings and errors"},
+};
+
+static void make_own(ec_option *row, const ec_option *mine)
+{
+    row->group = EC_GROUP_OPTIONS;
+    row->uses &= ~(uint32_t)EC_OPTION_BORROWED;
+    row->help = mine->help;
+    row->otherwise = mine->otherwise;
+    if (mine->set) row->set = mine->set;
+    if (mine->set == set_accel) row->choices = accel_choices;
 }
 
 int ec_info_rows(ec_option *rows)
 {
     int count = ec_render_rows_for(EC_OPTION_INFO, rows);
     for (int i = 0; i < count; i++) {
-        if (!strcmp(rows[i].name, "accel")) rows[i].set = set_accel;
-        if (!strcmp(rows[i].name, "grid-density")) rows[i].set = set_grid_density;
+        const ec_option *mine = ec_options_find(own, sizeof own / sizeof own[0], rows[i].name);
+        if (mine) make_own(&rows[i], mine);
     }
     return count;
 }

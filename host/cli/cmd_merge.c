@@ -34,13 +34,21 @@ SETTER(output)
 }
 
 static const ec_option options[] = {
-    {.name = "exposure", .metavar = "EV", .set = set_exposure},
-    {.name = "json", .set = set_json},
-    {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output},
-    {.name = "partial", .set = set_partial},
-    {.name = "quiet", .letter = 'q', .set = set_quiet},
-    {.name = "tonemap", .metavar = "CURVE", .set = set_tonemap},
+    {.name = "exposure", .metavar = "EV", .set = set_exposure, .help = "brighten the PNG by this many stops", .otherwise = "0"},
+    {.name = "json", .set = set_json, .help = "print one JSON object instead of text"},
+    {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output, .uses = EC_OPTION_REPEATS,
+     .help = "write FILE, an .exr (all data, sums included, so that it can be merged again) or a .png; may be repeated"},
+    {.name = "partial", .set = set_partial, .help = "write the picture even if samples are missing"},
+    {.name = "quiet", .letter = 'q', .set = set_quiet, .help = "print only warnings and errors"},
+    {.name = "tonemap", .metavar = "CURVE", .set = set_tonemap, .choices = ec_tonemap_names,
+     .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
 };
+
+int ec_merge_rows(ec_option *rows)
+{
+    memcpy(rows, options, sizeof options);
+    return sizeof options / sizeof options[0];
+}
 
 static ec_result check_request(const merge_request *request, ec_error *err)
 {

@@ -15,7 +15,7 @@
 #include "report/scene_report.h"
 #include "view/view.h"
 
-#define VIEW_HEIGHT 600 /* pixels */
+#define VIEW_HEIGHT 600
 
 typedef struct view_job {
     ec_render_request render; /* first: the setters of its options are used */
@@ -54,16 +54,29 @@ static ec_result set_and_keep(void *target, const char *option, const char *valu
     return EC_OK;
 }
 
+static const ec_option own[] = {
+    {.name = "against", .metavar = "FILE.exr", .set = set_against, .help = "picture to compare with the rendered one (V and Tab)"},
+    {.name = "script", .metavar = "FILE", .set = set_script,
+     .help = "move the camera and press keys as a script says, then close; the script orbit turns once around. Lines: turn YAW PITCH SECONDS (degrees), "
+             "pan RIGHT UP SECONDS (picture heights), dolly FACTOR SECONDS, wait SECONDS, settle (until the limit is met), key NAME (e, E, 1, Tab, Save, ...; "
+             "after X digits switch effects), quit. 0 SECONDS means at once"},
+    {.name = "stats", .set = set_stats, .help = "report at the end when there was first light, and how long frames took while the camera moved"},
+};
+
 int ec_view_rows(ec_option *rows)
 {
     int count = 0;
-    rows[count++] = (ec_option){.name = "against", .metavar = "FILE.exr", .set = set_against};
-    rows[count++] = (ec_option){.name = "script", .metavar = "FILE", .set = set_script};
-    rows[count++] = (ec_option){.name = "stats", .set = set_stats};
+    for (; count < (int)(sizeof own / sizeof own[0]); count++) rows[count] = own[count];
     for (int i = 0; i < ec_render_row_count && count < EC_OPTIONS_MAX; i++) {
         rows[count] = ec_render_rows[i];
+        rows[count].uses |= EC_OPTION_BORROWED;
         rows[count++].set = ec_render_rows[i].not_in_window ? refuse : set_and_keep;
     }
+    ec_option *size = &rows[ec_options_find(rows, count, "size") - rows];
+    size->group = EC_GROUP_OPTIONS;
+    size->uses &= ~(uint32_t)EC_OPTION_BORROWED;
+    size->help = "size of the window when it opens, in pixels";
+    size->otherwise = EC_TEXT(VIEW_HEIGHT) " high";
     return count;
 }
 

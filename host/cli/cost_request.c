@@ -27,12 +27,20 @@ SETTER(output)
 }
 
 static const ec_option own[] = {
-    {.name = "budget", .metavar = "S", .set = set_budget},
-    {.name = "json", .metavar = "FILE", .set = set_json},
-    {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output},
-    {.name = "reference", .metavar = "FILE", .set = set_reference},
-    {.name = "seed", .metavar = "N", .set = set_seed},
-    {.name = "size", .metavar = "WxH", .set = ec_set_size},
+    {.name = "budget", .metavar = "S", .set = set_budget, .group = EC_GROUP_STUDY,
+     .help = "time for the whole study, the reference included; 40s, 2m and 1h are understood too. A kernel that is being compiled when the time is up is "
+             "finished. Compiled kernels are kept for the next study",
+     .otherwise = "2m"},
+    {.name = "json", .metavar = "FILE", .set = set_json, .group = EC_GROUP_RESULTS, .help = "write every figure to FILE; - prints them instead of the table"},
+    {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output, .group = EC_GROUP_RESULTS,
+     .help = "write FILE.html, one page with charts, tables and pictures that opens without a network"},
+    {.name = "quiet", .letter = 'q', .set = ec_set_quiet, .group = EC_GROUP_MESSAGES, .help = "print only warnings and errors"},
+    {.name = "reference", .metavar = "FILE", .set = set_reference, .group = EC_GROUP_STUDY,
+     .help = "compare with this .exr; its standard errors, if it has any, count as its uncertainty",
+     .otherwise = "a picture rendered first, for a third of the budget"},
+    {.name = "seed", .metavar = "N", .set = set_seed, .group = EC_GROUP_STUDY, .help = "another N gives another, independent study", .otherwise = "0"},
+    {.name = "size", .metavar = "WxH", .set = ec_set_size, .group = EC_GROUP_PICTURE, .help = "width and height in pixels",
+     .otherwise = "the reference's; else " EC_TEXT(EC_COST_HEIGHT) " high, and as wide as the camera's aspect ratio requires"},
 };
 
 int ec_cost_rows(ec_option *rows)

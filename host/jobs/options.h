@@ -24,6 +24,7 @@ typedef enum ec_option_group {
     EC_GROUP_TRANSPORT,
     EC_GROUP_DEVICE,
     EC_GROUP_MEASURE,
+    EC_GROUP_RESULTS,
     EC_GROUP_MESSAGES,
     EC_GROUP_COUNT
 } ec_option_group;
@@ -39,6 +40,7 @@ enum {
     EC_OPTION_COMMAND_LINE = 1 << 6, /* the library has a function for it, or no need */
     EC_OPTION_PART = 1 << 7,         /* renders something other than one whole picture: does not go with --plan */
     EC_OPTION_REPEATS = 1 << 8,      /* every value counts, not the last one alone */
+    EC_OPTION_BORROWED = 1 << 9,     /* a copy of render's in another command: help lists it briefly */
 };
 
 typedef struct ec_option {

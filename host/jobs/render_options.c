@@ -18,7 +18,7 @@
 const ec_option ec_render_rows[] = {
     /* Scene */
     {.name = "animation", .metavar = "NAME|INDEX", .set = ec_set_animation, .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
-     .help = "animation that --at, --shutter and --frames refer to; all for all of them at once", .otherwise = "the first"},
+     .help = "animation to play, or all, which plays all of them at once", .otherwise = "the first"},
     {.name = "at", .metavar = "SECONDS", .set = ec_set_at, .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "show the animation at this time; before its first keyframe and after its last one the scene stands still",
      .otherwise = "the scene as stored"},
@@ -101,7 +101,7 @@ const ec_option ec_render_rows[] = {
 
     /* Resume and distribute */
     {.name = "checkpoint", .metavar = "FILE", .set = ec_set_checkpoint, .group = EC_GROUP_RESUME,
-     .help = "write FILE.exr at intervals, atomically; it is a picture and holds all that --resume needs", .not_in_window = LASTING},
+     .help = "write FILE, an .exr, at intervals, atomically; it is a picture and holds all that --resume needs", .not_in_window = LASTING},
     {.name = "every", .metavar = "S", .set = ec_set_every, .group = EC_GROUP_RESUME,
      .help = "seconds between checkpoints; there is one at the end too, also after Ctrl-C", .otherwise = EC_TEXT(EC_DEFAULT_EVERY), .not_in_window = LASTING},
     {.name = "plan", .metavar = "RANKS", .set = ec_set_plan, .group = EC_GROUP_RESUME, .uses = EC_OPTION_COMMAND_LINE,
@@ -165,7 +165,7 @@ const ec_option ec_render_rows[] = {
     {.name = "lanes", .metavar = "N", .set = ec_set_lanes, .group = EC_GROUP_DEVICE, .choices = ec_lanes_names, .uses = EC_OPTION_NO_IDENTITY,
      .help = "paths per work-item: 1, 4, 8, 16 or auto; the image is the same", .otherwise = "auto"},
     {.name = "memory", .metavar = "SIZE", .set = ec_set_memory, .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
-     .help = "memory limit, as in 4G or 512M. A picture that does not fit is rendered in strips, one after the other, to the same image; with --spp alone",
+     .help = "memory limit, as in 4G or 512M. A picture that does not fit is rendered in strips, one after the other, to the same image; requires --spp as the only limit",
      .otherwise = "what is free", .not_in_window = "a window's picture is held whole"},
 
     /* Reproduce and measure */
@@ -204,7 +204,7 @@ const ec_option ec_render_rows[] = {
      .uses = EC_OPTION_INFO | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_COMMAND_LINE,
      .help = "print one JSON object with everything measured instead of text", .not_in_window = TALKING},
     {.name = "quiet", .letter = 'q', .set = ec_set_quiet, .group = EC_GROUP_MESSAGES,
-     .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_COMMAND_LINE,
+     .uses = EC_OPTION_INFO | EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_COMMAND_LINE,
      .help = "print only warnings and errors, and what --json prints"},
     {.name = "verbose", .letter = 'v', .set = ec_set_verbose, .group = EC_GROUP_MESSAGES,
      .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_COMMAND_LINE,
@@ -212,3 +212,16 @@ const ec_option ec_render_rows[] = {
 };
 _Static_assert(sizeof ec_render_rows / sizeof ec_render_rows[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");
 const int ec_render_row_count = sizeof ec_render_rows / sizeof ec_render_rows[0];
+
+const ec_option *ec_render_row(const char *name) { return ec_options_find(ec_render_rows, ec_render_row_count, name); }
+
+int ec_render_rows_for(uint32_t use, ec_option *rows)
+{
+    int count = 0;
+    for (int i = 0; i < ec_render_row_count; i++)
+        if (ec_render_rows[i].uses & use) {
+            rows[count] = ec_render_rows[i];
+            rows[count++].uses |= EC_OPTION_BORROWED;
+        }
+    return count;
+}

@@ -5,16 +5,6 @@
 
 #include "jobs/defaults.h"
 
-const ec_option *ec_render_row(const char *name) { return ec_options_find(ec_render_rows, ec_render_row_count, name); }
-
-int ec_render_rows_for(uint32_t use, ec_option *rows)
-{
-    int count = 0;
-    for (int i = 0; i < ec_render_row_count; i++)
-        if (ec_render_rows[i].uses & use) rows[count++] = ec_render_rows[i];
-    return count;
-}
-
 void ec_render_request_start(ec_render_request *request)
 {
     *request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF};
