@@ -30,6 +30,16 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err);
 ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err);
 
+/* Their options, those borrowed from `render` included; return the number. */
+int ec_compare_rows(ec_option *rows);
+int ec_devices_rows(ec_option *rows);
+int ec_help_command_rows(ec_option *rows);
+int ec_info_rows(ec_option *rows);
+int ec_merge_rows(ec_option *rows);
+int ec_render_command_rows(ec_option *rows);
+int ec_selftest_rows(ec_option *rows);
+int ec_view_rows(ec_option *rows);
+
 /* Prints `eclat VERSION` or a command's help ("" for the program's own) to stdout. */
 void ec_print_version(void);
 void ec_print_help(const char *command);

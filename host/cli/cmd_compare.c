@@ -28,7 +28,18 @@ SETTER(diff)
     return EC_OK;
 }
 
-static const ec_option options[] = {{"diff", 0, true, set_diff}, {"json", 0, false, set_json}, {"quiet", 'q', false, set_quiet}};
+static const ec_option options[] = {
+    {.name = "diff", .metavar = "FILE", .set = set_diff,
+     .help = "write a map of the error relative to B, a .png: black is 0.1 % or less, pale yellow 100 % or more"},
+    {.name = "json", .set = set_json, .help = "print one JSON object instead of text"},
+    {.name = "quiet", .letter = 'q', .set = set_quiet, .help = "print nothing; only the exit code tells"},
+};
+
+int ec_compare_rows(ec_option *rows)
+{
+    memcpy(rows, options, sizeof options);
+    return sizeof options / sizeof options[0];
+}
 
 static ec_result take_operands(int argc, char **argv, int first, compare_request *request, ec_error *err)
 {

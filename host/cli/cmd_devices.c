@@ -1,5 +1,6 @@
 /* eclat devices */
 #include <stdlib.h>
+#include <string.h>
 
 #include "cl/cl.h"
 #include "cli/cli.h"
@@ -14,9 +15,16 @@ static ec_result set_json(void *target, const char *option, const char *value, e
     return EC_OK;
 }
 
+static const ec_option options[] = {{.name = "json", .set = set_json, .help = "print one JSON object instead of a table"}};
+
+int ec_devices_rows(ec_option *rows)
+{
+    memcpy(rows, options, sizeof options);
+    return sizeof options / sizeof options[0];
+}
+
 ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
-    static const ec_option options[] = {{"json", 0, false, set_json}};
     bool json = false;
     int first = 0;
     ec_request asked;

@@ -21,32 +21,53 @@ typedef struct info_request {
 
 RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
 
+#define NAME(name, lanes, summary) #name,
+static const char *const accel_choices[] = {"all", EC_ACCELS(NAME) NULL};
+
 SETTER(accel)
 {
-    static const char all[] = "all";
-    const char *names[EC_ACCEL_COUNT + 2] = {all};
     uint32_t index = 0;
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) names[a + 1] = ec_accels[a].name;
-    EC_TRY(ec_parse_choice(option, value, names, &index, err));
-    REQUEST->accel = names[index];
+    EC_TRY(ec_parse_choice(option, value, accel_choices, &index, err));
+    REQUEST->accel = accel_choices[index];
     return EC_OK;
 }
 
-/* Of `render`, those that have a say in what is built for a scene. */
-static const char *const of_render[] = {
-    "animation", "at", "device", "effects", "env", "env-rotate", "env-strength", "filter", "filter-width", "focus",
-    "fstop", "instancing", "integrator", "json", "light-choice", "quiet", "sample", "sampler", "scattering", "scene",
-    "shutter", "terminator", "variant", "without"};
+/* What these do here is not what they do in `render`. */
+static const ec_option own[] = {
+    {.name = "accel", .set = set_accel,
+     .help = "also build this acceleration structure (bvh2, bvh8, grid, kdtree, none, twolevel, or all), trace rays through it, and report what both cost"},
+    {.name = "device", .help = "OpenCL device that traces the rays", .otherwise = "as for eclat render"},
+    {.name = "grid-density", .set = set_grid_density, .help = "cells per reference with --accel grid or all, as for eclat render", .otherwise = "27"},
+    {.name = "json", .help = "print one JSON object instead of text"},
+    {.name = "quiet", .help = "print no notes, only the result, warnings and errors"},
+};
+
+static void make_own(ec_option *row, const ec_option *mine)
+{
+    row->group = EC_GROUP_OPTIONS;
+    row->uses &= ~(uint32_t)EC_OPTION_BORROWED;
+    row->help = mine->help;
+    row->otherwise = mine->otherwise;
+    if (mine->set) row->set = mine->set;
+    if (mine->set == set_accel) row->choices = accel_choices;
+}
+
+int ec_info_rows(ec_option *rows)
+{
+    int count = ec_render_rows_for(EC_OPTION_INFO, rows);
+    for (int i = 0; i < count; i++) {
+        const ec_option *mine = ec_options_find(own, sizeof own / sizeof own[0], rows[i].name);
+        if (mine) make_own(&rows[i], mine);
+    }
+    return count;
+}
 
 static ec_result parse(int argc, char **argv, info_request *request, bool *done, ec_error *err)
 {
-    ec_option rows[EC_OPTIONS_MAX] = {{"accel", 0, true, set_accel}, {"grid-density", 0, true, set_grid_density}};
+    ec_option rows[EC_OPTIONS_MAX];
     bool given[EC_OPTIONS_MAX] = {false};
-    int count = 2, first = 0;
+    int count = ec_info_rows(rows), first = 0;
     ec_request asked;
-    for (int i = 0; i < ec_render_row_count; i++)
-        for (size_t k = 0; k < sizeof of_render / sizeof *of_render; k++)
-            if (!strcmp(ec_render_rows[i].name, of_render[k])) rows[count++] = ec_render_rows[i];
     ec_render_request_start(&request->render);
     EC_TRY(ec_options_parse(rows, count, request, argc, argv, &first, given, &asked, err));
     *done = ec_request_serve(asked, argv[0]);

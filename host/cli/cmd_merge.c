@@ -33,9 +33,22 @@ SETTER(output)
     return ec_outputs_add(&REQUEST->outputs, value, err);
 }
 
-static const ec_option options[] = {{"exposure", 0, true, set_exposure}, {"json", 0, false, set_json},
-                                    {"output", 'o', true, set_output},   {"partial", 0, false, set_partial},
-                                    {"quiet", 'q', false, set_quiet},    {"tonemap", 0, true, set_tonemap}};
+static const ec_option options[] = {
+    {.name = "exposure", .metavar = "EV", .set = set_exposure, .help = "brighten the PNG by this many stops", .otherwise = "0"},
+    {.name = "json", .set = set_json, .help = "print one JSON object instead of text"},
+    {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output, .uses = EC_OPTION_REPEATS,
+     .help = "write FILE, an .exr (all data, sums included, so that it can be merged again) or a .png; may be repeated"},
+    {.name = "partial", .set = set_partial, .help = "write the picture even if samples are missing"},
+    {.name = "quiet", .letter = 'q', .set = set_quiet, .help = "print only warnings and errors"},
+    {.name = "tonemap", .metavar = "CURVE", .set = set_tonemap, .choices = ec_tonemap_names,
+     .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
+};
+
+int ec_merge_rows(ec_option *rows)
+{
+    memcpy(rows, options, sizeof options);
+    return sizeof options / sizeof options[0];
+}
 
 static ec_result check_request(const merge_request *request, ec_error *err)
 {

@@ -20,6 +20,12 @@ static ec_result plan(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
+int ec_render_command_rows(ec_option *rows)
+{
+    memcpy(rows, ec_render_rows, (size_t)ec_render_row_count * sizeof *rows);
+    return ec_render_row_count;
+}
+
 ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
     double start = ec_now();

@@ -1,5 +1,6 @@
 /* eclat selftest */
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/cli.h"
 #include "jobs/options.h"
@@ -29,9 +30,19 @@ SETTER(only)
 }
 
 static const ec_option options[] = {
-    {"device", 0, true, set_device}, {"full", 0, false, set_full}, {"json", 0, false, set_json},
-    {"lanes", 0, true, set_lanes},   {"only", 0, true, set_only},  {"quiet", 'q', false, set_quiet},
+    {.name = "device", .metavar = "ID", .set = set_device, .help = "OpenCL device, as for eclat render"},
+    {.name = "full", .set = set_full, .help = "run more rays and samples, every lane width and every structure; this takes some minutes on a processor"},
+    {.name = "json", .set = set_json, .help = "print one JSON object instead of a table"},
+    {.name = "lanes", .metavar = "N", .set = set_lanes, .choices = ec_lanes_names, .help = "paths per work-item: 1, 4, 8, 16 or auto", .otherwise = "auto"},
+    {.name = "only", .metavar = "NAME", .set = set_only, .help = "run only the cases whose name contains NAME"},
+    {.name = "quiet", .letter = 'q', .set = set_quiet, .help = "print only the rows that failed, and nothing if none did"},
 };
+
+int ec_selftest_rows(ec_option *rows)
+{
+    memcpy(rows, options, sizeof options);
+    return sizeof options / sizeof options[0];
+}
 
 static bool show(void *user, const char *name, uint32_t done, uint32_t count)
 {

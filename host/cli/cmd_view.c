@@ -15,7 +15,7 @@
 #include "report/scene_report.h"
 #include "view/view.h"
 
-#define VIEW_HEIGHT 600 /* pixels */
+#define VIEW_HEIGHT 600
 
 typedef struct view_job {
     ec_render_request render; /* first: the setters of its options are used */
@@ -39,70 +39,53 @@ TEXT_SETTER(against, against)
 TEXT_SETTER(script, script)
 FLAG_SETTER(stats, stats)
 
-/* Options of `render` that mean nothing here; NULL: it does mean something. */
-static const char *why_foreign(const char *name)
-{
-    static const char *const lasting = "a window keeps no checkpoints and renders no slices",
-                             *const moving = "a window shows one moment";
-    static const char *const talking = "a window reports to who looks at it";
-    static const char *const names[][2] = {{"adaptive", "a window takes as many samples in every pixel"},
-                                           {"checkpoint", lasting},
-                                           {"every", lasting},
-                                           {"fps", moving},
-                                           {"frames", moving},
-                                           {"json", talking},
-                                           {"memory", "a window's picture is held whole"},
-                                           {"overwrite", moving},
-                                           {"plan", "a window is one process"},
-                                           {"resume", lasting},
-                                           {"samples", lasting},
-                                           {"verbose", talking}};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (!strcmp(name, names[i][0])) return names[i][1];
-    return NULL;
-}
-
 static ec_result refuse(void *target, const char *option, const char *value, ec_error *err)
 {
     (void)target, (void)value;
-    return ec_usage(err, "--%s is for 'eclat render': %s", option, why_foreign(option));
-}
-
-/* Those that the window sets, or that say nothing of the picture. */
-static bool is_ours(const char *name)
-{
-    static const char *const names[] = {"error", "env-rotate", "exposure", "integrator", "output",
-                                        "quiet", "replicates", "size", "spp",        "time",     "tonemap",    "without"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (!strcmp(names[i], name)) return true;
-    return false;
+    return ec_usage(err, "--%s is for 'eclat render': %s", option, ec_render_row(option)->not_in_window);
 }
 
 static ec_result set_and_keep(void *target, const char *option, const char *value, ec_error *err)
 {
     view_job *job = target;
-    for (int i = 0; i < ec_render_row_count; i++) {
-        if (strcmp(ec_render_rows[i].name, option)) continue;
-        EC_TRY(ec_render_rows[i].set(&job->render, option, value, err));
-        if (is_ours(option)) return EC_OK;
-        ec_kept_options_add(&job->kept, ec_render_rows[i].name, value);
-        return EC_OK;
-    }
+    const ec_option *row = ec_render_row(option);
+    EC_TRY(row->set(&job->render, option, value, err));
+    if (!(row->uses & EC_OPTION_WINDOW)) ec_kept_options_add(&job->kept, row->name, value);
     return EC_OK;
+}
+
+static const ec_option own[] = {
+    {.name = "against", .metavar = "FILE.exr", .set = set_against, .help = "picture to compare with the rendered one (V and Tab)"},
+    {.name = "script", .metavar = "FILE", .set = set_script,
+     .help = "move the camera and press keys as a script says, then close; the script orbit turns once around. Lines: turn YAW PITCH SECONDS (degrees), "
+             "pan RIGHT UP SECONDS (picture heights), dolly FACTOR SECONDS, wait SECONDS, settle (until the limit is met), key NAME (e, E, 1, Tab, Save, ...; "
+             "after X digits switch effects), quit. 0 SECONDS means at once"},
+    {.name = "stats", .set = set_stats, .help = "report at the end when there was first light, and how long frames took while the camera moved"},
+};
+
+int ec_view_rows(ec_option *rows)
+{
+    int count = 0;
+    for (; count < (int)(sizeof own / sizeof own[0]); count++) rows[count] = own[count];
+    for (int i = 0; i < ec_render_row_count && count < EC_OPTIONS_MAX; i++) {
+        rows[count] = ec_render_rows[i];
+        rows[count].uses |= EC_OPTION_BORROWED;
+        rows[count++].set = ec_render_rows[i].not_in_window ? refuse : set_and_keep;
+    }
+    ec_option *size = &rows[ec_options_find(rows, count, "size") - rows];
+    size->group = EC_GROUP_OPTIONS;
+    size->uses &= ~(uint32_t)EC_OPTION_BORROWED;
+    size->help = "size of the window when it opens, in pixels";
+    size->otherwise = EC_TEXT(VIEW_HEIGHT) " high";
+    return count;
 }
 
 static ec_result parse(int argc, char **argv, view_job *job, bool *done, ec_error *err)
 {
-    ec_option rows[EC_OPTIONS_MAX] = {{"against", 0, true, set_against},
-                                      {"script", 0, true, set_script},
-                                      {"stats", 0, false, set_stats}};
+    ec_option rows[EC_OPTIONS_MAX];
     bool given[EC_OPTIONS_MAX] = {false};
-    int count = 3, first = 0;
+    int count = ec_view_rows(rows), first = 0;
     ec_request asked;
-    for (int i = 0; i < ec_render_row_count && count < EC_OPTIONS_MAX; i++) {
-        rows[count] = ec_render_rows[i];
-        rows[count++].set = why_foreign(ec_render_rows[i].name) ? refuse : set_and_keep;
-    }
     ec_render_request_start(&job->render);
     EC_TRY(ec_options_parse(rows, count, job, argc, argv, &first, given, &asked, err));
     *done = ec_request_serve(asked, argv[0]);

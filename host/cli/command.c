@@ -12,6 +12,7 @@
 #include "jobs/suggest.h"
 #include "jobs/usage.h"
 
+static ec_result cmd_completion(ec_cli *cli, int argc, char **argv, ec_error *err);
 static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err);
 
 typedef struct command {
@@ -29,6 +30,7 @@ static const command commands[] = {
     {"devices", ec_cmd_devices, false},
     {"selftest", ec_cmd_selftest, false},
     {"view", ec_cmd_view, false},
+    {"completion", cmd_completion, false},
     {"help", cmd_help, false},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
@@ -55,18 +57,50 @@ static ec_result unknown_command(const char *name, ec_error *err)
     return ec_usage(err, "unknown command '%s'; see 'eclat --help'", name);
 }
 
+static ec_result set_man(void *target, const char *option, const char *value, ec_error *err)
+{
+    (void)option, (void)value, (void)err;
+    *(bool *)target = true;
+    return EC_OK;
+}
+
+int ec_help_command_rows(ec_option *rows)
+{
+    rows[0] = (ec_option){.name = "man", .set = set_man, .help = "print the man page, as in eclat help --man | man -l -"};
+    return 1;
+}
+
 static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
     (void)cli;
-    const char *topic = argc > 1 ? argv[1] : "";
-    if (!strcmp(topic, "--version")) {
-        ec_print_version();
-        return EC_OK;
-    }
-    if (!strcmp(topic, "--help") || !strcmp(topic, "help")) topic = "";
-    if (argc > 2) return ec_usage(err, "help takes one command, as in 'eclat help render'");
+    ec_option rows[1];
+    bool man = false;
+    int first = 0;
+    ec_request asked;
+    EC_TRY(ec_options_parse(rows, ec_help_command_rows(rows), &man, argc, argv, &first, NULL, &asked, err));
+    if (asked == EC_REQUEST_VERSION) ec_print_version();
+    if (asked == EC_REQUEST_HELP) ec_print_help(argv[0]);
+    if (asked != EC_REQUEST_RUN) return EC_OK;
+    const char *topic = first < argc && strcmp(argv[first], "help") ? argv[first] : "";
+    if (argc - first > 1) return ec_usage(err, "help takes one command, as in 'eclat help render'");
     if (*topic && !find_command(topic)) return unknown_command(topic, err);
-    ec_print_help(topic);
+    if (man) ec_help_manual(stdout);
+    else ec_print_help(topic);
+    return EC_OK;
+}
+
+static ec_result cmd_completion(ec_cli *cli, int argc, char **argv, ec_error *err)
+{
+    (void)cli;
+    int first = 0;
+    uint32_t shell;
+    ec_request asked;
+    EC_TRY(ec_options_parse(NULL, 0, NULL, argc, argv, &first, NULL, &asked, err));
+    if (ec_request_serve(asked, argv[0])) return EC_OK;
+    if (argc - first != 1) return ec_usage(err, "completion takes the name of a shell, bash or zsh; see 'eclat completion --help'");
+    for (shell = 0; ec_shell_names[shell] && strcmp(ec_shell_names[shell], argv[first]); shell++) continue;
+    if (!ec_shell_names[shell]) return ec_usage(err, "there is no completion for '%s'; give bash or zsh", argv[first]);
+    ec_help_completion(ec_shell_names[shell], stdout);
     return EC_OK;
 }
 
@@ -100,7 +134,7 @@ static int lead(ec_ranks *ranks, int argc, char **argv)
 {
     ec_cli cli = {.console = {.terminal = isatty(STDERR_FILENO) == 1}, .argc = argc, .argv = argv, .ranks = ranks};
     if (argc < 2) {
-        fputs(EC_HELP_SHORT, stderr);
+        ec_help_short(stderr);
         return EC_USAGE;
     }
     ec_error err = {0};

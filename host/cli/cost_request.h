@@ -5,12 +5,13 @@
 #include "jobs/render_request.h"
 
 typedef struct ec_cost_request {
-    ec_render_request render;  /* scene, camera, environment, device, size, seed; no outputs */
+    ec_render_request render;  /* first: the setters of its options are used. Scene, camera, environment, device, size, seed; no outputs */
     double budget;             /* seconds */
     const char *html, *json;   /* files; NULL: none; json may be "-" */
     const char *reference;     /* file, or NULL */
 } ec_cost_request;
 
+int ec_cost_rows(ec_option *rows); /* its options; returns their number */
 ec_result ec_cost_request_parse(int argc, char **argv, ec_cost_request *request, bool *done, ec_error *err);
 
 #endif

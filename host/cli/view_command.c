@@ -18,14 +18,6 @@ void ec_kept_options_add(ec_kept_options *kept, const char *option, const char *
     kept->row[kept->count++].value = value;
 }
 
-static bool is_camera(const char *name)
-{
-    static const char *const names[] = {"camera", "eye", "fov", "look-at", "parallel", "up"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (!strcmp(names[i], name)) return true;
-    return false;
-}
-
 typedef struct words {
     char *argv[4 * EC_OPTIONS_MAX + 4 * EC_OUTPUTS_MAX + 64]; /* owned */
     int count;
@@ -73,7 +65,7 @@ static bool is_kept(uint32_t camera, const char *option, const char *value, cons
 {
     ec_integrator integrator = shot->options->integrator;
     bool asked = !shot->moved && shot->options->camera == camera;
-    if (!ec_combinations_belongs(option, integrator) || (is_camera(option) && !asked)) return false;
+    if (!ec_combinations_belongs(option, integrator) || (!asked && ec_render_row(option)->uses & EC_OPTION_CAMERA)) return false;
     bool deep = !strcmp(option, "max-depth") && (!strcmp(value, "inf") || atoi(value) > EC_WHITTED_DEPTH_MOST);
     return !(integrator == EC_INTEGRATOR_WHITTED && deep);
 }

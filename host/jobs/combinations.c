@@ -4,69 +4,41 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "jobs/render_request.h"
 #include "jobs/usage.h"
 #include "report/names.h"
 
-#define ONLY(integrator) (1u << EC_INTEGRATOR_##integrator)
-
-/* Options that some integrators know nothing of; what is not here belongs to all of them. */
-static const struct {
-    const char *option;
-    uint32_t integrators;
-} owners[] = {
-    {"max-depth", ONLY(PATH) | ONLY(WHITTED)},
-    {"clamp", ONLY(PATH)},
-    {"cutoff", ONLY(WHITTED)},
-    {"filter", ONLY(PATH) | ONLY(WHITTED)},
-    {"filter-width", ONLY(PATH) | ONLY(WHITTED)},
-    {"focus", ONLY(PATH) | ONLY(WHITTED)},
-    {"fstop", ONLY(PATH) | ONLY(WHITTED)},
-    {"light-choice", ONLY(PATH)},
-    {"rr", ONLY(PATH)},
-    {"sample", ONLY(PATH)},
-    {"scattering", ONLY(PATH)},
-    {"terminator", ONLY(PATH)},
-    {"shutter", ONLY(PATH)},
-    {"accel", ONLY(PATH) | ONLY(WHITTED)},
-    {"grid-density", ONLY(PATH) | ONLY(WHITTED)},
-};
+static bool belongs(const ec_option *option, ec_integrator integrator)
+{
+    return option->integrators == 0 || (option->integrators >> integrator & 1);
+}
 
 bool ec_combinations_belongs(const char *option, ec_integrator integrator)
 {
-    for (size_t i = 0; i < sizeof owners / sizeof owners[0]; i++)
-        if (!strcmp(owners[i].option, option) && !(owners[i].integrators >> integrator & 1)) return false;
-    return true;
+    const ec_option *row = ec_render_row(option);
+    return !row || belongs(row, integrator);
 }
 
-static ec_result check_owner(const char *option, ec_integrator integrator, ec_error *err)
+static ec_result check_owner(const ec_option *option, ec_integrator integrator, ec_error *err)
 {
-    for (size_t i = 0; i < sizeof owners / sizeof owners[0]; i++) {
-        if (strcmp(owners[i].option, option) || owners[i].integrators >> integrator & 1) continue;
-        char names[128] = "";
-        for (uint32_t k = 0; k < EC_INTEGRATOR_COUNT; k++) {
-            if (!(owners[i].integrators >> k & 1)) continue;
-            size_t used = strlen(names);
-            snprintf(names + used, sizeof names - used, "%s%s", used ? " or " : "", ec_integrator_names[k]);
-        }
-        return ec_usage(err, "--%s belongs to --integrator %s; leave it out or choose that", option, names);
+    char names[128] = "";
+    if (belongs(option, integrator)) return EC_OK;
+    for (uint32_t k = 0; k < EC_INTEGRATOR_COUNT; k++) {
+        if (!(option->integrators >> k & 1)) continue;
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", used ? " or " : "", ec_integrator_names[k]);
     }
-    return EC_OK;
-}
-
-static bool is_given(const char *name, const ec_option *options, int count, const bool *given)
-{
-    for (int i = 0; i < count; i++)
-        if (given[i] && !strcmp(options[i].name, name)) return true;
-    return false;
+    return ec_usage(err, "--%s belongs to --integrator %s; leave it out or choose that", option->name, names);
 }
 
 static ec_result check_plan(const ec_option *options, int count, const bool *given, ec_error *err)
 {
-    static const char *const others[] = {"frames", "resume", "samples", NULL};
-    for (const char *const *other = others; *other && is_given("plan", options, count, given); other++)
-        if (is_given(*other, options, count, given))
-            return ec_usage(err, "--plan and --%s: a plan is of one whole picture, from its first sample on; leave "
-                                 "--%s out", *other, *other);
+    const ec_option *plan = ec_options_find(options, count, "plan");
+    if (!plan || !given[plan - options]) return EC_OK;
+    for (int i = 0; i < count; i++)
+        if (given[i] && options[i].uses & EC_OPTION_PART)
+            return ec_usage(err, "--plan and --%s: a plan is of one whole picture, from its first sample on; leave --%s out", options[i].name,
+                            options[i].name);
     return EC_OK;
 }
 
@@ -87,7 +59,7 @@ ec_result ec_combinations_check(const ec_option *options, int count, const bool 
                                 ec_error *err)
 {
     for (int i = 0; i < count; i++)
-        if (given[i]) EC_TRY(check_owner(options[i].name, asked->integrator, err));
+        if (given[i]) EC_TRY(check_owner(&options[i], asked->integrator, err));
     EC_TRY(check_plan(options, count, given, err));
     if (asked->integrator == EC_INTEGRATOR_WHITTED && asked->max_depth > EC_WHITTED_DEPTH_MOST)
         return ec_usage(err, "--integrator whitted: a --max-depth of %u is too deep for trees that keep every branch; give at most %u",

@@ -40,25 +40,13 @@ ec_result ec_given_options_read(int argc, char *const *argv, ec_given_options *g
     return result;
 }
 
-static bool is_among(const char *option, const char *const *names)
-{
-    for (; *names; names++)
-        if (!strcmp(option, *names)) return true;
-    return false;
-}
-
-/* No picture depends on these, or the identity says it in other words. */
-static const char *const immaterial[] = {"accel",        "device",  "effects", "env",    "fps",    "frames",
-                                         "grid-density", "json",    "lanes",   "memory", "output", "overwrite",
-                                         "quiet",        "verbose", "wave",    NULL};
-
-static void add(ec_identity *identity, const char *name, const char *value)
+static void put(ec_identity *identity, const char *name, const char *value, bool repeats)
 {
     for (uint32_t i = 0; i < identity->count; i++) { /* of what may be repeated, all; else the last */
         ec_trait *trait = &identity->traits[i];
         size_t used = strlen(trait->value);
         if (strcmp(trait->name, name)) continue;
-        if (strcmp(name, "--without")) snprintf(trait->value, sizeof trait->value, "%s", value);
+        if (!repeats) snprintf(trait->value, sizeof trait->value, "%s", value);
         else snprintf(trait->value + used, sizeof trait->value - used, ", %s", value);
         return;
     }
@@ -67,6 +55,8 @@ static void add(ec_identity *identity, const char *name, const char *value)
     snprintf(trait->name, sizeof trait->name, "%s", name);
     snprintf(trait->value, sizeof trait->value, "%s", value);
 }
+
+static void add(ec_identity *identity, const char *name, const char *value) { put(identity, name, value, false); }
 
 /* Of an environment in a file its bytes count, and not its name. */
 static ec_result add_environment(ec_identity *identity, const char *environment, ec_error *err)
@@ -98,9 +88,10 @@ ec_result ec_frames_identify(const ec_given_options *given, const ec_render_requ
     EC_TRY(add_environment(identity, request->environment, err));
     for (int i = 0; i < given->count; i++) {
         char name[40];
-        if (is_among(given->list[i].option, immaterial)) continue;
-        snprintf(name, sizeof name, "--%s", given->list[i].option);
-        add(identity, name, given->list[i].value ? given->list[i].value : "on");
+        const ec_option *row = ec_render_row(given->list[i].option);
+        if (row->uses & EC_OPTION_NO_IDENTITY) continue;
+        snprintf(name, sizeof name, "--%s", row->name);
+        put(identity, name, given->list[i].value ? given->list[i].value : "on", row->uses & EC_OPTION_REPEATS);
     }
     return EC_OK;
 }
@@ -115,7 +106,6 @@ void ec_frame_identify(const ec_identity *all, const ec_render_request *request,
 
 char *ec_frame_command(const ec_given_options *given, const ec_render_request *request, const ec_outputs *outputs, uint32_t frame)
 {
-    static const char *const replaced[] = {"frames", "json", "output", "overwrite", "quiet", "verbose", NULL};
     static char program[] = "eclat", render[] = "render", frames[] = "--frames", output[] = "-o";
     char number[16], names[EC_GIVEN_MAX][40], *words[2 * EC_GIVEN_MAX + 2 * EC_OUTPUTS_MAX + 8];
     int count = 0;
@@ -123,7 +113,7 @@ char *ec_frame_command(const ec_given_options *given, const ec_render_request *r
     words[count++] = render;
     words[count++] = (char *)(uintptr_t)request->scene;
     for (int i = 0; i < given->count; i++) {
-        if (is_among(given->list[i].option, replaced)) continue;
+        if (ec_render_row(given->list[i].option)->uses & EC_OPTION_SEQUENCE) continue;
         snprintf(names[i], sizeof names[i], "--%s", given->list[i].option);
         words[count++] = names[i];
         if (given->list[i].value) words[count++] = (char *)(uintptr_t)given->list[i].value;

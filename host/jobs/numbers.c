@@ -154,12 +154,13 @@ ec_result ec_parse_choice(const char *option, const char *text, const char *cons
     return ec_usage(err, "--%s: '%s' is not one of %s", option, text, list);
 }
 
+const char *const ec_lanes_names[] = {"auto", "1", "4", "8", "16", NULL};
+
 ec_result ec_parse_lanes(const char *option, const char *text, uint32_t *lanes, ec_error *err)
 {
-    static const char *const names[] = {"auto", "1", "4", "8", "16", NULL};
     static const uint32_t widths[] = {0, 1, 4, 8, 16};
     uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, text, names, &index, err));
+    EC_TRY(ec_parse_choice(option, text, ec_lanes_names, &index, err));
     *lanes = widths[index];
     return EC_OK;
 }

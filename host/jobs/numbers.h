@@ -20,6 +20,7 @@ ec_result ec_parse_percent(const char *option, const char *text, double *fractio
 /* Two of them from 0 to max, "A:B", the second not under the first. */
 ec_result ec_parse_span(const char *option, const char *text, double max, double *from, double *to, ec_error *err);
 ec_result ec_parse_size(const char *option, const char *text, uint32_t *width, uint32_t *height, ec_error *err);
+extern const char *const ec_lanes_names[]; /* auto, 1, 4, 8, 16 */
 ec_result ec_parse_lanes(const char *option, const char *text, uint32_t *lanes, ec_error *err); /* auto: 0 */
 ec_result ec_parse_triple(const char *option, const char *text, double xyz[3], ec_error *err); /* X,Y,Z: finite */
 /* One of names (NULL-terminated); *index is its place. */

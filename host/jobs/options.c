@@ -2,6 +2,7 @@
 
 #include <getopt.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "jobs/suggest.h"
@@ -14,15 +15,27 @@ typedef struct parser {
     char shorts[2 * EC_OPTIONS_MAX + 4];
 } parser;
 
+int ec_option_takes_value(const ec_option *option)
+{
+    return option->value_optional ? EC_VALUE_OPTIONAL : option->metavar != NULL;
+}
+
+const ec_option *ec_options_find(const ec_option *options, int count, const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (!strcmp(options[i].name, name)) return &options[i];
+    return NULL;
+}
+
 static parser make_parser(const ec_option *options, int count)
 {
     parser p = {.shorts = ":h"};
     size_t used = strlen(p.shorts);
     for (int i = 0; i < count; i++) {
-        p.longs[i] = (struct option){options[i].name, options[i].takes_value, NULL, LONG_BASE + i};
+        p.longs[i] = (struct option){options[i].name, ec_option_takes_value(&options[i]), NULL, LONG_BASE + i};
         if (!options[i].letter) continue;
         p.shorts[used++] = options[i].letter;
-        if (options[i].takes_value) p.shorts[used++] = ':';
+        if (options[i].metavar) p.shorts[used++] = ':';
     }
     p.longs[count] = (struct option){"help", no_argument, NULL, HELP};
     p.longs[count + 1] = (struct option){"version", no_argument, NULL, VERSION};
@@ -36,6 +49,8 @@ static const ec_option *find_option(const ec_option *options, int count, int cod
     return NULL;
 }
 
+static int by_name(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
+
 /* An argument getopt_long did not know: which option was meant? */
 static ec_result unknown_option(const parser *p, const char *argument, const char *command, ec_error *err)
 {
@@ -44,11 +59,12 @@ static ec_result unknown_option(const parser *p, const char *argument, const cha
     int count = 0, match_count = 0;
     const char *name = argument + strspn(argument, "-");
     snprintf(typed, sizeof typed, "%.*s", (int)strcspn(name, "="), name);
-    for (; p->longs[count].name; count++) {
-        names[count] = p->longs[count].name;
-        if (*typed == 0 || strncmp(names[count], typed, strlen(typed))) continue;
+    for (; p->longs[count].name; count++) names[count] = p->longs[count].name;
+    qsort(names, (size_t)count, sizeof *names, by_name);
+    for (int i = 0; i < count; i++) {
+        if (*typed == 0 || strncmp(names[i], typed, strlen(typed))) continue;
         size_t used = strlen(matches);
-        snprintf(matches + used, sizeof matches - used, "%s--%s", match_count++ ? ", " : "", names[count]);
+        snprintf(matches + used, sizeof matches - used, "%s--%s", match_count++ ? ", " : "", names[i]);
     }
     if (match_count > 1) return ec_usage(err, "option '--%s' is ambiguous: %s", typed, matches);
     const char *nearest = ec_suggest(typed, names, count);
@@ -83,7 +99,7 @@ ec_result ec_options_parse(const ec_option *options, int count, void *target, in
         }
         if (code == '?' || code == ':') return complain(&p, options, count, code, argv, err);
         const ec_option *option = find_option(options, count, code);
-        EC_TRY(option->set(target, option->name, option->takes_value ? optarg : NULL, err));
+        EC_TRY(option->set(target, option->name, option->metavar ? optarg : NULL, err));
         if (given) given[option - options] = true;
     }
     *first = optind;

@@ -1,15 +1,19 @@
 /* Setters of options, each an ec_option_set, in a line where they need no more. A file that includes this says what REQUEST is:
  *
  *     #define REQUEST ((ec_render_request *)target)
- */
+ *
+ * and EC_SHARED_SETTERS, if others use its setters too: ec_set_NAME then, not set_NAME. */
 #ifndef EC_JOBS_SETTERS_H
 #define EC_JOBS_SETTERS_H
 
 #include "jobs/numbers.h"
 #include "jobs/usage.h"
 
-#define SETTER(name)                                                                                \
-    static ec_result set_##name(void *target, const char *option, const char *value, ec_error *err)
+#ifdef EC_SHARED_SETTERS
+#define SETTER(name) ec_result ec_set_##name(void *target, const char *option, const char *value, ec_error *err)
+#else
+#define SETTER(name) static ec_result set_##name(void *target, const char *option, const char *value, ec_error *err)
+#endif
 
 #define FLAG_SETTER(name, field)                                                                    \
     SETTER(name)                                                                                    \

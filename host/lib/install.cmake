@@ -1,7 +1,15 @@
 # What `cmake --install` puts down: the program (its modules install themselves), the library as .so and .a, its header, and how others find it, by
-# pkg-config and by find_package(eclat).
+# pkg-config and by find_package(eclat); and the man page and the shells' completion, which the program writes.
 include(CMakePackageConfigHelpers)
 install(TARGETS eclat)
+foreach(page "eclat.1 help --man" "eclat.bash completion bash" "_eclat completion zsh")
+  separate_arguments(page)
+  list(POP_FRONT page file)
+  add_custom_command(TARGET eclat POST_BUILD COMMAND eclat ${page} > ${CMAKE_BINARY_DIR}/${file} BYPRODUCTS ${CMAKE_BINARY_DIR}/${file})
+endforeach()
+install(FILES ${CMAKE_BINARY_DIR}/eclat.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${CMAKE_BINARY_DIR}/eclat.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME eclat)
+install(FILES ${CMAKE_BINARY_DIR}/_eclat DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(TARGETS libeclat_shared EXPORT eclat LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(FILES $<TARGET_FILE:libeclat> DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY host/include/eclat DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

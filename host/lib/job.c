@@ -4,26 +4,17 @@
 #include "jobs/usage.h"
 #include "lib/internal.h"
 
-/* Options of the command line that make no sense where a program reads pictures and messages itself, or that are other functions here. */
-static bool is_of_command_line(const char *name)
-{
-    static const char *const names[] = {"json", "plan", "quiet", "resume", "verbose"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (!strcmp(names[i], name)) return true;
-    return false;
-}
-
 const ec_option *ec_lib_find_option(const char *name)
 {
-    for (int i = 0; i < ec_render_row_count; i++)
-        if (!strcmp(ec_render_rows[i].name, name)) return is_of_command_line(name) ? NULL : &ec_render_rows[i];
-    return NULL;
+    const ec_option *row = ec_render_row(name);
+    return row && !(row->uses & EC_OPTION_COMMAND_LINE) ? row : NULL;
 }
 
 eclat_option eclat_option_at(size_t i)
 {
     for (int row = 0; row < ec_render_row_count; row++)
-        if (!is_of_command_line(ec_render_rows[row].name) && i-- == 0) return (eclat_option){ec_render_rows[row].name, ec_render_rows[row].takes_value};
+        if (!(ec_render_rows[row].uses & EC_OPTION_COMMAND_LINE) && i-- == 0)
+            return (eclat_option){ec_render_rows[row].name, ec_option_takes_value(&ec_render_rows[row])};
     return (eclat_option){0};
 }
 
@@ -83,10 +74,11 @@ eclat_job *ec_lib_job_copy(const eclat_job *job)
 static ec_result check(const char *name, const char *value, ec_error *err)
 {
     const ec_option *row = name ? ec_lib_find_option(name) : NULL;
-    if (!row && name && is_of_command_line(name)) return ec_usage(err, "option %s is the command line's; a program has functions for it, or needs none", name);
+    if (!row && name && ec_render_row(name))
+        return ec_usage(err, "option %s is the command line's; a program has functions for it, or needs none", name);
     if (!row) return ec_usage(err, "there is no option %s; eclat_option_at lists them", name ? name : "(null)");
-    if (row->takes_value == true && !value) return ec_usage(err, "option %s needs a value", name);
-    if (!row->takes_value && value) return ec_usage(err, "option %s takes no value", name);
+    if (row->metavar && !row->value_optional && !value) return ec_usage(err, "option %s needs a value", name);
+    if (!row->metavar && value) return ec_usage(err, "option %s takes no value", name);
     ec_render_request scratch;
     ec_render_request_start(&scratch);
     return row->set(&scratch, name, value, err);

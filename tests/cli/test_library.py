@@ -101,9 +101,16 @@ class Installed(support.Case):
         self.assertIn("libeclat.so.0", self.run_tool("objdump", "-p", os.path.join(self.libraries, "libeclat.so")))
 
     def test_neither_program_nor_library_links_modules(self):
-        for file in (os.path.join(self.libraries, "libeclat.so"), find(self.prefix, "eclat")):
+        for file in (os.path.join(self.libraries, "libeclat.so"), os.path.join(self.prefix, "bin", "eclat")):
             needs = self.run_tool("ldd", file)
             self.assertNotRegex(needs, r"libmpi|libglfw|libepoxy|libGL")
+
+    def test_man_page_and_completion_are_those_of_the_program(self):
+        program = os.path.join(self.prefix, "bin", "eclat")
+        for place, words in {"man/man1/eclat.1": ["help", "--man"], "bash-completion/completions/eclat": ["completion", "bash"],
+                             "zsh/site-functions/_eclat": ["completion", "zsh"]}.items():
+            with open(os.path.join(self.prefix, "share", place), encoding="utf-8") as file:
+                self.assertEqual(file.read(), self.run_tool(program, *words), place)
 
     def test_the_program_finds_its_modules(self):
         program = os.path.join(self.prefix, "bin", "eclat")

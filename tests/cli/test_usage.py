@@ -2,11 +2,13 @@
 """The command line itself: help, versions, wrong options. Nothing here renders."""
 import os
 import re
+import shutil
+import subprocess
 import unittest
 
 from support import Case, eclat
 
-COMMANDS = ["render", "cost", "info", "compare", "merge", "devices", "view"]
+COMMANDS = ["render", "cost", "info", "compare", "merge", "devices", "view", "selftest", "completion"]
 
 
 class Help(Case):
@@ -43,12 +45,88 @@ class Help(Case):
             self.assertEqual(names, sorted(names))
 
     def test_every_option_of_the_help_is_known(self):
-        for command in COMMANDS:
+        for command in set(COMMANDS) - {"selftest"}: # which needs no operand and would run
             text = eclat(command, "--help").stdout
             for name in re.findall(r"^ {2,6}(?:-\w, )?--([a-z-]+)", text, re.M):
                 if name in ("help", "version"):
                     continue
                 self.assertNotIn("unknown option", eclat(command, f"--{name}").stderr, name)
+
+
+    def test_render_has_no_option_twice(self):
+        names = self.options_of("render")
+        self.assertEqual(len(names), len(set(names)))
+        self.assertGreater(len(names), 50)
+
+    def options_of(self, command):
+        return re.findall(r"^ {2,6}(?:-\w, )?--([a-z-]+)", self.assert_ok(eclat(command, "--help")).stdout, re.M)
+
+    def test_lists_of_what_others_take_of_render(self):
+        of_render = set(self.options_of("render"))
+        text = self.assert_ok(eclat("info", "--help")).stdout
+        for name in re.findall(r"--([a-z-]+)", text.split("Options of eclat render")[1]):
+            self.assertIn(name, of_render)
+            self.assertNotIn("unknown option", eclat("info", f"--{name}").stderr, name)
+        lacking = re.findall(r"--([a-z-]+)", self.assert_ok(eclat("view", "--help")).stdout.split("except\n")[1].split("\n\n")[0])
+        self.assertIn("checkpoint", lacking)
+        for name in of_render - {"help", "version"}:
+            run = eclat("view", "none.gltf", f"--{name}=1")
+            self.assertEqual(name in lacking, f"--{name} is for 'eclat render'" in run.stderr or name in ("json", "overwrite", "verbose"), name)
+
+
+class Shells(Case):
+    """The man page and the completion scripts are written from the table of options."""
+
+    def script(self, *arguments):
+        path = self.path("script")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.assert_ok(eclat(*arguments)).stdout)
+        return path
+
+    def complete(self, *words):
+        lines = f'source {self.script("completion", "bash")}; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _eclat; printf "%s\\n" "${{COMPREPLY[@]}}"'
+        run = subprocess.run(["bash", "-c", lines, "bash", *words], capture_output=True, text=True, check=True, cwd=self.folder)
+        self.assertEqual(run.stderr, "")
+        return run.stdout.split()
+
+    def test_every_option_is_in_man_page_and_completion(self):
+        text = self.assert_ok(eclat("render", "--help")).stdout
+        names = re.findall(r"^ {2,6}(?:-\w, )?--([a-z-]+)", text, re.M)
+        page = self.assert_ok(eclat("help", "--man")).stdout.replace("\\-", "-")
+        render = page.split('.SH "ECLAT RENDER"')[1].split(".SH ")[0]
+        for name in names:
+            self.assertRegex(render, rf"\\fB--{name}(\[=WHEN\])?,?\\fR", name)
+        self.assertEqual(sorted(word.rstrip("=") for word in self.complete("eclat", "render", "--")), sorted(f"--{name}" for name in names))
+        zsh = self.assert_ok(eclat("completion", "zsh")).stdout
+        for name in names:
+            self.assertRegex(zsh, rf"'\*?--{name}(=-?)?\[", name)
+
+    def test_bash_completes(self):
+        subprocess.run(["bash", "-n", self.script("completion", "bash")], check=True)
+        self.assertEqual(self.complete("eclat", "ren"), ["render"])
+        self.assertEqual(self.complete("eclat", "render", "--integ"), ["--integrator"])
+        self.assertEqual(self.complete("eclat", "render", "--integrator", ""), ["path", "whitted", "raster"])
+        self.assertEqual(self.complete("eclat", "render", "--integrator", "=", "w"), ["whitted"])
+        self.assertEqual(self.complete("eclat", "render", "--adaptive", "="), ["auto", "on", "off"])
+        self.assertEqual(self.complete("eclat", "render", "--spp", "1"), [])
+        self.assertEqual(self.complete("eclat", "info", "s.gltf", "--accel", "bvh"), ["bvh2", "bvh8"])
+        self.assertEqual(self.complete("eclat", "view", "--js"), [])
+        with open(self.path("room.gltf"), "w", encoding="utf-8"):
+            self.assertEqual(self.complete("eclat", "render", "ro"), ["room.gltf"])
+
+    @unittest.skipUnless(shutil.which("zsh"), "zsh is not there")
+    def test_zsh_reads_its_script(self):
+        subprocess.run(["zsh", "-n", self.script("completion", "zsh")], check=True)
+
+    @unittest.skipUnless(shutil.which("groff"), "groff is not there")
+    def test_the_man_page_is_set_without_a_warning(self):
+        run = subprocess.run(["groff", "-man", "-ww", "-Tutf8", self.script("help", "--man")], capture_output=True, text=True, check=True)
+        self.assertEqual(run.stderr, "")
+        self.assertIn("--integrator", run.stdout.replace("\b", ""))
+
+    def test_a_shell_without_completion_is_refused(self):
+        for arguments, says in [([], "bash or zsh"), (["fish"], "'fish'"), (["bash", "zsh"], "bash or zsh")]:
+            self.assertIn(says, self.assert_one_error(eclat("completion", *arguments), 2))
 
 
 class WrongOptions(Case):
@@ -85,7 +163,7 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "-z", says="unknown option '-z'")
 
     def test_ambiguous_missing_and_superfluous_values(self):
-        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --samples, --scattering, --seed")
+        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --samples, --scattering, --scene, --seed, --shutter, --size, --spp")
         self.usage("render", "s.gltf", "--spp", says="'--spp' needs a value")
         self.usage("render", "s.gltf", "-o", says="needs a value")
         self.usage("render", "s.gltf", "--quiet=yes", says="takes no value")

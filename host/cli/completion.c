@@ -1,0 +1,143 @@
+/* Completion of commands, options and their values in a shell, from the tables of options. */
+#include <string.h>
+
+#include "cli/help.h"
+
+/* Do files complete it? Other values are for the user to know, but those of a list. */
+static bool is_file(const ec_option *option) { return option->metavar && !strncmp(option->metavar, "FILE", 4); }
+
+static bool has_files(const ec_help_page *page) { return *page->operands != '['; }
+
+static void put_words(FILE *to, const char *const *words)
+{
+    for (; *words; words++) fprintf(to, "%s%s", *words, words[1] ? " " : "");
+}
+
+static void put_commands(FILE *to)
+{
+    for (int i = 0; i < ec_help_page_count; i++) fprintf(to, "%s ", ec_help_pages[i].name);
+}
+
+/* What follows an option, by its name or letter: `files` for a file, `words` for one of a list, else nothing. */
+static void bash_values(const ec_option *rows, int count, FILE *to)
+{
+    for (int i = 0; i < count; i++) {
+        if (!rows[i].metavar) continue;
+        fprintf(to, "            --%s=", rows[i].name);
+        if (!rows[i].value_optional) fprintf(to, "|--%s", rows[i].name);
+        if (rows[i].letter) fprintf(to, "|-%c", rows[i].letter);
+        fputs(is_file(&rows[i]) ? ") files=1" : ") words=\"", to);
+        if (!is_file(&rows[i]) && rows[i].choices) put_words(to, rows[i].choices);
+        fputs(is_file(&rows[i]) ? " ;;\n" : "\" value=1 ;;\n", to);
+    }
+}
+
+static void bash_command(const ec_help_page *page, FILE *to)
+{
+    ec_option rows[EC_OPTIONS_MAX + 2];
+    int count = ec_help_rows(page, rows);
+    fprintf(to, "    %s)\n        case \"$prev\" in\n", page->name);
+    bash_values(rows, count, to);
+    fputs("            *) options=\"", to);
+    for (int i = 0; i < count; i++) fprintf(to, "%s--%s%s", i ? " " : "", rows[i].name, rows[i].value_optional ? "=" : "");
+    fputs("\"\n                ", to);
+    if (!page->words) fputs(has_files(page) ? "files=1 ;;\n" : ";;\n", to);
+    else fputs("words=\"", to), put_words(to, page->words), fputs("\" ;;\n", to);
+    fputs("        esac ;;\n", to);
+}
+
+static void bash(FILE *to)
+{
+    fputs("# Completion of eclat for bash, as `eclat completion bash` prints it.\n"
+          "_eclat() {\n"
+          "    local cur=\"${COMP_WORDS[COMP_CWORD]}\" prev=\"${COMP_WORDS[COMP_CWORD-1]}\" words= options= files= value=\n"
+          "    COMPREPLY=()\n"
+          "    if [ \"$cur\" = = ]; then cur= prev=\"$prev=\"\n" /* bash takes --name=value for three words */
+          "    elif [ \"$prev\" = = ]; then prev=\"${COMP_WORDS[COMP_CWORD-2]}=\"; fi\n"
+          "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+          "        mapfile -t COMPREPLY < <(compgen -W \"", to);
+    put_commands(to);
+    fputs("--help --version\" -- \"$cur\")\n"
+          "        return\n"
+          "    fi\n"
+          "    case \"${COMP_WORDS[1]}\" in\n", to);
+    for (int i = 0; i < ec_help_page_count; i++) bash_command(&ec_help_pages[i], to);
+    fputs("    esac\n"
+          "    case \"$cur\" in\n"
+          "    -*) [ -n \"$value\" ] || words=\"$options\" files= ;;\n"
+          "    esac\n"
+          "    [ -z \"$words\" ] || mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$cur\")\n"
+          "    [ -z \"$files\" ] || mapfile -t -O \"${#COMPREPLY[@]}\" COMPREPLY < <(compgen -f -- \"$cur\")\n"
+          "    case \"${COMPREPLY[0]}\" in *=) compopt -o nospace 2>/dev/null ;; esac\n"
+          "}\n"
+          "complete -o filenames -F _eclat eclat\n", to);
+}
+
+/* Within '...[text]': no bracket, colon or quote but those of zsh. */
+static void zsh_text(FILE *to, const char *text)
+{
+    for (; *text; text++) {
+        if (strchr("[]:\\", *text)) fputc('\\', to);
+        fputs(*text == '\'' ? "'\\''" : (const char[]){*text, 0}, to);
+    }
+}
+
+static void zsh_option(const ec_option *o, FILE *to)
+{
+    char text[1024];
+    ec_help_text(o, text, sizeof text);
+    for (int form = o->letter ? 0 : 1; form < 2; form++) {
+        if (form == 0) fprintf(to, "            '%s-%c%s[", o->uses & EC_OPTION_REPEATS ? "*" : "", o->letter, o->metavar ? "+" : "");
+        else fprintf(to, "            '%s--%s%s[", o->uses & EC_OPTION_REPEATS ? "*" : "", o->name, o->value_optional ? "=-" : o->metavar ? "=" : "");
+        zsh_text(to, text);
+        fputc(']', to);
+        if (o->metavar) {
+            fputs(o->value_optional ? "::" : ":", to);
+            zsh_text(to, o->metavar);
+            fputc(':', to);
+            if (o->choices) fputc('(', to), put_words(to, o->choices), fputc(')', to);
+            else if (is_file(o)) fputs("_files", to);
+        }
+        fputs("' \\\n", to);
+    }
+}
+
+static void zsh(FILE *to)
+{
+    fputs("#compdef eclat\n"
+          "# Completion of eclat for zsh, as `eclat completion zsh` prints it.\n"
+          "_eclat() {\n"
+          "    local -a commands=(\n", to);
+    for (int i = 0; i < ec_help_page_count; i++) {
+        fprintf(to, "        '%s:", ec_help_pages[i].name);
+        zsh_text(to, ec_help_pages[i].summary);
+        fputs("'\n", to);
+    }
+    fputs("    )\n"
+          "    if (( CURRENT == 2 )); then\n"
+          "        _describe command commands\n"
+          "        return\n"
+          "    fi\n"
+          "    local command=$words[2]\n"
+          "    shift words\n"
+          "    (( CURRENT-- ))\n"
+          "    case $command in\n", to);
+    for (int i = 0; i < ec_help_page_count; i++) {
+        ec_option rows[EC_OPTIONS_MAX + 2];
+        int count = ec_help_rows(&ec_help_pages[i], rows);
+        fprintf(to, "    %s)\n        _arguments -s \\\n", ec_help_pages[i].name);
+        for (int k = 0; k < count; k++) zsh_option(&rows[k], to);
+        fputs("            '*:operand:", to);
+        if (ec_help_pages[i].words) fputc('(', to), put_words(to, ec_help_pages[i].words), fputs(")' ;;\n", to);
+        else fputs(has_files(&ec_help_pages[i]) ? "_files' ;;\n" : "' ;;\n", to);
+    }
+    fputs("    esac\n"
+          "}\n"
+          "_eclat \"$@\"\n", to);
+}
+
+void ec_help_completion(const char *shell, FILE *to)
+{
+    if (!strcmp(shell, "zsh")) zsh(to);
+    else bash(to);
+}
