@@ -3,10 +3,27 @@
  *     void ACCEL_closest(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, hit8 *h);
  *     bool ACCEL_any(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, hit8 *h);
  *
- * h->t comes in as the largest t of interest, h->prim as EC_NO_ID. Triangles skip0 and skip1 are passed through. */
+ * h->t comes in as the largest t of interest, h->prim as EC_NO_ID. Triangles skip0 and skip1 are passed through. With ACCEL_HAS_TRACE
+ *
+ *     void ACCEL_trace(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, bool any_hit, hit8 *h);
+ *
+ * stands there in place of both. */
 #include "film.h"
 #include "pane.h"
 #include "queue.h"
+
+#ifdef ACCEL_HAS_TRACE
+EC_FN void EC_CAT(ACCEL, _closest)(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+{
+    EC_CAT(ACCEL, _trace)(a, q, filter, skip0, skip1, false, h);
+}
+
+EC_FN bool EC_CAT(ACCEL, _any)(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+{
+    EC_CAT(ACCEL, _trace)(a, q, filter, skip0, skip1, true, h);
+    return h->prim != EC_NO_ID;
+}
+#endif
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
 kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,

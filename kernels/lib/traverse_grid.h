@@ -237,19 +237,10 @@ EC_FN void grid_trace(const accel *a, const ray8 *q, const hit_filter *filter, u
     }
 }
 
-EC_FN void grid_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
-{
-    grid_trace(a, q, filter, skip0, skip1, false, h);
-}
-
-EC_FN bool grid_any(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
-{
-    grid_trace(a, q, filter, skip0, skip1, true, h);
-    return h->prim != EC_NO_ID;
-}
-
 #define ACCEL grid
+#define ACCEL_HAS_TRACE
 #include "trace_rays.h"
+#undef ACCEL_HAS_TRACE
 #undef ACCEL
 
 #endif

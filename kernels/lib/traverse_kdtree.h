@@ -106,19 +106,10 @@ EC_FN void kdtree_trace(const accel *a, const ray8 *q, const hit_filter *filter,
     }
 }
 
-EC_FN void kdtree_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
-{
-    kdtree_trace(a, q, filter, skip0, skip1, false, h);
-}
-
-EC_FN bool kdtree_any(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
-{
-    kdtree_trace(a, q, filter, skip0, skip1, true, h);
-    return h->prim != EC_NO_ID;
-}
-
 #define ACCEL kdtree
+#define ACCEL_HAS_TRACE
 #include "trace_rays.h"
+#undef ACCEL_HAS_TRACE
 #undef ACCEL
 
 #endif
