@@ -1,3 +1,4 @@
+/* tier: quick */
 /* The table of options of `eclat render`: complete, in agreement with what its setters take, and with the settings that reports tell. */
 #include <ctype.h>
 
