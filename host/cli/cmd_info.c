@@ -10,6 +10,7 @@
 #include "device/estimate.h"
 #include "jobs/setters.h"
 #include "report/scene_report.h"
+#include "gltf/reader.h"
 
 typedef struct info_request {
     ec_render_request render; /* first: the setters of its options are used */

@@ -9,6 +9,7 @@
 #include "jobs/frame_names.h"
 #include "jobs/render_job.h"
 #include "store/identity_text.h"
+#include "gltf/reader.h"
 
 typedef struct sequence {
     const ec_listener *listener;

@@ -1,4 +1,5 @@
 #include "jobs/inputs.h"
+#include "gltf/reader.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

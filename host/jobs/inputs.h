@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "scene/scene.h"
+#include "gltf/reader.h"
 
 typedef struct ec_inputs {
     const char *scene;        /* and all files that it names; NULL: none */

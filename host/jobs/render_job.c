@@ -12,6 +12,7 @@
 #include "jobs/usage.h"
 #include "render/strips.h"
 #include "report/scene_report.h"
+#include "gltf/reader.h"
 
 /* A slice is its sums: a PNG alone would throw them away. */
 static ec_result check_slice_output(const ec_render_request *request, ec_error *err)

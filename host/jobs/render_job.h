@@ -2,6 +2,7 @@
 #ifndef EC_JOBS_RENDER_JOB_H
 #define EC_JOBS_RENDER_JOB_H
 
+#include "gltf/reader.h"
 #include "cl/cl.h"
 #include "jobs/hash.h"
 #include "jobs/listener.h"

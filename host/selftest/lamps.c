@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "report/names.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 #include "shared/features.h"
 

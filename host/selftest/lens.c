@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 
 static const double pi = 3.14159265358979323846;

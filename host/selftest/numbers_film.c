@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "image/image.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 
 /* A camera that sees nothing but a lamp: every sample is its radiance. */

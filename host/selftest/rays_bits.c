@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "accel/accel.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/room.h"
 #include "selftest/shot.h"
 

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 #include "selftest/tracer.h"
 

@@ -1,6 +1,6 @@
 #include "selftest/room.h"
 
-#include "scene/model.h"
+#include "gltf/model.h"
 
 static double scale_of(const ec_room *room) { return room->scale > 0 ? room->scale : 1; }
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/vec3.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 
 ec_result ec_soup_make(uint32_t count, ec_soup *soup, ec_error *err)
 {

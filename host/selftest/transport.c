@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "report/names.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 
 /* A camera in a box of one emitting Lambert material sees the same everywhere: segment k adds albedo^(k - 1). */

@@ -10,7 +10,7 @@
 #include <sys/vfs.h>
 #include <unistd.h>
 
-#include "scene/scene.h"
+#include "gltf/reader.h"
 
 #define LINKS_MOST 40
 

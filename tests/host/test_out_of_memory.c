@@ -8,6 +8,7 @@
 #include "accel/follow.h"
 #include "pack/pack.h"
 #include "test_scene_files.h"
+#include "gltf/reader.h"
 
 static atomic_long calls, failing; /* failing: which call; 0: none */
 static bool tells;                 /* where that is */

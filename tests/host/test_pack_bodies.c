@@ -1,7 +1,7 @@
 /* tier: quick */
 /* Which bodies may lie in one another, which of two displaces the other, and what a point is in. */
 #include "pack/pack.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "support/test.h"
 
 static const double origin[3] = {0, 0, 0};

@@ -3,6 +3,7 @@
 #include "pack/pack.h"
 #include "support/gltf_writer.h"
 #include "support/test.h"
+#include "gltf/reader.h"
 
 static const float corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 

@@ -2,7 +2,7 @@
 /* When --light-choice auto takes the tree: lamps far apart that give a part of the light worth its time. And what a tree leaves
  * to the sky. */
 #include "pack/pack.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "support/test.h"
 
 enum { SIDE = 8 };

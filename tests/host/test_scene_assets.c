@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "scene/scene.h"
+#include "gltf/reader.h"
 #include "scene/validate.h"
 #include "support/test.h"
 

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "test_scene_files.h"
+#include "gltf/reader.h"
 
 static void expect_bytes_failure(const void *bytes, size_t size, const char *needle)
 {

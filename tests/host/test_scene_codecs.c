@@ -1,7 +1,8 @@
 /* tier: quick */
 /* Compressed meshes and textures: one triangle as the libraries' own encoders pack it, and what a build without them says. */
-#include "scene/codecs.h"
+#include "gltf/codecs.h"
 #include "test_scene_files.h"
+#include "gltf/reader.h"
 
 /* The corners (0, 0, 0), (1, 0, 0), (0, 1, 0): as floats, and as 12 x 2^-2 where they are 1. Normals are z, x and y. */
 static const unsigned char packed_positions[67] = {160, 0, 0, 1, 60, 0, 0, 0, 255, 255, 1, 60, 0, 0, 0, 126, 125, 0, 0, 1, 12,

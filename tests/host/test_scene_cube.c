@@ -3,7 +3,7 @@
  * 8.19, must come out as itself everywhere, across edges and corners too. */
 #include <math.h>
 
-#include "scene/cube.h"
+#include "gltf/cube.h"
 #include "support/test.h"
 
 static double radiance(const double d[3], int channel)

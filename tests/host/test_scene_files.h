@@ -6,7 +6,7 @@
 #include <stdarg.h>
 #include <unistd.h>
 
-#include "scene/scene.h"
+#include "gltf/reader.h"
 #include "scene/validate.h"
 #include "support/test.h"
 

@@ -1,7 +1,7 @@
 /* tier: quick */
 /* Decoding PNG and JPEG: every colour type becomes four channels; what is broken is refused. The files were made with
  * Python's zlib and libjpeg. */
-#include "scene/image_decode.h"
+#include "gltf/image_decode.h"
 
 #include "support/test.h"
 

@@ -2,8 +2,9 @@
 /* Meshes that are kept once: which are, what they become, and that written out they are what a loader without instances makes. */
 #include <math.h>
 
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "test_scene_files.h"
+#include "gltf/reader.h"
 
 static ec_scene *end(ec_model *m)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "support/test.h"
 
 static ec_scene *end(ec_model *m)

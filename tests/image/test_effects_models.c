@@ -4,6 +4,7 @@
 #include "support/light.h"
 #include "support/models.h"
 #include "support/render_case.h"
+#include "gltf/reader.h"
 
 int main(void)
 {

@@ -10,6 +10,7 @@
 #include "support/light.h"
 #include "support/models.h"
 #include "support/render_case.h"
+#include "gltf/reader.h"
 
 enum { SIZE = 32 };
 

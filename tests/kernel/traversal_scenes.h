@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "kernel/traversal_run.h"
-#include "scene/scene.h"
+#include "gltf/reader.h"
 
 /* The triangles of a glTF file. */
 static inline set set_scene(const char *name, const char *path)

@@ -5,6 +5,7 @@
 #include "fuzz.h"
 #include "pack/pack.h"
 #include "scene/validate.h"
+#include "gltf/reader.h"
 
 enum { TRIANGLES_MOST = 4000 }; /* more teaches nothing and costs executions */
 

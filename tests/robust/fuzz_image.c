@@ -4,7 +4,7 @@
 #include "fuzz.h"
 #include "image/image.h"
 #include "pack/pack.h"
-#include "scene/image_decode.h"
+#include "gltf/image_decode.h"
 
 enum { PIXELS_MOST = 1 << 16 }; /* more teaches nothing and costs executions */
 

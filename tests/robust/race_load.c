@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "pack/pack.h"
-#include "scene/flatten.h"
+#include "gltf/flatten.h"
 
 enum { PICTURES = 16, THREADS = 4, SIDE = 256, WIDTH = 300, HEIGHT = 150 };
 

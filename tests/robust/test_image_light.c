@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "robust/cases.h"
-#include "scene/cube.h"
-#include "scene/model.h"
+#include "gltf/cube.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 
 /* A white floor, seen from above. */

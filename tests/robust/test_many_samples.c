@@ -1,7 +1,7 @@
 /* tier: full */
 /* Sums of more samples than a float counts to. */
 #include "robust/cases.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 
 /* A camera that sees nothing but a lamp: every sample is its radiance. */

@@ -67,8 +67,8 @@ class Races(unittest.TestCase):
         self.check("race_accel", "5 structures of 80000 triangles by 4 threads, 2 refitted", "accel/*.c")
 
     def test_loading(self):
-        self.check("race_load", "12 of 16 pictures by 4 threads, 4 warnings, densities as by one thread", "scene/textures.c", "scene/texture_range.c",
-                   "scene/image_decode.c", "scene/image_check.c", "scene/image_png.c", "scene/image_jpeg.c", "scene/codecs/no_webp.c", "scene/gltf_uri.c",
+        self.check("race_load", "12 of 16 pictures by 4 threads, 4 warnings, densities as by one thread", "gltf/textures.c", "scene/texture_range.c",
+                   "gltf/image_decode.c", "gltf/image_check.c", "gltf/image_png.c", "gltf/image_jpeg.c", "gltf/codecs/no_webp.c", "gltf/gltf_uri.c",
                    "pack/environment_map.c", "pack/distribution.c", libraries=["-lpng", "-ljpeg"])
 
     def test_teams(self):

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "robust/cases.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 #include "selftest/tracer.h"
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "robust/cases.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 
 /* A tenth of a turn about a skew axis: no coordinate of what is in it stays round. */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "robust/cases.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 
 static ec_material glass(double ior, double roughness, double absorption)

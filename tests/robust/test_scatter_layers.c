@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "robust/cases.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/scatter.h"
 #include "selftest/shot.h"
 #include "shared/features.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "robust/cases.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "selftest/shot.h"
 
 static const double pi = 3.14159265358979323846;

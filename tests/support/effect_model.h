@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/model.h"
+#include "gltf/model.h"
 
 /* Textures that every such scene has. MIXED: texels of 0 and of 255 in all channels; DEEP the same with 16 bits;
  * NOISE: values from 100 on. */

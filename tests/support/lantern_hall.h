@@ -3,7 +3,7 @@
 #define EC_TESTS_SUPPORT_LANTERN_HALL_H
 
 #include "base/random.h"
-#include "scene/model.h"
+#include "gltf/model.h"
 #include "support/render_case.h"
 
 /* side x side chambers of 2 m, 1.5 m high, open to each other by half of each wall; `each` lanterns in a chamber, octahedra of eight

@@ -19,7 +19,7 @@
 #include "film/film.h"
 #include "film/resolve.h"
 #include "render/render.h"
-#include "scene/scene.h"
+#include "gltf/reader.h"
 #include "support/light.h"
 #include "support/test.h"
 #include "support/ztest.h"

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "view/view.h"
+#include "gltf/reader.h"
 
 static ec_result load(void *user, ec_scene **scene, ec_render_options *options, ec_error *err)
 {

@@ -7,7 +7,7 @@
 
 #include "bench_device.h"
 #include "bench_embree.h"
-#include "scene/scene.h"
+#include "gltf/reader.h"
 
 #define MOST_RUNS 99
 #define MOST_SETS 8

@@ -1,0 +1,71 @@
+/* One document, many scenes. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gltf/load.h"
+#include "gltf/reader.h"
+
+struct ec_animation {
+    ec_gltf *gltf;
+    char *path;
+    double posed_at; /* the moment that it is posed at and no scene has been made of; NaN: one has */
+};
+
+/* Pictures are decoded when the first scene needs them, and kept. */
+static ec_result make_room(ec_gltf *g, ec_error *err)
+{
+    g->decoded_count = g->image_count;
+    g->decoded = calloc((size_t)g->decoded_count + 1, sizeof *g->decoded);
+    return g->decoded ? EC_OK : ec_fail(err, "%s: out of memory for %u images", g->path, g->image_count);
+}
+
+ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_animation **animation,
+                            const ec_log *log, ec_error *err)
+{
+    ec_scene_choice moment;
+    ec_animation *a = *animation = calloc(1, sizeof *a);
+    if (!a || !(a->path = strdup(path))) {
+        free(a);
+        *animation = NULL;
+        return ec_fail(err, "%s: out of memory", path);
+    }
+    ec_result result = ec_settle_moment(path, choice, &moment, err);
+    moment.frame = moment.animated = true;
+    if (result == EC_OK) result = ec_gltf_read(a->path, &moment, &a->gltf, log, err);
+    if (result == EC_OK) result = make_room(a->gltf, err);
+    if (result == EC_OK) {
+        a->gltf->instancing = choice->instancing;
+        a->posed_at = moment.at;
+        return EC_OK;
+    }
+    ec_animation_close(a);
+    *animation = NULL;
+    return result;
+}
+
+ec_result ec_animation_show(ec_animation *a, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log, ec_error *err)
+{
+    ec_scene_choice moment;
+    *scene = NULL;
+    EC_TRY(ec_settle_moment(a->path, choice, &moment, err));
+    if (a->posed_at != moment.at) EC_TRY(ec_gltf_pose(a->gltf, &moment, true, log, err));
+    a->posed_at = NAN;
+    EC_TRY(ec_scene_from_gltf(&moment, a->gltf, scene, log, err));
+    a->gltf->image_light.used = false;
+    return EC_OK;
+}
+
+void ec_animation_digest(const ec_animation *a, char digest[65])
+{
+    for (int i = 0; i < 32; i++) snprintf(digest + 2 * i, 3, "%02x", a->gltf->digest[i]);
+}
+
+void ec_animation_close(ec_animation *a)
+{
+    if (!a) return;
+    ec_gltf_free(a->gltf);
+    free(a->path);
+    free(a);
+}

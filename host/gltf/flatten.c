@@ -1,0 +1,165 @@
+/* Flattens placed meshes into one triangle soup: positions go through double, are recentred and only then rounded. */
+#include "gltf/keep.h"
+#include "gltf/node_parts.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+
+/* But for those of meshes that are kept once. */
+static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, ec_draw_function function)
+{
+    for (uint32_t i = 0; i < list->count; i++) {
+        int32_t mesh = list->items[i].mesh;
+        if (mesh < 0 || (f->is_kept && f->is_kept[i])) continue;
+        f->placement = list->items[i].moves ? i : EC_STILL;
+        f->node = list->items[i].node;
+        EC_TRY(ec_flattener_draw(f, g, mesh, &list->items[i], f->scene->center, function));
+    }
+    return EC_OK;
+}
+
+/* Many instances of one mesh make a small file huge: say so rather than be killed for it. */
+static ec_result check_memory(const ec_flattener *f, const char *path)
+{
+    uint64_t per_vertex = 12u + 12u * f->has_normals + 16u * f->has_tangents + 16u * f->has_colors +
+                          8u * f->has_uv[0] + 8u * f->has_uv[1];
+    uint64_t bytes = f->vertex_bound * per_vertex + f->triangle_bound * 16;
+    uint64_t memory = ec_memory_of_machine();
+    if (bytes <= memory) return EC_OK;
+    return ec_fail(f->err, "%s: %llu triangles once all instances are counted need %llu MB, this machine has %llu MB",
+                   path, (unsigned long long)f->triangle_bound, (unsigned long long)(bytes >> 20),
+                   (unsigned long long)(memory >> 20));
+}
+
+/* First pass: where it is. Vertices of triangles that will be dropped must not move the centre. */
+static ec_result measure_draw(ec_flattener *f, const ec_draw *d)
+{
+    for (uint64_t t = 0; t < d->p->triangle_count; t++) {
+        uint32_t v[3];
+        double world[3][3];
+        ec_gltf_primitive_triangle(d->g, d->p, t, v);
+        for (int i = 0; i < 3; i++) ec_draw_world_position(d, v[i], world[i]);
+        if (!ec_is_placeable((const double(*)[3])world)) continue;
+        for (int i = 0; i < 9; i++) {
+            f->low[i % 3] = fmin(f->low[i % 3], world[i / 3][i % 3]);
+            f->high[i % 3] = fmax(f->high[i % 3], world[i / 3][i % 3]);
+        }
+    }
+    return EC_OK;
+}
+
+static ec_result allocate(ec_flattener *f, const char *path)
+{
+    ec_scene *s = f->scene;
+    size_t v = f->vertex_bound + 1, t = f->triangle_bound + 1; /* there may be none */
+    f->remap = malloc((f->remap_size + 1) * sizeof *f->remap);
+    s->positions = malloc(v * 3 * sizeof(float));
+    s->indices = malloc(t * 3 * sizeof(uint32_t));
+    s->triangle_material = malloc(t * sizeof(uint32_t));
+    bool ok = f->remap && s->positions && s->indices && s->triangle_material;
+    if (f->has_normals) ok = (s->normals = malloc(v * 3 * sizeof(float))) && ok;
+    if (f->has_tangents) ok = (s->tangents = malloc(v * 4 * sizeof(float))) && ok;
+    if (f->has_colors) ok = (s->colors = malloc(v * 4 * sizeof(float))) && ok;
+    for (int i = 0; i < 2; i++)
+        if (f->has_uv[i]) ok = (s->uv[i] = malloc(v * 2 * sizeof(float))) && ok;
+    return ok ? EC_OK : ec_fail(f->err, "%s: out of memory for %zu triangles", path, t);
+}
+
+/* Gives back what dropped triangles and unused vertices had reserved. */
+static void *shrink(void *block, size_t size)
+{
+    void *smaller = block ? realloc(block, size) : NULL;
+    return smaller ? smaller : block;
+}
+
+static void trim(ec_scene *s)
+{
+    size_t v = s->vertex_count * sizeof(float), t = s->triangle_count * sizeof(uint32_t);
+    s->positions = shrink(s->positions, 3 * v);
+    s->normals = shrink(s->normals, 3 * v);
+    s->tangents = shrink(s->tangents, 4 * v);
+    s->colors = shrink(s->colors, 4 * v);
+    for (int i = 0; i < 2; i++) s->uv[i] = shrink(s->uv[i], 2 * v);
+    s->indices = shrink(s->indices, 3 * t);
+    s->triangle_material = shrink(s->triangle_material, t);
+}
+
+static void set_bounds(ec_scene *s, uint32_t flat_vertices)
+{
+    for (int k = 0; k < 3; k++) {
+        s->bounds_min[k] = FLT_MAX;
+        s->bounds_max[k] = -FLT_MAX;
+    }
+    for (size_t i = 0; i < 3 * (size_t)flat_vertices; i++) {
+        s->bounds_min[i % 3] = fminf(s->bounds_min[i % 3], s->positions[i]);
+        s->bounds_max[i % 3] = fmaxf(s->bounds_max[i % 3], s->positions[i]);
+    }
+}
+
+static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *placements, ec_keeping *keeping)
+{
+    ec_scene *s = f->scene;
+    EC_TRY(for_each_draw(f, g, placements, ec_flattener_count));
+    EC_TRY(ec_keep_count(keeping, f));
+    EC_TRY(check_memory(f, g->path));
+    EC_TRY(for_each_draw(f, g, placements, measure_draw));
+    EC_TRY(ec_keep_measure(keeping, f));
+    bool any_finite = f->low[0] <= f->high[0];
+    for (int k = 0; k < 3; k++) s->center[k] = any_finite ? 0.5 * (f->low[k] + f->high[k]) : 0;
+    EC_TRY(allocate(f, g->path));
+    EC_TRY(ec_parts_start(s, g, placements->count, f->err));
+    free(g->sources);
+    g->sources = NULL;
+    if (g->blurs) {
+        f->sources = g->sources = malloc((f->vertex_bound + 1) * sizeof *g->sources);
+        if (!f->sources)
+            return ec_fail(f->err, "%s: out of memory for %llu vertices", g->path, (unsigned long long)f->vertex_bound);
+    }
+    EC_TRY(for_each_draw(f, g, placements, ec_flattener_fill));
+    set_bounds(s, s->vertex_count);
+    f->placement = EC_STILL;
+    f->node = -1;
+    f->sources = NULL; /* meshes kept once stand still */
+    EC_TRY(ec_keep_fill(keeping, f));
+    if (!s->triangle_count) {
+        memset(s->bounds_min, 0, sizeof s->bounds_min);
+        memset(s->bounds_max, 0, sizeof s->bounds_max);
+        return ec_flatten_empty(f, g, placements);
+    }
+    trim(s);
+    return EC_OK;
+}
+
+static void warn_odd(const struct ec_odd_values *odd, const ec_gltf *g, const char *what, const ec_log *log)
+{
+    if (!odd->count) return;
+    const char *name = g->meshes[odd->mesh].name;
+    ec_warn(log, "%s: %llu %s, the first in meshes[%d]%s%.*s%s; they are clamped", g->path,
+            (unsigned long long)odd->count, what, odd->mesh, name ? " \"" : "", EC_CUT(name ? name : "", 80),
+            name ? "\"" : "");
+}
+
+ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
+{
+    ec_flattener f = {.scene = s, .log = log, .err = err, .low = {INFINITY, INFINITY, INFINITY},
+                   .high = {-INFINITY, -INFINITY, -INFINITY}};
+    ec_keeping keeping;
+    ec_result result = ec_keep_choose(g, placements, s, &keeping, err);
+    f.is_kept = keeping.is_kept;
+    if (result == EC_OK) result = flatten(&f, g, placements, &keeping);
+    free(f.remap);
+    ec_keep_free(&keeping);
+    EC_TRY(result);
+    if (s->dropped_nonfinite)
+        ec_warn(log, "%s: %u triangles with NaN or infinite positions are left out", g->path, s->dropped_nonfinite);
+    if (s->dropped_degenerate)
+        ec_note(log, "%s: %u triangles without area are left out", g->path, s->dropped_degenerate);
+    warn_odd(&f.odd_uv, g, "texture coordinates are NaN or beyond 1e18", log);
+    warn_odd(&f.odd_colors, g, "values of vertex colours are NaN or out of 0..1", log);
+    return EC_OK;
+}

@@ -1,0 +1,131 @@
+/* One primitive at one place: how much of it there can be, and its triangles but for those that are none. */
+#include "gltf/flatten_vertex.h"
+#include "gltf/node_parts.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/vec3.h"
+
+#define NO_VERTEX UINT32_MAX
+
+ec_draw ec_draw_of(const ec_gltf *g, const ec_placement *at, const double *center)
+{
+    ec_draw d = {.g = g, .at = at, .center = center};
+    ec_gltf_normal_matrix(at->linear, d.normal_matrix);
+    d.mirrored = ec_gltf_determinant(at->linear) < 0;
+    return d;
+}
+
+ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, const ec_placement *at, const double *center,
+                            ec_draw_function function)
+{
+    ec_draw d = ec_draw_of(g, at, center);
+    d.mesh = mesh;
+    for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
+        d.p = &g->meshes[mesh].primitives[k];
+        if (d.p->drawn) EC_TRY(function(f, &d));
+    }
+    return EC_OK;
+}
+
+bool ec_is_placeable(const double world[3][3])
+{
+    for (int i = 0; i < 9; i++)
+        if (!(fabs(world[i / 3][i % 3]) < EC_MAX_COORDINATE)) return false;
+    return true;
+}
+
+ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
+{
+    uint64_t range = (uint64_t)d->p->highest - d->p->lowest + 1, corners = 3 * d->p->triangle_count;
+    f->triangle_bound += d->p->triangle_count;
+    f->vertex_bound += range < corners ? range : corners;
+    if (f->triangle_bound > INT32_MAX || f->vertex_bound > INT32_MAX)
+        return ec_fail(f->err, "%s: more than %d triangles or vertices once all instances are counted; simplify the scene",
+                       d->g->path, INT32_MAX);
+    if (range > f->remap_size) f->remap_size = range;
+    f->has_normals |= d->p->streams.normal >= 0;
+    f->has_tangents |= d->p->streams.tangent >= 0 && d->p->streams.normal >= 0;
+    f->has_colors |= d->p->streams.color >= 0;
+    for (int i = 0; i < 2; i++) f->has_uv[i] |= d->p->streams.uv[i] >= 0;
+    return EC_OK;
+}
+
+static void cross_edges(const float *a, const float *b, const float *c, double out[3])
+{
+    double u[3], v[3];
+    for (int i = 0; i < 3; i++) {
+        u[i] = (double)b[i] - a[i];
+        v[i] = (double)c[i] - a[i];
+    }
+    ec_cross(u, v, out);
+}
+
+static double largest_component(const double v[3])
+{
+    return fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+}
+
+/* Collinear as stored in the file: rounding after the transform could give such a triangle a meaningless area. */
+static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
+{
+    float local[3][3];
+    double normal[3];
+    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.position], v[i], 3, local[i]);
+    cross_edges(local[0], local[1], local[2], normal);
+    return largest_component(normal) == 0;
+}
+
+/* A triangle must have an area that floats can express; otherwise it is counted and left out. */
+static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], float position[3][3])
+{
+    double normal[3];
+    cross_edges(position[0], position[1], position[2], normal);
+    double size = largest_component(normal);
+    bool finite = isfinite((float)size);
+    for (int i = 0; i < 9; i++) finite = finite && fabs((double)position[i / 3][i % 3]) < EC_MAX_COORDINATE;
+    if (!finite) {
+        f->scene->dropped_nonfinite++;
+        return false;
+    }
+    if (d->at->moves) return true; /* it may have an area at another moment: motion.c looks at all of them */
+    if (size < FLT_MIN || is_flat_in_file(d, v)) {
+        f->scene->dropped_degenerate++;
+        return false;
+    }
+    return true;
+}
+
+ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
+{
+    ec_scene *s = f->scene;
+    if (f->node >= 0) ec_part_add(s, s->triangle_count, (uint32_t)f->node);
+    memset(f->remap, 0xff, ((uint64_t)d->p->highest - d->p->lowest + 1) * sizeof *f->remap);
+    for (uint64_t t = 0; t < d->p->triangle_count; t++) {
+        uint32_t v[3];
+        float position[3][3];
+        ec_gltf_primitive_triangle(d->g, d->p, t, v);
+        for (int i = 0; i < 3; i++) {
+            double world[3];
+            ec_draw_world_position(d, v[i], world);
+            for (int k = 0; k < 3; k++) position[i][k] = (float)(world[k] - d->center[k]);
+        }
+        if (!is_drawable(f, d, v, position)) continue;
+        size_t n = s->triangle_count++;
+        for (int i = 0; i < 3; i++) {
+            uint32_t *known = &f->remap[v[i] - d->p->lowest];
+            if (*known == NO_VERTEX) {
+                if (f->sources)
+                    f->sources[s->vertex_count] =
+                        (ec_source){f->placement, (uint32_t)(d->p - d->g->meshes[d->at->mesh].primitives), v[i]};
+                *known = ec_flattener_append_vertex(f, d, v[i], position[i]);
+            }
+            /* a mirrored mesh is turned, so that its front stays its front */
+            s->indices[3 * n + (size_t)(d->mirrored && i ? 3 - i : i)] = *known;
+        }
+        s->triangle_material[n] = d->p->scene_material;
+    }
+    return EC_OK;
+}

@@ -1,0 +1,63 @@
+/* What the parts of flattening share: flatten*.c, keep*.c, empty.c and motion*.c. */
+#ifndef EC_GLTF_FLATTEN_VERTEX_H
+#define EC_GLTF_FLATTEN_VERTEX_H
+
+#include "gltf/flatten.h"
+
+/* One primitive at one place. */
+typedef struct ec_draw {
+    const ec_gltf *g;
+    const ec_gltf_primitive *p;
+    const ec_placement *at;
+    int32_t mesh;            /* that p is of */
+    const double *center;    /* subtracted from where a vertex lies */
+    double normal_matrix[9];
+    bool mirrored;
+} ec_draw;
+
+typedef struct ec_flattener {
+    ec_scene *scene;
+    const ec_log *log;
+    ec_error *err;
+    double low[3], high[3];
+    uint64_t vertex_bound, triangle_bound;
+    struct ec_odd_values {
+        uint64_t count;
+        int32_t mesh; /* where the first is, in the file */
+    } odd_uv, odd_colors;
+    uint32_t *remap; /* primitive's vertex - lowest -> scene's vertex */
+    uint64_t remap_size;
+    bool has_normals, has_tangents, has_uv[2], has_colors;
+    ec_source *sources;  /* NULL: nobody asks */
+    uint32_t placement;  /* the one being drawn, or EC_STILL */
+    int32_t node;        /* whose triangles are being drawn; -1: of a mesh that is kept once */
+    const bool *is_kept; /* by placement: an instance of a mesh that is kept once; NULL: none is */
+} ec_flattener;
+
+typedef ec_result (*ec_draw_function)(ec_flattener *f, const ec_draw *d);
+/* flatten_draw.c: all primitives of a mesh at one place. */
+ec_result ec_flattener_draw(ec_flattener *f, const ec_gltf *g, int32_t mesh, const ec_placement *at, const double *center,
+                            ec_draw_function function);
+ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d); /* first pass: how much there can be at most */
+ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d);  /* second pass: appends its triangles */
+
+/* Are all three places numbers that a scene can hold? */
+bool ec_is_placeable(const double world[3][3]);
+/* Beyond this squares of distances no longer fit a float; such a position counts as infinite. */
+#define EC_MAX_COORDINATE 1e18
+
+/* A vertex' normal (3 floats) and tangent (4) in the world, each NULL where it is not asked for; what the mesh has none of stays. */
+void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tangent);
+/* What stands at a place; its primitive is still to be said. */
+ec_draw ec_draw_of(const ec_gltf *g, const ec_placement *at, const double *center);
+
+/* Where a vertex lies in the world. */
+void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3]);
+
+/* Appends a vertex with all of its streams; `position` is the recentred one. Returns its index. */
+uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t vertex, const float position[3]);
+
+/* empty.c: no triangle is left. Says why, or fails. */
+ec_result ec_flatten_empty(const ec_flattener *f, const ec_gltf *g, const ec_placement_list *placements);
+
+#endif

@@ -1,0 +1,232 @@
+/* A glTF file as plain C data: what the shim read, with every index already known to be in range. Inside host/scene/
+ * only; the rest of the program sees ec_scene. Indices are int32_t, -1 where the file names none. */
+#ifndef EC_GLTF_GLTF_H
+#define EC_GLTF_GLTF_H
+
+#include "scene/scene.h"
+
+/* glTF's own codes for component types and primitive modes. */
+enum { EC_GLTF_BYTE = 5120, EC_GLTF_UBYTE, EC_GLTF_SHORT, EC_GLTF_USHORT, EC_GLTF_UINT = 5125, EC_GLTF_FLOAT };
+enum { EC_GLTF_POINTS, EC_GLTF_LINES, EC_GLTF_LINE_LOOP, EC_GLTF_LINE_STRIP, EC_GLTF_TRIANGLES, EC_GLTF_STRIP,
+       EC_GLTF_FAN };
+
+typedef struct ec_gltf_buffer {
+    const uint8_t *data; /* NULL: the file gives none (allowed while nobody reads it) */
+    uint64_t length;
+    uint8_t *owned;      /* NULL where data lies in the .glb's own bytes */
+} ec_gltf_buffer;
+
+/* EXT_meshopt_compression: where a view's bytes come from. */
+typedef enum ec_meshopt_mode { EC_MESHOPT_NONE, EC_MESHOPT_ATTRIBUTES, EC_MESHOPT_TRIANGLES, EC_MESHOPT_INDICES } ec_meshopt_mode;
+typedef enum ec_meshopt_filter {
+    EC_MESHOPT_NO_FILTER,
+    EC_MESHOPT_OCTAHEDRAL,
+    EC_MESHOPT_QUATERNION,
+    EC_MESHOPT_EXPONENTIAL
+} ec_meshopt_filter;
+typedef struct ec_gltf_meshopt {
+    ec_meshopt_mode mode; /* EC_MESHOPT_NONE: not compressed */
+    ec_meshopt_filter filter;
+    int32_t buffer;
+    uint64_t offset, length, count;
+    uint32_t stride;
+} ec_gltf_meshopt;
+
+typedef struct ec_gltf_view {
+    int32_t buffer;
+    uint64_t offset, length;
+    uint32_t stride; /* 0 = packed */
+    ec_gltf_meshopt packed;
+    uint8_t *owned;  /* unpacked, once it has been read */
+} ec_gltf_view;
+
+typedef struct ec_gltf_sparse {
+    uint64_t count;
+    int32_t index_view, value_view;
+    uint64_t index_offset, value_offset;
+    uint32_t index_type;
+} ec_gltf_sparse;
+
+typedef struct ec_gltf_accessor {
+    int32_t view;
+    uint64_t offset, count;
+    uint32_t component_type;
+    uint32_t components; /* 1..4, 16 for MAT4; 0 for other matrices, which nothing uses */
+    bool normalized;
+    ec_gltf_sparse sparse; /* count 0: dense */
+    /* Set by ec_gltf_accessor_open: */
+    bool open;
+    const uint8_t *data; /* NULL: all zeros */
+    uint64_t stride;
+    uint8_t *owned;      /* sparse: base and replacements merged */
+} ec_gltf_accessor;
+
+/* Accessors of a vertex' attributes, or of what a morph target adds to them. */
+typedef struct ec_gltf_streams {
+    int32_t position, normal, tangent, color, uv[2];
+} ec_gltf_streams;
+
+typedef struct ec_gltf_draco {
+    int32_t accessor;
+    uint32_t id; /* of the attribute in the compressed data */
+} ec_gltf_draco;
+
+typedef struct ec_gltf_primitive {
+    int32_t mode, material, indices;
+    ec_gltf_streams streams, *targets;
+    int32_t *joints, *weights; /* accessors, four influences in each */
+    uint32_t target_count, influence_sets;
+    int32_t draco_view; /* KHR_draco_mesh_compression; -1: none */
+    ec_gltf_draco *draco;
+    uint32_t draco_count;
+    /* Set by ec_gltf_primitive_prepare and, the material, by ec_gltf_materials_assign: */
+    bool prepared, drawn;              /* drawn: makes triangles */
+    uint64_t triangle_count;
+    uint32_t lowest, highest;          /* vertices it refers to */
+    uint32_t scene_material;
+} ec_gltf_primitive;
+
+typedef struct ec_gltf_mesh {
+    char *name;
+    ec_gltf_primitive *primitives;
+    float *weights; /* of morph targets, unless the node has its own */
+    uint32_t primitive_count, weight_count;
+} ec_gltf_mesh;
+
+typedef struct ec_gltf_skin {
+    int32_t *joints; /* nodes */
+    uint32_t joint_count;
+    int32_t inverse_bind; /* accessor; -1: identities */
+} ec_gltf_skin;
+
+/* EXT_mesh_gpu_instancing: accessors with one element for each place at which the node's mesh stands. */
+typedef struct ec_gltf_instancing {
+    bool used;
+    int32_t translation, rotation, scale;
+} ec_gltf_instancing;
+
+typedef struct ec_gltf_node {
+    char *name;
+    double local[16]; /* column major, as in the file */
+    int32_t mesh, skin, camera, light;
+    int32_t *children;
+    float *weights;
+    uint32_t child_count, weight_count;
+    ec_gltf_instancing instances;
+    bool hidden; /* KHR_node_visibility: nor is what hangs below it seen */
+} ec_gltf_node;
+
+/* Encoded pixels: a bufferView or a URI, the latter already checked for shape but not yet opened. */
+typedef struct ec_gltf_image {
+    char *name, *uri;
+    int32_t view;
+} ec_gltf_image;
+
+typedef struct ec_gltf_texture {
+    int32_t image; /* -1: none, or only one in a format of an unsupported extension */
+    ec_wrap wrap_s, wrap_t;
+    bool nearest;
+    bool is_gloss;    /* KHR_materials_pbrSpecularGlossiness: its alpha is glossiness; roughness is made of it */
+    float glossiness; /* the factor that goes with it */
+} ec_gltf_texture;
+
+/* EXT_lights_image_based: what lights the shown scene. Its other mips and irradiance coefficients are this picture's, blurred. */
+typedef struct ec_gltf_image_light {
+    bool used;
+    int32_t index;         /* in the file, for messages */
+    int32_t faces[6];      /* images of the sharpest mip: +x, -x, +y, -y, +z, -z */
+    uint32_t size;         /* pixels a side, as the file says */
+    double rotation[4];    /* quaternion: directions of the cube to the scene's */
+    double intensity;      /* >= 0 */
+} ec_gltf_image_light;
+
+/* Where a vertex of the scene comes from. */
+typedef struct ec_source {
+    uint32_t placement, primitive, vertex;
+} ec_source;
+#define EC_STILL UINT32_MAX /* as placement: nothing moves it */
+
+typedef struct ec_gltf {
+    const char *path;  /* for messages; the caller's */
+    char *folder;      /* where URIs start, "" or with a trailing slash */
+    uint8_t *file;     /* the whole .glb, where buffers point into it */
+    ec_gltf_buffer *buffers;
+    ec_gltf_view *views;
+    ec_gltf_accessor *accessors;
+    ec_gltf_mesh *meshes;
+    ec_gltf_skin *skins;
+    ec_gltf_node *nodes;
+    ec_gltf_image *images;
+    ec_gltf_texture *textures;
+    ec_material *materials; /* their texture uses hold glTF texture indices */
+    ec_camera *cameras;     /* unplaced */
+    ec_light *lights;       /* unplaced */
+    uint32_t buffer_count, view_count, accessor_count, mesh_count, skin_count, node_count, image_count, texture_count,
+        material_count, camera_count, light_count;
+    ec_gltf_image_light image_light;
+    int32_t *roots;         /* nodes of the scene to show */
+    uint32_t root_count;
+    ec_instancing instancing; /* the caller's wish */
+    void *tree;             /* of a file that may be posed again: gltf_shim.cpp's; NULL: it may not */
+    uint32_t stored_accessors, stored_meshes; /* the file's own; behind them lie deformed copies of a pose */
+    ec_image *decoded;      /* by image, then by texture (roughness made of glossiness): for all scenes of an animation; NULL: none is kept */
+    uint32_t decoded_count;
+    uint8_t digest[32];     /* SHA-256 over all files that it is made of, with choice->frame */
+    bool *animated;         /* by node: a channel moves it; NULL: there is none */
+    bool blurs;             /* within the shutter */
+    bool frame;             /* of a sequence: see ec_scene_choice */
+    uint32_t shutter_keys;  /* most keyframes of a channel within it */
+    ec_source *sources;     /* of the scene's vertices, while a scene is made with a shutter */
+    bool quantized;         /* KHR_mesh_quantization: integer positions, normals, tangents */
+    char **extensions_used, **extensions_ignored;
+    uint32_t extension_count, extension_ignored_count;
+    ec_scene_contents contents;
+} ec_gltf;
+
+/* gltf_shim.cpp: parses, checks shape and index ranges, loads the buffers. No exception leaves it. */
+ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **gltf, const ec_log *log, ec_error *err);
+void ec_gltf_free(ec_gltf *gltf); /* NULL is fine */
+
+/* Another moment, choice->at, of a document that was read with choice->animated: nothing is read or decoded again. What scenes were made
+ * of stands as before: nodes, weights, and where a channel moves them cameras and lights; with `whole` also what a scene has
+ * taken, its materials. */
+ec_result ec_gltf_pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const ec_log *log, ec_error *err);
+void ec_gltf_tree_free(ec_gltf *gltf);
+void ec_gltf_unpose(ec_gltf *gltf);        /* gltf_free.c: nodes and deformed copies go */
+void ec_gltf_free_looks(ec_gltf *gltf);    /* textures, materials, cameras, lights go */
+
+/* gltf_digest.c: of these bytes, after all before them; of buffers and images in other files. */
+void ec_gltf_digest_add(ec_gltf *gltf, const uint8_t *bytes, uint64_t length);
+void ec_gltf_digest_parts(ec_gltf *gltf);
+
+/* load.c: everything after reading. Takes strings and materials from the document, which stays the caller's. */
+ec_result ec_scene_from_gltf(const ec_scene_choice *choice, ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err);
+
+/* gltf_tree.c: translation x rotation x scale, column major. A quaternion of any length will do; zero is no rotation. */
+void ec_gltf_compose(const double translation[3], const double rotation[4], const double scale[3], double matrix[16]);
+
+/* gltf_uri.c */
+ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err); /* leaves the folder? */
+char *ec_gltf_uri_file(const char *uri); /* malloc'ed, relative to the folder; NULL: none that would be read */
+ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *uri, uint8_t **bytes, uint64_t *length,
+                           ec_error *err);
+ec_result ec_gltf_file_load(const char *file, uint8_t **bytes, uint64_t *length, ec_error *err);
+
+/* gltf_accessor.c: all reading of buffers goes through here. Open before read; `what` is for the message, e.g.
+ * "meshes[2].primitives[0] POSITION". */
+ec_result ec_gltf_check_views(const ec_gltf *gltf, ec_error *err);
+ec_result ec_gltf_accessor_open(ec_gltf *gltf, int32_t accessor, const char *what, ec_error *err);
+void ec_gltf_accessor_floats(const ec_gltf_accessor *accessor, uint64_t element, uint32_t count, float *out);
+uint32_t ec_gltf_accessor_index(const ec_gltf_accessor *accessor, uint64_t element);
+
+/* gltf_primitive.c: checks a primitive's accessors and indices once; afterwards its triangles can be read freely. A
+ * primitive without triangles is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
+ec_result ec_gltf_primitive_prepare(ec_gltf *gltf, ec_gltf_primitive *primitive, const char *where, ec_error *err);
+/* Likewise for what deforms a prepared primitive: one of its morph targets, and its joints and weights. */
+ec_result ec_gltf_target_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, uint32_t target, const char *where,
+                                 ec_error *err);
+ec_result ec_gltf_influences_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, const char *where, ec_error *err);
+void ec_gltf_primitive_triangle(const ec_gltf *gltf, const ec_gltf_primitive *primitive, uint64_t triangle,
+                                uint32_t vertices[3]);
+
+#endif

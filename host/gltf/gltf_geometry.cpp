@@ -1,0 +1,234 @@
+/* Views, accessors, meshes and skins from the checked JSON tree: index ranges and types are known to be good. */
+#include "gltf/gltf_shim.h"
+
+#include <algorithm>
+
+namespace eclat {
+
+using nlohmann::json;
+
+const json &list_of(const json &object, const char *key)
+{
+    static const json empty = json::array();
+    auto found = object.find(key);
+    return found == object.end() ? empty : *found;
+}
+
+const json *find_extension(const json &object, const char *name)
+{
+    auto extensions = object.find("extensions");
+    if (extensions == object.end()) return nullptr;
+    auto found = extensions->find(name);
+    return found == extensions->end() ? nullptr : &*found;
+}
+
+static ec_gltf_meshopt convert_meshopt(const json &in)
+{
+    std::string mode = in["mode"], filter = in.value("filter", "NONE");
+    ec_gltf_meshopt out = {};
+    out.mode = mode == "ATTRIBUTES" ? EC_MESHOPT_ATTRIBUTES : mode == "TRIANGLES" ? EC_MESHOPT_TRIANGLES : EC_MESHOPT_INDICES;
+    out.filter = filter == "OCTAHEDRAL"    ? EC_MESHOPT_OCTAHEDRAL
+                 : filter == "QUATERNION"  ? EC_MESHOPT_QUATERNION
+                 : filter == "EXPONENTIAL" ? EC_MESHOPT_EXPONENTIAL
+                                           : EC_MESHOPT_NO_FILTER;
+    out.buffer = in["buffer"];
+    out.offset = in.value("byteOffset", uint64_t(0));
+    out.length = in["byteLength"];
+    out.count = in["count"];
+    out.stride = in["byteStride"];
+    return out;
+}
+
+void convert_views(const json &list, ec_gltf *gltf)
+{
+    gltf->views = make_array<ec_gltf_view>(list.size());
+    for (const json &in : list) {
+        ec_gltf_view &out = gltf->views[gltf->view_count++];
+        out.buffer = in["buffer"];
+        out.offset = in.value("byteOffset", uint64_t(0));
+        out.length = in["byteLength"];
+        out.stride = in.value("byteStride", 0u);
+        if (const json *packed = find_extension(in, "EXT_meshopt_compression")) out.packed = convert_meshopt(*packed);
+    }
+}
+
+/* Components of an element; 0: a matrix that nothing here reads. */
+static uint32_t component_count(const std::string &type)
+{
+    return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : type == "MAT4" ? 16 : 0;
+}
+
+void convert_accessors(const json &list, ec_gltf *gltf)
+{
+    gltf->accessors = make_array<ec_gltf_accessor>(list.size());
+    for (const json &in : list) {
+        ec_gltf_accessor &out = gltf->accessors[gltf->accessor_count++];
+        out.view = in.value("bufferView", -1);
+        out.offset = in.value("byteOffset", uint64_t(0));
+        out.count = in["count"];
+        out.component_type = in["componentType"];
+        out.components = component_count(in["type"]);
+        out.normalized = in.value("normalized", false);
+        if (!in.contains("sparse")) continue;
+        const json &sparse = in["sparse"], &indices = sparse["indices"], &values = sparse["values"];
+        out.sparse = {sparse["count"], indices["bufferView"], values["bufferView"], indices.value("byteOffset", uint64_t(0)),
+                      values.value("byteOffset", uint64_t(0)), indices["componentType"]};
+    }
+}
+
+static ec_gltf_streams convert_streams(const json &attributes)
+{
+    auto find = [&](const char *name) { return attributes.value(name, -1); };
+    return {find("POSITION"), find("NORMAL"), find("TANGENT"), find("COLOR_0"), {find("TEXCOORD_0"), find("TEXCOORD_1")}};
+}
+
+/* JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... */
+static void convert_influences(const json &attributes, ec_gltf_primitive &out)
+{
+    auto name = [](const char *stem) { return [stem](uint32_t i) { return stem + std::to_string(i); }; };
+    auto joints = name("JOINTS_"), weights = name("WEIGHTS_");
+    uint32_t count = 0;
+    while (attributes.contains(joints(count)) && attributes.contains(weights(count))) count++;
+    out.joints = make_array<int32_t>(count);
+    out.weights = make_array<int32_t>(count);
+    for (; out.influence_sets < count; out.influence_sets++) {
+        out.joints[out.influence_sets] = attributes[joints(out.influence_sets)];
+        out.weights[out.influence_sets] = attributes[weights(out.influence_sets)];
+    }
+}
+
+static void convert_draco(const json &in, ec_gltf_primitive &out)
+{
+    const json *draco = find_extension(in, "KHR_draco_mesh_compression");
+    out.draco_view = draco ? (*draco)["bufferView"].get<int32_t>() : -1;
+    if (!draco) return;
+    const json &ids = (*draco)["attributes"];
+    out.draco = make_array<ec_gltf_draco>(ids.size());
+    for (auto &id : ids.items()) {
+        if (!id.value().is_number_unsigned())
+            throw bad_file("KHR_draco_mesh_compression.attributes." + id.key() + " must be a non-negative integer");
+        if (in["attributes"].contains(id.key())) out.draco[out.draco_count++] = {in["attributes"][id.key()], id.value()};
+    }
+}
+
+static void convert_primitive(const json &in, ec_gltf_primitive &out)
+{
+    out.mode = in.value("mode", int(EC_GLTF_TRIANGLES));
+    out.material = in.value("material", -1);
+    out.indices = in.value("indices", -1);
+    out.streams = convert_streams(in["attributes"]);
+    convert_influences(in["attributes"], out);
+    convert_draco(in, out);
+    const json &targets = list_of(in, "targets");
+    out.targets = make_array<ec_gltf_streams>(targets.size());
+    for (const json &target : targets) out.targets[out.target_count++] = convert_streams(target);
+}
+
+static float *copy_numbers(const json &list, uint32_t *count)
+{
+    float *numbers = make_array<float>(list.size());
+    for (const json &number : list) numbers[(*count)++] = number;
+    return numbers;
+}
+
+void convert_meshes(const json &list, ec_gltf *gltf)
+{
+    gltf->meshes = make_array<ec_gltf_mesh>(list.size());
+    for (const json &in : list) {
+        ec_gltf_mesh &out = gltf->meshes[gltf->mesh_count++];
+        out.name = copy_string(in.value("name", ""));
+        out.weights = copy_numbers(list_of(in, "weights"), &out.weight_count);
+        out.primitives = make_array<ec_gltf_primitive>(in["primitives"].size());
+        for (const json &primitive : in["primitives"]) convert_primitive(primitive, out.primitives[out.primitive_count++]);
+    }
+}
+
+void convert_weights(const json &list, ec_gltf *gltf)
+{
+    for (size_t i = 0; i < list.size(); i++) {
+        ec_gltf_mesh &out = gltf->meshes[i];
+        free(out.weights);
+        out.weights = nullptr;
+        out.weight_count = 0;
+        out.weights = copy_numbers(list_of(list[i], "weights"), &out.weight_count);
+    }
+}
+
+void convert_skins(const json &list, ec_gltf *gltf)
+{
+    gltf->skins = make_array<ec_gltf_skin>(list.size());
+    for (const json &in : list) {
+        ec_gltf_skin &out = gltf->skins[gltf->skin_count++];
+        out.inverse_bind = in.value("inverseBindMatrices", -1);
+        out.joints = make_array<int32_t>(in["joints"].size());
+        for (const json &joint : in["joints"]) out.joints[out.joint_count++] = joint;
+    }
+}
+
+/* Element i of an array member of numbers. */
+static double element(const json &object, const char *key, size_t i, double fallback)
+{
+    auto found = object.find(key);
+    return found == object.end() ? fallback : (*found)[i].get<double>();
+}
+
+/* Translation x rotation x scale, column major. A quaternion that is not unit is normalised; zero is no rotation. */
+static void compose_local(double m[16], const json &node)
+{
+    double t[3], q[4], s[3];
+    for (size_t i = 0; i < 3; i++) {
+        t[i] = element(node, "translation", i, 0);
+        s[i] = element(node, "scale", i, 1);
+    }
+    for (size_t i = 0; i < 4; i++) q[i] = element(node, "rotation", i, i == 3);
+    ec_gltf_compose(t, q, s, m);
+}
+
+void convert_nodes(const json &list, ec_gltf *gltf)
+{
+    gltf->nodes = make_array<ec_gltf_node>(list.size());
+    for (const json &in : list) {
+        ec_gltf_node &out = gltf->nodes[gltf->node_count++];
+        out.name = copy_string(in.value("name", ""));
+        out.mesh = in.value("mesh", -1);
+        out.skin = in.value("skin", -1);
+        out.camera = in.value("camera", -1);
+        const json *visibility = find_extension(in, "KHR_node_visibility");
+        out.hidden = visibility && !visibility->value("visible", true);
+        const json *light = find_extension(in, "KHR_lights_punctual");
+        out.light = light ? (*light)["light"].get<int32_t>() : -1;
+        out.weights = copy_numbers(list_of(in, "weights"), &out.weight_count);
+        if (const json *instancing = find_extension(in, "EXT_mesh_gpu_instancing")) {
+            const json &attributes = (*instancing)["attributes"];
+            out.instances = {true, attributes.value("TRANSLATION", -1), attributes.value("ROTATION", -1), attributes.value("SCALE", -1)};
+        }
+        if (in.contains("matrix"))
+            for (size_t i = 0; i < 16; i++) out.local[i] = element(in, "matrix", i, 0);
+        else
+            compose_local(out.local, in);
+        const json &children = list_of(in, "children");
+        out.children = make_array<int32_t>(children.size());
+        for (const json &child : children) out.children[out.child_count++] = child;
+    }
+}
+
+/* The nodes of the scene to show; where the file has no scenes, all that are nobody's child. */
+void set_roots(const json &root, ec_gltf *gltf)
+{
+    std::vector<int> roots;
+    const json &scenes = list_of(root, "scenes"), &nodes = list_of(root, "nodes");
+    if (!scenes.empty()) {
+        for (const json &node : list_of(scenes[root.value("scene", size_t(0))], "nodes")) roots.push_back(node);
+    } else {
+        std::vector<bool> has_parent(nodes.size());
+        for (const json &node : nodes)
+            for (const json &child : list_of(node, "children")) has_parent[child.get<size_t>()] = true;
+        for (size_t i = 0; i < nodes.size(); i++)
+            if (!has_parent[i]) roots.push_back(int(i));
+    }
+    gltf->roots = make_array<int32_t>(roots.size());
+    std::copy(roots.begin(), roots.end(), gltf->roots);
+    gltf->root_count = uint32_t(roots.size());
+}
+
+} // namespace eclat

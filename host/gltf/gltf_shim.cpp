@@ -1,0 +1,315 @@
+/* .gltf or .glb to ec_gltf. tinygltf maps checked JSON to structs; files, URIs, buffers and images it never sees: its
+ * own handling of those trusts the file (it falls back to the working directory, for one). */
+#include "gltf/gltf_shim.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <set>
+
+extern "C" {
+#include "gltf/codecs.h"
+}
+
+namespace eclat {
+
+using nlohmann::json;
+
+static const char *const supported_extensions[] = {
+    "EXT_lights_image_based",
+    "EXT_mesh_gpu_instancing",
+    "KHR_animation_pointer",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform"};
+
+/* Those that take a library which this build may lack. */
+static const struct {
+    const char *name, *package;
+    const bool &built;
+} optional_extensions[] = {{"EXT_meshopt_compression", "libmeshoptimizer-dev", ec_has_meshopt},
+                           {"EXT_texture_webp", "libwebp-dev", ec_has_webp},
+                           {"KHR_draco_mesh_compression", "libdraco-dev", ec_has_draco}};
+
+static void refuse_unbuilt(const std::string &name)
+{
+    for (auto &optional : optional_extensions)
+        if (name == optional.name && !optional.built)
+            throw bad_file("the file requires " + name + ", which this eclat was built without; install " + optional.package +
+                           " and build again, or export it without");
+}
+
+static bool is_supported(const std::string &name)
+{
+    for (auto &optional : optional_extensions)
+        if (name == optional.name) return optional.built;
+    return std::find(std::begin(supported_extensions), std::end(supported_extensions), name) !=
+           std::end(supported_extensions);
+}
+
+/* Before the document's shape is checked: in another version it is another one. */
+static void check_version(const json &root)
+{
+    const json asset = root.value("asset", json());
+    auto text = [&](const char *key) {
+        return asset.is_object() && asset.contains(key) && asset[key].is_string() ? asset[key].get<std::string>() : "";
+    };
+    std::string version = text("version"), minimum = text("minVersion");
+    if (!version.empty() && version.compare(0, 2, "2.") != 0)
+        throw bad_file("glTF version " + shortened(version, 20) + " is not supported; convert the file to glTF 2.0");
+    if (!minimum.empty() && minimum != "2.0")
+        throw bad_file("the file needs glTF " + shortened(minimum, 20) + "; eclat reads glTF 2.0");
+}
+
+static std::set<std::string> string_set(const json &root, const char *key)
+{
+    std::set<std::string> names;
+    for (const json &name : root.value(key, json::array()))
+        if (name.is_string()) names.insert(name.get<std::string>());
+    return names;
+}
+
+static std::string comma_list(const std::set<std::string> &names)
+{
+    std::string list;
+    for (const std::string &name : names) list += (list.empty() ? "" : ", ") + shortened(name, 100);
+    return printable(list);
+}
+
+/* The list has its place before it has its strings: should one fail, what there is can be freed. */
+static void copy_strings(const std::set<std::string> &names, char **&list, uint32_t &count)
+{
+    list = make_array<char *>(names.size());
+    for (const std::string &name : names) {
+        list[count] = copy_string(name.empty() ? "?" : name);
+        ++count;
+    }
+}
+
+static void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
+{
+    std::set<std::string> used = string_set(root, "extensionsUsed"), needed = string_set(root, "extensionsRequired");
+    std::set<std::string> ignored, missing;
+    for (const std::string &name : used)
+        if (!is_supported(name)) ignored.insert(name);
+    for (const std::string &name : needed)
+        if (!is_supported(name)) {
+            refuse_unbuilt(name);
+            missing.insert(name);
+        }
+    if (!missing.empty())
+        throw bad_file("the file requires " + comma_list(missing) + ", which eclat does not support; export it without");
+    if (!ignored.empty())
+        ec_warn(log, "%s: not supported, what it describes is left out: %s", gltf->path, comma_list(ignored).c_str());
+    gltf->quantized = used.count("KHR_mesh_quantization") || needed.count("KHR_mesh_quantization");
+    copy_strings(used, gltf->extensions_used, gltf->extension_count);
+    copy_strings(ignored, gltf->extensions_ignored, gltf->extension_ignored_count);
+}
+
+static void check_uris(const json &list, const char *key)
+{
+    ec_error err;
+    for (size_t i = 0; i < list.size(); i++) {
+        std::string where = std::string(key) + "[" + std::to_string(i) + "]";
+        if (list[i].contains("uri") &&
+            ec_gltf_uri_check(where.c_str(), list[i]["uri"].get_ref<const std::string &>().c_str(), &err) != EC_OK)
+            throw bad_file(err.text);
+    }
+}
+
+static void load_buffer(ec_gltf_buffer &out, json &in, const std::string &where, const container &file,
+                        const ec_gltf *gltf)
+{
+    out.length = in["byteLength"];
+    uint64_t available;
+    if (in.contains("uri")) {
+        ec_error err;
+        const std::string &uri = in["uri"].get_ref<const std::string &>();
+        if (ec_gltf_uri_load(gltf->folder, where.c_str(), uri.c_str(), &out.owned, &available, &err) != EC_OK)
+            throw bad_file(err.text);
+        out.data = out.owned;
+        in.erase("uri"); /* embedded buffers are large */
+    } else if (&out == gltf->buffers && file.chunk) {
+        out.data = file.chunk;
+        available = file.chunk_length;
+    } else {
+        return; /* an error only once somebody reads it */
+    }
+    if (out.length > available)
+        throw bad_file(where + " promises " + std::to_string(out.length) + " bytes but holds " +
+                       std::to_string(available) + "; the file is damaged or truncated");
+}
+
+static void load_buffers(json &list, const container &file, ec_gltf *gltf)
+{
+    gltf->buffers = make_array<ec_gltf_buffer>(list.size());
+    for (size_t i = 0; i < list.size(); i++) {
+        gltf->buffer_count++;
+        load_buffer(gltf->buffers[i], list[i], "buffers[" + std::to_string(i) + "]", file, gltf);
+    }
+}
+
+static void default_member(json &object, const char *name, const json &value)
+{
+    if (!object.contains(name)) object[name] = value;
+}
+
+/* tinygltf insists on members that eclat has no use for. */
+static void pad_for_tinygltf(json &root)
+{
+    if (root.contains("extensions") && root["extensions"].contains("KHR_lights_punctual"))
+        for (json &light : root["extensions"]["KHR_lights_punctual"]["lights"])
+            default_member(light, "spot", json::object());
+    if (root.contains("cameras"))
+        for (json &camera : root["cameras"])
+            for (const char *kind : {"perspective", "orthographic"})
+                for (const char *member : {"znear", "zfar"})
+                    if (camera.contains(kind)) default_member(camera[kind], member, 1);
+}
+
+/* Without what is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. As text once more,
+ * because tinygltf 2 takes no parsed tree: LoadFromString is private, and what it calls is static in its source. */
+static void parse_rest(const json &root, tinygltf::Model &model)
+{
+    static const std::set<std::string> done = {"accessors", "animations", "buffers", "bufferViews", "images",
+                                               "meshes",    "nodes",      "scene",   "scenes",      "skins"};
+    json rest = json::object();
+    for (auto &member : root.items())
+        if (!done.count(member.key())) rest[member.key()] = member.value();
+    pad_for_tinygltf(rest);
+    std::string text = rest.dump(), error, warning;
+    rest = json();
+    if (text.size() > 0x7fffffff) throw bad_file("the JSON part has more than 2 GiB");
+    tinygltf::TinyGLTF reader;
+    if (reader.LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), "")) return;
+    std::replace(error.begin(), error.end(), '\n', ' ');
+    throw bad_file("tinygltf: " + (error.empty() ? "cannot read the document" : error));
+}
+
+static void check_views(const ec_gltf *gltf)
+{
+    ec_error err;
+    if (ec_gltf_check_views(gltf, &err) != EC_OK) throw bad_file(err.text);
+}
+
+/* What is told by name or factor: textures, materials, cameras, lights. */
+static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
+{
+    tinygltf::Model model;
+    parse_rest(root, model);
+    convert_cameras(model, gltf, log);
+    convert_lights(model, root, gltf, log);
+    convert_textures(model, gltf);
+    convert_materials(model, gltf, log);
+}
+
+static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice *choice, const ec_log *log)
+{
+    container file = parse_container(gltf->file, length);
+    json &root = file.root;
+    if (choice->frame) ec_gltf_digest_add(gltf, gltf->file, length);
+    if (!file.chunk) { /* JSON text is done with: with embedded buffers it is as large as the scene */
+        free(gltf->file);
+        gltf->file = nullptr;
+    }
+    check_version(root);
+    check_extensions(root, gltf, log);
+    check_document(root, gltf->path, log);
+    check_uris(list_of(root, "buffers"), "buffers");
+    check_uris(list_of(root, "images"), "images");
+    if (root.contains("buffers")) load_buffers(root["buffers"], file, gltf);
+    convert_images(list_of(root, "images"), gltf);
+    convert_views(list_of(root, "bufferViews"), gltf);
+    convert_accessors(list_of(root, "accessors"), gltf);
+    check_views(gltf);
+    choose_scene(root, choice, gltf);
+    choose_variant(root, choice, gltf);
+    std::vector<uint32_t> animations = choose_animations(root, choice, gltf, log);
+    bool more = apply_moment(root, animations, choice, gltf, log);
+    if (!animations.empty()) check_document(root, gltf->path, log);
+    convert_meshes(list_of(root, "meshes"), gltf);
+    convert_skins(list_of(root, "skins"), gltf);
+    convert_nodes(list_of(root, "nodes"), gltf);
+    set_roots(root, gltf);
+    convert_image_light(root, gltf, log);
+    convert_looks(root, gltf, log);
+    gltf->stored_accessors = gltf->accessor_count;
+    gltf->stored_meshes = gltf->mesh_count;
+    gltf->frame = choice->frame;
+    if (choice->frame) ec_gltf_digest_parts(gltf);
+    if (choice->shutter || choice->frame) gltf->tree = new posable{std::move(root), animations, more};
+}
+
+static void pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const ec_log *log)
+{
+    posable &tree = *static_cast<posable *>(gltf->tree);
+    ec_gltf_unpose(gltf);
+    apply_moment(tree.root, tree.animations, choice, gltf, log);
+    check_document(tree.root, gltf->path, log);
+    convert_weights(list_of(tree.root, "meshes"), gltf);
+    convert_nodes(list_of(tree.root, "nodes"), gltf);
+    if (!whole && !tree.more) return;
+    ec_gltf_free_looks(gltf);
+    convert_looks(tree.root, gltf, log);
+}
+
+/* What goes wrong becomes one line. */
+template <typename work> static ec_result guarded(const char *path, ec_error *err, work &&job)
+{
+    try {
+        return job();
+    } catch (const std::bad_alloc &) {
+        return ec_fail(err, "%s: out of memory", path);
+    } catch (const std::exception &e) {
+        return ec_fail(err, "%s: %.1600s", path, printable(e.what()).c_str());
+    } catch (...) {
+        return ec_fail(err, "%s: cannot be read", path);
+    }
+}
+
+} // namespace eclat
+
+extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choice, ec_gltf **result, const ec_log *log,
+                                  ec_error *err)
+{
+    using namespace eclat;
+    *result = nullptr;
+    std::unique_ptr<ec_gltf, void (*)(ec_gltf *)> gltf(static_cast<ec_gltf *>(calloc(1, sizeof(ec_gltf))), ec_gltf_free);
+    if (!gltf) return ec_fail(err, "%s: out of memory", path);
+    gltf->path = path;
+    EC_TRY(guarded(path, err, [&] {
+        std::string name = path;
+        size_t slash = name.find_last_of('/');
+        gltf->folder = strdup(slash == std::string::npos ? "" : name.substr(0, slash + 1).c_str());
+        if (!gltf->folder) throw std::bad_alloc();
+        uint64_t length;
+        EC_TRY(ec_gltf_file_load(path, &gltf->file, &length, err));
+        read_document(gltf.get(), length, choice, log);
+        return EC_OK;
+    }));
+    *result = gltf.release();
+    return EC_OK;
+}
+
+extern "C" ec_result ec_gltf_pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const ec_log *log, ec_error *err)
+{
+    return eclat::guarded(gltf->path, err, [&] {
+        eclat::pose(gltf, choice, whole, log);
+        return EC_OK;
+    });
+}

@@ -1,0 +1,110 @@
+/* Between the C++ files of the glTF reader; C code includes gltf/gltf.h. Inside, problems are thrown as bad_file;
+ * ec_gltf_read turns every exception into an ec_error. */
+#ifndef EC_GLTF_GLTF_SHIM_H
+#define EC_GLTF_GLTF_SHIM_H
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <tiny_gltf.h>
+
+extern "C" {
+#include "base/text.h"
+#include "gltf/gltf.h"
+}
+
+namespace eclat {
+
+struct bad_file : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/* gltf_json.cpp: the bytes of a .gltf or .glb to a JSON tree; *chunk is the .glb's binary chunk or NULL. */
+struct container {
+    nlohmann::json root;
+    const uint8_t *chunk;
+    uint64_t chunk_length;
+};
+container parse_container(const uint8_t *bytes, uint64_t length);
+
+/* gltf_check.cpp: types, required members, ranges and index ranges of everything eclat reads. Repairs what glTF only
+ * warns about (an unknown filter, say). */
+void check_document(nlohmann::json &root, const char *path, const ec_log *log);
+
+/* gltf_geometry.cpp: lists of the checked tree */
+const nlohmann::json &list_of(const nlohmann::json &object, const char *key); /* empty where there is none */
+const nlohmann::json *find_extension(const nlohmann::json &object, const char *name);
+void convert_views(const nlohmann::json &list, ec_gltf *gltf);
+void convert_accessors(const nlohmann::json &list, ec_gltf *gltf);
+void convert_meshes(const nlohmann::json &list, ec_gltf *gltf);
+void convert_weights(const nlohmann::json &list, ec_gltf *gltf); /* of meshes that are there, again */
+void convert_skins(const nlohmann::json &list, ec_gltf *gltf);
+void convert_nodes(const nlohmann::json &list, ec_gltf *gltf);
+void set_roots(const nlohmann::json &root, ec_gltf *gltf);
+
+/* gltf_choice.cpp: what was chosen among scenes and variants is written into the tree, so that what follows sees a file with
+ * nothing to choose. Lists the names too. */
+void list_names(const nlohmann::json &list, ec_scene_names *out);
+uint32_t find_choice(const ec_scene_names *names, const char *what, const char *wanted);
+void choose_scene(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
+void choose_variant(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
+
+/* gltf_animation.cpp: which animations are shown, by their index; none where everything is as it is stored. */
+std::vector<uint32_t> choose_animations(const nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf,
+                                        const ec_log *log);
+/* Likewise a moment of them; the tree is to be checked again then. The same channels are written at every moment, so that one moment
+ * takes the place of another. true: a channel moves more than nodes and weights. */
+bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice,
+                  ec_gltf *gltf, const ec_log *log);
+
+/* What another moment is written into. */
+struct posable {
+    nlohmann::json root;
+    std::vector<uint32_t> animations;
+    bool more; /* than nodes and weights is moved */
+};
+
+/* gltf_convert.cpp */
+void convert_images(const nlohmann::json &list, ec_gltf *gltf);
+void convert_image_light(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log); /* the shown scene's */
+void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
+void convert_lights(const tinygltf::Model &model, const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
+
+/* gltf_material.cpp */
+void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
+void convert_textures(const tinygltf::Model &model, ec_gltf *gltf);
+
+/* Zeroed C arrays and strings, so that ec_gltf_free can release half a document. */
+template <typename T> T *make_array(size_t count)
+{
+    T *array = static_cast<T *>(calloc(count ? count : 1, sizeof(T)));
+    if (!array) throw std::bad_alloc();
+    return array;
+}
+inline char *copy_bytes(const std::string &text)
+{
+    char *copy = strdup(text.c_str());
+    if (!copy) throw std::bad_alloc();
+    return copy;
+}
+
+/* What a file says about itself ends up in messages: no line breaks and no terminal escapes. */
+inline std::string printable(std::string text)
+{
+    for (char &c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+    return text;
+}
+/* At most so many bytes of a text. */
+inline std::string shortened(const std::string &text, int most)
+{
+    return text.substr(0, size_t(ec_text_cut(text.c_str(), most)));
+}
+inline char *copy_string(const std::string &name)
+{
+    return name.empty() ? nullptr : copy_bytes(printable(name));
+}
+
+} // namespace eclat
+
+#endif

@@ -1,0 +1,233 @@
+/* Where a glTF file's bytes come from: data URIs and files beside it. A URI may not leave the scene's folder: a scene
+ * is data from strangers and must not be able to read (or probe for) anything else on the machine. */
+#include "base/text.h"
+#include "gltf/gltf.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static int hex_value(char c)
+{
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+/* In place; returns the new length. A '%' that starts no escape stays. */
+static size_t percent_decode(char *text, size_t length)
+{
+    size_t out = 0;
+    for (size_t i = 0; i < length; i++) {
+        int high = i + 2 < length ? hex_value(text[i + 1]) : -1;
+        int low = i + 2 < length ? hex_value(text[i + 2]) : -1;
+        if (text[i] == '%' && high >= 0 && low >= 0) {
+            text[out++] = (char)(high * 16 + low);
+            i += 2;
+        } else {
+            text[out++] = text[i];
+        }
+    }
+    text[out] = 0;
+    return out;
+}
+
+static bool has_scheme(const char *uri)
+{
+    if (!isalpha((unsigned char)*uri)) return false;
+    while (isalnum((unsigned char)*uri) || *uri == '+' || *uri == '-' || *uri == '.') uri++;
+    return *uri == ':';
+}
+
+/* Does a relative path climb above where it starts? "a/../b" does not. */
+static bool climbs_out(const char *path)
+{
+    int depth = 0;
+    while (*path) {
+        size_t length = strcspn(path, "/");
+        if (length == 2 && !strncmp(path, "..", 2)) depth--;
+        else if (length && !(length == 1 && *path == '.')) depth++;
+        if (depth < 0) return true;
+        path += length;
+        while (*path == '/') path++;
+    }
+    return false;
+}
+
+static const char *escape_reason(const char *uri, const char *decoded, size_t decoded_length)
+{
+    if (strlen(decoded) != decoded_length) return "it holds a NUL character";
+    if (has_scheme(uri) || has_scheme(decoded)) return "it has a scheme";
+    if (strchr(decoded, '\\')) return "it holds a backslash";
+    if (decoded[0] == '/') return "it is an absolute path";
+    if (climbs_out(decoded)) return "it climbs out with \"..\"";
+    return NULL;
+}
+
+static bool is_data_uri(const char *uri)
+{
+    return !strncasecmp(uri, "data:", 5);
+}
+
+/* For what a scene may do without, this machine's lack is not the file's fault. */
+static ec_result out_of_memory(const char *where, uint64_t bytes, ec_error *err)
+{
+    ec_fail(err, "%s: out of memory for %llu bytes", where, (unsigned long long)bytes);
+    err->kind = EC_ERROR_HOST_MEMORY;
+    return EC_FAILED;
+}
+
+/* The file a URI names, relative to the scene's folder; malloc'ed. */
+static ec_result decode_file_uri(const char *where, const char *uri, char **path, ec_error *err)
+{
+    size_t length = strlen(uri);
+    char *decoded = malloc(length + 1);
+    if (!decoded) return out_of_memory(where, length, err);
+    memcpy(decoded, uri, length + 1);
+    length = percent_decode(decoded, length);
+    const char *reason = length ? escape_reason(uri, decoded, length) : "it is empty";
+    if (reason) {
+        free(decoded);
+        return ec_fail(err, "%s: refusing URI \"%.*s\": %s; put the file in the scene's folder and name it relative "
+                       "to the scene", where, EC_CUT(uri, 200), reason);
+    }
+    *path = decoded;
+    return EC_OK;
+}
+
+ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err)
+{
+    if (is_data_uri(uri)) return EC_OK;
+    char *path;
+    EC_TRY(decode_file_uri(where, uri, &path, err));
+    free(path);
+    return EC_OK;
+}
+
+char *ec_gltf_uri_file(const char *uri)
+{
+    char *path;
+    return is_data_uri(uri) || decode_file_uri("", uri, &path, NULL) != EC_OK ? NULL : path;
+}
+
+static int base64_value(char c)
+{
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    if (c == '+' || c == '-') return 62;
+    if (c == '/' || c == '_') return 63;
+    return -1;
+}
+
+/* In place (the output is never longer than the input); false on a character that is not base64. */
+static bool base64_decode(char *text, size_t length, uint64_t *out_length)
+{
+    uint32_t bits = 0;
+    int bit_count = 0;
+    size_t out = 0;
+    while (length && text[length - 1] == '=') length--;
+    for (size_t i = 0; i < length; i++) {
+        int value = base64_value(text[i]);
+        if (value < 0) {
+            if (isspace((unsigned char)text[i])) continue;
+            return false;
+        }
+        bits = bits << 6 | (uint32_t)value;
+        bit_count += 6;
+        if (bit_count >= 8) {
+            bit_count -= 8;
+            text[out++] = (char)(bits >> bit_count & 255);
+        }
+    }
+    *out_length = out;
+    return true;
+}
+
+static ec_result load_data_uri(const char *where, const char *uri, uint8_t **bytes, uint64_t *length, ec_error *err)
+{
+    const char *comma = strchr(uri, ',');
+    if (!comma) return ec_fail(err, "%s: the data URI has no comma, so no data", where);
+    static const char base64[] = ";base64";
+    size_t tail = sizeof base64 - 1;
+    bool is_base64 = (size_t)(comma - uri) >= tail && !strncasecmp(comma - tail, base64, tail);
+    size_t text_length = strlen(comma + 1);
+    char *text = malloc(text_length + 1);
+    if (!text) return out_of_memory(where, text_length, err);
+    memcpy(text, comma + 1, text_length + 1);
+    if (!is_base64 || strchr(text, '%')) text_length = percent_decode(text, text_length);
+    *length = text_length;
+    if (is_base64 && !base64_decode(text, text_length, length)) {
+        free(text);
+        return ec_fail(err, "%s: the data URI's base64 is broken; export the file again", where);
+    }
+    char *smaller = realloc(text, *length + 1); /* base64 was a third longer */
+    *bytes = (uint8_t *)(smaller ? smaller : text);
+    return EC_OK;
+}
+
+static ec_result read_all(int file, const char *name, uint8_t **bytes, uint64_t *length, ec_error *err)
+{
+    struct stat info;
+    if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode))
+        return ec_fail(err, "%s: not a regular file", name); /* a pipe or device could block for ever */
+    uint64_t size = (uint64_t)info.st_size;
+    uint8_t *data = malloc(size + 1);
+    if (!data) return out_of_memory(name, size, err);
+    uint64_t done = 0;
+    while (done < size) {
+        ssize_t got = read(file, data + done, size - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        done += (uint64_t)got;
+    }
+    if (done < size) {
+        free(data);
+        return ec_fail(err, "%s: cannot read: %s", name, errno ? strerror(errno) : "it shrank while being read");
+    }
+    data[size] = 0;
+    *bytes = data;
+    *length = size;
+    return EC_OK;
+}
+
+ec_result ec_gltf_file_load(const char *name, uint8_t **bytes, uint64_t *length, ec_error *err)
+{
+    int file = open(name, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return ec_fail(err, "%s: cannot open: %s", name, strerror(errno));
+    errno = 0;
+    ec_result result = read_all(file, name, bytes, length, err);
+    close(file);
+    return result;
+}
+
+ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *uri, uint8_t **bytes, uint64_t *length,
+                           ec_error *err)
+{
+    if (is_data_uri(uri)) return load_data_uri(where, uri, bytes, length, err);
+    char *name;
+    EC_TRY(decode_file_uri(where, uri, &name, err));
+    size_t size = strlen(folder) + strlen(name) + 1;
+    char *full = malloc(size);
+    if (!full) {
+        free(name);
+        return out_of_memory(where, size, err);
+    }
+    strcpy(full, folder);
+    strcat(full, name);
+    ec_error inner;
+    ec_result result = ec_gltf_file_load(full, bytes, length, &inner);
+    if (result != EC_OK) {
+        ec_fail(err, "%s: %.1200s", where, inner.text);
+        err->kind = inner.kind;
+    }
+    free(name);
+    free(full);
+    return result;
+}

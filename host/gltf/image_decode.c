@@ -1,0 +1,20 @@
+/* Which format is it? */
+#include "gltf/codecs.h"
+
+#include <string.h>
+
+bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_decode_error *err)
+{
+    static const uint8_t png[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}, jpeg[3] = {0xff, 0xd8, 0xff};
+    static const uint8_t ktx2[12] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
+    if (length > INT32_MAX) return ec_decode_fail(err, "it is larger than 2 GiB");
+    if (length >= sizeof png && !memcmp(bytes, png, sizeof png))
+        return ec_image_decode_png(bytes, (size_t)length, image, err);
+    if (length >= sizeof jpeg && !memcmp(bytes, jpeg, sizeof jpeg))
+        return ec_image_decode_jpeg(bytes, (size_t)length, image, err);
+    if (length >= 12 && !memcmp(bytes, "RIFF", 4) && !memcmp(bytes + 8, "WEBP", 4))
+        return ec_image_decode_webp(bytes, (size_t)length, image, err);
+    if (length >= sizeof ktx2 && !memcmp(bytes, ktx2, sizeof ktx2))
+        return ec_decode_fail(err, "it is KTX2, which is not read; convert it to PNG, JPEG or WebP");
+    return ec_decode_fail(err, "it is none of PNG, JPEG and WebP");
+}

@@ -1,0 +1,26 @@
+/* Encoded pixels to ec_image. Inside host/scene/ only. */
+#ifndef EC_GLTF_IMAGE_DECODE_H
+#define EC_GLTF_IMAGE_DECODE_H
+
+#include "scene/scene.h"
+
+typedef struct ec_decode_error {
+    char text[160];     /* why, without control characters */
+    bool out_of_memory; /* the picture may be whole */
+} ec_decode_error;
+
+/* PNG or JPEG, by content. Sets size and pixels of *image, which must be zero before. */
+bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_decode_error *err);
+
+/* image_png.c, image_jpeg.c: one format each. Call ec_image_check_size before allocating pixels. */
+bool ec_image_decode_png(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err);
+bool ec_image_decode_jpeg(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err);
+
+/* image_check.c. Is the size sane, also for this many encoded bytes? NULL: yes; otherwise why not. */
+const char *ec_image_check_size(uint64_t width, uint64_t height, size_t length, uint64_t pixels_per_byte);
+
+/* false, with the text in err, control characters replaced. */
+bool ec_decode_fail(ec_decode_error *err, const char *reason);
+bool ec_decode_out_of_memory(ec_decode_error *err);
+
+#endif

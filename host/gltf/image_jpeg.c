@@ -1,0 +1,107 @@
+/* JPEG through libjpeg-turbo. */
+#include "gltf/image_decode.h"
+
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jpeglib.h>
+
+/* An 8x8 block costs at least two bits or so. */
+#define PIXELS_PER_BYTE 2000
+/* A progressive file may repeat scans without end, each over the whole picture. */
+#define MAX_SCANS 200
+
+typedef struct reader {
+    struct jpeg_decompress_struct jpeg;
+    struct jpeg_error_mgr errors;
+    struct jpeg_progress_mgr progress;
+    jmp_buf escape;
+    ec_decode_error *err;
+    uint8_t *pixels;
+} reader;
+
+static void fail(reader *r, const char *reason)
+{
+    ec_decode_fail(r->err, reason);
+    longjmp(r->escape, 1);
+}
+
+static void on_error(j_common_ptr common)
+{
+    char text[JMSG_LENGTH_MAX];
+    common->err->format_message(common, text);
+    fail(common->client_data, text);
+}
+
+static void on_message(j_common_ptr common, int level)
+{
+    if (level < 0) common->err->num_warnings++; /* damaged places are shown as they come */
+}
+
+static void on_progress(j_common_ptr common)
+{
+    reader *r = common->client_data;
+    if (r->jpeg.input_scan_number > MAX_SCANS) fail(r, "it has too many scans");
+}
+
+/* Adobe stores inverted CMYK; the other kind hardly exists. In place, as both have four channels. */
+static void cmyk_to_rgba(uint8_t *row, uint32_t width, bool inverted)
+{
+    for (uint32_t x = 0; x < width; x++, row += 4) {
+        unsigned k = inverted ? row[3] : 255u - row[3];
+        for (int c = 0; c < 3; c++) row[c] = (uint8_t)((inverted ? row[c] : 255u - row[c]) * k / 255u);
+        row[3] = 255;
+    }
+}
+
+/* Errors leave by longjmp: what must be freed stands in *r. */
+static void read_picture(reader *r, const uint8_t *bytes, size_t length)
+{
+    struct jpeg_decompress_struct *jpeg = &r->jpeg;
+    jpeg_create_decompress(jpeg);
+    jpeg->progress = &r->progress;
+    jpeg_mem_src(jpeg, bytes, (unsigned long)length);
+    jpeg_read_header(jpeg, TRUE);
+    const char *reason = ec_image_check_size(jpeg->image_width, jpeg->image_height, length, PIXELS_PER_BYTE);
+    if (reason) fail(r, reason);
+    bool cmyk = jpeg->jpeg_color_space == JCS_CMYK || jpeg->jpeg_color_space == JCS_YCCK;
+    jpeg->out_color_space = cmyk ? JCS_CMYK : JCS_EXT_RGBA;
+    jpeg_start_decompress(jpeg);
+    size_t row_size = 4 * (size_t)jpeg->output_width;
+    r->pixels = malloc(row_size * jpeg->output_height);
+    if (jpeg->output_components != 4) fail(r, "it has an unexpected layout");
+    if (!r->pixels) {
+        ec_decode_out_of_memory(r->err);
+        longjmp(r->escape, 1);
+    }
+    while (jpeg->output_scanline < jpeg->output_height) {
+        JSAMPROW row = r->pixels + jpeg->output_scanline * row_size;
+        jpeg_read_scanlines(jpeg, &row, 1);
+        if (cmyk) cmyk_to_rgba(row, jpeg->output_width, jpeg->saw_Adobe_marker);
+    }
+}
+
+bool ec_image_decode_jpeg(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
+{
+    reader *r = calloc(1, sizeof *r); /* on the heap, as locals may be lost over a longjmp */
+    if (!r) return ec_decode_out_of_memory(err);
+    r->err = err;
+    r->jpeg.err = jpeg_std_error(&r->errors);
+    r->jpeg.client_data = r;
+    r->errors.error_exit = on_error;
+    r->errors.emit_message = on_message;
+    r->progress.progress_monitor = on_progress;
+    if (!setjmp(r->escape)) {
+        read_picture(r, bytes, length);
+        image->width = r->jpeg.output_width;
+        image->height = r->jpeg.output_height;
+        image->rgba8 = r->pixels;
+        r->pixels = NULL;
+    }
+    jpeg_destroy_decompress(&r->jpeg);
+    free(r->pixels);
+    free(r);
+    return image->rgba8 != NULL;
+}

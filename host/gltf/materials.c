@@ -1,0 +1,90 @@
+/* The scene's materials: the file's, glTF's default where something needs it, and variants for meshes that lack a
+ * texture coordinate set. */
+#include "base/text.h"
+#include "gltf/flatten.h"
+#include "gltf/model.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+ec_material ec_material_default(void)
+{
+    ec_material m = {.base_color = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .normal_scale = 1, .specular = 1,
+                     .specular_color = {1, 1, 1}, .ior = 1.5f, .coat_normal_scale = 1, .film_ior = 1.3f, .alpha_cutoff = 0.5f};
+    for (int i = 0; i < EC_SLOT_COUNT; i++) m.textures[i] = (ec_texture_use){.texture = -1, .transform = {1, 0, 0, 0, 1, 0}};
+    return m;
+}
+
+static ec_result append(ec_scene *s, ec_material material, ec_error *err)
+{
+    ec_material *grown = realloc(s->materials, (s->material_count + 1) * sizeof *grown);
+    if (!grown) return ec_fail(err, "out of memory for materials");
+    s->materials = grown;
+    s->materials[s->material_count++] = material;
+    return EC_OK;
+}
+
+/* Bit i: the primitive lacks TEXCOORD_i although the material reads it. */
+static unsigned missing_sets(const ec_material *m, const ec_gltf_primitive *p)
+{
+    unsigned missing = 0;
+    for (int i = 0; i < EC_SLOT_COUNT; i++)
+        if (m->textures[i].texture >= 0 && p->streams.uv[m->textures[i].uv_set] < 0) missing |= 1u << m->textures[i].uv_set;
+    return missing;
+}
+
+static ec_result append_variant(ec_scene *s, uint32_t original, unsigned missing, ec_error *err)
+{
+    ec_material variant = s->materials[original];
+    if (variant.name && !(variant.name = strdup(variant.name))) return ec_fail(err, "out of memory for materials");
+    for (int i = 0; i < EC_SLOT_COUNT; i++)
+        if (variant.textures[i].texture >= 0 && missing >> variant.textures[i].uv_set & 1) variant.textures[i].texture = -1;
+    ec_result result = append(s, variant, err);
+    if (result != EC_OK) free(variant.name);
+    return result;
+}
+
+/* variants: for every material of the file (and the default, last) and every set of missing coordinates, the scene's
+ * index plus one; 0 = not made yet. */
+static ec_result assign(const ec_gltf *g, ec_scene *s, ec_gltf_primitive *p, uint32_t mesh, uint32_t *variants,
+                        const ec_log *log, ec_error *err)
+{
+    uint32_t file_index = p->material >= 0 ? (uint32_t)p->material : g->material_count;
+    uint32_t *slot = &variants[4 * file_index];
+    if (!slot[0]) { /* only the default is not there from the start */
+        EC_TRY(append(s, ec_material_default(), err));
+        slot[0] = s->material_count;
+    }
+    uint32_t original = slot[0] - 1;
+    unsigned missing = missing_sets(&s->materials[original], p);
+    if (!slot[missing]) {
+        EC_TRY(append_variant(s, original, missing, err));
+        slot[missing] = s->material_count;
+        const char *name = s->materials[original].name;
+        ec_warn(log, "%s: materials[%d] \"%.*s\" has textures on TEXCOORD_%d%s, which meshes[%u] lacks; they are left out there",
+                g->path, p->material, EC_CUT(name ? name : "", 80), missing & 1 ? 0 : 1, missing == 3 ? " and 1" : "", mesh);
+    }
+    p->scene_material = slot[missing] - 1;
+    return EC_OK;
+}
+
+ec_result ec_gltf_materials_assign(ec_gltf *g, ec_scene *s, const ec_log *log, ec_error *err)
+{
+    s->materials = g->materials; /* moved */
+    s->material_count = g->material_count;
+    g->materials = NULL;
+    uint32_t *variants = calloc(4 * ((size_t)s->material_count + 1), sizeof *variants);
+    if (!variants) return ec_fail(err, "out of memory for materials");
+    for (uint32_t i = 0; i < s->material_count; i++) variants[4 * i] = i + 1;
+    ec_result result = EC_OK;
+    for (uint32_t i = 0; i < g->mesh_count && result == EC_OK; i++) {
+        for (uint32_t k = 0; k < g->meshes[i].primitive_count && result == EC_OK; k++) {
+            ec_gltf_primitive *p = &g->meshes[i].primitives[k];
+            if (p->drawn) result = assign(g, s, p, i, variants, log, err);
+        }
+    }
+    free(variants);
+    if (result == EC_OK && !s->material_count) result = append(s, ec_material_default(), err);
+    return result;
+}

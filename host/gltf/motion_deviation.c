@@ -1,0 +1,79 @@
+/* How far straight lines from key to key leave the true way. */
+#include <float.h>
+#include <math.h>
+
+#include "gltf/motion_numbers.h"
+
+/* How far the first `count` numbers are off at all moments, from what the nearest keys on both sides say. Not a number counts as none. */
+static double distance_of(const ec_tracks *t, numbers_at *at, uint32_t thing, int count)
+{
+    const uint32_t stride = EC_MOMENTS / t->segments;
+    double most = 0;
+    for (uint32_t m = 0; m < EC_MOMENTS; m += t->step) {
+        uint32_t key = m / stride * stride;
+        double f = (double)(m - key) / stride, sum = 0;
+        if (m == key) continue;
+        const float *a = at(t, key, thing), *b = at(t, key + stride, thing), *v = at(t, m, thing);
+        for (int k = 0; k < count; k++) {
+            double d = v[k] - (a[k] + f * ((double)b[k] - a[k]));
+            sum += d * d;
+        }
+        most = fmax(most, sum);
+    }
+    return sqrt(most);
+}
+
+/* Grows the box by where a thing is at all moments looked at. */
+static void sweep(const ec_tracks *t, numbers_at *at, uint32_t thing, float low[3], float high[3])
+{
+    for (uint32_t m = 0; m <= EC_MOMENTS; m += t->step)
+        for (int k = 0; k < 3; k++) {
+            low[k] = fminf(low[k], at(t, m, thing)[k]);
+            high[k] = fmaxf(high[k], at(t, m, thing)[k]);
+        }
+}
+
+static double share_of(double distance, const float low[3], const float high[3])
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += ((double)high[k] - low[k]) * ((double)high[k] - low[k]);
+    return distance > 0 && sum > 0 ? distance / sqrt(sum) : 0;
+}
+
+/* All vertices of one node: the list is in the order of the nodes. */
+static double mesh_deviation(const ec_tracks *t, uint32_t *i)
+{
+    float low[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, high[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    uint32_t node = t->base->sources[t->vertex[*i]].placement;
+    double most = 0;
+    for (; *i < t->count && t->base->sources[t->vertex[*i]].placement == node; ++*i) {
+        sweep(t, vertex_at, *i, low, high);
+        most = fmax(most, distance_of(t, vertex_at, *i, 3));
+    }
+    return share_of(most, low, high);
+}
+
+static double path_deviation(const ec_tracks *t, numbers_at *at, uint32_t thing)
+{
+    float low[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, high[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    sweep(t, at, thing, low, high);
+    return share_of(distance_of(t, at, thing, 3), low, high);
+}
+
+double ec_tracks_deviation(const ec_tracks *t)
+{
+    double most = 0;
+    for (uint32_t i = 0; i < t->count;) most = fmax(most, mesh_deviation(t, &i));
+    for (uint32_t i = 0; i < t->scene->camera_count; i++) {
+        most = fmax(most, path_deviation(t, camera_place, i));
+        most = fmax(most, distance_of(t, camera_right, i, 3));
+        most = fmax(most, distance_of(t, camera_up, i, 3));
+        most = fmax(most, distance_of(t, camera_forward, i, 3));
+        most = fmax(most, distance_of(t, camera_view, i, 1));
+    }
+    for (uint32_t i = 0; i < t->scene->light_count; i++) {
+        most = fmax(most, path_deviation(t, light_place, i));
+        most = fmax(most, distance_of(t, light_direction, i, 3));
+    }
+    return most;
+}

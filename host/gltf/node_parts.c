@@ -1,0 +1,33 @@
+#include "gltf/node_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+ec_result ec_parts_start(ec_scene *s, const ec_gltf *g, uint32_t most, ec_error *err)
+{
+    s->parts = malloc(((size_t)most + 1) * sizeof *s->parts);
+    s->node_names = calloc((size_t)g->node_count + 1, sizeof *s->node_names);
+    bool ok = s->parts && s->node_names;
+    for (uint32_t i = 0; ok && i < g->node_count; i++)
+        if (g->nodes[i].name) ok = (s->node_names[i] = strdup(g->nodes[i].name)) != NULL;
+    return ok ? EC_OK : ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
+}
+
+void ec_part_add(ec_scene *s, uint32_t first, uint32_t node)
+{
+    ec_part *last = s->part_count ? &s->parts[s->part_count - 1] : NULL;
+    if (last && last->node == node) return;
+    if (last && last->first == first) last->node = node; /* nothing was left of it */
+    else s->parts[s->part_count++] = (ec_part){first, node};
+}
+
+int64_t ec_scene_node_of(const ec_scene *s, uint32_t id)
+{
+    uint32_t low = 0, high = s->part_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (s->parts[middle].first <= id) low = middle + 1;
+        else high = middle;
+    }
+    return low ? (int64_t)s->parts[low - 1].node : -1;
+}

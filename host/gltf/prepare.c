@@ -1,0 +1,42 @@
+/* Looks at every primitive that stands somewhere, once, before anything is allocated for it. */
+#include "base/text.h"
+#include "gltf/flatten.h"
+
+#include <stdio.h>
+
+typedef struct tally {
+    uint32_t not_triangles, no_positions;
+} tally;
+
+static ec_result prepare_mesh(ec_gltf *g, int32_t index, tally *skipped, ec_error *err)
+{
+    ec_gltf_mesh *mesh = &g->meshes[index];
+    for (uint32_t k = 0; k < mesh->primitive_count; k++) {
+        ec_gltf_primitive *p = &mesh->primitives[k];
+        char where[192];
+        if (mesh->name) snprintf(where, sizeof where, "meshes[%d] \"%.*s\" primitives[%u]", index, EC_CUT(mesh->name, 80), k);
+        else snprintf(where, sizeof where, "meshes[%d].primitives[%u]", index, k);
+        EC_TRY(ec_gltf_primitive_prepare(g, p, where, err));
+        if (p->mode < EC_GLTF_TRIANGLES) skipped->not_triangles++;
+        else if (p->streams.position < 0) skipped->no_positions++;
+    }
+    return EC_OK;
+}
+
+ec_result ec_flatten_prepare(ec_gltf *g, const ec_placement_list *placements, ec_scene *scene, const ec_log *log,
+                             ec_error *err)
+{
+    tally skipped = {0};
+    for (uint32_t i = 0; i < placements->count; i++) {
+        int32_t mesh = placements->items[i].mesh;
+        if (mesh < 0) continue;
+        scene->instance_count++;
+        EC_TRY(prepare_mesh(g, mesh, &skipped, err));
+    }
+    if (skipped.not_triangles)
+        ec_warn(log, "%s: %u primitives of points or lines are left out", g->path, skipped.not_triangles);
+    if (skipped.no_positions)
+        ec_warn(log, "%s: %u primitives without POSITION are left out", g->path, skipped.no_positions);
+    scene->skipped_primitives = skipped.not_triangles + skipped.no_positions;
+    return EC_OK;
+}

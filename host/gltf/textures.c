@@ -1,0 +1,230 @@
+/* The textures and images that the scene's triangles use; no others are opened. What is wanted is gathered first, then decoded by all
+ * threads, and taken in the order in which materials name it: what is said, and what is first, is the same for any number of threads. */
+#include "base/text.h"
+#include "gltf/flatten.h"
+#include "gltf/image_decode.h"
+#include "scene/texture_range.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* An image of the file on its way into the scene. */
+typedef struct picture {
+    uint32_t index;               /* in the file */
+    const ec_gltf_texture *gloss; /* not NULL: it becomes metallic-roughness, by that texture's factor */
+    ec_image image;
+    ec_error err;                 /* why there is none, if ec_gltf_image_load failed */
+    bool failed;
+    int64_t place;                /* in the scene; UNSEEN or UNUSABLE */
+} picture;
+
+typedef struct table {
+    ec_gltf *g;
+    ec_scene *s;
+    const ec_log *log;
+    picture *pictures;
+    uint32_t picture_count;
+    int64_t *picture; /* of each image; then, where a texture has one for itself, of each texture; UNSEEN */
+    int64_t *texture; /* glTF texture -> scene texture; UNSEEN or UNUSABLE */
+    int slot;         /* whose use is looked at */
+    ec_result result;
+    ec_error *err;
+} table;
+
+enum { UNSEEN = -1, UNUSABLE = -2 };
+
+static ec_result get_bytes(const ec_gltf *g, const ec_gltf_image *in, const char *where, const uint8_t **bytes,
+                           uint64_t *length, uint8_t **owned, ec_error *err)
+{
+    if (in->uri) {
+        EC_TRY(ec_gltf_uri_load(g->folder, where, in->uri, owned, length, err));
+        *bytes = *owned;
+        return EC_OK;
+    }
+    if (in->view < 0) return ec_fail(err, "%s has neither uri nor bufferView", where);
+    const ec_gltf_view *v = &g->views[in->view];
+    if (!g->buffers[v->buffer].data) return ec_fail(err, "%s reads buffers[%d], which has no data", where, v->buffer);
+    *bytes = g->buffers[v->buffer].data + v->offset;
+    *length = v->length;
+    return EC_OK;
+}
+
+static bool no_memory(const char *where, ec_error *err)
+{
+    ec_fail(err, "%s: out of memory", where);
+    err->kind = EC_ERROR_HOST_MEMORY;
+    return false;
+}
+
+bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_error *err)
+{
+    const ec_gltf_image *in = &g->images[index];
+    char where[160];
+    int used = snprintf(where, sizeof where, "images[%u]", index);
+    if (in->name) snprintf(where + used, sizeof where - (size_t)used, " \"%.*s\"", EC_CUT(in->name, 80));
+    const uint8_t *bytes = NULL;
+    uint8_t *owned = NULL;
+    uint64_t length = 0;
+    ec_decode_error reason = {0};
+    bool ok = get_bytes(g, in, where, &bytes, &length, &owned, err) == EC_OK;
+    if (ok && !ec_image_decode(bytes, length, out, &reason)) {
+        ok = false;
+        *out = (ec_image){0};
+        if (reason.out_of_memory) no_memory(where, err);
+        else ec_fail(err, "%s cannot be decoded: %s", where, reason.text);
+    }
+    free(owned);
+    if (!ok || !in->name || (out->name = strdup(in->name))) return ok;
+    free(out->rgba8);
+    free(out->rgba16);
+    *out = (ec_image){0};
+    return no_memory(where, err);
+}
+
+/* Metallic-roughness of a picture whose alpha is glossiness: green 1 - factor x alpha, no metal. */
+static void make_roughness(ec_image *image, double glossiness)
+{
+    for (size_t i = 0; i < 4 * (size_t)image->width * image->height; i += 4) {
+        double gloss = glossiness * (image->rgba8 ? image->rgba8[i + 3] / 255.0 : image->rgba16[i + 3] / 65535.0);
+        if (image->rgba8) image->rgba8[i + 1] = (uint8_t)(255 * (1 - gloss) + 0.5), image->rgba8[i + 2] = 0;
+        else image->rgba16[i + 1] = (uint16_t)(65535 * (1 - gloss) + 0.5), image->rgba16[i + 2] = 0;
+    }
+}
+
+/* Where an animation keeps them, the same pixels serve all its scenes. */
+static ec_image *kept_of(const table *t, const picture *p) { return t->g->decoded && !p->gloss ? &t->g->decoded[p->index] : NULL; }
+
+static void decode(const table *t, picture *p)
+{
+    const ec_image *kept = kept_of(t, p);
+    if (kept && kept->width) {
+        p->image = *kept;
+        return;
+    }
+    p->failed = !ec_gltf_image_load(t->g, p->index, &p->image, &p->err);
+    if (p->failed) return;
+    if (p->gloss) make_roughness(&p->image, (double)p->gloss->glossiness);
+    ec_image_find_range(&p->image);
+}
+
+/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white, or without
+ * it where it holds directions. One that there is no memory for does. */
+static const char *instead_of(const table *t)
+{
+    bool directions = t->slot == EC_SLOT_NORMAL || t->slot == EC_SLOT_CLEARCOAT_NORMAL || t->slot == EC_SLOT_ANISOTROPY;
+    return directions ? "the map is left out" : "taken as white";
+}
+
+static int64_t take_picture(table *t, picture *p)
+{
+    if (p->place != UNSEEN) return p->place;
+    ec_image *out = &t->s->images[t->s->image_count], *kept = kept_of(t, p);
+    if (p->failed) {
+        const char *why = p->err.text;
+        if (p->err.kind != EC_ERROR_HOST_MEMORY) ec_warn(t->log, "%s: %.*s; %s", t->g->path, EC_CUT(why, 1200), instead_of(t));
+        else if (t->result == EC_OK) t->result = ec_fail(t->err, "%s: %.*s", t->g->path, EC_CUT(why, 1200));
+        if (!t->s->lost_image) t->s->lost_image = strdup(why);
+        return p->place = UNUSABLE;
+    }
+    *out = p->image;
+    if (kept) *kept = p->image, out->lent = true;
+    return p->place = t->s->image_count++;
+}
+
+static int64_t *picture_of(const table *t, int32_t texture)
+{
+    const ec_gltf_texture *in = &t->g->textures[texture];
+    return in->is_gloss ? &t->picture[t->g->image_count + (uint32_t)texture] : &t->picture[in->image];
+}
+
+/* One that has been wanted before is decoded once. */
+static void want(table *t, bool drawn, ec_texture_use *use)
+{
+    if (use->texture < 0 || !drawn) return;
+    const ec_gltf_texture *in = &t->g->textures[use->texture];
+    if (in->image < 0) return;
+    int64_t *place = picture_of(t, use->texture);
+    if (*place != UNSEEN) return;
+    *place = t->picture_count;
+    picture *p = &t->pictures[t->picture_count++];
+    p->index = (uint32_t)in->image;
+    p->gloss = in->is_gloss ? in : NULL;
+    p->place = UNSEEN;
+}
+
+static int64_t map_texture(table *t, int32_t index)
+{
+    if (t->texture[index] != UNSEEN) return t->texture[index];
+    const ec_gltf_texture *in = &t->g->textures[index];
+    if (in->image < 0)
+        ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; %s", t->g->path, index, instead_of(t));
+    int64_t image = in->image < 0 ? UNUSABLE : take_picture(t, &t->pictures[*picture_of(t, index)]);
+    if (image < 0) return t->texture[index] = UNUSABLE;
+    t->s->textures[t->s->texture_count] = (ec_texture){(uint32_t)image, in->wrap_s, in->wrap_t, in->nearest};
+    return t->texture[index] = t->s->texture_count++;
+}
+
+static void map_use(table *t, bool drawn, ec_texture_use *use)
+{
+    if (use->texture < 0) return;
+    int64_t texture = drawn ? map_texture(t, use->texture) : UNUSABLE;
+    use->texture = texture < 0 ? -1 : (int32_t)texture;
+}
+
+/* drawn: by material. */
+static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, bool drawn, ec_texture_use *use))
+{
+    for (uint32_t i = 0; i < t->s->material_count; i++) {
+        ec_material *m = &t->s->materials[i];
+        for (int k = 0; k < EC_SLOT_COUNT; k++) {
+            bool shows = !m->unlit || k == EC_SLOT_BASE_COLOR || k == EC_SLOT_EMISSION;
+            t->slot = k;
+            look(t, drawn[i] && shows, &m->textures[k]);
+        }
+    }
+}
+
+static void load_all(table *t, const bool *drawn)
+{
+    for_each_use(t, drawn, want);
+#pragma omp parallel for schedule(dynamic, 1) if (t->picture_count > 1)
+    for (uint32_t i = 0; i < t->picture_count; i++) decode(t, &t->pictures[i]);
+    for_each_use(t, drawn, map_use);
+}
+
+/* By material: does a primitive that stands somewhere have it? */
+static void mark_drawn(const ec_gltf *g, const ec_placement_list *placements, bool *drawn)
+{
+    for (uint32_t i = 0; i < placements->count; i++) {
+        int32_t mesh = placements->items[i].mesh;
+        for (uint32_t k = 0; mesh >= 0 && k < g->meshes[mesh].primitive_count; k++) {
+            const ec_gltf_primitive *p = &g->meshes[mesh].primitives[k];
+            if (p->drawn) drawn[p->scene_material] = true;
+        }
+    }
+}
+
+ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
+{
+    const size_t most = (size_t)g->image_count + g->texture_count; /* pictures: the images, and roughness made of glossiness */
+    table t = {.g = g, .s = s, .log = log, .err = err};
+    t.pictures = calloc(most + 1, sizeof *t.pictures);
+    t.picture = malloc((most + 1) * sizeof *t.picture);
+    t.texture = malloc(((size_t)g->texture_count + 1) * sizeof *t.texture);
+    s->images = calloc(most + 1, sizeof *s->images);
+    s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
+    bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
+    bool ok = t.pictures && t.picture && t.texture && s->images && s->textures && drawn;
+    if (ok) {
+        for (size_t i = 0; i < most; i++) t.picture[i] = UNSEEN;
+        for (uint32_t i = 0; i < g->texture_count; i++) t.texture[i] = UNSEEN;
+        mark_drawn(g, placements, drawn);
+        load_all(&t, drawn);
+    }
+    free(t.pictures);
+    free(t.picture);
+    free(t.texture);
+    free(drawn);
+    return ok ? t.result : ec_fail(err, "%s: out of memory for textures", g->path);
+}
