@@ -15,6 +15,7 @@ typedef struct ec_cli {
     int exit_code; /* of a command that succeeded: 1 where the answer is no, as of compare and selftest */
     char *line;  /* the same as one text, before getopt reorders it; owned */
     ec_ranks *ranks; /* the other processes of an MPI job; NULL: there are none */
+    ec_request asked; /* --help or --version, in place of what the command does */
 } ec_cli;
 
 /* Runs the command that argv names; returns the exit code: 0, 1 (failed, or the answer is no) or 2 (usage). */
@@ -44,7 +45,11 @@ int ec_view_rows(ec_option *rows);
 void ec_print_version(void);
 void ec_print_help(const char *command);
 
-/* Does what --help and --version ask for; true when that was all. */
-bool ec_request_serve(ec_request request, const char *command);
+/* Is that --help or --version? Then the command is done, and the answer is its caller's. */
+static inline bool ec_cli_leaves(ec_cli *cli, ec_request asked)
+{
+    cli->asked = asked;
+    return asked != EC_REQUEST_RUN;
+}
 
 #endif

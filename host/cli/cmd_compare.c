@@ -83,7 +83,7 @@ ec_result ec_cmd_compare(ec_cli *cli, int argc, char **argv, ec_error *err)
     bool differ = false;
     ec_request asked;
     EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &request, argc, argv, &first, NULL, &asked, err));
-    if (ec_request_serve(asked, argv[0])) return EC_OK;
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     EC_TRY(take_operands(argc, argv, first, &request, err));
     EC_TRY(compare(&request, &differ, err));
     if (differ) cli->exit_code = 1;

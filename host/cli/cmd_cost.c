@@ -96,9 +96,9 @@ ec_result ec_cmd_cost(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
     double start = ec_now();
     ec_cost_request request = {0};
-    bool done = false;
-    EC_TRY(ec_cost_request_parse(argc, argv, &request, &done, err));
-    if (done) return EC_OK;
+    ec_request asked;
+    EC_TRY(ec_cost_request_parse(argc, argv, &request, &asked, err));
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     cli->console.quiet = request.render.quiet;
     ec_log log = ec_console_log(&cli->console);
 

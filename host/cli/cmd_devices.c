@@ -29,7 +29,7 @@ ec_result ec_cmd_devices(ec_cli *cli, int argc, char **argv, ec_error *err)
     int first = 0;
     ec_request asked;
     EC_TRY(ec_options_parse(options, 1, &json, argc, argv, &first, NULL, &asked, err));
-    if (ec_request_serve(asked, argv[0])) return EC_OK;
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     if (first < argc) return ec_usage(err, "devices takes no operand, not '%s'", argv[first]);
 
     ec_device_info *devices = NULL;

@@ -63,16 +63,14 @@ int ec_info_rows(ec_option *rows)
     return count;
 }
 
-static ec_result parse(int argc, char **argv, info_request *request, bool *done, ec_error *err)
+static ec_result parse(int argc, char **argv, info_request *request, ec_request *asked, ec_error *err)
 {
     ec_option rows[EC_OPTIONS_MAX];
     bool given[EC_OPTIONS_MAX] = {false};
     int count = ec_info_rows(rows), first = 0;
-    ec_request asked;
     ec_render_request_start(&request->render);
-    EC_TRY(ec_options_parse(rows, count, request, argc, argv, &first, given, &asked, err));
-    *done = ec_request_serve(asked, argv[0]);
-    if (*done) return EC_OK;
+    EC_TRY(ec_options_parse(rows, count, request, argc, argv, &first, given, asked, err));
+    if (*asked != EC_REQUEST_RUN) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &request->render.scene, err));
     EC_TRY(ec_combinations_check_grid(request->grid_density, request->accel, true, err));
     return ec_render_request_settle(&request->render, rows, count, given, err);
@@ -150,9 +148,9 @@ static ec_result tell(info_request *request, const ec_log *log, ec_error *err)
 ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
     info_request request = {0};
-    bool done = false;
-    EC_TRY(parse(argc, argv, &request, &done, err));
-    if (done) return EC_OK;
+    ec_request asked;
+    EC_TRY(parse(argc, argv, &request, &asked, err));
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     cli->console.quiet = request.render.quiet;
     ec_log log = ec_console_log(&cli->console);
     return tell(&request, &log, err);

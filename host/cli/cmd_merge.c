@@ -89,7 +89,7 @@ ec_result ec_cmd_merge(ec_cli *cli, int argc, char **argv, ec_error *err)
     int first = 0;
     ec_request asked;
     EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &request, argc, argv, &first, NULL, &asked, err));
-    if (ec_request_serve(asked, argv[0])) return EC_OK;
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     request.paths = argv + first;
     request.count = argc - first;
     cli->console.quiet = request.quiet;

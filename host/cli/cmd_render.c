@@ -41,7 +41,7 @@ ec_result ec_cmd_render(ec_cli *cli, int argc, char **argv, ec_error *err)
                          .job = {.argc = argc, .argv = as_given, .folder = folder}};
     ec_result result = EC_OK;
     EC_TRY_CLEANUP(ec_render_request_parse(argc, argv, &request, &asked, err));
-    if (ec_request_serve(asked, argv[0])) goto cleanup;
+    if (ec_cli_leaves(cli, asked)) goto cleanup;
     if (request.resume) EC_TRY_CLEANUP(ec_render_job_take_up(&job, argc, argv, err));
     cli->console.quiet = teller.quiet = request.quiet;
     teller.json = request.json;

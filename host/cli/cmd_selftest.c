@@ -81,7 +81,7 @@ ec_result ec_cmd_selftest(ec_cli *cli, int argc, char **argv, ec_error *err)
     int first = 0;
     ec_request asked;
     EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &r, argc, argv, &first, NULL, &asked, err));
-    if (ec_request_serve(asked, argv[0])) return EC_OK;
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     if (first < argc) return ec_usage(err, "selftest takes no operand, not '%s'; --only NAME chooses cases", argv[first]);
     cli->console.quiet = r.quiet;
 

@@ -80,16 +80,14 @@ int ec_view_rows(ec_option *rows)
     return count;
 }
 
-static ec_result parse(int argc, char **argv, view_job *job, bool *done, ec_error *err)
+static ec_result parse(int argc, char **argv, view_job *job, ec_request *asked, ec_error *err)
 {
     ec_option rows[EC_OPTIONS_MAX];
     bool given[EC_OPTIONS_MAX] = {false};
     int count = ec_view_rows(rows), first = 0;
-    ec_request asked;
     ec_render_request_start(&job->render);
-    EC_TRY(ec_options_parse(rows, count, job, argc, argv, &first, given, &asked, err));
-    *done = ec_request_serve(asked, argv[0]);
-    if (*done) return EC_OK;
+    EC_TRY(ec_options_parse(rows, count, job, argc, argv, &first, given, asked, err));
+    if (*asked != EC_REQUEST_RUN) return EC_OK;
     EC_TRY(ec_options_scene(argc, argv, first, &job->render.scene, err));
     job->render.default_height = VIEW_HEIGHT;
     return ec_render_request_settle(&job->render, rows, count, given, err);
@@ -190,9 +188,9 @@ static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t s
 ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
     view_job job = {.console = &cli->console};
-    bool done = false;
-    EC_TRY(parse(argc, argv, &job, &done, err));
-    if (done) return EC_OK;
+    ec_request asked;
+    EC_TRY(parse(argc, argv, &job, &asked, err));
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     cli->console.quiet = job.render.quiet;
     const ec_view_module *window;
     EC_TRY(ec_view_load(&window, err));

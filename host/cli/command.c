@@ -57,30 +57,14 @@ static ec_result unknown_command(const char *name, ec_error *err)
     return ec_usage(err, "unknown command '%s'; see 'eclat --help'", name);
 }
 
-static ec_result set_man(void *target, const char *option, const char *value, ec_error *err)
-{
-    (void)option, (void)value, (void)err;
-    *(bool *)target = true;
-    return EC_OK;
-}
-
-int ec_help_command_rows(ec_option *rows)
-{
-    rows[0] = (ec_option){.name = "man", .set = set_man, .help = "print the man page, as in eclat help --man | man -l -"};
-    return 1;
-}
-
 static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
-    (void)cli;
     ec_option rows[1];
     bool man = false;
     int first = 0;
     ec_request asked;
     EC_TRY(ec_options_parse(rows, ec_help_command_rows(rows), &man, argc, argv, &first, NULL, &asked, err));
-    if (asked == EC_REQUEST_VERSION) ec_print_version();
-    if (asked == EC_REQUEST_HELP) ec_print_help(argv[0]);
-    if (asked != EC_REQUEST_RUN) return EC_OK;
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     const char *topic = first < argc && strcmp(argv[first], "help") ? argv[first] : "";
     if (argc - first > 1) return ec_usage(err, "help takes one command, as in 'eclat help render'");
     if (*topic && !find_command(topic)) return unknown_command(topic, err);
@@ -91,12 +75,11 @@ static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err)
 
 static ec_result cmd_completion(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
-    (void)cli;
     int first = 0;
     uint32_t shell;
     ec_request asked;
     EC_TRY(ec_options_parse(NULL, 0, NULL, argc, argv, &first, NULL, &asked, err));
-    if (ec_request_serve(asked, argv[0])) return EC_OK;
+    if (ec_cli_leaves(cli, asked)) return EC_OK;
     if (argc - first != 1) return ec_usage(err, "completion takes the name of a shell, bash or zsh; see 'eclat completion --help'");
     for (shell = 0; ec_shell_names[shell] && strcmp(ec_shell_names[shell], argv[first]); shell++) continue;
     if (!ec_shell_names[shell]) return ec_usage(err, "there is no completion for '%s'; give bash or zsh", argv[first]);
@@ -115,7 +98,10 @@ static ec_result run(ec_cli *cli, ec_error *err)
     const command *found = find_command(name);
     if (!found) return unknown_command(name, err);
     if (cli->ranks && !found->by_all) ec_console_say(&cli->console, "note: only render is shared out; rank 0 does this alone");
-    return found->run(cli, cli->argc - 1, cli->argv + 1, err);
+    EC_TRY(found->run(cli, cli->argc - 1, cli->argv + 1, err));
+    if (cli->asked == EC_REQUEST_HELP) ec_print_help(found->name);
+    if (cli->asked == EC_REQUEST_VERSION) ec_print_version();
+    return EC_OK;
 }
 
 /* A result that did not arrive is a failure, however well the render went. */

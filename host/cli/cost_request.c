@@ -50,16 +50,14 @@ int ec_cost_rows(ec_option *rows)
     return count;
 }
 
-ec_result ec_cost_request_parse(int argc, char **argv, ec_cost_request *request, bool *done, ec_error *err)
+ec_result ec_cost_request_parse(int argc, char **argv, ec_cost_request *request, ec_request *asked, ec_error *err)
 {
     ec_option rows[EC_OPTIONS_MAX];
     int count = ec_cost_rows(rows), first = 0;
-    ec_request asked;
     request->budget = EC_DEFAULT_BUDGET;
     request->render.options.cutoff = EC_DEFAULT_CUTOFF;
     request->render.env_strength = 1;
-    EC_TRY(ec_options_parse(rows, count, request, argc, argv, &first, NULL, &asked, err));
-    *done = ec_request_serve(asked, argv[0]);
-    if (*done) return EC_OK;
+    EC_TRY(ec_options_parse(rows, count, request, argc, argv, &first, NULL, asked, err));
+    if (*asked != EC_REQUEST_RUN) return EC_OK;
     return ec_options_scene(argc, argv, first, &request->render.scene, err);
 }

@@ -12,6 +12,6 @@ typedef struct ec_cost_request {
 } ec_cost_request;
 
 int ec_cost_rows(ec_option *rows); /* its options; returns their number */
-ec_result ec_cost_request_parse(int argc, char **argv, ec_cost_request *request, bool *done, ec_error *err);
+ec_result ec_cost_request_parse(int argc, char **argv, ec_cost_request *request, ec_request *asked, ec_error *err);
 
 #endif

@@ -201,10 +201,3 @@ void ec_print_version(void)
 {
     puts("eclat " ECLAT_VERSION);
 }
-
-bool ec_request_serve(ec_request request, const char *command)
-{
-    if (request == EC_REQUEST_HELP) ec_print_help(command);
-    if (request == EC_REQUEST_VERSION) ec_print_version();
-    return request != EC_REQUEST_RUN;
-}

@@ -4,6 +4,19 @@
 #include "cli/help.h"
 #include "jobs/defaults.h"
 
+static ec_result set_man(void *target, const char *option, const char *value, ec_error *err)
+{
+    (void)option, (void)value, (void)err;
+    *(bool *)target = true;
+    return EC_OK;
+}
+
+int ec_help_command_rows(ec_option *rows)
+{
+    rows[0] = (ec_option){.name = "man", .set = set_man, .help = "print the man page, as in eclat help --man | man -l -"};
+    return 1;
+}
+
 #define LIMITS "When to stop: at the first limit that is reached (default: --spp " EC_TEXT(EC_DEFAULT_SPP) ")"
 #define RESUME "Resume and distribute"
 #define COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */

@@ -15,7 +15,7 @@ SOURCE = os.environ["ECLAT_SOURCE_DIR"]
 # Folders that still have circles. One without them goes from this list, and none comes to it.
 CIRCULAR = {"ranks", "view"}
 
-OBJECT = re.compile(r"CMakeFiles/[^/]+\.dir/(host/([^/]+)/.+)\.o$")
+OBJECT = re.compile(r"CMakeFiles/(?:room_\w+|eclat|eclat_view|eclat_mpi)\.dir/(host/([^/]+)/.+)\.o$")
 
 
 def objects():
