@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "cost/cost_internal.h"
+#include "film/channels.h"
 #include "film/resolve.h"
 #include "image/image.h"
 
@@ -110,17 +111,17 @@ ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_err
 /* Where no standard error of luminance is kept, the channels' noise is taken to be of one mind, which makes it rather large. */
 static ec_result take_exr(const ec_exr *exr, ec_cost_study *study, ec_error *err)
 {
-    static const char *const color[] = {"R", "G", "B"}, *const error[] = {"stderr.R", "stderr.G", "stderr.B"};
     ec_cost_reference *r = &study->reference;
     uint64_t pixels = (uint64_t)exr->width * exr->height;
     if (exr->width != study->options.width || exr->height != study->options.height)
         return ec_fail(err, "--reference '%s' is %ux%u pixels and the study %ux%u; leave out --size or give the reference's", r->source,
                        exr->width, exr->height, study->options.width, study->options.height);
-    const float *rgb[3], *se[3], *se_y = ec_exr_plane(exr, "stderr.Y"), *samples = ec_exr_plane(exr, "samples");
+    const float *rgb[3], *se[3], *se_y = ec_exr_plane(exr, ec_channel_name_of(EC_PLANE_STDERR_Y, 0)),
+                *samples = ec_exr_plane(exr, ec_channel_name_of(EC_PLANE_SAMPLES, 0));
     for (int c = 0; c < 3; c++) {
-        rgb[c] = ec_exr_plane(exr, color[c]);
-        se[c] = ec_exr_plane(exr, error[c]);
-        if (!rgb[c]) return ec_fail(err, "--reference '%s' has no channel %s", r->source, color[c]);
+        rgb[c] = ec_exr_plane(exr, ec_channel_name_of(EC_PLANE_RGB, (uint32_t)c));
+        se[c] = ec_exr_plane(exr, ec_channel_name_of(EC_PLANE_STDERR, (uint32_t)c));
+        if (!rgb[c]) return ec_fail(err, "--reference '%s' has no channel %s", r->source, ec_channel_name_of(EC_PLANE_RGB, (uint32_t)c));
     }
     EC_TRY(allocate(r, pixels, err));
     r->has_variance = se_y || (se[0] && se[1] && se[2]);

@@ -5,9 +5,20 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "film/channels.h"
 #include "image/exr_header.h"
 
-static const char *const colour[3] = {"R", "G", "B"}, *const error[3] = {"stderr.R", "stderr.G", "stderr.B"};
+/* Names of a plane's first three floats. */
+typedef struct names {
+    const char *of[3];
+} names;
+
+static names names_of(ec_plane plane)
+{
+    names n;
+    for (uint32_t c = 0; c < 3; c++) n.of[c] = ec_channel_name_of(plane, c);
+    return n;
+}
 
 static ec_result missing(const char *path, const ec_exr *exr, const char *name, ec_error *err)
 {
@@ -56,14 +67,15 @@ static double count_replicates(const char *path)
 
 static ec_result take_noise(const ec_exr *exr, ec_compare_input *input, ec_error *err)
 {
-    const char *path = input->path, *luminance = "stderr.Y";
+    const char *path = input->path, *luminance = ec_channel_name_of(EC_PLANE_STDERR_Y, 0);
+    const names error = names_of(EC_PLANE_STDERR);
     ec_measured *m = &input->measured;
-    const float *samples = ec_exr_plane(exr, "samples");
+    const float *samples = ec_exr_plane(exr, ec_channel_name_of(EC_PLANE_SAMPLES, 0));
     if (samples) m->samples = mean_of(samples, (uint64_t)exr->width * exr->height);
     m->replicates = count_replicates(path);
-    if (m->replicates < 2 || !(ec_exr_plane(exr, error[0]) || ec_exr_plane(exr, error[1]) || ec_exr_plane(exr, error[2])))
+    if (m->replicates < 2 || !(ec_exr_plane(exr, error.of[0]) || ec_exr_plane(exr, error.of[1]) || ec_exr_plane(exr, error.of[2])))
         return EC_OK;
-    EC_TRY(weave(path, exr, error, 3, &input->se, err));
+    EC_TRY(weave(path, exr, error.of, 3, &input->se, err));
     if (ec_exr_plane(exr, luminance)) EC_TRY(weave(path, exr, &luminance, 1, &input->se_y, err));
     m->se = input->se;
     m->se_y = input->se_y;
@@ -75,11 +87,13 @@ ec_result ec_compare_input_load(const char *path, ec_compare_input *input, ec_er
     ec_exr exr;
     ec_result result;
     *input = (ec_compare_input){.path = path};
-    const char *const wanted[] = {colour[0], colour[1], colour[2], error[0], error[1], error[2], "stderr.Y", "samples", NULL};
+    const names colour = names_of(EC_PLANE_RGB), error = names_of(EC_PLANE_STDERR);
+    const char *const wanted[] = {colour.of[0], colour.of[1], colour.of[2], error.of[0], error.of[1], error.of[2],
+                                  ec_channel_name_of(EC_PLANE_STDERR_Y, 0), ec_channel_name_of(EC_PLANE_SAMPLES, 0), NULL};
     EC_TRY(ec_exr_read_some(path, wanted, &exr, err));
-    EC_TRY_CLEANUP(weave(path, &exr, colour, 3, &input->rgb, err));
+    EC_TRY_CLEANUP(weave(path, &exr, colour.of, 3, &input->rgb, err));
     input->measured = (ec_measured){.width = exr.width, .height = exr.height, .rgb = input->rgb};
-    for (int c = 0; c < 3; c++) input->measured.is_half |= ec_exr_is_half(path, colour[c]);
+    for (int c = 0; c < 3; c++) input->measured.is_half |= ec_exr_is_half(path, colour.of[c]);
     EC_TRY_CLEANUP(take_noise(&exr, input, err));
     input->why = ec_exr_header_text(path, "eclat.errorBoundWhy");
 cleanup:

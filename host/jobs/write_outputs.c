@@ -5,8 +5,6 @@
 #include <string.h>
 
 
-enum { AOV_ALBEDO = 0, AOV_NORMAL = 3, AOV_DEPTH = 6, AOV_ALPHA = 7 };
-
 ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_cut, ec_error *err)
 {
     const size_t pixel_count = (size_t)width * rows;
@@ -71,40 +69,28 @@ void ec_picture_free(ec_picture *picture)
     *picture = (ec_picture){0};
 }
 
-static void add_channels(ec_channel_list *channels, const float *data, uint32_t stride, uint32_t count, const char *const *names)
+/* A plane's floats, *stride of them a pixel; NULL: the picture has none. */
+static const float *plane_of(const ec_picture *p, ec_plane plane, uint32_t *stride)
 {
-    for (uint32_t i = 0; i < count; i++) channels->list[channels->count++] = (ec_channel){.name = names[i], .data = data + i, .stride = stride};
+    const struct { const float *data; uint32_t stride; } planes[] = {
+        [EC_PLANE_RGB] = {p->rgb, 3},       [EC_PLANE_SAMPLES] = {p->constants, 2}, [EC_PLANE_STDERR] = {p->stderr_rgb, 3},
+        [EC_PLANE_STDERR_Y] = {p->stderr_y, 1}, [EC_PLANE_LOW] = {p->low, 3},       [EC_PLANE_HIGH] = {p->high, 3},
+        [EC_PLANE_HEAVY] = {p->heavy, 1},   [EC_PLANE_CLAMPED] = {p->clamped, 2},   [EC_PLANE_FEATURES] = {p->aov, EC_FEATURE_CHANNELS},
+    };
+    *stride = planes[plane].stride;
+    return planes[plane].data;
 }
 
-/* Layers by name, so that every viewer groups them. No error and no first hit: no such channels. */
 void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
 {
-    static const char *const colour[] = {"R", "G", "B"}, *const error[] = {"stderr.R", "stderr.G", "stderr.B"},
-                             *const low[] = {"low95.R", "low95.G", "low95.B"}, *const high[] = {"high95.R", "high95.G", "high95.B"},
-                             *const error_y[] = {"stderr.Y"}, *const heavy[] = {"heavy"}, *const samples[] = {"samples"},
-                             *const alpha[] = {"A"}, *const albedo[] = {"albedo.R", "albedo.G", "albedo.B"},
-                             *const normal[] = {"normal.X", "normal.Y", "normal.Z"}, *const depth[] = {"depth.Z"},
-                             *const clamped[] = {"clamped.Y", "clamped.stderr"};
     channels->count = 0;
-    add_channels(channels, picture->rgb, 3, 3, colour);
-    add_channels(channels, picture->constants, 2, 1, samples);
-    if (picture->stderr_rgb) {
-        add_channels(channels, picture->stderr_rgb, 3, 3, error);
-        add_channels(channels, picture->stderr_y, 1, 1, error_y);
-        add_channels(channels, picture->low, 3, 3, low);
-        add_channels(channels, picture->high, 3, 3, high);
-        add_channels(channels, picture->heavy, 1, 1, heavy);
+    for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++) {
+        const ec_channel_row *row = &ec_channel_rows[i];
+        const bool is_constant = row->plane == EC_PLANE_FEATURES && row->place == EC_PLACE_ALPHA && !picture->aov;
+        uint32_t stride;
+        const float *data = plane_of(picture, is_constant ? EC_PLANE_SAMPLES : row->plane, &stride);
+        if (data) channels->list[channels->count++] = (ec_channel){.name = row->name, .data = data + (is_constant ? 1 : row->place), .stride = stride};
     }
-    if (picture->clamped) add_channels(channels, picture->clamped, 2, 2, clamped);
-    const float *aov = picture->aov;
-    if (!aov) {
-        add_channels(channels, picture->constants + 1, 2, 1, alpha);
-        return;
-    }
-    add_channels(channels, aov + AOV_ALPHA, EC_FILM_FEATURES, 1, alpha);
-    add_channels(channels, aov + AOV_ALBEDO, EC_FILM_FEATURES, 3, albedo);
-    add_channels(channels, aov + AOV_NORMAL, EC_FILM_FEATURES, 3, normal);
-    add_channels(channels, aov + AOV_DEPTH, EC_FILM_FEATURES, 1, depth);
 }
 
 ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)

@@ -2,6 +2,7 @@
 #ifndef EC_JOBS_WRITE_OUTPUTS_H
 #define EC_JOBS_WRITE_OUTPUTS_H
 
+#include "film/channels.h"
 #include "jobs/outputs.h"
 #include "film/resolve.h"
 #include "image/image.h"
@@ -34,9 +35,8 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
 ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t rows);
 
 /* What of it goes into an EXR. No error and no first hit: no such channels. */
-enum { EC_CHANNELS_MAX = 26 };
 typedef struct ec_channel_list {
-    ec_channel list[EC_CHANNELS_MAX];
+    ec_channel list[EC_CHANNEL_ROWS];
     uint32_t count;
 } ec_channel_list;
 void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels);

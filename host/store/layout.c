@@ -2,9 +2,6 @@
 
 #include <stdio.h>
 
-const char *const ec_feature_channels[EC_FEATURE_CHANNELS] = {"albedo.R", "albedo.G", "albedo.B", "normal.X",
-                                                              "normal.Y", "normal.Z", "depth.Z",  "A"};
-
 static const char *const fields[EC_BATCH_FIELDS] = {"R", "G", "B", "largest.Y", "squares.Y", "fourths.Y"};
 
 uint32_t ec_sum_channels(const ec_sums *sums, const uint32_t *counts, ec_channel_name names[EC_SUM_CHANNELS], ec_channel channels[EC_SUM_CHANNELS])

@@ -31,9 +31,6 @@ typedef struct ec_channel_name {
 /* Channels of sums, and of counts where they are not NULL. Their names live in `names`. */
 uint32_t ec_sum_channels(const ec_sums *sums, const uint32_t *counts, ec_channel_name names[EC_SUM_CHANNELS], ec_channel channels[EC_SUM_CHANNELS]);
 uint32_t ec_batch_channels(const float *batch, ec_channel channels[EC_BATCH_FIELDS]);
-/* Of features, 8 floats a pixel: names and order of those in the picture. */
-enum { EC_FEATURE_CHANNELS = 8 };
-extern const char *const ec_feature_channels[EC_FEATURE_CHANNELS];
 
 void ec_sum_part_name(uint32_t index, char name[24]);
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "film/channels.h"
 #include "image/exr_header.h"
 #include "store/layout.h"
 
@@ -104,11 +105,11 @@ static ec_result read_under_way(ec_exr_file *file, const char *path, ec_stored *
 static ec_result read_features(ec_exr_file *file, const char *path, ec_film *film, ec_error *err)
 {
     ec_exr_room rooms[EC_FEATURE_CHANNELS];
-    if (!ec_exr_has(file, "picture", ec_feature_channels[0])) return EC_OK;
+    if (!ec_exr_has(file, "picture", ec_channel_name_of(EC_PLANE_FEATURES, 0))) return EC_OK;
     film->aov = malloc((uint64_t)film->width * film->height * EC_FEATURE_CHANNELS * sizeof(float));
     if (!film->aov) return no_memory(path, err);
     for (uint32_t i = 0; i < EC_FEATURE_CHANNELS; i++)
-        rooms[i] = (ec_exr_room){ec_feature_channels[i], film->aov + i, EC_FEATURE_CHANNELS};
+        rooms[i] = (ec_exr_room){ec_channel_name_of(EC_PLANE_FEATURES, i), film->aov + i, EC_FEATURE_CHANNELS};
     return ec_exr_fill(file, "picture", rooms, EC_FEATURE_CHANNELS, err);
 }
 

@@ -1,0 +1,26 @@
+/* The channels of a picture, in its EXR and for callers of the library: what writes, reads and lists them goes by this table. */
+#ifndef EC_FILM_CHANNELS_H
+#define EC_FILM_CHANNELS_H
+
+#include <stdint.h>
+
+/* Arrays of floats that a picture has for each pixel. */
+typedef enum ec_plane {
+    EC_PLANE_RGB, EC_PLANE_SAMPLES, EC_PLANE_STDERR, EC_PLANE_STDERR_Y, EC_PLANE_LOW, EC_PLANE_HIGH, EC_PLANE_HEAVY, EC_PLANE_CLAMPED,
+    EC_PLANE_FEATURES /* of first hits */
+} ec_plane;
+enum { EC_PLACE_ALPHA = 7, EC_FEATURE_CHANNELS }; /* in that plane: the last one, and how many */
+
+typedef struct ec_channel_row {
+    const char *name;
+    ec_plane plane;
+    uint32_t place; /* in the plane's floats of a pixel */
+} ec_channel_row;
+
+enum { EC_CHANNEL_ROWS = 25 };
+extern const ec_channel_row ec_channel_rows[EC_CHANNEL_ROWS];
+
+/* The name of a plane's float; NULL: it has none. */
+const char *ec_channel_name_of(ec_plane plane, uint32_t place);
+
+#endif
