@@ -26,8 +26,8 @@ endfunction()
 set(gltf_more ${codec_sources})
 set(cl_more ${embedded_kernels})
 set(cost_more ${embedded_page})
-set(ranks_only launch.c load.c plan.c) # the others are the module eclat-mpi
-set(view_only load.c orbit.c)          # the others are the module eclat-view
+set(ranks_only launcher.c mpi_load.c plan.c) # the others are the module eclat-mpi
+set(view_only view_load.c orbit.c)          # the others are the module eclat-view
 
 eclat_room(base)
 eclat_room(film base)

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "cli/console.h"
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 #include "ranks/ranks.h"
 
 /* What a command gets: the console, and the whole command line as it was typed. */

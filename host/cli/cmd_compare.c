@@ -5,7 +5,7 @@
 
 #include "cli/cli.h"
 #include "jobs/compare_job.h"
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 #include "jobs/outputs.h"
 #include "jobs/setters.h"
 

@@ -4,7 +4,7 @@
 
 #include "cl/cl.h"
 #include "cli/cli.h"
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 #include "jobs/usage.h"
 #include "report/device_report.h"
 

@@ -4,7 +4,7 @@
 
 #include "cli/cli.h"
 #include "jobs/merge_job.h"
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 #include "jobs/outputs.h"
 #include "jobs/setters.h"
 #include "report/merge_report.h"

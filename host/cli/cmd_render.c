@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "cli/cli.h"
 #include "cli/teller.h"
-#include "jobs/frames.h"
+#include "jobs/sequence.h"
 #include "jobs/render_job.h"
 #include "jobs/render_plan.h"
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 #include "jobs/setters.h"
 #include "cli/stop.h"
 #include "selftest/report_print.h"

@@ -5,7 +5,7 @@
 
 #include "cli/cli.h"
 #include "jobs/defaults.h"
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 #include "jobs/render_setters.h"
 #include "jobs/setters.h"
 

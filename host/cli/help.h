@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 
 /* A term and what it means, below a heading: that of a group of options, or one of its own. */
 typedef struct ec_help_note {

@@ -37,9 +37,9 @@ typedef struct ec_render_stats {
     uint64_t scene_bytes;         /* of what goes to each device, made of the scene */
     ec_render_share shares[EC_DEVICES_MOST]; /* by device, where there are several */
     uint32_t share_count;
-    uint32_t allies;              /* other processes that took part … */
-    double allied_samples;        /* … what they took, samples a pixel in the mean … */
-    uint64_t allied_bytes;        /* … and what came of it to this process */
+    uint32_t peers;              /* other processes that took part … */
+    double peer_samples;        /* … what they took, samples a pixel in the mean … */
+    uint64_t peer_bytes;        /* … and what came of it to this process */
     ec_render_effects effects;    /* which were called for, why, and what came of it */
     ec_content content;           /* with options.identify */
     char stopped_by[16];          /* "spp", "time", "error", "user"; "device" or "failure" where ec_render failed */

@@ -120,8 +120,8 @@ static void set_diffuse_transmission(ec_material &out, const tinygltf::Material 
 {
     const Value *d = find_extension(in.extensions, "KHR_materials_diffuse_transmission");
     if (!d) return;
-    out.seeps = float(get_number(*d, "diffuseTransmissionFactor", 0));
-    for (int i = 0; i < 3; i++) out.below[i] = float(get_element(*d, "diffuseTransmissionColorFactor", i, 1));
+    out.diffuse_transmission = float(get_number(*d, "diffuseTransmissionFactor", 0));
+    for (int i = 0; i < 3; i++) out.transmission_color[i] = float(get_element(*d, "diffuseTransmissionColorFactor", i, 1));
     out.textures[EC_SLOT_DIFFUSE_TRANSMISSION] = make_use(*d, "diffuseTransmissionTexture", where, gltf, log);
     out.textures[EC_SLOT_DIFFUSE_TRANSMISSION_COLOR] = make_use(*d, "diffuseTransmissionColorTexture", where, gltf, log);
 }

@@ -171,7 +171,7 @@ ec_course ec_render_job_course(ec_render_job *job)
 {
     ec_render_request *request = job->request;
     ec_device_drivers(job->devices, job->device_count, job->device_text, sizeof job->device_text);
-    if (job->ranks) job->allies = ec_ranks_allies(job->ranks, request->device, job->device_text, all_round(job));
+    if (job->ranks) job->peers = ec_ranks_peers(job->ranks, request->device, job->device_text, all_round(job));
     job->job.device = job->device_text;
     job->job.spp = request->slice_of_any ? 0 : request->options.spp;
     job->job.error_target = request->options.error_target;
@@ -185,7 +185,7 @@ ec_course ec_render_job_course(ec_render_job *job)
                         .whole_for = whole_for,
                         .every = request->every,
                         .most = request->capped ? EC_SAFETY_SPP : 0,
-                        .allies = job->ranks ? &job->allies : NULL,
+                        .peers = job->ranks ? &job->peers : NULL,
                         .user = job};
     if (request->has_slice) {
         course.first = job->job.first = request->options.slice_first;

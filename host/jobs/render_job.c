@@ -135,12 +135,12 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 static ec_result check_memory(const ec_render_job *job, ec_error *err)
 {
     const ec_render_options *options = &job->request->options;
-    const uint32_t allies = job->ranks ? (uint32_t)ec_ranks_count(job->ranks) - 1 : 0;
+    const uint32_t peers = job->ranks ? (uint32_t)ec_ranks_count(job->ranks) - 1 : 0;
     const char *reason = ec_render_whole_for(job->request), *instead = "leave it out";
     if (job->in_memory) reason = "a picture without output files", instead = "name one by the option output";
-    if (allies) reason = "an MPI job", instead = "start one process without mpirun";
+    if (peers) reason = "an MPI job", instead = "start one process without mpirun";
     if (job->device_count > 1) reason = "more than one --device", instead = "name one";
-    uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count, allies);
+    uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count, peers);
     uint64_t present = ec_memory_of_machine();
     int64_t budget = options->memory ? ec_strip_budget(options, 0) : (int64_t)present;
     if (reason && (int64_t)needed > budget) return ec_strip_refuse(options, needed, budget, reason, instead, err);

@@ -36,7 +36,7 @@ typedef struct ec_render_job {
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
     ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
-    ec_allies allies;            /* the same as the render has them */
+    ec_peers peers;            /* the same as the render has them */
     ec_frame_share *share;       /* NULL: it is no frame of a sequence */
     ec_frame_facts frame;        /* with that */
     bool takes_several;          /* devices; else a list of them is refused */

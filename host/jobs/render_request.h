@@ -7,7 +7,7 @@
 
 #include "jobs/camera_change.h"
 #include "jobs/frame_range.h"
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 #include "jobs/outputs.h"
 #include "image/image.h"
 #include "render/render.h"

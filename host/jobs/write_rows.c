@@ -53,7 +53,7 @@ static bool any_left(const ec_row_writer *w)
     return false;
 }
 
-static ec_result told_if_none_is_left(const ec_row_writer *w, ec_error *err)
+static ec_result fail_without_files(const ec_row_writer *w, ec_error *err)
 {
     if (any_left(w)) return EC_OK;
     if (err) *err = w->why;
@@ -104,7 +104,7 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     }
     w->part.attributes = NULL; /* those of the end are given then */
     w->part.attribute_count = 0;
-    if (told_if_none_is_left(w, err) != EC_OK) {
+    if (fail_without_files(w, err) != EC_OK) {
         ec_row_writer_abort(w);
         return EC_FAILED;
     }
@@ -233,7 +233,7 @@ ec_result ec_row_writer_put(ec_row_writer *w, const ec_film *film, ec_error *err
     write_up_to(w, film, all == w->height ? all : all - SEAM);
     if (all < w->height) EC_TRY(keep_waiting(w, film, err));
     w->come = all;
-    return told_if_none_is_left(w, err);
+    return fail_without_files(w, err);
 }
 
 uint32_t ec_row_writer_rows(const ec_row_writer *w) { return w->come; }

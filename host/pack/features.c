@@ -131,11 +131,11 @@ static void scan_film(scan *s)
         call(s, EC_FEATURE_IRIDESCENCE_TEXTURE, "has a texture of its film");
 }
 
-static void scan_seeping(scan *s)
+static void scan_diffuse_transmission(scan *s)
 {
     const ec_material *m = s->m;
-    if (m->seeps == 0.0f) return;
-    call(s, EC_FEATURE_DIFFUSE_TRANSMISSION, "has diffuse transmission %g", (double)m->seeps);
+    if (m->diffuse_transmission == 0.0f) return;
+    call(s, EC_FEATURE_DIFFUSE_TRANSMISSION, "has diffuse transmission %g", (double)m->diffuse_transmission);
     if (has_texture(s, EC_SLOT_DIFFUSE_TRANSMISSION) || has_texture(s, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR))
         call(s, EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, "has a texture of its diffuse transmission");
     if (ec_bounds(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
@@ -192,7 +192,7 @@ static void scan_material(scan *s)
     scan_coat(s);
     scan_sheen(s);
     scan_film(s);
-    scan_seeping(s);
+    scan_diffuse_transmission(s);
     scan_specular(s);
     if (has_texture(s, EC_SLOT_NORMAL)) call(s, EC_FEATURE_NORMAL_TEXTURE, "has a normal map");
 }

@@ -99,8 +99,8 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         d->anisotropy = m->anisotropy;
         d->anisotropy_cosine = cosf(m->anisotropy_rotation);
         d->anisotropy_sine = sinf(m->anisotropy_rotation);
-        memcpy(d->below, m->below, sizeof d->below);
-        d->seeps = m->seeps;
+        memcpy(d->transmission_color, m->transmission_color, sizeof d->transmission_color);
+        d->diffuse_transmission = m->diffuse_transmission;
         d->film = m->film;
         d->film_ior = m->film_ior;
         d->film_least = m->film_least;

@@ -23,13 +23,13 @@ static void plain_transmission(const ec_scene *scene, ec_material *m)
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 2, &least, &most);
     if (m->metallic * least == 1.0f) m->transmission = 0.0f;
-    if (!(m->metallic * least < 1.0f)) m->seeps = 0.0f;
+    if (!(m->metallic * least < 1.0f)) m->diffuse_transmission = 0.0f;
     ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
-    if (m->transmission * least == 1.0f) m->seeps = 0.0f; /* nothing of the light is left for it */
+    if (m->transmission * least == 1.0f) m->diffuse_transmission = 0.0f; /* nothing of the light is left for it */
     if (m->transmission == 0.0f) drop(m, EC_SLOT_TRANSMISSION);
     if (!ec_refracts(m) || m->ior <= 1.0f) m->dispersion = 0.0f;
     if (!ec_refracts(m) && !ec_bounds(m)) memset(m->absorption, 0, sizeof m->absorption);
-    if (m->seeps > 0.0f) return;
+    if (m->diffuse_transmission > 0.0f) return;
     drop(m, EC_SLOT_DIFFUSE_TRANSMISSION);
     drop(m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR);
 }
@@ -69,20 +69,20 @@ static void plain_anisotropy(const ec_scene *scene, ec_material *m)
 }
 
 /* An effect on what shows its base colour alone is none. */
-static void plain_bare(ec_material *m)
+static void clear_lobes(ec_material *m)
 {
     for (int k = 0; k < EC_SLOT_COUNT; k++)
         if (k != EC_SLOT_BASE_COLOR) drop(m, k);
     memset(m->emission, 0, sizeof m->emission);
     memset(m->sheen, 0, sizeof m->sheen);
     memset(m->absorption, 0, sizeof m->absorption);
-    m->metallic = m->specular = m->transmission = m->coat = m->anisotropy = m->film = m->seeps = m->dispersion = 0.0f;
+    m->metallic = m->specular = m->transmission = m->coat = m->anisotropy = m->film = m->diffuse_transmission = m->dispersion = 0.0f;
 }
 
 /* Nor is one on what no ray sees. */
 static void plain_unseen(ec_material *m)
 {
-    plain_bare(m);
+    clear_lobes(m);
     m->unlit = false;
 }
 
@@ -120,7 +120,7 @@ static void plain_direction(const ec_scene *scene, ec_material *m)
 
 static void plain_material(const ec_scene *scene, ec_material *m, const shown *s)
 {
-    if (m->unlit) plain_bare(m);
+    if (m->unlit) clear_lobes(m);
     for (int slot = 0; slot < EC_SLOT_COUNT; slot++) ec_texture_fold(scene, m, slot);
     plain_direction(scene, m);
     plain_alpha(scene, m, s);

@@ -20,7 +20,7 @@ ec_result ec_scene_view_make(const ec_scene *scene, ec_scene_view *view, ec_erro
     return EC_OK;
 }
 
-/* Room for a bleached copy of each: as many further on as there are, with no pixels before somebody asks for it. */
+/* Room for a white copy of each: as many further on as there are, with no pixels before somebody asks for it. */
 static ec_result make_room(ec_scene_view *view, ec_error *err)
 {
     ec_scene *s = &view->scene;
@@ -36,7 +36,7 @@ static ec_result make_room(ec_scene_view *view, ec_error *err)
         textures[t] = textures[s->texture_count + t] = s->textures[t];
         textures[s->texture_count + t].image += s->image_count;
     }
-    view->first_bleached = s->image_count;
+    view->first_white = s->image_count;
     s->images = images;
     s->textures = textures;
     s->image_count *= 2;
@@ -44,7 +44,7 @@ static ec_result make_room(ec_scene_view *view, ec_error *err)
     return EC_OK;
 }
 
-static ec_result bleach_image(const ec_image *from, ec_image *to, ec_error *err)
+static ec_result whiten_image(const ec_image *from, ec_image *to, ec_error *err)
 {
     const size_t count = 4 * (size_t)from->width * from->height;
     const size_t size = from->rgba16 ? sizeof *from->rgba16 : sizeof *from->rgba8;
@@ -62,19 +62,19 @@ static ec_result bleach_image(const ec_image *from, ec_image *to, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_scene_view_bleach(ec_scene_view *view, int32_t *texture, ec_error *err)
+ec_result ec_scene_view_whiten(ec_scene_view *view, int32_t *texture, ec_error *err)
 {
-    if (!view->first_bleached) EC_TRY(make_room(view, err));
+    if (!view->first_white) EC_TRY(make_room(view, err));
     ec_scene *s = &view->scene;
     *texture += (int32_t)(s->texture_count / 2);
     ec_image *to = &s->images[s->textures[*texture].image];
-    return to->rgba8 || to->rgba16 ? EC_OK : bleach_image(to - view->first_bleached, to, err);
+    return to->rgba8 || to->rgba16 ? EC_OK : whiten_image(to - view->first_white, to, err);
 }
 
 void ec_scene_view_free(ec_scene_view *view)
 {
-    if (view->first_bleached) {
-        for (uint32_t i = view->first_bleached; i < view->scene.image_count; i++) {
+    if (view->first_white) {
+        for (uint32_t i = view->first_white; i < view->scene.image_count; i++) {
             free(view->scene.images[i].rgba8);
             free(view->scene.images[i].rgba16);
         }

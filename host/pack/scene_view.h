@@ -6,13 +6,13 @@
 
 typedef struct ec_scene_view {
     ec_scene scene;          /* its materials and lights are owned; their names are not */
-    uint32_t first_bleached; /* 0: no image is; else those from here on are owned, and the lists of images and textures */
+    uint32_t first_white; /* 0: no image is; else those from here on are owned, and the lists of images and textures */
 } ec_scene_view;
 
 ec_result ec_scene_view_make(const ec_scene *scene, ec_scene_view *view, ec_error *err);
 void ec_scene_view_free(ec_scene_view *view); /* zero-initialised is fine */
 /* The texture is replaced by one of the same alpha whose colours are white. */
-ec_result ec_scene_view_bleach(ec_scene_view *view, int32_t *texture, ec_error *err);
+ec_result ec_scene_view_whiten(ec_scene_view *view, int32_t *texture, ec_error *err);
 
 /* plain.c: the same picture with less in it. Constant textures go into their factors; what an effect of no weight has is dropped, what
  * no triangle shows, what coverage hides everywhere, lights of no power, maps of one radiance. The scan looks at this. */

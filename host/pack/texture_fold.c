@@ -23,8 +23,8 @@ static const factors table[] = {
     {EC_SLOT_CLEARCOAT_ROUGHNESS, {NO_FACTOR, AT(coat_roughness), NO_FACTOR, NO_FACTOR}},
     {EC_SLOT_SHEEN_COLOR, {AT(sheen[0]), AT(sheen[1]), AT(sheen[2]), NO_FACTOR}},
     {EC_SLOT_IRIDESCENCE, {AT(film), NO_FACTOR, NO_FACTOR, NO_FACTOR}},
-    {EC_SLOT_DIFFUSE_TRANSMISSION, {NO_FACTOR, NO_FACTOR, NO_FACTOR, AT(seeps)}},
-    {EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, {AT(below[0]), AT(below[1]), AT(below[2]), NO_FACTOR}},
+    {EC_SLOT_DIFFUSE_TRANSMISSION, {NO_FACTOR, NO_FACTOR, NO_FACTOR, AT(diffuse_transmission)}},
+    {EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, {AT(transmission_color[0]), AT(transmission_color[1]), AT(transmission_color[2]), NO_FACTOR}},
     {EC_SLOT_SHEEN_ROUGHNESS, {NO_FACTOR, NO_FACTOR, NO_FACTOR, AT(sheen_roughness)}},
 };
 

@@ -44,7 +44,7 @@ static ec_result without_color(const ec_scene *scene, ec_scene_view *view, ec_ma
     ec_texture_use *use = &m->textures[EC_SLOT_BASE_COLOR];
     if (use->texture < 0) return EC_OK;
     ec_texture_flatten_color(scene, m, EC_SLOT_BASE_COLOR);
-    return ec_scene_view_bleach(view, &use->texture, err);
+    return ec_scene_view_whiten(view, &use->texture, err);
 }
 
 static ec_result without(const ec_scene *scene, uint64_t off, ec_scene_view *view, ec_material *m, ec_error *err)
@@ -66,7 +66,7 @@ static ec_result without(const ec_scene *scene, uint64_t off, ec_scene_view *vie
     if (off & EC_FEATURE_SHEEN) memset(m->sheen, 0, sizeof m->sheen);
     if (off & EC_FEATURE_ANISOTROPY) m->anisotropy = 0.0f;
     if (off & EC_FEATURE_IRIDESCENCE) m->film = 0.0f;
-    if (off & EC_FEATURE_DIFFUSE_TRANSMISSION) m->seeps = 0.0f;
+    if (off & EC_FEATURE_DIFFUSE_TRANSMISSION) m->diffuse_transmission = 0.0f;
     if (off & EC_FEATURE_DISPERSION) m->dispersion = 0.0f;
     return EC_OK;
 }

@@ -3,7 +3,7 @@
 
 #include <mpi.h>
 
-#include "ranks/job.h"
+#include "ranks/rank_job.h"
 #include "ranks/remote.h"
 
 /* Each would be rank 0 of one. */
@@ -61,12 +61,12 @@ bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit)
     return m->is_ready;
 }
 
-ec_allies ec_mpi_allies(ec_ranks *r, const char *device, const char *own, bool own_round)
+ec_peers ec_mpi_peers(ec_ranks *r, const char *device, const char *own, bool own_round)
 {
     r->device = device;
     r->own = own;
     r->own_round = own_round;
-    return (ec_allies){.count = r->remote_count, .send = send_job, .recruit = ec_ranks_recruit, .received = received, .user = r};
+    return (ec_peers){.count = r->remote_count, .send = send_job, .recruit = ec_ranks_recruit, .received = received, .user = r};
 }
 
 /* The next word of that rank that ends something: the parent's, or a child's answer. Whether anybody was lost. */

@@ -2,7 +2,7 @@
  * sends what a device is given of it to all others; they know no files. Pieces of batches go down a tree of ranks (post.h) as ranks get free: a
  * rank is a team of its own devices and its children, and to its parent one source. What comes up are sums over the samples of a batch, or of a
  * block of batches where they come fast: the picture has the same bits as that of one process.
- * Those that call MPI are a module (module.c), loaded by processes that a launcher started. */
+ * Those that call MPI are a module (mpi_module.c), loaded by processes that a launcher started. */
 #ifndef EC_RANKS_RANKS_H
 #define EC_RANKS_RANKS_H
 
@@ -24,9 +24,9 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err);
 int ec_ranks_number(const ec_ranks *ranks); /* this process' */
 int ec_ranks_count(const ec_ranks *ranks);
 
-/* On rank 0: the others as allies of a render (render/sources.h), which find their devices by --device (NULL: not given). Where one has other
+/* On rank 0: the others as peers of a render (render/sources.h), which find their devices by --device (NULL: not given). Where one has other
  * devices than rank 0, `own` by ec_device_drivers, a text that stays, and not all round alike (own_round: these do), there is a warning. */
-ec_allies ec_ranks_allies(ec_ranks *ranks, const char *device, const char *own, bool own_round);
+ec_peers ec_ranks_peers(ec_ranks *ranks, const char *device, const char *own, bool own_round);
 /* Leaves those that are this process', where several on one host are to use several devices: every n-th, or if there are fewer devices one. */
 void ec_ranks_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count);
 /* Where these are processors and the launcher lets this process use some of the cores only. */

@@ -4,7 +4,7 @@
 
 #include <pthread.h>
 
-#include "ranks/module.h"
+#include "ranks/mpi_module.h"
 #include "ranks/mpi.h"
 #include "ranks/post.h"
 #include "ranks/ranks.h"
@@ -24,7 +24,7 @@ struct ec_ranks {
 /* Boxes: the parent's word, and the answers; the scene; its orders; and from then on one for the result of each order. */
 enum { EC_BOX_WORD, EC_BOX_SCENE, EC_BOX_ORDERS, EC_BOX_RESULTS };
 
-/* From the root down: here is a job, and answers come up; then it is spread (job.c). Or: that was all, which comes up too, with whether anybody
+/* From the root down: here is a job, and answers come up; then it is spread (rank_job.c). Or: that was all, which comes up too, with whether anybody
  * was lost; and then down again, over all ranks. */
 enum { EC_WORD_JOB, EC_WORD_HOME, EC_WORD_OVER };
 enum { EC_END_LOST };

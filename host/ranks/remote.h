@@ -15,7 +15,7 @@ typedef struct ec_remote {
     char name[400];          /* "rank 3 on host: device" */
 } ec_remote;
 
-/* Child i as a member of a team, if it is ready: as ec_allies has it; user is the ec_ranks. */
+/* Child i as a member of a team, if it is ready: as ec_peers has it; user is the ec_ranks. */
 bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit);
 
 /* As an ec_team_recruit opens it: user is the ec_remote. */

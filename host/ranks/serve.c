@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "render/sources.h"
-#include "ranks/job.h"
+#include "ranks/rank_job.h"
 #include "ranks/remote.h"
 
 typedef struct server {
@@ -144,7 +144,7 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, const ec_log *log
     uint64_t seed;
     ec_result result = ec_job_receive(r, word, &s.sources.cargo, &seed, infos, &count, err);
     const bool is_inner = is_any_ready(r);
-    const ec_allies below = {.count = r->remote_count, .send = send_nothing, .recruit = ec_ranks_recruit, .user = r};
+    const ec_peers below = {.count = r->remote_count, .send = send_nothing, .recruit = ec_ranks_recruit, .user = r};
     const ec_log told = {pass_on, &s};
     if (result == EC_OK && (count || is_inner)) {
         const ec_params *params = &s.sources.cargo.head.params;

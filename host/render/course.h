@@ -40,7 +40,7 @@ typedef struct ec_course {
      * `whole_for` says, an option as on the command line. */
     ec_result (*strip)(void *user, const ec_film *film, uint32_t first_row, const ec_render_stats *stats, ec_error *err);
     const char *whole_for;
-    const ec_allies *allies;          /* that take batches too; NULL: none */
+    const ec_peers *peers;          /* that take batches too; NULL: none */
     void *user;
 } ec_course;
 

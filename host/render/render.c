@@ -107,7 +107,7 @@ static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *e
     ec_result result = EC_OK;
     if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same ways whatever the sample */
         result = ec_rare_lights_find(&r->sources.cargo.pack, &lights, err);
-    if (result == EC_OK) result = ec_sources_open(&r->sources, r->options->seed, r->course->allies, log, &r->source, r->stats, err);
+    if (result == EC_OK) result = ec_sources_open(&r->sources, r->options->seed, r->course->peers, log, &r->source, r->stats, err);
     if (result == EC_OK) result = foretell(r, &lights, err);
     ec_rare_lights_free(&lights);
     return result;
@@ -119,7 +119,7 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     const ec_past *past = r->course->past;
     const ec_cargo_head *head = &r->sources.cargo.head;
     take_up(r, past);
-    EC_TRY(ec_sources_pack(devices, device_count, r->course->allies != NULL, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
+    EC_TRY(ec_sources_pack(devices, device_count, r->course->peers != NULL, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
     r->params = head->params;
     const uint64_t called = head->effects.called.bits; /* the cargo is spent when it is loaded */
     if (head->bodies_too_many)

@@ -7,7 +7,7 @@ ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_s
     s->devices = devices;
     s->count = s->unloaded = count;
     for (uint32_t i = 0; i < count; i++) EC_TRY(ec_pipeline_lanes(&devices[i], lanes, &stats->lanes, err)); /* before the work of what follows */
-    s->recruits = calloc(count + 1u, sizeof *s->recruits); /* there may be none, but allies */
+    s->recruits = calloc(count + 1u, sizeof *s->recruits); /* there may be none, but peers */
     return s->recruits ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
 }
 
@@ -36,37 +36,37 @@ static ec_result load(void *user, ec_batch_source **source, ec_error *err)
     return result;
 }
 
-static ec_result open_team(ec_sources *s, const ec_allies *allies, const ec_log *log, ec_error *err)
+static ec_result open_team(ec_sources *s, const ec_peers *peers, const ec_log *log, ec_error *err)
 {
-    ec_team_recruit *recruits = calloc(s->count + allies->count, sizeof *recruits);
-    if (!recruits) return ec_fail(err, "out of memory for a team of %u", s->count + allies->count);
+    ec_team_recruit *recruits = calloc(s->count + peers->count, sizeof *recruits);
+    if (!recruits) return ec_fail(err, "out of memory for a team of %u", s->count + peers->count);
     pthread_mutex_init(&s->lock, NULL);
     for (uint32_t i = 0; i < s->count; i++) {
         s->recruits[i] = (ec_source_recruit){.all = s, .cl = &s->devices[i]};
         recruits[i] = (ec_team_recruit){.name = s->devices[i].info.name, .open = load, .user = &s->recruits[i]};
     }
-    for (uint32_t i = 0; i < allies->count; i++)
-        if (allies->recruit(allies->user, i, &recruits[s->count + s->allied]))
-            s->allied_processes += recruits[s->count + s->allied++].processes;
-    ec_result result = ec_team_open(recruits, s->count + s->allied, s->cargo.head.params.width,
+    for (uint32_t i = 0; i < peers->count; i++)
+        if (peers->recruit(peers->user, i, &recruits[s->count + s->peer_members]))
+            s->allied_processes += recruits[s->count + s->peer_members++].processes;
+    ec_result result = ec_team_open(recruits, s->count + s->peer_members, s->cargo.head.params.width,
                                     s->cargo.head.params.height, s->cargo.head.replicates, log, &s->team, err);
     free(recruits);
     if (result == EC_OK) ec_team_wait(s->team, s->count); /* limits of time do not count compilers */
     return result;
 }
 
-static uint64_t received(const ec_sources *s) { return s->allies.received ? s->allies.received(s->allies.user) : 0; }
+static uint64_t received(const ec_sources *s) { return s->peers.received ? s->peers.received(s->peers.user) : 0; }
 
-ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_allies *allies, const ec_log *log,
+ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_peers *peers, const ec_log *log,
                           ec_batch_source **source, ec_render_stats *stats, ec_error *err)
 {
-    const ec_allies none = {0};
+    const ec_peers none = {0};
     s->seed = seed;
-    s->allies = allies ? *allies : none;
+    s->peers = peers ? *peers : none;
     s->received_before = received(s);
-    if (allies) EC_TRY(allies->send(allies->user, &s->cargo, seed, log, err));
-    if (s->count > 1 || allies) {
-        EC_TRY(open_team(s, allies ? allies : &none, log, err));
+    if (peers) EC_TRY(peers->send(peers->user, &s->cargo, seed, log, err));
+    if (s->count > 1 || peers) {
+        EC_TRY(open_team(s, peers ? peers : &none, log, err));
         *source = ec_team_source(s->team);
         return EC_OK;
     }
@@ -86,10 +86,10 @@ static void tell_shares(const ec_sources *s, ec_render_stats *stats)
     const double pixels = (double)s->cargo.head.params.width * s->cargo.head.params.height;
     bool has_failed;
     stats->share_count = s->count;
-    stats->allies = s->allied_processes;
-    stats->allied_bytes = received(s) - s->received_before;
-    for (uint32_t i = 0; i < s->allied; i++)
-        stats->allied_samples += ec_team_share(s->team, s->count + i, &has_failed) / pixels;
+    stats->peers = s->allied_processes;
+    stats->peer_bytes = received(s) - s->received_before;
+    for (uint32_t i = 0; i < s->peer_members; i++)
+        stats->peer_samples += ec_team_share(s->team, s->count + i, &has_failed) / pixels;
     for (uint32_t i = 0; i < s->count; i++) {
         const ec_render_stats *own = &s->recruits[i].stats;
         ec_render_share *share = &stats->shares[i];

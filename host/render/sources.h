@@ -9,7 +9,7 @@
 #include "render/team.h"
 
 /* Sources beside the devices, as the other processes of an MPI job are. */
-typedef struct ec_allies {
+typedef struct ec_peers {
     uint32_t count;                   /* at most */
     /* The cargo is made, and whole: they are given it here. A failure ends the render. */
     ec_result (*send)(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err);
@@ -17,7 +17,7 @@ typedef struct ec_allies {
     bool (*recruit)(void *user, uint32_t i, ec_team_recruit *recruit);
     uint64_t (*received)(void *user); /* bytes that have come from them, ever; NULL: not known */
     void *user;
-} ec_allies;
+} ec_peers;
 
 typedef struct ec_source_recruit {
     struct ec_sources *all;
@@ -35,9 +35,9 @@ typedef struct ec_sources {
     ec_team *team;                    /* NULL: one device alone */
     pthread_mutex_t lock;
     uint32_t unloaded;                /* that have not taken what they want of the cargo */
-    uint32_t allied;                  /* members of the team behind the devices … */
+    uint32_t peer_members;                  /* members of the team behind the devices … */
     uint32_t allied_processes;        /* … and how many processes they stand for */
-    ec_allies allies;
+    ec_peers peers;
     uint64_t received_before;
 } ec_sources;
 
@@ -50,9 +50,9 @@ ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec
                           const ec_render_options *options, uint32_t batch, ec_sources *sources, ec_render_stats *stats,
                           ec_error *err);
 
-/* Loads them: one alone before it returns, to be turned to its rows; several by threads of their own, and always for whole pictures. allies may
+/* Loads them: one alone before it returns, to be turned to its rows; several by threads of their own, and always for whole pictures. peers may
  * be NULL. *source is valid until they are closed. */
-ec_result ec_sources_open(ec_sources *sources, uint64_t seed, const ec_allies *allies, const ec_log *log, ec_batch_source **source,
+ec_result ec_sources_open(ec_sources *sources, uint64_t seed, const ec_peers *peers, const ec_log *log, ec_batch_source **source,
                           ec_render_stats *stats, ec_error *err);
 
 /* The pipeline of a device that is alone, once it is loaded; NULL: there are several. */

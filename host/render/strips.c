@@ -25,12 +25,12 @@ uint64_t ec_strip_whole(const ec_render_options *o, bool shared)
     return (uint64_t)o->width * o->height * (n.host + (shared ? n.device : 0)) + o->width * n.column;
 }
 
-uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *devices, uint32_t count, uint32_t allies)
+uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *devices, uint32_t count, uint32_t peers)
 {
     const uint64_t pixels = (uint64_t)o->width * o->height;
     uint64_t bytes = ec_strip_whole(o, false);
     for (uint32_t i = 0; i < count; i++) bytes += devices[i].type & CL_DEVICE_TYPE_CPU ? pixels * ec_strip_needs(o).device : 0;
-    return count + allies > 1 ? bytes + ec_team_bytes(count + allies, pixels, ec_render_replicates(o), allies > 0) : bytes;
+    return count + peers > 1 ? bytes + ec_team_bytes(count + peers, pixels, ec_render_replicates(o), peers > 0) : bytes;
 }
 
 static uint64_t rows_in(uint64_t bytes, uint64_t width, uint64_t per_pixel) { return bytes / (width * per_pixel); }

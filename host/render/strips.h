@@ -18,8 +18,8 @@ ec_strip_need ec_strip_needs(const ec_render_options *options);
 /* All that a picture takes where the device has memory of its own, or (shared) where that is the host's. */
 uint64_t ec_strip_whole(const ec_render_options *options, bool shared);
 
-/* The same with these devices together, and so many allies. */
-uint64_t ec_strip_whole_for(const ec_render_options *options, const ec_device_info *devices, uint32_t count, uint32_t allies);
+/* The same with these devices together, and so many peers. */
+uint64_t ec_strip_whole_for(const ec_render_options *options, const ec_device_info *devices, uint32_t count, uint32_t peers);
 
 /* What pictures take that do not ask how much there is. */
 #define EC_STRIP_NEVER (64ull << 20)

@@ -200,7 +200,7 @@ void ec_render_report_attributes(const ec_render_report *report, ec_report_attri
     add_text(attributes, "eclat.imageSha256", report->image_sha256);
     add_machine(attributes, report->device);
     add_shares(attributes, report);
-    if (report->stats->allies)
+    if (report->stats->peers)
         add_made(attributes, "eclat.ranks", "%u, the first of which has the devices named here",
-                 report->stats->allies + 1);
+                 report->stats->peers + 1);
 }

@@ -165,9 +165,9 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     ec_json_text(device, "why", report->device_why);
     cJSON_AddItemToObject(root, "device", device);
     add_shares(root, report);
-    ec_json_whole(root, "ranks", report->stats->allies + 1);
-    ec_json_real(root, "other_ranks_samples_per_pixel", report->stats->allied_samples);
-    ec_json_whole(root, "received_bytes", report->stats->allied_bytes);
+    ec_json_whole(root, "ranks", report->stats->peers + 1);
+    ec_json_real(root, "other_ranks_samples_per_pixel", report->stats->peer_samples);
+    ec_json_whole(root, "received_bytes", report->stats->peer_bytes);
     cJSON *outputs = cJSON_AddArrayToObject(root, "outputs");
     for (int i = 0; i < report->output_count; i++) ec_json_text(outputs, NULL, report->outputs[i]);
     return ec_json_print(root, to, err);

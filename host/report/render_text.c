@@ -119,7 +119,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     ec_render_report_summary(report, summary, sizeof summary);
     ec_format_count(stats->rays_per_second, rays, sizeof rays);
     ec_format_bytes(report->peak_memory_bytes, memory, sizeof memory);
-    ec_format_bytes(stats->allied_bytes, received, sizeof received);
+    ec_format_bytes(stats->peer_bytes, received, sizeof received);
     fprintf(to, "result   %s, %s rays/s\n", summary, rays);
     print_help(&stats->film, to);
     print_clamped(report, to);
@@ -139,9 +139,9 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
         fprintf(to, "device   %s, %u lanes: %.4g of %" PRIu64 " samples a pixel%s\n", report->device[i].name, share->lanes,
                 share->samples, stats->samples_per_pixel, share->has_failed ? ", then it failed" : "");
     }
-    if (stats->allies)
-        fprintf(to, "ranks    %u more: %.4g of %" PRIu64 " samples a pixel, %s received\n", stats->allies,
-                stats->allied_samples, stats->samples_per_pixel, received);
+    if (stats->peers)
+        fprintf(to, "ranks    %u more: %.4g of %" PRIu64 " samples a pixel, %s received\n", stats->peers,
+                stats->peer_samples, stats->samples_per_pixel, received);
     if (stats->share_count) fprintf(to, "memory   %s at the peak\n", memory);
     print_setup(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);

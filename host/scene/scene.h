@@ -60,7 +60,7 @@ typedef struct ec_material {
     float coat, coat_roughness; /* KHR_materials_clearcoat; 0 where absent */
     float coat_normal_scale;
     float anisotropy, anisotropy_rotation; /* KHR_materials_anisotropy; 0 where absent; radians from the tangent */
-    float seeps, below[3];     /* KHR_materials_diffuse_transmission: share of diffuse light, 0 where absent; its colour */
+    float diffuse_transmission, transmission_color[3];     /* KHR_materials_diffuse_transmission: share of diffuse light, 0 where absent; its colour */
     float film, film_ior;      /* KHR_materials_iridescence; 0 where absent */
     float film_least, film_most; /* thickness in nanometres where its texture is 0, and where it is 1 */
     float sheen[3], sheen_roughness; /* KHR_materials_sheen; 0 where absent */
@@ -75,8 +75,8 @@ typedef struct ec_material {
 static inline bool ec_emits(const ec_material *m) { return m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0; }
 /* Does light bend at it? Else it is thin-walled or opaque. */
 static inline bool ec_refracts(const ec_material *m) { return m->transmission > 0 && m->volume && m->ior > 0; }
-/* Is what light seeps into a body, too? */
-static inline bool ec_bounds(const ec_material *m) { return m->seeps > 0 && m->volume; }
+/* Does it enclose a body that light enters diffusely? */
+static inline bool ec_bounds(const ec_material *m) { return m->diffuse_transmission > 0 && m->volume; }
 
 /* KHR_lights_punctual, in the scene's recentred frame. 1 cd is taken as 1 W/sr, 1 lx as 1 W/m^2. */
 typedef enum ec_light_type { EC_LIGHT_POINT, EC_LIGHT_SPOT, EC_LIGHT_DIRECTIONAL } ec_light_type;

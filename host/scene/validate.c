@@ -21,8 +21,8 @@ void ec_scene_clamp_materials(ec_scene *s, const char *path, const ec_log *log)
         changed |= clamp(&m->transmission, 0, 1) | clamp(&m->coat, 0, 1) | clamp(&m->coat_roughness, 0, 1);
         changed |= clamp(&m->coat_normal_scale, -1e30f, 1e30f) | clamp(&m->sheen_roughness, 0, 1);
         changed |= clamp(&m->anisotropy, 0, 1) | clamp(&m->anisotropy_rotation, -7, 7);
-        changed |= clamp(&m->seeps, 0, 1) | clamp(&m->dispersion, 0, 1e3f);
-        for (int k = 0; k < 3; k++) changed |= clamp(&m->below[k], 0, 1);
+        changed |= clamp(&m->diffuse_transmission, 0, 1) | clamp(&m->dispersion, 0, 1e3f);
+        for (int k = 0; k < 3; k++) changed |= clamp(&m->transmission_color[k], 0, 1);
         changed |= clamp(&m->film, 0, 1) | clamp(&m->film_ior, 1, 1e3f) | clamp(&m->film_least, 0, 1e6f) |
                    clamp(&m->film_most, 0, 1e6f);
         for (int k = 0; k < 3; k++) changed |= clamp(&m->sheen[k], 0, 1);

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "view/text.h"
+#include "view/glyphs.h"
 
 enum { EC_BLOCK_ROWS = 64, EC_BLOCK_COLUMNS = 255 };
 typedef struct ec_view_block {

@@ -3,7 +3,7 @@
 #define EC_VIEW_LISTS_H
 
 #include "view/shared.h"
-#include "view/text.h"
+#include "view/glyphs.h"
 
 /* The largest text, in pixels, but no larger than `most`, with which all of the help is seen. */
 double ec_view_help_size(double most, double width, double height);

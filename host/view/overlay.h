@@ -3,7 +3,7 @@
 #define EC_VIEW_OVERLAY_H
 
 #include "view/shared.h"
-#include "view/text.h"
+#include "view/glyphs.h"
 
 typedef struct ec_view_overlay {
     const ec_view_wish *wish;

@@ -2,7 +2,7 @@
 #ifndef EC_VIEW_RENDERER_H
 #define EC_VIEW_RENDERER_H
 
-#include "view/picture.h"
+#include "view/view_picture.h"
 #include "view/second.h"
 
 typedef struct ec_renderer {

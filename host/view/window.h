@@ -5,8 +5,8 @@
 #include "view/frames.h"
 #include "view/input.h"
 #include "view/script.h"
-#include "view/text.h"
-#include "view/upload.h"
+#include "view/glyphs.h"
+#include "view/texture_upload.h"
 
 struct GLFWwindow;
 

@@ -32,8 +32,8 @@ typedef struct bsdf {
     lane_f transmission, eta;
     lane_i refracts;
     lane_i base_first;   /* light gets to the base before the face that reflects */
-    lane_f seeps;        /* share of what is scattered diffusely that comes out on the other side */
-    v3 below;            /* with this colour */
+    lane_f diffuse_transmission;        /* share of what is scattered diffusely that comes out on the other side */
+    v3 transmission_color;           /* with this colour */
     lane_f p_below;      /* probability of that side, for the diffuse lobe */
     thin_film film;
     multiscatter again;  /* what facets scatter more than once */
@@ -86,7 +86,7 @@ EC_FN lane_f bsdf_rest_scattered(const bsdf *b, lane_f rest)
 EC_FN lane_f bsdf_scatters_back(const bsdf *b)
 {
     lane_f share = 1.0f - b->transmission;
-    return HAS(DIFFUSE_TRANSMISSION) ? share * (1.0f - b->seeps) : share;
+    return HAS(DIFFUSE_TRANSMISSION) ? share * (1.0f - b->diffuse_transmission) : share;
 }
 
 /* A film, and a reflectance under its index's own, may lose less than glass does as such: it is given its part of that. */
@@ -122,8 +122,8 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local, bool multiple)
     b.eta = s->eta;
     b.refracts = HAS(TRANSMISSION) ? s->refracts & (s->transmission > 0.0f) : !TRUE_MASK;
     b.base_first = b.refracts & (b.eta < 1.0f);
-    b.seeps = HAS(DIFFUSE_TRANSMISSION) ? s->seeps : F(0.0f);
-    b.below = s->below;
+    b.diffuse_transmission = HAS(DIFFUSE_TRANSMISSION) ? s->diffuse_transmission : F(0.0f);
+    b.transmission_color = s->transmission_color;
     b.p_below = F(0.0f);
     if (HAS(IRIDESCENCE)) b.film = (thin_film){s->film, s->film_ior, s->film_thickness};
     if (HAS(SPECULAR)) {
@@ -131,7 +131,7 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local, bool multiple)
         lane_f specular = luminance(bsdf_fresnel(&b, min(max(wo_local.z, F(0.0f)), F(1.0f)), &rest));
         lane_f base = luminance(b.base), scattered = base, passed = rest * base;
         if (HAS(DIFFUSE_TRANSMISSION)) {
-            lane_f under = b.seeps * luminance(b.below), back = (1.0f - b.seeps) * base;
+            lane_f under = b.diffuse_transmission * luminance(b.transmission_color), back = (1.0f - b.diffuse_transmission) * base;
             scattered = under + back;
             b.p_below = under > 0.0f ? (back > 0.0f ? min(max(under / scattered, F(0.1f)), F(0.9f)) : F(1.0f)) : F(0.0f);
         }
@@ -186,13 +186,13 @@ EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
 }
 
 /* What is scattered through, for wi below the surface; as if it came to the side of wo, by the same layering. */
-EC_FN v3 bsdf_eval_seeping(const bsdf *b, v3 wi, lane_f *pdf)
+EC_FN v3 bsdf_eval_diffuse_transmission(const bsdf *b, v3 wi, lane_f *pdf)
 {
     v3 sum = v3_add(b->wo, v3_make(wi.x, wi.y, -wi.z));
     lane_f rest, spread = -wi.z * EC_INV_PI;
     bsdf_fresnel(b, min(sqrt(v3_dot(sum, sum)) * 0.5f, F(1.0f)), &rest);
     *pdf = (1.0f - b->p_specular) * b->p_below * spread;
-    return v3_scale(b->below, bsdf_rest_scattered(b, rest) * (1.0f - b->transmission) * b->seeps * spread);
+    return v3_scale(b->transmission_color, bsdf_rest_scattered(b, rest) * (1.0f - b->transmission) * b->diffuse_transmission * spread);
 }
 
 /* Of the surface without what lies over it. */
@@ -239,10 +239,10 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
         }
     }
     if (HAS(DIFFUSE_TRANSMISSION)) {
-        lane_i below = (ni < 0.0f) & (no > 0.0f) & (b->seeps > 0.0f);
+        lane_i below = (ni < 0.0f) & (no > 0.0f) & (b->diffuse_transmission > 0.0f);
         if (any_lane(below)) {
             lane_f pdf_below;
-            v3 f_below = bsdf_eval_seeping(b, wi, &pdf_below);
+            v3 f_below = bsdf_eval_diffuse_transmission(b, wi, &pdf_below);
             f = v3_select(below, v3_add(f, f_below), f);
             *pdf = below ? *pdf + pdf_below : *pdf;
         }
@@ -282,7 +282,7 @@ EC_FN bsdf_direction bsdf_sample_specular(const bsdf *b, lane_f cosine, lane_f s
     v3 m = ggx_sample(&b->facets, b->wo, cosine, sine, u2);
     lane_f om = v3_dot(b->wo, m);
     r.wi = v3_fma(m, 2.0f * om, v3_negate(b->wo));
-    if (HAS(DIFFUSE_TRANSMISSION)) r.wi.z = max(r.wi.z, F(0.0f)); /* mirrored onto the other side: not what seeps there */
+    if (HAS(DIFFUSE_TRANSMISSION)) r.wi.z = max(r.wi.z, F(0.0f)); /* mirrored onto the other side: not what is transmitted diffusely */
     r.pdf = F(1.0f);
     r.weight = v3_zero();
     bool any_smooth = HAS(SMOOTH) && any_lane(b->facets.smooth);
@@ -309,7 +309,7 @@ EC_FN v3 blind_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f *pdf)
     lane_f cosine, sine = sincos_2pi(u1, &cosine), z = u2;
     *pdf = F(0.5f * EC_INV_PI);
     if (HAS_PASSING) {
-        lane_i passes = (b->transmission > 0.0f) | (b->seeps > 0.0f);
+        lane_i passes = (b->transmission > 0.0f) | (b->diffuse_transmission > 0.0f);
         z = passes ? fma(F(2.0f), u2, F(-1.0f)) : z;
         *pdf = passes ? F(0.25f * EC_INV_PI) : *pdf;
     }

@@ -23,8 +23,8 @@ typedef struct surface {
     lane_u bodies, beyond; /* with NESTED: those on wo's side, those behind (bodies.h) */
     lane_i displaced;      /* the same body fills both sides */
     lane_f head_on;        /* reflectance to multiply f0 by, where that depends on what is on both sides */
-    lane_f seeps;        /* KHR_materials_diffuse_transmission: share of diffuse light that comes out on the other side */
-    v3 below;            /* and its colour */
+    lane_f diffuse_transmission;        /* KHR_materials_diffuse_transmission: share of diffuse light that comes out on the other side */
+    v3 transmission_color;           /* and its colour */
     lane_f coat;       /* weight of a clear coat; with it its width, as alpha_ggx and smooth, and its normal */
     lane_f coat_alpha;
     lane_i coat_smooth;
@@ -189,7 +189,7 @@ EC_FN void surface_displace(surface *s)
     s->smooth = s->smooth | gone;
     s->coat = gone ? F(0.0f) : s->coat;
     s->sheen = v3_select(gone, v3_zero(), s->sheen);
-    s->seeps = gone ? F(0.0f) : s->seeps;
+    s->diffuse_transmission = gone ? F(0.0f) : s->diffuse_transmission;
     s->film = gone ? F(0.0f) : s->film;
     s->eta = gone ? F(1.0f) : s->eta;
 }
@@ -293,19 +293,19 @@ EC_FN void surface_sheen(const geometry *g, const hit_point *h, lane_i m, surfac
 }
 
 /* KHR_materials_diffuse_transmission. */
-EC_FN void surface_seeping(const geometry *g, const hit_point *h, lane_i m, surface *s)
+EC_FN void surface_diffuse_transmission(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
     quad q = material_quad(g, h, EC_MATERIAL_SEEPING);
     lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
-    s->below = v3_make(q.a, q.b, q.c);
-    s->seeps = q.d;
+    s->transmission_color = v3_make(q.a, q.b, q.c);
+    s->diffuse_transmission = q.d;
     if (HAS(DIFFUSE_TRANSMISSION_TEXTURE)) {
-        s->below = v3_mul(s->below, material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, true).rgb);
-        s->seeps *= material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION, false).a;
+        s->transmission_color = v3_mul(s->transmission_color, material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, true).rgb);
+        s->diffuse_transmission *= material_texture(g, h, m, EC_SLOT_DIFFUSE_TRANSMISSION, false).a;
     }
-    s->seeps = s->metallic < 1.0f ? s->seeps : F(0.0f);
+    s->diffuse_transmission = s->metallic < 1.0f ? s->diffuse_transmission : F(0.0f);
     lane_i bends = s->refracts;
-    s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->seeps > 0.0f));
+    s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->diffuse_transmission > 0.0f));
     if (HAS(NESTED)) {
         lane_u here, there;
         surface_cross(g, material_quad(g, h, EC_MATERIAL_IOR),
@@ -342,8 +342,8 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->displaced = !TRUE_MASK;
     s->coat = F(0.0f);
     s->sheen = v3_zero();
-    s->film = s->seeps = F(0.0f);
-    s->below = v3_zero();
+    s->film = s->diffuse_transmission = F(0.0f);
+    s->transmission_color = v3_zero();
     if (!HAS(SPECULAR)) return;
     quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_F0);
     lane_f roughness = factors.b;
@@ -368,7 +368,7 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     /* KHR_materials_specular: f0 = min(color ((ior - 1) / (ior + 1))^2, 1) weight. */
     s->f0 = v3_scale(v3_make(min(color.x, F(1.0f)), min(color.y, F(1.0f)), min(color.z, F(1.0f))), weight);
     s->f90 = weight;
-    if (HAS(DIFFUSE_TRANSMISSION)) surface_seeping(g, h, m, s);
+    if (HAS(DIFFUSE_TRANSMISSION)) surface_diffuse_transmission(g, h, m, s);
     if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
     if (HAS(SHEEN)) surface_sheen(g, h, m, s);
     if (HAS(IRIDESCENCE)) surface_film(g, h, m, s);

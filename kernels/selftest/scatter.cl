@@ -87,7 +87,7 @@ EC_FN v3 stream_direction(stream *s)
     return v3_make(r * cosine, r * sine, z);
 }
 
-/* What lies over a surface, stretches its lobes or seeps through it. */
+/* What lies over a surface, stretches its lobes or passes through it diffusely. */
 EC_FN void stream_layers(stream *s, surface *r)
 {
     r->s = v3_make(F(1.0f), F(0.0f), F(0.0f));
@@ -108,8 +108,8 @@ EC_FN void stream_layers(stream *s, surface *r)
     r->film_ior = 1.0f + stream_factor(s) * 3.0f;
     r->film_thickness = stream_factor(s) / stream_scale(s, -9.3f, EC_SMOOTH_ALPHA) * 100.0f;
     r->film = ((r->film_thickness > 0.0f) & (r->film_ior > 1.0f)) ? r->film : F(0.0f);
-    r->seeps = r->metallic < 1.0f ? stream_factor(s) : F(0.0f);
-    r->below = v3_make(stream_factor(s), stream_factor(s), stream_factor(s));
+    r->diffuse_transmission = r->metallic < 1.0f ? stream_factor(s) : F(0.0f);
+    r->transmission_color = v3_make(stream_factor(s), stream_factor(s), stream_factor(s));
 }
 
 /* As kernels/lib/surface.h makes them of any material that a file can hold. */
@@ -160,7 +160,7 @@ kernel void ec_scatter_fuzz(uint n, uint rounds, uint seed, global uint *counts)
                                                (goes & v3_is_negative(d.weight)));
         wrong[EC_FUZZ_NOT_UNIT] += count_lanes(goes & !(fabs(v3_dot(d.wi, d.wi) - 1.0f) <= 32.0f * EC_ULP / min(s.eta, F(1.0f))));
         wrong[EC_FUZZ_ASTRAY] += count_lanes(goes & (s.transmission == 0.0f) & !(d.wi.z > 0.0f) &
-                                             !(HAS(DIFFUSE_TRANSMISSION) ? s.seeps > 0.0f : !TRUE_MASK));
+                                             !(HAS(DIFFUSE_TRANSMISSION) ? s.diffuse_transmission > 0.0f : !TRUE_MASK));
         wrong[EC_FUZZ_HEAVY] += count_lanes(goes & (v3_max_component(d.weight) > EC_FUZZ_WEIGHT));
     }
     for (uint i = 0; i < EC_FUZZ_COUNTS; i++) counts[at / LANES * EC_FUZZ_COUNTS + i] = wrong[i];

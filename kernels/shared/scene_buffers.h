@@ -79,7 +79,7 @@ typedef struct ec_material_data {
     ec_float coat, coat_roughness, coat_normal_scale, coat_pad;
     ec_float sheen[3], sheen_roughness;
     ec_float anisotropy, anisotropy_cosine, anisotropy_sine, anisotropy_pad;
-    ec_float below[3], seeps; /* diffuse transmission: colour, share */
+    ec_float transmission_color[3], diffuse_transmission; /* diffuse transmission: colour, share */
     ec_float film, film_ior, film_least, film_most; /* nanometres */
     ec_texture_slot slots[EC_SLOT_COUNT];
 } ec_material_data;

@@ -74,8 +74,8 @@ static void test_weights(void)
     PAIR(ANISOTROPY, (m->transmission = 1, m->volume = true, m->roughness = 0, m->anisotropy = 0.1f), (m->transmission = 1, m->volume = true, m->roughness = 0));
     PAIR(IRIDESCENCE, (m->film = 1, m->film_ior = 1.3f, m->film_most = 400), (m->film = 1, m->film_ior = 1.3f));
     PAIR(IRIDESCENCE, (m->film = 1, m->film_ior = 1.3f, m->film_most = 400), (m->film = 1, m->film_ior = 1, m->film_most = 400));
-    PAIR(DIFFUSE_TRANSMISSION, m->seeps = 1, (m->seeps = 1, USE(DIFFUSE_TRANSMISSION, BLACK)));
-    PAIR(DIFFUSE_TRANSMISSION, m->seeps = 1, (m->seeps = m->metallic = 1));
+    PAIR(DIFFUSE_TRANSMISSION, m->diffuse_transmission = 1, (m->diffuse_transmission = 1, USE(DIFFUSE_TRANSMISSION, BLACK)));
+    PAIR(DIFFUSE_TRANSMISSION, m->diffuse_transmission = 1, (m->diffuse_transmission = m->metallic = 1));
     PAIR(DISPERSION, (m->transmission = m->dispersion = 1, m->volume = true), (m->transmission = m->dispersion = 1));
     PAIR(SMOOTH, (m->metallic = 1, m->roughness = 0), (m->metallic = 1, m->roughness = 0.02f));
     PAIR(SMOOTH, (m->metallic = 1, m->roughness = 0), m->roughness = 0); /* nothing reflects */

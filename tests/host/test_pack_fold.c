@@ -20,7 +20,7 @@ static const struct {
     {EC_SLOT_TRANSMISSION, 0, AT(transmission), false}, {EC_SLOT_CLEARCOAT, 0, AT(coat), false},
     {EC_SLOT_CLEARCOAT_ROUGHNESS, 1, AT(coat_roughness), false}, {EC_SLOT_SHEEN_COLOR, 2, AT(sheen[2]), true},
     {EC_SLOT_SHEEN_ROUGHNESS, 3, AT(sheen_roughness), false}, {EC_SLOT_IRIDESCENCE, 0, AT(film), false},
-    {EC_SLOT_DIFFUSE_TRANSMISSION, 3, AT(seeps), false}, {EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, 0, AT(below[0]), true},
+    {EC_SLOT_DIFFUSE_TRANSMISSION, 3, AT(diffuse_transmission), false}, {EC_SLOT_DIFFUSE_TRANSMISSION_COLOR, 0, AT(transmission_color[0]), true},
 };
 
 static double decoded(uint8_t byte, bool srgb)

@@ -85,17 +85,17 @@ static void test_diffuse_transmission(void)
 {
     ec_scene *s;
     const ec_material *m = load_layer(LAYER("KHR_materials_diffuse_transmission", ""), &s, false);
-    CHECK(m->seeps == 0 && m->below[0] == 1 && m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture < 0);
+    CHECK(m->diffuse_transmission == 0 && m->transmission_color[0] == 1 && m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture < 0);
     ec_scene_free(s);
     m = load_layer(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':0.5,'diffuseTransmissionColorFactor':[0.25,0.5,1],"
                          "'diffuseTransmissionTexture':{'index':1},'diffuseTransmissionColorTexture':{'index':0}},"
                          "'KHR_materials_volume':{'thicknessFactor':1,'attenuationDistance':2,'attenuationColor':[1,0.5,1]"), &s, false);
-    CHECK(m->seeps == 0.5f && m->below[0] == 0.25f && m->below[2] == 1 && ec_bounds(m) && !ec_refracts(m));
+    CHECK(m->diffuse_transmission == 0.5f && m->transmission_color[0] == 0.25f && m->transmission_color[2] == 1 && ec_bounds(m) && !ec_refracts(m));
     CHECK(m->absorption[0] == 0 && fabsf(m->absorption[1] - 0.34657359f) < 1e-6f);
     CHECK(m->textures[EC_SLOT_DIFFUSE_TRANSMISSION].texture == 0 && m->textures[EC_SLOT_DIFFUSE_TRANSMISSION_COLOR].texture == 1);
     ec_scene_free(s);
     m = load_layer(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':2,'diffuseTransmissionColorFactor':[-1,0,3]"), &s, true);
-    CHECK(m->seeps == 1 && m->below[0] == 0 && m->below[2] == 1);
+    CHECK(m->diffuse_transmission == 1 && m->transmission_color[0] == 0 && m->transmission_color[2] == 1);
     ec_scene_free(s);
     expect_failure(LAYER("KHR_materials_diffuse_transmission", "'diffuseTransmissionFactor':[1]"), textured_blobs,
                    "KHR_materials_diffuse_transmission.diffuseTransmissionFactor must be a number");

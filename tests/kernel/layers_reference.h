@@ -64,7 +64,7 @@ typedef double value_of(const float *m, vector l, vector v);
 static inline void compare(const char *what, const float *m, double least_alpha, double tilt, value_of *want, value_of *scale)
 {
     vector v = seen_from(m);
-    draw_directions(v, least_alpha, tilt, m[PACKED_SEEPS] > 0);
+    draw_directions(v, least_alpha, tilt, m[PACKED_DIFFUSE_TRANSMISSION] > 0);
     if (!RUN_ALL("bsdf_values", 3, SCALAR(n), IN(m, PACKED_FIELDS), IN(wi, 3 * N), OUT(f, N), OUT(pdf, N))) return;
     double worst = 0, tolerance = 8e-6 + 16 * U / least_alpha / fmax(0.02, m[PACKED_COSINE]);
     uint32_t at = 0, dark = 0;

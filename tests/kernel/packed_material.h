@@ -19,8 +19,8 @@ enum packed_field {
     PACKED_STRETCH, /* less 1 */
     PACKED_TURN,    /* turns of wo's plane from the direction of the stretch, 0 to 1 */
     PACKED_FILM,    /* weight, index, nanometres */
-    PACKED_SEEPS = PACKED_FILM + 3, /* share, colour */
-    PACKED_FIELDS = PACKED_SEEPS + 4
+    PACKED_DIFFUSE_TRANSMISSION = PACKED_FILM + 3, /* share, colour */
+    PACKED_FIELDS = PACKED_DIFFUSE_TRANSMISSION + 4
 };
 
 #endif

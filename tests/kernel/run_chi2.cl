@@ -48,8 +48,8 @@ static bsdf make_bsdf(constant float *m)
     s.stretch = F(1.0f + m[PACKED_STRETCH]);
     s.sheen = v3_make(F(m[PACKED_SHEEN]), F(m[PACKED_SHEEN + 1]), F(m[PACKED_SHEEN + 2]));
     s.sheen_roughness = F(m[PACKED_SHEEN_ROUGHNESS]);
-    s.seeps = F(m[PACKED_SEEPS]);
-    s.below = v3_make(F(m[PACKED_SEEPS + 1]), F(m[PACKED_SEEPS + 2]), F(m[PACKED_SEEPS + 3]));
+    s.diffuse_transmission = F(m[PACKED_DIFFUSE_TRANSMISSION]);
+    s.transmission_color = v3_make(F(m[PACKED_DIFFUSE_TRANSMISSION + 1]), F(m[PACKED_DIFFUSE_TRANSMISSION + 2]), F(m[PACKED_DIFFUSE_TRANSMISSION + 3]));
     s.film = F(m[PACKED_FILM]);
     s.film_ior = F(m[PACKED_FILM + 1]);
     s.film_thickness = F(m[PACKED_FILM + 2]);

@@ -107,7 +107,7 @@ static void check_covered(cl_program *built, int lanes, material m, const char *
                               m.transmission, m.eta};
     memcpy(packed + PACKED_COAT, over + PACKED_COAT, (PACKED_FIELDS - PACKED_COAT) * sizeof *packed);
     frame frames[2] = {frame_above(&m), frame_below(&m)};
-    if (over[PACKED_SEEPS] > 0 && m.transmission == 0) frames[1].width = 0.5;
+    if (over[PACKED_DIFFUSE_TRANSMISSION] > 0 && m.transmission == 0) frames[1].width = 0.5;
     for (int side = 0; side < 2; side++) frames[side].width *= sqrt(1 + (double)over[PACKED_STRETCH]);
     double mass[CELLS], expected[2 * CELLS + 1], total = 0;
     uint32_t count[2 * CELLS + 1] = {0}, dark = 0, astray = 0;
@@ -122,7 +122,7 @@ static void check_covered(cl_program *built, int lanes, material m, const char *
     expected[2 * CELLS] = fmax(0, 1 - total) * SAMPLES; /* off a microfacet onto the wrong side */
     for (uint32_t i = 0; i < SAMPLES; i++) {
         double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]}, pdf = out[3 * SAMPLES + i];
-        bool lost = w[2] == 0 || (w[2] < 0 && m.transmission == 0 && over[PACKED_SEEPS] == 0);
+        bool lost = w[2] == 0 || (w[2] < 0 && m.transmission == 0 && over[PACKED_DIFFUSE_TRANSMISSION] == 0);
         dark += !lost && !(pdf > 0);
         astray += lost ? pdf != 0 : fabs(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1) > 1e-5;
         count[lost ? 2 * CELLS : w[2] > 0 ? cell_of(&frames[0], w) : CELLS + cell_of(&frames[1], w)]++;
@@ -228,14 +228,14 @@ static void check_film(void)
     check_covered(layered_programs, EIGHT, (material){0, 0.2f, 0.6f, 1, 0.5f, 1 / 1.5f}, "film on glass from inside", over);
 }
 
-/* Paper, a leaf that is black on one side, frosted panes and glass whose base lets light seep. */
-static void check_seeping(void)
+/* Paper, a leaf that is black on one side, frosted panes and glass whose base transmits diffusely. */
+static void check_diffuse_transmission(void)
 {
-    const float over[PACKED_FIELDS] = {[PACKED_SEEPS] = 0.4f, [PACKED_SEEPS + 1] = 0.3f, [PACKED_SEEPS + 2] = 0.9f, [PACKED_SEEPS + 3] = 0.1f};
-    check_covered(layered_programs, EIGHT, (material){0, 0.3f, 0.5f, 0.8f, 0, 1}, "seeping", over);
-    check_covered(layered_programs, EIGHT, (material){0, 0.5f, 0.1f, 0, 0, 1}, "seeping", over);
-    check_covered(layered_programs, EIGHT, (material){0, 0.3f, 0.7f, 0.8f, 0.5f, 1}, "seeping", over);
-    check_covered(layered_programs, EIGHT, (material){0.5f, 0.4f, 0.6f, 0.8f, 0.5f, 1.5f}, "seeping", over);
+    const float over[PACKED_FIELDS] = {[PACKED_DIFFUSE_TRANSMISSION] = 0.4f, [PACKED_DIFFUSE_TRANSMISSION + 1] = 0.3f, [PACKED_DIFFUSE_TRANSMISSION + 2] = 0.9f, [PACKED_DIFFUSE_TRANSMISSION + 3] = 0.1f};
+    check_covered(layered_programs, EIGHT, (material){0, 0.3f, 0.5f, 0.8f, 0, 1}, "diffuse transmission", over);
+    check_covered(layered_programs, EIGHT, (material){0, 0.5f, 0.1f, 0, 0, 1}, "diffuse transmission", over);
+    check_covered(layered_programs, EIGHT, (material){0, 0.3f, 0.7f, 0.8f, 0.5f, 1}, "diffuse transmission", over);
+    check_covered(layered_programs, EIGHT, (material){0.5f, 0.4f, 0.6f, 0.8f, 0.5f, 1.5f}, "diffuse transmission", over);
 }
 
 /* What facets scatter more than once, on either side. */
@@ -270,7 +270,7 @@ int main(void)
         check_sheen();
         check_anisotropy();
         check_film();
-        check_seeping();
+        check_diffuse_transmission();
         check_multiscatter();
     }
     printf("%d chi-square tests\n", tests);

@@ -35,8 +35,8 @@ static void draw_lobe(float *m)
 static void draw_layers(float *m)
 {
     const double share = PICK(0, 0.5, 1), colour = PICK(0, 0, 1, 1, 0.5);
-    put(m, PACKED_SEEPS, m[PACKED_METALLIC] < 1 ? share : 0);
-    for (int k = 0; k < 3; k++) m[PACKED_BASE + k] = m[PACKED_SEEPS + 1 + k] = 1, put(m, PACKED_SHEEN + k, colour);
+    put(m, PACKED_DIFFUSE_TRANSMISSION, m[PACKED_METALLIC] < 1 ? share : 0);
+    for (int k = 0; k < 3; k++) m[PACKED_BASE + k] = m[PACKED_DIFFUSE_TRANSMISSION + 1 + k] = 1, put(m, PACKED_SHEEN + k, colour);
     put(m, PACKED_SHEEN_ROUGHNESS, PICK(0, 0.07, 0.3, 1, test_random()));
     put(m, PACKED_COAT, PICK(0, 0, 0.5, 1));
     put(m, PACKED_COAT_ALPHA, PICK(1e-4, 0.01, 1, log_between(1e-4, 1)));
@@ -55,7 +55,7 @@ static void say(const char *what, const float *m, double sum, double se)
         int field;
     } fields[] = {{"metallic", PACKED_METALLIC}, {"alpha", PACKED_ALPHA}, {"stretch less 1", PACKED_STRETCH}, {"turn", PACKED_TURN},
                   {"cosine", PACKED_COSINE}, {"transmission", PACKED_TRANSMISSION}, {"index", PACKED_ETA}, {"f0", PACKED_F0}, {"f90", PACKED_F90},
-                  {"seeps", PACKED_SEEPS}, {"sheen", PACKED_SHEEN}, {"its roughness", PACKED_SHEEN_ROUGHNESS}, {"coat", PACKED_COAT},
+                  {"diffuse transmission", PACKED_DIFFUSE_TRANSMISSION}, {"sheen", PACKED_SHEEN}, {"its roughness", PACKED_SHEEN_ROUGHNESS}, {"coat", PACKED_COAT},
                   {"its alpha", PACKED_COAT_ALPHA}, {"its tilt", PACKED_COAT_TILT}, {"film", PACKED_FILM}, {"its index", PACKED_FILM + 1},
                   {"its nanometres", PACKED_FILM + 2}};
     printf("%s: %.5f +- %.5f;", what, sum, se);

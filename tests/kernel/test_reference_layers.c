@@ -227,27 +227,27 @@ static void films(void)
 
 /* ---- KHR_materials_diffuse_transmission: the base is mix(base / pi on this side, colour / pi on the other, share) ---- */
 
-static double seeping(const float *m, vector l, vector v)
+static double diffuse_transmission(const float *m, vector l, vector v)
 {
-    double share = m[PACKED_SEEPS], fresnel = film_schlick(m[PACKED_F0], product(half_of(above(l), v), v));
-    if (l.z < 0) return (1 - fresnel) * share * m[PACKED_SEEPS + 2] / pi * -l.z;
+    double share = m[PACKED_DIFFUSE_TRANSMISSION], fresnel = film_schlick(m[PACKED_F0], product(half_of(above(l), v), v));
+    if (l.z < 0) return (1 - fresnel) * share * m[PACKED_DIFFUSE_TRANSMISSION + 2] / pi * -l.z;
     return fresnel * lobe(m[PACKED_ALPHA], l, v) + (1 - fresnel) * (1 - share) * m[PACKED_BASE + 1] / pi * l.z;
 }
 
-static void seepings(void)
+static void check_diffuse_transmission(void)
 {
     static const float cases[4][3] = {{0.25f, 0.3f, 0.7f}, {1, 0.1f, 0.2f}, {0.5f, 1, 0.02f}, {0.9f, 0.02f, 1}};
     for (int i = 0; i < 4; i++) {
         float m[PACKED_FIELDS];
         char name[96];
         memcpy(m, plain, sizeof m);
-        m[PACKED_SEEPS] = cases[i][0], m[PACKED_SEEPS + 1] = 0.2f, m[PACKED_SEEPS + 2] = 0.9f, m[PACKED_SEEPS + 3] = 0.5f;
+        m[PACKED_DIFFUSE_TRANSMISSION] = cases[i][0], m[PACKED_DIFFUSE_TRANSMISSION + 1] = 0.2f, m[PACKED_DIFFUSE_TRANSMISSION + 2] = 0.9f, m[PACKED_DIFFUSE_TRANSMISSION + 3] = 0.5f;
         m[PACKED_ALPHA] = cases[i][1], m[PACKED_COSINE] = cases[i][2];
         snprintf(name, sizeof name, "diffuse transmission %g alpha %g cosine %g", (double)cases[i][0], (double)cases[i][1], (double)cases[i][2]);
-        compare(name, m, fmin(0.3, cases[i][1]), 0, seeping, seeping); /* the same formula from below: reciprocal */
+        compare(name, m, fmin(0.3, cases[i][1]), 0, diffuse_transmission, diffuse_transmission); /* the same formula from below: reciprocal */
     }
-    float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_ETA] = 1, [PACKED_SEEPS] = 0.5f,
-                                  [PACKED_SEEPS + 1] = 1, [PACKED_SEEPS + 2] = 1, [PACKED_SEEPS + 3] = 1};
+    float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_ETA] = 1, [PACKED_DIFFUSE_TRANSMISSION] = 0.5f,
+                                  [PACKED_DIFFUSE_TRANSMISSION + 1] = 1, [PACKED_DIFFUSE_TRANSMISSION + 2] = 1, [PACKED_DIFFUSE_TRANSMISSION + 3] = 1};
     furnace("white paper", white, PACKED_ALPHA, 0);
 }
 
@@ -264,7 +264,7 @@ int main(void)
         sheens();
         anisotropies();
         films();
-        seepings();
+        check_diffuse_transmission();
     }
     for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);

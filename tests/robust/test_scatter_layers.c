@@ -133,8 +133,8 @@ static ec_result diffuse_transmission_case(ec_selftest *t, ec_error *err)
         ec_scene *scene;
         char what[48];
         m.double_sided = true;
-        m.seeps = (float)share;
-        for (int k = 0; k < 3; k++) m.below[k] = 1;
+        m.diffuse_transmission = (float)share;
+        for (int k = 0; k < 3; k++) m.transmission_color[k] = 1;
         EC_TRY(plate(&m, 0.6, i < 3, &scene, err));
         snprintf(what, sizeof what, i < 3 ? "share %g, passes" : "share %g, passes and returns", share);
         EC_TRY(ec_shot_only_row(t, what, scene, &o, i < 3 ? share : 1, err));

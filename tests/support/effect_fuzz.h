@@ -173,8 +173,8 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
         if (EF_HAS(IRIDESCENCE) && EF_HAS(IRIDESCENCE_TEXTURE)) EF_USE(IRIDESCENCE_THICKNESS, NOISE);
     }
     if (EF_HAS(DIFFUSE_TRANSMISSION) || EF_NEARLY(DIFFUSE_TRANSMISSION)) {
-        m->seeps = 0.5f + 0.5f * ef_real(d, 154);
-        for (int k = 0; k < 3; k++) m->below[k] = ef_real(d, 155 + (uint64_t)k);
+        m->diffuse_transmission = 0.5f + 0.5f * ef_real(d, 154);
+        for (int k = 0; k < 3; k++) m->transmission_color[k] = ef_real(d, 155 + (uint64_t)k);
         if (!EF_HAS(DIFFUSE_TRANSMISSION)) EF_USE(DIFFUSE_TRANSMISSION, BLACK);
         else if (EF_HAS(DIFFUSE_TRANSMISSION_TEXTURE)) EF_USE(DIFFUSE_TRANSMISSION, NOISE);
     }

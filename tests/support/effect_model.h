@@ -125,7 +125,7 @@ static inline ec_scene *em_everything(void)
     list[7].alpha_mode = EC_ALPHA_BLEND;
     list[7].base_color[3] = 0.5f;
     list[8].film = 1, list[8].film_ior = 1.3f, list[8].film_most = 400;
-    list[9].seeps = 1;
+    list[9].diffuse_transmission = 1;
     list[10].unlit = true;
     list[11].double_sided = false; /* and its back to the camera */
     for (int slot = 0; slot < EC_SLOT_COUNT; slot++) list[13].textures[slot].texture = -1;

@@ -46,7 +46,7 @@ const ec_precision_case ec_precision_cases[] = {
     {"sheen_over", "sheen_over", "sheen.h", ec_inputs_opaque, 15, BIT(14), 0, 60, {EACH("f cos", 0, 3), EACH("pdf", 3, 1), EACH("E", 4, 1)}},
     {"multiscatter_over, metal", "multiscatter_over", "multiscatter.h", ec_inputs_opaque, 15, BIT(14), 0, 40, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
     {"multiscatter_over, glass", "multiscatter_over", "multiscatter.h", ec_inputs_into_glass, 15, 0, 0, 60, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},
-    {"bsdf_eval_seeping", "bsdf_eval_seeping", "bsdf.h", ec_inputs_thin, 15, BIT(14), 0, 24, {SCALED("f cos", 0, 4)}},
+    {"bsdf_eval_diffuse_transmission", "bsdf_eval_diffuse_transmission", "bsdf.h", ec_inputs_thin, 15, BIT(14), 0, 24, {SCALED("f cos", 0, 4)}},
     {"dispersed_index", "dispersed_index", "dispersion.h", ec_inputs_dispersion, 2, 0, 0, 6, {EACH("n_C, n_F", 0, 2)}},
     {"film_reflectance", "film_reflectance", "iridescence.h", ec_inputs_film, 6, BIT(5), 0, 60, {SCALED("F", 0, 3)}},
     {"bsdf_eval, opaque", "bsdf_eval", "bsdf.h", ec_inputs_opaque, 15, BIT(14), 0, 24, {EACH("f cos", 0, 3), EACH("pdf", 3, 1)}},

@@ -22,8 +22,8 @@ EC_FN surface material_of(global const float *in)
     s.stretch = X(18);
     s.coat = F(0.0f);
     s.sheen = v3_zero();
-    s.film = s.seeps = F(0.0f);
-    s.below = v3_zero();
+    s.film = s.diffuse_transmission = F(0.0f);
+    s.transmission_color = v3_zero();
     return s;
 }
 EC_FN bsdf bsdf_of(global const float *in)
@@ -90,14 +90,14 @@ PRECISION(sheen_over)
     PUT(4, s.own);
 }
 /* White light through base, of its colour. */
-PRECISION(bsdf_eval_seeping)
+PRECISION(bsdf_eval_diffuse_transmission)
 {
     bsdf b = bsdf_of(in);
-    b.seeps = F(1.0f);
-    b.below = b.base;
+    b.diffuse_transmission = F(1.0f);
+    b.transmission_color = b.base;
     b.p_below = F(0.5f);
     lane_f pdf;
-    PUT_V(0, bsdf_eval_seeping(&b, V(3), &pdf));
+    PUT_V(0, bsdf_eval_diffuse_transmission(&b, V(3), &pdf));
     PUT(3, pdf);
     PUT(4, -X(5) * EC_INV_PI);
 }

@@ -1,8 +1,8 @@
 /* Text over the picture: stb_truetype makes a texture of a font that is inside the program (DejaVu Sans Mono). Of the libraries that
  * are kept, it is the one that does this and nothing else: the window has lines of text, no widgets, and so no use for the layout
  * and input handling of Nuklear or Dear ImGui (which is C++ besides). */
-#ifndef EC_VIEW_TEXT_H
-#define EC_VIEW_TEXT_H
+#ifndef EC_VIEW_GLYPHS_H
+#define EC_VIEW_GLYPHS_H
 
 #include "base/error.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "jobs/command_line.h"
-#include "jobs/frames.h"
+#include "jobs/sequence.h"
 #include "jobs/write_report.h"
 #include "lib/internal.h"
 

@@ -1,4 +1,4 @@
-#include "jobs/options.h"
+#include "jobs/option_parser.h"
 
 #include <getopt.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "view/upload.h"
+#include "view/texture_upload.h"
 
 #include <epoxy/gl.h>
 

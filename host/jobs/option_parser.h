@@ -1,6 +1,6 @@
 /* Reads a command's arguments by a table: one row an option. */
-#ifndef EC_JOBS_OPTIONS_H
-#define EC_JOBS_OPTIONS_H
+#ifndef EC_JOBS_OPTION_PARSER_H
+#define EC_JOBS_OPTION_PARSER_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* The film of the camera that rests: batches as `eclat render` takes them, until a limit is met. The renderer's own. */
-#ifndef EC_VIEW_PICTURE_H
-#define EC_VIEW_PICTURE_H
+#ifndef EC_VIEW_VIEW_PICTURE_H
+#define EC_VIEW_VIEW_PICTURE_H
 
 #include "render/goal.h"
 #include "view/shared.h"

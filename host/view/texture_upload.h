@@ -1,7 +1,7 @@
 /* Pictures from mapped pixel buffers into textures. The window's thread only. OpenGL 2.1: pixel buffers and textures of any size,
  * and quads need no more; every driver of the last twenty years has it, Mesa's software ones included. */
-#ifndef EC_VIEW_UPLOAD_H
-#define EC_VIEW_UPLOAD_H
+#ifndef EC_VIEW_TEXTURE_UPLOAD_H
+#define EC_VIEW_TEXTURE_UPLOAD_H
 
 #include "view/shared.h"
 

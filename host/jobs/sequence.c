@@ -1,4 +1,4 @@
-#include "jobs/frames.h"
+#include "jobs/sequence.h"
 
 #include <stdio.h>
 #include <stdlib.h>

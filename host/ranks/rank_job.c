@@ -1,4 +1,4 @@
-#include "ranks/job.h"
+#include "ranks/rank_job.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 #include "base/module.h"
-#include "ranks/module.h"
+#include "ranks/mpi_module.h"
 
 static const ec_ranks_module *module_of(const ec_ranks *ranks) { return ((const ec_ranks_head *)ranks)->module; }
 
@@ -18,9 +18,9 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err)
 int ec_ranks_number(const ec_ranks *ranks) { return module_of(ranks)->number(ranks); }
 int ec_ranks_count(const ec_ranks *ranks) { return module_of(ranks)->count(ranks); }
 
-ec_allies ec_ranks_allies(ec_ranks *ranks, const char *device, const char *own, bool own_round)
+ec_peers ec_ranks_peers(ec_ranks *ranks, const char *device, const char *own, bool own_round)
 {
-    return module_of(ranks)->allies(ranks, device, own, own_round);
+    return module_of(ranks)->peers(ranks, device, own, own_round);
 }
 
 void ec_ranks_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count)

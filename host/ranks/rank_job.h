@@ -1,6 +1,6 @@
 /* A job from rank 0 to all others: what devices are given of a scene. Internal to ranks/. */
-#ifndef EC_RANKS_JOB_H
-#define EC_RANKS_JOB_H
+#ifndef EC_RANKS_RANK_JOB_H
+#define EC_RANKS_RANK_JOB_H
 
 #include "cl/cl.h"
 #include "device/cargo.h"

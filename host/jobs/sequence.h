@@ -1,6 +1,6 @@
 /* --frames: one picture after the other. */
-#ifndef EC_JOBS_FRAMES_H
-#define EC_JOBS_FRAMES_H
+#ifndef EC_JOBS_SEQUENCE_H
+#define EC_JOBS_SEQUENCE_H
 
 #include "jobs/frame_job.h"
 #include "jobs/listener.h"

@@ -1,4 +1,4 @@
-#include "view/text.h"
+#include "view/glyphs.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* What the module that knows MPI does for ranks.h, by the same names. */
-#ifndef EC_RANKS_MODULE_H
-#define EC_RANKS_MODULE_H
+#ifndef EC_RANKS_MPI_MODULE_H
+#define EC_RANKS_MPI_MODULE_H
 
 #include "ranks/ranks.h"
 
@@ -8,7 +8,7 @@ typedef struct ec_ranks_module {
     ec_result (*join)(ec_ranks **ranks, ec_error *err);
     int (*number)(const ec_ranks *ranks);
     int (*count)(const ec_ranks *ranks);
-    ec_allies (*allies)(ec_ranks *ranks, const char *device, const char *own, bool own_round);
+    ec_peers (*peers)(ec_ranks *ranks, const char *device, const char *own, bool own_round);
     void (*share_devices)(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count);
     void (*note_binding)(const ec_device_info *devices, uint32_t count, const ec_log *log);
     void (*leave)(ec_ranks *ranks);
