@@ -23,7 +23,7 @@ static double median(double *values, uint32_t count)
     return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
-/* Of a median: 1.2533 sigma / sqrt(n) for normal values; sigma by the median absolute deviation, since one of a few turns may be an
+/* The standard error of a median: 1.2533 sigma / sqrt(n) for normal values; sigma by the median absolute deviation, since one of a few turns may be an
  * outlier. */
 static double median_se(const double *values, uint32_t count, double middle)
 {
@@ -102,7 +102,7 @@ static ec_result take_levels(measurement *m, double end, ec_error *err)
     return m->row->picture ? EC_OK : ec_fail(err, "out of memory for a picture");
 }
 
-/* The same picture by both, one after the other. */
+/* Both render one picture, one after the other. */
 static ec_result time_in_turns(measurement *m, double end, ec_error *err)
 {
     double ratios[PAIRS_MOST], mine, bases;

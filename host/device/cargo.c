@@ -148,7 +148,7 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->scene_max = pack->scene_max;
 }
 
-/* Of a scene that is written out the one with its meshes kept once, so that the job is the same with any accelerator. */
+/* Where a scene is written out, takes the one with its meshes kept once, so that the job is the same with any accelerator. */
 static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
                               const ec_render_options *o, uint32_t batch, ec_content *content, ec_error *err)
 {

@@ -12,7 +12,7 @@ ec_result ec_combinations_check(const ec_option *options, int count, const bool 
 /* Does an option of `render` mean anything to that integrator? */
 bool ec_combinations_belongs(const char *option, ec_integrator integrator);
 
-/* The same for a grid's density (0: not given) and the acceleration structure asked for, which may be NULL. takes_all: "all" is one. */
+/* Checks a grid's density (0: not given) and the acceleration structure asked for, which may be NULL. takes_all: "all" is one. */
 ec_result ec_combinations_check_grid(double density, const char *accel, bool takes_all, ec_error *err);
 
 /* A moment or a span of them. */

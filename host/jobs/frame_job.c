@@ -58,7 +58,7 @@ static void put(ec_identity *identity, const char *name, const char *value, bool
 
 static void add(ec_identity *identity, const char *name, const char *value) { put(identity, name, value, false); }
 
-/* Of an environment in a file its bytes count, and not its name. */
+/* An environment in a file counts by its bytes, not by its name. */
 static ec_result add_environment(ec_identity *identity, const char *environment, ec_error *err)
 {
     char text[96];

@@ -9,7 +9,7 @@
 
 enum { EC_HASH_SIZE = 65 };
 
-/* Of pixels that come one after the other. */
+/* Hashes pixels that come one after the other. */
 typedef struct ec_hash {
     SHA2_CTX context;
 } ec_hash;

@@ -110,7 +110,7 @@ ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_erro
     return EC_OK;
 }
 
-/* Of the file system that path's folder is on; UINT64_MAX: unknown. */
+/* Free bytes of the file system that path's folder is on; UINT64_MAX: unknown. */
 static uint64_t room_for(const char *path)
 {
     char folder[PATH_MAX];

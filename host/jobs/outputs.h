@@ -29,10 +29,10 @@ ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err);
 /* Without -o: the scene's base name with .exr and .png, in the current directory. */
 ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err);
 
-/* The same for a slice of samples first to end: NAME.first-end.exr. */
+/* Adds the default for a slice of samples first to end: NAME.first-end.exr. */
 ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t first, uint32_t end, ec_error *err);
 
-/* The same for a frame: NAME.0007.exr and .png. */
+/* Adds the default for a frame: NAME.0007.exr and .png. */
 ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err);
 
 /* Before any work: can all be written, and would none overwrite another or an input? */

@@ -66,7 +66,7 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_error *err);
 /* By the request: one, or with takes_several all that it names. */
 ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err);
 
-/* The same without the outputs: device, scene, environment, camera, size. */
+/* Prepares all but the outputs: device, scene, environment, camera, size. */
 ec_result ec_render_job_load(ec_render_job *job, ec_error *err);
 
 /* Part of that: the environment that the request asks for, or a white one where job->scene has no light. */

@@ -15,7 +15,7 @@ typedef struct ec_slice {
     const ec_past *past;
 } ec_slice;
 
-/* The same of rows as they come: open with what is known by then, as of `film`; put all of the rows; close with what has
+/* Writes rows as they come: open with what is known by then, as of `film`; put all of the rows; close with what has
  * become known meanwhile. outputs and report must live as long. */
 ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height,
                               ec_render_report *report, uint32_t room, ec_error *err);

@@ -24,7 +24,7 @@ static void mix(uint64_t *hash, const char *text) /* FNV-1a */
     for (; *text; text++) *hash = (*hash ^ (uint8_t)*text) * 0x100000001b3;
 }
 
-/* Of what must be alike for the same bits, and for a sheet to be read. */
+/* A digest of what must be alike on all ranks: for the same bits, and for a sheet to be read. */
 static uint64_t program_hash(void)
 {
     uint64_t hash = 0xcbf29ce484222325 ^ sizeof(sheet);

@@ -14,7 +14,7 @@
 /* launch.c: as one of how many was this process started, by an MPI launcher? And as the first of them? Tells by its environment, without MPI. */
 int ec_ranks_launched(void);
 bool ec_ranks_launched_first(void);
-/* The same of processes that srun started without MPI, so that each does all of the work: how many; 1 for all but the first of them. */
+/* Counts processes that srun started without MPI, so that each does all of the work: how many; 1 for all but the first of them. */
 int ec_ranks_apart(void);
 
 typedef struct ec_ranks ec_ranks;

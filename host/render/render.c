@@ -43,7 +43,7 @@ static void take_up(ec_render_state *r, const ec_past *past)
     r->kept_under_way = past->under_way;
 }
 
-/* Of one device, told once it is loaded, since that is what its films have to fit beside; several devices have all rows. */
+/* Chooses strips once the only device is loaded, since its films have to fit beside that; several devices take all rows. */
 static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     const ec_pipeline *alone = ec_sources_alone(&r->sources);

@@ -92,7 +92,7 @@ static ec_result take_features(ec_render_state *r, ec_error *err)
     return r->aov || !wants_features(r) ? EC_OK : ec_fail(err, "out of memory for the first-hit features");
 }
 
-/* Of a batch that was under way: whole rows of tiles (batch_source.h), a wave may have ended within one. */
+/* How many pixels a batch that was under way goes on from: whole rows of tiles (batch_source.h), since a wave may have ended within one. */
 static uint32_t gone_on_from(const ec_render_state *r)
 {
     const uint32_t row = EC_TILE_ROWS * r->film->width, done = r->past.under_way < r->order.count ? r->past.under_way : 0;

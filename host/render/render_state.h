@@ -42,7 +42,7 @@ typedef struct ec_render_state {
     uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
 } ec_render_state;
 
-/* Of the film: the picture, or the strip under way. */
+/* Pixels of the film: the picture, or the strip under way. */
 static inline double ec_render_film_pixels(const ec_render_state *r) { return (double)r->film->width * r->film->height; }
 static inline double ec_render_picture_pixels(const ec_render_state *r) { return (double)r->options->width * r->options->height; }
 

@@ -45,7 +45,7 @@ typedef struct ec_sources {
 ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_sources *sources, ec_render_stats *stats,
                             ec_error *err);
 
-/* The same, and makes the cargo, for these devices, and any others if for_all. */
+/* The first step, which also makes the cargo, for these devices, and any others if for_all. */
 ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene,
                           const ec_render_options *options, uint32_t batch, ec_sources *sources, ec_render_stats *stats,
                           ec_error *err);

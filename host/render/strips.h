@@ -18,13 +18,13 @@ ec_strip_need ec_strip_needs(const ec_render_options *options);
 /* All that a picture takes where the device has memory of its own, or (shared) where that is the host's. */
 uint64_t ec_strip_whole(const ec_render_options *options, bool shared);
 
-/* The same with these devices together, and so many peers. */
+/* Bytes with these devices together, and so many peers. */
 uint64_t ec_strip_whole_for(const ec_render_options *options, const ec_device_info *devices, uint32_t count, uint32_t peers);
 
 /* What pictures take that do not ask how much there is. */
 #define EC_STRIP_NEVER (64ull << 20)
 
-/* The same of the lowest strip. */
+/* Bytes of the lowest strip. */
 uint64_t ec_strip_least(const ec_render_options *options, bool shared);
 
 /* Fails with one line: a picture that is to be whole does not fit. whole_for: why it is; instead: what lets it be rendered in strips. */
@@ -34,7 +34,7 @@ ec_result ec_strip_refuse(const ec_render_options *options, uint64_t whole, int6
 /* How many rows fit at a time: all of them or a multiple of EC_STRIP_STEP; 0: not even one step. `host`: bytes that pixels may take; device, largest: the same of a device that has memory of its own, in all and in one piece. */
 uint32_t ec_strip_rows(const ec_render_options *options, bool shared, int64_t host, uint64_t device, uint64_t largest);
 
-/* Of the memory that options allow, or of what is free, the bytes that pixels may take beside what the process has now and what it will take
+/* Budget: of the memory that options allow, or of what is free, the bytes that pixels may take beside what the process has now and what it will take
  * whatever the picture (`coming`); negative where that is too much already. */
 int64_t ec_strip_budget(const ec_render_options *options, uint64_t coming);
 

@@ -74,7 +74,7 @@ double ec_team_samples(const ec_team *team, const slot *s);
 /* All positions of a unit before this one are done. */
 uint32_t ec_team_done(const ec_team *team, const slot *s);
 
-/* Of the slots that are not open. */
+/* Frees the units of slots that are not open. */
 void ec_team_free_units(ec_team *team);
 
 #endif

@@ -127,7 +127,7 @@ static void add_cost(cJSON *root, const ec_render_report *report)
     ec_json_whole(root, "device_bytes", stats->device_bytes);
 }
 
-/* Of several devices, what each has done. */
+/* What each of several devices has done. */
 static void add_shares(cJSON *root, const ec_render_report *report)
 {
     const ec_render_stats *stats = report->stats;

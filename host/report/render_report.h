@@ -10,7 +10,7 @@
 #include "image/image.h"
 #include "render/render.h"
 
-/* Of a frame of a sequence. */
+/* A frame of a sequence. */
 typedef struct ec_frame_facts {
     uint32_t number, place, count;  /* the place-th of so many, from 1 */
     double seconds;                 /* of the animation */

@@ -39,7 +39,7 @@ void ec_view_say_trouble(ec_view *view, ec_view_trouble whose, const ec_error *e
     pthread_mutex_unlock(&view->lock);
 }
 
-/* Of another scene, if there is one. That of before, which is to be released once the lock is. */
+/* Takes over another scene, if there is one. Returns the one before, which is to be released once the lock is. */
 static ec_view_scene *learn(ec_window *w)
 {
     ec_view *view = w->view;

@@ -70,7 +70,7 @@ static bool is_move(const ec_script_step *step)
     return !strcmp(step->verb, "turn") || !strcmp(step->verb, "pan") || !strcmp(step->verb, "dolly");
 }
 
-/* Of those that take no time. */
+/* Runs a step that takes no time; is it over? */
 static bool is_over(const ec_script_step *step, ec_view_input *in, const ec_view_status *status)
 {
     bool saving = in->wish.saves != status->saves_done;

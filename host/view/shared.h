@@ -72,7 +72,7 @@ typedef struct ec_view_status {
     ec_view_probe probe, clicked;
 } ec_view_status;
 
-/* Of the scene, for the window. */
+/* Facts of the scene, for the window. */
 typedef struct ec_view_facts {
     uint32_t serial;              /* 0: not loaded yet */
     uint32_t camera, camera_count, width, height; /* by default */
@@ -154,7 +154,7 @@ void *ec_view_watcher(void *view);  /* watcher.c */
 
 /* show.c: a picture of 3 floats a pixel through the CLI's tone mapper to the window; false: no slot was free, ask again later */
 bool ec_view_show(ec_view *view, const ec_view_wish *wish, uint32_t role, const float *rgb, uint32_t width, uint32_t height);
-/* The same of bytes that are there already, made by `fill` where they are wanted. */
+/* Shows bytes that are there already: `fill` writes them where they are wanted. */
 typedef void (*ec_view_fill)(const void *user, uint8_t *bytes);
 bool ec_view_show_filled(ec_view *view, uint32_t role, uint32_t width, uint32_t height, ec_view_fill fill, const void *user);
 
