@@ -7,6 +7,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#ifndef EC_MODULE_FOLDER /* CMakeLists.txt says it: from the program to where modules are installed */
+#define EC_MODULE_FOLDER "../lib/eclat"
+#endif
+
 #define TEXT_(x) #x
 #define TEXT(x) TEXT_(x)
 
