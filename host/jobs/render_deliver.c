@@ -21,11 +21,11 @@ static ec_past past_of(const ec_render_job *job)
                      .allotment.gain = 1};
 }
 
-static ec_result write_film(ec_render_job *job, ec_render_report *report, ec_error *err)
+ec_result ec_render_job_write(ec_render_job *job, ec_outputs *outputs, ec_render_report *report, ec_error *err)
 {
     const ec_past past = past_of(job);
     const ec_slice slice = {&job->job, &past};
-    return ec_write_report(&job->request->outputs, &job->film, job->request->has_slice ? &slice : NULL, report,
+    return ec_write_report(outputs, &job->film, job->request->has_slice ? &slice : NULL, report,
                            job->image_sha256, err);
 }
 
@@ -53,7 +53,7 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
     const char *outputs[EC_OUTPUTS_MAX];
     ec_render_report report = ec_render_job_report(job, outputs);
     double write_start = ec_now();
-    EC_TRY(job->rows ? finish_rows(job, &report, err) : write_film(job, &report, err));
+    EC_TRY(job->rows ? finish_rows(job, &report, err) : ec_render_job_write(job, &job->request->outputs, &report, err));
     report.write_seconds = ec_now() - write_start;
     report.total_seconds = ec_now() - start;
     report.peak_memory_bytes = ec_peak_memory_bytes();

@@ -1,5 +1,4 @@
 /* A job becomes a picture. */
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -7,7 +6,6 @@
 #include "base/clock.h"
 #include "jobs/command_line.h"
 #include "jobs/sequence.h"
-#include "jobs/write_report.h"
 #include "lib/internal.h"
 
 /* What the command line would read for these options. */
@@ -49,9 +47,8 @@ static ec_result make_command(eclat_picture *p, ec_error *err)
 static ec_result write_rendered(eclat_picture *picture, ec_outputs *outputs, ec_error *err)
 {
     const char *names[EC_OUTPUTS_MAX];
-    char sha256[EC_HASH_SIZE];
     ec_render_report report = ec_render_job_report(&picture->job, names);
-    return ec_write_report(outputs, &picture->job.film, NULL, &report, sha256, err);
+    return ec_render_job_write(&picture->job, outputs, &report, err);
 }
 
 /* With files to write as the command would; else into memory alone. */
@@ -67,7 +64,7 @@ static ec_result render(eclat_picture *picture, ec_error *err)
     return ec_render_job_complete(job, start, err);
 }
 
-static ec_result make_picture(eclat_job *job, eclat_picture *picture, bool *is_sequence, ec_error *err)
+static ec_result make_picture(eclat_job *job, eclat_picture *picture, ec_error *err)
 {
     ec_lib_ear ear = {&picture->options->listener, &job->is_stopped};
     const ec_listener listener = ec_lib_listener(&ear);
@@ -75,23 +72,19 @@ static ec_result make_picture(eclat_job *job, eclat_picture *picture, bool *is_s
     picture->write = write_rendered;
     picture->options->listener = job->listener;
     EC_TRY(read_options(picture->options, &picture->request, &given, err));
-    *is_sequence = picture->request.frames.given;
-    if (*is_sequence) return ec_frames_render(&listener, &picture->request, NULL, &given, ec_now(), err);
-    char folder[PATH_MAX] = "";
-    if (!getcwd(folder, sizeof folder)) folder[0] = 0;
+    if (picture->request.frames.given) return ec_frames_render(&listener, &picture->request, NULL, &given, ec_now(), err);
+    if (!getcwd(picture->folder, sizeof picture->folder)) picture->folder[0] = 0;
     EC_TRY(make_command(picture, err));
     picture->job = (ec_render_job){.request = &picture->request, .listener = &listener, .takes_several = true, .in_memory = !picture->request.outputs.count,
-                                   .program = "eclat", .command = picture->command, .job = {.argc = picture->word_count - 1, .argv = picture->words + 1, .folder = folder}};
+                                   .program = "eclat", .command = picture->command, .job = {.argc = picture->word_count - 1, .argv = picture->words + 1, .folder = picture->folder}};
     ec_result result = render(picture, err);
-    picture->job.listener = NULL; /* it ends here, as the folder does */
-    picture->job.job.folder = NULL;
+    picture->job.listener = NULL; /* it ends here */
     return result;
 }
 
 eclat_result eclat_job_render(eclat_job *job, eclat_picture **picture, eclat_error *err)
 {
     ec_error why = {0}, unfinished = {0};
-    bool is_sequence = false;
     eclat_picture *made = calloc(1, sizeof *made);
     *picture = NULL;
     if (made) made->options = ec_lib_job_copy(job);
@@ -99,7 +92,7 @@ eclat_result eclat_job_render(eclat_job *job, eclat_picture **picture, eclat_err
         eclat_picture_free(made);
         return ec_lib_end(ec_fail(&why, "out of memory for a picture"), &why, err);
     }
-    ec_result result = make_picture(job, made, &is_sequence, &why);
+    ec_result result = make_picture(job, made, &why);
     atomic_store(&job->is_stopped, 0);
     const bool has_film = made->job.film.batch_count && made->job.stats.samples;
     if (has_film && ec_lib_picture_finish(made, &unfinished) == EC_OK) {

@@ -2,6 +2,7 @@
 #ifndef EC_LIB_INTERNAL_H
 #define EC_LIB_INTERNAL_H
 
+#include <limits.h>
 #include <stdatomic.h>
 
 #include "eclat/eclat.h"
@@ -30,6 +31,7 @@ struct eclat_picture {
     eclat_job *options;       /* a copy, whose texts the request points to. Owned */
     char **words, *command;   /* the command that renders the same; owned, as its words are */
     int word_count;
+    char folder[PATH_MAX];    /* in which the job began */
     ec_merged merged;         /* or merged */
     ec_picture planes;        /* of what was rendered */
     ec_channel_list channels;

@@ -147,7 +147,8 @@ size_t eclat_picture_attribute_count(const eclat_picture *picture);
 eclat_attribute eclat_picture_attribute_at(const eclat_picture *picture, size_t i);        /* name NULL behind the last */
 eclat_attribute eclat_picture_attribute(const eclat_picture *picture, const char *name);   /* name NULL where there is no such attribute */
 
-/* All channels and attributes to an .exr, or the tone-mapped picture to a .png. The file has its name only once it is whole. */
+/* All channels and attributes to an .exr, or the tone-mapped picture to a .png. The file has its name only once it is whole. A slice's .exr is one that
+ * eclat_merge takes. */
 eclat_result eclat_picture_write(const eclat_picture *picture, const char *path, eclat_error *err);
 
 /* ---- Files ---- */
