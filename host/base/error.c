@@ -34,42 +34,13 @@ void ec_fail_more(ec_error *err, const char *format, ...)
     va_end(args);
 }
 
-static void log_write(const ec_log *log, ec_severity severity, const char *format, va_list args)
+void ec_tell(const ec_log *log, ec_severity severity, const char *format, ...)
 {
     if (!log || !log->write) return;
     char text[2048];
+    va_list args;
+    va_start(args, format);
     format_whole(text, sizeof text, format, args);
+    va_end(args);
     log->write(log->user, severity, text);
-}
-
-void ec_say(const ec_log *log, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    log_write(log, EC_STATUS, format, args);
-    va_end(args);
-}
-
-void ec_tell_failure(const ec_log *log, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    log_write(log, EC_FAILURE, format, args);
-    va_end(args);
-}
-
-void ec_note(const ec_log *log, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    log_write(log, EC_NOTE, format, args);
-    va_end(args);
-}
-
-void ec_warn(const ec_log *log, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    log_write(log, EC_WARNING, format, args);
-    va_end(args);
 }

@@ -50,9 +50,9 @@ typedef struct ec_log {
 } ec_log;
 
 /* log may be NULL. */
-void ec_say(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3))); /* EC_STATUS */
-void ec_tell_failure(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void ec_note(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void ec_warn(const ec_log *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ec_tell(const ec_log *log, ec_severity severity, const char *format, ...) __attribute__((format(printf, 3, 4)));
+#define ec_say(log, ...) ec_tell(log, EC_STATUS, __VA_ARGS__)
+#define ec_note(log, ...) ec_tell(log, EC_NOTE, __VA_ARGS__)
+#define ec_warn(log, ...) ec_tell(log, EC_WARNING, __VA_ARGS__)
 
 #endif

@@ -109,7 +109,7 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
         if (result == EC_OK) result = render_frame(s, request, i, stopped, &why);
         if (result == EC_OK && !*stopped) s->rendered++;
         if (result != EC_OK && !*stopped) {
-            ec_tell_failure(&s->listener->log, "frame %u: %s", frame, why.text);
+            ec_tell(&s->listener->log, EC_FAILURE, "frame %u: %s", frame, why.text);
             s->failed++;
             told = tell_end(s, frame, EC_FRAME_FAILED, why.text, &request->outputs, err);
             ec_frame_share_close(&s->share); /* what a device has forgotten or not done right is not to be taken for there */
