@@ -64,6 +64,18 @@ ec_material ec_material_lambert(double albedo, double radiance)
     return m;
 }
 
+ec_material ec_material_glass(double ior, double roughness, double absorption)
+{
+    ec_material m = ec_material_default();
+    m.metallic = 0;
+    m.roughness = (float)roughness;
+    m.transmission = 1;
+    m.volume = true;
+    m.ior = (float)ior;
+    for (int k = 0; k < 3; k++) m.absorption[k] = (float)absorption;
+    return m;
+}
+
 void ec_model_place(ec_model *m, const double matrix[16])
 {
     memcpy(m->place, matrix ? matrix : identity, sizeof m->place);

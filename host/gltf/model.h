@@ -16,6 +16,8 @@ void ec_model_free(ec_model *model); /* NULL is fine */
 ec_material ec_material_default(void);
 /* Pure Lambert that emits from its front. */
 ec_material ec_material_lambert(double albedo, double radiance);
+/* A body of glass; absorption: 1/m, of every channel. */
+ec_material ec_material_glass(double ior, double roughness, double absorption);
 int32_t ec_model_material(ec_model *model, const ec_material *material); /* its index; copied, names are not */
 
 /* Where what is added from now on stands: the node's matrix, column major as in glTF, applied to all of it. NULL: where it says. */

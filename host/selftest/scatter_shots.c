@@ -6,18 +6,6 @@
 #include "gltf/model.h"
 #include "selftest/shot.h"
 
-static ec_material glass(double ior, double roughness, double absorption)
-{
-    ec_material m = ec_material_default();
-    m.metallic = 0;
-    m.roughness = (float)roughness;
-    m.transmission = 1;
-    m.volume = true;
-    m.ior = (float)ior;
-    for (int k = 0; k < 3; k++) m.absorption[k] = (float)absorption;
-    return m;
-}
-
 static void shine_from_everywhere(ec_scene *scene)
 {
     for (int k = 0; k < 3; k++) scene->environment.constant[k] = 1;
@@ -50,12 +38,12 @@ static ec_result slab(ec_selftest *t, const char *what, ec_material material, bo
 ec_result ec_selftest_slabs(ec_selftest *t, ec_error *err)
 {
     double F = 0.04, R = 2 * F / (1 + F), sigma = 2;
-    EC_TRY(slab(t, "reflects", glass(1.5, 0, 0), false, R, err));
-    EC_TRY(slab(t, "passes", glass(1.5, 0, 0), true, 1 - R, err));
-    EC_TRY(slab(t, "index 1, absorbs", glass(1, 0, sigma), true, exp(-sigma * 0.4), err));
-    EC_TRY(slab(t, "index 1, passes", glass(1, 0, 0), true, 1, err));
-    EC_TRY(slab(t, "index 1, absorbs all", glass(1, 0, 1e30), true, 0, err)); /* attenuation distance 0; the row above: infinite */
-    return slab(t, "index 1 + 1e-6, passes", glass(1 + 1e-6, 0, 0), true, 1, err);
+    EC_TRY(slab(t, "reflects", ec_material_glass(1.5, 0, 0), false, R, err));
+    EC_TRY(slab(t, "passes", ec_material_glass(1.5, 0, 0), true, 1 - R, err));
+    EC_TRY(slab(t, "index 1, absorbs", ec_material_glass(1, 0, sigma), true, exp(-sigma * 0.4), err));
+    EC_TRY(slab(t, "index 1, passes", ec_material_glass(1, 0, 0), true, 1, err));
+    EC_TRY(slab(t, "index 1, absorbs all", ec_material_glass(1, 0, 1e30), true, 0, err)); /* attenuation distance 0; the row above: infinite */
+    return slab(t, "index 1 + 1e-6, passes", ec_material_glass(1 + 1e-6, 0, 0), true, 1, err);
 }
 
 /* Whatever clear glass does with white light from everywhere, each path brings 1. Without roulette there is no noise: what is missing
@@ -65,7 +53,7 @@ ec_result ec_selftest_nested_glass(ec_selftest *t, ec_error *err)
     ec_model *m = ec_model_new();
     ec_scene *scene;
     if (m) {
-        ec_material outer = glass(1.5, 0, 0), inner = glass(2.4, 0, 0);
+        ec_material outer = ec_material_glass(1.5, 0, 0), inner = ec_material_glass(2.4, 0, 0);
         ec_model_sphere(m, ec_model_material(m, &outer), (double[3]){0}, 1, 3, false);
         ec_model_sphere(m, ec_model_material(m, &inner), (double[3]){0}, 0.6, 3, false);
         ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.3);

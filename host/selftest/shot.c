@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "film/resolve.h"
+#include "gltf/model.h"
 #include "shared/features.h"
 
 /* What most cases call for. Textures, coverage and further lobes are left out: kernels with all effects take PoCL 20 s to build. */
@@ -77,4 +78,15 @@ ec_result ec_shot_only_row(ec_selftest *t, const char *what, ec_scene *scene, co
     ec_result result = ec_shot_row(t, what, scene, options, expected, err);
     ec_scene_free(scene);
     return result;
+}
+
+ec_result ec_shot_floor(ec_scene **scene, ec_error *err)
+{
+    ec_model *m = ec_model_new();
+    if (m) {
+        ec_material white = ec_material_lambert(1, 0);
+        ec_model_quad(m, ec_model_material(m, &white), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
+        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 1, 0}, (double[3]){0, 0, 0}, 0.5);
+    }
+    return ec_model_scene(m, scene, err);
 }

@@ -1,4 +1,4 @@
-/* Small renders for cases. Inside host/selftest only. */
+/* Small renders for cases: those of the self-test, and proofs in tests/robust. */
 #ifndef EC_SELFTEST_SHOT_H
 #define EC_SELFTEST_SHOT_H
 
@@ -30,5 +30,8 @@ ec_result ec_shot_rounded_row(ec_selftest *t, const char *what, const ec_scene *
 /* A row, and ends the scene. */
 ec_result ec_shot_only_row(ec_selftest *t, const char *what, ec_scene *scene, const ec_render_options *options, double expected,
                            ec_error *err);
+
+/* A white floor, seen from above. */
+ec_result ec_shot_floor(ec_scene **scene, ec_error *err);
 
 #endif

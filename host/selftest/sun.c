@@ -23,24 +23,12 @@ static double tent_irradiance(uint32_t width, uint32_t height, uint32_t y)
     return sum * 2 * pi / width;
 }
 
-/* A white floor, seen from above. */
-static ec_result floor_from_above(ec_scene **scene, ec_error *err)
-{
-    ec_model *m = ec_model_new();
-    if (m) {
-        ec_material white = ec_material_lambert(1, 0);
-        ec_model_quad(m, ec_model_material(m, &white), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
-        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 1, 0}, (double[3]){0, 0, 0}, 0.5);
-    }
-    return ec_model_scene(m, scene, err);
-}
-
 /* A floor under a map that is `sky` everywhere but in rows [dark, height), which are 0, and in one texel, the sun. */
 static ec_result sun_row(ec_selftest *t, const char *what, uint32_t width, uint32_t height, uint32_t dark, float sky,
                          float sun, uint32_t sun_y, double expected, ec_error *err)
 {
     ec_scene *scene;
-    EC_TRY(floor_from_above(&scene, err));
+    EC_TRY(ec_shot_floor(&scene, err));
     float *rgb = malloc((size_t)width * height * 3 * sizeof *rgb);
     ec_result result = rgb ? EC_OK : ec_fail(err, "out of memory for a map of %ux%u", width, height);
     if (rgb) {

@@ -1,5 +1,5 @@
 /* tier: full */
-/* The same hits from every accelerator, on a number of rays for every day. See traversal_scenes.h. */
+/* Every accelerator gives the same hits, on a number of rays for every day. See traversal_scenes.h. */
 #include "kernel/traversal_scenes.h"
 
 int main(void) { return check_scenes(50000); }

@@ -8,18 +8,6 @@
 #include "gltf/model.h"
 #include "selftest/shot.h"
 
-/* A white floor, seen from above. */
-static ec_result floor_from_above(ec_scene **scene, ec_error *err)
-{
-    ec_model *m = ec_model_new();
-    if (m) {
-        ec_material white = ec_material_lambert(1, 0);
-        ec_model_quad(m, ec_model_material(m, &white), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
-        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 1, 0}, (double[3]){0, 0, 0}, 0.5);
-    }
-    return ec_model_scene(m, scene, err);
-}
-
 enum { FACE = 64 };
 
 /* Directions of a face's pixels as OpenGL 4.6 has them, table 8.19. */
@@ -56,7 +44,7 @@ static ec_result cube_row(ec_selftest *t, const char *what, const double a[3], c
     ec_cube cube;
     ec_scene *scene;
     ec_shot shot;
-    EC_TRY(floor_from_above(&scene, err));
+    EC_TRY(ec_shot_floor(&scene, err));
     ec_result result = draw_cube(a, &cube) ? EC_OK : ec_fail(err, "out of memory for a cube");
     if (result == EC_OK) result = ec_cube_environment(&cube, q, &scene->environment, err);
     ec_cube_free(&cube);

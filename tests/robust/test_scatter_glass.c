@@ -8,18 +8,6 @@
 #include "gltf/model.h"
 #include "selftest/shot.h"
 
-static ec_material glass(double ior, double roughness, double absorption)
-{
-    ec_material m = ec_material_default();
-    m.metallic = 0;
-    m.roughness = (float)roughness;
-    m.transmission = 1;
-    m.volume = true;
-    m.ior = (float)ior;
-    for (int k = 0; k < 3; k++) m.absorption[k] = (float)absorption;
-    return m;
-}
-
 static void sheet(ec_model *m, double z, double radiance)
 {
     ec_material lambert = ec_material_lambert(0, radiance);
@@ -35,7 +23,7 @@ static ec_result slabs_in_slabs(ec_selftest *t, ec_error *err)
     ec_scene *scene;
     for (int i = 0; i < SLABS; i++) {
         double index = i % 2 ? 1.33 : 1.5, r = (outside - index) / (outside + index), in = 0.005 * i;
-        ec_material material = glass(index, 0, 0);
+        ec_material material = ec_material_glass(index, 0, 0);
         if (m)
             ec_model_box(m, ec_model_material(m, &material), (double[3]){-90 + i, -90 + i, -0.4 + in},
                          (double[3]){90 - i, 90 - i, -in}, false);
@@ -59,7 +47,7 @@ static ec_result slab_in_slab_case(ec_selftest *t, ec_error *err)
         ec_model *m = ec_model_new();
         ec_scene *scene;
         char what[48];
-        ec_material outside = glass(1.5, 0, 0), inside = glass(inner[i], 0, 0);
+        ec_material outside = ec_material_glass(1.5, 0, 0), inside = ec_material_glass(inner[i], 0, 0);
         double r = (1.5 - inner[i]) / (1.5 + inner[i]), sum = 2 * 0.04 / 0.96 + 2 * r * r / (1 - r * r);
         if (m) {
             ec_model_box(m, ec_model_material(m, &outside), (double[3]){-90, -90, -0.6}, (double[3]){90, 90, 0}, false);
@@ -126,7 +114,7 @@ static ec_result continuity_case(ec_selftest *t, ec_error *err)
     smooth.roughness = (float)sqrt(0.99e-4);
     rough.roughness = (float)sqrt(1.01e-4);
     EC_TRY(same(t, "metal, width 0.99e-4 and 1.01e-4", smooth, rough, err));
-    return same(t, "glass, width 1.98e-4 and 3.03e-4", glass(1.5, sqrt(1.98e-4), 0), glass(1.5, sqrt(3.03e-4), 0), err);
+    return same(t, "glass, width 1.98e-4 and 3.03e-4", ec_material_glass(1.5, sqrt(1.98e-4), 0), ec_material_glass(1.5, sqrt(3.03e-4), 0), err);
 }
 
 int main(void)
