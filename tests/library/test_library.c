@@ -43,6 +43,19 @@ static bool is_alike(const eclat_picture *a, const eclat_picture *b, const char 
     return same;
 }
 
+/* The picture's mean by its channels, as its error has it. */
+static double mean_luminance(const eclat_picture *p)
+{
+    const double weights[3] = {0.2126, 0.7152, 0.0722};
+    const size_t pixels = (size_t)eclat_picture_width(p) * eclat_picture_height(p);
+    double sum = 0;
+    for (int c = 0; c < 3; c++) {
+        const eclat_channel channel = eclat_picture_channel(p, (const char *[]){"R", "G", "B"}[c]);
+        for (size_t i = 0; i < pixels; i++) sum += weights[c] * (double)channel.data[i * channel.stride];
+    }
+    return sum / (double)pixels;
+}
+
 static void test_options(void)
 {
     eclat_error err;
@@ -80,6 +93,7 @@ static void test_picture(void)
     const eclat_picture_error error = eclat_picture_get_error(picture);
     CHECK(error.error > 0.001 && error.error < 1 && error.error_bound > error.error && isfinite(error.error_bound) && !error.why);
     CHECK(error.samples_per_pixel == 64 && error.replicates > 1 && error.mean_luminance > 0);
+    CHECK_NEAR(mean_luminance(picture), error.mean_luminance, 1e-5 * error.mean_luminance);
     CHECK(eclat_picture_channel(picture, "stderr.Y").data && !eclat_picture_channel(picture, "X").data);
     CHECK(eclat_picture_channel_count(picture) > 10 && eclat_picture_channel_at(picture, 0).data && !eclat_picture_channel_at(picture, 999).name);
     CHECK(!strcmp(eclat_picture_attribute(picture, "eclat.seed").text, "7"));

@@ -211,28 +211,38 @@ static void check_bulb(double size, bool is_glass)
     ec_scene_free(scene);
 }
 
-/* A chrome ball so small that a few of the first look's paths meet it, in a room without a ceiling whose sun is low: behind the wall, or without
- * that wall. */
-static void check_small_ball(bool has_wall)
+/* What a sun of one texel brings by way of a chrome cube so small that a few of the first look's paths meet it. It stands on a floor, beside a wall
+ * if there is one; eye: the camera looks from there at the cube; row, column: the texel. */
+static double small_mirror_light(const char *what, bool has_wall, const double eye[3], int column, int row)
 {
-    enum { W = 64, H = 32 };
     gltf_writer *w = gltf_new();
     const int grey = gltf_lambert(w, 0.5, 0);
     const int chrome = gltf_add(&w->materials, "{\"name\":\"chrome\",\"pbrMetallicRoughness\":{\"metallicFactor\":1,\"roughnessFactor\":0}}");
     gltf_quad(w, grey, (double[3]){-2, 0, 2}, (double[3]){4, 0, 0}, (double[3]){0, 0, -4});
     if (has_wall) gltf_box(w, grey, (double[3]){2, 0, -20}, (double[3]){2.1, 20, 20});
     gltf_box(w, chrome, (double[3]){-0.03, 0.5, -0.03}, (double[3]){0.03, 0.56, 0.03});
-    gltf_camera(w, (double[3]){-1.5, 1.5, 1.5}, (double[3]){0, 0.3, 0}, 0.8);
-    ec_scene *scene = case_load(gltf_write(w, "rare-ball"), "1,1,1");
+    gltf_camera(w, eye, (double[3]){0, 0.3, 0}, 0.8);
+    ec_scene *scene = case_load(gltf_write(w, "rare-mirror"), "1,1,1");
     free(w);
-    set_map(scene, W, H, W / 2, 12, 1, 1e5f); /* towards +x, 0.35 rad over the horizon */
+    set_map(scene, 64, 32, column, row, 1, 1e5f);
     const ec_render_options o = case_options(64, 64, 16);
     const ec_rare rare = foretell(scene, &o);
-    printf("a small chrome ball, the sun %s:\n", has_wall ? "behind a wall" : "in sight");
+    printf("a small chrome cube, the sun %s:\n", what);
     double chance;
     const double light = light_of(&rare, &chance, "chrome");
-    CHECK_MSG(has_wall ? light == 0 : light > 0.01, "light %g", light);
     ec_scene_free(scene);
+    return light;
+}
+
+/* Where the sun is in sight of the cube its light may be missing; behind a wall it is not; and where all rays towards it go into the cube itself,
+ * nobody can tell. */
+static void check_small_mirror(void)
+{
+    const double beside[3] = {-1.5, 1.5, 1.5}, above[3] = {0.001, 2.4, 0};
+    const double seen = small_mirror_light("in sight", false, beside, 32, 12); /* towards +x, 0.35 rad over the horizon */
+    const double hidden = small_mirror_light("behind a wall", true, beside, 32, 12);
+    const double own = small_mirror_light("straight below, behind the cube itself", false, above, 32, 31);
+    CHECK_MSG(seen > 0.01 && hidden == 0 && own > 0, "light %g, %g, %g", seen, hidden, own);
 }
 
 /* The brightest tile is 255 of 255, however its quotient rounds: in this picture it came out as 256, which a byte takes for none. */
@@ -263,8 +273,7 @@ int main(void)
     if (!test_tier("full")) TEST_END();
     check_bulb(0.002, true);
     check_bulb(0.002, false);
-    check_small_ball(false);
-    check_small_ball(true);
+    check_small_mirror();
     check_plane("a mirror that does not", 1, 0.6, false);
     check_plane("a matt plane", 0, 0.2, false);
     check_turned();
