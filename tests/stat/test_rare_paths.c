@@ -238,7 +238,7 @@ static double small_mirror_light(const char *what, bool has_wall, const double e
  * nobody can tell. */
 static void check_small_mirror(void)
 {
-    const double beside[3] = {-1.5, 1.5, 1.5}, above[3] = {0.001, 2.4, 0};
+    const double beside[3] = {-1.5, 1.5, 1.5}, above[3] = {0.001, 5, 0};
     const double seen = small_mirror_light("in sight", false, beside, 32, 12); /* towards +x, 0.35 rad over the horizon */
     const double hidden = small_mirror_light("behind a wall", true, beside, 32, 12);
     const double own = small_mirror_light("straight below, behind the cube itself", false, above, 32, 31);
