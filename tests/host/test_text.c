@@ -32,7 +32,8 @@ int main(void)
     ec_fail(&err, "%.100s", many);
     ec_fail_more(&err, "%s", many);
     CHECK(strlen(err.text) == 2046);
-    ec_warn(&(ec_log){keep, NULL}, "%s", many);
+    ec_log log = {keep, NULL};
+    ec_warn(&log, "%s", many);
     CHECK(strlen(said) == 2046);
     TEST_END();
 }
