@@ -27,7 +27,6 @@ set(gltf_more ${codec_sources})
 set(cl_more ${embedded_kernels})
 set(cost_more ${embedded_page})
 set(ranks_only launcher.c mpi_load.c plan.c) # the others are the module eclat-mpi
-set(view_only view_load.c orbit.c)          # the others are the module eclat-view
 
 eclat_room(base)
 eclat_room(film base)
@@ -45,13 +44,13 @@ eclat_room(store base film image render report)
 eclat_room(ranks base cl device film render report)
 eclat_room(cost base accel cl film image pack render report)
 eclat_room(selftest base accel cl device film gltf image render report scene)
-eclat_room(view base cl device film gltf image pack render report scene)
 eclat_room(jobs base accel cl device film gltf image pack ranks render report scene store)
-eclat_room(lib base cl film jobs report scene)
+eclat_room(live base cl device film gltf image jobs pack render report scene)
+eclat_room(lib base cl film jobs live report scene)
 
 # Rooms that know nothing of OpenCL, once more as a library by other compiler options.
 function(eclat_host_library name)
-  foreach(room base film image scene gltf accel pack view)
+  foreach(room base film image scene gltf accel pack)
     list(APPEND sources ${sources_of_${room}})
   endforeach()
   add_library(${name} STATIC ${sources})

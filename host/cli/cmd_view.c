@@ -1,56 +1,33 @@
 /* eclat view SCENE: a window that shows the render; what it saves is what `eclat render` would have written. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "base/module.h"
 #include "cli/cli.h"
-#include "jobs/defaults.h"
-#include "jobs/render_job.h"
-#include "jobs/setters.h"
 #include "cli/stop.h"
-#include "cli/view_command.h"
-#include "jobs/write_report.h"
-#include "pack/scene_view.h"
-#include "report/names.h"
-#include "report/scene_report.h"
-#include "view/view.h"
+#include "cli/view_module.h"
+#include "jobs/defaults.h"
+#include "jobs/frame_job.h"
+#include "jobs/setters.h"
 
-#define VIEW_HEIGHT 600
-
-typedef struct view_job {
-    ec_render_request render; /* first: the setters of its options are used */
+typedef struct view_command {
+    ec_render_request render; /* first: the setters of its options are used, to refuse values at once */
+    ec_given_options given;   /* for the job */
     const char *against, *script;
     bool stats;
-    ec_kept_options kept;     /* for the command that repeats a picture */
-    ec_console *console;
-    ec_device_info device;
-    uint32_t device_index;
-    const char *device_why;
-    char environment[256];
-    double load_seconds;
-    uint32_t camera;          /* of the options, once loaded */
-    ec_viewpoint viewpoint;   /* its */
-    int saved;
-    ec_error unsaved;         /* of the last save, if it failed: who looked elsewhere, or is a script, is told at the end */
-} view_job;
+} view_command;
 
-#define REQUEST ((view_job *)target)
+#define REQUEST ((view_command *)target)
 TEXT_SETTER(against, against)
 TEXT_SETTER(script, script)
 FLAG_SETTER(stats, stats)
 
-static ec_result refuse(void *target, const char *option, const char *value, ec_error *err)
-{
-    (void)target, (void)value;
-    return ec_usage(err, "--%s is for 'eclat render': %s", option, ec_render_row(option)->not_in_window);
-}
-
 static ec_result set_and_keep(void *target, const char *option, const char *value, ec_error *err)
 {
-    view_job *job = target;
+    ec_given_options *given = &REQUEST->given;
     const ec_option *row = ec_render_row(option);
-    EC_TRY(row->set(&job->render, option, value, err));
-    if (!(row->uses & EC_OPTION_WINDOW)) ec_kept_options_add(&job->kept, row->name, value);
+    EC_TRY(row->set(target, option, value, err));
+    if (row->uses & EC_OPTION_COMMAND_LINE) return EC_OK;
+    if (given->count == EC_GIVEN_MAX) return ec_fail(err, "more than %d options", EC_GIVEN_MAX);
+    given->list[given->count].option = row->name;
+    given->list[given->count++].value = value;
     return EC_OK;
 }
 
@@ -70,144 +47,61 @@ int ec_view_rows(ec_option *rows)
     for (int i = 0; i < ec_render_row_count && count < EC_OPTIONS_MAX; i++) {
         rows[count] = ec_render_rows[i];
         rows[count].uses |= EC_OPTION_BORROWED;
-        rows[count++].set = ec_render_rows[i].not_in_window ? refuse : set_and_keep;
+        rows[count++].set = ec_render_rows[i].not_in_window ? ec_render_refuse_live : set_and_keep;
     }
     ec_option *size = &rows[ec_options_find(rows, count, "size") - rows];
     size->group = EC_GROUP_OPTIONS;
     size->uses &= ~(uint32_t)EC_OPTION_BORROWED;
     size->help = "size of the window when it opens, in pixels";
-    size->otherwise = EC_TEXT(VIEW_HEIGHT) " high";
+    size->otherwise = EC_TEXT(EC_LIVE_HEIGHT) " high";
     return count;
 }
 
-static ec_result parse(int argc, char **argv, view_job *job, ec_request *asked, ec_error *err)
+ec_result ec_view_load(const ec_view_module **module, ec_error *err)
 {
-    ec_option rows[EC_OPTIONS_MAX];
-    bool given[EC_OPTIONS_MAX] = {false};
-    int count = ec_view_rows(rows), first = 0;
-    ec_render_request_start(&job->render);
-    EC_TRY(ec_options_parse(rows, count, job, argc, argv, &first, given, asked, err));
-    if (*asked != EC_REQUEST_RUN) return EC_OK;
-    EC_TRY(ec_options_scene(argc, argv, first, &job->render.scene, err));
-    job->render.default_height = VIEW_HEIGHT;
-    return ec_render_request_settle(&job->render, rows, count, given, err);
-}
-
-/* The environment stays unturned: the window turns it. */
-static ec_result load(void *user, ec_scene **scene, ec_render_options *options, ec_error *err)
-{
-    view_job *job = user;
-    ec_render_request request = job->render;
-    const ec_listener listener = {.log = ec_console_log(job->console)};
-    ec_render_job render = {.request = &request, .listener = &listener};
-    request.env_degrees = 0;
-    ec_result result = ec_render_job_load(&render, err);
-    if (result != EC_OK) {
-        ec_render_job_free(&render);
-        return result;
-    }
-    *scene = render.scene;
-    *options = request.options;
-    job->camera = request.options.camera;
-    job->viewpoint = render.viewpoint;
-    job->load_seconds = render.load_seconds;
-    snprintf(job->environment, sizeof job->environment, "%s", render.environment_text);
+    const void *symbol = NULL;
+    EC_TRY(ec_module_load("view", "this eclat was built without its preview window: install libglfw3-dev, libepoxy-dev, libstb-dev and "
+                                  "fonts-dejavu-core, then build again with -DECLAT_PREVIEW=ON; 'eclat render' needs none of them", &symbol, err));
+    *module = symbol;
     return EC_OK;
 }
 
-/* NAME.exr, NAME-2.exr …: a later picture does not take the place of an earlier one of this window. */
-static void number_outputs(ec_outputs *outputs, int number)
+static void write_message(void *console, eclat_severity severity, const char *text)
 {
-    for (int i = 0; i < outputs->count && number > 1; i++) {
-        char *path = outputs->file[i].path, *dot = strrchr(path, '.'), numbered[PATH_MAX];
-        if (snprintf(numbered, sizeof numbered, "%.*s-%d%s", (int)(dot - path), path, number, dot) < (int)sizeof numbered)
-            memcpy(path, numbered, sizeof numbered);
-    }
+    const ec_log log = ec_console_log(console);
+    log.write(log.user, (ec_severity)severity, text);
 }
 
-static ec_viewpoint viewpoint_of(const view_job *job, const ec_view_shot *shot)
+static eclat_result make_job(const view_command *command, ec_console *console, eclat_job **job, eclat_error *err)
 {
-    ec_viewpoint v = shot->viewpoint;
-    const ec_camera *camera = &shot->scene->cameras[shot->options->camera];
-    if (!shot->moved && shot->options->camera == job->camera) return job->viewpoint;
-    if (!shot->moved) ec_camera_viewpoint(camera, shot->scene->center, ec_camera_reach(shot->scene, camera), &v);
-    return v;
-}
-
-static ec_result check_outputs(const view_job *job, const ec_outputs *outputs, ec_error *err)
-{
-    ec_inputs inputs = {.scene = job->render.scene, .files = &job->render.environment, .file_count = 1};
-    ec_result result = ec_outputs_check(outputs, &inputs, err);
-    ec_inputs_free(&inputs);
-    return result;
-}
-
-static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
-{
-    ec_outputs outputs = job->render.outputs;
-    char sha256[EC_HASH_SIZE], camera[256] = "of the preview window", environment[320];
-    if (outputs.count == 0) EC_TRY(ec_outputs_add_default(&outputs, job->render.scene, err));
-    number_outputs(&outputs, job->saved + 1);
-    EC_TRY(check_outputs(job, &outputs, err));
-    char *command = ec_view_command(&job->render, &job->kept, job->camera, shot, &outputs);
-    if (!command) return ec_fail(err, "out of memory for a command line");
-    if (!shot->moved) ec_camera_describe(shot->scene, shot->options->camera, camera, sizeof camera);
-    snprintf(environment, sizeof environment, "%s", job->environment);
-    if (shot->env_degrees != 0)
-        snprintf(environment, sizeof environment, "%s, turned by %g degrees", job->environment, shot->env_degrees);
-    ec_render_report report = {
-        .command = command, .scene = job->render.scene, .camera = camera, .viewpoint = viewpoint_of(job, shot), .environment = environment,
-        .options = shot->options, .stats = shot->stats, .device = &job->device, .device_why = job->device_why,
-        .device_index = &job->device_index, .exposure = shot->exposure, .tonemap = shot->tonemap,
-        .mean_luminance = ec_film_estimate_error(shot->film).mean_luminance, .replicates = ec_film_replicates(shot->film),
-        .load_seconds = job->load_seconds,
-    };
-    ec_result result = ec_write_report(&outputs, shot->film, NULL, &report, sha256, err);
-    if (result == EC_OK) {
-        int used = snprintf(told, size, "saved");
-        for (int i = 0; i < outputs.count && used > 0 && (size_t)used < size; i++)
-            used += snprintf(told + used, size - (size_t)used, "%s %s", i ? "," : "", outputs.file[i].path);
-        if (used > 0 && (size_t)used < size) snprintf(told + used, size - (size_t)used, "; again by: %s", command);
-        printf("%s\n", command);
-        fflush(stdout);
-        job->saved++;
-    }
-    free(command);
-    return result;
-}
-
-static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
-{
-    view_job *job = user;
-    ec_stop_ignore_file_size();
-    ec_result result = write_shot(job, shot, told, size, err);
-    job->unsaved = result == EC_OK ? (ec_error){.kind = EC_ERROR_OTHER} : *err;
+    eclat_result result = eclat_job_new(command->render.scene, job, err);
+    for (int i = 0; i < command->given.count && result == ECLAT_OK; i++)
+        result = eclat_job_set(*job, command->given.list[i].option, command->given.list[i].value, err);
+    if (*job) eclat_job_listen(*job, &(eclat_listener){.user = console, .message = write_message});
     return result;
 }
 
 ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
 {
-    view_job job = {.console = &cli->console};
+    view_command command = {.against = NULL};
+    ec_option rows[EC_OPTIONS_MAX];
     ec_request asked;
-    EC_TRY(parse(argc, argv, &job, &asked, err));
+    int first = 0;
+    ec_render_request_start(&command.render);
+    EC_TRY(ec_options_parse(rows, ec_view_rows(rows), &command, argc, argv, &first, NULL, &asked, err));
     if (ec_cli_leaves(cli, asked)) return EC_OK;
-    cli->console.quiet = job.render.quiet;
+    EC_TRY(ec_options_scene(argc, argv, first, &command.render.scene, err));
+    cli->console.quiet = command.render.quiet;
     const ec_view_module *window;
     EC_TRY(ec_view_load(&window, err));
-    EC_TRY(check_outputs(&job, &job.render.outputs, err));
-    EC_TRY(ec_device_find(job.render.device, &job.device, &job.device_index, &job.device_why, err));
-    if (job.against) {
-        uint32_t width, height;
-        float *rgb;
-        EC_TRY(ec_image_read_rgb(job.against, &width, &height, &rgb, err));
-        free(rgb);
-    }
-    const ec_view_request request = {
-        .device = job.device, .options = job.render.options, .env_degrees = job.render.env_degrees, .exposure = job.render.exposure,
-        .tonemap = job.render.tonemap, .scene = job.render.scene, .environment = job.render.environment, .against = job.against,
-        .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_descriptor(),
-    };
+    eclat_job *job = NULL;
+    eclat_error why;
+    eclat_result result = make_job(&command, &cli->console, &job, &why);
+    const ec_view_request request = {.job = job, .against = command.against, .script = command.script, .stats = command.stats};
     ec_stop_catch_signals(false);
-    EC_TRY(window->run(&request, err));
-    return *job.unsaved.text ? ec_fail(err, "%s", job.unsaved.text) : EC_OK;
+    ec_stop_call(window->stop);
+    if (result == ECLAT_OK) result = window->run(&request, &why);
+    eclat_job_free(job);
+    if (result != ECLAT_OK) ec_fail(err, "%s", why.text);
+    return (ec_result)result;
 }

@@ -5,7 +5,6 @@
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <sys/eventfd.h>
 
 #include "base/clock.h"
 
@@ -13,7 +12,7 @@
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;
-static int told = -1;
+static void (*_Atomic to_call)(void);
 static const char *_Atomic hint;
 
 static void end(int signal_number)
@@ -37,7 +36,7 @@ static void *watch(void *signals)
         if (again) continue;
         first = ec_now();
         atomic_store(&requested, true);
-        if (told >= 0) eventfd_write(told, 1);
+        if (atomic_load(&to_call)) atomic_load(&to_call)();
         if (atomic_load(&hint)) fprintf(stderr, "eclat: %s\n", atomic_load(&hint));
         if (atomic_load(&manner) == TELLS)
             fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
@@ -55,7 +54,6 @@ void ec_stop_watch_signals(void)
         if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaddset(&signals, numbers[i]);
     }
     pthread_t thread;
-    told = eventfd(0, EFD_CLOEXEC);
     pthread_sigmask(SIG_BLOCK, &signals, NULL);
     if (pthread_create(&thread, NULL, watch, &signals) == 0) pthread_detach(thread);
     else pthread_sigmask(SIG_UNBLOCK, &signals, NULL); /* they end the process as ever */
@@ -68,9 +66,9 @@ void ec_stop_catch_signals(bool tell)
     atomic_store(&manner, tell ? TELLS : CATCHES);
 }
 
-int ec_stop_descriptor(void)
+void ec_stop_call(void (*call)(void))
 {
-    return told;
+    atomic_store(&to_call, call);
 }
 
 void ec_stop_hint(const char *line)

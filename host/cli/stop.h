@@ -16,8 +16,8 @@ void ec_stop_ignore_file_size(void);
 void ec_stop_catch_signals(bool tell);
 bool ec_stop_requested(void);
 
-/* Readable from then on, for those who sleep; -1: there are no more descriptors. The process's own. */
-int ec_stop_descriptor(void);
+/* Called when the first one comes, from the thread that waits for signals. */
+void ec_stop_call(void (*call)(void));
 
 /* Said on standard error when the first one comes, whatever happens then. A text that stays; NULL: none. */
 void ec_stop_hint(const char *line);

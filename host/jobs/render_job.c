@@ -35,7 +35,7 @@ static ec_result check_checkpoint(const ec_render_request *request, ec_inputs *i
 }
 
 /* What is gone on from may be the next checkpoint, but no picture. */
-static ec_result check_files(const ec_render_request *request, ec_error *err)
+ec_result ec_render_check_files(const ec_render_request *request, ec_error *err)
 {
     const char *const files[] = {request->environment, request->resume};
     ec_inputs inputs = {.scene = request->scene, .files = files, .file_count = 1};
@@ -55,7 +55,7 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
     else if (request->default_outputs)
         EC_TRY(ec_outputs_add_default(outputs, request->scene, err));
     EC_TRY(check_slice_output(request, err));
-    return check_files(request, err);
+    return ec_render_check_files(request, err);
 }
 
 /* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */

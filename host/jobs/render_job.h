@@ -63,6 +63,9 @@ typedef struct ec_render_job {
 /* All that can fail early does so here: outputs, device, scene, environment, camera. */
 ec_result ec_render_job_prepare(ec_render_job *job, ec_error *err);
 
+/* Part of that: may outputs and checkpoint be written, and is none an input? */
+ec_result ec_render_check_files(const ec_render_request *request, ec_error *err);
+
 /* By the request: one, or with takes_several all that it names. */
 ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err);
 

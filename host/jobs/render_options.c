@@ -5,6 +5,7 @@
 #include "jobs/numbers.h"
 #include "jobs/render_request.h"
 #include "jobs/render_setters.h"
+#include "jobs/usage.h"
 #include "report/names.h"
 
 #define OF(integrator) (1u << EC_INTEGRATOR_##integrator)
@@ -214,6 +215,12 @@ _Static_assert(sizeof ec_render_rows / sizeof ec_render_rows[0] <= EC_OPTIONS_MA
 const int ec_render_row_count = sizeof ec_render_rows / sizeof ec_render_rows[0];
 
 const ec_option *ec_render_row(const char *name) { return ec_options_find(ec_render_rows, ec_render_row_count, name); }
+
+ec_result ec_render_refuse_live(void *target, const char *option, const char *value, ec_error *err)
+{
+    (void)target, (void)value;
+    return ec_usage(err, "--%s is for 'eclat render': %s", option, ec_render_row(option)->not_in_window);
+}
 
 int ec_render_rows_for(uint32_t use, ec_option *rows)
 {

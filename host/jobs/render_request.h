@@ -55,6 +55,7 @@ typedef struct ec_render_request {
 extern const ec_option ec_render_rows[];
 extern const int ec_render_row_count;
 const ec_option *ec_render_row(const char *name); /* NULL: there is none */
+ec_result ec_render_refuse_live(void *target, const char *option, const char *value, ec_error *err); /* the setter of rows that are not_in_window */
 int ec_render_rows_for(uint32_t use, ec_option *rows); /* copies those with that EC_OPTION_* as borrowed, returns their number */
 void ec_render_request_start(ec_render_request *request);
 ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,

@@ -8,8 +8,7 @@
 #include "jobs/sequence.h"
 #include "lib/internal.h"
 
-/* What the command line would read for these options. */
-static ec_result read_options(const eclat_job *job, ec_render_request *request, ec_given_options *list, ec_error *err)
+ec_result ec_lib_read_options(const eclat_job *job, ec_render_request *request, ec_given_options *list, ec_error *err)
 {
     bool given[EC_OPTIONS_MAX] = {false};
     ec_render_request_start(request);
@@ -71,7 +70,7 @@ static ec_result make_picture(eclat_job *job, eclat_picture *picture, ec_error *
     ec_given_options given;
     picture->write = write_rendered;
     picture->options->listener = job->listener;
-    EC_TRY(read_options(picture->options, &picture->request, &given, err));
+    EC_TRY(ec_lib_read_options(picture->options, &picture->request, &given, err));
     if (picture->request.frames.given) return ec_frames_render(&listener, &picture->request, NULL, &given, ec_now(), err);
     if (!getcwd(picture->folder, sizeof picture->folder)) picture->folder[0] = 0;
     EC_TRY(make_command(picture, err));

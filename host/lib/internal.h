@@ -49,6 +49,9 @@ eclat_result ec_lib_end(ec_result result, const ec_error *from, eclat_error *to)
 /* The rows of the render command that a caller may set: NULL for others. */
 const ec_option *ec_lib_find_option(const char *name);
 
+/* What the command line would read for the job's options; list: as they were given. */
+ec_result ec_lib_read_options(const eclat_job *job, ec_render_request *request, ec_given_options *list, ec_error *err);
+
 /* A listener that passes messages and progress on to a caller's; `listener` and the flag, which may be NULL, must last. */
 typedef struct ec_lib_ear {
     const eclat_listener *listener;

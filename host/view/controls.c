@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "view/window.h"
 
 #define TAP 0.3     /* seconds: S that is down longer than this flies */
@@ -25,7 +24,7 @@ static double pixels_a_unit(GLFWwindow *glfw)
 /* The picture's, under the cursor; UINT32_MAX: none. */
 static void find_pixel(const ec_window *w, uint32_t *px, uint32_t *py)
 {
-    const ec_view_wish *wish = &w->input.wish;
+    const eclat_wish *wish = &w->input.wish;
     int width, height;
     glfwGetFramebufferSize(w->glfw, &width, &height);
     double x = w->cursor_x * wish->width / fmax(width, 1), y = w->cursor_y * wish->height / fmax(height, 1),
@@ -60,17 +59,11 @@ static void on_cursor(GLFWwindow *glfw, double x, double y)
 
 void ec_window_point(ec_window *w)
 {
-    ec_view_wish *wish = &w->input.wish;
-    uint32_t x, y;
     double at_x, at_y;
     glfwGetCursorPos(w->glfw, &at_x, &at_y);
     bool at_corner = at_x == 0 && at_y == 0 && glfwGetWindowAttrib(w->glfw, GLFW_HOVERED); /* of which GLFW's X11 tells nobody */
     if (at_corner && (w->cursor_x != 0 || w->cursor_y != 0 || !w->points)) on_cursor(w->glfw, 0, 0);
-    find_pixel(w, &x, &y);
-    if (x == wish->probe_x && y == wish->probe_y) return;
-    wish->probe_x = x;
-    wish->probe_y = y;
-    wish->probes++;
+    find_pixel(w, &w->input.wish.x, &w->input.wish.y);
 }
 
 static void on_button(GLFWwindow *glfw, int button, int action, int mods)
@@ -83,8 +76,9 @@ static void on_button(GLFWwindow *glfw, int button, int action, int mods)
         w->drag_path = 0;
     } else if (action == GLFW_RELEASE && button == w->drag) {
         if (button == GLFW_MOUSE_BUTTON_LEFT && w->drag_path <= CLICK) {
-            find_pixel(w, &w->input.wish.click_x, &w->input.wish.click_y);
-            w->input.wish.clicks++;
+            uint32_t x, y;
+            find_pixel(w, &x, &y);
+            eclat_live_pick(w->live, x, y);
         }
         w->drag = -1;
     }
@@ -140,7 +134,7 @@ static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods
     hold(w, letter, action);
     if (is_other && action == GLFW_PRESS) on_char(glfw, (unsigned)(mods & GLFW_MOD_SHIFT ? toupper(letter) : letter));
     w->dirty = true;
-    if (is_s && action == GLFW_PRESS) w->s_down = ec_now(), w->s_flew = false;
+    if (is_s && action == GLFW_PRESS) w->s_down = glfwGetTime(), w->s_flew = false;
     if (is_s && action == GLFW_RELEASE) {
         bool tapped = w->s_down > 0 && !w->s_flew && w->drag < 0;
         w->s_down = 0;
@@ -159,7 +153,7 @@ static int held(const ec_window *w, unsigned letter, int arrow)
 void ec_window_fly(ec_window *w)
 {
     GLFWwindow *g = w->glfw;
-    double now = ec_now(), seconds = fmin(now - w->flown, 0.1);
+    double now = glfwGetTime(), seconds = fmin(now - w->flown, 0.1);
     bool control = glfwGetKey(g, GLFW_KEY_LEFT_CONTROL) || glfwGetKey(g, GLFW_KEY_RIGHT_CONTROL);
     bool s = w->s_down > 0 && !control && (now - w->s_down >= TAP || w->drag == GLFW_MOUSE_BUTTON_RIGHT);
     int forward = held(w, 1, GLFW_KEY_UP) - (s || glfwGetKey(g, GLFW_KEY_DOWN));

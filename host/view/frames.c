@@ -4,11 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
-
-void ec_frames_add(ec_frames *f, int moving, uint64_t pictures)
+void ec_frames_add(ec_frames *f, double now, int moving, uint64_t pictures)
 {
-    double now = ec_now();
     if (!f->seconds) f->seconds = malloc(EC_FRAMES_MOST * sizeof *f->seconds);
     if (moving && f->last > 0 && f->seconds && f->count < EC_FRAMES_MOST) {
         f->seconds[f->count++] = now - f->last;

@@ -9,12 +9,12 @@ enum { EC_FRAMES_MOST = 65536 };
 typedef struct ec_frames {
     double *seconds; /* owned */
     uint32_t count;
-    double last;     /* ec_now of the last frame; 0: it does not count */
+    double last;     /* when the last frame was there; 0: it does not count */
     uint64_t first_picture, pictures;
 } ec_frames;
 
-/* A frame is on the screen; pictures: shown since the start. moving: it counts. */
-void ec_frames_add(ec_frames *frames, int moving, uint64_t pictures);
+/* A frame is on the screen now, in seconds; pictures: shown since the start. moving: it counts. */
+void ec_frames_add(ec_frames *frames, double now, int moving, uint64_t pictures);
 void ec_frames_print(const ec_frames *frames, double first_light, FILE *to);
 void ec_frames_free(ec_frames *frames);
 

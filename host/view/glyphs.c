@@ -1,6 +1,7 @@
 #include "view/glyphs.h"
 
 #include <epoxy/gl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #pragma GCC diagnostic push
@@ -11,6 +12,8 @@
 #include <stb_truetype.h>
 #pragma GCC diagnostic pop
 
+#include "view/fail.h"
+
 extern const unsigned char ec_bytes_font[]; /* tools/embed_bytes.py */
 
 enum { FIRST = 32, COUNT = 95, ATLAS_MOST = 2048 };
@@ -20,13 +23,13 @@ struct ec_view_glyphs {
     int atlas;
 };
 
-static ec_result pack(ec_view_text *t, unsigned char *pixels, int atlas, double size)
+static bool pack(ec_view_text *t, unsigned char *pixels, int atlas, double size)
 {
     stbtt_pack_context context;
-    if (!stbtt_PackBegin(&context, pixels, atlas, atlas, 0, 1, NULL)) return EC_FAILED;
+    if (!stbtt_PackBegin(&context, pixels, atlas, atlas, 0, 1, NULL)) return false;
     int fits = stbtt_PackFontRange(&context, ec_bytes_font, 0, (float)size, FIRST, COUNT, t->glyphs->packed);
     stbtt_PackEnd(&context);
-    return fits ? EC_OK : EC_FAILED;
+    return fits;
 }
 
 static void upload(ec_view_text *t, const unsigned char *pixels)
@@ -40,7 +43,7 @@ static void upload(ec_view_text *t, const unsigned char *pixels)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-ec_result ec_view_text_make(ec_view_text *t, double size, ec_error *err)
+eclat_result ec_view_text_make(ec_view_text *t, double size, eclat_error *err)
 {
     stbtt_fontinfo font;
     int ascent, descent, gap;
@@ -48,7 +51,7 @@ ec_result ec_view_text_make(ec_view_text *t, double size, ec_error *err)
     unsigned char *pixels = malloc((size_t)ATLAS_MOST * ATLAS_MOST);
     bool fits = t->glyphs && pixels && stbtt_InitFont(&font, ec_bytes_font, 0);
     for (int atlas = 256; fits && !t->size && atlas <= ATLAS_MOST; atlas *= 2)
-        if (pack(t, pixels, atlas, size) == EC_OK) t->glyphs->atlas = atlas, t->size = size;
+        if (pack(t, pixels, atlas, size)) t->glyphs->atlas = atlas, t->size = size;
     if (t->size > 0) {
         stbtt_GetFontVMetrics(&font, &ascent, &descent, &gap);
         double scale = (double)stbtt_ScaleForPixelHeight(&font, (float)size);
@@ -58,9 +61,9 @@ ec_result ec_view_text_make(ec_view_text *t, double size, ec_error *err)
         upload(t, pixels);
     }
     free(pixels);
-    if (t->size > 0) return EC_OK;
+    if (t->size > 0) return ECLAT_OK;
     ec_view_text_free(t);
-    return ec_fail(err, "no text of %g pixels for the preview window", size);
+    return ec_view_fail(err, "no text of %g pixels for the preview window", size);
 }
 
 void ec_view_text_free(ec_view_text *t)

@@ -4,7 +4,7 @@
 #ifndef EC_VIEW_GLYPHS_H
 #define EC_VIEW_GLYPHS_H
 
-#include "base/error.h"
+#include <eclat/eclat.h>
 
 typedef struct ec_view_text {
     unsigned texture;
@@ -15,7 +15,7 @@ typedef struct ec_view_text {
 #define EC_TEXT_NARROW 0.52 /* a character's width over `size`, about */
 
 /* size: pixels of a line's height */
-ec_result ec_view_text_make(ec_view_text *text, double size, ec_error *err);
+eclat_result ec_view_text_make(ec_view_text *text, double size, eclat_error *err);
 void ec_view_text_free(ec_view_text *text); /* zero-initialised is fine */
 
 /* One line, its top left corner at x, y: pixels from the bottom left of the window. Draws nothing past `right`. Characters beyond

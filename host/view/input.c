@@ -3,42 +3,44 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "view/lists.h"
 #include "view/orbit.h"
 
 static const double half_turn = 3.14159265358979323846;
 
-void ec_view_input_learn(ec_view_input *in, const ec_view_facts *facts)
+static const eclat_viewpoint *scene_camera(const ec_view_input *in)
 {
-    bool first = in->facts.serial == 0;
+    const eclat_facts *f = &in->facts;
+    return &f->cameras[in->wish.camera < 0 ? f->camera : (uint32_t)in->wish.camera];
+}
+
+/* A camera that nobody moved stays where it was too, whatever the file says now. */
+void ec_view_input_learn(ec_view_input *in, const eclat_facts *facts)
+{
+    eclat_wish *w = &in->wish;
+    bool is_first = in->facts.serial == 0, is_there = w->camera < (int32_t)facts->camera_count;
     in->facts = *facts;
-    if (first) in->wish.camera = in->asked.camera = facts->camera;
-    if (in->wish.camera >= facts->camera_count) in->wish.camera = 0;
-    if (!in->wish.moved) in->wish.viewpoint = facts->cameras[in->wish.camera];
+    if (!is_there) w->camera = 0;
+    if (is_first && !w->is_moved) w->viewpoint = *scene_camera(in);
+    if (!is_there || memcmp(&w->viewpoint, scene_camera(in), sizeof w->viewpoint)) w->is_moved = true;
     in->selected.node = -1;
 }
 
 /* From here on the camera is the window's own. */
-static ec_viewpoint *take_camera(ec_view_input *in)
+static eclat_viewpoint *take_camera(ec_view_input *in)
 {
-    ec_view_wish *w = &in->wish;
-    if (!w->moved) w->viewpoint = in->facts.cameras[w->camera], ec_orbit_settle(&w->viewpoint);
+    eclat_wish *w = &in->wish;
+    if (!w->is_moved) ec_orbit_settle(&w->viewpoint);
     return &w->viewpoint;
 }
 
-static void moved(ec_view_input *in)
-{
-    ec_orbit_round(&in->wish.viewpoint);
-    in->wish.moved = in->wish.moving = true;
-    in->moved_at = ec_now();
-}
+static void moved(ec_view_input *in) { in->wish.is_moved = in->wish.is_moving = in->moved = true; }
 
 /* In radii of the scene, as far as floats tell eye and target apart and the scene from a point; from beyond it goes only back. */
 static void dolly(ec_view_input *in, double factor)
 {
     const double least = 1e-6 * in->facts.radius, most = 1e4 * in->facts.radius;
-    ec_viewpoint *v = take_camera(in);
+    eclat_viewpoint *v = take_camera(in);
     double now = v->fov > 0 ? ec_orbit_distance(v) : v->tall, wanted = now * factor;
     if (wanted < least) wanted = fmin(least, now);
     if (wanted > most) wanted = fmax(most, now);
@@ -47,38 +49,41 @@ static void dolly(ec_view_input *in, double factor)
 
 static void frame(ec_view_input *in)
 {
-    const ec_view_probe *node = in->selected.node >= 0 ? &in->selected : &in->under;
+    const eclat_probe *node = in->selected.node >= 0 ? &in->selected : &in->under;
     bool some = node->node >= 0 && node->radius > 0;
     ec_orbit_frame(take_camera(in), some ? node->center : in->facts.center, some ? node->radius : in->facts.radius,
                    (double)in->wish.width / in->wish.height);
     moved(in);
 }
 
+static void show_camera(ec_view_input *in, int32_t camera)
+{
+    in->wish.is_moved = false;
+    in->wish.camera = camera;
+    in->wish.viewpoint = *scene_camera(in);
+}
+
 static void reset(ec_view_input *in)
 {
-    ec_view_wish *w = &in->wish;
-    w->moved = false;
-    w->camera = in->facts.camera;
-    w->viewpoint = in->facts.cameras[w->camera];
-    w->exposure = in->request->exposure;
-    w->tonemap = in->request->tonemap;
-    w->env_degrees = in->request->env_degrees;
+    eclat_wish *w = &in->wish;
+    show_camera(in, -1);
+    w->exposure = in->first.exposure;
+    w->tonemap = in->first.tonemap;
+    w->env_degrees = in->first.env_degrees;
     in->selected.node = -1;
 }
 
 static void next_camera(ec_view_input *in)
 {
-    ec_view_wish *w = &in->wish;
-    w->camera = w->moved ? w->camera : (w->camera + 1) % in->facts.camera_count;
-    w->moved = false;
-    w->viewpoint = in->facts.cameras[w->camera];
+    uint32_t shown = in->wish.camera < 0 ? in->facts.camera : (uint32_t)in->wish.camera;
+    show_camera(in, in->wish.is_moved ? in->wish.camera : (int32_t)((shown + 1) % in->facts.camera_count));
 }
 
 static void next_second(ec_view_input *in)
 {
-    uint32_t count = in->request->against ? EC_SECOND_COUNT : EC_SECOND_FILE;
+    const eclat_second last = in->has_file ? ECLAT_SECOND_FILE : ECLAT_SECOND_INTEGRATOR;
     if (in->layout == EC_LAYOUT_ONE) in->layout = EC_LAYOUT_WIPE;
-    else in->wish.second = (ec_view_second)((in->wish.second + 1) % count);
+    else in->second = in->second == last ? ECLAT_SECOND_ERROR : (eclat_second)(in->second + 1);
 }
 
 static void turn_environment(ec_view_input *in, double degrees)
@@ -88,7 +93,7 @@ static void turn_environment(ec_view_input *in, double degrees)
 
 void ec_view_input_do(ec_view_input *in, ec_view_action action)
 {
-    ec_view_wish *w = &in->wish;
+    eclat_wish *w = &in->wish;
     bool of_scene = action == EC_DO_CAMERA || action == EC_DO_FRAME || action == EC_DO_RESET;
     if (of_scene && !in->facts.serial) return; /* it is being loaded; all else is for it to be seen so */
     switch (action) {
@@ -96,10 +101,10 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_HELP: in->help = !in->help, in->effects = false; break;
     case EC_DO_INTEGRATOR_PATH:
     case EC_DO_INTEGRATOR_WHITTED:
-    case EC_DO_INTEGRATOR_RASTER: w->integrator = (ec_integrator)(action - EC_DO_INTEGRATOR_PATH); break;
-    case EC_DO_BRIGHTER: w->exposure = fmin(round(3 * w->exposure + 1) / 3, EC_EXPOSURE_MOST); break;
-    case EC_DO_DARKER: w->exposure = fmax(round(3 * w->exposure - 1) / 3, -EC_EXPOSURE_MOST); break;
-    case EC_DO_TONEMAP: w->tonemap = w->tonemap == EC_TONEMAP_NEUTRAL ? EC_TONEMAP_NONE : EC_TONEMAP_NEUTRAL; break;
+    case EC_DO_INTEGRATOR_RASTER: w->integrator = (eclat_integrator)(action - EC_DO_INTEGRATOR_PATH); break;
+    case EC_DO_BRIGHTER: w->exposure = round(3 * w->exposure + 1) / 3; break;
+    case EC_DO_DARKER: w->exposure = round(3 * w->exposure - 1) / 3; break;
+    case EC_DO_TONEMAP: w->tonemap = w->tonemap == ECLAT_TONEMAP_NEUTRAL ? ECLAT_TONEMAP_NONE : ECLAT_TONEMAP_NEUTRAL; break;
     case EC_DO_ENV_LEFT: turn_environment(in, -5); break;
     case EC_DO_ENV_RIGHT: turn_environment(in, 5); break;
     case EC_DO_CAMERA: next_camera(in); break;
@@ -107,16 +112,16 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_RESET: reset(in); break;
     case EC_DO_SECOND: next_second(in); break;
     case EC_DO_LAYOUT: in->layout = (ec_view_layout)((in->layout + 1) % EC_LAYOUT_COUNT); break;
-    case EC_DO_RUNG: w->rung = (ec_integrator)((w->rung + 1) % EC_INTEGRATOR_COUNT); break;
+    case EC_DO_RUNG: w->second_integrator = (eclat_integrator)((w->second_integrator + 1) % ECLAT_INTEGRATOR_COUNT); break;
     case EC_DO_LINES: in->lines = (ec_view_lines)((in->lines + 1) % EC_LINES_COUNT); break;
     case EC_DO_EFFECTS: in->effects = !in->effects, in->effects_page = 0, in->help = false; break;
     case EC_DO_MORE: w->more++; break;
-    case EC_DO_SAVE: w->saves++, in->asked = *w; break;
+    case EC_DO_SAVE: in->saves = eclat_live_save(in->live, w); break;
     case EC_DO_RELOAD: w->reloads++; break;
     case EC_DO_FULLSCREEN: in->fullscreen = !in->fullscreen; break;
     case EC_DO_QUIT: in->quit = true; break;
     }
-    w->has_second = in->layout != EC_LAYOUT_ONE;
+    w->second = in->layout != EC_LAYOUT_ONE ? in->second : ECLAT_SECOND_NONE;
 }
 
 void ec_view_input_turn(ec_view_input *in, double yaw, double pitch)
@@ -127,7 +132,7 @@ void ec_view_input_turn(ec_view_input *in, double yaw, double pitch)
 
 void ec_view_input_drag(ec_view_input *in, ec_view_drag drag, double dx, double dy)
 {
-    ec_viewpoint *v = take_camera(in);
+    eclat_viewpoint *v = take_camera(in);
     switch (drag) { /* what is under the hand follows it */
     case EC_DRAG_ORBIT: ec_orbit_turn(v, -half_turn * dx, half_turn * dy); break;
     case EC_DRAG_PAN: ec_orbit_pan(v, -dx, dy); break;
@@ -162,7 +167,8 @@ bool ec_view_input_knows(const char *name)
 
 void ec_view_input_key(ec_view_input *in, const char *name)
 {
+    const eclat_effect *effect = in->effects && is_digit(name) ? ec_view_effect_of_digit(&in->facts, in->effects_page, name[0] - '0') : NULL;
     if (!in->effects || !is_digit(name)) ec_view_input_do(in, ec_view_action_of(name));
     else if (name[0] == '0') in->effects_page++;
-    else in->wish.without ^= ec_view_effect_of_digit(&in->facts, in->effects_page, name[0] - '0');
+    else if (effect) in->wish.without ^= effect->bit;
 }

@@ -7,7 +7,7 @@
 typedef enum ec_view_action {
     EC_DO_NOTHING, /* a line of help only: what the mouse does, or held keys */
     EC_DO_HELP,
-    EC_DO_INTEGRATOR_PATH, /* in the order of ec_integrator */
+    EC_DO_INTEGRATOR_PATH, /* in the order of eclat_integrator */
     EC_DO_INTEGRATOR_WHITTED,
     EC_DO_INTEGRATOR_RASTER,
     EC_DO_BRIGHTER,

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "pack/called_effects.h"
 #include "view/block.h"
 #include "view/keys.h"
 
@@ -47,35 +46,29 @@ void ec_view_help_draw(const ec_view_text *text, double width, double height)
     ec_block_draw(&b, 0, height, width);
 }
 
-static uint32_t pages_of(const ec_view_facts *facts)
+static uint32_t pages_of(const eclat_facts *facts)
 {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < ec_feature_count; i++) count += (facts->optional & ec_features[i].bit) != 0;
-    return count ? (count + 8) / 9 : 1;
+    return facts->effect_count ? (facts->effect_count + 8) / 9 : 1;
 }
 
-uint64_t ec_view_effect_of_digit(const ec_view_facts *facts, uint32_t page, int digit)
+const eclat_effect *ec_view_effect_of_digit(const eclat_facts *facts, uint32_t page, int digit)
 {
-    uint32_t wanted = page % pages_of(facts) * 9 + (uint32_t)digit;
-    for (uint32_t i = 0, n = 1; i < ec_feature_count; i++)
-        if ((facts->optional & ec_features[i].bit) && n++ == wanted) return ec_features[i].bit;
-    return 0;
+    uint32_t index = page % pages_of(facts) * 9 + (uint32_t)digit - 1;
+    return digit && index < facts->effect_count ? &facts->effects[index] : NULL;
 }
 
-void ec_view_effects_draw(const ec_view_facts *facts, uint32_t page, uint64_t without, const ec_view_text *text, double width,
-                          double height)
+void ec_view_effects_draw(const eclat_facts *facts, uint32_t page, uint64_t without, const ec_view_text *text, double width, double height)
 {
-    char line[320], name[300];
+    char line[320];
     ec_view_block b;
     ec_block_start(&b, text, width, height);
     ec_block_add(&b, "effects: a digit switches one off or on, X closes", 2, white);
-    if (!facts->optional) ec_block_add(&b, "the scene calls for none that can be left out", 2, grey);
+    if (!facts->effect_count) ec_block_add(&b, "the scene calls for none that can be left out", 2, grey);
     for (int digit = 1; digit <= 9; digit++) {
-        uint64_t bit = ec_view_effect_of_digit(facts, page, digit);
-        if (!bit) break;
-        ec_feature_names(bit, name, sizeof name);
-        snprintf(line, sizeof line, "%d  %-3s  %s", digit, without & bit ? "off" : "on", name);
-        ec_block_add(&b, line, 8, without & bit ? grey : white);
+        const eclat_effect *effect = ec_view_effect_of_digit(facts, page, digit);
+        if (!effect) break;
+        snprintf(line, sizeof line, "%d  %-3s  %s", digit, without & effect->bit ? "off" : "on", effect->name);
+        ec_block_add(&b, line, 8, without & effect->bit ? grey : white);
     }
     if (pages_of(facts) > 1) {
         snprintf(line, sizeof line, "0       more (%u of %u)", page % pages_of(facts) + 1, pages_of(facts));

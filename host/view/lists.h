@@ -2,7 +2,8 @@
 #ifndef EC_VIEW_LISTS_H
 #define EC_VIEW_LISTS_H
 
-#include "view/shared.h"
+#include <eclat/eclat.h>
+
 #include "view/glyphs.h"
 
 /* The largest text, in pixels, but no larger than `most`, with which all of the help is seen. */
@@ -10,10 +11,9 @@ double ec_view_help_size(double most, double width, double height);
 void ec_view_help_draw(const ec_view_text *text, double width, double height);
 
 /* Nine at a time. page: any number. */
-void ec_view_effects_draw(const ec_view_facts *facts, uint32_t page, uint64_t without, const ec_view_text *text,
-                          double width, double height);
+void ec_view_effects_draw(const eclat_facts *facts, uint32_t page, uint64_t without, const ec_view_text *text, double width, double height);
 
-/* The effect that a digit from 1 on means there; 0: none. */
-uint64_t ec_view_effect_of_digit(const ec_view_facts *facts, uint32_t page, int digit);
+/* What a digit from 1 on means there; NULL: nothing. */
+const eclat_effect *ec_view_effect_of_digit(const eclat_facts *facts, uint32_t page, int digit);
 
 #endif

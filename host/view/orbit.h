@@ -2,32 +2,29 @@
 #ifndef EC_VIEW_ORBIT_H
 #define EC_VIEW_ORBIT_H
 
-#include "scene/scene.h"
+#include <eclat/eclat.h>
 
 /* The up that a camera turns about: +y where it has no roll, else its own. */
-void ec_orbit_settle(ec_viewpoint *v);
+void ec_orbit_settle(eclat_viewpoint *v);
 
 /* Around the target by angles in radians: yaw > 0 moves the eye to the right, pitch > 0 up. Never over a pole. */
-void ec_orbit_turn(ec_viewpoint *v, double yaw, double pitch);
+void ec_orbit_turn(eclat_viewpoint *v, double yaw, double pitch);
 
 /* Turns the head: the target moves around the eye; yaw > 0 looks to the right, pitch > 0 up. */
-void ec_orbit_look(ec_viewpoint *v, double yaw, double pitch);
+void ec_orbit_look(eclat_viewpoint *v, double yaw, double pitch);
 
 /* Eye and target sideways and upwards, in heights of the picture at the target. */
-void ec_orbit_pan(ec_viewpoint *v, double right, double up);
+void ec_orbit_pan(eclat_viewpoint *v, double right, double up);
 
 /* The eye comes nearer to the target: its distance times factor. Parallel rays show less instead. */
-void ec_orbit_dolly(ec_viewpoint *v, double factor);
+void ec_orbit_dolly(eclat_viewpoint *v, double factor);
 
 /* Eye and target move by metres along the camera's axes. */
-void ec_orbit_fly(ec_viewpoint *v, double forward, double right, double up);
+void ec_orbit_fly(eclat_viewpoint *v, double forward, double right, double up);
 
 /* The target becomes `center`, from the same direction; a sphere of that radius just fits a picture of that aspect (width / height). */
-void ec_orbit_frame(ec_viewpoint *v, const double center[3], double radius, double aspect);
+void ec_orbit_frame(eclat_viewpoint *v, const double center[3], double radius, double aspect);
 
-double ec_orbit_distance(const ec_viewpoint *v);
-
-/* To numbers of nine digits, as the command line that repeats the picture has them. */
-void ec_orbit_round(ec_viewpoint *v);
+double ec_orbit_distance(const eclat_viewpoint *v);
 
 #endif

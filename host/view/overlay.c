@@ -5,14 +5,20 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text.h"
-#include "pack/called_effects.h"
-#include "report/format.h"
-#include "report/names.h"
 #include "view/block.h"
 #include "view/lists.h"
 
 static const float white[3] = {1, 1, 1}, grey[3] = {0.78f, 0.82f, 0.86f}, yellow[3] = {1, 0.85f, 0.4f}, red[3] = {1, 0.5f, 0.45f};
+
+static const char *const integrators[] = {"path", "whitted", "raster"}, *const tonemaps[] = {"neutral", "none"};
+
+/* Three digits. */
+static void format_percent(double fraction, char *text, size_t size)
+{
+    int decimals = 0;
+    for (double limit = 99.95; 100 * fraction < limit && decimals < 6; limit /= 10) decimals++;
+    snprintf(text, size, "%.*f %%", decimals, 100 * fraction);
+}
 
 static void format_seconds(double seconds, char *text, size_t size)
 {
@@ -24,27 +30,27 @@ static void format_seconds(double seconds, char *text, size_t size)
 /* "38.2 s left to 1 % error" */
 static void format_prediction(const ec_view_overlay *o, char *text, size_t size)
 {
-    const ec_view_status *s = o->status;
+    const eclat_status *s = o->status;
     char target[96] = "", left[32];
     if (s->error_limit > 0) snprintf(target, sizeof target, "error %.3g %%", 100 * s->error_limit);
     size_t used = strlen(target);
     if (s->spp_limit > 0) snprintf(target + used, sizeof target - used, "%s%.0f spp", used ? " or " : "", s->spp_limit);
     used = strlen(target);
     if (s->time_limit > 0) snprintf(target + used, sizeof target - used, "%s%.3g s", used ? " or " : "", s->time_limit);
-    format_seconds(fmax(s->forecast.seconds - s->seconds, 0), left, sizeof left);
-    if (s->done) snprintf(text, size, "done by %s (M: more)", s->stopped_by);
-    else if (s->forecast.pilot_samples) snprintf(text, size, "%s left to %s", left, target);
+    format_seconds(s->seconds_left, left, sizeof left);
+    if (s->is_complete) snprintf(text, size, "done by %s (M: more)", s->stopped_by);
+    else if (s->seconds_left >= 0) snprintf(text, size, "%s left to %s", left, target);
     else snprintf(text, size, "until %s", target);
 }
 
 static void format_state(const ec_view_overlay *o, char *text, size_t size)
 {
-    const ec_view_status *s = o->status;
+    const eclat_status *s = o->status;
     char error[32] = "?", bound[48] = "bound unknown", seconds[32], prediction[160];
-    if (isfinite(s->error)) ec_format_percent(s->error, error, sizeof error);
+    if (isfinite(s->error)) format_percent(s->error, error, sizeof error);
     if (isfinite(s->error_bound)) {
         char percent[32];
-        ec_format_percent(s->error_bound, percent, sizeof percent);
+        format_percent(s->error_bound, percent, sizeof percent);
         snprintf(bound, sizeof bound, "95 %% bound %s", percent);
     } else if (isfinite(s->error)) {
         snprintf(bound, sizeof bound, "or more: rare bright paths decide");
@@ -53,46 +59,44 @@ static void format_state(const ec_view_overlay *o, char *text, size_t size)
     format_prediction(o, prediction, sizeof prediction);
     if (s->pictures == 0) snprintf(text, size, "no picture yet");
     else if (s->preview)
-        snprintf(text, size, "%s, preview: a sample for %ux%u pixels", ec_integrator_names[s->integrator], s->preview,
-                 s->preview);
+        snprintf(text, size, "%s, preview: a sample for %ux%u pixels", integrators[s->integrator], s->preview, s->preview);
     else
-        snprintf(text, size, "%s  %" PRIu64 " spp  error %s (%s)  %s  %s",
-                 ec_integrator_names[s->integrator], s->samples, error, bound, seconds, prediction);
+        snprintf(text, size, "%s  %" PRIu64 " spp  error %s (%s)  %s  %s", integrators[s->integrator], s->samples, error, bound, seconds, prediction);
 }
 
 static void format_probe(const ec_view_overlay *o, char *text, size_t size)
 {
-    const ec_view_probe *p = &o->status->probe;
+    const eclat_probe *p = &o->status->under;
     size_t used = (size_t)snprintf(text, size, "(%u, %u)", p->x, p->y);
-    if (p->has_film)
-        used +=
-            (size_t)snprintf(text + used, size - used, "  radiance %.4g %.4g %.4g", p->rgb[0], p->rgb[1], p->rgb[2]);
+    if (p->has_value) used += (size_t)snprintf(text + used, size - used, "  radiance %.4g %.4g %.4g", p->rgb[0], p->rgb[1], p->rgb[2]);
     if (p->has_error) used += (size_t)snprintf(text + used, size - used, "  +- %.2g %.2g %.2g", p->se[0], p->se[1], p->se[2]);
     if (p->has_surface)
-        snprintf(text + used, size - used, "  depth %.5g m  material %lld %s", p->depth, (long long)p->material,
-                 p->name);
+        snprintf(text + used, size - used, "  depth %.5g m  material %" PRId64 " %s", p->depth, p->material, p->material_name);
     else snprintf(text + used, size - used, "  no surface");
 }
 
 static void format_settings(const ec_view_overlay *o, char *text, size_t size)
 {
-    const ec_view_wish *w = o->wish;
+    const eclat_wish *w = &o->input->wish;
+    const eclat_facts *f = &o->input->facts;
     char turned[48] = "", without[300] = "", camera[32] = "moved";
+    size_t used = 0;
     if (w->env_degrees != 0) snprintf(turned, sizeof turned, "  environment %g deg", w->env_degrees);
-    ec_feature_names(w->without & o->facts->optional, without, sizeof without);
-    if (!w->moved) snprintf(camera, sizeof camera, "%u", w->camera);
-    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", o->request->device.name, camera, w->exposure,
-             ec_tonemap_names[w->tonemap], turned, *without ? "  without " : "", without);
+    for (uint32_t i = 0; i < f->effect_count && used < sizeof without; i++)
+        if (w->without & f->effects[i].bit) used += (size_t)snprintf(without + used, sizeof without - used, " %s", f->effects[i].name);
+    if (!w->is_moved) snprintf(camera, sizeof camera, "%u", w->camera < 0 ? f->camera : (uint32_t)w->camera);
+    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", f->device, camera, w->exposure, tonemaps[w->tonemap], turned,
+             used ? "  without" : "", without);
 }
 
 /* Under the top of the window, and above the foot: what needs to be read now. */
 static void draw_messages(const ec_view_overlay *o, const ec_view_text *text, double width, double height, double foot)
 {
-    const ec_view_status *s = o->status;
+    const eclat_status *s = o->status;
     char line[80];
     ec_view_block b;
     ec_block_start(&b, text, width, height - foot);
-    for (int i = 0; i < EC_TROUBLE_COUNT; i++) ec_block_add(&b, s->trouble[i], 2, red);
+    for (int i = 0; i < ECLAT_TROUBLE_COUNT; i++) ec_block_add(&b, s->trouble[i], 2, red);
     if (*s->loading) snprintf(line, sizeof line, "%s ...", s->loading), ec_block_add(&b, line, 2, yellow);
     if (o->message) ec_block_add(&b, s->told, 2, yellow);
     ec_block_draw(&b, 0, height, width);
@@ -103,17 +107,19 @@ static void draw_messages(const ec_view_overlay *o, const ec_view_text *text, do
 static double draw_foot(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
 {
     char state[400], settings[1000], effects[1200], probe[400];
-    bool selected = o->selected->node >= 0;
+    const eclat_probe *selected = &o->input->selected;
+    const bool is_selected = selected->node >= 0, has_all = o->input->lines == EC_LINES_ALL;
     ec_view_block b;
     format_state(o, state, sizeof state);
     format_settings(o, settings, sizeof settings);
     format_probe(o, probe, sizeof probe);
-    snprintf(effects, sizeof effects, "effects: %s%s%s", o->status->effects, selected ? "  selected: " : "", selected ? o->selected->node_name : "");
-    for (int with_probe = o->status->probe.is_inside && o->lines == EC_LINES_ALL; with_probe >= 0; with_probe--) {
+    snprintf(effects, sizeof effects, "effects: %s%s%s", o->status->effects, is_selected ? "  selected: " : "",
+             is_selected ? selected->node_name : "");
+    for (int with_probe = o->status->under.is_inside && has_all; with_probe >= 0; with_probe--) {
         ec_block_start(&b, text, width, 0.5 * height);
         bool fits = !with_probe || ec_block_add(&b, probe, 2, grey);
         fits = ec_block_add(&b, state, 2, white) && fits;
-        if (o->lines == EC_LINES_ALL) fits = ec_block_add(&b, settings, 2, grey) && ec_block_add(&b, effects, 2, grey) && fits;
+        if (has_all) fits = ec_block_add(&b, settings, 2, grey) && ec_block_add(&b, effects, 2, grey) && fits;
         if (fits) break;
     }
     ec_block_draw(&b, 0, ec_block_height(&b), width);
@@ -123,14 +129,14 @@ static double draw_foot(const ec_view_overlay *o, const ec_view_text *text, doub
 /* What the second picture is, in its upper right corner. */
 static void draw_label(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
 {
-    const ec_view_wish *w = o->wish;
+    const eclat_wish *w = &o->input->wish;
     char line[300];
     ec_view_block b;
     switch (w->second) {
-    case EC_SECOND_ERROR: snprintf(line, sizeof line, "standard error: black 0.1 %%, yellow 100 %%"); break;
-    case EC_SECOND_SAMPLES: snprintf(line, sizeof line, "samples: black 0, yellow %" PRIu64, o->status->samples); break;
-    case EC_SECOND_RUNG: snprintf(line, sizeof line, "%s", ec_integrator_names[w->rung]); break;
-    default: snprintf(line, sizeof line, "%.*s", EC_CUT(o->request->against ? o->request->against : "", 250)); break;
+    case ECLAT_SECOND_ERROR: snprintf(line, sizeof line, "standard error: black 0.1 %%, yellow 100 %%"); break;
+    case ECLAT_SECOND_SAMPLES: snprintf(line, sizeof line, "samples: black 0, yellow %" PRIu64, o->status->samples); break;
+    case ECLAT_SECOND_INTEGRATOR: snprintf(line, sizeof line, "%s", integrators[w->second_integrator]); break;
+    default: snprintf(line, sizeof line, "%.250s", o->against ? o->against : ""); break;
     }
     ec_block_start(&b, text, 0.5 * width, height);
     ec_block_add(&b, line, 2, white);
@@ -140,13 +146,14 @@ static void draw_label(const ec_view_overlay *o, const ec_view_text *text, doubl
 
 void ec_view_overlay_draw(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
 {
-    if (o->help) {
+    const ec_view_input *in = o->input;
+    if (in->help) {
         ec_view_help_draw(o->small, width, height);
         return;
     }
-    double foot = o->lines != EC_LINES_NONE ? draw_foot(o, text, width, height) : 0;
-    if (o->layout != EC_LAYOUT_ONE && o->lines != EC_LINES_NONE)
-        draw_label(o, text, width, o->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
-    if (o->effects) ec_view_effects_draw(o->facts, o->effects_page, o->wish->without, text, width, height);
+    double foot = in->lines != EC_LINES_NONE ? draw_foot(o, text, width, height) : 0;
+    if (in->layout != EC_LAYOUT_ONE && in->lines != EC_LINES_NONE)
+        draw_label(o, text, width, in->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
+    if (in->effects) ec_view_effects_draw(&in->facts, in->effects_page, in->wish.without, text, width, height);
     else draw_messages(o, text, width, height, foot);
 }

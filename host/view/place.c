@@ -3,7 +3,6 @@
 #include <GLFW/glfw3.h>
 #include <math.h>
 
-#include "base/clock.h"
 #include "view/window.h"
 
 #define SETTLES 1 /* seconds in which window managers have moved windows from a monitor that is gone, some of them hardly into sight, and
@@ -89,8 +88,8 @@ void ec_window_follow_monitors(ec_window *w)
 {
     double area;
     bool changed = w->monitor_changes != monitor_changes;
-    if (changed) w->monitors_settle = ec_now() + SETTLES;
-    else if (ec_now() > w->monitors_settle) return;
+    if (changed) w->monitors_settle = glfwGetTime() + SETTLES;
+    else if (glfwGetTime() > w->monitors_settle) return;
     w->monitor_changes = monitor_changes;
     GLFWmonitor *monitor = glfwGetWindowMonitor(w->glfw);
     if (monitor && changed) fill(w->glfw, monitor); /* it may lie elsewhere now */
@@ -125,6 +124,12 @@ static void take_size(ec_window *w, bool hidden)
     move_to(w->glfw, &now, &wanted);
 }
 
+void ec_window_fit(ec_window *w, int width, int height)
+{
+    w->input.wish.width = (uint32_t)fmin(fmax(width, 1), w->textures.largest); /* beyond that it is stretched */
+    w->input.wish.height = (uint32_t)fmin(fmax(height, 1), w->textures.largest);
+}
+
 void ec_window_stand(ec_window *w, uint32_t width, uint32_t height)
 {
     w->asked_width = width;
@@ -136,14 +141,14 @@ void ec_window_stand(ec_window *w, uint32_t width, uint32_t height)
     glfwPollEvents();
     take_size(w, false); /* on which monitor it stands, and how dense that is, is known only now */
     glfwPollEvents();
-    w->opens_until = ec_now() + SETTLES;
+    w->opens_until = glfwGetTime() + SETTLES;
 }
 
 void ec_window_rescale(ec_window *w, double scale)
 {
     w->scale = scale;
     w->dirty = true;
-    if (ec_now() < w->opens_until) take_size(w, false);
+    if (glfwGetTime() < w->opens_until) take_size(w, false);
 }
 
 void ec_window_fullscreen(ec_window *w, bool on)

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "view/fail.h"
+
 static const struct {
     const char *verb;
     int numbers; /* that follow it; -1: a key */
@@ -30,27 +32,27 @@ static bool read_step(const char *line, ec_script_step *step)
     return false;
 }
 
-ec_result ec_script_read(ec_script *s, const char *name, ec_error *err)
+eclat_result ec_script_read(ec_script *s, const char *name, eclat_error *err)
 {
     char *line = NULL;
     size_t room = 0;
     *s = (ec_script){.count = 0};
     if (!strcmp(name, "orbit")) {
         s->steps[s->count++] = (ec_script_step){.verb = "turn", .a = 360, .seconds = 6};
-        return EC_OK;
+        return ECLAT_OK;
     }
     FILE *file = fopen(name, "r");
-    if (!file) return ec_fail(err, "cannot read the script '%s': %s", name, strerror(errno));
-    ec_result result = EC_OK;
-    for (int number = 1; result == EC_OK && getline(&line, &room, file) >= 0; number++) {
+    if (!file) return ec_view_fail(err, "cannot read the script '%s': %s", name, strerror(errno));
+    eclat_result result = ECLAT_OK;
+    for (int number = 1; result == ECLAT_OK && getline(&line, &room, file) >= 0; number++) {
         line[strcspn(line, "#\n")] = 0;
         if (!line[strspn(line, " \t\r")]) continue;
-        if (s->count == EC_SCRIPT_STEPS) result = ec_fail(err, "%s:%d: more than %d steps", name, number, EC_SCRIPT_STEPS);
+        if (s->count == EC_SCRIPT_STEPS) result = ec_view_fail(err, "%s:%d: more than %d steps", name, number, EC_SCRIPT_STEPS);
         else if (!read_step(line, &s->steps[s->count]))
-            result = ec_fail(err, "%s:%d: '%.200s' is no step; see 'eclat view --help'", name, number, line);
+            result = ec_view_fail(err, "%s:%d: '%.200s' is no step; see 'eclat view --help'", name, number, line);
         else s->count++;
     }
-    if (result == EC_OK && ferror(file)) result = ec_fail(err, "cannot read the script '%s': %s", name, strerror(errno));
+    if (result == ECLAT_OK && ferror(file)) result = ec_view_fail(err, "cannot read the script '%s': %s", name, strerror(errno));
     free(line);
     fclose(file);
     return result;
@@ -71,17 +73,16 @@ static bool is_move(const ec_script_step *step)
 }
 
 /* Runs a step that takes no time; is it over? */
-static bool is_over(const ec_script_step *step, ec_view_input *in, const ec_view_status *status)
+static bool is_over(const ec_script_step *step, ec_view_input *in, const eclat_status *status)
 {
-    bool saving = in->wish.saves != status->saves_done;
-    if (!strcmp(step->verb, "settle")) return status->settled == in->wish.serial && !saving && !*status->loading;
-    if (!strcmp(step->verb, "quit")) in->quit = !saving;
+    if (!strcmp(step->verb, "settle")) return status->is_settled;
+    if (!strcmp(step->verb, "quit")) in->quit = in->saves == status->saves;
     if (!strcmp(step->verb, "key")) ec_view_input_key(in, step->key);
     if (is_move(step)) do_part(step, in, 1);
     return strcmp(step->verb, "quit") || in->quit;
 }
 
-void ec_script_run(ec_script *s, ec_view_input *in, const ec_view_status *status, double seconds)
+void ec_script_run(ec_script *s, ec_view_input *in, const eclat_status *status, double seconds)
 {
     s->moves = false;
     if (!status->pictures) return; /* there is nothing to see yet */
@@ -101,5 +102,5 @@ void ec_script_run(ec_script *s, ec_view_input *in, const ec_view_status *status
         s->done = 0;
         if (does) return; /* what comes of it is known in the next frame */
     }
-    in->quit = in->wish.saves == status->saves_done;
+    in->quit = in->saves == status->saves;
 }

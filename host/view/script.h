@@ -25,9 +25,9 @@ typedef struct ec_script {
     bool moves;           /* it is a move of the camera */
 } ec_script;
 
-ec_result ec_script_read(ec_script *script, const char *file_or_orbit, ec_error *err);
+eclat_result ec_script_read(ec_script *script, const char *file_or_orbit, eclat_error *err);
 
 /* The next `seconds` of it. */
-void ec_script_run(ec_script *script, ec_view_input *input, const ec_view_status *status, double seconds);
+void ec_script_run(ec_script *script, ec_view_input *input, const eclat_status *status, double seconds);
 
 #endif

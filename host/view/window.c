@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
+#include "view/fail.h"
 #include "view/lists.h"
 #include "view/overlay.h"
 
@@ -15,16 +15,15 @@
 #define TEXT_LEAST 11
 #define COLUMNS 64       /* that text grows smaller for */
 
-static ec_result glfw_failed(const char *what, ec_error *err)
+static eclat_result glfw_failed(const char *what, eclat_error *err)
 {
     const char *why = NULL;
     glfwGetError(&why);
-    return ec_fail(err, "no preview window: %s: %s; 'eclat render' needs no display", what, why ? why : "GLFW does not say why");
+    return ec_view_fail(err, "no preview window: %s: %s; 'eclat render' needs no display", what, why ? why : "GLFW does not say why");
 }
 
-ec_result ec_window_open(ec_window *w, ec_view *view, ec_error *err)
+eclat_result ec_window_open(ec_window *w, eclat_error *err)
 {
-    w->view = view;
     w->drag = -1;
     if (!glfwInit()) return glfw_failed("cannot reach a display", err);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
@@ -40,24 +39,15 @@ ec_result ec_window_open(ec_window *w, ec_view *view, ec_error *err)
     float x, y;
     glfwGetWindowContentScale(w->glfw, &x, &y);
     w->scale = (double)fmaxf(x, y);
-    EC_TRY(ec_view_textures_make(&w->textures, err));
     ec_window_listen(w);
-    return EC_OK;
-}
-
-void ec_window_fit(ec_window *w, int width, int height)
-{
-    ec_view_wish *wish = &w->input.wish;
-    wish->width = (uint32_t)fmin(fmax(width, 1), w->textures.largest); /* beyond that it is stretched */
-    wish->height = (uint32_t)fmin(fmax(height, 1), w->textures.largest);
-    ec_view_textures_fit(&w->textures, w->view, (size_t)wish->width * wish->height * 3);
+    return ec_view_textures_make(&w->textures, err);
 }
 
 void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
 {
     char title[300];
     int across, down;
-    snprintf(title, sizeof title, "%s - eclat", w->view->request->scene);
+    snprintf(title, sizeof title, "%s - eclat", w->input.facts.scene);
     glfwSetWindowTitle(w->glfw, title);
     ec_window_stand(w, width, height);
     glfwGetFramebufferSize(w->glfw, &across, &down);
@@ -68,11 +58,10 @@ void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
 /* What is wished beside the picture, and no other or older one. */
 static bool has_second(const ec_window *w)
 {
-    const ec_view_wish *wish = &w->input.wish;
-    const ec_view_status *s = &w->status;
-    bool there = w->textures.width[EC_ROLE_SECOND] && s->second == wish->second &&
-                 (wish->second != EC_SECOND_RUNG || s->rung == wish->rung);
-    return w->input.layout != EC_LAYOUT_ONE && there;
+    const eclat_wish *wish = &w->input.wish;
+    const eclat_status *s = &w->status;
+    return wish->second && w->textures.width[ECLAT_SECOND_PICTURE] && s->second == wish->second &&
+           (wish->second != ECLAT_SECOND_INTEGRATOR || s->second_integrator == wish->second_integrator);
 }
 
 static void draw_pictures(const ec_window *w, double width, double height)
@@ -84,23 +73,20 @@ static void draw_pictures(const ec_window *w, double width, double height)
         double shown = 0.5 * height, foot = 0.25 * height; /* as wide as half the window, in proportion */
         glPushMatrix();
         glTranslated(0, foot, 0);
-        ec_view_textures_draw(t, EC_ROLE_PICTURE, 0, 0.5 * width, shown, 0, 1);
-        if (second) ec_view_textures_draw(t, EC_ROLE_SECOND, 0.5 * width, width, shown, 0, 1);
+        ec_view_textures_draw(t, ECLAT_PICTURE, 0, 0.5 * width, shown, 0, 1);
+        if (second) ec_view_textures_draw(t, ECLAT_SECOND_PICTURE, 0.5 * width, width, shown, 0, 1);
         glPopMatrix();
         return;
     }
-    ec_view_textures_draw(t, EC_ROLE_PICTURE, 0, width, height, 0, 1);
+    ec_view_textures_draw(t, ECLAT_PICTURE, 0, width, height, 0, 1);
     if (!second) return;
-    ec_view_textures_draw(t, EC_ROLE_SECOND, wipe, width, height, wipe / width, 1);
+    ec_view_textures_draw(t, ECLAT_SECOND_PICTURE, wipe, width, height, wipe / width, 1);
     ec_view_veil(wipe - 1, 0, wipe + 1, height);
 }
 
 static void draw_overlay(const ec_window *w, double width, double height)
 {
-    const ec_view_overlay overlay = {.wish = &w->input.wish, .status = &w->status, .facts = &w->input.facts, .request = w->view->request,
-                                     .layout = w->input.layout, .lines = w->input.lines, .help = w->input.help, .effects = w->input.effects,
-                                     .effects_page = w->input.effects_page, .message = w->telling, .has_second = has_second(w),
-                                     .selected = &w->input.selected, .small = &w->small};
+    const ec_view_overlay overlay = {&w->input, &w->status, w->request->against, w->telling, has_second(w), &w->small};
     ec_view_overlay_draw(&overlay, &w->text, width, height);
 }
 
@@ -143,7 +129,7 @@ void ec_window_close(ec_window *w)
     if (w->glfw) {
         ec_view_text_free(&w->text);
         ec_view_text_free(&w->small);
-        ec_view_textures_free(&w->textures, w->view);
+        ec_view_textures_free(&w->textures);
         glfwDestroyWindow(w->glfw);
     }
     glfwTerminate();

@@ -1,5 +1,5 @@
 # tier: quick
-"""The rooms of host/: each includes and links only those that host/rooms.cmake gives it, and these come before it."""
+"""The rooms of host/: each includes and links only those that host/rooms.cmake gives it, and these come before it. The preview window stands outside."""
 import collections
 import functools
 import glob
@@ -34,10 +34,12 @@ def included():
 @functools.lru_cache(maxsize=None)
 def symbols(room):
     """What the room's archive defines, and what it needs, its module included."""
-    module = os.path.join(BUILD, {"view": "eclat-view.so", "ranks": "eclat-mpi.so"}.get(room, "none"))
-    text = subprocess.run(["nm", os.path.join(BUILD, f"libroom_{room}.a")], capture_output=True, text=True, check=True).stdout
-    if os.path.exists(module):
-        text += subprocess.run(["nm", module], capture_output=True, text=True, check=True).stdout
+    module = os.path.join(BUILD, {"ranks": "eclat-mpi.so"}.get(room, "none"))
+    return symbols_of(os.path.join(BUILD, f"libroom_{room}.a"), *([module] if os.path.exists(module) else []))
+
+
+def symbols_of(*files):
+    text = subprocess.run(["nm", *files], capture_output=True, text=True, check=True).stdout
     rows = [line.split() for line in text.splitlines() if line]
     defined = {row[2] for row in rows if len(row) == 3 and row[1] in "TDBRC"}
     return defined, {row[1] for row in rows if len(row) == 2 and row[0] == "U"} - defined
@@ -52,7 +54,7 @@ class Rooms(unittest.TestCase):
 
     def test_every_folder_is_a_room(self):
         folders = {name for name in os.listdir(HOST) if glob.glob(os.path.join(HOST, name, "*.c"))}
-        self.assertEqual(folders - {"cli"}, set(permitted()))
+        self.assertEqual(folders - {"cli", "view"}, set(permitted()))
 
     def test_includes(self):
         rooms = permitted()
@@ -60,6 +62,17 @@ class Rooms(unittest.TestCase):
             if room in rooms and other in rooms and other != room:
                 self.assertIn(other, rooms[room], f"{where} includes {other}/")
             self.assertFalse(other == "cli" and room != "cli", f"{where} includes cli/")
+
+    def test_the_window_knows_the_public_header_alone(self):
+        for path in glob.glob(os.path.join(HOST, "view", "*.[ch]")):
+            with open(path, encoding="utf-8") as file:
+                for name in re.findall(r'^#include [<"](.+)[>"]', file.read(), re.M):
+                    ours = os.path.exists(os.path.join(HOST, name)) or os.path.exists(os.path.join(HOST, "include", name))
+                    self.assertTrue(not ours or name.startswith("view/") or name == "eclat/eclat.h", f"{os.path.basename(path)} includes {name}")
+        if os.path.exists(os.path.join(BUILD, "eclat-view.so")):
+            needs = symbols_of(os.path.join(BUILD, "eclat-view.so"))[1]
+            self.assertIn("eclat_live_open", needs)
+            self.assertEqual({name for name in needs if name.startswith("ec_")}, set())
 
     def test_symbols(self):
         rooms = permitted()

@@ -9,14 +9,14 @@
 
 static const double right_angle = 1.57079632679489661923;
 
-static ec_viewpoint start(void)
+static eclat_viewpoint start(void)
 {
-    return (ec_viewpoint){.eye = {0, 0, 5}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 90};
+    return (eclat_viewpoint){.eye = {0, 0, 5}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 90};
 }
 
 static void turns_around_the_target(void)
 {
-    ec_viewpoint v = start();
+    eclat_viewpoint v = start();
     ec_orbit_turn(&v, right_angle, 0); /* to the right: from +z to +x */
     NEAR(v.eye[0], 5); NEAR(v.eye[1], 0); NEAR(v.eye[2], 0);
     ec_orbit_turn(&v, 0, right_angle / 3);
@@ -30,7 +30,7 @@ static void turns_around_the_target(void)
 
 static void looks_around_from_the_eye(void)
 {
-    ec_viewpoint v = start();
+    eclat_viewpoint v = start();
     ec_orbit_look(&v, right_angle, 0); /* to the right: from -z to +x */
     NEAR(v.target[0], 5); NEAR(v.target[2], 5); NEAR(v.eye[2], 5);
     v = start();
@@ -40,7 +40,7 @@ static void looks_around_from_the_eye(void)
 
 static void pans_by_heights_of_the_picture(void)
 {
-    ec_viewpoint v = start(); /* the picture is 10 m high at the target */
+    eclat_viewpoint v = start(); /* the picture is 10 m high at the target */
     ec_orbit_pan(&v, 0.1, -0.2);
     NEAR(v.eye[0], 1); NEAR(v.eye[1], -2); NEAR(v.target[0], 1); NEAR(v.target[1], -2); NEAR(v.eye[2], 5);
     v.fov = 0, v.tall = 3;
@@ -50,7 +50,7 @@ static void pans_by_heights_of_the_picture(void)
 
 static void comes_nearer_and_flies(void)
 {
-    ec_viewpoint v = start();
+    eclat_viewpoint v = start();
     ec_orbit_dolly(&v, 0.5);
     NEAR(v.eye[2], 2.5); NEAR(v.target[2], 0);
     ec_orbit_fly(&v, 1, 2, 3);
@@ -63,21 +63,16 @@ static void comes_nearer_and_flies(void)
 static void frames_a_sphere(void)
 {
     const double center[3] = {1, 2, 3};
-    ec_viewpoint v = start(), tall = start();
+    eclat_viewpoint v = start(), tall = start();
     ec_orbit_frame(&v, center, 2, 1.5);
     NEAR(v.eye[0], 1); NEAR(v.eye[1], 2); NEAR(v.eye[2], 3 + 2 * sqrt(2)); /* 2 / sin 45 degrees */
     ec_orbit_frame(&tall, center, 2, 0.5);
     CHECK(ec_orbit_distance(&tall) > 1.5 * ec_orbit_distance(&v)); /* the narrow side has to hold it too */
 }
 
-static void keeps_nine_digits_and_roll(void)
+static void keeps_roll(void)
 {
-    ec_viewpoint v = start(), again;
-    ec_orbit_turn(&v, 0.1, 0.2);
-    ec_orbit_round(&v);
-    again = v;
-    ec_orbit_round(&again);
-    for (int k = 0; k < 3; k++) CHECK(v.eye[k] == again.eye[k]);
+    eclat_viewpoint v;
     const double tilted[3] = {0, 0.99, 0.1}, rolled[3] = {0.5, 0.5, 0};
     v = start();
     for (int k = 0; k < 3; k++) v.up[k] = tilted[k];
@@ -95,6 +90,6 @@ int main(void)
     pans_by_heights_of_the_picture();
     comes_nearer_and_flies();
     frames_a_sphere();
-    keeps_nine_digits_and_roll();
+    keeps_roll();
     TEST_END();
 }

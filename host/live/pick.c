@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "view/shared.h"
+#include "live/shared.h"
 
 typedef struct ray {
     double o[3], d[3]; /* d: unit */
@@ -39,9 +39,9 @@ static double meet(const ray *r, const float *a, const float *b, const float *c)
 }
 
 static void try_triangles(const ec_scene *s, const ray *r, uint32_t first, uint32_t count, const ec_placed *placed,
-                          ec_view_hit *best)
+                          ec_live_hit *best)
 {
-    ec_view_hit hit = *best;
+    ec_live_hit hit = *best;
     for (uint32_t t = first; t < first + count; t++) {
         const float *corner[3];
         float moved[3][3];
@@ -52,7 +52,7 @@ static void try_triangles(const ec_scene *s, const ray *r, uint32_t first, uint3
             corner[k] = moved[k];
         }
         double distance = meet(r, corner[0], corner[1], corner[2]);
-        if (distance < hit.distance) hit = (ec_view_hit){distance, t, placed ? placed->id + t - first : t};
+        if (distance < hit.distance) hit = (ec_live_hit){distance, t, placed ? placed->id + t - first : t};
     }
     *best = hit;
 }
@@ -96,7 +96,7 @@ static bool passes_by(const ray *r, const sphere *s)
     return square - along * along > s->radius * s->radius;
 }
 
-static void try_instances(const ec_scene *s, const ray *r, ec_view_hit *best)
+static void try_instances(const ec_scene *s, const ray *r, ec_live_hit *best)
 {
     sphere *spheres = malloc(s->shape_count * sizeof *spheres);
     if (!spheres) return;
@@ -110,10 +110,10 @@ static void try_instances(const ec_scene *s, const ray *r, ec_view_hit *best)
     free(spheres);
 }
 
-ec_view_hit ec_view_pick(const ec_scene *s, const ec_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y)
+ec_live_hit ec_live_pick(const ec_scene *s, const ec_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y)
 {
     ray r = ray_of(camera, width, height, x, y);
-    ec_view_hit best = {INFINITY, 0, 0};
+    ec_live_hit best = {INFINITY, 0, 0};
     try_triangles(s, &r, 0, ec_scene_flat_count(s), NULL, &best);
     if (s->placed_count) try_instances(s, &r, &best);
     return best;
@@ -143,7 +143,7 @@ static void grow_by_part(box *b, const ec_scene *s, uint32_t first, uint64_t end
     }
 }
 
-void ec_view_node_sphere(const ec_scene *s, uint32_t node, double center[3], double *radius)
+void ec_live_node_sphere(const ec_scene *s, uint32_t node, double center[3], double *radius)
 {
     box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     double square = 0;

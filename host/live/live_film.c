@@ -1,11 +1,9 @@
-#include "view/view_picture.h"
+#include "live/live_film.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "view/slice.h"
-
-void ec_view_picture_limit(ec_view_picture *p, const ec_render_options *o, uint32_t more)
+void ec_live_film_limit(ec_live_film *p, const ec_render_options *o, uint32_t more)
 {
     p->limits = *o;
     for (uint32_t i = 0; i < more; i++) {
@@ -24,28 +22,27 @@ void ec_view_picture_limit(ec_view_picture *p, const ec_render_options *o, uint3
     p->stopped_by = NULL;
 }
 
-ec_result ec_view_picture_start(ec_view_picture *p, const ec_render_options *options, uint32_t more, uint32_t width,
-                                uint32_t height, ec_error *err)
+ec_result ec_live_film_start(ec_live_film *p, const ec_render_options *options, uint32_t more, uint32_t width, uint32_t height, ec_error *err)
 {
     const uint32_t replicates = ec_render_replicates(options);
-    ec_view_picture_stop(p);
+    ec_live_film_stop(p);
     p->goal = (ec_goal){.pixels = (double)width * height, .replicates = replicates, .forecast.seconds = INFINITY};
-    ec_view_picture_limit(p, options, more);
+    ec_live_film_limit(p, options, more);
     p->error = (ec_film_error){.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
     return ec_film_create(&p->film, width, height, replicates, err);
 }
 
-void ec_view_picture_stop(ec_view_picture *p)
+void ec_live_film_stop(ec_live_film *p)
 {
     ec_film_destroy(&p->film);
     free(p->room);
-    *p = (ec_view_picture){0};
+    *p = (ec_live_film){0};
 }
 
-uint64_t ec_view_picture_samples(const ec_view_picture *p) { return (uint64_t)ec_film_samples_of_all(&p->film); }
+uint64_t ec_live_film_samples(const ec_live_film *p) { return (uint64_t)ec_film_samples_of_all(&p->film); }
 
 /* With the second batch there is a first error to state. */
-static ec_result foretell(ec_view_picture *p, ec_session *session, ec_error *err)
+static ec_result foretell(ec_live_film *p, ec_session *session, ec_error *err)
 {
     ec_rare rare;
     if (p->film.batch_count != 2) return EC_OK;
@@ -53,7 +50,7 @@ static ec_result foretell(ec_view_picture *p, ec_session *session, ec_error *err
     return ec_film_set_rare(&p->film, &rare, err);
 }
 
-static void judge(ec_view_picture *p, double took)
+static void judge(ec_live_film *p, double took)
 {
     const uint32_t replicates = p->film.replicates, next = p->film.batch_count;
     const bool is_round = ec_schedule_is_round(replicates, next), has_pilot = ec_schedule_has_pilot(replicates, next);
@@ -67,7 +64,7 @@ static void judge(ec_view_picture *p, double took)
 }
 
 /* The batch, and first-hit features with the first batch of each replicate. */
-static ec_result make_room(ec_view_picture *p, float **features, ec_error *err)
+static ec_result make_room(ec_live_film *p, float **features, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->film.width * p->film.height;
     const bool wants_features = p->film.batch_count < p->film.replicates;
@@ -76,7 +73,7 @@ static ec_result make_room(ec_view_picture *p, float **features, ec_error *err)
     return p->room && (*features || !wants_features) ? EC_OK : ec_fail(err, "out of memory for a picture");
 }
 
-ec_result ec_view_picture_take(ec_view_picture *p, ec_session *session, bool (*go_on)(void *user), void *user, bool *complete, ec_error *err)
+ec_result ec_live_film_take(ec_live_film *p, ec_session *session, bool (*go_on)(void *user), void *user, bool *complete, ec_error *err)
 {
     const uint32_t index = p->film.batch_count;
     const ec_batch_range range = ec_schedule_batch(p->film.replicates, index);
@@ -85,7 +82,7 @@ ec_result ec_view_picture_take(ec_view_picture *p, ec_session *session, bool (*g
     ec_result result = make_room(p, &features, err);
     if (p->limits.spp && ec_schedule_find(p->film.replicates, p->limits.spp, &before) == index && before) cut = range.samples - before;
     ec_session_batch batch = {.seed = ec_render_seed(p->limits.seed), .replicate = range.replicate, .first = (uint32_t)range.first,
-                              .samples = range.samples - cut, .go_on = go_on, .user = user, .slice = EC_VIEW_SLICE,
+                              .samples = range.samples - cut, .go_on = go_on, .user = user, .slice = EC_LIVE_SLICE,
                               .features = features, .batch = p->room};
     if (result == EC_OK) result = ec_session_take(session, &batch, err);
     *complete = result == EC_OK && batch.complete;

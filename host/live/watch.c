@@ -1,4 +1,4 @@
-#include "view/watch.h"
+#include "live/watch.h"
 
 #include <limits.h>
 #include <linux/magic.h>

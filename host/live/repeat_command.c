@@ -1,6 +1,5 @@
+/* The `eclat render` that makes a picture again, bit for bit. */
 #define _GNU_SOURCE /* vasprintf */
-#include "cli/view_command.h"
-
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,15 +7,8 @@
 
 #include "jobs/combinations.h"
 #include "jobs/command_line.h"
+#include "live/shared.h"
 #include "report/names.h"
-
-void ec_kept_options_add(ec_kept_options *kept, const char *option, const char *value)
-{
-    for (int k = 0; k < kept->count; k++)
-        if (!strcmp(kept->row[k].option, option)) kept->row[k] = kept->row[--kept->count]; /* the last one counts */
-    kept->row[kept->count].option = option;
-    kept->row[kept->count++].value = value;
-}
 
 typedef struct words {
     char *argv[4 * EC_OPTIONS_MAX + 4 * EC_OUTPUTS_MAX + 64]; /* owned */
@@ -45,13 +37,13 @@ static void add_triple(words *w, const char *option, const double xyz[3])
     add(w, "--%s=%.9g,%.9g,%.9g", option, xyz[0], xyz[1], xyz[2]);
 }
 
-/* The camera that the window moved; or one of the scene's, the one that the options ask for as they ask for it. */
-static void add_camera(words *w, uint32_t camera, const ec_view_shot *shot)
+/* The camera that was moved; or one of the scene's, the one that the options ask for as they ask for it. */
+static void add_camera(words *w, bool is_asked, const eclat_wish *wish, const ec_render_options *o)
 {
-    const ec_viewpoint *v = &shot->viewpoint;
-    if (!shot->moved && shot->options->camera == camera) return;
-    if (!shot->moved) {
-        add(w, "--camera=%u", shot->options->camera);
+    const eclat_viewpoint *v = &wish->viewpoint;
+    if (is_asked) return;
+    if (!wish->is_moved) {
+        add(w, "--camera=%u", o->camera);
         return;
     }
     add_triple(w, "eye", v->eye);
@@ -61,42 +53,50 @@ static void add_camera(words *w, uint32_t camera, const ec_view_shot *shot)
     else add(w, "--parallel=%.9g", v->tall);
 }
 
-static bool is_kept(uint32_t camera, const char *option, const char *value, const ec_view_shot *shot)
+/* Options of `render` as they were given: the last one counts, where the picture depends on it and no wish says it anew. */
+static bool is_kept(const ec_given_options *given, int i, bool is_asked, ec_integrator integrator)
 {
-    ec_integrator integrator = shot->options->integrator;
-    bool asked = !shot->moved && shot->options->camera == camera;
-    if (!ec_combinations_belongs(option, integrator) || (!asked && ec_render_row(option)->uses & EC_OPTION_CAMERA)) return false;
-    bool deep = !strcmp(option, "max-depth") && (!strcmp(value, "inf") || atoi(value) > EC_WHITTED_DEPTH_MOST);
-    return !(integrator == EC_INTEGRATOR_WHITTED && deep);
+    const char *option = given->list[i].option, *value = given->list[i].value ? given->list[i].value : "";
+    const uint32_t uses = ec_render_row(option)->uses;
+    bool is_last = true, is_deep = !strcmp(option, "max-depth") && (!strcmp(value, "inf") || atoi(value) > EC_WHITTED_DEPTH_MOST);
+    for (int k = i + 1; k < given->count; k++) is_last &= strcmp(given->list[k].option, option) != 0;
+    if (!is_last || uses & EC_OPTION_WINDOW || !ec_combinations_belongs(option, integrator)) return false;
+    return (is_asked || !(uses & EC_OPTION_CAMERA)) && !(integrator == EC_INTEGRATOR_WHITTED && is_deep);
 }
 
-char *ec_view_command(const ec_render_request *request, const ec_kept_options *kept, uint32_t camera, const ec_view_shot *shot,
+static void add_kept(words *w, const ec_given_options *given, bool is_asked, ec_integrator integrator)
+{
+    for (int i = 0; i < given->count; i++) {
+        const char *option = given->list[i].option, *value = given->list[i].value;
+        if (!is_kept(given, i, is_asked, integrator)) continue;
+        if (value) add(w, "--%s=%s", option, value);
+        else add(w, "--%s", option);
+    }
+}
+
+char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const eclat_wish *wish, const ec_render_options *o,
                       const ec_outputs *outputs)
 {
     words w = {.count = 0};
-    const ec_render_options *o = shot->options;
+    const ec_render_request *request = &live->request;
+    const bool is_asked = !wish->is_moved && o->camera == scene->request.options.camera;
     const bool is_still = request->choice.shutter && o->integrator != EC_INTEGRATOR_PATH; /* they show the exposure's middle */
     const uint64_t without = is_still ? o->without & ~EC_FEATURE_MOTION : o->without;
     add(&w, "eclat");
     add(&w, "render");
     add_file(&w, request->scene);
-    for (int i = 0; i < kept->count; i++) {
-        const char *option = kept->row[i].option, *value = kept->row[i].value;
-        if (!is_kept(camera, option, value ? value : "", shot)) continue;
-        if (value) add(&w, "--%s=%s", option, value);
-        else add(&w, "--%s", option);
-    }
+    add_kept(&w, &live->given, is_asked, o->integrator);
     add(&w, "--size=%ux%u", o->width, o->height);
-    add_camera(&w, camera, shot);
+    add_camera(&w, is_asked, wish, o);
     if (o->integrator != EC_INTEGRATOR_PATH) add(&w, "--integrator=%s", ec_integrator_names[o->integrator]);
     if (is_still) add(&w, "--at=%.17g", 0.5 * (request->choice.opens + request->choice.closes));
-    if (shot->env_degrees != 0) add(&w, "--env-rotate=%.9g", shot->env_degrees);
+    if (wish->env_degrees != 0) add(&w, "--env-rotate=%.9g", wish->env_degrees);
     for (uint32_t i = 0; i < ec_feature_count; i++)
         if (without & ec_features[i].bit) add(&w, "--without=%s", ec_features[i].name);
     add(&w, "--spp=%u", o->spp);
     if (o->replicates) add(&w, "--replicates=%u", o->replicates);
-    if (shot->exposure != 0) add(&w, "--exposure=%.9g", shot->exposure);
-    if (shot->tonemap != EC_TONEMAP_NEUTRAL) add(&w, "--tonemap=%s", ec_tonemap_names[shot->tonemap]);
+    if (wish->exposure != 0) add(&w, "--exposure=%.9g", wish->exposure);
+    if (wish->tonemap != ECLAT_TONEMAP_NEUTRAL) add(&w, "--tonemap=%s", ec_tonemap_names[wish->tonemap]);
     for (int i = 0; i < outputs->count; i++) {
         add(&w, "-o");
         add_file(&w, outputs->file[i].path);

@@ -1,7 +1,7 @@
 /* Has a file changed that a scene is made of? By times and sizes: works on every file system. When to look: inotify tells, but where a
  * folder is another machine's. */
-#ifndef EC_VIEW_WATCH_H
-#define EC_VIEW_WATCH_H
+#ifndef EC_LIVE_WATCH_H
+#define EC_LIVE_WATCH_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,0 +1,129 @@
+/* Pictures into files: those that `eclat render` would have written. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "jobs/write_report.h"
+#include "live/renderer.h"
+#include "report/scene_report.h"
+
+/* NAME.exr, NAME-2.exr …: a later picture does not take the place of an earlier one of this session. */
+static void number_outputs(ec_outputs *outputs, int number)
+{
+    for (int i = 0; i < outputs->count && number > 1; i++) {
+        char *path = outputs->file[i].path, *dot = strrchr(path, '.'), numbered[PATH_MAX];
+        if (snprintf(numbered, sizeof numbered, "%.*s-%d%s", (int)(dot - path), path, number, dot) < (int)sizeof numbered)
+            memcpy(path, numbered, sizeof numbered);
+    }
+}
+
+/* As that command has them which renders the picture. */
+static ec_render_options options_of(const ec_renderer *r, const eclat_wish *wish)
+{
+    const ec_live_setup *s = r->setup[ECLAT_PICTURE];
+    ec_render_options options = s->options;
+    options.width = wish->width;
+    options.height = wish->height;
+    options.spp = (uint32_t)ec_live_film_samples(&r->picture);
+    options.more_effects = r->live->request.options.more_effects;
+    options.error_target = options.time_limit = 0;
+    if (!wish->is_moved) options.camera = ec_live_camera(s->scene, wish);
+    return options;
+}
+
+static ec_render_stats stats_of(const ec_renderer *r, const ec_render_options *options)
+{
+    const ec_live_film *p = &r->picture;
+    ec_render_stats stats = r->setup[ECLAT_PICTURE]->stats;
+    stats.replicates = p->film.replicates;
+    stats.seconds = p->seconds;
+    stats.samples_per_pixel = options->spp;
+    stats.samples = (uint64_t)options->spp * options->width * options->height;
+    stats.samples_per_second = p->seconds > 0 ? (double)stats.samples / p->seconds : 0;
+    stats.film = p->error;
+    stats.invalid_samples = p->invalid;
+    snprintf(stats.stopped_by, sizeof stats.stopped_by, "%s", p->stopped_by ? p->stopped_by : "user");
+    return stats;
+}
+
+static ec_viewpoint viewpoint_of(const ec_live_scene *s, const eclat_wish *wish, uint32_t index)
+{
+    ec_viewpoint v = ec_live_viewpoint(wish);
+    const ec_camera *camera = &s->job.scene->cameras[index];
+    if (!wish->is_moved && index == s->request.options.camera) return s->job.viewpoint;
+    if (!wish->is_moved) ec_camera_viewpoint(camera, s->job.scene->center, ec_camera_reach(s->job.scene, camera), &v);
+    return v;
+}
+
+static ec_result write_files(const ec_renderer *r, const eclat_wish *wish, const char *command, ec_outputs *outputs, const ec_render_options *options,
+                             ec_error *err)
+{
+    const ec_live *live = r->live;
+    const ec_live_scene *scene = r->setup[ECLAT_PICTURE]->scene;
+    const ec_film *film = &r->picture.film;
+    const ec_render_stats stats = stats_of(r, options);
+    char sha256[EC_HASH_SIZE], camera[256] = "of the preview window", environment[320];
+    if (!wish->is_moved) ec_camera_describe(scene->job.scene, options->camera, camera, sizeof camera);
+    int used = snprintf(environment, sizeof environment, "%s", scene->job.environment_text);
+    if (wish->env_degrees != 0) snprintf(environment + used, sizeof environment - (size_t)used, ", turned by %g degrees", wish->env_degrees);
+    ec_render_report report = {
+        .command = command, .scene = live->request.scene, .camera = camera, .viewpoint = viewpoint_of(scene, wish, options->camera),
+        .environment = environment, .options = options, .stats = &stats, .device = &live->device, .device_why = live->device_why,
+        .device_index = &live->device_index, .exposure = wish->exposure, .tonemap = (ec_tonemap)wish->tonemap,
+        .mean_luminance = ec_film_estimate_error(film).mean_luminance, .replicates = ec_film_replicates(film),
+        .load_seconds = scene->job.load_seconds,
+    };
+    return ec_write_report(outputs, film, NULL, &report, sha256, err);
+}
+
+static void tell_files(const ec_outputs *outputs, const char *command, char *told, size_t size)
+{
+    int used = snprintf(told, size, "saved");
+    for (int i = 0; i < outputs->count && used > 0 && (size_t)used < size; i++)
+        used += snprintf(told + used, size - (size_t)used, "%s %s", i ? "," : "", outputs->file[i].path);
+    if (used > 0 && (size_t)used < size) snprintf(told + used, size - (size_t)used, "; again by: %s", command);
+}
+
+static ec_result save(ec_renderer *r, const eclat_wish *wish, char *told, size_t size, ec_error *err)
+{
+    const ec_live *live = r->live;
+    const ec_render_options options = options_of(r, wish);
+    ec_render_request request = live->request;
+    if (request.outputs.count == 0) EC_TRY(ec_outputs_add_default(&request.outputs, request.scene, err));
+    number_outputs(&request.outputs, r->saved + 1);
+    EC_TRY(ec_render_check_files(&request, err));
+    char *command = ec_live_command(live, r->setup[ECLAT_PICTURE]->scene, wish, &options, &request.outputs);
+    if (!command) return ec_fail(err, "out of memory for a command line");
+    ec_result result = write_files(r, wish, command, &request.outputs, &options, err);
+    if (result == EC_OK) {
+        r->saved++;
+        tell_files(&request.outputs, command, told, size);
+        if (live->hears.saved) live->hears.saved(live->hears.user, command);
+    }
+    free(command);
+    return result;
+}
+
+static void finish(ec_renderer *r, const ec_live_asked *asked, bool is_unsaved, const char *told)
+{
+    eclat_status *s = &r->live->status;
+    pthread_mutex_lock(&r->live->lock);
+    snprintf(s->told, sizeof s->told, "%s", told);
+    s->is_unsaved = is_unsaved;
+    s->saves = r->saves = asked->saves;
+    ec_live_tell(r->live);
+    pthread_mutex_unlock(&r->live->lock);
+}
+
+void ec_renderer_serve_save(ec_renderer *r, const ec_live_asked *asked)
+{
+    if (asked->saves == r->saves) return;
+    char told[2048] = "";
+    ec_error err = {0};
+    if (r->picture.film.batch_count && ec_live_same_camera(&asked->saved, &r->wish)) {
+        bool is_unsaved = save(r, &asked->saved, told, sizeof told, &err) != EC_OK;
+        finish(r, asked, is_unsaved, is_unsaved ? err.text : told);
+    } else if (!ec_live_same_camera(&asked->saved, &asked->wish)) {
+        finish(r, asked, true, "not saved: the camera moved before its first samples were there; rest, and save again");
+    }
+}

@@ -1,0 +1,111 @@
+#include "live/second.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "film/pixel.h"
+#include "image/error_map.h"
+
+#define OTHER_SAMPLES 4u
+
+void ec_live_second_forget(ec_live_second *s)
+{
+    free(s->other);
+    s->other = NULL;
+}
+
+void ec_live_second_close(ec_live_second *s)
+{
+    ec_live_second_forget(s);
+    free(s->fitted);
+}
+
+ec_result ec_live_second_render(ec_live_second *s, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user), void *user,
+                                ec_error *err)
+{
+    float *mean = malloc((size_t)width * height * 3 * sizeof *mean);
+    if (!mean) return ec_fail(err, "out of memory for a second picture");
+    ec_session_batch batch = {.samples = OTHER_SAMPLES, .go_on = go_on, .user = user, .slice = EC_LIVE_SLICE, .rgb = mean};
+    ec_result result = ec_session_take(session, &batch, err);
+    if (result == EC_OK && batch.complete) s->other = mean;
+    else free(mean);
+    return result;
+}
+
+/* The mean of what a pixel of another grid covers; of a coarser one the nearest. */
+static void resample(const ec_live *live, float *out, uint32_t width, uint32_t height)
+{
+    const uint32_t across = live->against_width, down = live->against_height;
+    for (uint64_t y = 0; y < height; y++)
+        for (uint64_t x = 0; x < width; x++) {
+            uint64_t x0 = x * across / width, x1 = (x + 1) * across / width, y0 = y * down / height, y1 = (y + 1) * down / height, count = 0;
+            double sum[3] = {0, 0, 0};
+            for (uint64_t v = y0; v == y0 || v < y1; v++)
+                for (uint64_t u = x0; u == x0 || u < x1; u++, count++)
+                    for (int c = 0; c < 3; c++) sum[c] += (double)live->against[3 * (v * across + u) + c];
+            for (int c = 0; c < 3; c++) out[3 * (y * width + x) + c] = (float)(sum[c] / (double)count);
+        }
+}
+
+/* At the picture's size, to be compared pixel by pixel. */
+static ec_result show_file(ec_live_second *s, ec_live *live, const eclat_wish *wish, uint32_t width, uint32_t height, ec_error *err)
+{
+    if (s->fitted_width != width || s->fitted_height != height) free(s->fitted), s->fitted = NULL;
+    if (!s->fitted && (s->fitted = malloc((size_t)width * height * 3 * sizeof *s->fitted))) resample(live, s->fitted, width, height);
+    if (!s->fitted) return ec_fail(err, "out of memory for a second picture");
+    s->fitted_width = width;
+    s->fitted_height = height;
+    return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->fitted, width, height, err);
+}
+
+typedef struct maps {
+    const ec_film *film;
+    const float *mean;
+} maps;
+
+/* As `eclat compare --diff`: the standard error in the place of a difference. */
+static void fill_error(const void *user, uint8_t *bytes)
+{
+    const maps *m = user;
+    const uint64_t pixels = (uint64_t)m->film->width * m->film->height;
+    for (uint64_t p = 0; p < pixels; p++) {
+        ec_pixel pixel;
+        float off[3];
+        ec_film_look(m->film, p, 1, &pixel);
+        for (int c = 0; c < 3; c++) off[c] = m->mean[3 * p + (uint64_t)c] + (float)sqrt(ec_pixel_se2(&pixel, c));
+        ec_error_map(off, m->mean + 3 * p, 1, bytes + 3 * p);
+    }
+}
+
+/* Black none, pale yellow the most there are. */
+static void fill_samples(const void *user, uint8_t *bytes)
+{
+    const maps *m = user;
+    uint64_t pixels = (uint64_t)m->film->width * m->film->height;
+    double most = 1;
+    for (uint64_t p = 0; p < pixels; p++) most = fmax(most, ec_film_samples(m->film, p));
+    for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_samples(m->film, p) / most, bytes + 3 * p);
+}
+
+bool ec_live_second_has(const ec_live_second *s, const ec_live *live, eclat_second kind, const ec_film *film)
+{
+    switch (kind) {
+    case ECLAT_SECOND_ERROR: return film->batch_count > 1;
+    case ECLAT_SECOND_SAMPLES: return true;
+    case ECLAT_SECOND_INTEGRATOR: return s->other != NULL;
+    case ECLAT_SECOND_FILE: return live->against != NULL;
+    default: return false;
+    }
+}
+
+ec_result ec_live_second_show(ec_live_second *s, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, ec_error *err)
+{
+    const maps m = {film, mean};
+    if (!ec_live_second_has(s, live, wish->second, film)) return EC_OK;
+    switch (wish->second) {
+    case ECLAT_SECOND_ERROR: return ec_live_show_filled(live, ECLAT_SECOND_PICTURE, film->width, film->height, fill_error, &m, err);
+    case ECLAT_SECOND_SAMPLES: return ec_live_show_filled(live, ECLAT_SECOND_PICTURE, film->width, film->height, fill_samples, &m, err);
+    case ECLAT_SECOND_INTEGRATOR: return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->other, film->width, film->height, err);
+    default: return show_file(s, live, wish, film->width, film->height, err);
+    }
+}

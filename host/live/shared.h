@@ -1,0 +1,137 @@
+/* A live session as eclat.h describes it. Three threads: the renderer's (renderer.c), which takes batches and previews from a session of render/;
+ * the loader's (loader.c), which reads files and sets these sessions up; the watcher's (watcher.c), which hears of changed files. They share ec_live
+ * with the caller, under one lock, and sleep where there is nothing to do: wishes go in; facts, status and pictures come out. */
+#ifndef EC_LIVE_SHARED_H
+#define EC_LIVE_SHARED_H
+
+#include <pthread.h>
+#include <string.h>
+
+#include "eclat/eclat.h"
+#include "jobs/frame_job.h"
+#include "jobs/render_job.h"
+#include "render/session.h"
+
+#define EC_LIVE_SLICE 0.02 /* seconds of a wave: the longest wait for an answer to a wish */
+
+/* What callers ask for. */
+typedef struct ec_live_asked {
+    eclat_wish wish, saved;       /* saved: of the last save */
+    uint32_t serial;              /* counts wishes */
+    uint32_t saves, picks, pick_x, pick_y;
+} ec_live_asked;
+
+/* A loaded scene, shared by setups and the caller. */
+typedef struct ec_live_scene {
+    ec_render_request request;    /* with camera and size by default */
+    ec_render_job job;            /* what was loaded for it */
+    eclat_viewpoint *cameras;     /* owned, one for each of the scene's */
+    eclat_effect effects[EC_EFFECT_BITS]; /* that it calls for and that can be left out */
+    uint64_t optional;            /* the same as bits */
+    uint32_t users;
+} ec_live_scene;
+
+/* Scene, kernels and buffers, ready to be looked at. */
+typedef struct ec_live_setup {
+    ec_cl cl;
+    ec_live_scene *scene;
+    ec_session *session;
+    uint64_t without;             /* as wished; options have what the scene calls for, and may leave out more */
+    ec_render_options options;
+    ec_render_stats stats;
+} ec_live_setup;
+
+/* Written by the renderer while the caller looks at another one. */
+typedef struct ec_live_image {
+    uint32_t width, height;
+    uint8_t *rgb;                 /* owned */
+    uint64_t room;                /* bytes */
+} ec_live_image;
+typedef struct ec_live_shown {
+    ec_live_image written, ready, taken;
+    bool is_new;                  /* ready is */
+} ec_live_shown;
+
+enum { EC_LIVE_THREADS = 3 };
+typedef struct ec_live {
+    ec_render_request request;    /* settled, but with an environment that is not turned: wishes turn it */
+    ec_given_options given;       /* the same as they were given; for commands */
+    ec_listener listener;
+    eclat_live_listener hears;
+    ec_device_info device;
+    uint32_t device_index;
+    const char *device_why;
+    float *against;               /* the file beside the picture, 3 a pixel; NULL: none. Owned */
+    uint32_t against_width, against_height;
+    double start;
+    pthread_t thread[EC_LIVE_THREADS];
+    uint32_t threads;             /* that are running */
+    int files, leave;             /* descriptors, -1: none. Of inotify; readable once the watcher is to end */
+    pthread_mutex_t lock;         /* guards all below */
+    pthread_cond_t changed;
+    uint64_t events;              /* counts changes, so that none is slept through */
+    bool quit;
+    uint32_t file_events;         /* something happened beside the scene's files */
+    ec_live_asked asked;
+    uint32_t settled;             /* serial of the last wish with which nothing was left to do */
+    eclat_status status;          /* but for is_settled */
+    eclat_facts facts;
+    ec_live_scene *scene;         /* theirs; a user of it */
+    ec_live_setup *incoming[ECLAT_SHOWN_COUNT]; /* from loader to renderer */
+    ec_live_shown shown[ECLAT_SHOWN_COUNT];
+} ec_live;
+
+/* live.c. request, given, listener and hears are the caller's to fill in, all else is 0. What fails to open is closed. */
+ec_result ec_live_open(ec_live *live, const char *against, ec_error *err);
+void ec_live_close(ec_live *live);
+
+/* tell.c: with the lock held, wakes the other threads; and the caller. */
+void ec_live_post(ec_live *live);
+void ec_live_tell(ec_live *live);
+void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text); /* without the lock. "": it goes well (again) */
+
+/* setup.c: scenes are shared under the lock; setups belong to one thread at a time. NULL is fine. */
+void ec_live_scene_release(ec_live *live, ec_live_scene *scene);
+ec_result ec_live_setup_make(ec_live *live, ec_live_scene *scene, ec_integrator integrator, uint64_t without, ec_live_setup **setup, ec_error *err);
+void ec_live_setup_free(ec_live *live, ec_live_setup *setup);
+
+/* loader.c, renderer.c, watcher.c: the threads. */
+void *ec_live_loader(void *live);
+void *ec_live_renderer(void *live);
+void *ec_live_watcher(void *live);
+
+/* show.c: a picture for the caller, which `fill` writes; and one of 3 floats a pixel, through the program's tone mapper. */
+typedef void (*ec_live_fill)(const void *user, uint8_t *bytes);
+ec_result ec_live_show_filled(ec_live *live, eclat_shown which, uint32_t width, uint32_t height, ec_live_fill fill, const void *user, ec_error *err);
+ec_result ec_live_show(ec_live *live, const eclat_wish *wish, eclat_shown which, const float *rgb, uint32_t width, uint32_t height, ec_error *err);
+
+/* pick.c: the surface that a pixel's centre sees, by trying all triangles. */
+typedef struct ec_live_hit {
+    double distance;              /* metres from the camera; infinite: none */
+    uint32_t triangle, id;        /* place in the scene's arrays; id: another where its mesh is kept once */
+} ec_live_hit;
+ec_live_hit ec_live_pick(const ec_scene *scene, const ec_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y);
+void ec_live_node_sphere(const ec_scene *scene, uint32_t node, double center[3], double *radius);
+
+/* wish.c: makes of it what can be had; and are two of one picture, but for its colours? */
+void ec_live_limit_wish(eclat_wish *wish);
+bool ec_live_same_camera(const eclat_wish *a, const eclat_wish *b);
+
+/* repeat_command.c: malloc'ed, NULL when out of memory. options: with the picture's size, camera and samples. */
+char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const eclat_wish *wish, const ec_render_options *options,
+                      const ec_outputs *outputs);
+
+static inline ec_viewpoint ec_live_viewpoint(const eclat_wish *wish)
+{
+    ec_viewpoint viewpoint;
+    memcpy(&viewpoint, &wish->viewpoint, sizeof viewpoint);
+    return viewpoint;
+}
+
+/* The scene's camera that is wished where it was not moved. */
+static inline uint32_t ec_live_camera(const ec_live_scene *scene, const eclat_wish *wish)
+{
+    return wish->camera >= 0 && (uint32_t)wish->camera < scene->job.scene->camera_count ? (uint32_t)wish->camera : scene->request.options.camera;
+}
+
+#endif

@@ -1,0 +1,26 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "live/shared.h"
+
+void ec_live_post(ec_live *live)
+{
+    live->events++;
+    pthread_cond_broadcast(&live->changed);
+}
+
+void ec_live_tell(ec_live *live)
+{
+    ec_live_post(live);
+    if (live->hears.wake) live->hears.wake(live->hears.user);
+}
+
+void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text)
+{
+    char *said = live->status.trouble[whose];
+    pthread_mutex_lock(&live->lock);
+    bool is_other = strcmp(said, text) != 0;
+    snprintf(said, sizeof live->status.trouble[whose], "%s", text);
+    if (is_other) ec_live_tell(live);
+    pthread_mutex_unlock(&live->lock);
+}

@@ -1,0 +1,140 @@
+/* The renderer's steps: previews of few pixels, batches of the film, the other integrator, and what is shown of them. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "film/resolve.h"
+#include "live/renderer.h"
+#include "pack/called_effects.h"
+
+#define FOLLOWS 0.025 /* seconds of a picture while the camera moves */
+#define COARSEST 16u  /* pixels of a side for a sample */
+
+static void tell(ec_renderer *r, uint32_t preview, bool has_second)
+{
+    const ec_live_film *p = &r->picture;
+    const ec_live_setup *setup = r->setup[ECLAT_PICTURE], *other = r->setup[ECLAT_SECOND_PICTURE];
+    pthread_mutex_lock(&r->live->lock);
+    eclat_status *s = &r->live->status;
+    s->preview = preview;
+    s->integrator = (eclat_integrator)setup->options.integrator;
+    s->samples = ec_live_film_samples(p);
+    s->seconds = p->seconds;
+    s->error = p->film.batch_count ? p->error.error : INFINITY;
+    s->error_bound = p->film.batch_count ? p->error.error_bound : INFINITY;
+    s->seconds_left = p->goal.forecast.pilot_samples ? fmax(p->goal.forecast.seconds - p->seconds, 0) : -1;
+    s->spp_limit = p->limits.spp;
+    s->time_limit = p->limits.time_limit;
+    s->error_limit = p->limits.error_target;
+    if (!preview || s->second != ECLAT_SECOND_FILE) s->second = has_second ? r->wish.second : ECLAT_SECOND_NONE; /* a file's is of any camera */
+    if (other) s->second_integrator = (eclat_integrator)other->options.integrator;
+    s->is_complete = p->film.batch_count && p->stopped_by;
+    ec_renderer_read_pixel(&p->film, &s->under);
+    snprintf(s->stopped_by, sizeof s->stopped_by, "%s", p->stopped_by ? p->stopped_by : "");
+    ec_feature_names(setup->stats.effects.called.bits, s->effects, sizeof s->effects);
+    ec_live_tell(r->live);
+    pthread_mutex_unlock(&r->live->lock);
+}
+
+/* Looks through a session with so many pixels. */
+static ec_result look(ec_renderer *r, eclat_shown which, uint32_t width, uint32_t height, ec_error *err)
+{
+    const ec_session_view look = {r->camera, width, height, r->wish.env_degrees};
+    return ec_session_look(r->setup[which]->session, &look, err);
+}
+
+static ec_result make_room(ec_renderer *r, ec_error *err)
+{
+    uint64_t pixels = (uint64_t)r->wish.width * r->wish.height;
+    if (r->room >= pixels) return EC_OK;
+    free(r->mean);
+    r->room = 0;
+    r->mean = malloc(pixels * 3 * sizeof(float));
+    if (!r->mean) return ec_fail(err, "out of memory for a picture of %ux%u pixels", r->wish.width, r->wish.height);
+    r->room = pixels;
+    return EC_OK;
+}
+
+ec_result ec_renderer_start_afresh(ec_renderer *r, ec_error *err)
+{
+    ec_live_film_stop(&r->picture);
+    ec_live_second_forget(&r->second);
+    const ec_live_setup *setup = r->setup[ECLAT_PICTURE];
+    const ec_scene *scene = setup->scene->job.scene;
+    const ec_viewpoint viewpoint = ec_live_viewpoint(&r->wish);
+    r->camera = scene->cameras[ec_live_camera(setup->scene, &r->wish)];
+    if (r->wish.is_moved) EC_TRY(ec_camera_look(&viewpoint, scene->center, &r->camera, err));
+    r->looked_away = true;
+    double rate = ec_session_rate(setup->session), pixels = (double)r->wish.width * r->wish.height;
+    double level = rate > 0 ? ceil(sqrt(pixels / (rate * FOLLOWS))) : COARSEST / 2;
+    r->level = (uint32_t)fmin(fmax(level, 1), COARSEST);
+    r->dirty = false;
+    r->aside = true;
+    return make_room(r, err);
+}
+
+/* Between waves: is what is being done still wanted? Probes and saves are answered by the way. */
+static bool go_on(void *user)
+{
+    ec_renderer *r = user;
+    ec_live *live = r->live;
+    pthread_mutex_lock(&live->lock);
+    const ec_live_asked asked = live->asked;
+    bool other = live->quit || live->incoming[ECLAT_PICTURE] || asked.wish.is_paused || !ec_live_same_camera(&asked.wish, &r->wish);
+    pthread_mutex_unlock(&live->lock);
+    if (r->picture.film.batch_count) ec_renderer_serve_save(r, &asked);
+    if (other) return false;
+    ec_renderer_probe(r, &asked);
+    return true;
+}
+
+/* A picture of a sample a pixel, each for level x level of the wish's. While the camera moves it is finished even if the camera has
+ * moved on: else there would be none. */
+ec_result ec_renderer_preview(ec_renderer *r, ec_error *err)
+{
+    const ec_live_setup *setup = r->setup[ECLAT_PICTURE];
+    uint32_t width = (r->wish.width + r->level - 1) / r->level, height = (r->wish.height + r->level - 1) / r->level;
+    ec_session_batch batch = {.seed = ec_session_seed(setup->options.seed, 1, r->previews++), .samples = 1,
+                              .go_on = r->wish.is_moving ? NULL : go_on, .user = r, .slice = EC_LIVE_SLICE, .rgb = r->mean};
+    r->aside = true;
+    EC_TRY(look(r, ECLAT_PICTURE, width, height, err));
+    EC_TRY(ec_session_take(setup->session, &batch, err));
+    if (!batch.complete) return EC_OK;
+    EC_TRY(ec_live_show(r->live, &r->wish, ECLAT_PICTURE, r->mean, width, height, err));
+    tell(r, r->level, false);
+    if (!r->wish.is_moving) r->level = r->level > 3 ? r->level / 2 : 0;
+    return EC_OK;
+}
+
+ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err)
+{
+    const ec_live_setup *setup = r->setup[ECLAT_PICTURE];
+    bool complete;
+    if (!r->picture.film.width) EC_TRY(ec_live_film_start(&r->picture, &setup->options, r->wish.more, r->wish.width, r->wish.height, err));
+    if (r->aside) EC_TRY(look(r, ECLAT_PICTURE, r->wish.width, r->wish.height, err));
+    r->aside = false;
+    EC_TRY(ec_live_film_take(&r->picture, setup->session, go_on, r, &complete, err));
+    r->dirty |= complete;
+    return EC_OK;
+}
+
+ec_result ec_renderer_take_second(ec_renderer *r, ec_error *err)
+{
+    EC_TRY(look(r, ECLAT_SECOND_PICTURE, r->wish.width, r->wish.height, err));
+    EC_TRY(ec_live_second_render(&r->second, r->setup[ECLAT_SECOND_PICTURE]->session, r->wish.width, r->wish.height, go_on, r, err));
+    r->dirty |= r->second.other != NULL;
+    return EC_OK;
+}
+
+/* The film as it is now, and what is to stand beside it. */
+ec_result ec_renderer_show(ec_renderer *r, ec_error *err)
+{
+    const eclat_wish *wish = &r->wish;
+    const ec_film *film = &r->picture.film;
+    r->dirty = false;
+    ec_film_resolve(film, r->mean, NULL);
+    EC_TRY(ec_live_show(r->live, wish, ECLAT_PICTURE, r->mean, wish->width, wish->height, err));
+    EC_TRY(ec_live_second_show(&r->second, r->live, wish, film, r->mean, err));
+    tell(r, 0, ec_live_second_has(&r->second, r->live, wish->second, film));
+    return EC_OK;
+}
