@@ -7,6 +7,8 @@
 #include "jobs/option_parser.h"
 #include "ranks/ranks.h"
 
+struct ec_view_module; /* view/view.h */
+
 /* What a command gets: the console, and the whole command line as it was typed. */
 typedef struct ec_cli {
     ec_console console;
@@ -40,6 +42,9 @@ int ec_merge_rows(ec_option *rows);
 int ec_render_command_rows(ec_option *rows);
 int ec_selftest_rows(ec_option *rows);
 int ec_view_rows(ec_option *rows);
+
+/* The window, a module; fails where the program was built without it. */
+ec_result ec_view_load(const struct ec_view_module **module, ec_error *err);
 
 /* Prints `eclat VERSION` or a command's help ("" for the program's own) to stdout. */
 void ec_print_version(void);

@@ -2,10 +2,10 @@
 #include "base/module.h"
 #include "cli/cli.h"
 #include "cli/stop.h"
-#include "cli/view_module.h"
 #include "jobs/defaults.h"
 #include "jobs/frame_job.h"
 #include "jobs/setters.h"
+#include "view/view.h"
 
 typedef struct view_command {
     ec_render_request render; /* first: the setters of its options are used, to refuse values at once */
@@ -57,7 +57,7 @@ int ec_view_rows(ec_option *rows)
     return count;
 }
 
-ec_result ec_view_load(const ec_view_module **module, ec_error *err)
+ec_result ec_view_load(const struct ec_view_module **module, ec_error *err)
 {
     const void *symbol = NULL;
     EC_TRY(ec_module_load("view", "this eclat was built without its preview window: install libglfw3-dev, libepoxy-dev, libstb-dev and "

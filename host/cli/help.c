@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "cli/view_module.h"
+#include "view/view.h"
 
 enum { WIDTH = 119, ITEM_TEXT = 1024, LIST_TEXT = 4096 };
 

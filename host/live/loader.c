@@ -35,15 +35,6 @@ static void say_loading(ec_live *live, const char *what)
     pthread_mutex_unlock(&live->lock);
 }
 
-/* What fails at first fails for good; later it leaves the last picture. */
-static void say_failure(ec_live *live, eclat_trouble whose, const ec_error *err, bool is_first)
-{
-    pthread_mutex_lock(&live->lock);
-    if (is_first) live->status.has_failed = 1 + (int)whose;
-    pthread_mutex_unlock(&live->lock);
-    ec_live_say_trouble(live, whose, err->text);
-}
-
 static ec_result find_cameras(ec_live_scene *s, ec_error *err)
 {
     const ec_scene *scene = s->job.scene;
@@ -119,7 +110,7 @@ static ec_result load(loader *l, ec_error *err)
     ec_live_tell(live);
     pthread_mutex_unlock(&live->lock);
     ec_live_scene_release(live, old);
-    ec_live_say_trouble(live, ECLAT_TROUBLE_FILES, lost.text);
+    ec_live_say_trouble(live, ECLAT_TROUBLE_FILES, lost.text, false);
     return EC_OK;
 }
 
@@ -133,7 +124,7 @@ static void hand_over(ec_live *live, eclat_shown which, ec_live_setup *setup)
     ec_live_setup_free(live, unclaimed);
 }
 
-/* false: it failed, and will not be tried again until something else is wished. */
+/* false: it failed, and will not be tried again until something else is wished; at first, not at all. */
 static bool set_up(loader *l, eclat_shown which, eclat_integrator integrator, uint64_t without)
 {
     ec_live *live = l->live;
@@ -142,10 +133,10 @@ static bool set_up(loader *l, eclat_shown which, eclat_integrator integrator, ui
     bool is_first = l->made[which].serial == 0 && which == ECLAT_PICTURE;
     l->made[which] = (made_for){live->facts.serial, integrator, without};
     if (ec_live_setup_make(live, live->scene, (ec_integrator)integrator, without, &setup, &err) != EC_OK) {
-        say_failure(live, ECLAT_TROUBLE_SETUP, &err, is_first);
+        ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, err.text, is_first);
         return false;
     }
-    ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, "");
+    ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, "", false);
     hand_over(live, which, setup);
     return true;
 }
@@ -221,7 +212,7 @@ static void reload_if_changed(loader *l, bool *pending)
     *pending = false;
     ec_error err = {0};
     say_loading(l->live, "loading");
-    if (load(l, &err) != EC_OK) say_failure(l->live, ECLAT_TROUBLE_FILES, &err, false);
+    if (load(l, &err) != EC_OK) ec_live_say_trouble(l->live, ECLAT_TROUBLE_FILES, err.text, false);
     say_loading(l->live, "");
 }
 
@@ -233,7 +224,7 @@ void *ec_live_loader(void *argument)
     bool pending = false;
     say_loading(live, "loading");
     bool loaded = load(&l, &err) == EC_OK;
-    if (!loaded) say_failure(live, ECLAT_TROUBLE_FILES, &err, true);
+    if (!loaded) ec_live_say_trouble(live, ECLAT_TROUBLE_FILES, err.text, true);
     for (bool quit = !loaded; !quit;) {
         eclat_wish wish;
         bool look = wait_for_work(&l, pending, &wish, &quit);

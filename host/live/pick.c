@@ -61,16 +61,23 @@ typedef struct sphere {
     double center[3], radius;
 } sphere;
 
-/* Around the box of some vertices. */
-static sphere around(const float *positions, uint32_t count)
+typedef struct box {
+    double low[3], high[3];
+} box;
+static const box empty = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void grow(box *b, const float point[3])
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0;
+    for (int k = 0; k < 3; k++) b->low[k] = fmin(b->low[k], (double)point[k]), b->high[k] = fmax(b->high[k], (double)point[k]);
+}
+
+/* Of no radius where the box has no points. */
+static sphere around(const box *b)
+{
     sphere s;
-    for (uint32_t v = 0; v < count; v++)
-        for (int k = 0; k < 3; k++)
-            low[k] = fmin(low[k], positions[3 * (size_t)v + k]), high[k] = fmax(high[k], positions[3 * (size_t)v + k]);
-    for (int k = 0; k < 3; k++) s.center[k] = 0.5 * (low[k] + high[k]), square += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
-    s.radius = sqrt(square);
+    double square = 0;
+    for (int k = 0; k < 3; k++) s.center[k] = 0.5 * (b->low[k] + b->high[k]), square += 0.25 * (b->high[k] - b->low[k]) * (b->high[k] - b->low[k]);
+    s.radius = isfinite(square) ? sqrt(square) : 0;
     return s;
 }
 
@@ -100,8 +107,11 @@ static void try_instances(const ec_scene *s, const ray *r, ec_live_hit *best)
 {
     sphere *spheres = malloc(s->shape_count * sizeof *spheres);
     if (!spheres) return;
-    for (uint32_t i = 0; i < s->shape_count; i++)
-        spheres[i] = around(s->positions + 3 * (size_t)s->shapes[i].first_vertex, s->shapes[i].vertex_count);
+    for (uint32_t i = 0; i < s->shape_count; i++) {
+        box b = empty;
+        for (uint32_t v = 0; v < s->shapes[i].vertex_count; v++) grow(&b, s->positions + 3 * ((size_t)s->shapes[i].first_vertex + v));
+        spheres[i] = around(&b);
+    }
     for (uint32_t i = 0; i < s->placed_count; i++) {
         const ec_placed *placed = &s->placed[i];
         sphere here = place(&spheres[placed->shape], placed);
@@ -117,15 +127,6 @@ ec_live_hit ec_live_pick(const ec_scene *s, const ec_camera *camera, uint32_t wi
     try_triangles(s, &r, 0, ec_scene_flat_count(s), NULL, &best);
     if (s->placed_count) try_instances(s, &r, &best);
     return best;
-}
-
-typedef struct box {
-    double low[3], high[3];
-} box;
-
-static void grow(box *b, const float point[3])
-{
-    for (int k = 0; k < 3; k++) b->low[k] = fmin(b->low[k], (double)point[k]), b->high[k] = fmax(b->high[k], (double)point[k]);
 }
 
 static void grow_by_part(box *b, const ec_scene *s, uint32_t first, uint64_t end)
@@ -145,14 +146,11 @@ static void grow_by_part(box *b, const ec_scene *s, uint32_t first, uint64_t end
 
 void ec_live_node_sphere(const ec_scene *s, uint32_t node, double center[3], double *radius)
 {
-    box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    double square = 0;
+    box b = empty;
     for (uint32_t p = 0; p < s->part_count; p++)
         if (s->parts[p].node == node)
-            grow_by_part(&b, s, s->parts[p].first,
-                         p + 1 < s->part_count ? s->parts[p + 1].first : ec_scene_met_count(s));
-    for (int k = 0; k < 3; k++)
-        center[k] = 0.5 * (b.low[k] + b.high[k]) + s->center[k],
-        square += 0.25 * (b.high[k] - b.low[k]) * (b.high[k] - b.low[k]);
-    *radius = isfinite(square) ? sqrt(square) : 0;
+            grow_by_part(&b, s, s->parts[p].first, p + 1 < s->part_count ? s->parts[p + 1].first : ec_scene_met_count(s));
+    const sphere around_it = around(&b);
+    for (int k = 0; k < 3; k++) center[k] = around_it.center[k] + s->center[k];
+    *radius = around_it.radius;
 }

@@ -13,7 +13,7 @@ static bool same_tones(const eclat_wish *a, const eclat_wish *b)
 static void fail(ec_renderer *r, const ec_error *err)
 {
     r->broken = true;
-    ec_live_say_trouble(r->live, ECLAT_TROUBLE_CAMERA, err->text);
+    ec_live_say_trouble(r->live, ECLAT_TROUBLE_CAMERA, err->text, false);
 }
 
 static bool is_final(const ec_renderer *r)
@@ -89,7 +89,7 @@ static ec_result do_duty(ec_renderer *r, duty d, ec_error *err)
     if (d == BATCH) return ec_renderer_take_batch(r, err);
     if (d == SECOND) return ec_renderer_take_second(r, err);
     EC_TRY(ec_renderer_show(r, err));
-    if (!r->broken) ec_live_say_trouble(r->live, ECLAT_TROUBLE_CAMERA, "");
+    if (!r->broken) ec_live_say_trouble(r->live, ECLAT_TROUBLE_CAMERA, "", false);
     return EC_OK;
 }
 

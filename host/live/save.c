@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "jobs/write_report.h"
 #include "live/renderer.h"
 #include "report/scene_report.h"
 
@@ -46,34 +45,28 @@ static ec_render_stats stats_of(const ec_renderer *r, const ec_render_options *o
     return stats;
 }
 
-static ec_viewpoint viewpoint_of(const ec_live_scene *s, const eclat_wish *wish, uint32_t index)
+/* The loaded job, as if it had rendered the film. */
+static ec_result write_files(const ec_renderer *r, const eclat_wish *wish, ec_render_request *request, const char *command, ec_error *err)
 {
-    ec_viewpoint v = ec_live_viewpoint(wish);
-    const ec_camera *camera = &s->job.scene->cameras[index];
-    if (!wish->is_moved && index == s->request.options.camera) return s->job.viewpoint;
-    if (!wish->is_moved) ec_camera_viewpoint(camera, s->job.scene->center, ec_camera_reach(s->job.scene, camera), &v);
-    return v;
-}
-
-static ec_result write_files(const ec_renderer *r, const eclat_wish *wish, const char *command, ec_outputs *outputs, const ec_render_options *options,
-                             ec_error *err)
-{
-    const ec_live *live = r->live;
     const ec_live_scene *scene = r->setup[ECLAT_PICTURE]->scene;
-    const ec_film *film = &r->picture.film;
-    const ec_render_stats stats = stats_of(r, options);
-    char sha256[EC_HASH_SIZE], camera[256] = "of the preview window", environment[320];
-    if (!wish->is_moved) ec_camera_describe(scene->job.scene, options->camera, camera, sizeof camera);
-    int used = snprintf(environment, sizeof environment, "%s", scene->job.environment_text);
-    if (wish->env_degrees != 0) snprintf(environment + used, sizeof environment - (size_t)used, ", turned by %g degrees", wish->env_degrees);
-    ec_render_report report = {
-        .command = command, .scene = live->request.scene, .camera = camera, .viewpoint = viewpoint_of(scene, wish, options->camera),
-        .environment = environment, .options = options, .stats = &stats, .device = &live->device, .device_why = live->device_why,
-        .device_index = &live->device_index, .exposure = wish->exposure, .tonemap = (ec_tonemap)wish->tonemap,
-        .mean_luminance = ec_film_estimate_error(film).mean_luminance, .replicates = ec_film_replicates(film),
-        .load_seconds = scene->job.load_seconds,
-    };
-    return ec_write_report(outputs, film, NULL, &report, sha256, err);
+    ec_render_job job = scene->job;
+    const uint32_t index = request->options.camera;
+    const ec_camera *camera = &job.scene->cameras[index];
+    const char *names[EC_OUTPUTS_MAX];
+    job.request = request;
+    job.command = command;
+    job.film = r->picture.film;
+    job.stats = stats_of(r, &request->options);
+    if (wish->is_moved) job.viewpoint = ec_live_viewpoint(wish);
+    else if (index != scene->request.options.camera)
+        ec_camera_viewpoint(camera, job.scene->center, ec_camera_reach(job.scene, camera), &job.viewpoint);
+    if (wish->is_moved) snprintf(job.camera_text, sizeof job.camera_text, "of the preview window");
+    else ec_camera_describe(job.scene, index, job.camera_text, sizeof job.camera_text);
+    const size_t used = strlen(job.environment_text);
+    if (wish->env_degrees != 0)
+        snprintf(job.environment_text + used, sizeof job.environment_text - used, ", turned by %g degrees", wish->env_degrees);
+    ec_render_report report = ec_render_job_report(&job, names);
+    return ec_render_job_write(&job, &request->outputs, &report, err);
 }
 
 static void tell_files(const ec_outputs *outputs, const char *command, char *told, size_t size)
@@ -87,14 +80,16 @@ static void tell_files(const ec_outputs *outputs, const char *command, char *tol
 static ec_result save(ec_renderer *r, const eclat_wish *wish, char *told, size_t size, ec_error *err)
 {
     const ec_live *live = r->live;
-    const ec_render_options options = options_of(r, wish);
     ec_render_request request = live->request;
+    request.options = options_of(r, wish);
+    request.exposure = wish->exposure;
+    request.tonemap = (ec_tonemap)wish->tonemap;
     if (request.outputs.count == 0) EC_TRY(ec_outputs_add_default(&request.outputs, request.scene, err));
     number_outputs(&request.outputs, r->saved + 1);
     EC_TRY(ec_render_check_files(&request, err));
-    char *command = ec_live_command(live, r->setup[ECLAT_PICTURE]->scene, wish, &options, &request.outputs);
+    char *command = ec_live_command(live, r->setup[ECLAT_PICTURE]->scene, wish, &request.options, &request.outputs);
     if (!command) return ec_fail(err, "out of memory for a command line");
-    ec_result result = write_files(r, wish, command, &request.outputs, &options, err);
+    ec_result result = write_files(r, wish, &request, command, err);
     if (result == EC_OK) {
         r->saved++;
         tell_files(&request.outputs, command, told, size);

@@ -58,33 +58,26 @@ static ec_result show_file(ec_live_second *s, ec_live *live, const eclat_wish *w
     return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->fitted, width, height, err);
 }
 
-typedef struct maps {
-    const ec_film *film;
-    const float *mean;
-} maps;
-
 /* As `eclat compare --diff`: the standard error in the place of a difference. */
-static void fill_error(const void *user, uint8_t *bytes)
+static void draw_error(const ec_film *film, const float *mean, uint8_t *bytes)
 {
-    const maps *m = user;
-    const uint64_t pixels = (uint64_t)m->film->width * m->film->height;
+    const uint64_t pixels = (uint64_t)film->width * film->height;
     for (uint64_t p = 0; p < pixels; p++) {
         ec_pixel pixel;
         float off[3];
-        ec_film_look(m->film, p, 1, &pixel);
-        for (int c = 0; c < 3; c++) off[c] = m->mean[3 * p + (uint64_t)c] + (float)sqrt(ec_pixel_se2(&pixel, c));
-        ec_error_map(off, m->mean + 3 * p, 1, bytes + 3 * p);
+        ec_film_look(film, p, 1, &pixel);
+        for (int c = 0; c < 3; c++) off[c] = mean[3 * p + (uint64_t)c] + (float)sqrt(ec_pixel_se2(&pixel, c));
+        ec_error_map(off, mean + 3 * p, 1, bytes + 3 * p);
     }
 }
 
 /* Black none, pale yellow the most there are. */
-static void fill_samples(const void *user, uint8_t *bytes)
+static void draw_samples(const ec_film *film, uint8_t *bytes)
 {
-    const maps *m = user;
-    uint64_t pixels = (uint64_t)m->film->width * m->film->height;
+    uint64_t pixels = (uint64_t)film->width * film->height;
     double most = 1;
-    for (uint64_t p = 0; p < pixels; p++) most = fmax(most, ec_film_samples(m->film, p));
-    for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_samples(m->film, p) / most, bytes + 3 * p);
+    for (uint64_t p = 0; p < pixels; p++) most = fmax(most, ec_film_samples(film, p));
+    for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_samples(film, p) / most, bytes + 3 * p);
 }
 
 bool ec_live_second_has(const ec_live_second *s, const ec_live *live, eclat_second kind, const ec_film *film)
@@ -100,12 +93,13 @@ bool ec_live_second_has(const ec_live_second *s, const ec_live *live, eclat_seco
 
 ec_result ec_live_second_show(ec_live_second *s, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, ec_error *err)
 {
-    const maps m = {film, mean};
+    uint8_t *bytes;
     if (!ec_live_second_has(s, live, wish->second, film)) return EC_OK;
-    switch (wish->second) {
-    case ECLAT_SECOND_ERROR: return ec_live_show_filled(live, ECLAT_SECOND_PICTURE, film->width, film->height, fill_error, &m, err);
-    case ECLAT_SECOND_SAMPLES: return ec_live_show_filled(live, ECLAT_SECOND_PICTURE, film->width, film->height, fill_samples, &m, err);
-    case ECLAT_SECOND_INTEGRATOR: return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->other, film->width, film->height, err);
-    default: return show_file(s, live, wish, film->width, film->height, err);
-    }
+    if (wish->second == ECLAT_SECOND_FILE) return show_file(s, live, wish, film->width, film->height, err);
+    if (wish->second == ECLAT_SECOND_INTEGRATOR) return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->other, film->width, film->height, err);
+    EC_TRY(ec_live_canvas(live, ECLAT_SECOND_PICTURE, film->width, film->height, &bytes, err));
+    if (wish->second == ECLAT_SECOND_ERROR) draw_error(film, mean, bytes);
+    else draw_samples(film, bytes);
+    ec_live_hand_out(live, ECLAT_SECOND_PICTURE);
+    return EC_OK;
 }

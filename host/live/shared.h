@@ -41,7 +41,7 @@ typedef struct ec_live_setup {
     ec_render_stats stats;
 } ec_live_setup;
 
-/* Written by the renderer while the caller looks at another one. */
+/* The renderer writes one while the caller looks at another. */
 typedef struct ec_live_image {
     uint32_t width, height;
     uint8_t *rgb;                 /* owned */
@@ -88,7 +88,7 @@ void ec_live_close(ec_live *live);
 /* tell.c: with the lock held, wakes the other threads; and the caller. */
 void ec_live_post(ec_live *live);
 void ec_live_tell(ec_live *live);
-void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text); /* without the lock. "": it goes well (again) */
+void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text, bool is_final); /* without the lock. "": it goes well (again) */
 
 /* setup.c: scenes are shared under the lock; setups belong to one thread at a time. NULL is fine. */
 void ec_live_scene_release(ec_live *live, ec_live_scene *scene);
@@ -100,9 +100,9 @@ void *ec_live_loader(void *live);
 void *ec_live_renderer(void *live);
 void *ec_live_watcher(void *live);
 
-/* show.c: a picture for the caller, which `fill` writes; and one of 3 floats a pixel, through the program's tone mapper. */
-typedef void (*ec_live_fill)(const void *user, uint8_t *bytes);
-ec_result ec_live_show_filled(ec_live *live, eclat_shown which, uint32_t width, uint32_t height, ec_live_fill fill, const void *user, ec_error *err);
+/* show.c: memory for the next picture, 3 bytes a pixel; and to the caller with it. Both, of 3 floats a pixel through the program's tone mapper. */
+ec_result ec_live_canvas(ec_live *live, eclat_shown which, uint32_t width, uint32_t height, uint8_t **rgb, ec_error *err);
+void ec_live_hand_out(ec_live *live, eclat_shown which);
 ec_result ec_live_show(ec_live *live, const eclat_wish *wish, eclat_shown which, const float *rgb, uint32_t width, uint32_t height, ec_error *err);
 
 /* pick.c: the surface that a pixel's centre sees, by trying all triangles. */

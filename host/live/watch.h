@@ -14,8 +14,8 @@ typedef struct ec_watch {
     bool is_deaf;               /* of some nobody tells: look now and then */
 } ec_watch;
 
-/* Watches the files of scene and environment (may be NULL), with the buffers and images that the scene names. As they are now. events: a descriptor of
- * inotify, which has something to read when it is time to ask; -1: none. */
+/* Watches the files of scene and environment (may be NULL), with the buffers and images that the scene names. As they are now. events: one of
+ * inotify, readable when it is time to ask; -1: none. */
 void ec_watch_start(ec_watch *watch, const char *scene, const char *environment, int events);
 void ec_watch_stop(ec_watch *watch);
 

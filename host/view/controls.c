@@ -8,6 +8,7 @@
 #include "view/window.h"
 
 #define TAP 0.3     /* seconds: S that is down longer than this flies */
+#define WHEEL (log(0.9) / 3) /* heights of the picture that a click of the wheel drags: a tenth nearer */
 #define CLICK 4     /* pixels: a drag that goes no further selects */
 
 static ec_window *of(GLFWwindow *glfw) { return glfwGetWindowUserPointer(glfw); }
@@ -88,7 +89,7 @@ static void on_scroll(GLFWwindow *glfw, double x, double y)
 {
     ec_window *w = of(glfw);
     (void)x;
-    if (w->input.facts.serial && y != 0) ec_view_input_wheel(&w->input, y); /* sideways it does nothing */
+    if (w->input.facts.serial && y != 0) ec_view_input_drag(&w->input, EC_DRAG_DOLLY, 0, y * WHEEL); /* sideways it does nothing */
     w->dirty = true;
 }
 

@@ -124,12 +124,6 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     w->second = in->layout != EC_LAYOUT_ONE ? in->second : ECLAT_SECOND_NONE;
 }
 
-void ec_view_input_turn(ec_view_input *in, double yaw, double pitch)
-{
-    ec_orbit_turn(take_camera(in), yaw, pitch);
-    moved(in);
-}
-
 void ec_view_input_drag(ec_view_input *in, ec_view_drag drag, double dx, double dy)
 {
     eclat_viewpoint *v = take_camera(in);
@@ -139,12 +133,6 @@ void ec_view_input_drag(ec_view_input *in, ec_view_drag drag, double dx, double 
     case EC_DRAG_DOLLY: dolly(in, exp(3 * dy)); break;
     case EC_DRAG_LOOK: ec_orbit_look(v, half_turn / 2 * dx, -half_turn / 2 * dy); break;
     }
-    moved(in);
-}
-
-void ec_view_input_wheel(ec_view_input *in, double clicks)
-{
-    dolly(in, pow(0.9, clicks));
     moved(in);
 }
 

@@ -37,10 +37,7 @@ bool ec_view_input_knows(const char *name);
 typedef enum ec_view_drag { EC_DRAG_ORBIT, EC_DRAG_PAN, EC_DRAG_DOLLY, EC_DRAG_LOOK } ec_view_drag;
 /* dx, dy: heights of the picture, to the right and down. */
 void ec_view_input_drag(ec_view_input *input, ec_view_drag drag, double dx, double dy);
-void ec_view_input_wheel(ec_view_input *input, double clicks);
 /* Directions from -1 to 1, for so many seconds. */
 void ec_view_input_fly(ec_view_input *input, double forward, double right, double up, double seconds);
-/* Angles in radians, for scripts. */
-void ec_view_input_turn(ec_view_input *input, double yaw, double pitch);
 
 #endif

@@ -28,9 +28,9 @@ static void format_seconds(double seconds, char *text, size_t size)
 }
 
 /* "38.2 s left to 1 % error" */
-static void format_prediction(const ec_view_overlay *o, char *text, size_t size)
+static void format_prediction(const ec_window *w, char *text, size_t size)
 {
-    const eclat_status *s = o->status;
+    const eclat_status *s = &w->status;
     char target[96] = "", left[32];
     if (s->error_limit > 0) snprintf(target, sizeof target, "error %.3g %%", 100 * s->error_limit);
     size_t used = strlen(target);
@@ -43,9 +43,9 @@ static void format_prediction(const ec_view_overlay *o, char *text, size_t size)
     else snprintf(text, size, "until %s", target);
 }
 
-static void format_state(const ec_view_overlay *o, char *text, size_t size)
+static void format_state(const ec_window *w, char *text, size_t size)
 {
-    const eclat_status *s = o->status;
+    const eclat_status *s = &w->status;
     char error[32] = "?", bound[48] = "bound unknown", seconds[32], prediction[160];
     if (isfinite(s->error)) format_percent(s->error, error, sizeof error);
     if (isfinite(s->error_bound)) {
@@ -56,7 +56,7 @@ static void format_state(const ec_view_overlay *o, char *text, size_t size)
         snprintf(bound, sizeof bound, "or more: rare bright paths decide");
     }
     format_seconds(s->seconds, seconds, sizeof seconds);
-    format_prediction(o, prediction, sizeof prediction);
+    format_prediction(w, prediction, sizeof prediction);
     if (s->pictures == 0) snprintf(text, size, "no picture yet");
     else if (s->preview)
         snprintf(text, size, "%s, preview: a sample for %ux%u pixels", integrators[s->integrator], s->preview, s->preview);
@@ -64,9 +64,9 @@ static void format_state(const ec_view_overlay *o, char *text, size_t size)
         snprintf(text, size, "%s  %" PRIu64 " spp  error %s (%s)  %s  %s", integrators[s->integrator], s->samples, error, bound, seconds, prediction);
 }
 
-static void format_probe(const ec_view_overlay *o, char *text, size_t size)
+static void format_probe(const ec_window *w, char *text, size_t size)
 {
-    const eclat_probe *p = &o->status->under;
+    const eclat_probe *p = &w->status.under;
     size_t used = (size_t)snprintf(text, size, "(%u, %u)", p->x, p->y);
     if (p->has_value) used += (size_t)snprintf(text + used, size - used, "  radiance %.4g %.4g %.4g", p->rgb[0], p->rgb[1], p->rgb[2]);
     if (p->has_error) used += (size_t)snprintf(text + used, size - used, "  +- %.2g %.2g %.2g", p->se[0], p->se[1], p->se[2]);
@@ -75,47 +75,47 @@ static void format_probe(const ec_view_overlay *o, char *text, size_t size)
     else snprintf(text + used, size - used, "  no surface");
 }
 
-static void format_settings(const ec_view_overlay *o, char *text, size_t size)
+static void format_settings(const ec_window *w, char *text, size_t size)
 {
-    const eclat_wish *w = &o->input->wish;
-    const eclat_facts *f = &o->input->facts;
+    const eclat_wish *wish = &w->input.wish;
+    const eclat_facts *f = &w->input.facts;
     char turned[48] = "", without[300] = "", camera[32] = "moved";
     size_t used = 0;
-    if (w->env_degrees != 0) snprintf(turned, sizeof turned, "  environment %g deg", w->env_degrees);
+    if (wish->env_degrees != 0) snprintf(turned, sizeof turned, "  environment %g deg", wish->env_degrees);
     for (uint32_t i = 0; i < f->effect_count && used < sizeof without; i++)
-        if (w->without & f->effects[i].bit) used += (size_t)snprintf(without + used, sizeof without - used, " %s", f->effects[i].name);
-    if (!w->is_moved) snprintf(camera, sizeof camera, "%u", w->camera < 0 ? f->camera : (uint32_t)w->camera);
-    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", f->device, camera, w->exposure, tonemaps[w->tonemap], turned,
+        if (wish->without & f->effects[i].bit) used += (size_t)snprintf(without + used, sizeof without - used, " %s", f->effects[i].name);
+    if (!wish->is_moved) snprintf(camera, sizeof camera, "%u", wish->camera < 0 ? f->camera : (uint32_t)wish->camera);
+    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", f->device, camera, wish->exposure, tonemaps[wish->tonemap], turned,
              used ? "  without" : "", without);
 }
 
 /* Under the top of the window, and above the foot: what needs to be read now. */
-static void draw_messages(const ec_view_overlay *o, const ec_view_text *text, double width, double height, double foot)
+static void draw_messages(const ec_window *w, const ec_view_text *text, double width, double height, double foot)
 {
-    const eclat_status *s = o->status;
+    const eclat_status *s = &w->status;
     char line[80];
     ec_view_block b;
     ec_block_start(&b, text, width, height - foot);
     for (int i = 0; i < ECLAT_TROUBLE_COUNT; i++) ec_block_add(&b, s->trouble[i], 2, red);
     if (*s->loading) snprintf(line, sizeof line, "%s ...", s->loading), ec_block_add(&b, line, 2, yellow);
-    if (o->message) ec_block_add(&b, s->told, 2, yellow);
+    if (w->telling) ec_block_add(&b, s->told, 2, yellow);
     ec_block_draw(&b, 0, height, width);
 }
 
 /* At the foot; no more than half of the window. What is under the cursor comes and goes above the rest, which stays in its place.
  * Its height. */
-static double draw_foot(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
+static double draw_foot(const ec_window *w, const ec_view_text *text, double width, double height)
 {
     char state[400], settings[1000], effects[1200], probe[400];
-    const eclat_probe *selected = &o->input->selected;
-    const bool is_selected = selected->node >= 0, has_all = o->input->lines == EC_LINES_ALL;
+    const eclat_probe *selected = &w->input.selected;
+    const bool is_selected = selected->node >= 0, has_all = w->input.lines == EC_LINES_ALL;
     ec_view_block b;
-    format_state(o, state, sizeof state);
-    format_settings(o, settings, sizeof settings);
-    format_probe(o, probe, sizeof probe);
-    snprintf(effects, sizeof effects, "effects: %s%s%s", o->status->effects, is_selected ? "  selected: " : "",
+    format_state(w, state, sizeof state);
+    format_settings(w, settings, sizeof settings);
+    format_probe(w, probe, sizeof probe);
+    snprintf(effects, sizeof effects, "effects: %s%s%s", w->status.effects, is_selected ? "  selected: " : "",
              is_selected ? selected->node_name : "");
-    for (int with_probe = o->status->under.is_inside && has_all; with_probe >= 0; with_probe--) {
+    for (int with_probe = w->status.under.is_inside && has_all; with_probe >= 0; with_probe--) {
         ec_block_start(&b, text, width, 0.5 * height);
         bool fits = !with_probe || ec_block_add(&b, probe, 2, grey);
         fits = ec_block_add(&b, state, 2, white) && fits;
@@ -127,33 +127,34 @@ static double draw_foot(const ec_view_overlay *o, const ec_view_text *text, doub
 }
 
 /* What the second picture is, in its upper right corner. */
-static void draw_label(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
+static void draw_label(const ec_window *w, const ec_view_text *text, double width, double height)
 {
-    const eclat_wish *w = &o->input->wish;
+    const eclat_wish *wish = &w->input.wish;
     char line[300];
     ec_view_block b;
-    switch (w->second) {
+    switch (wish->second) {
     case ECLAT_SECOND_ERROR: snprintf(line, sizeof line, "standard error: black 0.1 %%, yellow 100 %%"); break;
-    case ECLAT_SECOND_SAMPLES: snprintf(line, sizeof line, "samples: black 0, yellow %" PRIu64, o->status->samples); break;
-    case ECLAT_SECOND_INTEGRATOR: snprintf(line, sizeof line, "%s", integrators[w->second_integrator]); break;
-    default: snprintf(line, sizeof line, "%.250s", o->against ? o->against : ""); break;
+    case ECLAT_SECOND_SAMPLES: snprintf(line, sizeof line, "samples: black 0, yellow %" PRIu64, w->status.samples); break;
+    case ECLAT_SECOND_INTEGRATOR: snprintf(line, sizeof line, "%s", integrators[wish->second_integrator]); break;
+    default: snprintf(line, sizeof line, "%.250s", w->request->against ? w->request->against : ""); break;
     }
     ec_block_start(&b, text, 0.5 * width, height);
     ec_block_add(&b, line, 2, white);
-    if (!o->has_second) ec_block_add(&b, "not there yet", 2, yellow);
+    if (!w->has_second) ec_block_add(&b, "not there yet", 2, yellow);
     ec_block_draw(&b, width - ec_block_width(&b), height, width);
 }
 
-void ec_view_overlay_draw(const ec_view_overlay *o, const ec_view_text *text, double width, double height)
+void ec_view_overlay_draw(const ec_window *w, double width, double height)
 {
-    const ec_view_input *in = o->input;
+    const ec_view_input *in = &w->input;
+    const ec_view_text *text = &w->text;
     if (in->help) {
-        ec_view_help_draw(o->small, width, height);
+        ec_view_help_draw(&w->small, width, height);
         return;
     }
-    double foot = in->lines != EC_LINES_NONE ? draw_foot(o, text, width, height) : 0;
+    double foot = in->lines != EC_LINES_NONE ? draw_foot(w, text, width, height) : 0;
     if (in->layout != EC_LAYOUT_ONE && in->lines != EC_LINES_NONE)
-        draw_label(o, text, width, in->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
+        draw_label(w, text, width, in->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
     if (in->effects) ec_view_effects_draw(&in->facts, in->effects_page, in->wish.without, text, width, height);
-    else draw_messages(o, text, width, height, foot);
+    else draw_messages(w, text, width, height, foot);
 }

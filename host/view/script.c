@@ -61,15 +61,9 @@ eclat_result ec_script_read(ec_script *s, const char *name, eclat_error *err)
 /* The part of a move that `share` of its time does. */
 static void do_part(const ec_script_step *step, ec_view_input *in, double share)
 {
-    const double degree = M_PI / 180;
-    if (!strcmp(step->verb, "turn")) ec_view_input_turn(in, step->a * degree * share, step->b * degree * share);
+    if (!strcmp(step->verb, "turn")) ec_view_input_drag(in, EC_DRAG_ORBIT, -step->a / 180 * share, step->b / 180 * share);
     if (!strcmp(step->verb, "pan")) ec_view_input_drag(in, EC_DRAG_PAN, -step->a * share, step->b * share);
-    if (!strcmp(step->verb, "dolly")) ec_view_input_wheel(in, log(step->a) * share / log(0.9));
-}
-
-static bool is_move(const ec_script_step *step)
-{
-    return !strcmp(step->verb, "turn") || !strcmp(step->verb, "pan") || !strcmp(step->verb, "dolly");
+    if (!strcmp(step->verb, "dolly")) ec_view_input_drag(in, EC_DRAG_DOLLY, 0, log(step->a) / 3 * share);
 }
 
 /* Runs a step that takes no time; is it over? */
@@ -78,7 +72,7 @@ static bool is_over(const ec_script_step *step, ec_view_input *in, const eclat_s
     if (!strcmp(step->verb, "settle")) return status->is_settled;
     if (!strcmp(step->verb, "quit")) in->quit = in->saves == status->saves;
     if (!strcmp(step->verb, "key")) ec_view_input_key(in, step->key);
-    if (is_move(step)) do_part(step, in, 1);
+    do_part(step, in, 1);
     return strcmp(step->verb, "quit") || in->quit;
 }
 
@@ -86,21 +80,20 @@ void ec_script_run(ec_script *s, ec_view_input *in, const eclat_status *status, 
 {
     s->moves = false;
     if (!status->pictures) return; /* there is nothing to see yet */
-    while (s->at < s->count) {
-        const ec_script_step *step = &s->steps[s->at];
-        if (step->seconds > 0) {
-            double take = fmin(seconds, step->seconds - s->done);
-            do_part(step, in, take / step->seconds);
-            s->moves |= step->a != 0 || step->b != 0;
-            s->done += take;
-            if (s->done < step->seconds - 1e-9) return;
-        } else if (!is_over(step, in, status)) {
-            return;
-        }
-        bool does = step->seconds > 0 || is_move(step) || !strcmp(step->verb, "key");
-        s->at++;
-        s->done = 0;
-        if (does) return; /* what comes of it is known in the next frame */
+    if (s->at == s->count) {
+        in->quit = in->saves == status->saves;
+        return;
     }
-    in->quit = in->saves == status->saves;
+    const ec_script_step *step = &s->steps[s->at];
+    if (step->seconds > 0) {
+        double take = fmin(seconds, step->seconds - s->done);
+        do_part(step, in, take / step->seconds);
+        s->moves = step->a != 0 || step->b != 0;
+        s->done += take;
+        if (s->done < step->seconds - 1e-9) return;
+    } else if (!is_over(step, in, status)) {
+        return;
+    }
+    s->at++; /* what comes of it is known in the next frame */
+    s->done = 0;
 }

@@ -55,7 +55,6 @@ void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
     w->dirty = true;
 }
 
-/* What is wished beside the picture, and no other or older one. */
 static bool has_second(const ec_window *w)
 {
     const eclat_wish *wish = &w->input.wish;
@@ -67,27 +66,20 @@ static bool has_second(const ec_window *w)
 static void draw_pictures(const ec_window *w, double width, double height)
 {
     const ec_view_textures *t = &w->textures;
-    bool second = has_second(w);
     double wipe = fmin(fmax(w->cursor_x, 0), width);
     if (w->input.layout == EC_LAYOUT_BESIDE) {
         double shown = 0.5 * height, foot = 0.25 * height; /* as wide as half the window, in proportion */
         glPushMatrix();
         glTranslated(0, foot, 0);
         ec_view_textures_draw(t, ECLAT_PICTURE, 0, 0.5 * width, shown, 0, 1);
-        if (second) ec_view_textures_draw(t, ECLAT_SECOND_PICTURE, 0.5 * width, width, shown, 0, 1);
+        if (w->has_second) ec_view_textures_draw(t, ECLAT_SECOND_PICTURE, 0.5 * width, width, shown, 0, 1);
         glPopMatrix();
         return;
     }
     ec_view_textures_draw(t, ECLAT_PICTURE, 0, width, height, 0, 1);
-    if (!second) return;
+    if (!w->has_second) return;
     ec_view_textures_draw(t, ECLAT_SECOND_PICTURE, wipe, width, height, wipe / width, 1);
     ec_view_veil(wipe - 1, 0, wipe + 1, height);
-}
-
-static void draw_overlay(const ec_window *w, double width, double height)
-{
-    const ec_view_overlay overlay = {&w->input, &w->status, w->request->against, w->telling, has_second(w), &w->small};
-    ec_view_overlay_draw(&overlay, &w->text, width, height);
 }
 
 static void fit_text(ec_view_text *text, double size)
@@ -114,10 +106,11 @@ void ec_window_draw(ec_window *w)
     glMatrixMode(GL_MODELVIEW);
     glLoadIdentity();
     glDisable(GL_BLEND);
+    w->has_second = has_second(w);
     draw_pictures(w, width, height);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    if (w->text.glyphs && (w->small.glyphs || !w->input.help)) draw_overlay(w, width, height);
+    if (w->text.glyphs && (w->small.glyphs || !w->input.help)) ec_view_overlay_draw(w, width, height);
     glfwSwapBuffers(w->glfw);
     w->dirty = width != w->drawn_width || height != w->drawn_height; /* some drivers learn of a new size from the frame that is wrong */
     w->drawn_width = width;

@@ -40,6 +40,7 @@ typedef struct ec_window {
     double told_at;             /* when a save was told */
     bool telling;               /* it still is */
     bool iconified, dirty, is_full;
+    bool has_second;            /* that which is wished is there, and no other or older one */
     int drawn_width, drawn_height; /* of the last frame */
     ec_window_place before;     /* full screen */
     bool restores;              /* it was full screen when its monitor went */

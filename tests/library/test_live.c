@@ -1,0 +1,258 @@
+/* tier: quick */
+/* Live sessions without a window, by the public functions alone: pictures of wishes, probes, saves that their commands repeat, files that change. */
+#include <eclat/eclat.h>
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <unistd.h>
+
+#include "support/test.h"
+
+#define SCENE ECLAT_SOURCE_DIR "/scenes/cornell-box/cornell-box.gltf"
+#define OUT ECLAT_TEST_OUT "/live-"
+#define PATIENCE 600 /* seconds, for what hangs */
+
+/* What the session tells by itself. */
+typedef struct told {
+    atomic_int wakes, saves;
+    char command[4096];
+} told;
+
+static void count_wake(void *user) { atomic_fetch_add(&((told *)user)->wakes, 1); }
+
+static void keep_command(void *user, const char *command)
+{
+    told *t = user;
+    snprintf(t->command, sizeof t->command, "%s", command);
+    atomic_fetch_add(&t->saves, 1);
+}
+
+static eclat_job *make_job(const char *scene, const char *output)
+{
+    eclat_error err;
+    eclat_job *job = NULL;
+    CHECK_MSG(eclat_job_new(scene, &job, &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_job_set(job, "spp", "4", &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_job_set(job, "output", output, &err) == ECLAT_OK, "%s", err.text);
+    return job;
+}
+
+/* A session of it, which outlives the job. */
+static eclat_live *open_live(eclat_job *job, const char *against, told *t)
+{
+    eclat_error err;
+    eclat_live *live = NULL;
+    const eclat_live_listener listener = {t, count_wake, keep_command};
+    CHECK_MSG(eclat_live_open(job, against, &listener, &live, &err) == ECLAT_OK, "%s", err.text);
+    eclat_job_free(job);
+    if (!live) exit(1);
+    return live;
+}
+
+static eclat_status wait_for(eclat_live *live, bool (*what)(const eclat_status *status, uint32_t number), uint32_t number)
+{
+    eclat_status status;
+    for (int k = 0; k < PATIENCE * 500; k++) {
+        eclat_live_status(live, &status);
+        if (what(&status, number)) return status;
+        usleep(2000);
+    }
+    CHECK_MSG(false, "nothing comes of it: %s%s%s", status.trouble[0], status.trouble[1], status.trouble[2]);
+    return status;
+}
+
+static bool is_settled(const eclat_status *s, uint32_t number) { return (void)number, s->is_settled || s->has_failed; }
+static bool is_saved(const eclat_status *s, uint32_t number) { return s->saves == number; }
+static bool is_picked(const eclat_status *s, uint32_t number) { return s->picks == number; }
+
+static eclat_wish small_wish(eclat_live *live)
+{
+    eclat_wish wish = eclat_live_wished(live);
+    wish.width = 24;
+    wish.height = 16;
+    return wish;
+}
+
+static eclat_status settle(eclat_live *live, eclat_wish *wish)
+{
+    eclat_live_wish(live, wish);
+    return wait_for(live, is_settled, 0);
+}
+
+/* How much the latest picture shines; -1: there is none that is new. */
+static double brightness(eclat_live *live, eclat_shown which)
+{
+    eclat_image image;
+    double sum = 0;
+    if (!eclat_live_take(live, which, &image)) return -1;
+    CHECK(image.width == 24 && image.height == 16);
+    for (uint32_t i = 0; i < 3 * image.width * image.height; i++) sum += image.rgb[i];
+    return sum / (3 * image.width * image.height);
+}
+
+/* The job that a command renders. */
+static eclat_picture *render_command(char *command)
+{
+    eclat_error err;
+    eclat_job *job = NULL;
+    eclat_picture *picture = NULL;
+    const char *word = strtok(command, " ");
+    CHECK(word && !strcmp(word, "eclat") && !strcmp(strtok(NULL, " "), "render"));
+    CHECK(eclat_job_new(strtok(NULL, " "), &job, NULL) == ECLAT_OK);
+    while ((word = strtok(NULL, " ")) && !strncmp(word, "--", 2)) {
+        char *value = strchr(word, '=');
+        if (value) *value++ = 0;
+        CHECK_MSG(eclat_job_set(job, word + 2, value, &err) == ECLAT_OK, "%s", err.text);
+    }
+    CHECK_MSG(eclat_job_render(job, &picture, &err) == ECLAT_OK, "%s", err.text);
+    eclat_job_free(job);
+    return picture;
+}
+
+static void check_repeats(char *command, const char *saved)
+{
+    eclat_error err;
+    eclat_comparison c = {.rmse = 1};
+    eclat_picture *again = render_command(command);
+    CHECK_MSG(eclat_picture_write(again, OUT "again.exr", &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_compare(OUT "again.exr", saved, &c, &err) == ECLAT_OK, "%s", err.text);
+    CHECK(c.rmse == 0 && !c.differ);
+    eclat_picture_free(again);
+}
+
+static void test_a_picture_and_what_is_known_of_it(void)
+{
+    told t = {0};
+    eclat_live *live = open_live(make_job(SCENE, OUT "a.exr"), NULL, &t);
+    eclat_wish wish = small_wish(live);
+    eclat_image image;
+    CHECK(wish.camera == -1 && !wish.is_moved && wish.integrator == ECLAT_PATH && wish.exposure == 0);
+    CHECK(!eclat_live_take(live, ECLAT_PICTURE, &image));
+    wish.x = 12, wish.y = 15; /* the floor */
+    eclat_status s = settle(live, &wish);
+    const eclat_facts *facts = eclat_live_facts(live);
+    CHECK(facts->serial == 1 && facts->camera_count == 1 && facts->height == 600 && facts->radius > 0 && !strcmp(facts->scene, SCENE) && *facts->device);
+    CHECK(facts->effect_count > 0 && facts->effects[0].bit && *facts->effects[0].name && !facts->has_map);
+    CHECK(s.samples == 4 && s.is_complete && !strcmp(s.stopped_by, "spp") && s.pictures > 0 && s.first_light > 0 && !s.preview && !s.has_failed);
+    CHECK(s.error > 0 && isfinite(s.error) && strstr(s.effects, facts->effects[0].name));
+    CHECK(s.under.x == 12 && s.under.is_inside && s.under.has_surface && s.under.has_error && s.under.rgb[0] > 0 && s.under.depth > 0);
+    CHECK(s.under.node >= 0 && s.under.radius > 0 && s.picked.node == -1 && atomic_load(&t.wakes) > 0);
+    CHECK(brightness(live, ECLAT_PICTURE) > 10 && brightness(live, ECLAT_PICTURE) == -1);
+    s = wait_for(live, is_picked, eclat_live_pick(live, 0, 99));
+    CHECK(!s.picked.is_inside && s.picked.y == 99);
+    wish.more = 1;
+    CHECK(settle(live, &wish).samples == 16);
+    eclat_live_close(live);
+}
+
+static void test_wishes_change_it(void)
+{
+    told t = {0};
+    eclat_live *live = open_live(make_job(SCENE, OUT "b.exr"), NULL, &t);
+    eclat_wish wish = small_wish(live);
+    settle(live, &wish);
+    const double first = brightness(live, ECLAT_PICTURE);
+    wish.exposure = 200; /* more than there is */
+    settle(live, &wish);
+    CHECK(wish.exposure == 100 && brightness(live, ECLAT_PICTURE) > first + 50);
+    wish.exposure = 0;
+    wish.integrator = ECLAT_RASTER;
+    wish.second = ECLAT_SECOND_SAMPLES;
+    eclat_status s = settle(live, &wish);
+    CHECK(s.integrator == ECLAT_RASTER && s.second == ECLAT_SECOND_SAMPLES && brightness(live, ECLAT_SECOND_PICTURE) > 10);
+    wish.second = ECLAT_SECOND_INTEGRATOR;
+    wish.second_integrator = ECLAT_WHITTED;
+    s = settle(live, &wish);
+    CHECK(s.second == ECLAT_SECOND_INTEGRATOR && s.second_integrator == ECLAT_WHITTED);
+    wish.without = eclat_live_facts(live)->effects[0].bit;
+    CHECK(strstr(settle(live, &wish).effects, eclat_live_facts(live)->effects[0].name) == NULL);
+    eclat_live_close(live);
+}
+
+static void test_saves_are_repeated_by_their_commands(void)
+{
+    told t = {0};
+    eclat_live *live = open_live(make_job(SCENE, OUT "c.exr"), NULL, &t);
+    eclat_wish wish = small_wish(live);
+    const uint32_t lost = eclat_live_save(live, &wish); /* the scene is not there yet, */
+    wish.env_degrees = 0.5;
+    eclat_live_wish(live, &wish);                       /* and now another picture is wanted */
+    eclat_status s = wait_for(live, is_saved, lost);
+    CHECK(s.is_unsaved && strstr(s.told, "moved") && !atomic_load(&t.saves));
+    wish.env_degrees = 0;
+    settle(live, &wish);
+    unlink(OUT "c.exr");
+    s = wait_for(live, is_saved, eclat_live_save(live, &wish));
+    CHECK_MSG(!s.is_unsaved && strstr(s.told, OUT "c.exr"), "%s", s.told);
+    CHECK_MSG(!strstr(t.command, "--eye") && strstr(t.command, "--size=24x16") && strstr(t.command, "--spp=4"), "%s", t.command);
+    check_repeats(t.command, OUT "c.exr");
+
+    wish.viewpoint = eclat_live_facts(live)->cameras[0];
+    wish.viewpoint.eye[0] += 0.1234567890123;
+    wish.is_moved = 1;
+    settle(live, &wish);
+    wait_for(live, is_saved, eclat_live_save(live, &wish));
+    double given = NAN; /* all digits that the wish has come back with */
+    const char *at = strstr(t.command, "--eye=");
+    CHECK_MSG(at && sscanf(at, "--eye=%lf", &given) == 1 && given == wish.viewpoint.eye[0], "%.17g: %s", wish.viewpoint.eye[0], t.command);
+    check_repeats(t.command, OUT "c-2.exr");
+    eclat_live_close(live);
+}
+
+static void copy(const char *from, const char *to)
+{
+    char text[4096];
+    FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
+    for (size_t size; in && out && (size = fread(text, 1, sizeof text, in));) fwrite(text, 1, size, out);
+    CHECK(in && out && !fclose(in) && !fclose(out));
+}
+
+static bool is_loaded_anew(eclat_live *live, uint32_t serial)
+{
+    for (int k = 0; k < PATIENCE * 500 && eclat_live_facts(live)->serial != serial; k++) usleep(2000);
+    return eclat_live_facts(live)->serial == serial;
+}
+
+static void test_files_change(void)
+{
+    told t = {0};
+    copy(SCENE, OUT "box.gltf");
+    copy(ECLAT_SOURCE_DIR "/scenes/cornell-box/cornell-box.bin", ECLAT_TEST_OUT "/cornell-box.bin");
+    eclat_live *live = open_live(make_job(OUT "box.gltf", OUT "d.exr"), NULL, &t);
+    eclat_wish wish = small_wish(live);
+    settle(live, &wish);
+    const eclat_viewpoint before = eclat_live_facts(live)->cameras[0];
+    copy(SCENE, OUT "box.gltf"); /* by itself */
+    CHECK(is_loaded_anew(live, 2) && eclat_live_facts(live)->cameras[0].eye[2] == before.eye[2]);
+    wish.reloads++;
+    CHECK(!settle(live, &wish).has_failed && is_loaded_anew(live, 3));
+    eclat_live_close(live);
+}
+
+static void test_what_cannot_be_opened(void)
+{
+    told t = {0};
+    eclat_error err;
+    eclat_live *live = (eclat_live *)&t;
+    eclat_job *job = make_job(SCENE, OUT "e.exr");
+    CHECK(eclat_live_open(job, "no.exr", NULL, &live, &err) == ECLAT_FAILED && !live && strstr(err.text, "no.exr"));
+    CHECK(eclat_job_set(job, "checkpoint", OUT "f.exr", &err) == ECLAT_OK);
+    CHECK(eclat_live_open(job, NULL, NULL, &live, &err) == ECLAT_USAGE && !live && strstr(err.text, "--checkpoint"));
+    eclat_job_free(job);
+    live = open_live(make_job("no-such-scene.gltf", OUT "g.exr"), NULL, &t);
+    const eclat_status s = wait_for(live, is_settled, 0);
+    CHECK(s.has_failed == 1 + ECLAT_TROUBLE_FILES && strstr(s.trouble[ECLAT_TROUBLE_FILES], "no-such-scene.gltf") && !eclat_live_facts(live)->serial);
+    eclat_live_close(live);
+    eclat_live_close(NULL);
+}
+
+int main(void)
+{
+    test_a_picture_and_what_is_known_of_it();
+    test_wishes_change_it();
+    test_saves_are_repeated_by_their_commands();
+    test_files_change();
+    test_what_cannot_be_opened();
+    TEST_END();
+}
