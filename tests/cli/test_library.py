@@ -28,9 +28,9 @@ def find(folder, name):
     raise AssertionError(f"{name} is not installed")
 
 
-def example():
+def example(index=0):
     with open(MANUAL, encoding="utf-8") as manual:
-        return re.search(r"```c\n(.*?)```", manual.read(), re.DOTALL).group(1)
+        return re.findall(r"```c\n(.*?)```", manual.read(), re.DOTALL)[index]
 
 
 class Installed(support.Case):
@@ -72,6 +72,14 @@ class Installed(support.Case):
         self.assertEqual(support.eclat("compare", self.path("example.exr"), self.path("b.exr"), "-q").returncode, 0)
         a, b = (support.read_exr(self.path(name))[0] for name in ("example.exr", "b.exr"))
         self.assertEqual(a["eclat.imageSha256"], b["eclat.imageSha256"])
+
+    def test_the_live_example_of_the_manual(self):
+        with open(self.path("live.c"), "w", encoding="utf-8") as file:
+            file.write(example(1))
+        self.run_tool("cc", "-Wall", "-Wextra", "-Werror", "-o", "live", "live.c", *self.flags())
+        told = self.run_tool("./live", support.CORNELL, env={"LD_LIBRARY_PATH": self.libraries})
+        self.assertIn("160 x 120 pixels", told)
+        self.assertEqual(told.count("16 samples a pixel, error"), 2)  # from both sides
 
     def test_by_cmake(self):
         self.write_example()
