@@ -21,7 +21,8 @@ void ec_live_limit_wish(eclat_wish *w)
     if (w->is_moved) v->fov = rounded(v->fov), v->tall = rounded(v->tall);
     w->width = w->width < EC_SIZE_MAX_SIDE ? w->width : EC_SIZE_MAX_SIDE;
     w->height = w->height < EC_SIZE_MAX_SIDE ? w->height : EC_SIZE_MAX_SIDE;
-    w->env_degrees = rounded(w->env_degrees);
+    if (!w->width || !w->height) w->width = w->height = 0;
+    w->env_degrees = isfinite(w->env_degrees) ? rounded(w->env_degrees) : 0;
     w->exposure = rounded(fmin(fmax(w->exposure, -EC_EXPOSURE_MOST), EC_EXPOSURE_MOST));
     if (w->tonemap != ECLAT_TONEMAP_NONE) w->tonemap = ECLAT_TONEMAP_NEUTRAL;
     if (w->integrator >= ECLAT_INTEGRATOR_COUNT) w->integrator = ECLAT_PATH;

@@ -3,6 +3,7 @@
 #include <eclat/eclat.h>
 
 #include <math.h>
+#include <semaphore.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <unistd.h>
@@ -11,15 +12,15 @@
 
 #define SCENE ECLAT_SOURCE_DIR "/scenes/cornell-box/cornell-box.gltf"
 #define OUT ECLAT_TEST_OUT "/live-"
-#define PATIENCE 600 /* seconds, for what hangs */
 
 /* What the session tells by itself. */
 typedef struct told {
-    atomic_int wakes, saves;
+    sem_t news;
+    atomic_int saves;
     char command[4096];
 } told;
 
-static void count_wake(void *user) { atomic_fetch_add(&((told *)user)->wakes, 1); }
+static void wake(void *user) { sem_post(&((told *)user)->news); }
 
 static void keep_command(void *user, const char *command)
 {
@@ -43,22 +44,19 @@ static eclat_live *open_live(eclat_job *job, const char *against, told *t)
 {
     eclat_error err;
     eclat_live *live = NULL;
-    const eclat_live_listener listener = {t, count_wake, keep_command};
+    const eclat_live_listener listener = {t, wake, keep_command};
+    *t = (told){.saves = 0};
+    sem_init(&t->news, 0, 0);
     CHECK_MSG(eclat_live_open(job, against, &listener, &live, &err) == ECLAT_OK, "%s", err.text);
     eclat_job_free(job);
     if (!live) exit(1);
     return live;
 }
 
-static eclat_status wait_for(eclat_live *live, bool (*what)(const eclat_status *status, uint32_t number), uint32_t number)
+static eclat_status wait_for(eclat_live *live, told *t, bool (*what)(const eclat_status *status, uint32_t number), uint32_t number)
 {
     eclat_status status;
-    for (int k = 0; k < PATIENCE * 500; k++) {
-        eclat_live_status(live, &status);
-        if (what(&status, number)) return status;
-        usleep(2000);
-    }
-    CHECK_MSG(false, "nothing comes of it: %s%s%s", status.trouble[0], status.trouble[1], status.trouble[2]);
+    for (eclat_live_status(live, &status); !what(&status, number); eclat_live_status(live, &status)) sem_wait(&t->news);
     return status;
 }
 
@@ -74,10 +72,10 @@ static eclat_wish small_wish(eclat_live *live)
     return wish;
 }
 
-static eclat_status settle(eclat_live *live, eclat_wish *wish)
+static eclat_status settle(eclat_live *live, told *t, eclat_wish *wish)
 {
     eclat_live_wish(live, wish);
-    return wait_for(live, is_settled, 0);
+    return wait_for(live, t, is_settled, 0);
 }
 
 /* How much the latest picture shines; -1: there is none that is new. */
@@ -123,67 +121,68 @@ static void check_repeats(char *command, const char *saved)
 
 static void test_a_picture_and_what_is_known_of_it(void)
 {
-    told t = {0};
+    told t;
     eclat_live *live = open_live(make_job(SCENE, OUT "a.exr"), NULL, &t);
     eclat_wish wish = small_wish(live);
     eclat_image image;
     CHECK(wish.camera == -1 && !wish.is_moved && wish.integrator == ECLAT_PATH && wish.exposure == 0);
     CHECK(!eclat_live_take(live, ECLAT_PICTURE, &image));
     wish.x = 12, wish.y = 15; /* the floor */
-    eclat_status s = settle(live, &wish);
+    eclat_status s = settle(live, &t, &wish);
     const eclat_facts *facts = eclat_live_facts(live);
     CHECK(facts->serial == 1 && facts->camera_count == 1 && facts->height == 600 && facts->radius > 0 && !strcmp(facts->scene, SCENE) && *facts->device);
     CHECK(facts->effect_count > 0 && facts->effects[0].bit && *facts->effects[0].name && !facts->has_map);
     CHECK(s.samples == 4 && s.is_complete && !strcmp(s.stopped_by, "spp") && s.pictures > 0 && s.first_light > 0 && !s.preview && !s.has_failed);
     CHECK(s.error > 0 && isfinite(s.error) && strstr(s.effects, facts->effects[0].name));
     CHECK(s.under.x == 12 && s.under.is_inside && s.under.has_surface && s.under.has_error && s.under.rgb[0] > 0 && s.under.depth > 0);
-    CHECK(s.under.node >= 0 && s.under.radius > 0 && s.picked.node == -1 && atomic_load(&t.wakes) > 0);
+    CHECK(s.under.node >= 0 && s.under.radius > 0 && s.picked.node == -1);
     CHECK(brightness(live, ECLAT_PICTURE) > 10 && brightness(live, ECLAT_PICTURE) == -1);
-    s = wait_for(live, is_picked, eclat_live_pick(live, 0, 99));
+    s = wait_for(live, &t, is_picked, eclat_live_pick(live, 0, 99));
     CHECK(!s.picked.is_inside && s.picked.y == 99);
     wish.more = 1;
-    CHECK(settle(live, &wish).samples == 16);
+    CHECK(settle(live, &t, &wish).samples == 16);
     eclat_live_close(live);
 }
 
 static void test_wishes_change_it(void)
 {
-    told t = {0};
+    told t;
     eclat_live *live = open_live(make_job(SCENE, OUT "b.exr"), NULL, &t);
     eclat_wish wish = small_wish(live);
-    settle(live, &wish);
+    settle(live, &t, &wish);
     const double first = brightness(live, ECLAT_PICTURE);
     wish.exposure = 200; /* more than there is */
-    settle(live, &wish);
-    CHECK(wish.exposure == 100 && brightness(live, ECLAT_PICTURE) > first + 50);
+    wish.env_degrees = NAN;
+    settle(live, &t, &wish);
+    CHECK(wish.exposure == 100 && wish.env_degrees == 0 && brightness(live, ECLAT_PICTURE) > first + 50);
     wish.exposure = 0;
     wish.integrator = ECLAT_RASTER;
     wish.second = ECLAT_SECOND_SAMPLES;
-    eclat_status s = settle(live, &wish);
+    eclat_status s = settle(live, &t, &wish);
     CHECK(s.integrator == ECLAT_RASTER && s.second == ECLAT_SECOND_SAMPLES && brightness(live, ECLAT_SECOND_PICTURE) > 10);
     wish.second = ECLAT_SECOND_INTEGRATOR;
     wish.second_integrator = ECLAT_WHITTED;
-    s = settle(live, &wish);
+    s = settle(live, &t, &wish);
     CHECK(s.second == ECLAT_SECOND_INTEGRATOR && s.second_integrator == ECLAT_WHITTED);
     wish.without = eclat_live_facts(live)->effects[0].bit;
-    CHECK(strstr(settle(live, &wish).effects, eclat_live_facts(live)->effects[0].name) == NULL);
+    CHECK(strstr(settle(live, &t, &wish).effects, eclat_live_facts(live)->effects[0].name) == NULL);
     eclat_live_close(live);
 }
 
 static void test_saves_are_repeated_by_their_commands(void)
 {
-    told t = {0};
+    told t;
     eclat_live *live = open_live(make_job(SCENE, OUT "c.exr"), NULL, &t);
     eclat_wish wish = small_wish(live);
     const uint32_t lost = eclat_live_save(live, &wish); /* the scene is not there yet, */
     wish.env_degrees = 0.5;
     eclat_live_wish(live, &wish);                       /* and now another picture is wanted */
-    eclat_status s = wait_for(live, is_saved, lost);
+    eclat_status s = wait_for(live, &t, is_saved, lost);
     CHECK(s.is_unsaved && strstr(s.told, "moved") && !atomic_load(&t.saves));
     wish.env_degrees = 0;
-    settle(live, &wish);
+    settle(live, &t, &wish);
     unlink(OUT "c.exr");
-    s = wait_for(live, is_saved, eclat_live_save(live, &wish));
+    s = wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
     CHECK_MSG(!s.is_unsaved && strstr(s.told, OUT "c.exr"), "%s", s.told);
     CHECK_MSG(!strstr(t.command, "--eye") && strstr(t.command, "--size=24x16") && strstr(t.command, "--spp=4"), "%s", t.command);
     check_repeats(t.command, OUT "c.exr");
@@ -191,8 +190,8 @@ static void test_saves_are_repeated_by_their_commands(void)
     wish.viewpoint = eclat_live_facts(live)->cameras[0];
     wish.viewpoint.eye[0] += 0.1234567890123;
     wish.is_moved = 1;
-    settle(live, &wish);
-    wait_for(live, is_saved, eclat_live_save(live, &wish));
+    settle(live, &t, &wish);
+    wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
     double given = NAN; /* all digits that the wish has come back with */
     const char *at = strstr(t.command, "--eye=");
     CHECK_MSG(at && sscanf(at, "--eye=%lf", &given) == 1 && given == wish.viewpoint.eye[0], "%.17g: %s", wish.viewpoint.eye[0], t.command);
@@ -208,31 +207,32 @@ static void copy(const char *from, const char *to)
     CHECK(in && out && !fclose(in) && !fclose(out));
 }
 
-static bool is_loaded_anew(eclat_live *live, uint32_t serial)
+static void wait_for_load(eclat_live *live, told *t, uint32_t serial)
 {
-    for (int k = 0; k < PATIENCE * 500 && eclat_live_facts(live)->serial != serial; k++) usleep(2000);
-    return eclat_live_facts(live)->serial == serial;
+    while (eclat_live_facts(live)->serial < serial) sem_wait(&t->news);
 }
 
 static void test_files_change(void)
 {
-    told t = {0};
+    told t;
     copy(SCENE, OUT "box.gltf");
     copy(ECLAT_SOURCE_DIR "/scenes/cornell-box/cornell-box.bin", ECLAT_TEST_OUT "/cornell-box.bin");
     eclat_live *live = open_live(make_job(OUT "box.gltf", OUT "d.exr"), NULL, &t);
     eclat_wish wish = small_wish(live);
-    settle(live, &wish);
+    settle(live, &t, &wish);
     const eclat_viewpoint before = eclat_live_facts(live)->cameras[0];
     copy(SCENE, OUT "box.gltf"); /* by itself */
-    CHECK(is_loaded_anew(live, 2) && eclat_live_facts(live)->cameras[0].eye[2] == before.eye[2]);
+    wait_for_load(live, &t, 2);
+    CHECK(eclat_live_facts(live)->cameras[0].eye[2] == before.eye[2]);
     wish.reloads++;
-    CHECK(!settle(live, &wish).has_failed && is_loaded_anew(live, 3));
+    CHECK(!settle(live, &t, &wish).has_failed);
+    wait_for_load(live, &t, 3);
     eclat_live_close(live);
 }
 
 static void test_what_cannot_be_opened(void)
 {
-    told t = {0};
+    told t;
     eclat_error err;
     eclat_live *live = (eclat_live *)&t;
     eclat_job *job = make_job(SCENE, OUT "e.exr");
@@ -241,7 +241,7 @@ static void test_what_cannot_be_opened(void)
     CHECK(eclat_live_open(job, NULL, NULL, &live, &err) == ECLAT_USAGE && !live && strstr(err.text, "--checkpoint"));
     eclat_job_free(job);
     live = open_live(make_job("no-such-scene.gltf", OUT "g.exr"), NULL, &t);
-    const eclat_status s = wait_for(live, is_settled, 0);
+    const eclat_status s = wait_for(live, &t, is_settled, 0);
     CHECK(s.has_failed == 1 + ECLAT_TROUBLE_FILES && strstr(s.trouble[ECLAT_TROUBLE_FILES], "no-such-scene.gltf") && !eclat_live_facts(live)->serial);
     eclat_live_close(live);
     eclat_live_close(NULL);
