@@ -71,7 +71,7 @@ static void grow(box *b, const float point[3])
     for (int k = 0; k < 3; k++) b->low[k] = fmin(b->low[k], (double)point[k]), b->high[k] = fmax(b->high[k], (double)point[k]);
 }
 
-/* Of no radius where the box has no points. */
+/* No radius where the box has no points. */
 static sphere around(const box *b)
 {
     sphere s;

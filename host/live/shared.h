@@ -27,7 +27,7 @@ typedef struct ec_live_scene {
     ec_render_job job;            /* what was loaded for it */
     eclat_viewpoint *cameras;     /* owned, one for each of the scene's */
     eclat_effect effects[EC_EFFECT_BITS]; /* that it calls for and that can be left out */
-    uint64_t optional;            /* the same as bits */
+    uint64_t optional;            /* these effects as bits */
     uint32_t users;
 } ec_live_scene;
 
@@ -55,7 +55,7 @@ typedef struct ec_live_shown {
 enum { EC_LIVE_THREADS = 3 };
 typedef struct ec_live {
     ec_render_request request;    /* settled, but with an environment that is not turned: wishes turn it */
-    ec_given_options given;       /* the same as they were given; for commands */
+    ec_given_options given;       /* as the caller gave them; for commands */
     ec_listener listener;
     eclat_live_listener hears;
     ec_device_info device;
@@ -88,7 +88,8 @@ void ec_live_close(ec_live *live);
 /* tell.c: with the lock held, wakes the other threads; and the caller. */
 void ec_live_post(ec_live *live);
 void ec_live_tell(ec_live *live);
-void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text, bool is_final); /* without the lock. "": it goes well (again) */
+/* Without the lock. text "": it goes well (again); is_final: there will never be a picture. */
+void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text, bool is_final);
 
 /* setup.c: scenes are shared under the lock; setups belong to one thread at a time. NULL is fine. */
 void ec_live_scene_release(ec_live *live, ec_live_scene *scene);

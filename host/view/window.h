@@ -36,7 +36,7 @@ typedef struct ec_window {
     double s_down;              /* when S went down; 0: it is up */
     bool s_flew;                /* and is no tap */
     unsigned flies;             /* bits: W, A, D are down, wherever the keyboard has them */
-    double flown;               /* of the last step of flight */
+    double flown;               /* when the last step of flight was */
     double told_at;             /* when a save was told */
     bool telling;               /* it still is */
     bool iconified, dirty, is_full;
