@@ -39,8 +39,6 @@ void ec_live_film_stop(ec_live_film *p)
     *p = (ec_live_film){0};
 }
 
-uint64_t ec_live_film_samples(const ec_live_film *p) { return (uint64_t)ec_film_samples_of_all(&p->film); }
-
 /* With the second batch there is a first error to state. */
 static ec_result foretell(ec_live_film *p, ec_session *session, ec_error *err)
 {

@@ -22,9 +22,6 @@ void ec_live_film_stop(ec_live_film *film); /* zero-initialised is fine */
 /* The limits as they are after `more` wishes for more; goes on if they are not met. */
 void ec_live_film_limit(ec_live_film *film, const ec_render_options *options, uint32_t more);
 
-/* Samples a pixel so far. */
-uint64_t ec_live_film_samples(const ec_live_film *film);
-
 /* One more batch, if go_on lets it: *complete. */
 ec_result ec_live_film_take(ec_live_film *film, ec_session *session, bool (*go_on)(void *user), void *user, bool *complete, ec_error *err);
 

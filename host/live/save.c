@@ -23,7 +23,7 @@ static ec_render_options options_of(const ec_renderer *r, const eclat_wish *wish
     ec_render_options options = s->options;
     options.width = wish->width;
     options.height = wish->height;
-    options.spp = (uint32_t)ec_live_film_samples(&r->picture);
+    options.spp = (uint32_t)ec_film_samples_of_all(&r->picture.film);
     options.more_effects = r->live->request.options.more_effects;
     options.error_target = options.time_limit = 0;
     if (!wish->is_moved) options.camera = ec_live_camera(s->scene, wish);

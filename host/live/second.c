@@ -80,7 +80,8 @@ static void draw_samples(const ec_film *film, uint8_t *bytes)
     for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_samples(film, p) / most, bytes + 3 * p);
 }
 
-bool ec_live_second_has(const ec_live_second *s, const ec_live *live, eclat_second kind, const ec_film *film)
+/* An error takes two batches. */
+static bool has(const ec_live_second *s, const ec_live *live, eclat_second kind, const ec_film *film)
 {
     switch (kind) {
     case ECLAT_SECOND_ERROR: return film->batch_count > 1;
@@ -91,10 +92,12 @@ bool ec_live_second_has(const ec_live_second *s, const ec_live *live, eclat_seco
     }
 }
 
-ec_result ec_live_second_show(ec_live_second *s, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, ec_error *err)
+ec_result ec_live_second_show(ec_live_second *s, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, bool *is_there,
+                              ec_error *err)
 {
     uint8_t *bytes;
-    if (!ec_live_second_has(s, live, wish->second, film)) return EC_OK;
+    *is_there = has(s, live, wish->second, film);
+    if (!*is_there) return EC_OK;
     if (wish->second == ECLAT_SECOND_FILE) return show_file(s, live, wish, film->width, film->height, err);
     if (wish->second == ECLAT_SECOND_INTEGRATOR) return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->other, film->width, film->height, err);
     EC_TRY(ec_live_canvas(live, ECLAT_SECOND_PICTURE, film->width, film->height, &bytes, err));

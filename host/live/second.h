@@ -17,10 +17,8 @@ void ec_live_second_forget(ec_live_second *second); /* the camera has moved */
 ec_result ec_live_second_render(ec_live_second *second, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user), void *user,
                                 ec_error *err);
 
-/* Is there one of that kind? An error takes two batches. */
-bool ec_live_second_has(const ec_live_second *second, const ec_live *live, eclat_second kind, const ec_film *film);
-
-/* Shows that which is wished, if there is one; mean: the film's. */
-ec_result ec_live_second_show(ec_live_second *second, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, ec_error *err);
+/* Shows that which is wished, if there is one: *is_there. mean: the film's. */
+ec_result ec_live_second_show(ec_live_second *second, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, bool *is_there,
+                              ec_error *err);
 
 #endif

@@ -18,7 +18,7 @@ static void tell(ec_renderer *r, uint32_t preview, bool has_second)
     eclat_status *s = &r->live->status;
     s->preview = preview;
     s->integrator = (eclat_integrator)setup->options.integrator;
-    s->samples = ec_live_film_samples(p);
+    s->samples = (uint64_t)ec_film_samples_of_all(&p->film);
     s->seconds = p->seconds;
     s->error = p->film.batch_count ? p->error.error : INFINITY;
     s->error_bound = p->film.batch_count ? p->error.error_bound : INFINITY;
@@ -131,10 +131,11 @@ ec_result ec_renderer_show(ec_renderer *r, ec_error *err)
 {
     const eclat_wish *wish = &r->wish;
     const ec_film *film = &r->picture.film;
+    bool has_second;
     r->dirty = false;
     ec_film_resolve(film, r->mean, NULL);
     EC_TRY(ec_live_show(r->live, wish, ECLAT_PICTURE, r->mean, wish->width, wish->height, err));
-    EC_TRY(ec_live_second_show(&r->second, r->live, wish, film, r->mean, err));
-    tell(r, 0, ec_live_second_has(&r->second, r->live, wish->second, film));
+    EC_TRY(ec_live_second_show(&r->second, r->live, wish, film, r->mean, &has_second, err));
+    tell(r, 0, has_second);
     return EC_OK;
 }

@@ -13,15 +13,6 @@
 
 static ec_window *of(GLFWwindow *glfw) { return glfwGetWindowUserPointer(glfw); }
 
-/* Screen coordinates are not pixels where the screen is dense. */
-static double pixels_a_unit(GLFWwindow *glfw)
-{
-    int width, height, across, down;
-    glfwGetWindowSize(glfw, &width, &height);
-    glfwGetFramebufferSize(glfw, &across, &down);
-    return width > 0 ? (double)across / width : 1;
-}
-
 /* The picture's, under the cursor; UINT32_MAX: none. */
 static void find_pixel(const ec_window *w, uint32_t *px, uint32_t *py)
 {
@@ -44,7 +35,7 @@ static void on_enter(GLFWwindow *glfw, int inside)
 static void on_cursor(GLFWwindow *glfw, double x, double y)
 {
     ec_window *w = of(glfw);
-    double scale = pixels_a_unit(glfw), dx = x * scale - w->cursor_x, dy = y * scale - w->cursor_y;
+    double scale = ec_window_density(glfw), dx = x * scale - w->cursor_x, dy = y * scale - w->cursor_y;
     double height = fmax(w->input.wish.height, 1);
     w->cursor_x = x * scale;
     w->cursor_y = y * scale;

@@ -105,14 +105,19 @@ void ec_window_follow_monitors(ec_window *w)
     move_to(w->glfw, &now, &wanted);
 }
 
+double ec_window_density(GLFWwindow *glfw)
+{
+    int width, height, across, down;
+    glfwGetWindowSize(glfw, &width, &height);
+    glfwGetFramebufferSize(glfw, &across, &down);
+    return width > 0 && across > 0 ? (double)across / width : 1;
+}
+
 /* So many pixels as were asked for, as far as there is room. hidden: where, is for the window manager to say. */
 static void take_size(ec_window *w, bool hidden)
 {
-    double area;
-    int across, down;
+    double area, density = ec_window_density(w->glfw);
     place now = place_of(w->glfw), wanted = now;
-    glfwGetFramebufferSize(w->glfw, &across, &down);
-    double density = now.width > 0 && across > 0 ? (double)across / now.width : 1;
     wanted.width = (int)fmax(round(w->asked_width / density), 1);
     wanted.height = (int)fmax(round(w->asked_height / density), 1);
     GLFWmonitor *monitor = hidden ? glfwGetPrimaryMonitor() : monitor_of(&wanted, &area);

@@ -57,6 +57,7 @@ void ec_window_draw(ec_window *window);
 void ec_window_close(ec_window *window);  /* half-open ones are fine */
 
 /* place.c: where it stands */
+double ec_window_density(struct GLFWwindow *glfw); /* pixels a screen coordinate: more than one where the screen is dense */
 void ec_window_fit(ec_window *window, int width, int height);                 /* the picture to the framebuffer */
 void ec_window_stand(ec_window *window, uint32_t width, uint32_t height); /* shows it for the first time: so large, as far as its monitor has room */
 void ec_window_rescale(ec_window *window, double scale);                  /* the monitor's, or another monitor's */
