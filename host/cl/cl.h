@@ -64,6 +64,7 @@ typedef struct ec_cl {
     double build_seconds;     /* spent in clBuildProgram and cache look-ups */
     uint32_t cache_hits, cache_misses;
     const char *cache_dir;    /* NULL: the default (see ec_program_build) */
+    const ec_log *log;        /* who hears that compiling takes long; NULL: nobody */
     bool keeps_programs;      /* set after ec_cl_open: programs stay built until ec_cl_close, and are found again */
     bool keeps_buffers;       /* likewise what of a scene is put on the device, as long as the next one wants it too */
     struct ec_kept_program *kept;

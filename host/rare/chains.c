@@ -101,7 +101,7 @@ static void look(tracer *t, uint32_t segment)
 static uint32_t accel_of(const ec_pipeline *p)
 {
     uint32_t accel = 0;
-    while (!p->accels[accel].in_use) accel++;
+    while (!(p->kernels.accels >> accel & 1)) accel++;
     return accel;
 }
 

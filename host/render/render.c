@@ -52,9 +52,9 @@ static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *er
     if (!r->strip_rows) EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
     if (!alone) return EC_OK;
     if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
-    r->stats->wave = alone->wave;
-    if (alone->wave < alone->first_wave)
-        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", alone->wave, alone->first_wave);
+    r->stats->wave = alone->room;
+    if (alone->room < alone->first_room)
+        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", alone->room, alone->first_room);
     return EC_OK;
 }
 
