@@ -44,6 +44,7 @@ static const ec_help_note of_main[] = {
     {"Exit code", "1", "failure; or compare found a difference, or a case of selftest failed"},
     {"Exit code", "2", "the command line is wrong"},
     {"Environment", "ECLAT_DEVICE", "OpenCL device to use where --device is not given"},
+    {"Environment", "ECLAT_COMPILE", "when to compile kernels where --compile is not given"},
     {"Environment", "XDG_CACHE_HOME", "compiled kernels are kept in eclat/kernels below this folder (default: ~/.cache)"},
     {0}};
 

@@ -82,7 +82,7 @@ int main(void)
     static ec_compile_job job;
     signal(SIGPIPE, SIG_IGN);
     if (!ec_compile_job_read(&job, stdin)) return 1;
-    if (fork() != 0) return 0; /* who waits for this process goes on */
+    if (fork() != 0) _exit(0); /* who waits for this process goes on; exit() would move the place in standard input, which both share */
     setsid(); /* Ctrl-C is for the render */
     return compile_all(&job);
 }

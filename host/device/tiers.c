@@ -1,10 +1,14 @@
 #include "device/tiers.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "cl/workarounds.h"
+
+const char *const ec_compile_names[] = {[EC_COMPILE_AUTO] = "auto", [EC_COMPILE_BESIDE] = "beside", [EC_COMPILE_FIRST] = "first", NULL};
+const char *const ec_begun_names[] = {[EC_BEGUN_FAST] = "fast", [EC_BEGUN_NARROW] = "narrow", [EC_BEGUN_UNIVERSAL] = "universal"};
 
 static bool compiles_late(const ec_pipeline *p)
 {
@@ -34,11 +38,17 @@ static ec_kernel_set universal_set(const ec_pipeline *p)
     return (ec_kernel_set){.lanes = 1, .features = ec_universal_features(&p->effects), .accels = 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8")};
 }
 
+static bool is_beside(ec_compile compile)
+{
+    const char *wanted = getenv("ECLAT_COMPILE");
+    return compile == EC_COMPILE_BESIDE || (compile == EC_COMPILE_AUTO && !(wanted && !strcmp(wanted, "first")));
+}
+
 /* Only where it pays, and where the bits are known not to depend on it. Who asks for a width gets it. */
 static bool may_begin_narrow(const ec_pipeline *p, const ec_cargo_head *head)
 {
     return compiles_late(p) && ec_device_rounds(&p->cl->info) && !head->fast_math && !head->lanes && p->lanes > 1 &&
-           head->compile == EC_COMPILE_BESIDE && ec_pipeline_narrow_wave(p, p->effects.built);
+           is_beside(head->compile) && ec_pipeline_narrow_wave(p, p->effects.built);
 }
 
 /* Only paths: ray trees would need a stack of branches for glass that the scene may not have. */
@@ -61,13 +71,15 @@ static ec_kernel_set choose(ec_pipeline *p, const ec_cargo_head *head)
     ec_kernel_set set = fast;
     p->waves_until_fast = head->waves_until_fast;
     p->is_narrow = p->waves_until_fast && ec_pipeline_narrow_wave(p, narrow.features);
+    p->begun = p->is_narrow ? EC_BEGUN_NARROW : EC_BEGUN_FAST;
     if (p->is_narrow) return narrow;
     if (may_begin_narrow(p, head) && !is_compiled(p, &fast, &jobs[0])) {
         const bool has_narrow = is_compiled(p, &narrow, &jobs[1]), has_universal = may_be_universal(p) && is_compiled(p, &universal, &jobs[2]);
         const uint32_t after = may_be_universal(p) && !has_universal ? 1 : 0;
         const ec_compile_job *wanted[2] = {&jobs[0], &jobs[2]};
         p->is_narrow = ec_compiler_start(wanted, 1 + after, &p->compiler, NULL) == EC_OK;
-        if (p->is_narrow) set = has_universal && !has_narrow ? universal : narrow;
+        if (p->is_narrow) p->begun = has_universal && !has_narrow ? EC_BEGUN_UNIVERSAL : EC_BEGUN_NARROW;
+        if (p->is_narrow) set = p->begun == EC_BEGUN_UNIVERSAL ? universal : narrow;
     }
     for (int i = 0; i < 3; i++) ec_compile_job_free(&jobs[i]);
     return set;
@@ -117,6 +129,7 @@ static ec_result switch_to_fast(ec_pipeline *p, ec_error *err)
     ec_kernel_set_release(&p->kernels);
     p->kernels = fast_set(p);
     p->is_narrow = false;
+    p->fast_since = ec_now();
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) memset(p->accels[a].tuning, 0, sizeof p->accels[a].tuning);
     EC_TRY(ec_pipeline_use_wave(p, p->room, err));
     return build(p, err);

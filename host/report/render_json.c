@@ -119,6 +119,9 @@ static void add_cost(cJSON *root, const ec_render_report *report)
     ec_json_real(root, "pack_seconds", stats->pack_seconds);
     ec_json_real(root, "kernel_seconds", stats->kernel_seconds);
     ec_json_real(root, "first_pixel_seconds", stats->first_pixel_seconds);
+    ec_json_text(root, "first_kernels", ec_begun_names[stats->begun]);
+    if (stats->fast_after_seconds > 0) ec_json_real(root, "fast_kernels_after_seconds", stats->fast_after_seconds);
+    else cJSON_AddNullToObject(root, "fast_kernels_after_seconds");
     ec_json_real(root, "write_seconds", report->write_seconds);
     ec_json_real(root, "total_seconds", report->total_seconds);
     ec_json_whole(root, "kernel_cache_hits", stats->cache_hits);

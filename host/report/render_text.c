@@ -91,14 +91,19 @@ static void print_effects(const ec_render_effects *effects, FILE *to)
 /* What came before the first ray. Some drivers keep kernels of earlier runs themselves, for others eclat does and counts them. */
 static void print_setup(const ec_render_stats *stats, FILE *to)
 {
-    char kernels[32], accel[32], buffers[32], first[32], counted[64] = "";
+    char kernels[32], accel[32], buffers[32], first[32], fast[32], counted[64] = "", then[64] = "";
     ec_format_seconds(stats->kernel_seconds, kernels, sizeof kernels);
     ec_format_seconds(stats->accel_seconds, accel, sizeof accel);
     ec_format_seconds(stats->pack_seconds, buffers, sizeof buffers);
     ec_format_seconds(stats->first_pixel_seconds, first, sizeof first);
     if (stats->cache_misses || stats->cache_hits)
         snprintf(counted, sizeof counted, " (%u compiled, %u from the cache)", stats->cache_misses, stats->cache_hits);
-    fprintf(to, "set-up   kernels %s%s, acceleration structure %s, buffers %s; first pixel after %s\n", kernels, counted, accel, buffers, first);
+    if (stats->begun != EC_BEGUN_FAST && stats->fast_after_seconds > 0) {
+        ec_format_seconds(stats->fast_after_seconds, fast, sizeof fast);
+        snprintf(then, sizeof then, ", fast kernels after %s", fast);
+    }
+    fprintf(to, "set-up   %skernels %s%s, acceleration structure %s, buffers %s; first pixel after %s%s\n",
+            stats->begun == EC_BEGUN_NARROW ? "narrow " : stats->begun == EC_BEGUN_UNIVERSAL ? "universal " : "", kernels, counted, accel, buffers, first, then);
 }
 
 static const char *stop_in_words(const char *stopped_by)
