@@ -105,6 +105,22 @@ class Compile(Case):
         report, _ = self.render(eclat_is=alone)
         self.assertEqual(report["first_kernels"], "fast")
 
+    def test_a_damaged_file_is_set_aside(self):
+        whole, said = self.render("--lanes", "1")  # compiles quickest
+        self.skip_unless_late(whole)
+        for name, damage in (("ec_shade.so", b""), ("ec_shade.so", b"no library"), ("program.bc", None)):
+            with self.subTest(name, damage=damage):
+                paths = [path for path in glob.glob(os.path.join(self.cache, "pocl", "*", "*", "**", name), recursive=True) if "damaged" not in path]
+                path = max(paths, key=os.path.getsize)
+                with open(path, "rb") as file:
+                    data = file.read()
+                with open(path, "wb") as file:
+                    file.write(data[:len(data) // 2] if damage is None else damage)
+                mended, said = self.render("--lanes", "1")
+                self.assertIn("damaged file in the driver's cache", said)
+                self.assertEqual(mended["image_sha256"], whole["image_sha256"])
+                self.assertNotIn("damaged", self.render("--lanes", "1")[1])
+
     def test_another_scene_finds_universal_kernels(self):
         self.skip_unless_late(self.render()[0])
         poll_until(self.hurry, pause=1)
