@@ -76,13 +76,13 @@ EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest, lane_f *
     return sum > 0.0f ? reflected / sum : F(1.0f);
 }
 
-/* Of what goes to the base, the share that could be scattered there; rest: as bsdf_fresnel has it. */
+/* Share of the light that goes to the base which could be scattered there; rest: as bsdf_fresnel has it. */
 EC_FN lane_f bsdf_rest_scattered(const bsdf *b, lane_f rest)
 {
     return HAS(TRANSMISSION) ? (b->base_first ? 1.0f - b->metallic : rest) : rest;
 }
 
-/* Of what the base gets, the share that it scatters back to this side. */
+/* Share of the base's light that it scatters back to this side. */
 EC_FN lane_f bsdf_scatters_back(const bsdf *b)
 {
     lane_f share = 1.0f - b->transmission;
@@ -195,7 +195,7 @@ EC_FN v3 bsdf_eval_diffuse_transmission(const bsdf *b, v3 wi, lane_f *pdf)
     return v3_scale(b->transmission_color, bsdf_rest_scattered(b, rest) * (1.0f - b->transmission) * b->diffuse_transmission * spread);
 }
 
-/* Of the surface without what lies over it. */
+/* The surface without the layers over it. */
 EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 {
     lane_f no = b->wo.z, ni = wi.z;

@@ -24,7 +24,7 @@ EC_FN v3 coat_local(const coat *c, v3 w)
     return v3_make(v3_dot(w, c->s), v3_dot(w, c->t), v3_dot(w, c->n));
 }
 
-/* Of light along a way at this cosine to its normal. */
+/* Fresnel reflectance of the coat at this cosine to its normal. */
 EC_FN lane_f coat_reflectance(lane_f cosine)
 {
     return fma(pow5(1.0f - min(max(cosine, F(0.0f)), F(1.0f))), F(0.96f), F(0.04f));
