@@ -23,8 +23,6 @@ ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const 
 
 /* Twice its area, along its normal. */
 void ec_triangle_normal(const float v[9], double normal[3]);
-/* The larger; NaN once there is one, which fmax would pass over. */
-static inline double ec_worse(double worst, double value) { return value <= worst || worst != worst ? worst : value; }
 void ec_direction(uint64_t *random, double d[3]); /* uniform */
 
 #endif

@@ -124,9 +124,7 @@ void ec_tracer_given(const ec_tracer *r, uint32_t i, float o[3], float d[3])
     }
 }
 
-#define BUFFER(k) {accel->buffers[k].data, accel->buffers[k].data ? accel->buffers[k].bytes : 0, EC_ARRAY_IN}
-#define NO_BUFFER {NULL, 0, EC_ARRAY_IN}
-#define COUNT_OF(array) (uint32_t)(sizeof(array) / sizeof *(array))
+enum { BUFFERS_AT = 10, ARGUMENTS = 26 }; /* of traverse_NAME's kernel: the structure's buffers; what follows them is not read here */
 
 ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *err)
 {
@@ -135,35 +133,13 @@ ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *er
     char name[64];
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = r->largest};
     ec_counters counters = {.rays = {{count}}};
-    const ec_array arrays[] = {EC_IN(&params, 1),
-                               EC_SCALAR(zero),
-                               EC_SCALAR(zero),
-                               NO_BUFFER,
-                               EC_SCALAR(zero),
-                               EC_SCALAR(zero),
-                               EC_IN(&counters, 1),
-                               EC_SCALAR(zero),
-                               EC_IN(r->paths, EC_PATH_FIELDS * wave),
-                               EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave),
-                               BUFFER(0),
-                               BUFFER(1),
-                               BUFFER(2),
-                               BUFFER(3),
-                               BUFFER(4),
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER};
+    ec_array arrays[ARGUMENTS] = {EC_IN(&params, 1), EC_SCALAR(zero), EC_SCALAR(zero), [4] = EC_SCALAR(zero), EC_SCALAR(zero), EC_IN(&counters, 1),
+                                  EC_SCALAR(zero), EC_IN(r->paths, EC_PATH_FIELDS * wave), EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave)};
+    for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++)
+        if (accel->buffers[k].data) arrays[BUFFERS_AT + k] = (ec_array){accel->buffers[k].data, accel->buffers[k].bytes, EC_ARRAY_IN};
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[a].name);
     return ec_kernel_call(r->t->cl, ec_accels[a].lanes ? r->singles : r->packets, name,
-                          (count + r->lanes[a] - 1) / r->lanes[a], LOCAL, arrays, COUNT_OF(arrays), err);
+                          (count + r->lanes[a] - 1) / r->lanes[a], LOCAL, arrays, ARGUMENTS, err);
 }
 
 bool ec_tracer_next(ec_tracer *r, uint32_t *a, uint32_t count, ec_result *result, ec_error *err)
@@ -180,7 +156,7 @@ ec_result ec_tracer_leave(ec_tracer *r, ec_error *err)
     const ec_array arrays[] = {EC_SCALAR(wave), EC_SCALAR(r->largest), EC_IN(r->prims, EC_PRIM_WORDS * (size_t)r->soup->count),
                                EC_IN(r->hits, EC_HIT_FIELDS * wave), EC_OUT(r->paths, EC_PATH_FIELDS * wave),
                                EC_OUT(r->left, EC_LEAVE_FIELDS * wave)};
-    return ec_kernel_call(r->t->cl, r->leaving, "ec_selftest_leave", wave / r->t->lanes, LOCAL, arrays, COUNT_OF(arrays), err);
+    return ec_kernel_call(r->t->cl, r->leaving, "ec_selftest_leave", wave / r->t->lanes, LOCAL, arrays, sizeof arrays / sizeof *arrays, err);
 }
 
 ec_traced ec_tracer_hit(const ec_tracer *r, uint32_t i)

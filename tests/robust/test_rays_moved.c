@@ -7,7 +7,7 @@
 
 #include "robust/cases.h"
 #include "robust/exact_hit.h"
-#include "selftest/room.h"
+#include "robust/room.h"
 #include "selftest/shot.h"
 #include "selftest/tracer.h"
 
