@@ -5,14 +5,13 @@
 #include <pthread.h>
 
 #include "ranks/mpi_module.h"
-#include "ranks/mpi.h"
 #include "ranks/post.h"
 #include "ranks/ranks.h"
 
 struct ec_ranks {
     ec_ranks_head head;
     ec_post *post;
-    int rank, size;
+    const ec_rank_place *place; /* the post's */
     pthread_mutex_t lock;
     uint32_t last_box;  /* that was given to a result; with the lock */
     const char *device, *own; /* --device; rank 0's drivers */
@@ -20,6 +19,12 @@ struct ec_ranks {
     struct ec_remote *remotes; /* its children as sources */
     uint32_t remote_count;
 };
+
+/* host_share.c: what is this process' of its host, devices and cores; see ranks.h. */
+void ec_mpi_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count);
+void ec_mpi_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log);
+/* serve.c */
+ec_result ec_mpi_serve(ec_ranks *ranks, const ec_log *log, ec_error *err);
 
 /* Boxes: the parent's word, and the answers; the scene; its orders; and from then on one for the result of each order. */
 enum { EC_BOX_WORD, EC_BOX_SCENE, EC_BOX_ORDERS, EC_BOX_RESULTS };

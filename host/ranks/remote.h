@@ -18,7 +18,4 @@ typedef struct ec_remote {
 /* Child i as a member of a team, if it is ready: as ec_peers has it; user is the ec_ranks. */
 bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit);
 
-/* As an ec_team_recruit opens it: user is the ec_remote. */
-ec_result ec_remote_open(void *user, ec_batch_source **source, ec_error *err);
-
 #endif
