@@ -153,14 +153,18 @@ typedef struct ec_branch {
     uint32_t rest;  /* there: of the children, or of nodes[1] */
 } ec_branch;
 ec_bvh_build_node ec_node_of(const ec_range *range); /* inner until told otherwise */
-int ec_branch_reserve(ec_branch *branch, uint32_t count);
 /* Gives every node its place, children side by side and subtrees whole; *next: the first free place. */
 void ec_branch_number(ec_branch *branch, uint32_t slot, uint32_t *next);
 void ec_branch_join(const ec_branch *branch, ec_bvh_build_node *nodes);
 void ec_branch_free(ec_branch *branch);
 
-/* tree.c: cache-line aligned memory for at least one element, for free(). */
+/* tree.c */
+/* Cache-line aligned memory for at least one element, for free(). */
 void *ec_allocate_lines(size_t count, size_t size);
+
+/* Room for `wanted` elements in such memory, at least twice what there was; the first `used` stay. array: the address of a pointer of some type. False:
+ * out of memory, and nothing has changed. */
+int ec_reserve_lines(void *array, uint32_t *room, uint32_t used, uint64_t wanted, size_t size);
 
 /* stats.c: everything but the time is read off the tree. */
 void ec_bvh_measure(const ec_bvh *bvh, double build_seconds, ec_bvh_stats *stats);

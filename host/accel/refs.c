@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "accel/accel_internal.h"
+#include "accel/leaf.h"
 
 #define TEAM_MIN 4096u /* fewer are done sooner than a second thread wakes */
 
@@ -25,7 +26,7 @@ static ec_ref ref_of(const ec_accel_input *in, uint32_t triangle)
     for (int axis = 0; axis < 3; axis++) {
         float v[3];
         for (int corner = 0; corner < 3; corner++)
-            v[corner] = tame(in->positions[3 * (size_t)in->indices[3 * (size_t)triangle + corner] + axis]);
+            v[corner] = tame(ec_corner(in->positions, in->indices, triangle, (size_t)corner)[axis]);
         ref.lo[axis] = fminf(v[0], fminf(v[1], v[2]));
         ref.hi[axis] = fmaxf(v[0], fmaxf(v[1], v[2]));
     }
@@ -78,17 +79,9 @@ ec_result ec_accel_refs(ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_r
 void ec_accel_block(const ec_accel_input *in, const ec_ref *refs, const uint32_t *which, uint32_t count, ec_tri8 *block,
                     ec_box8 *boxes)
 {
-    memset(block, 0, sizeof *block);
-    if (boxes) memset(boxes, 0, sizeof *boxes);
-    for (uint32_t slot = 0; slot < 8; slot++) {
-        const ec_ref *ref = slot < count ? &refs[which[slot]] : NULL;
-        block->id[slot] = ref ? ref->triangle : EC_NO_ID;
-        for (int axis = 0; ref && axis < 3; axis++) {
-            for (int corner = 0; corner < 3; corner++)
-                block->v[corner][axis][slot] = in->positions[3 * (size_t)in->indices[3 * (size_t)ref->triangle + corner] + axis];
-            if (!boxes) continue;
-            boxes->lo[axis][slot] = ref->lo[axis];
-            boxes->hi[axis][slot] = ref->hi[axis];
-        }
+    ec_block_clear(block, boxes);
+    for (uint32_t slot = 0; slot < count; slot++) {
+        const ec_ref *ref = &refs[which[slot]];
+        ec_block_put(in->positions, in->indices, ref->triangle, ref->lo, ref->hi, slot, block, boxes);
     }
 }

@@ -1,6 +1,7 @@
 /* A range of instances becomes up to eight by splitting the largest of them again and again, each where the surface area heuristic
  * says (Goldsmith and Salmon 1987), swept over all places along all axes: instances are few beside triangles, and each costs a
  * whole tree to enter, so that leaves hold one. */
+#include "accel/leaf.h"
 #include "accel/top.h"
 
 #include <math.h>
@@ -23,25 +24,14 @@ typedef struct builder {
     uint32_t used;
 } builder;
 
-static void grow(ec_box *box, const ec_box *by)
-{
-    for (int k = 0; k < 3; k++) {
-        box->lo[k] = fminf(box->lo[k], by->lo[k]);
-        box->hi[k] = fmaxf(box->hi[k], by->hi[k]);
-    }
-}
+static void grow(ec_box *box, const ec_box *by) { ec_box_grow(box, by->lo, by->hi); }
+static double area(const ec_box *b) { return ec_box_half_area(b->lo, b->hi); }
 
 static ec_box box_of(const builder *b, uint32_t first, uint32_t count)
 {
     ec_box box = b->boxes[b->order[first]];
     for (uint32_t i = 1; i < count; i++) grow(&box, &b->boxes[b->order[first + i]]);
     return box;
-}
-
-static double area(const ec_box *b)
-{
-    double x = (double)b->hi[0] - b->lo[0], y = (double)b->hi[1] - b->lo[1], z = (double)b->hi[2] - b->lo[2];
-    return x * y + y * z + z * x;
 }
 
 /* Merge sort by key: stable, so that the tree is the same everywhere. */
