@@ -6,9 +6,7 @@
 
 #define EC_SELFTEST_CASES(CASE)                                                                                                  \
     CASE("transport/furnace", false, ec_selftest_furnace, "light lost or made at a bounce (Nori's test-furnace)")                \
-    CASE("transport/deep paths", false, ec_selftest_deep_paths, "throughput drifts over a thousand bounces, or paths end early") \
     CASE("transport/metal", false, ec_selftest_metal, "GGX with a wrong sign or denominator (Heitz 2014)")                       \
-    CASE("rays/self-intersection", false, ec_selftest_self_intersection, "black dots and rings where surfaces shade themselves") \
     CASE("rays/watertight", false, ec_selftest_watertight, "pinholes at edges and vertices (Woop et al. 2013; embree#387)")      \
     CASE("rays/nested balls", false, ec_selftest_nested, "what lies just under a surface shows through it")                      \
     CASE("rays/lane widths", true, ec_selftest_lane_widths, "pictures that depend on the width of a vector")                     \

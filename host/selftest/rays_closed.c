@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/random.h"
 #include "selftest/tracer.h"
 
 /* A point within a ball of ec_soup_ball: one of its surface, moved towards the middle; or, near a target, across its longest axis only,

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3.h"
 #include "shared/params.h"
-#include "shared/scene_buffers.h"
 
 enum { LOCAL = 64, BRUTE_FORCE_MOST = 64 };
 
@@ -22,7 +22,7 @@ static ec_result build(ec_cl *cl, const char *label, const char *const *names, u
 
 static ec_result build_programs(ec_tracer *r, ec_error *err)
 {
-    const char *packets[EC_ACCEL_COUNT + 1] = {NULL}, *singles[EC_ACCEL_COUNT + 1] = {NULL}, *leaving[] = {"rays", NULL};
+    const char *packets[EC_ACCEL_COUNT + 1] = {NULL}, *singles[EC_ACCEL_COUNT + 1] = {NULL};
     char names[EC_ACCEL_COUNT][32];
     uint32_t packet_count = 0, single_count = 0;
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
@@ -33,8 +33,7 @@ static ec_result build_programs(ec_tracer *r, ec_error *err)
         else packets[packet_count++] = names[a];
     }
     if (packet_count) EC_TRY(build(r->t->cl, "selftest_packets", packets, r->t->lanes, &r->packets, err));
-    if (single_count) EC_TRY(build(r->t->cl, "selftest_singles", singles, 8, &r->singles, err));
-    return build(r->t->cl, "selftest_rays", leaving, r->t->lanes, &r->leaving, err);
+    return single_count ? build(r->t->cl, "selftest_singles", singles, 8, &r->singles, err) : EC_OK;
 }
 
 static ec_result open_tracer(ec_tracer *r, ec_error *err)
@@ -43,8 +42,7 @@ static ec_result open_tracer(ec_tracer *r, ec_error *err)
     if (!r->t->full) EC_TRY(ec_accels_choose(NULL, 1000, r->t->cl->info.type & CL_DEVICE_TYPE_CPU, &r->used, err));
     r->paths = calloc((size_t)EC_PATH_FIELDS * EC_TRACER_RAYS, sizeof *r->paths);
     r->hits = calloc((size_t)EC_HIT_PROBE_FIELDS * EC_TRACER_RAYS, sizeof *r->hits);
-    r->left = calloc((size_t)EC_LEAVE_FIELDS * EC_TRACER_RAYS, sizeof *r->left);
-    if (!r->paths || !r->hits || !r->left) return ec_fail(err, "out of memory for %u rays", EC_TRACER_RAYS);
+    if (!r->paths || !r->hits) return ec_fail(err, "out of memory for %u rays", EC_TRACER_RAYS);
     return build_programs(r, err);
 }
 
@@ -66,8 +64,6 @@ ec_result ec_tracer_of(ec_selftest *t, ec_tracer **tracer, ec_error *err)
 static void free_accels(ec_tracer *r)
 {
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) ec_accel_free(&r->accels[a]);
-    free(r->prims);
-    r->prims = NULL;
 }
 
 void ec_tracer_close(ec_tracer *r)
@@ -76,10 +72,8 @@ void ec_tracer_close(ec_tracer *r)
     free_accels(r);
     if (r->packets) clReleaseProgram(r->packets);
     if (r->singles) clReleaseProgram(r->singles);
-    if (r->leaving) clReleaseProgram(r->leaving);
     free(r->paths);
     free(r->hits);
-    free(r->left);
     free(r);
 }
 
@@ -89,13 +83,9 @@ ec_result ec_tracer_build(ec_tracer *r, const ec_soup *soup, ec_error *err)
     memset(r->hits, 0, (size_t)EC_HIT_PROBE_FIELDS * EC_TRACER_RAYS * sizeof *r->hits); /* no triangle of another soup stays */
     r->soup = soup;
     r->largest = ec_soup_largest(soup);
-    r->prims = calloc((size_t)EC_PRIM_WORDS * soup->count + 1, sizeof *r->prims);
     uint32_t *indices = malloc((3 * (size_t)soup->count + 1) * sizeof *indices);
-    ec_result result = r->prims && indices ? EC_OK : ec_fail(err, "out of memory for %u triangles", soup->count);
-    for (uint32_t i = 0; i < 3 * soup->count && result == EC_OK; i++) {
-        indices[i] = i;
-        memcpy(r->prims + 4 * (size_t)i, soup->vertices + 3 * (size_t)i, 3 * sizeof *r->prims);
-    }
+    ec_result result = indices ? EC_OK : ec_fail(err, "out of memory for %u triangles", soup->count);
+    for (uint32_t i = 0; i < 3 * soup->count && result == EC_OK; i++) indices[i] = i;
     ec_accel_input input = {.positions = soup->vertices, .indices = indices, .triangle_count = soup->count};
     for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++)
         if (r->used >> a & 1 && (strcmp(ec_accels[a].name, "none") || soup->count <= BRUTE_FORCE_MOST))
@@ -150,28 +140,12 @@ bool ec_tracer_next(ec_tracer *r, uint32_t *a, uint32_t count, ec_result *result
     return *result == EC_OK;
 }
 
-ec_result ec_tracer_leave(ec_tracer *r, ec_error *err)
-{
-    uint32_t wave = EC_TRACER_RAYS;
-    const ec_array arrays[] = {EC_SCALAR(wave), EC_SCALAR(r->largest), EC_IN(r->prims, EC_PRIM_WORDS * (size_t)r->soup->count),
-                               EC_IN(r->hits, EC_HIT_FIELDS * wave), EC_OUT(r->paths, EC_PATH_FIELDS * wave),
-                               EC_OUT(r->left, EC_LEAVE_FIELDS * wave)};
-    return ec_kernel_call(r->t->cl, r->leaving, "ec_selftest_leave", wave / r->t->lanes, LOCAL, arrays, sizeof arrays / sizeof *arrays, err);
-}
-
 ec_traced ec_tracer_hit(const ec_tracer *r, uint32_t i)
 {
     ec_traced h = {.b1 = r->hits[EC_HIT_B1 * EC_TRACER_RAYS + i], .b2 = r->hits[EC_HIT_B2 * EC_TRACER_RAYS + i],
                    .t = r->hits[EC_HIT_T * EC_TRACER_RAYS + i]};
     memcpy(&h.prim, &r->hits[i], sizeof h.prim);
     return h;
-}
-
-void ec_tracer_set_hit(ec_tracer *r, uint32_t i, uint32_t prim, double b1, double b2)
-{
-    memcpy(&r->hits[i], &prim, sizeof prim);
-    r->hits[EC_HIT_B1 * EC_TRACER_RAYS + i] = (float)b1;
-    r->hits[EC_HIT_B2 * EC_TRACER_RAYS + i] = (float)b2;
 }
 
 void ec_float_direction(const double from[3], const double to[3], float d[3])

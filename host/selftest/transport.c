@@ -38,30 +38,6 @@ ec_result ec_selftest_furnace(ec_selftest *t, ec_error *err)
     return EC_OK;
 }
 
-/* Sampled by the BSDF and without roulette the sum is that of the series cut off, with no noise: what is off is rounding. */
-ec_result ec_selftest_deep_paths(ec_selftest *t, ec_error *err)
-{
-    static const uint32_t depths[] = {2, 3, 40, 1000};
-    ec_scene *scene;
-    ec_result result = closed_box(0.999, &scene, err);
-    for (int d = 0; d < 4 && result == EC_OK; d++) {
-        char what[32];
-        ec_render_options o = ec_shot_options(t, 4, 16);
-        ec_shot shot;
-        double albedo = (double)0.999f, expected = (1 - pow(albedo, depths[d])) / (1 - albedo);
-        o.sample = EC_SAMPLE_BSDF;
-        o.survival = 1;
-        o.max_depth = depths[d];
-        snprintf(what, sizeof what, "%u segments", depths[d]);
-        if ((result = ec_shot_take(t, scene, &o, &shot, err)) != EC_OK) break;
-        /* beta and the sum are rounded once a segment each */
-        result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, expected * 3 * depths[d] * 0x1p-24, err);
-        ec_shot_free(&shot);
-    }
-    ec_scene_free(scene);
-    return result;
-}
-
 /* GGX of reflectance 1 scatters once: its directional albedo under light from everywhere, by quadrature. */
 ec_result ec_selftest_metal(ec_selftest *t, ec_error *err)
 {

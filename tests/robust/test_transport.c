@@ -19,6 +19,30 @@ static ec_result closed_box(double albedo, ec_scene **scene, ec_error *err)
     return ec_model_scene(m, scene, err);
 }
 
+/* Sampled by the BSDF and without roulette the sum is that of the series cut off, with no noise: what is off is rounding. */
+static ec_result deep_paths_case(ec_selftest *t, ec_error *err)
+{
+    static const uint32_t depths[] = {2, 3, 40, 1000};
+    ec_scene *scene;
+    ec_result result = closed_box(0.999, &scene, err);
+    for (int d = 0; d < 4 && result == EC_OK; d++) {
+        char what[32];
+        ec_render_options o = ec_shot_options(t, 4, 16);
+        ec_shot shot;
+        double albedo = (double)0.999f, expected = (1 - pow(albedo, depths[d])) / (1 - albedo);
+        o.sample = EC_SAMPLE_BSDF;
+        o.survival = 1;
+        o.max_depth = depths[d];
+        snprintf(what, sizeof what, "%u segments", depths[d]);
+        if ((result = ec_shot_take(t, scene, &o, &shot, err)) != EC_OK) break;
+        /* beta and the sum are rounded once a segment each */
+        result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, expected * 3 * depths[d] * 0x1p-24, err);
+        ec_shot_free(&shot);
+    }
+    ec_scene_free(scene);
+    return result;
+}
+
 /* Roulette must not change the mean, whatever survives. P over albedo^2, or the variance of endless paths is infinite. */
 static ec_result roulette_case(ec_selftest *t, ec_error *err)
 {
@@ -111,6 +135,7 @@ static ec_result corridor_case(ec_selftest *t, ec_error *err)
 int main(void)
 {
     static const ec_selftest_case cases[] = {
+        {"transport/deep paths", false, deep_paths_case, "throughput drifts over a thousand bounces, or paths end early"},
         {"transport/roulette", false, roulette_case, "roulette that divides by another probability than it plays"},
         {"transport/mirrored plates", false, mirrored_plates_case, "a lamp's images in mirrors counted twice or never met"},
         {"transport/corridor", false, corridor_case, "smooth reflection that leaks or loses its direction"},

@@ -1,11 +1,11 @@
-/* Rays that leave surfaces, as the shading stages make them, for `eclat selftest`. */
-#include "../lib/queue.h"
-#include "../lib/ray.h"
-#include "../lib/surface.h"
-#include "../shared/selftest_rays.h"
+/* Rays that leave surfaces, as the shading stages make them, for leave.h. */
+#include "lib/queue.h"
+#include "lib/ray.h"
+#include "lib/surface.h"
+#include "leave_fields.h"
 
 /* From hits and the paths' directions: the paths' origins, and EC_LEAVE_FIELDS of where that is. */
-kernel void ec_selftest_leave(uint wave, float scene_max, global const float *prims, global const float *hits, global float *paths,
+kernel void leave(uint wave, float scene_max, global const float *prims, global const float *hits, global float *paths,
                               global float *left)
 {
     uint i = get_global_id(0) * LANES;
