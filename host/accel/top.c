@@ -1,13 +1,13 @@
 /* A range of instances becomes up to eight by splitting the largest of them again and again, each where the surface area heuristic
  * says (Goldsmith and Salmon 1987), swept over all places along all axes: instances are few beside triangles, and each costs a
  * whole tree to enter, so that leaves hold one. */
-#include "accel/leaf.h"
-#include "accel/top.h"
-
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "accel/build_internal.h"
+#include "accel/leaf.h"
 
 typedef struct part {
     uint32_t first, count;

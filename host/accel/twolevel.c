@@ -9,7 +9,6 @@
 #include "accel/build_internal.h"
 #include "accel/leaf.h"
 #include "accel/shape_trees.h"
-#include "accel/top.h"
 
 #define OFF_BOUND 40.0 /* u |M^-1| (|o| + reach): derived in kernels/lib/traverse_twolevel.h */
 #define UNIT 0x1p-24

@@ -1,4 +1,3 @@
-#include "ranks/rank_job.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +5,7 @@
 #include <unistd.h>
 
 #include "cl/workarounds.h"
-#include "ranks/remote.h"
+#include "ranks/ranks_internal.h"
 
 /* Plain values: the ranks run one program on machines of one kind. Then follow the buffers, in order. */
 typedef struct sheet {

@@ -4,8 +4,7 @@
 #include <mpi.h>
 
 #include "base/module.h"
-#include "ranks/rank_job.h"
-#include "ranks/remote.h"
+#include "ranks/ranks_internal.h"
 
 /* Each would be rank 0 of one. */
 static ec_result fail_of_launcher(int size, ec_error *err)

@@ -1,4 +1,4 @@
-#include "ranks/remote.h"
+#include "ranks/ranks_internal.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "render/sources.h"
-#include "ranks/rank_job.h"
-#include "ranks/remote.h"
+#include "ranks/ranks_internal.h"
 
 typedef struct server {
     ec_ranks *ranks;
