@@ -10,30 +10,17 @@
 
 enum { LOCAL = 64, BRUTE_FORCE_MOST = 64 };
 
-static ec_result build(ec_cl *cl, const char *label, const char *const *names, uint32_t lanes, cl_program *program, ec_error *err)
-{
-    char options[64], *source;
-    snprintf(options, sizeof options, "-DFEATURES=0x0u -DPROBE -DLANES=%u", lanes);
-    EC_TRY(ec_kernel_sources_join(names, &source, err));
-    ec_result result = ec_program_build(cl, label, source, options, program, err);
-    free(source);
-    return result;
-}
-
 static ec_result build_programs(ec_tracer *r, ec_error *err)
 {
-    const char *packets[EC_ACCEL_COUNT + 1] = {NULL}, *singles[EC_ACCEL_COUNT + 1] = {NULL};
-    char names[EC_ACCEL_COUNT][32];
-    uint32_t packet_count = 0, single_count = 0;
+    char name[64], options[64];
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
         if (!(r->used >> a & 1)) continue;
-        snprintf(names[a], sizeof names[a], "traverse_%s", ec_accels[a].name);
         r->lanes[a] = ec_accels[a].lanes ? 1 : r->t->lanes;
-        if (ec_accels[a].lanes) singles[single_count++] = names[a];
-        else packets[packet_count++] = names[a];
+        snprintf(name, sizeof name, "traverse_%s", ec_accels[a].name);
+        snprintf(options, sizeof options, "-DFEATURES=0x0u -DPROBE -DLANES=%u", ec_accels[a].lanes ? ec_accels[a].lanes : r->t->lanes);
+        EC_TRY(ec_program_build(r->t->cl, name, ec_kernel_source(name), options, &r->programs[a], err));
     }
-    if (packet_count) EC_TRY(build(r->t->cl, "selftest_packets", packets, r->t->lanes, &r->packets, err));
-    return single_count ? build(r->t->cl, "selftest_singles", singles, 8, &r->singles, err) : EC_OK;
+    return EC_OK;
 }
 
 static ec_result open_tracer(ec_tracer *r, ec_error *err)
@@ -70,8 +57,8 @@ void ec_tracer_close(ec_tracer *r)
 {
     if (!r) return;
     free_accels(r);
-    if (r->packets) clReleaseProgram(r->packets);
-    if (r->singles) clReleaseProgram(r->singles);
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
+        if (r->programs[a]) clReleaseProgram(r->programs[a]);
     free(r->paths);
     free(r->hits);
     free(r);
@@ -128,7 +115,7 @@ ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *er
     for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++)
         if (accel->buffers[k].data) arrays[BUFFERS_AT + k] = (ec_array){accel->buffers[k].data, accel->buffers[k].bytes, EC_ARRAY_IN};
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[a].name);
-    return ec_kernel_call(r->t->cl, ec_accels[a].lanes ? r->singles : r->packets, name,
+    return ec_kernel_call(r->t->cl, r->programs[a], name,
                           (count + r->lanes[a] - 1) / r->lanes[a], LOCAL, arrays, ARGUMENTS, err);
 }
 

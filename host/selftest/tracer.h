@@ -14,7 +14,7 @@ typedef struct ec_tracer {
     ec_selftest *t;
     uint32_t used;         /* a bit for each accelerator: all of them, or in the short form those that renders choose by themselves */
     uint32_t lanes[EC_ACCEL_COUNT];
-    cl_program packets, singles; /* by lane width: the device's, 8 */
+    cl_program programs[EC_ACCEL_COUNT];
     const ec_soup *soup;
     float largest;         /* |coordinate| of it */
     ec_accel accels[EC_ACCEL_COUNT];
