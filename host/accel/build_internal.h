@@ -125,6 +125,7 @@ typedef struct ec_builder {
     const uint32_t *indices;
     const float *swept; /* 6 floats each of the first triangles: their boxes, in place of their vertices' */
     uint32_t swept_count;
+    uint32_t leaf_most; /* references of a leaf */
     ec_build_prim *prims[2];
     uint32_t *order;
     ec_box *boxes; /* NULL until triangles have been cut, unless some move */
@@ -166,10 +167,10 @@ void *ec_allocate_lines(size_t count, size_t size);
  * out of memory, and nothing has changed. */
 int ec_reserve_lines(void *array, uint32_t *room, uint32_t used, uint64_t wanted, size_t size);
 
-/* top.c: the tree of instances. Writes 8-wide nodes over boxes [0 .. count) into nodes, the root first; leaves are EC_LEAF_BIT | EC_INSTANCE_BIT | box + 1.
- * Room for count + 1 nodes is enough. *used: how many there are. No path is longer than EC_TOP_DEPTH nodes. */
-#define EC_TOP_DEPTH 12u /* eight children each: 7 x 12 entries wait on a traversal's stack, and 8^12 instances have room */
-int ec_top_build(const ec_box *boxes, uint32_t count, ec_bvh8_node *nodes, uint32_t *used);
+/* layout8.c: wide nodes over boxes [0 .. count), whose leaves are one box each: EC_LEAF_BIT | EC_INSTANCE_BIT | box + 1. No blocks. */
+ec_result ec_bvh8_of_boxes(const ec_box *boxes, uint32_t count, uint32_t threads, ec_bvh8 *layout, ec_error *err);
+/* bvh_build.c: the tree that they are made of. */
+ec_result ec_bvh_build_boxes(const ec_box *boxes, uint32_t count, uint32_t threads, ec_bvh *bvh, ec_error *err);
 
 /* stats.c: everything but the time is read off the tree. */
 void ec_bvh_measure(const ec_bvh *bvh, double build_seconds, ec_bvh_stats *stats);

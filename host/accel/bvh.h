@@ -18,6 +18,7 @@ typedef struct ec_bvh {
     ec_bvh_build_node *nodes;  /* nodes[0] is the root; owned */
     uint32_t triangle_count;
     uint32_t ref_count;        /* what the leaves hold: triangles, of which some may have been cut into several parts */
+    uint32_t leaf_most;        /* references that a leaf may hold: 8, or of trees of instances 1 */
     uint32_t moving_count;     /* the first triangles are only known by the boxes of their references */
     uint32_t *order;           /* triangle ids of the references in leaf order; owned */
     ec_box *boxes;             /* of the references, NULL where none was cut and none moves: then a triangle's own box is meant; owned */

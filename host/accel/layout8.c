@@ -88,6 +88,13 @@ static void plan_node(plan *p, uint32_t at, uint32_t index, uint32_t stack)
         plan_node(p, node->first_node + k, node->child[k], stack - (uint32_t)(count - 1));
 }
 
+/* The child that is a leaf: a block, or of a tree of instances one of them. */
+static uint32_t leaf_of(const plan *p, const wide *from, uint32_t k)
+{
+    const uint32_t instance = p->bvh->order[p->bvh->nodes[from->child[k]].first] + 1;
+    return EC_LEAF_BIT | (p->bvh->leaf_most == 1 ? EC_INSTANCE_BIT | instance : from->first_leaf + k - from->node_count);
+}
+
 static void fill_node(const plan *p, const wide *from, ec_bvh8_node *node)
 {
     memset(node, 0, sizeof *node);
@@ -98,9 +105,7 @@ static void fill_node(const plan *p, const wide *from, ec_bvh8_node *node)
             node->bound[2 * axis][k] = used ? child->lo[axis] : INFINITY;
             node->bound[2 * axis + 1][k] = used ? child->hi[axis] : -INFINITY;
         }
-        node->child[k] = !used                  ? EC_NO_CHILD
-                         : k < from->node_count ? from->first_node + k
-                                                : EC_LEAF_BIT | (from->first_leaf + k - from->node_count);
+        node->child[k] = !used ? EC_NO_CHILD : k < from->node_count ? from->first_node + k : leaf_of(p, from, k);
     }
 }
 
@@ -139,6 +144,15 @@ static int make_plan(plan *p)
     return 1;
 }
 
+static void free_plan(plan *p)
+{
+    free(p->subtrees);
+    free(p->promise);
+    free(p->collapse.slots);
+    free(p->nodes);
+    free(p->leaves);
+}
+
 ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh8 *layout, ec_error *err)
 {
     plan p = {.bvh = bvh};
@@ -158,10 +172,20 @@ ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32
         free(made.blocks);
         free(made.boxes);
     }
-    free(p.subtrees);
-    free(p.promise);
-    free(p.collapse.slots);
-    free(p.nodes);
-    free(p.leaves);
+    free_plan(&p);
     return is_whole ? EC_OK : ec_fail(err, "out of memory for the 8-wide BVH of %u triangles", bvh->triangle_count);
+}
+
+ec_result ec_bvh8_of_boxes(const ec_box *boxes, uint32_t count, uint32_t threads, ec_bvh8 *layout, ec_error *err)
+{
+    ec_bvh bvh;
+    EC_TRY(ec_bvh_build_boxes(boxes, count, threads, &bvh, err));
+    plan p = {.bvh = &bvh};
+    *layout = (ec_bvh8){0};
+    if (make_plan(&p)) layout->nodes = ec_allocate_lines(p.node_count, sizeof *layout->nodes);
+    for (uint32_t i = 0; layout->nodes && i < p.node_count; i++) fill_node(&p, &p.nodes[i], &layout->nodes[i]);
+    layout->node_count = p.node_count;
+    free_plan(&p);
+    ec_bvh_free(&bvh);
+    return layout->nodes ? EC_OK : ec_fail(err, "out of memory for %u instances", count);
 }

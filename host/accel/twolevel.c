@@ -193,17 +193,16 @@ static ec_result add_instances(const ec_accel_input *in, twolevel *t, ec_error *
         for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(in->positions[3 * (size_t)in->indices[i] + (size_t)k]));
     for (uint32_t i = 0; i < in->placed_count; i++)
         for (int row = 0; row < 3; row++) reach = fmax(reach, reach_of(&in->placed[i], &t->shapes[in->placed[i].shape], row));
-    ec_box *boxes = malloc(in->placed_count * sizeof *boxes);
-    ec_bvh8 top = {.nodes = ec_allocate_lines(in->placed_count + (size_t)1, sizeof *top.nodes)};
     const uint32_t root = t->all.node_count;
+    ec_bvh8 top = {0};
+    ec_box *boxes = malloc(in->placed_count * sizeof *boxes);
     t->instances = ec_allocate_lines(in->placed_count + (size_t)1, sizeof *t->instances);
-    ec_result result = boxes && top.nodes && t->instances ? EC_OK : ec_fail(err, "out of memory for %u instances", in->placed_count);
+    ec_result result = boxes && t->instances ? EC_OK : ec_fail(err, "out of memory for %u instances", in->placed_count);
     for (uint32_t i = 0; result == EC_OK && i < in->placed_count; i++) {
         boxes[i] = box_of(&in->placed[i], &t->shapes[in->placed[i].shape]);
         t->instances[i + 1] = instance_of(&in->placed[i], &t->shapes[in->placed[i].shape], reach);
     }
-    if (result == EC_OK && !ec_top_build(boxes, in->placed_count, top.nodes, &top.node_count))
-        result = ec_fail(err, "out of memory for %u instances", in->placed_count);
+    if (result == EC_OK) result = ec_bvh8_of_boxes(boxes, in->placed_count, in->threads, &top, err);
     if (result == EC_OK) result = append(t, &top, err);
     if (result == EC_OK) t->instances[0] = (ec_instance){.root = root};
     free(boxes);
