@@ -19,7 +19,7 @@ typedef struct grid {
     uint32_t ref_count, cells[3], threads;
     float *planes[3]; /* cells + 1 each, ascending */
     double per_unit[3];
-    ec_ref bounds;
+    ec_box bounds;
 } grid;
 
 /* As many cubes as wanted, if no axis were shorter than a cube; axes that are get the fewest cells and the others share. */
@@ -83,7 +83,7 @@ typedef struct cell_box {
 static cell_box cells_of(const grid *g, const ec_ref *ref)
 {
     cell_box box;
-    for (int axis = 0; axis < 3; axis++) range_of(g, axis, ref->lo[axis], ref->hi[axis], box.at[axis]);
+    for (int axis = 0; axis < 3; axis++) range_of(g, axis, ref->box.lo[axis], ref->box.hi[axis], box.at[axis]);
     return box;
 }
 
@@ -179,9 +179,7 @@ static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *tria
 #pragma omp parallel for num_threads(g->threads)
     for (uint32_t i = 0; i < g->ref_count; i++) {
         triangles[i] = ec_tri_of(in->positions, in->indices, g->refs[i].triangle);
-        if (!boxes) continue;
-        memcpy(boxes[i].lo, g->refs[i].lo, sizeof boxes[i].lo);
-        memcpy(boxes[i].hi, g->refs[i].hi, sizeof boxes[i].hi);
+        if (boxes) boxes[i] = g->refs[i].box;
     }
 }
 

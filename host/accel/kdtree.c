@@ -28,7 +28,7 @@ typedef struct range {
     ec_kd_item *items; /* owned */
     uint32_t count, depth, refusals;
     double budget;     /* references in all leaves below */
-    ec_kd_cell cell;
+    ec_box cell;
     double area;       /* its surface as a share of the root's */
 } range;
 
@@ -69,8 +69,8 @@ static int divide(const range *r, const ec_kd_split *s, range children[2])
         for (uint32_t i = 0; i < r->count; i++) {
             if (!(ec_kd_sides(&r->items[i], s) >> side & 1)) continue;
             *to = r->items[i];
-            if (side) to->lo[s->axis] = fmaxf(to->lo[s->axis], s->plane);
-            else to->hi[s->axis] = fminf(to->hi[s->axis], s->plane);
+            if (side) to->box.lo[s->axis] = fmaxf(to->box.lo[s->axis], s->plane);
+            else to->box.hi[s->axis] = fminf(to->box.hi[s->axis], s->plane);
             to++;
         }
     }
@@ -242,23 +242,18 @@ static void fill_blocks(const ec_accel_input *in, const ec_ref *refs, const join
     }
 }
 
-static range root_of(const ec_ref *refs, uint32_t count, const ec_ref *bounds)
+static range root_of(const ec_ref *refs, uint32_t count, const ec_box *bounds)
 {
-    range root = {.items = malloc((count + (size_t)1) * sizeof *root.items), .count = count, .area = 1.0,
+    range root = {.items = malloc((count + (size_t)1) * sizeof *root.items), .count = count, .cell = *bounds, .area = 1.0,
                   .budget = (double)REFS_MOST * count};
-    memcpy(root.cell.lo, bounds->lo, sizeof bounds->lo);
-    memcpy(root.cell.hi, bounds->hi, sizeof bounds->hi);
-    for (uint32_t i = 0; root.items && i < count; i++) {
-        memcpy(root.items[i].lo, refs[i].lo, sizeof refs[i].lo);
-        memcpy(root.items[i].hi, refs[i].hi, sizeof refs[i].hi);
-        root.items[i].ref = i;
-    }
+    for (uint32_t i = 0; root.items && i < count; i++) root.items[i] = (ec_kd_item){refs[i].box, i};
     return root;
 }
 
 ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
 {
-    ec_ref *refs, bounds;
+    ec_ref *refs;
+    ec_box bounds;
     uint32_t count;
     EC_TRY(ec_accel_refs(in, &refs, &count, &bounds, err));
     int threads = ec_accel_threads(in, count);
