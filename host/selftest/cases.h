@@ -20,7 +20,6 @@ typedef struct ec_selftest {
     CASE("transport/furnace", false, ec_selftest_furnace, "light lost or made at a bounce (Nori's test-furnace)")                \
     CASE("transport/metal", false, ec_selftest_metal, "GGX with a wrong sign or denominator (Heitz 2014)")                       \
     CASE("rays/watertight", false, ec_selftest_watertight, "pinholes at edges and vertices (Woop et al. 2013; embree#387)")      \
-    CASE("rays/nested balls", false, ec_selftest_nested, "what lies just under a surface shows through it")                      \
     CASE("rays/lane widths", true, ec_selftest_lane_widths, "pictures that depend on the width of a vector")                     \
     CASE("rays/accelerators", true, ec_selftest_accelerators, "pictures that depend on the acceleration structure")              \
     CASE("lights/facing squares", false, ec_selftest_facing_squares, "form factors (Siegel and Howell, C-11)")                   \

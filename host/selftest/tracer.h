@@ -46,6 +46,10 @@ static inline const float *ec_tracer_triangle(const ec_tracer *tracer, uint32_t 
 {
     return tracer->soup->vertices + 9 * (size_t)prim;
 }
+/* rays_closed.c: from within at a vertex, at a point of an edge or at any; a third from below a point of the same triangle. Some along an axis, with
+ * components of 0 and -0. */
+void ec_rays_within(ec_tracer *tracer, uint64_t *random, const double centre[3], const double stretch[3]);
+
 /* `to` - `from`, made unit in float as the shading stages' directions are. */
 void ec_float_direction(const double from[3], const double to[3], float d[3]);
 
