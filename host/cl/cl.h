@@ -34,7 +34,7 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
                            const char **why, ec_error *err);
 
 /* Likewise for `all` (those that are available and have a compiler) and lists such as `0,2` or `pocl,intel`: several indices, `most` at
- * most, in the order given. */
+ * most, in the order given. With a `most` of 1 such a list is refused. */
 ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *indices, uint32_t most,
                                    uint32_t *chosen, const char **why, ec_error *err);
 

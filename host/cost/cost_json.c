@@ -23,14 +23,8 @@ static void add_settings(cJSON *to, const ec_render_options *o)
     ec_json_text(settings, "sample", ec_sample_names[o->sample]);
     ec_json_text(settings, "sampler", ec_sampler_names[o->sampler]);
     ec_json_text(settings, "rr", roulette);
-    if (o->max_depth)
-        ec_json_whole(settings, "max_depth", o->max_depth);
-    else
-        cJSON_AddNullToObject(settings, "max_depth");
-    if (o->clamp > 0)
-        ec_json_real(settings, "clamp", o->clamp);
-    else
-        cJSON_AddNullToObject(settings, "clamp");
+    ec_json_real(settings, "max_depth", o->max_depth ? o->max_depth : NAN);
+    ec_json_real(settings, "clamp", o->clamp > 0 ? o->clamp : NAN);
     ec_json_text(settings, "scattering", ec_scattering_names[o->scattering]);
     ec_json_text(settings, "accel", o->accel ? o->accel : "auto");
     if (o->lanes)
@@ -121,10 +115,7 @@ static void add_reference(cJSON *to, const ec_cost_report *report)
     const ec_cost_reference *r = &report->study->reference;
     cJSON *reference = cJSON_AddObjectToObject(to, "reference");
     ec_json_text(reference, "file", r->source);
-    if (r->samples_per_pixel)
-        ec_json_whole(reference, "samples_per_pixel", r->samples_per_pixel);
-    else
-        cJSON_AddNullToObject(reference, "samples_per_pixel");
+    ec_json_real(reference, "samples_per_pixel", r->samples_per_pixel ? (double)r->samples_per_pixel : NAN);
     ec_json_real(reference, "error", r->has_variance ? sqrt(r->noise) : NAN);
     ec_json_real(reference, "mean_luminance", r->mean_luminance);
     ec_json_real(reference, "seconds", r->seconds);

@@ -36,7 +36,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, 
     double start = ec_now();
     uint64_t uploaded = cl->uploaded_bytes, found = cl->found_bytes;
     uint32_t programs = cl->programs_found;
-    ec_result result = spent ? ec_pipeline_unload(p, spent, err) : ec_pipeline_upload(p, cargo, err);
+    ec_result result = ec_pipeline_upload(p, cargo, spent, err);
     if (result == EC_OK) result = ec_pipeline_create_queues(p, head->wave, err);
     stats->pack_seconds += ec_now() - start;
     if (result != EC_OK) return result;

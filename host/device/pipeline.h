@@ -63,7 +63,7 @@ ec_integrate ec_integrate_paths;   /* wave.c */
 ec_integrate ec_integrate_whitted; /* whitted.c */
 ec_integrate ec_integrate_raster;  /* raster.c */
 
-/* wave.c: the sum of a queue's parts; the first paths, one part after the other; which queue is read and which written */
+/* queues.c: the sum of a queue's parts; the first paths, one part after the other; which queue is read and which written */
 uint64_t ec_pipeline_total(const uint32_t *parts);
 void ec_pipeline_fill_parts(ec_pipeline *pipeline, uint32_t paths);
 void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
@@ -71,14 +71,16 @@ void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
 /* raster.c: triangles are sorted into tiles once a camera */
 void ec_raster_forget(ec_pipeline *pipeline);
 
-/* whitted.c: of the stack of a slot; max_depth as in the options */
-uint64_t ec_whitted_stack_words(uint32_t max_depth);
+/* Of the stack of a slot of Whitted's trees; max_depth as in the options. */
+static inline uint64_t ec_whitted_stack_words(uint32_t max_depth)
+{
+    return 1 + (uint64_t)((max_depth ? max_depth : EC_WHITTED_DEPTH) - 1) * EC_BRANCH_FIELDS;
+}
 
 /* camera.c */
 ec_result ec_pipeline_set_camera(const ec_camera *camera, const ec_render_options *options, ec_params *params, ec_error *err);
-/* upload.c */
-ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_cargo *cargo, ec_error *err);
-ec_result ec_pipeline_unload(ec_pipeline *pipeline, ec_cargo *cargo, ec_error *err); /* the same, and the cargo is freed on the way */
+/* upload.c; spent: as for ec_pipeline_create */
+ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_cargo *cargo, ec_cargo *spent, ec_error *err);
 /* upload_plan.c: what of the scene goes to the device, and for which effects */
 typedef struct ec_upload {
     ec_arg arg;

@@ -138,7 +138,7 @@ static ec_result probe_one(ec_cl *cl, const ec_scene *scene, const ec_scene *bui
     p.accels[which].in_use = true;
     ec_result result = ec_cargo_add_accel(&cargo, which, &input, &probe->build, err);
     ec_accel_input_free(&input);
-    if (result == EC_OK) result = ec_pipeline_unload(&p, &cargo, err);
+    if (result == EC_OK) result = ec_pipeline_upload(&p, &cargo, &cargo, err);
     if (result == EC_OK && scene->triangle_count) {
         result = make_buffers(&p, scene, err);
         if (result == EC_OK) result = count(&p, which, probe, err);

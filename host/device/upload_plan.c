@@ -1,5 +1,6 @@
 /* Which of the scene's data go to a device, and for which effects. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "device/cargo.h"
@@ -44,6 +45,14 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         effects->buffers[i] = plan[i].buffer;
     }
     return count;
+}
+
+void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned)
+{
+    if (!data) return;
+    ec_cargo_buffer *buffer = &cargo->buffers[cargo->head.buffer_count++];
+    *buffer = (ec_cargo_buffer){.arg = arg, .accel = EC_ACCEL_COUNT, .bytes = bytes, .slack = slack, .data = data, .owned = owned};
+    snprintf(buffer->label, sizeof buffer->label, "%s", label);
 }
 
 /* Both sets side by side. They must be finite and small enough for the kernels' integer texels. */

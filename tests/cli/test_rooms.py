@@ -13,7 +13,7 @@ BUILD = os.path.dirname(os.path.abspath(ECLAT))
 SOURCE = os.environ["ECLAT_SOURCE_DIR"]
 
 # Folders that still have circles. One without them goes from this list, and none comes to it.
-CIRCULAR = {"ranks", "view"}
+CIRCULAR = {"view"}
 
 OBJECT = re.compile(r"CMakeFiles/(?:room_\w+|eclat|eclat_view|eclat_mpi)\.dir/(host/([^/]+)/.+)\.o$")
 

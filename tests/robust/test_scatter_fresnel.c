@@ -1,5 +1,7 @@
+/* tier: full */
 /* What an interface between two dielectrics reflects, and where the rest goes. */
-#include "selftest/scatter.h"
+#include "robust/cases.h"
+#include "robust/scatter.h"
 
 static const double indices[] = {1.5, 1 / 1.5, 2.4, 1 / 2.4, 1.01, 1 / 1.01, 1 + 0x1p-20, 1 - 0x1p-20};
 enum { INDICES = sizeof indices / sizeof indices[0], EACH = EC_SCATTER_N / INDICES };
@@ -91,7 +93,7 @@ static ec_result nothing(ec_selftest *t, ec_scatter_run *run, ec_error *err)
     return ec_selftest_none(t, "reflected at index 1", wrong, EC_SCATTER_N, NULL, err);
 }
 
-ec_result ec_selftest_fresnel(ec_selftest *t, ec_error *err)
+static ec_result fresnel_case(ec_selftest *t, ec_error *err)
 {
     ec_scatter_run run;
     EC_TRY(ec_scatter_open(t, &run, err));
@@ -100,4 +102,12 @@ ec_result ec_selftest_fresnel(ec_selftest *t, ec_error *err)
     if (result == EC_OK) result = nothing(t, &run, err);
     ec_scatter_close(&run);
     return result;
+}
+
+int main(void)
+{
+    static const ec_selftest_case cases[] = {
+        {"scatter/fresnel", false, fresnel_case, "black or bright rims where total reflection sets in"},
+    };
+    return RUN_CASES(cases);
 }

@@ -1,6 +1,6 @@
-/* What kernels/selftest/rays.cl tells of rays that leave surfaces: fields of a queue. */
-#ifndef EC_SHARED_SELFTEST_RAYS_H
-#define EC_SHARED_SELFTEST_RAYS_H
+/* What leave.cl tells of rays that leave surfaces: fields of a queue. */
+#ifndef EC_TESTS_ROBUST_LEAVE_FIELDS_H
+#define EC_TESTS_ROBUST_LEAVE_FIELDS_H
 
 enum ec_leave_field {
     EC_LEAVE_P,              /* x, y, z */

@@ -1,12 +1,12 @@
-/* The BSDF on the device, over arrays. Inside host/selftest only. */
-#ifndef EC_SELFTEST_SCATTER_H
-#define EC_SELFTEST_SCATTER_H
+/* The BSDF on the device, over arrays. */
+#ifndef EC_TESTS_ROBUST_SCATTER_H
+#define EC_TESTS_ROBUST_SCATTER_H
 
 #include <math.h>
 
 #include "base/random.h"
+#include "robust/scatter_fields.h"
 #include "selftest/cases.h"
-#include "shared/selftest.h"
 
 #define EC_SCATTER_N 32768u /* items of one run: one launch size, which PoCL compiles once */
 #define EC_PI_DOUBLE 3.14159265358979323846

@@ -1,11 +1,11 @@
-/* Rays that leave surfaces and frames around normals, as the shading stages make them, for `eclat selftest`. */
-#include "../lib/queue.h"
-#include "../lib/ray.h"
-#include "../lib/surface.h"
-#include "../shared/selftest_rays.h"
+/* Rays that leave surfaces, as the shading stages make them, for leave.h. */
+#include "lib/queue.h"
+#include "lib/ray.h"
+#include "lib/surface.h"
+#include "leave_fields.h"
 
 /* From hits and the paths' directions: the paths' origins, and EC_LEAVE_FIELDS of where that is. */
-kernel void ec_selftest_leave(uint wave, float scene_max, global const float *prims, global const float *hits, global float *paths,
+kernel void leave(uint wave, float scene_max, global const float *prims, global const float *hits, global float *paths,
                               global float *left)
 {
     uint i = get_global_id(0) * LANES;
@@ -25,15 +25,4 @@ kernel void ec_selftest_leave(uint wave, float scene_max, global const float *pr
     queue_store_v3(left, wave, EC_LEAVE_P, i, s.p);
     queue_store_v3(left, wave, EC_LEAVE_ERROR, i, s.p_error);
     queue_store_f(left, wave, EC_LEAVE_AGAIN, i, again ? F(1.0f) : F(0.0f));
-}
-
-/* s and t around n: three fields each. */
-kernel void ec_selftest_frame(uint wave, global const float *normals, global float *frames)
-{
-    uint i = get_global_id(0) * LANES;
-    if (i >= wave) return;
-    v3 s, t;
-    v3_frame(queue_load_v3(normals, wave, 0, i), &s, &t);
-    queue_store_v3(frames, wave, 0, i, s);
-    queue_store_v3(frames, wave, 3, i, t);
 }

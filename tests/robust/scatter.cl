@@ -1,7 +1,7 @@
-/* The BSDF and its parts over arrays: shared/selftest.h says what lies where. */
-#include "../lib/bsdf.h"
-#include "../lib/sampler.h"
-#include "../shared/selftest.h"
+/* The BSDF and its parts over arrays: scatter_fields.h says what lies where. */
+#include "lib/bsdf.h"
+#include "lib/sampler.h"
+#include "scatter_fields.h"
 
 #define IN(field) LANE_LOAD(in + (field) * n + at)
 #define PUT(field, value) LANE_STORE(value, out + (field) * n + at)

@@ -1,7 +1,9 @@
+/* tier: full */
 /* Are directions sampled as densely as the BSDF says, and do weights carry the light that they should? */
 #include <stdlib.h>
 
-#include "selftest/scatter.h"
+#include "robust/cases.h"
+#include "robust/scatter.h"
 
 typedef struct sampled {
     const char *name;
@@ -95,11 +97,11 @@ static ec_result compare(ec_selftest *t, const char *name, const cells *c, doubl
                              sqrt((most - degrees) / n), err);
 }
 
-ec_result ec_selftest_chi_square(ec_selftest *t, ec_error *err)
+static ec_result chi_square_case(ec_selftest *t, ec_error *err)
 {
     ec_scatter_run run;
-    cells c = {.bands = t->full ? 48 : 16, .sectors = t->full ? 48 : 16, .points = t->full ? 14 : 16};
-    uint32_t runs = t->full ? 128 : 4;
+    cells c = {.bands = 48, .sectors = 48, .points = 14};
+    const uint32_t runs = 128;
     EC_TRY(ec_scatter_open(t, &run, err));
     c.mass = malloc(cell_count(&c) * sizeof *c.mass);
     c.found = malloc(cell_count(&c) * sizeof *c.found);
@@ -115,4 +117,12 @@ ec_result ec_selftest_chi_square(ec_selftest *t, ec_error *err)
     free(c.found);
     ec_scatter_close(&run);
     return result;
+}
+
+int main(void)
+{
+    static const ec_selftest_case cases[] = {
+        {"scatter/chi-square", false, chi_square_case, "sampled otherwise than divided by"},
+    };
+    return RUN_CASES(cases);
 }

@@ -1,7 +1,9 @@
+/* tier: full */
 /* What nobody would render on purpose. */
 #include <stdlib.h>
 
-#include "selftest/scatter.h"
+#include "robust/cases.h"
+#include "robust/scatter.h"
 
 /* Random materials, directions and numbers, the ends of their ranges as often as not. */
 static ec_result fuzz(ec_selftest *t, const char *more, uint32_t rounds, int judged, ec_error *err)
@@ -25,11 +27,20 @@ static ec_result fuzz(ec_selftest *t, const char *more, uint32_t rounds, int jud
     return result;
 }
 
-ec_result ec_selftest_fuzz(ec_selftest *t, ec_error *err) { return fuzz(t, "", t->full ? 3072 : 32, EC_FUZZ_COUNTS, err); }
+static ec_result fuzz_case(ec_selftest *t, ec_error *err) { return fuzz(t, "", 3072, EC_FUZZ_COUNTS, err); }
 
 /* And with all that lies over a surface. A coat and fibres are chosen by what they reflect at this angle, and have no bound of a weight. */
-ec_result ec_selftest_fuzz_layers(ec_selftest *t, ec_error *err)
+static ec_result fuzz_layers_case(ec_selftest *t, ec_error *err)
 {
     return fuzz(t, "+EC_FEATURE_ANISOTROPY+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_IRIDESCENCE"
                     "+EC_FEATURE_DIFFUSE_TRANSMISSION+EC_FEATURE_MULTISCATTER", 1024, EC_FUZZ_HEAVY, err);
+}
+
+int main(void)
+{
+    static const ec_selftest_case cases[] = {
+        {"scatter/fuzz", false, fuzz_case, "NaN and fireflies"},
+        {"scatter/fuzz, layers", false, fuzz_layers_case, "NaN and fireflies where effects meet"},
+    };
+    return RUN_CASES(cases);
 }

@@ -1,5 +1,7 @@
+/* tier: full */
 /* The microfacet distribution, its masking and its sampling, down to what counts as smooth and to grazing angles. */
-#include "selftest/scatter.h"
+#include "robust/cases.h"
+#include "robust/scatter.h"
 
 static const double alphas[] = {1, 0.1, 1e-2, 1e-3, 1e-4}, cosines[] = {1, 0.5, 1e-2, 1e-4, 1e-6};
 enum { ALPHAS = sizeof alphas / sizeof alphas[0], COSINES = sizeof cosines / sizeof cosines[0] };
@@ -87,7 +89,7 @@ static ec_result samples(ec_selftest *t, ec_scatter_run *run, double alpha, doub
     return EC_OK;
 }
 
-ec_result ec_selftest_ggx(ec_selftest *t, ec_error *err)
+static ec_result ggx_case(ec_selftest *t, ec_error *err)
 {
     ec_scatter_run run;
     EC_TRY(ec_scatter_open(t, &run, err));
@@ -105,4 +107,12 @@ ec_result ec_selftest_ggx(ec_selftest *t, ec_error *err)
                                   NULL, err);
     ec_scatter_close(&run);
     return result;
+}
+
+int main(void)
+{
+    static const ec_selftest_case cases[] = {
+        {"scatter/ggx", false, ggx_case, "narrow lobes from 1 - cos^2: no digit is left at roughness 0.01"},
+    };
+    return RUN_CASES(cases);
 }

@@ -1,15 +1,17 @@
+/* tier: full */
 /* What a lens makes of a lamp that is not in focus. */
 #include <math.h>
 #include <stdio.h>
 
 #include "gltf/model.h"
+#include "robust/cases.h"
 #include "selftest/shot.h"
 
 static const double pi = 3.14159265358979323846;
 
 /* One point of the picture sees a strip of width 2 w at twice the distance in focus from each point p of the aperture: at -p. So it
  * is the share of a disc of radius 1/2 between two chords. A field of view of 10^-4 puts 240 m of focal length before the sensor. */
-ec_result ec_selftest_lens(ec_selftest *t, ec_error *err)
+static ec_result lens_case(ec_selftest *t, ec_error *err)
 {
     static const double widths[] = {0.05, 0.25, 0.45};
     for (int i = 0; i < 3; i++) {
@@ -32,4 +34,12 @@ ec_result ec_selftest_lens(ec_selftest *t, ec_error *err)
         EC_TRY(result);
     }
     return EC_OK;
+}
+
+int main(void)
+{
+    static const ec_selftest_case cases[] = {
+        {"camera/lens", false, lens_case, "blur of another width than the thin lens's"},
+    };
+    return RUN_CASES(cases);
 }

@@ -1,10 +1,12 @@
-/* From samples to what is written: sums of many, very bright and very dark ones, sRGB. */
+/* tier: full */
+/* From samples to what is written: very bright and very dark ones, sRGB. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "image/image.h"
 #include "gltf/model.h"
+#include "image/image.h"
+#include "robust/cases.h"
 #include "selftest/shot.h"
 
 /* A camera that sees nothing but a lamp: every sample is its radiance. */
@@ -29,12 +31,6 @@ static ec_result lamp_row(ec_selftest *t, const char *what, double radiance, dou
     return ec_shot_only_row(t, what, scene, &o, expected, err);
 }
 
-/* Samples are summed in float batch by batch, batches averaged in float in groups (film/parts.h). */
-ec_result ec_selftest_sums(ec_selftest *t, ec_error *err)
-{
-    return lamp_row(t, "65 536 samples a pixel", 0.1, (double)0.1f, 4, 65536, err);
-}
-
 /* Nothing in the way of an environment whose samples add up to more than a float holds. */
 static ec_result bright_sky(ec_selftest *t, double radiance, ec_error *err)
 {
@@ -49,7 +45,7 @@ static ec_result bright_sky(ec_selftest *t, double radiance, ec_error *err)
 }
 
 /* The loader takes no emission over 1e30, with a warning: products with it are to stay finite. */
-ec_result ec_selftest_range(ec_selftest *t, ec_error *err)
+static ec_result range_case(ec_selftest *t, ec_error *err)
 {
     EC_TRY(lamp_row(t, "lamp of 1e38, taken for 1e30", 1e38, 1e30, 4, 64, err));
     EC_TRY(lamp_row(t, "lamp of 2e-38", 2e-38, 2e-38, 4, 64, err));
@@ -86,7 +82,7 @@ static ec_result ramp(ec_scene **scene, ec_error *err)
 static double srgb_decode(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
 /* Through texture look-up, film and tone mapping: linear radiance is rounded once, bytes come back as they were. */
-ec_result ec_selftest_srgb(ec_selftest *t, ec_error *err)
+static ec_result srgb_case(ec_selftest *t, ec_error *err)
 {
     ec_scene *scene = NULL;
     ec_shot shot = {0};
@@ -109,4 +105,13 @@ ec_result ec_selftest_srgb(ec_selftest *t, ec_error *err)
     ec_shot_free(&shot);
     EC_TRY(ec_selftest_largest(t, "decoded", worst, 1e-6, NULL, err));
     return ec_selftest_none(t, "bytes that do not come back", changed, 3 * 256, NULL, err);
+}
+
+int main(void)
+{
+    static const ec_selftest_case cases[] = {
+        {"numbers/range", false, range_case, "suns that turn black: sums over 3.4e38"},
+        {"numbers/srgb", false, srgb_case, "washed-out textures: gamma 2.2 for sRGB"},
+    };
+    return RUN_CASES(cases);
 }

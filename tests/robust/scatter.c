@@ -1,9 +1,10 @@
-#include "selftest/scatter.h"
+#include "robust/scatter.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "kernel/kernel_run.h"
 #include "shared/features.h"
 
 ec_result ec_scatter_open_with(ec_selftest *t, const char *more, ec_scatter_run *run, ec_error *err)
@@ -13,9 +14,10 @@ ec_result ec_scatter_open_with(ec_selftest *t, const char *more, ec_scatter_run 
                             .out = calloc((size_t)EC_SCATTER_OUTS * EC_SCATTER_N, sizeof *run->out)};
     snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_SMOOTH+EC_FEATURE_TRANSMISSION%s)",
              t->lanes, more);
-    ec_result result = run->in && run->out ? ec_program_build(t->cl, "scatter", ec_kernel_source("scatter"), options,
-                                                              &run->program, err)
-                                           : ec_fail(err, "out of memory for directions");
+    char *source = kernel_flatten("robust/scatter.cl");
+    ec_result result = run->in && run->out && source ? ec_program_build(t->cl, "scatter", source, options, &run->program, err)
+                                                     : ec_fail(err, "no memory for directions, or no kernel");
+    free(source);
     if (result != EC_OK) ec_scatter_close(run);
     return result;
 }
