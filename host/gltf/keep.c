@@ -4,8 +4,8 @@
 #include "gltf/keep.h"
 
 #include <math.h>
-
-#include "base/freed.h"
+#include <stdlib.h>
+#include <string.h>
 
 #define CONDITION_MOST 1e6 /* of a matrix; its inverse in double is then good to 2^-32, far below a float's rounding */
 #define SMALL_MESH 64u     /* triangles: keeping fewer once saves little more than their instances take */
@@ -76,11 +76,15 @@ static bool fits(const ec_placement *at, const ec_kept_mesh *m)
 static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error *err)
 {
     const ec_gltf *g = k->g;
-    EC_FREED uint32_t *uses = calloc((size_t)g->mesh_count + 1, sizeof *uses);
-    EC_FREED int32_t *index = malloc(((size_t)g->mesh_count + 1) * sizeof *index);
+    ec_result result = EC_FAILED;
+    uint32_t *uses = calloc((size_t)g->mesh_count + 1, sizeof *uses);
+    int32_t *index = malloc(((size_t)g->mesh_count + 1) * sizeof *index);
     k->meshes = calloc((size_t)g->mesh_count + 1, sizeof *k->meshes);
     k->candidate = malloc(((size_t)k->placements->count + 1) * sizeof *k->candidate);
-    if (!uses || !index || !k->meshes || !k->candidate) return ec_fail(err, "%s: out of memory for %u meshes", g->path, g->mesh_count);
+    if (!uses || !index || !k->meshes || !k->candidate) {
+        ec_fail(err, "%s: out of memory for %u meshes", g->path, g->mesh_count);
+        goto cleanup;
+    }
     for (uint32_t i = 0; i < k->placements->count; i++) {
         int32_t mesh = k->placements->items[i].mesh;
         if (mesh >= 0) uses[mesh]++;
@@ -98,7 +102,11 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
         k->candidate[i] = c >= 0 && !k->placements->items[i].moves && fits(&k->placements->items[i], &k->meshes[c]) ? c : -1;
         if (k->candidate[i] >= 0) k->meshes[c].places++;
     }
-    return EC_OK;
+    result = EC_OK;
+cleanup:
+    free(uses);
+    free(index);
+    return result;
 }
 
 /* By itself only where it saves a million triangles, and half of all: rays through instances cost more. */
