@@ -16,13 +16,11 @@ static const char *state_name(const ec_cost_study *study, ec_cost_state state)
 
 static void add_settings(cJSON *to, const ec_render_options *o)
 {
-    char roulette[32];
     cJSON *settings = cJSON_AddObjectToObject(to, "settings");
-    ec_format_roulette(o->survival, roulette, sizeof roulette);
     ec_json_text(settings, "integrator", ec_integrator_names[o->integrator]);
     ec_json_text(settings, "sample", ec_sample_names[o->sample]);
     ec_json_text(settings, "sampler", ec_sampler_names[o->sampler]);
-    ec_json_text(settings, "rr", roulette);
+    ec_json_text(settings, "rr", ec_roulette(o->survival).text);
     if (o->max_depth)
         ec_json_whole(settings, "max_depth", o->max_depth);
     else

@@ -7,18 +7,13 @@
 
 void ec_clamp_text(const ec_clamp_error *c, bool is_open, char *text, size_t size)
 {
-    char missing[32], spread[32], noise[32], bias[32], error[32];
     if (!isfinite(c->error)) {
         snprintf(text, size, "how much light is missing is not known");
         return;
     }
-    ec_format_percent(c->missing, missing, sizeof missing);
-    ec_format_percent(c->missing_stderr, spread, sizeof spread);
-    ec_format_percent(c->noise, noise, sizeof noise);
-    ec_format_percent(c->bias, bias, sizeof bias);
-    ec_format_percent(c->error, error, sizeof error);
-    snprintf(text, size, "%s%s of the light is missing (standard error %s); noise %s, bias %s, together %s", is_open ? "at least " : "", missing, spread, noise,
-             bias, error);
+    snprintf(text, size, "%s%s of the light is missing (standard error %s); noise %s, bias %s, together %s", is_open ? "at least " : "",
+             ec_percent(c->missing).text, ec_percent(c->missing_stderr).text, ec_percent(c->noise).text,
+             ec_percent(c->bias).text, ec_percent(c->error).text);
 }
 
 void ec_clamp_json(cJSON *root, double limit, double luminance, const ec_clamp_error *c)

@@ -48,7 +48,7 @@ GET(max_depth)
 
 GET(rr)
 {
-    ec_format_roulette(o->survival, value->made, sizeof value->made);
+    snprintf(value->made, sizeof value->made, "%s", ec_roulette(o->survival).text);
     put_text(value, value->made);
 }
 
