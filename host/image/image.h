@@ -16,7 +16,7 @@ typedef struct ec_channel {
     bool is_words;      /* 32-bit unsigned integers, and so in the file */
 } ec_channel;
 
-typedef enum ec_attribute_type { EC_ATTR_STRING, EC_ATTR_INT, EC_ATTR_FLOAT, EC_ATTR_DOUBLE } ec_attribute_type;
+typedef enum ec_attribute_type { EC_ATTR_STRING, EC_ATTR_INT, EC_ATTR_DOUBLE } ec_attribute_type;
 typedef struct ec_attribute {
     const char *name;   /* e.g. "eclat.seed" */
     ec_attribute_type type;

@@ -1,12 +1,10 @@
 /* PNG out: 8-bit sRGB. In memory through libpng's simplified API, to files row by row, compressed by all threads (png_strips.h); both
  * write the sRGB chunk. */
-#include <errno.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "image/image.h"
@@ -55,15 +53,8 @@ static void warn(png_structp png, png_const_charp message)
 static void write_all(png_structp png, png_bytep bytes, size_t size)
 {
     ec_png_rows *rows = png_get_io_ptr(png);
-    for (size_t done = 0; done < size;) {
-        ssize_t put = write(rows->file.fd, bytes + done, size - done);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) {
-            rows->write_error = put < 0 ? errno : ENOSPC;
-            png_error(png, "write");
-        }
-        done += (size_t)put;
-    }
+    rows->write_error = ec_write_all(rows->file.fd, bytes, size, -1);
+    if (rows->write_error) png_error(png, "write");
 }
 
 static void flush(png_structp png) { (void)png; }
