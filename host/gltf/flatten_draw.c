@@ -46,10 +46,8 @@ ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
         return ec_fail(f->err, "%s: more than %d triangles or vertices once all instances are counted; simplify the scene",
                        d->g->path, INT32_MAX);
     if (range > f->remap_size) f->remap_size = range;
-    f->has_normals |= d->p->streams.normal >= 0;
-    f->has_tangents |= d->p->streams.tangent >= 0 && d->p->streams.normal >= 0;
-    f->has_colors |= d->p->streams.color >= 0;
-    for (int i = 0; i < 2; i++) f->has_uv[i] |= d->p->streams.uv[i] >= 0;
+    for (int i = 0; i < EC_STREAMS; i++) /* glTF: tangents without normals are ignored */
+        f->streams |= (unsigned)(d->p->streams.of[i] >= 0 && (i != EC_TANGENT || d->p->streams.of[EC_NORMAL] >= 0)) << i;
     return EC_OK;
 }
 
@@ -73,7 +71,7 @@ static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
 {
     float local[3][3];
     double normal[3];
-    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.position], v[i], 3, local[i]);
+    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.of[EC_POSITION]], v[i], 3, local[i]);
     cross_edges(local[0], local[1], local[2], normal);
     return largest_component(normal) == 0;
 }

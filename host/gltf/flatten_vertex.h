@@ -27,7 +27,7 @@ typedef struct ec_flattener {
     } odd_uv, odd_colors;
     uint32_t *remap; /* primitive's vertex - lowest -> scene's vertex */
     uint64_t remap_size;
-    bool has_normals, has_tangents, has_uv[2], has_colors;
+    unsigned streams;    /* bits: those that any primitive has */
     ec_source *sources;  /* NULL: nobody asks */
     uint32_t placement;  /* the one being drawn, or EC_STILL */
     int32_t node;        /* whose triangles are being drawn; -1: of a mesh that is kept once */

@@ -61,9 +61,9 @@ typedef struct ec_gltf_accessor {
     uint8_t *owned;      /* sparse: base and replacements merged */
 } ec_gltf_accessor;
 
-/* Accessors of a vertex' attributes, or of what a morph target adds to them. */
+/* Accessors of a vertex' attributes, or of what a morph target adds to them, by the streams of scene.h. */
 typedef struct ec_gltf_streams {
-    int32_t position, normal, tangent, color, uv[2];
+    int32_t of[EC_STREAMS];
 } ec_gltf_streams;
 
 typedef struct ec_gltf_draco {

@@ -78,8 +78,10 @@ void convert_accessors(const json &list, ec_gltf *gltf)
 
 static ec_gltf_streams convert_streams(const json &attributes)
 {
-    auto find = [&](const char *name) { return attributes.value(name, -1); };
-    return {find("POSITION"), find("NORMAL"), find("TANGENT"), find("COLOR_0"), {find("TEXCOORD_0"), find("TEXCOORD_1")}};
+    static const char *const names[EC_STREAMS] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0", "TEXCOORD_0", "TEXCOORD_1"};
+    ec_gltf_streams streams;
+    for (int i = 0; i < EC_STREAMS; i++) streams.of[i] = attributes.value(names[i], -1);
+    return streams;
 }
 
 /* JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... */

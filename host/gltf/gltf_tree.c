@@ -1,11 +1,10 @@
 /* Walks the node tree without recursion: a file may be a chain of a million nodes. */
 #include "gltf/gltf_tree.h"
+#include "base/freed.h"
 #include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 void ec_gltf_describe_node(const ec_gltf *g, int32_t node, char text[128])
 {
@@ -36,13 +35,12 @@ static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
 ec_result ec_gltf_node_above(const ec_gltf *g, int32_t node, bool (*is)(const ec_gltf_node *), int32_t *found,
                              ec_error *err)
 {
-    int32_t *parent = malloc(((size_t)g->node_count + 1) * sizeof *parent);
+    EC_FREED int32_t *parent = malloc(((size_t)g->node_count + 1) * sizeof *parent);
     if (!parent) return ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
-    ec_result result = find_parents(g, parent, err);
-    while (result == EC_OK && node >= 0 && !is(&g->nodes[node])) node = parent[node];
+    EC_TRY(find_parents(g, parent, err));
+    while (node >= 0 && !is(&g->nodes[node])) node = parent[node];
     *found = node;
-    free(parent);
-    return result;
+    return EC_OK;
 }
 
 /* Every node has at most one parent here, so going up from a node on a cycle comes back to where it started. */
@@ -109,30 +107,16 @@ static ec_result walk(const ec_gltf *g, bool *visited, ec_placement_list *list, 
 
 ec_result ec_gltf_place_nodes(const ec_gltf *g, ec_placement_list *list, ec_error *err)
 {
-    ec_result result = EC_FAILED;
     size_t count = (size_t)g->node_count + 1;
-    int32_t *parent = malloc(count * sizeof *parent);
-    uint32_t *seen_from = calloc(count, sizeof *seen_from);
-    bool *visited = calloc(count, sizeof *visited);
-    list->count = 0;
-    list->room = (uint32_t)count;
-    list->items = malloc(count * sizeof *list->items);
-    if (!parent || !seen_from || !visited || !list->items) {
-        ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
-        goto cleanup;
-    }
-    EC_TRY_CLEANUP(find_parents(g, parent, err));
-    EC_TRY_CLEANUP(check_cycles(g, parent, seen_from, err));
-    EC_TRY_CLEANUP(walk(g, visited, list, err));
-cleanup:
-    free(parent);
-    free(seen_from);
-    free(visited);
-    if (result != EC_OK) {
-        free(list->items);
-        *list = (ec_placement_list){0};
-    }
-    return result;
+    EC_FREED int32_t *parent = malloc(count * sizeof *parent);
+    EC_FREED uint32_t *seen_from = calloc(count, sizeof *seen_from);
+    EC_FREED bool *visited = calloc(count, sizeof *visited);
+    *list = (ec_placement_list){.items = malloc(count * sizeof *list->items), .room = (uint32_t)count};
+    if (!parent || !seen_from || !visited || !list->items)
+        return ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
+    EC_TRY(find_parents(g, parent, err));
+    EC_TRY(check_cycles(g, parent, seen_from, err));
+    return walk(g, visited, list, err);
 }
 
 ec_result ec_placement_append(ec_placement_list *list, const ec_placement *placement, ec_error *err)

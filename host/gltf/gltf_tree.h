@@ -21,7 +21,8 @@ typedef struct ec_placement_list {
     uint32_t count, room;
 } ec_placement_list;
 
-/* Every node of the default scene, parents before children. A node with two parents or inside a cycle is an error. */
+/* Every node of the default scene, parents before children; items are the caller's, also after a failure: a node with two parents or
+ * inside a cycle is one. */
 ec_result ec_gltf_place_nodes(const ec_gltf *gltf, ec_placement_list *placements, ec_error *err);
 
 /* instances.c: where a node has instances, they stand in its place. */

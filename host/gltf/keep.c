@@ -4,8 +4,8 @@
 #include "gltf/keep.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+
+#include "base/freed.h"
 
 #define CONDITION_MOST 1e6 /* of a matrix; its inverse in double is then good to 2^-32, far below a float's rounding */
 #define SMALL_MESH 64u     /* triangles: keeping fewer once saves little more than their instances take */
@@ -38,7 +38,7 @@ static void span_mesh(const ec_gltf *g, ec_kept_mesh *m)
             double corner[3][3];
             ec_gltf_primitive_triangle(g, p, t, v);
             for (int c = 0; c < 3; c++) {
-                ec_gltf_accessor_floats(&g->accessors[p->streams.position], v[c], 3, at);
+                ec_gltf_accessor_floats(&g->accessors[p->streams.of[EC_POSITION]], v[c], 3, at);
                 for (int k = 0; k < 3; k++) corner[c][k] = at[k];
             }
             if (!ec_is_placeable((const double(*)[3])corner)) continue;
@@ -76,15 +76,11 @@ static bool fits(const ec_placement *at, const ec_kept_mesh *m)
 static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error *err)
 {
     const ec_gltf *g = k->g;
-    ec_result result = EC_FAILED;
-    uint32_t *uses = calloc((size_t)g->mesh_count + 1, sizeof *uses);
-    int32_t *index = malloc(((size_t)g->mesh_count + 1) * sizeof *index);
+    EC_FREED uint32_t *uses = calloc((size_t)g->mesh_count + 1, sizeof *uses);
+    EC_FREED int32_t *index = malloc(((size_t)g->mesh_count + 1) * sizeof *index);
     k->meshes = calloc((size_t)g->mesh_count + 1, sizeof *k->meshes);
     k->candidate = malloc(((size_t)k->placements->count + 1) * sizeof *k->candidate);
-    if (!uses || !index || !k->meshes || !k->candidate) {
-        ec_fail(err, "%s: out of memory for %u meshes", g->path, g->mesh_count);
-        goto cleanup;
-    }
+    if (!uses || !index || !k->meshes || !k->candidate) return ec_fail(err, "%s: out of memory for %u meshes", g->path, g->mesh_count);
     for (uint32_t i = 0; i < k->placements->count; i++) {
         int32_t mesh = k->placements->items[i].mesh;
         if (mesh >= 0) uses[mesh]++;
@@ -102,11 +98,7 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
         k->candidate[i] = c >= 0 && !k->placements->items[i].moves && fits(&k->placements->items[i], &k->meshes[c]) ? c : -1;
         if (k->candidate[i] >= 0) k->meshes[c].places++;
     }
-    result = EC_OK;
-cleanup:
-    free(uses);
-    free(index);
-    return result;
+    return EC_OK;
 }
 
 /* By itself only where it saves a million triangles, and half of all: rays through instances cost more. */

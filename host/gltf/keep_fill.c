@@ -4,8 +4,8 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+
+#include "base/freed.h"
 
 #define EACH_KEPT(k, m) \
     for (ec_kept_mesh *m = (k)->meshes; (k)->is_kept && m < (k)->meshes + (k)->mesh_count; m++) \
@@ -40,7 +40,7 @@ static void gather(const ec_gltf *g, const ec_gltf_primitive *p, bool *seen, poi
         double corner[3][3];
         ec_gltf_primitive_triangle(g, p, t, v);
         for (int c = 0; c < 3; c++) {
-            ec_gltf_accessor_floats(&g->accessors[p->streams.position], v[c], 3, at[c]);
+            ec_gltf_accessor_floats(&g->accessors[p->streams.of[EC_POSITION]], v[c], 3, at[c]);
             for (int i = 0; i < 3; i++) corner[c][i] = at[c][i];
         }
         if (!ec_is_placeable((const double(*)[3])corner)) continue;
@@ -61,15 +61,11 @@ static ec_result gather_mesh(const ec_gltf *g, int32_t mesh, points *out, ec_err
         most += range;
         if (range > longest) longest = range;
     }
-    bool *seen = malloc(longest);
+    EC_FREED bool *seen = malloc(longest);
     *out = (points){.at = malloc((most + 1) * 3 * sizeof(float))};
-    if (!seen || !out->at) {
-        free(seen);
-        return ec_fail(err, "%s: out of memory for the vertices of meshes[%d]", g->path, mesh);
-    }
+    if (!seen || !out->at) return ec_fail(err, "%s: out of memory for the vertices of meshes[%d]", g->path, mesh);
     for (uint32_t i = 0; i < m->primitive_count; i++)
         if (m->primitives[i].drawn) gather(g, &m->primitives[i], seen, out);
-    free(seen);
     return EC_OK;
 }
 

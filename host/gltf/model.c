@@ -120,11 +120,11 @@ static int32_t add_accessor(ec_model *m, const void *data, uint64_t count, uint3
 
 void ec_model_add(ec_model *m, int32_t material, const ec_model_mesh *mesh)
 {
-    ec_gltf_primitive primitive = {.mode = EC_GLTF_TRIANGLES, .material = material, .draco_view = -1, .streams = {.color = -1, .uv = {-1, -1}}};
-    primitive.streams.position = add_accessor(m, mesh->positions, mesh->vertex_count, 3, EC_GLTF_FLOAT);
-    primitive.streams.normal = add_accessor(m, mesh->normals, mesh->vertex_count, 3, EC_GLTF_FLOAT);
-    primitive.streams.tangent = add_accessor(m, mesh->tangents, mesh->vertex_count, 4, EC_GLTF_FLOAT);
-    primitive.streams.uv[0] = add_accessor(m, mesh->uv, mesh->vertex_count, 2, EC_GLTF_FLOAT);
+    ec_gltf_primitive primitive = {.mode = EC_GLTF_TRIANGLES, .material = material, .draco_view = -1, .streams = {{-1, -1, -1, -1, -1, -1}}};
+    primitive.streams.of[EC_POSITION] = add_accessor(m, mesh->positions, mesh->vertex_count, 3, EC_GLTF_FLOAT);
+    primitive.streams.of[EC_NORMAL] = add_accessor(m, mesh->normals, mesh->vertex_count, 3, EC_GLTF_FLOAT);
+    primitive.streams.of[EC_TANGENT] = add_accessor(m, mesh->tangents, mesh->vertex_count, 4, EC_GLTF_FLOAT);
+    primitive.streams.of[EC_UV] = add_accessor(m, mesh->uv, mesh->vertex_count, 2, EC_GLTF_FLOAT);
     primitive.indices = add_accessor(m, mesh->indices, mesh->index_count, 1, EC_GLTF_UINT);
     ec_gltf_mesh one = {.primitives = malloc(sizeof primitive), .primitive_count = 1};
     if (!one.primitives || m->failed || !APPEND(m, meshes, mesh, one)) {

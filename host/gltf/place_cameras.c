@@ -2,9 +2,8 @@
 #include "gltf/flatten.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
+#include "base/freed.h"
 #include "base/vec3.h"
 
 /* An orthonormal frame nearest to looking along `forward` with `up` up; scale, shear and mirroring of the node do not
@@ -136,10 +135,8 @@ ec_result ec_gltf_cameras_place(ec_gltf *g, const ec_placement_list *placements,
 
 ec_result ec_scene_find_camera(const ec_scene *s, const char *name_or_index, uint32_t *camera, ec_error *err)
 {
-    ec_scene_names list = {malloc(s->camera_count * sizeof *list.names), s->camera_count};
-    if (!list.names) return ec_fail(err, "out of memory");
-    for (uint32_t i = 0; i < list.count; i++) list.names[i] = s->cameras[i].name;
-    ec_result result = ec_scene_names_find(&list, "camera", name_or_index, camera, err);
-    free(list.names); /* the names themselves are the cameras' */
-    return result;
+    EC_FREED char **names = malloc(s->camera_count * sizeof *names); /* they themselves are the cameras' */
+    if (!names) return ec_fail(err, "out of memory");
+    for (uint32_t i = 0; i < s->camera_count; i++) names[i] = s->cameras[i].name;
+    return ec_scene_names_find(&(ec_scene_names){names, s->camera_count}, "camera", name_or_index, camera, err);
 }

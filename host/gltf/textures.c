@@ -1,13 +1,12 @@
 /* The textures and images that the scene's triangles use; no others are opened. What is wanted is gathered first, then decoded by all
  * threads, and taken in the order in which materials name it: what is said, and what is first, is the same for any number of threads. */
+#include "base/freed.h"
 #include "base/text.h"
 #include "gltf/flatten.h"
 #include "gltf/image_decode.h"
 #include "scene/texture_range.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* An image of the file on its way into the scene. */
 typedef struct picture {
@@ -208,23 +207,18 @@ static void mark_drawn(const ec_gltf *g, const ec_placement_list *placements, bo
 ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
     const size_t most = (size_t)g->image_count + g->texture_count; /* pictures: the images, and roughness made of glossiness */
-    table t = {.g = g, .s = s, .log = log, .err = err};
-    t.pictures = calloc(most + 1, sizeof *t.pictures);
-    t.picture = malloc((most + 1) * sizeof *t.picture);
-    t.texture = malloc(((size_t)g->texture_count + 1) * sizeof *t.texture);
+    EC_FREED picture *pictures = calloc(most + 1, sizeof *pictures);
+    EC_FREED int64_t *picture_of_image = malloc((most + 1) * sizeof *picture_of_image);
+    EC_FREED int64_t *texture = malloc(((size_t)g->texture_count + 1) * sizeof *texture);
+    EC_FREED bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
+    table t = {.g = g, .s = s, .log = log, .pictures = pictures, .picture = picture_of_image, .texture = texture, .err = err};
     s->images = calloc(most + 1, sizeof *s->images);
     s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
-    bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
-    bool ok = t.pictures && t.picture && t.texture && s->images && s->textures && drawn;
-    if (ok) {
-        for (size_t i = 0; i < most; i++) t.picture[i] = UNSEEN;
-        for (uint32_t i = 0; i < g->texture_count; i++) t.texture[i] = UNSEEN;
-        mark_drawn(g, placements, drawn);
-        load_all(&t, drawn);
-    }
-    free(t.pictures);
-    free(t.picture);
-    free(t.texture);
-    free(drawn);
-    return ok ? t.result : ec_fail(err, "%s: out of memory for textures", g->path);
+    if (!pictures || !picture_of_image || !texture || !s->images || !s->textures || !drawn)
+        return ec_fail(err, "%s: out of memory for textures", g->path);
+    for (size_t i = 0; i < most; i++) picture_of_image[i] = UNSEEN;
+    for (uint32_t i = 0; i < g->texture_count; i++) texture[i] = UNSEEN;
+    mark_drawn(g, placements, drawn);
+    load_all(&t, drawn);
+    return t.result;
 }

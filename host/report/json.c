@@ -4,8 +4,8 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
+
+#include "base/freed.h"
 
 void ec_json_real(cJSON *object, const char *key, double value)
 {
@@ -37,7 +37,7 @@ static int utf8_size(const unsigned char *s)
 
 void ec_json_text(cJSON *object, const char *key, const char *value)
 {
-    char *clean = value ? strdup(value) : NULL;
+    EC_FREED char *clean = value ? strdup(value) : NULL;
     for (char *c = clean; c && *c;) {
         int size = utf8_size((unsigned char *)c);
         if (size == 0) *c = '?';
@@ -46,7 +46,6 @@ void ec_json_text(cJSON *object, const char *key, const char *value)
     cJSON *text = clean ? cJSON_CreateString(clean) : cJSON_CreateNull();
     if (cJSON_IsArray(object)) cJSON_AddItemToArray(object, text);
     else cJSON_AddItemToObject(object, key, text);
-    free(clean);
 }
 
 void ec_json_words(cJSON *object, const char *key, const char *words, char end)

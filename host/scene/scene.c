@@ -18,14 +18,7 @@ void ec_scene_drop_data(ec_scene *s)
         DROP(s->images[i].rgba8);
         DROP(s->images[i].rgba16);
     }
-    DROP(s->positions);
-    DROP(s->normals);
-    DROP(s->tangents);
-    DROP(s->uv[0]);
-    DROP(s->uv[1]);
-    DROP(s->colors);
-    DROP(s->indices);
-    DROP(s->triangle_material);
+    ec_scene_free_geometry(s);
     if (!s->environment.lent) DROP(s->environment.rgb);
 }
 

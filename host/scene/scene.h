@@ -220,6 +220,20 @@ typedef struct ec_scene_choice {
     bool frame;                /* of a sequence: where an animation may move meshes no triangle is cut, at any of its moments */
 } ec_scene_choice;
 
+/* The streams of a vertex by number, and how many floats each takes. */
+enum { EC_POSITION, EC_NORMAL, EC_TANGENT, EC_COLOR, EC_UV, EC_STREAMS = EC_UV + 2 };
+static const uint8_t ec_stream_width[EC_STREAMS] = {3, 3, 4, 4, 2, 2};
+static inline float *ec_scene_stream(const ec_scene *s, int stream)
+{
+    float *const all[EC_STREAMS] = {s->positions, s->normals, s->tangents, s->colors, s->uv[0], s->uv[1]};
+    return all[stream];
+}
+
+/* Makes room for triangles, and for vertices with the streams whose bits are set; others become NULL. False: out of memory. */
+bool ec_scene_allocate(ec_scene *scene, unsigned streams, size_t vertices, size_t triangles);
+void ec_scene_trim(ec_scene *scene); /* gives back what more there was room for */
+void ec_scene_free_geometry(ec_scene *scene);
+
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
 /* Frees what only those look at who make a cargo of it: vertices, triangles, pixels of images and of the environment. Counts, names, cameras,
  * lights and materials stay. */
