@@ -1,6 +1,5 @@
 /* Flattens placed meshes into one triangle soup: positions go through double, are recentred and only then rounded. */
 #include "gltf/keep.h"
-#include "gltf/node_parts.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,7 +7,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/text.h"
 
 /* But for those of meshes that are kept once. */
 static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, ec_draw_function function)
@@ -42,9 +40,7 @@ static ec_result measure_draw(ec_flattener *f, const ec_draw *d)
     for (uint64_t t = 0; t < d->p->triangle_count; t++) {
         uint32_t v[3];
         double world[3][3];
-        ec_gltf_primitive_triangle(d->g, d->p, t, v);
-        for (int i = 0; i < 3; i++) ec_draw_world_position(d, v[i], world[i]);
-        if (!ec_is_placeable((const double(*)[3])world)) continue;
+        if (!ec_draw_corners(d, t, v, world)) continue;
         for (int i = 0; i < 9; i++) {
             f->low[i % 3] = fmin(f->low[i % 3], world[i / 3][i % 3]);
             f->high[i % 3] = fmax(f->high[i % 3], world[i / 3][i % 3]);
@@ -110,10 +106,8 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
 static void warn_odd(const struct ec_odd_values *odd, const ec_gltf *g, const char *what, const ec_log *log)
 {
     if (!odd->count) return;
-    const char *name = g->meshes[odd->mesh].name;
-    ec_warn(log, "%s: %llu %s, the first in meshes[%d]%s%.*s%s; they are clamped", g->path,
-            (unsigned long long)odd->count, what, odd->mesh, name ? " \"" : "", EC_CUT(name ? name : "", 80),
-            name ? "\"" : "");
+    ec_warn(log, "%s: %llu %s, the first in %s; they are clamped", g->path, (unsigned long long)odd->count, what,
+            ec_label_of("meshes", (uint32_t)odd->mesh, g->meshes[odd->mesh].name).text);
 }
 
 ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)

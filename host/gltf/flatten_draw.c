@@ -1,6 +1,5 @@
 /* One primitive at one place: how much of it there can be, and its triangles but for those that are none. */
 #include "gltf/flatten_vertex.h"
-#include "gltf/node_parts.h"
 
 #include <float.h>
 #include <math.h>
@@ -35,6 +34,13 @@ bool ec_is_placeable(const double world[3][3])
     for (int i = 0; i < 9; i++)
         if (!(fabs(world[i / 3][i % 3]) < EC_MAX_COORDINATE)) return false;
     return true;
+}
+
+bool ec_draw_corners(const ec_draw *d, uint64_t triangle, uint32_t vertices[3], double world[3][3])
+{
+    ec_gltf_primitive_triangle(d->g, d->p, triangle, vertices);
+    for (int i = 0; i < 3; i++) ec_draw_world_position(d, vertices[i], world[i]);
+    return ec_is_placeable((const double(*)[3])world);
 }
 
 ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
@@ -104,12 +110,9 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
     for (uint64_t t = 0; t < d->p->triangle_count; t++) {
         uint32_t v[3];
         float position[3][3];
-        ec_gltf_primitive_triangle(d->g, d->p, t, v);
-        for (int i = 0; i < 3; i++) {
-            double world[3];
-            ec_draw_world_position(d, v[i], world);
-            for (int k = 0; k < 3; k++) position[i][k] = (float)(world[k] - d->center[k]);
-        }
+        double world[3][3];
+        ec_draw_corners(d, t, v, world); /* wherever they are: is_drawable counts */
+        for (int i = 0; i < 9; i++) position[i / 3][i % 3] = (float)(world[i / 3][i % 3] - d->center[i % 3]);
         if (!is_drawable(f, d, v, position)) continue;
         size_t n = s->triangle_count++;
         for (int i = 0; i < 3; i++) {

@@ -86,11 +86,7 @@ void ec_gltf_free(ec_gltf *g)
         free(g->images[i].name);
         free(g->images[i].uri);
     }
-    for (uint32_t i = 0; i < g->decoded_count; i++) {
-        free(g->decoded[i].rgba8);
-        free(g->decoded[i].rgba16);
-        free(g->decoded[i].name);
-    }
+    for (uint32_t i = 0; i < g->decoded_count; i++) ec_image_free(&g->decoded[i]);
     free(g->decoded);
     free(g->images);
     ec_gltf_free_looks(g);

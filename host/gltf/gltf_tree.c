@@ -6,11 +6,12 @@
 #include <math.h>
 #include <stdio.h>
 
-void ec_gltf_describe_node(const ec_gltf *g, int32_t node, char text[128])
+ec_label ec_label_of(const char *list, uint32_t index, const char *name)
 {
-    const char *name = g->nodes[node].name;
-    int used = snprintf(text, 128, "nodes[%d]", node);
-    if (name) snprintf(text + used, 128 - (size_t)used, " \"%.*s\"", EC_CUT(name, 80));
+    ec_label label;
+    const char *quote = name ? "\"" : "";
+    snprintf(label.text, sizeof label.text, "%s[%u]%s%s%.*s%s", list, index, name ? " " : "", quote, EC_CUT(name ? name : "", 80), quote);
+    return label;
 }
 
 /* parent[i] = -1 for roots. */
@@ -20,12 +21,9 @@ static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
     for (uint32_t i = 0; i < g->node_count; i++) {
         for (uint32_t c = 0; c < g->nodes[i].child_count; c++) {
             int32_t child = g->nodes[i].children[c];
-            if (parent[child] >= 0) {
-                char name[128];
-                ec_gltf_describe_node(g, child, name);
+            if (parent[child] >= 0)
                 return ec_fail(err, "%s: %s is a child of nodes[%d] and of nodes[%u]; glTF's nodes must form a tree",
-                               g->path, name, parent[child], i);
-            }
+                               g->path, ec_label_of("nodes", (uint32_t)child, g->nodes[child].name).text, parent[child], i);
             parent[child] = (int32_t)i;
         }
     }
@@ -52,11 +50,9 @@ static ec_result check_cycles(const ec_gltf *g, const int32_t *parent, uint32_t 
             seen_from[at] = i + 1;
             at = parent[at];
         }
-        if (at >= 0 && seen_from[at] == i + 1) {
-            char name[128];
-            ec_gltf_describe_node(g, at, name);
-            return ec_fail(err, "%s: the node tree has a cycle through %s; a node cannot contain itself", g->path, name);
-        }
+        if (at >= 0 && seen_from[at] == i + 1)
+            return ec_fail(err, "%s: the node tree has a cycle through %s; a node cannot contain itself", g->path,
+                           ec_label_of("nodes", (uint32_t)at, g->nodes[at].name).text);
     }
     return EC_OK;
 }

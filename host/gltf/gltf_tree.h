@@ -28,8 +28,6 @@ ec_result ec_gltf_place_nodes(const ec_gltf *gltf, ec_placement_list *placements
 /* instances.c: where a node has instances, they stand in its place. */
 ec_result ec_gltf_place_instances(ec_gltf *gltf, ec_placement_list *placements, const ec_log *log, ec_error *err);
 
-/* nodes[3] "name", for messages. */
-void ec_gltf_describe_node(const ec_gltf *gltf, int32_t node, char text[128]);
 /* The nearest node that is so, this one or one it stands below; -1: none. */
 ec_result ec_gltf_node_above(const ec_gltf *gltf, int32_t node, bool (*is)(const ec_gltf_node *), int32_t *found,
                              ec_error *err);

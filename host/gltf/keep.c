@@ -11,6 +11,8 @@
 #define SMALL_MESH 64u     /* triangles: keeping fewer once saves little more than their instances take */
 #define WORTH_TRIANGLES (1u << 20)
 
+const ec_placement ec_at_home = {.linear = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+
 static bool emits_or_transmits(const ec_gltf *g, int32_t mesh, const ec_scene *scene)
 {
     for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
@@ -28,20 +30,15 @@ static void span_mesh(const ec_gltf *g, ec_kept_mesh *m)
         m->low[k] = INFINITY;
         m->high[k] = -INFINITY;
     }
+    ec_draw d = ec_draw_of(g, &ec_at_home, NULL);
     for (uint32_t i = 0; i < g->meshes[m->mesh].primitive_count; i++) {
-        const ec_gltf_primitive *p = &g->meshes[m->mesh].primitives[i];
-        if (!p->drawn) continue;
-        m->triangles += p->triangle_count;
-        for (uint64_t t = 0; t < p->triangle_count; t++) {
+        d.p = &g->meshes[m->mesh].primitives[i];
+        if (!d.p->drawn) continue;
+        m->triangles += d.p->triangle_count;
+        for (uint64_t t = 0; t < d.p->triangle_count; t++) {
             uint32_t v[3];
-            float at[3];
             double corner[3][3];
-            ec_gltf_primitive_triangle(g, p, t, v);
-            for (int c = 0; c < 3; c++) {
-                ec_gltf_accessor_floats(&g->accessors[p->streams.of[EC_POSITION]], v[c], 3, at);
-                for (int k = 0; k < 3; k++) corner[c][k] = at[k];
-            }
-            if (!ec_is_placeable((const double(*)[3])corner)) continue;
+            if (!ec_draw_corners(&d, t, v, corner)) continue;
             for (int c = 0; c < 9; c++) {
                 m->low[c % 3] = fmin(m->low[c % 3], corner[c / 3][c % 3]);
                 m->high[c % 3] = fmax(m->high[c % 3], corner[c / 3][c % 3]);

@@ -24,6 +24,8 @@ typedef struct ec_keeping {
     bool *is_kept;           /* by placement; NULL: no mesh is kept */
 } ec_keeping;
 
+extern const ec_placement ec_at_home; /* in the file's coordinates */
+
 /* gltf->instancing says what is wished. Needs the materials. */
 ec_result ec_keep_choose(const ec_gltf *g, const ec_placement_list *placements, const ec_scene *scene,
                          ec_keeping *keeping, ec_error *err);

@@ -1,6 +1,5 @@
 /* From a glTF document to a scene, step by step. */
 #include "gltf/flatten.h"
-#include "gltf/load.h"
 #include "scene/validate.h"
 #include "gltf/reader.h"
 

@@ -18,7 +18,7 @@ enum {
 /* A file on its way. The parts are the caller's; of what they point to no more is needed after the header than channels' names. */
 struct ec_exr_rows {
     ec_atomic_file file;
-    char *path;              /* owned */
+    const char *path;     /* the caller's */
     uint32_t width, height;
     const ec_exr_part *parts;
     uint32_t part_count;
@@ -165,11 +165,8 @@ ec_result ec_exr_rows_begin(ec_exr_rows **made, const char *path, uint32_t width
 {
     ec_exr_rows *rows = calloc(1, sizeof *rows);
     *made = NULL;
-    if (!rows || !(rows->path = strdup(path))) {
-        free(rows);
-        return ec_fail(err, "out of memory for '%s'", path);
-    }
-    *rows = (ec_exr_rows){.file.fd = -1, .path = rows->path, .width = width, .height = height, .parts = parts, .part_count = part_count,
+    if (!rows) return ec_fail(err, "out of memory for '%s'", path);
+    *rows = (ec_exr_rows){.file.fd = -1, .path = path, .width = width, .height = height, .parts = parts, .part_count = part_count,
                           .room = room < ROOM_MAX ? room : ROOM_MAX};
     if (begin(rows, err) != EC_OK) {
         ec_exr_rows_abort(rows);
@@ -245,7 +242,6 @@ void ec_exr_rows_abort(ec_exr_rows *rows)
     ec_exr_blocks_free(&rows->blocks, rows->context);
     if (rows->context) exr_finish(&rows->context);
     ec_atomic_abort(&rows->file);
-    free(rows->path);
     free(rows);
 }
 

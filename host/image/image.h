@@ -41,7 +41,7 @@ typedef struct ec_exr_part {
 ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts,
                              uint32_t part_count, ec_error *err);
 
-/* Writes rows that come one after the other, from the top; `parts` stay as they are until the end. room: bytes by which the attributes
+/* Writes rows that come one after the other, from the top; path and parts stay as they are until the end. room: bytes by which the attributes
  * of the end may be longer or shorter than those of the beginning, by blanks in an attribute eclat.room; 0: they are as long. */
 typedef struct ec_exr_rows ec_exr_rows;
 enum { EC_EXR_ROWS = 16 }; /* that are compressed together */
@@ -89,7 +89,7 @@ typedef struct ec_png_text {
     const char *keyword, *text; /* NULL: none */
 } ec_png_text;
 
-/* Writes rows that come one after the other, from the top. text: NULL is none. */
+/* Writes rows that come one after the other, from the top; path stays until the end. text: NULL is none. */
 typedef struct ec_png_rows ec_png_rows;
 ec_result ec_png_rows_begin(ec_png_rows **rows, const char *path, uint32_t width, uint32_t height,
                             const ec_png_text *text, ec_error *err);

@@ -26,7 +26,7 @@ ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uin
 
 struct ec_png_rows {
     ec_atomic_file file;
-    char *path;           /* owned */
+    const char *path;     /* the caller's */
     png_structp png;
     png_infop info;
     ec_png_strips strips;
@@ -94,12 +94,8 @@ ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, uint32_t width
 {
     ec_png_rows *rows = calloc(1, sizeof *rows);
     *made = NULL;
-    if (!rows || !(rows->path = strdup(path))) {
-        free(rows);
-        return ec_fail(err, "out of memory for '%s'", path);
-    }
-    rows->file.fd = -1;
-    rows->width = width;
+    if (!rows) return ec_fail(err, "out of memory for '%s'", path);
+    *rows = (ec_png_rows){.file.fd = -1, .path = path, .width = width};
     if (begin(rows, height, text, err) != EC_OK) {
         ec_png_rows_abort(rows);
         return EC_FAILED;
@@ -158,7 +154,6 @@ void ec_png_rows_abort(ec_png_rows *rows)
     png_destroy_write_struct(&rows->png, &rows->info);
     ec_png_strips_free(&rows->strips);
     ec_atomic_abort(&rows->file);
-    free(rows->path);
     free(rows);
 }
 

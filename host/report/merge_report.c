@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "report/clamp_report.h"
 #include "report/error_text.h"
 #include "report/json.h"
 

@@ -1,6 +1,5 @@
 #include <math.h>
 
-#include "report/clamp_report.h"
 #include "report/device_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"

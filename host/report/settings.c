@@ -109,7 +109,7 @@ const ec_setting ec_settings[] = {
     {"sample", "sample", "eclat.sample", EC_IDENTITY_BY_VALUE, get_sample},
     {"max-depth", "max_depth", "eclat.maxDepth", EC_IDENTITY_BY_VALUE, get_max_depth},
     {"rr", "rr", "eclat.rr", EC_IDENTITY_BY_VALUE, get_rr},
-    {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reports: with what it took, report/clamp_report.h */
+    {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reports: with what it took, report/error_text.h */
     {"terminator", "terminator", "eclat.terminator", EC_IDENTITY_BY_VALUE, get_terminator},
     {"scattering", "scattering", "eclat.scattering", EC_IDENTITY_BY_CONTENT, get_scattering},
     {"light-choice", "light_choice", "eclat.lightChoice", EC_IDENTITY_BY_CONTENT, get_light_choice},

@@ -11,6 +11,16 @@ static void free_strings(char **list, uint32_t count)
 
 #define DROP(memory) (free(memory), (memory) = NULL)
 
+void ec_image_free(ec_image *image)
+{
+    if (!image->lent) {
+        free(image->rgba8);
+        free(image->rgba16);
+        free(image->name);
+    }
+    *image = (ec_image){0};
+}
+
 void ec_scene_drop_data(ec_scene *s)
 {
     for (uint32_t i = 0; i < s->image_count; i++) {
@@ -40,8 +50,7 @@ void ec_scene_free(ec_scene *s)
     for (uint32_t i = 0; i < s->material_count; i++) free(s->materials[i].name);
     for (uint32_t i = 0; i < s->camera_count; i++) free(s->cameras[i].name);
     for (uint32_t i = 0; i < s->light_count; i++) free(s->lights[i].name);
-    for (uint32_t i = 0; i < s->image_count; i++)
-        if (!s->images[i].lent) free(s->images[i].name);
+    for (uint32_t i = 0; i < s->image_count; i++) ec_image_free(&s->images[i]);
     free(s->shapes);
     free(s->placed);
     free(s->parts);

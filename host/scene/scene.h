@@ -22,6 +22,8 @@ typedef struct ec_image {
     uint16_t least[4], most[4]; /* of each channel, as stored */
 } ec_image;
 
+void ec_image_free(ec_image *image); /* leaves zeros; pixels that are lent stay */
+
 /* Radiance and intensity beyond this are taken as this, with a warning: what sampling divides by then stays within float. */
 #define EC_RADIANCE_MOST 1e30f
 
