@@ -5,7 +5,7 @@
 #include <openexr.h>
 #include <stdbool.h>
 
-#include "image/exr_parts.h"
+#include "image/image.h"
 
 typedef struct ec_exr_input {
     exr_context_t context;

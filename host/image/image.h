@@ -54,6 +54,13 @@ ec_result ec_exr_rows_put(ec_exr_rows *rows, const ec_exr_part *part, uint32_t c
 ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err);
 void ec_exr_rows_abort(ec_exr_rows *rows); /* leaves nothing; frees rows; NULL is fine */
 
+/* Where a channel's values are wanted: pixel (x, y) at data[stride * (y * width + x)], in 32-bit values. */
+typedef struct ec_exr_room {
+    const char *name;
+    void *data;
+    uint32_t stride;
+} ec_exr_room;
+
 /* All channels of an EXR file's first part as float planes, half and uint converted. Tiled (first level) and scan-line,
  * every compression; of DWAA and DWAB files only R, G, B and A. Deep and subsampled images are refused. */
 typedef struct ec_exr {
