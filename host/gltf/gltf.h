@@ -178,8 +178,6 @@ typedef struct ec_gltf {
     uint32_t shutter_keys;  /* most keyframes of a channel within it */
     ec_source *sources;     /* of the scene's vertices, while a scene is made with a shutter */
     bool quantized;         /* KHR_mesh_quantization: integer positions, normals, tangents */
-    char **extensions_used, **extensions_ignored;
-    uint32_t extension_count, extension_ignored_count;
     ec_scene_contents contents;
 } ec_gltf;
 

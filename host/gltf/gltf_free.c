@@ -3,12 +3,6 @@
 
 #include <stdlib.h>
 
-static void free_strings(char **list, uint32_t count)
-{
-    for (uint32_t i = 0; list && i < count; i++) free(list[i]);
-    free(list);
-}
-
 static void free_mesh(ec_gltf_mesh *mesh)
 {
     for (uint32_t i = 0; mesh->primitives && i < mesh->primitive_count; i++) {
@@ -91,8 +85,6 @@ void ec_gltf_free(ec_gltf *g)
     free(g->images);
     ec_gltf_free_looks(g);
     if (g->tree) ec_gltf_tree_free(g);
-    free_strings(g->extensions_used, g->extension_count);
-    free_strings(g->extensions_ignored, g->extension_ignored_count);
     ec_scene_contents_free(&g->contents);
     free(g->folder);
     free(g);

@@ -92,12 +92,12 @@ static std::string comma_list(const std::set<std::string> &names)
 }
 
 /* The list has its place before it has its strings: should one fail, what there is can be freed. */
-static void copy_strings(const std::set<std::string> &names, char **&list, uint32_t &count)
+static void copy_strings(const std::set<std::string> &names, ec_scene_names &list)
 {
-    list = make_array<char *>(names.size());
+    list.names = make_array<char *>(names.size());
     for (const std::string &name : names) {
-        list[count] = copy_string(name.empty() ? "?" : name);
-        ++count;
+        list.names[list.count] = copy_string(name.empty() ? "?" : name);
+        ++list.count;
     }
 }
 
@@ -117,8 +117,8 @@ static void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
     if (!ignored.empty())
         ec_warn(log, "%s: not supported, what it describes is left out: %s", gltf->path, comma_list(ignored).c_str());
     gltf->quantized = used.count("KHR_mesh_quantization") || needed.count("KHR_mesh_quantization");
-    copy_strings(used, gltf->extensions_used, gltf->extension_count);
-    copy_strings(ignored, gltf->extensions_ignored, gltf->extension_ignored_count);
+    copy_strings(used, gltf->contents.extensions);
+    copy_strings(ignored, gltf->contents.ignored);
 }
 
 static void check_uris(const json &list, const char *key)

@@ -5,10 +5,10 @@
 #include "base/freed.h"
 #include "gltf/motion_numbers.h"
 
-static bool differs(const ec_tracks *t, numbers_at *at, uint32_t thing, size_t count)
+static bool differs(const ec_tracks *t, numbers_at *at, uint32_t thing, size_t first, size_t count)
 {
     for (uint32_t m = t->step; m <= EC_MOMENTS; m += t->step)
-        if (memcmp(at(t, m, thing), at(t, 0, thing), count * sizeof(float))) return true;
+        if (memcmp(at(t, m, thing) + first, at(t, 0, thing) + first, count * sizeof(float))) return true;
     return false;
 }
 
@@ -59,7 +59,7 @@ static void decide(sorting *o)
     for (uint32_t v = 0; v < o->vertices; v++) o->track[v] = EC_STILL;
     for (uint32_t i = 0; i < o->t->count; i++) {
         o->track[o->t->vertex[i]] = i;
-        o->moving[o->t->vertex[i]] = differs(o->t, vertex_at, i, o->t->words);
+        o->moving[o->t->vertex[i]] = differs(o->t, vertex_at, i, 0, o->t->words);
     }
     for (uint32_t t = 0; t < o->triangles; t++) o->fate[t] = fate_of(o, t);
     memset(o->moving, 0, o->vertices * sizeof *o->moving);
@@ -159,13 +159,13 @@ static ec_result keep_views(const ec_tracks *t, ec_scene *s, ec_error *err)
     if (!m->cameras || !m->lights)
         return ec_fail(err, "%s: out of memory for cameras and lights at %zu moments", t->base->path, keys);
     for (uint32_t i = 0; i < s->camera_count; i++) {
-        if (!differs(t, camera_place, i, 12) && !differs(t, camera_view, i, 4)) continue;
+        if (!differs(t, camera_place, i, 0, 12) && !differs(t, camera_view, i, 0, 4)) continue;
         for (size_t k = 0; k < keys; k++) m->cameras[m->camera_count * keys + k] = t->cameras[k * stride][i];
         s->cameras[i].moves = ++m->camera_count;
     }
     for (uint32_t i = 0; i < s->light_count; i++) {
-        bool turns = s->lights[i].type != EC_LIGHT_POINT && differs(t, light_direction, i, 3);
-        bool goes = s->lights[i].type != EC_LIGHT_DIRECTIONAL && differs(t, light_place, i, 3);
+        bool turns = s->lights[i].type != EC_LIGHT_POINT && differs(t, light_place, i, 3, 3);
+        bool goes = s->lights[i].type != EC_LIGHT_DIRECTIONAL && differs(t, light_place, i, 0, 3);
         if (!turns && !goes) continue;
         for (size_t k = 0; k < keys; k++) m->lights[m->light_count * keys + k] = t->lights[k * stride][i];
         s->lights[i].moves = ++m->light_count;

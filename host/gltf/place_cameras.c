@@ -11,6 +11,7 @@
 static void set_frame(ec_camera *camera, double forward[3], double up[3])
 {
     double right[3];
+    if (!ec_normalize(up)) memcpy(up, (double[3]){0, 1, 0}, 3 * sizeof *up);
     if (!ec_normalize(forward)) memcpy(forward, (double[3]){0, 0, -1}, 3 * sizeof *forward);
     ec_cross(forward, up, right);
     if (!ec_normalize(right)) {
@@ -44,7 +45,6 @@ ec_result ec_camera_look(const ec_viewpoint *v, const double center[3], ec_camer
     if (!finite || !ec_normalize(forward))
         return ec_fail(err, "a camera at %g,%g,%g cannot look at %g,%g,%g: give two points that are apart", v->eye[0],
                        v->eye[1], v->eye[2], v->target[0], v->target[1], v->target[2]);
-    if (!ec_normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
     set_frame(camera, forward, up);
     return EC_OK;
 }
@@ -77,7 +77,6 @@ static bool place_camera(const ec_placement *at, const double center[3], ec_came
         camera->position[i] = (float)(at->origin[i] - center[i]);
         finite = finite && isfinite(camera->position[i]);
     }
-    if (!ec_normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
     set_frame(camera, forward, up);
     return finite;
 }

@@ -67,11 +67,16 @@ static void add_cameras(cJSON *root, const ec_scene *scene)
     ec_json_whole(root, "default_camera", scene->default_camera);
 }
 
+static void add_names(cJSON *root, const char *key, const ec_scene_names *list)
+{
+    ec_json_texts(root, key, (const char *const *)list->names, list->count);
+}
+
 static void add_contents(cJSON *root, const ec_scene_contents *contents)
 {
-    ec_json_texts(root, "scenes", (const char **)contents->scenes.names, contents->scenes.count);
+    add_names(root, "scenes", &contents->scenes);
     ec_json_whole(root, "scene_shown", contents->scene);
-    ec_json_texts(root, "variants", (const char **)contents->variants.names, contents->variants.count);
+    add_names(root, "variants", &contents->variants);
     cJSON *animations = cJSON_AddArrayToObject(root, "animations");
     for (uint32_t i = 0; i < contents->animations.count; i++) {
         cJSON *object = cJSON_CreateObject();
@@ -130,8 +135,8 @@ ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error
     add_lights(root, report);
     add_cameras(root, scene);
     add_contents(root, &scene->contents);
-    ec_json_texts(root, "extensions_used", (const char **)scene->extensions_used, scene->extension_count);
-    ec_json_texts(root, "extensions_unsupported", (const char **)scene->extensions_ignored, scene->extension_ignored_count);
+    add_names(root, "extensions_used", &scene->contents.extensions);
+    add_names(root, "extensions_unsupported", &scene->contents.ignored);
     ec_effects_json(root, &report->effects);
     add_bvh(root, &report->bvh);
     add_accels(root, report);

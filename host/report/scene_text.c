@@ -57,11 +57,11 @@ static void print_cameras(const ec_scene *scene, FILE *to)
     }
 }
 
-static void print_list(const char *title, char **names, uint32_t count, FILE *to)
+static void print_list(const char *title, const ec_scene_names *list, FILE *to)
 {
     fprintf(to, "%s", title);
-    if (count == 0) fputs("none", to);
-    for (uint32_t i = 0; i < count; i++) fprintf(to, "%s%s", i ? ", " : "", names[i]);
+    if (list->count == 0) fputs("none", to);
+    for (uint32_t i = 0; i < list->count; i++) fprintf(to, "%s%s", i ? ", " : "", list->names[i]);
     fputc('\n', to);
 }
 
@@ -134,8 +134,8 @@ void ec_scene_report_text(const ec_scene_report *report, FILE *to)
     print_lights(report, to);
     print_cameras(scene, to);
     print_contents(&scene->contents, to);
-    print_list("extensions  ", scene->extensions_used, scene->extension_count, to);
-    print_list("unsupported ", scene->extensions_ignored, scene->extension_ignored_count, to);
+    print_list("extensions  ", &scene->contents.extensions, to);
+    print_list("unsupported ", &scene->contents.ignored, to);
     print_cost(report, to);
     print_accels(report, to);
 }

@@ -3,12 +3,6 @@
 
 #include <stdlib.h>
 
-static void free_strings(char **list, uint32_t count)
-{
-    for (uint32_t i = 0; list && i < count; i++) free(list[i]);
-    free(list);
-}
-
 #define DROP(memory) (free(memory), (memory) = NULL)
 
 void ec_image_free(ec_image *image)
@@ -54,15 +48,14 @@ void ec_scene_free(ec_scene *s)
     free(s->shapes);
     free(s->placed);
     free(s->parts);
-    free_strings(s->node_names, s->node_count);
+    for (uint32_t i = 0; s->node_names && i < s->node_count; i++) free(s->node_names[i]);
+    free(s->node_names);
     free(s->materials);
     free(s->textures);
     free(s->images);
     free(s->lights);
     free(s->cameras);
     ec_motion_free(&s->motion);
-    free_strings(s->extensions_used, s->extension_count);
-    free_strings(s->extensions_ignored, s->extension_ignored_count);
     free(s->lost_image);
     ec_scene_contents_free(&s->contents);
     free(s);

@@ -137,13 +137,14 @@ typedef struct ec_environment {
     float turn[9];
 } ec_environment;
 
-/* Among what a file lets one choose. All owned; a name may be NULL. */
+/* What a file names, among it what it lets one choose. All owned; a name may be NULL. */
 typedef struct ec_scene_names {
     char **names;
     uint32_t count;
 } ec_scene_names;
 typedef struct ec_scene_contents {
     ec_scene_names scenes, variants, animations;
+    ec_scene_names extensions, ignored; /* ignored: those not supported here */
     uint32_t scene;        /* the one that is shown */
     double *seconds;       /* how long each animation is; NaN: the file does not say */
 } ec_scene_contents;
@@ -201,10 +202,6 @@ typedef struct ec_scene {
     uint32_t mesh_count, node_count, instance_count;
     uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */
     uint32_t skipped_primitives;                     /* points, lines and meshes without POSITION */
-    char **extensions_used;        /* owned strings */
-    uint32_t extension_count;
-    char **extensions_ignored;     /* used by the file, not supported here; owned strings */
-    uint32_t extension_ignored_count;
     char *lost_image;              /* owned: why the first of those that are taken as white could not be read; NULL: all could */
     ec_scene_contents contents;
 } ec_scene;
