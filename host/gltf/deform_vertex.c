@@ -33,7 +33,7 @@ static void turn(const double m[9], double v[4])
     for (int i = 0; i < 3; i++) v[i] = m[3 * i] * in[0] + m[3 * i + 1] * in[1] + m[3 * i + 2] * in[2];
 }
 
-static void skin(const ec_pose *pose, const ec_joint *blend, int stream, double v[4])
+static void skin(const ec_pose *pose, const ec_placement *blend, int stream, double v[4])
 {
     double normal_matrix[9];
     if (stream == EC_NORMAL) ec_gltf_normal_matrix(blend->linear, normal_matrix);
@@ -45,7 +45,7 @@ static void skin(const ec_pose *pose, const ec_joint *blend, int stream, double 
 static ec_result move_vertex(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose,
                              const moved streams[EC_STREAMS], uint32_t vertex, const char *where, ec_error *err)
 {
-    ec_joint blend;
+    ec_placement blend;
     if (pose->joints) EC_TRY(ec_pose_blend(g, p, pose, vertex, &blend, where, err));
     for (int i = 0; i < EC_STREAMS; i++) {
         const moved *m = &streams[i];

@@ -1,4 +1,4 @@
-/* The node tree, walked: what stands where in the world. Inside host/scene/ only. */
+/* The node tree, walked: what stands where in the world. Inside host/gltf/ only. */
 #ifndef EC_GLTF_GLTF_TREE_H
 #define EC_GLTF_GLTF_TREE_H
 

@@ -1,4 +1,4 @@
-/* Meshes that are kept once instead of being written out at every place. Inside host/scene/ only. */
+/* Meshes that are kept once instead of being written out at every place. Inside host/gltf/ only. */
 #ifndef EC_GLTF_KEEP_H
 #define EC_GLTF_KEEP_H
 

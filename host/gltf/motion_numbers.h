@@ -1,4 +1,4 @@
-/* The numbers of tracks one by one, whatever they belong to. Inside host/scene/motion*.c only. */
+/* The numbers of tracks one by one, whatever they belong to. Inside host/gltf/motion*.c only. */
 #ifndef EC_GLTF_MOTION_NUMBERS_H
 #define EC_GLTF_MOTION_NUMBERS_H
 
