@@ -8,19 +8,33 @@ namespace eclat {
 /* Deeper than any real file; libraries that recurse over the tree (tinygltf does) stay within the stack. */
 static const int max_json_depth = 64;
 
-static bool check_depth(int depth, nlohmann::json::parse_event_t event, nlohmann::json &)
+static void check_depth(const char *text, size_t length)
 {
-    bool opens = event == nlohmann::json::parse_event_t::object_start || event == nlohmann::json::parse_event_t::array_start;
-    if (opens && depth >= max_json_depth)
-        throw bad_file("the JSON is nested more than " + std::to_string(max_json_depth) + " deep, which no glTF needs");
-    return true;
+    int depth = 0;
+    bool in_string = false;
+    for (size_t i = 0; i < length; i++) {
+        char c = text[i];
+        if (in_string) {
+            if (c == '\\') i++;
+            else if (c == '"') in_string = false;
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > max_json_depth)
+                throw bad_file("the JSON is nested more than " + std::to_string(max_json_depth) +
+                               " deep, which no glTF needs");
+        } else if (c == '}' || c == ']') {
+            depth--;
+        }
+    }
 }
 
 static nlohmann::json parse_json(const char *text, size_t length)
 {
+    check_depth(text, length);
     nlohmann::json root;
     try {
-        root = nlohmann::json::parse(text, text + length, check_depth);
+        root = nlohmann::json::parse(text, text + length);
     } catch (const nlohmann::json::exception &e) {
         std::string reason = e.what(); /* "[json.exception.parse_error.101] parse error at line 3, ...: ..." */
         size_t start = reason.find("] ");
