@@ -38,18 +38,16 @@ static void format_time_left(double seconds, char *text, size_t size)
 
 void ec_progress_format(const ec_progress *progress, int columns, char *line, size_t size)
 {
-    char bar[BAR_MAX + 1], text[200], left[48], rate[32], percent[32], bound[32], error[96] = "error unknown yet";
+    char bar[BAR_MAX + 1], text[200], left[48], error[96] = "error unknown yet";
     double fraction = progress->fraction >= 0 ? fmin(progress->fraction, 1) : 0; /* NaN: 0 */
     format_time_left(progress->seconds_left, left, sizeof left);
-    ec_format_count(progress->samples_per_second, rate, sizeof rate);
     if (isfinite(progress->error)) {
-        ec_format_percent(progress->error, percent, sizeof percent);
-        ec_format_percent(progress->error_bound, bound, sizeof bound);
-        if (isfinite(progress->error_bound)) snprintf(error, sizeof error, "error %s (bound %s)", percent, bound);
-        else snprintf(error, sizeof error, "error at least %s, no bound", percent);
+        if (isfinite(progress->error_bound)) snprintf(error, sizeof error, "error %s (bound %s)", ec_percent(progress->error).text,
+                                                      ec_percent(progress->error_bound).text);
+        else snprintf(error, sizeof error, "error at least %s, no bound", ec_percent(progress->error).text);
     }
     snprintf(text, sizeof text, "%d %%  %s  %" PRIu64 " spp  %s samples/s  %s", (int)(100 * fraction), left,
-             progress->samples_per_pixel, rate, error);
+             progress->samples_per_pixel, ec_count(progress->samples_per_second).text, error);
     format_bar(fraction, columns - (int)strlen(text), bar);
     snprintf(line, size, "%s%s", bar, text);
 }

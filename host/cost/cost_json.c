@@ -16,13 +16,11 @@ static const char *state_name(const ec_cost_study *study, ec_cost_state state)
 
 static void add_settings(cJSON *to, const ec_render_options *o)
 {
-    char roulette[32];
     cJSON *settings = cJSON_AddObjectToObject(to, "settings");
-    ec_format_roulette(o->survival, roulette, sizeof roulette);
     ec_json_text(settings, "integrator", ec_integrator_names[o->integrator]);
     ec_json_text(settings, "sample", ec_sample_names[o->sample]);
     ec_json_text(settings, "sampler", ec_sampler_names[o->sampler]);
-    ec_json_text(settings, "rr", roulette);
+    ec_json_text(settings, "rr", ec_roulette(o->survival).text);
     ec_json_real(settings, "max_depth", o->max_depth ? o->max_depth : NAN);
     ec_json_real(settings, "clamp", o->clamp > 0 ? o->clamp : NAN);
     ec_json_text(settings, "scattering", ec_scattering_names[o->scattering]);

@@ -30,7 +30,7 @@ static unsigned missing_sets(const ec_material *m, const ec_gltf_primitive *p)
 {
     unsigned missing = 0;
     for (int i = 0; i < EC_SLOT_COUNT; i++)
-        if (m->textures[i].texture >= 0 && p->streams.uv[m->textures[i].uv_set] < 0) missing |= 1u << m->textures[i].uv_set;
+        if (m->textures[i].texture >= 0 && p->streams.of[EC_UV + m->textures[i].uv_set] < 0) missing |= 1u << m->textures[i].uv_set;
     return missing;
 }
 

@@ -22,6 +22,8 @@ typedef struct ec_image {
     uint16_t least[4], most[4]; /* of each channel, as stored */
 } ec_image;
 
+void ec_image_free(ec_image *image); /* leaves zeros; pixels that are lent stay */
+
 /* Radiance and intensity beyond this are taken as this, with a warning: what sampling divides by then stays within float. */
 #define EC_RADIANCE_MOST 1e30f
 
@@ -135,13 +137,14 @@ typedef struct ec_environment {
     float turn[9];
 } ec_environment;
 
-/* Among what a file lets one choose. All owned; a name may be NULL. */
+/* What a file names, among it what it lets one choose. All owned; a name may be NULL. */
 typedef struct ec_scene_names {
     char **names;
     uint32_t count;
 } ec_scene_names;
 typedef struct ec_scene_contents {
     ec_scene_names scenes, variants, animations;
+    ec_scene_names extensions, ignored; /* ignored: those not supported here */
     uint32_t scene;        /* the one that is shown */
     double *seconds;       /* how long each animation is; NaN: the file does not say */
 } ec_scene_contents;
@@ -199,10 +202,6 @@ typedef struct ec_scene {
     uint32_t mesh_count, node_count, instance_count;
     uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */
     uint32_t skipped_primitives;                     /* points, lines and meshes without POSITION */
-    char **extensions_used;        /* owned strings */
-    uint32_t extension_count;
-    char **extensions_ignored;     /* used by the file, not supported here; owned strings */
-    uint32_t extension_ignored_count;
     char *lost_image;              /* owned: why the first of those that are taken as white could not be read; NULL: all could */
     ec_scene_contents contents;
 } ec_scene;
@@ -219,6 +218,20 @@ typedef struct ec_scene_choice {
     ec_instancing instancing;  /* which meshes are kept once */
     bool frame;                /* of a sequence: where an animation may move meshes no triangle is cut, at any of its moments */
 } ec_scene_choice;
+
+/* The streams of a vertex by number, and how many floats each takes. */
+enum { EC_POSITION, EC_NORMAL, EC_TANGENT, EC_COLOR, EC_UV, EC_STREAMS = EC_UV + 2 };
+static const uint8_t ec_stream_width[EC_STREAMS] = {3, 3, 4, 4, 2, 2};
+static inline float *ec_scene_stream(const ec_scene *s, int stream)
+{
+    float *const all[EC_STREAMS] = {s->positions, s->normals, s->tangents, s->colors, s->uv[0], s->uv[1]};
+    return all[stream];
+}
+
+/* Makes room for triangles, and for vertices with the streams whose bits are set; others become NULL. False: out of memory. */
+bool ec_scene_allocate(ec_scene *scene, unsigned streams, size_t vertices, size_t triangles);
+void ec_scene_trim(ec_scene *scene); /* gives back what more there was room for */
+void ec_scene_free_geometry(ec_scene *scene);
 
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
 /* Frees what only those look at who make a cargo of it: vertices, triangles, pixels of images and of the environment. Counts, names, cameras,

@@ -52,9 +52,8 @@ static bool unit_or_zero(const float *v)
 static ec_result check_vertices(const ec_scene *s, ec_error *err)
 {
     uint64_t n = s->vertex_count;
-    if (!all_finite(s->positions, 3 * n) || !all_finite(s->normals, 3 * n) || !all_finite(s->tangents, 4 * n) ||
-        !all_finite(s->uv[0], 2 * n) || !all_finite(s->uv[1], 2 * n) || !all_finite(s->colors, 4 * n))
-        return ec_fail(err, "internal error: a vertex stream is not finite");
+    for (int i = 0; i < EC_STREAMS; i++)
+        if (!all_finite(ec_scene_stream(s, i), ec_stream_width[i] * n)) return ec_fail(err, "internal error: a vertex stream is not finite");
     for (uint64_t i = 0; i < n; i++) {
         if (s->normals && !unit_or_zero(s->normals + 3 * i))
             return ec_fail(err, "internal error: normal %llu is not unit", (unsigned long long)i);

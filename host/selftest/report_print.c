@@ -24,13 +24,12 @@ void ec_selftest_report_text(const ec_selftest_report *report, bool failed_only,
     for (uint32_t i = 0; i < report->count; i++)
         if (!failed_only || !report->rows[i].pass) print_row(&report->rows[i], width, to);
     if (failed_only) return;
-    char seconds[32];
-    ec_format_seconds(report->seconds, seconds, sizeof seconds);
     if (report->failed)
         fprintf(to, "%u of %u rows FAILED in %s: do not trust pictures from this device and driver before you know why\n", report->failed,
-                report->count, seconds);
+                report->count, ec_seconds(report->seconds).text);
     else
-        fprintf(to, "all %u rows passed in %s; the fewest digits are %.1f, of %s\n", report->count, seconds, report->rows[0].digits,
+        fprintf(to, "all %u rows passed in %s; the fewest digits are %.1f, of %s\n", report->count, ec_seconds(report->seconds).text,
+                report->rows[0].digits,
                 report->rows[0].name);
 }
 

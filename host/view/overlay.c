@@ -40,15 +40,10 @@ static void format_prediction(const ec_view_overlay *o, char *text, size_t size)
 static void format_state(const ec_view_overlay *o, char *text, size_t size)
 {
     const ec_view_status *s = o->status;
-    char error[32] = "?", bound[48] = "bound unknown", seconds[32], prediction[160];
-    if (isfinite(s->error)) ec_format_percent(s->error, error, sizeof error);
-    if (isfinite(s->error_bound)) {
-        char percent[32];
-        ec_format_percent(s->error_bound, percent, sizeof percent);
-        snprintf(bound, sizeof bound, "95 %% bound %s", percent);
-    } else if (isfinite(s->error)) {
-        snprintf(bound, sizeof bound, "or more: rare bright paths decide");
-    }
+    char bound[48] = "bound unknown", seconds[32], prediction[160];
+    const ec_figure error = isfinite(s->error) ? ec_percent(s->error) : (ec_figure){"?"};
+    if (isfinite(s->error_bound)) snprintf(bound, sizeof bound, "95 %% bound %s", ec_percent(s->error_bound).text);
+    else if (isfinite(s->error)) snprintf(bound, sizeof bound, "or more: rare bright paths decide");
     format_seconds(s->seconds, seconds, sizeof seconds);
     format_prediction(o, prediction, sizeof prediction);
     if (s->pictures == 0) snprintf(text, size, "no picture yet");
@@ -57,7 +52,7 @@ static void format_state(const ec_view_overlay *o, char *text, size_t size)
                  s->preview);
     else
         snprintf(text, size, "%s  %" PRIu64 " spp  error %s (%s)  %s  %s",
-                 ec_integrator_names[s->integrator], s->samples, error, bound, seconds, prediction);
+                 ec_integrator_names[s->integrator], s->samples, error.text, bound, seconds, prediction);
 }
 
 static void format_probe(const ec_view_overlay *o, char *text, size_t size)
