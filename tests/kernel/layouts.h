@@ -33,10 +33,10 @@
 
 /* Word offsets that kernels name, and what they are of: W(EC_NAME, type, field). */
 #define WORDS(W)                                                                                   \
-    W(EC_MATERIAL_BASE_COLOR, ec_material_data, base_color) W(EC_MATERIAL_EMISSION, ec_material_data, emission) \
-    W(EC_MATERIAL_FLAGS, ec_material_data, flags) W(EC_MATERIAL_METALLIC, ec_material_data, metallic) \
-    W(EC_MATERIAL_ROUGHNESS, ec_material_data, roughness) W(EC_MATERIAL_NORMAL_SCALE, ec_material_data, normal_scale) \
-    W(EC_MATERIAL_ALPHA_CUTOFF, ec_material_data, alpha_cutoff) W(EC_MATERIAL_F0, ec_material_data, f0) \
-    W(EC_MATERIAL_ABSORPTION, ec_material_data, absorption) W(EC_MATERIAL_IOR, ec_material_data, ior) W(EC_MATERIAL_SLOTS, ec_material_data, slots)
+    W(EC_WORD_base_color, ec_material_data, base_color) W(EC_WORD_emission, ec_material_data, emission) \
+    W(EC_WORD_flags, ec_material_data, flags) W(EC_WORD_metallic, ec_material_data, metallic) \
+    W(EC_WORD_roughness, ec_material_data, roughness) W(EC_WORD_normal_scale, ec_material_data, normal_scale) \
+    W(EC_WORD_alpha_cutoff, ec_material_data, alpha_cutoff) W(EC_WORD_f0, ec_material_data, f0) \
+    W(EC_WORD_absorption, ec_material_data, absorption) W(EC_WORD_ior, ec_material_data, ior) W(EC_WORD_slots, ec_material_data, slots)
 
 #endif
