@@ -3,6 +3,7 @@
 #define EC_LIB_SURFACE_H
 
 #include "bodies.h"
+#include "layers.h"
 
 typedef struct surface {
     v3 p;          /* hit point, recentred frame */
@@ -31,8 +32,8 @@ typedef struct surface {
     v3 coat_ns;
     lane_f film;       /* weight of a thin film; with it its index and nanometres */
     lane_f film_ior, film_thickness;
-    v3 sheen;          /* colour of fibres over it; 0: none */
-    lane_f sheen_roughness;
+#define SURFACE_LAYER(feature, layer) layer##_look layer;
+    LAYERS_UP(SURFACE_LAYER)
 } surface;
 
 /* Position, its error bound and the geometric normal; wo points away from the surface. */
@@ -188,7 +189,8 @@ EC_FN void surface_displace(surface *s)
     s->transmission = gone ? F(1.0f) : s->transmission;
     s->smooth = s->smooth | gone;
     s->coat = gone ? F(0.0f) : s->coat;
-    s->sheen = v3_select(gone, v3_zero(), s->sheen);
+#define SURFACE_LOSES(feature, layer) layer##_hide(gone, &s->layer);
+    LAYERS_UP(SURFACE_LOSES)
     s->diffuse_transmission = gone ? F(0.0f) : s->diffuse_transmission;
     s->film = gone ? F(0.0f) : s->film;
     s->eta = gone ? F(1.0f) : s->eta;
@@ -269,7 +271,7 @@ EC_FN lane_f surface_coat_weight(const geometry *g, const hit_point *h, lane_i m
     return weight;
 }
 
-/* KHR_materials_clearcoat. The inside of a body that refracts has none. */
+/* KHR_materials_clearcoat. The inside of a body that refracts has none, nor other layers. */
 EC_FN void surface_coat(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
     lane_f roughness = material_quad(g, h, EC_WORD_coat).b, weight = surface_coat_weight(g, h, m);
@@ -277,19 +279,6 @@ EC_FN void surface_coat(const geometry *g, const hit_point *h, lane_i m, surface
     s->coat = (s->refracts & !s->front) ? F(0.0f) : weight;
     s->coat_alpha = max(roughness * roughness, F(EC_SMOOTH_ALPHA));
     s->coat_smooth = roughness * roughness < EC_SMOOTH_ALPHA;
-}
-
-/* KHR_materials_sheen, likewise. */
-EC_FN void surface_sheen(const geometry *g, const hit_point *h, lane_i m, surface *s)
-{
-    quad q = material_quad(g, h, EC_WORD_sheen);
-    s->sheen = v3_make(q.a, q.b, q.c);
-    s->sheen_roughness = q.d;
-    if (HAS(SHEEN_TEXTURE)) {
-        s->sheen = v3_mul(s->sheen, material_texture(g, h, m, EC_SLOT_SHEEN_COLOR, true).rgb);
-        s->sheen_roughness *= material_texture(g, h, m, EC_SLOT_SHEEN_ROUGHNESS, false).a;
-    }
-    s->sheen = v3_select(s->refracts & !s->front, v3_zero(), s->sheen);
 }
 
 /* KHR_materials_diffuse_transmission. */
@@ -341,7 +330,8 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->eta = s->head_on = F(1.0f);
     s->displaced = !TRUE_MASK;
     s->coat = F(0.0f);
-    s->sheen = v3_zero();
+#define SURFACE_LACKS(feature, layer) layer##_hide(TRUE_MASK, &s->layer);
+    LAYERS_UP(SURFACE_LACKS)
     s->film = s->diffuse_transmission = F(0.0f);
     s->transmission_color = v3_zero();
     if (!HAS(SPECULAR)) return;
@@ -370,7 +360,12 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->f90 = weight;
     if (HAS(DIFFUSE_TRANSMISSION)) surface_diffuse_transmission(g, h, m, s);
     if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
-    if (HAS(SHEEN)) surface_sheen(g, h, m, s);
+#define SURFACE_READS(feature, layer)              \
+    if (HAS(feature)) {                            \
+        s->layer = layer##_read(g, h, m);          \
+        layer##_hide(s->refracts & !s->front, &s->layer); \
+    }
+    LAYERS_UP(SURFACE_READS)
     if (HAS(IRIDESCENCE)) surface_film(g, h, m, s);
     if (HAS(NESTED)) surface_displace(s);
 }
