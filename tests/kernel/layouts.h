@@ -31,12 +31,4 @@
     S(ec_distribution_entry) F(ec_distribution_entry, first) F(ec_distribution_entry, guide)       \
     N(EC_PARTS) N(EC_PART_STRIDE) N(EC_STAGE_COUNT) N(EC_SLOT_COUNT) N(EC_KIND_ENVIRONMENT) N(EC_NO_ID) N(EC_LEAF_BIT)
 
-/* Word offsets that kernels name, and what they are of: W(EC_NAME, type, field). */
-#define WORDS(W)                                                                                   \
-    W(EC_WORD_base_color, ec_material_data, base_color) W(EC_WORD_emission, ec_material_data, emission) \
-    W(EC_WORD_flags, ec_material_data, flags) W(EC_WORD_metallic, ec_material_data, metallic) \
-    W(EC_WORD_roughness, ec_material_data, roughness) W(EC_WORD_normal_scale, ec_material_data, normal_scale) \
-    W(EC_WORD_alpha_cutoff, ec_material_data, alpha_cutoff) W(EC_WORD_f0, ec_material_data, f0) \
-    W(EC_WORD_absorption, ec_material_data, absorption) W(EC_WORD_ior, ec_material_data, ior) W(EC_WORD_slots, ec_material_data, slots)
-
 #endif
