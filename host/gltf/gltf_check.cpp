@@ -3,6 +3,7 @@
 #include "gltf/gltf_shim.h"
 
 #include <cmath>
+#include <cstring>
 #include <sstream>
 
 namespace eclat {
@@ -25,6 +26,10 @@ class checker {
                 for (auto &item : value.items()) check_index(item.value(), f.detail, join(where, item.key()));
                 continue;
             }
+            if (const char *slash = std::strchr(f.name, '/')) {
+                check_inside(value, f, std::string(f.name, slash), slash + 1, where);
+                continue;
+            }
             auto found = value.find(f.name);
             if (found == value.end()) {
                 if (f.required) fail(join(where, f.name), "is missing");
@@ -38,6 +43,14 @@ class checker {
     json &root;
     const char *path;
     const ec_log *log;
+
+    /* A member of a member, by its path. */
+    void check_inside(json &value, const field &f, const std::string &outer, const char *rest, const std::string &where)
+    {
+        const field inner[] = {{rest, f.type, f.required, f.detail, f.members, f.low, f.high}};
+        auto found = value.find(outer);
+        if (found != value.end()) check_object(*found, schema(inner), join(where, outer));
+    }
 
     [[noreturn]] static void fail(const std::string &where, const std::string &what)
     {

@@ -26,7 +26,7 @@ enum class kind {
 
 struct schema;
 struct field {
-    const char *name;
+    const char *name;      /* or a path: "outer/inner" */
     kind type;
     bool required;
     const char *detail;    /* index: the array pointed into (rows: each element); choice: what is allowed */

@@ -9,31 +9,23 @@
 
 extern "C" {
 #include "gltf/codecs.h"
+#include "scene/material_fields.h"
 }
 
 namespace eclat {
 
 using nlohmann::json;
 
+/* Beside those in which a field of materials is. */
 static const char *const supported_extensions[] = {
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "KHR_animation_pointer",
     "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
     "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_variants",
-    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
     "KHR_texture_transform"};
@@ -56,6 +48,9 @@ static void refuse_unbuilt(const std::string &name)
 
 static bool is_supported(const std::string &name)
 {
+    const std::string place = "extensions/" + name + "/";
+    for (int i = 0; i < ec_material_field_count; i++)
+        if (std::strncmp(ec_material_fields[i].path, place.c_str(), place.size()) == 0) return true;
     for (auto &optional : optional_extensions)
         if (name == optional.name) return optional.built;
     return std::find(std::begin(supported_extensions), std::end(supported_extensions), name) !=
@@ -169,7 +164,7 @@ static void load_buffers(json &list, const container &file, ec_gltf *gltf)
 static void parse_rest(const json &root, tinygltf::Model &model)
 {
     json rest = json::object();
-    for (const char *name : {"asset", "materials", "samplers", "textures"})
+    for (const char *name : {"asset", "samplers", "textures"})
         if (root.contains(name)) rest[name] = root[name];
     std::string text = rest.dump(), error, warning;
     rest = json();
@@ -194,7 +189,7 @@ static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
     convert_cameras(list_of(root, "cameras"), gltf, log);
     convert_lights(root, gltf, log);
     convert_textures(model, gltf);
-    convert_materials(model, gltf, log);
+    convert_materials(list_of(root, "materials"), gltf, log);
 }
 
 static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice *choice, const ec_log *log)

@@ -72,7 +72,7 @@ void convert_cameras(const nlohmann::json &list, ec_gltf *gltf, const ec_log *lo
 void convert_lights(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
 
 /* gltf_material.cpp */
-void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
+void convert_materials(const nlohmann::json &list, ec_gltf *gltf, const ec_log *log);
 void convert_textures(const tinygltf::Model &model, ec_gltf *gltf);
 
 /* Zeroed C arrays and strings, so that ec_gltf_free can release half a document. */

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "scene/placed.h"
-#include "shared/texture_slots.h"
+#include "shared/material_fields.h"
 
 /* Decoded pixels, row 0 at the top (glTF's v = 0), always four channels. Exactly one of the two is set. */
 typedef struct ec_image {
@@ -47,26 +47,16 @@ typedef struct ec_texture_use {
 
 typedef enum ec_alpha_mode { EC_ALPHA_OPAQUE, EC_ALPHA_MASK, EC_ALPHA_BLEND } ec_alpha_mode;
 
+/* base_color, emission and all else that is numbers: each is explained in shared/material_fields.h. */
+#define EC_FLOATS_1(field) float field;
+#define EC_FLOATS_3(field) float field[3];
+#define EC_FLOATS_4(field) float field[4];
+#define EC_NUMBERS(field, floats, value, least, most, slot, channel, effect, has, path) EC_FLOATS_##floats(field)
+#define EC_NOT_NUMBERS(type, field)
+#define EC_NOT_FLOATS(field)
 typedef struct ec_material {
-    float base_color[4];       /* linear RGB, alpha (coverage) */
-    float metallic, roughness; /* factors; alpha_ggx = roughness^2 */
-    float emission[3];         /* radiance: emissiveFactor x emissiveStrength, linear RGB */
-    float normal_scale;
-    float specular;            /* KHR_materials_specular; 1 where absent */
-    float specular_color[3];   /* likewise; 1 where absent; may exceed 1 */
-    float ior;                 /* KHR_materials_ior; 1.5 where absent; 0: reflects all, as that extension says */
-    float dispersion;          /* KHR_materials_dispersion, 20 / Abbe number; 0 where absent */
-    float transmission;        /* KHR_materials_transmission; 0 where absent */
+    EC_MATERIAL_FIELDS(EC_NUMBERS, EC_NUMBERS, EC_NOT_NUMBERS, EC_NOT_FLOATS)
     bool volume;               /* KHR_materials_volume with a thickness: bounds a body that refracts; else thin-walled */
-    float absorption[3];       /* 1/m: -ln attenuationColor / attenuationDistance; 0 where nothing is absorbed */
-    float coat, coat_roughness; /* KHR_materials_clearcoat; 0 where absent */
-    float coat_normal_scale;
-    float anisotropy, anisotropy_rotation; /* KHR_materials_anisotropy; 0 where absent; radians from the tangent */
-    float diffuse_transmission, transmission_color[3];     /* KHR_materials_diffuse_transmission: share of diffuse light, 0 where absent; its colour */
-    float film, film_ior;      /* KHR_materials_iridescence; 0 where absent */
-    float film_least, film_most; /* thickness in nanometres where its texture is 0, and where it is 1 */
-    float sheen[3], sheen_roughness; /* KHR_materials_sheen; 0 where absent */
-    float alpha_cutoff;
     ec_alpha_mode alpha_mode;
     bool double_sided;
     bool unlit;                /* KHR_materials_unlit */

@@ -35,12 +35,12 @@ EC_FN lane_f coat_reflectance(lane_f cosine)
 EC_FN v3 coat_emission(const geometry *g, const hit_point *h, lane_i m, v3 wo, v3 emission)
 {
     if (!HAS(CLEARCOAT)) return emission;
-    m = m & (material_quad(g, h, EC_MATERIAL_COAT).a > 0.0f);
+    m = m & (material_quad(g, h, EC_WORD_coat).a > 0.0f);
     if (!any_lane(m)) return emission;
     surface s;
     surface_place(h, wo, &s);
     surface_frame(g, h, m, wo, &s);
-    lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
+    lane_u flags = as_lane_u(material_quad(g, h, EC_WORD_emission).d);
     m = m & (s.front | ((flags & (EC_MATERIAL_REFRACTS | EC_MATERIAL_BOUNDS)) == 0u));
     lane_f share = surface_coat_weight(g, h, m) * coat_reflectance(v3_dot(s.coat_ns, wo));
     return v3_select(m, v3_scale(emission, 1.0f - share), emission);

@@ -96,7 +96,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     bool nested = MEDIA_NESTED(params);
     if (nested) s.bodies = found ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
     surface_material(&g, &h, found, &s);
-    quad emission = material_quad(&g, &h, EC_MATERIAL_EMISSION);
+    quad emission = material_quad(&g, &h, EC_WORD_emission);
     lane_u flags = as_lane_u(emission.d), medium = U(EC_NO_ID);
     if (HAS_MEDIUM) medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
     if (HAS(ABSORPTION)) {

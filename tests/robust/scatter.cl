@@ -102,8 +102,8 @@ EC_FN void stream_layers(stream *s, surface *r)
     r->coat = stream_factor(s);
     r->coat_alpha = coat_alpha;
     r->coat_smooth = (coat_alpha == EC_SMOOTH_ALPHA) & ((stream_bits(s) & 1u) != 0u);
-    r->sheen = v3_make(stream_factor(s), stream_factor(s), stream_factor(s));
-    r->sheen_roughness = roughness;
+    r->sheen.color = v3_make(stream_factor(s), stream_factor(s), stream_factor(s));
+    r->sheen.roughness = roughness;
     r->film = stream_factor(s);
     r->film_ior = 1.0f + stream_factor(s) * 3.0f;
     r->film_thickness = stream_factor(s) / stream_scale(s, -9.3f, EC_SMOOTH_ALPHA) * 100.0f;

@@ -168,7 +168,7 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
     if (EF_HAS(DISPERSION) || (!m->volume && EF_NEARLY(DISPERSION))) m->dispersion = ef_between(d, 151, 1e-3f, 0, 1, 20);
     if (EF_HAS(IRIDESCENCE) || EF_NEARLY(IRIDESCENCE)) {
         m->film = 0.5f + 0.5f * ef_real(d, 152);
-        m->film_ior = 1.3f;
+        m->film_least = 0;
         m->film_most = EF_HAS(IRIDESCENCE) ? ef_between(d, 153, 1e-3f, 200, 500, 1e5f) : 0;
         if (EF_HAS(IRIDESCENCE) && EF_HAS(IRIDESCENCE_TEXTURE)) EF_USE(IRIDESCENCE_THICKNESS, NOISE);
     }
