@@ -85,8 +85,7 @@ static void print_setup(const ec_render_stats *stats, FILE *to)
     if (stats->cache_misses || stats->cache_hits)
         snprintf(counted, sizeof counted, " (%u compiled, %u from the cache)", stats->cache_misses, stats->cache_hits);
     if (stats->fast_after_seconds > 0) snprintf(then, sizeof then, ", fast kernels after %s", ec_seconds(stats->fast_after_seconds).text);
-    fprintf(to, "set-up   %s%skernels %s%s, acceleration structure %s, buffers %s; first pixel after %s%s
-",
+    fprintf(to, "set-up   %s%skernels %s%s, acceleration structure %s, buffers %s; first pixel after %s%s\n",
             stats->begun == EC_BEGUN_FAST ? "" : ec_begun_names[stats->begun], stats->begun == EC_BEGUN_FAST ? "" : " ", ec_seconds(stats->kernel_seconds).text,
             counted, ec_seconds(stats->accel_seconds).text, ec_seconds(stats->pack_seconds).text, ec_seconds(stats->first_pixel_seconds).text, then);
 }
