@@ -1,8 +1,8 @@
 #include "jobs/listener.h"
 
-void ec_listener_begin(const ec_listener *l, const ec_render_options *options)
+void ec_listener_begin(const ec_listener *l, const ec_render_options *options, bool has_progress)
 {
-    if (l->begin) l->begin(l->user, options);
+    if (l->begin) l->begin(l->user, options, has_progress);
 }
 
 bool ec_listener_progress(void *listener, const ec_progress *progress)
@@ -10,6 +10,8 @@ bool ec_listener_progress(void *listener, const ec_progress *progress)
     const ec_listener *l = listener;
     return l->progress ? l->progress(l->user, progress) : !ec_listener_should_stop(l);
 }
+
+bool ec_listener_step(const ec_listener *l, const ec_step *step) { return l->step ? l->step(l->user, step) : !ec_listener_should_stop(l); }
 
 void ec_listener_end(const ec_listener *l)
 {
@@ -21,19 +23,4 @@ bool ec_listener_should_stop(const ec_listener *l) { return l->should_stop && l-
 void ec_listener_hint(const ec_listener *l, const char *line)
 {
     if (l->hint) l->hint(l->user, line);
-}
-
-ec_result ec_listener_rendered(const ec_listener *l, const ec_render_report *report, ec_error *err)
-{
-    return l->rendered ? l->rendered(l->user, report, err) : EC_OK;
-}
-
-ec_result ec_listener_frame(const ec_listener *l, const ec_frame_told *frame, ec_error *err)
-{
-    return l->frame ? l->frame(l->user, frame, err) : EC_OK;
-}
-
-ec_result ec_listener_sequence(const ec_listener *l, const ec_sequence_told *sequence, ec_error *err)
-{
-    return l->sequence ? l->sequence(l->user, sequence, err) : EC_OK;
 }

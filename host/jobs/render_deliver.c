@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "jobs/render_job.h"
+#include "jobs/telling.h"
 #include "jobs/write_report.h"
 
 /* What a slice says of itself, beside its sums. */
@@ -59,7 +60,7 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
     report.peak_memory_bytes = ec_peak_memory_bytes();
     if (job->stats.invalid_samples > 0)
         ec_warn(&job->listener->log, "%llu samples were not finite and count as black: please report the scene", (unsigned long long)job->stats.invalid_samples);
-    return ec_listener_rendered(job->listener, &report, err);
+    return ec_tell_render(job->listener, job->request, &report, err);
 }
 
 /* Hours of samples are not to be lost with the device. */

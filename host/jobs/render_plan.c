@@ -87,7 +87,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
     options.adaptive = false;
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(job->devices, &cl, err));
-    ec_listener_begin(listener, &options);
+    ec_listener_begin(listener, &options, true);
     ec_say(&listener->log, "measuring up to %.0f samples a pixel on %s", p.rounds[PILOT_ROUNDS - 1] / (double)p.pixels, job->devices->name);
     ec_result result = ec_render(&cl, job->scene, &options, watch, &p, &job->film, &job->stats, &listener->log, err);
     ec_cl_close(&cl);

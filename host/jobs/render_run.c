@@ -151,7 +151,7 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : own;
     if (!job->share) EC_TRY(open_devices(job, devices, log, err));
     else EC_TRY(open_shared(job, log, err));
-    ec_listener_begin(listener, &job->request->options); /* until here there is nothing to save */
+    ec_listener_begin(listener, &job->request->options, true); /* until here there is nothing to save */
     if (job->ranks) ec_ranks_note_binding(job->ranks, job->devices, job->device_count, log);
     else if (!job->share && !job->request->has_slice && ec_ranks_apart() > 1)
         ec_warn(log, "srun started %d processes that know nothing of one another: each renders all of the picture; with 'srun --mpi=pmix', or what "

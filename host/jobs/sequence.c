@@ -8,6 +8,8 @@
 #include "jobs/frame_job.h"
 #include "jobs/frame_names.h"
 #include "jobs/render_job.h"
+#include "jobs/said_once.h"
+#include "jobs/telling.h"
 #include "store/identity_text.h"
 #include "gltf/reader.h"
 
@@ -65,12 +67,6 @@ static ec_result look_around(sequence *s, ec_inputs *inputs, ec_error *err)
     return EC_FAILED;
 }
 
-static ec_result tell_end(const sequence *s, uint32_t frame, ec_frame_end end, const char *error, const ec_outputs *names, ec_error *err)
-{
-    const ec_frame_told told = {frame, ec_frame_seconds(&s->request->frames, frame), end, error, names};
-    return ec_listener_frame(s->listener, &told, err);
-}
-
 /* *stopped: by the listener, before it was done; nothing of it is written then. */
 static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t i, bool *stopped, ec_error *err)
 {
@@ -104,14 +100,14 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
     ec_result told = EC_OK, result = outputs_of(s, frame, &request->outputs, &why);
     if (s->states[i] == EC_FRAME_DONE) {
         s->skipped++;
-        told = tell_end(s, frame, EC_FRAME_SKIPPED, NULL, &request->outputs, err);
+        told = ec_tell_frame(s->listener, s->request, frame, NULL, &request->outputs, err);
     } else {
         if (result == EC_OK) result = render_frame(s, request, i, stopped, &why);
         if (result == EC_OK && !*stopped) s->rendered++;
         if (result != EC_OK && !*stopped) {
             ec_tell(&s->listener->log, EC_FAILURE, "frame %u: %s", frame, why.text);
             s->failed++;
-            told = tell_end(s, frame, EC_FRAME_FAILED, why.text, &request->outputs, err);
+            told = ec_tell_frame(s->listener, s->request, frame, why.text, &request->outputs, err);
             ec_frame_share_close(&s->share); /* what a device has forgotten or not done right is not to be taken for there */
         }
     }
@@ -123,7 +119,7 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
 {
     uint32_t there = s->rendered + s->skipped;
     const ec_sequence_told told = {s->count, s->rendered, s->skipped, s->failed, ec_now() - start};
-    EC_TRY(ec_listener_sequence(s->listener, &told, err));
+    EC_TRY(ec_tell_sequence(s->listener, s->request, &told, err));
     if (s->skipped) ec_say(&s->listener->log, "%u of %u frames were there already", s->skipped, s->count);
     if (stopped)
         return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there,
@@ -178,7 +174,10 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
 ec_result ec_frames_render(const ec_listener *listener, const ec_render_request *request, ec_ranks *ranks,
                            const ec_given_options *given, double start, ec_error *err)
 {
-    sequence s = {.listener = listener, .request = request, .ranks = ranks, .given = given, .count = ec_frame_count(&request->frames)};
+    ec_said_once said = {.log = listener->log};
+    ec_listener once = *listener;
+    once.log = ec_said_once_log(&said); /* frames are much alike */
+    sequence s = {.listener = &once, .request = request, .ranks = ranks, .given = given, .count = ec_frame_count(&request->frames)};
     s.states = calloc(s.count, sizeof *s.states);
     ec_result result = s.states ? render_all(&s, start, err) : ec_fail(err, "out of memory for %u frames", s.count);
     ec_animation_close(s.share.animation);

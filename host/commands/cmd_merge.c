@@ -1,18 +1,14 @@
 /* eclat merge A.exr B.exr … -o ALL.exr: slices of one job into one picture, to the same bits in any order. */
-#include <stdio.h>
 #include <string.h>
 
-#include "cli/cli.h"
-#include "jobs/merge_job.h"
-#include "jobs/option_parser.h"
+#include "commands/command.h"
 #include "jobs/outputs.h"
 #include "jobs/setters.h"
+#include "jobs/telling.h"
 #include "report/merge_report.h"
 #include "report/names.h"
 
 typedef struct merge_request {
-    char **paths;
-    int count;
     ec_outputs outputs;
     double exposure;
     ec_tonemap tonemap;
@@ -44,30 +40,27 @@ static const ec_option options[] = {
      .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
 };
 
-int ec_merge_rows(ec_option *rows)
-{
-    memcpy(rows, options, sizeof options);
-    return sizeof options / sizeof options[0];
-}
+EC_ROWS(options)
 
-static ec_result check_request(const merge_request *request, ec_error *err)
+static ec_result check(const ec_call *call, const ec_outputs *outputs, ec_error *err)
 {
-    if (request->count == 0) return ec_usage(err, "merge needs slices, A.exr B.exr …, and -o ALL.exr; see 'eclat merge --help'");
-    if (request->outputs.count == 0)
+    char **paths = call->inputs;
+    const int count = call->input_count;
+    if (count == 0) return ec_usage(err, "merge needs slices, A.exr B.exr …, and -o ALL.exr; see 'eclat merge --help'");
+    if (outputs->count == 0 && !call->wants_picture)
         return ec_usage(err, "merge needs -o ALL.exr, where the slices come together; see 'eclat merge --help'");
-    for (int i = 0; i < request->count; i++)
+    for (int i = 0; i < count; i++)
         for (int k = 0; k < i; k++)
-            if (ec_same_file(request->paths[i], request->paths[k]))
-                return ec_fail(err, "'%s' and '%s' are the same slice; leave one out", request->paths[k], request->paths[i]);
-    ec_inputs inputs = {.files = (const char *const *)request->paths, .file_count = request->count};
-    return ec_outputs_check(&request->outputs, &inputs, err);
+            if (ec_same_file(paths[i], paths[k])) return ec_fail(err, "'%s' and '%s' are the same slice; leave one out", paths[k], paths[i]);
+    ec_inputs inputs = {.files = (const char *const *)paths, .file_count = count};
+    return ec_outputs_check(outputs, &inputs, err);
 }
 
-static ec_result tell(const merge_request *request, const ec_merged *m, ec_error *err)
+static ec_result tell(const merge_request *request, const ec_merged *m, int files, const ec_listener *listener, ec_error *err)
 {
     const char *outputs[EC_OUTPUTS_MAX];
     for (int i = 0; i < request->outputs.count; i++) outputs[i] = request->outputs.file[i].path;
-    const ec_merge_report report = {.files = request->count,
+    const ec_merge_report report = {.files = files,
                                     .samples_per_pixel = m->samples_per_pixel,
                                     .replicates = ec_film_replicates(&m->slices.all.film),
                                     .heavy_pixels = m->picture.heavy_count,
@@ -78,29 +71,33 @@ static ec_result tell(const merge_request *request, const ec_merged *m, ec_error
                                     .image_sha256 = m->sha256,
                                     .outputs = outputs,
                                     .output_count = request->outputs.count};
-    if (request->json) return ec_merge_report_json(&report, stdout, err);
-    if (!request->quiet) ec_merge_report_text(&report, stdout);
-    return EC_OK;
+    ec_telling t;
+    ec_result result = EC_OK;
+    EC_TRY(ec_telling_begin(&t, listener, err));
+    if (request->json) result = ec_merge_report_json(&report, t.to, err);
+    else if (!request->quiet) ec_merge_report_text(&report, t.to);
+    return ec_telling_end(&t, result, err);
 }
 
-ec_result ec_cmd_merge(ec_cli *cli, int argc, char **argv, ec_error *err)
+static ec_result write_merged(ec_call *call, ec_outputs *outputs, ec_error *err)
 {
-    merge_request request = {0};
-    int first = 0;
-    ec_request asked;
-    EC_TRY(ec_options_parse(options, sizeof options / sizeof options[0], &request, argc, argv, &first, NULL, &asked, err));
-    if (ec_cli_leaves(cli, asked)) return EC_OK;
-    request.paths = argv + first;
-    request.count = argc - first;
-    cli->console.quiet = request.quiet;
-        const ec_log log = ec_console_log(&cli->console);
-    ec_merged merged = {0};
-    ec_result result;
-    EC_TRY_CLEANUP(check_request(&request, err));
-    EC_TRY_CLEANUP(ec_merged_make(request.paths, request.count, request.partial, cli->line, &merged, &log, err));
-    EC_TRY_CLEANUP(ec_merged_write(&merged, &request.outputs, request.exposure, request.tonemap, err));
-    result = tell(&request, &merged, err);
-cleanup:
-    ec_merged_free(&merged);
-    return result;
+    const merge_request *request = call->request;
+    return ec_merged_write(&call->merged, outputs, request->exposure, request->tonemap, err);
 }
+
+static ec_result run(ec_call *call, ec_error *err)
+{
+    merge_request *request = call->request;
+    call->write = write_merged;
+    EC_TRY(check(call, &request->outputs, err));
+    EC_TRY(ec_merged_make(call->inputs, call->input_count, request->partial, call->line, &call->merged, &call->listener->log, err));
+    if (request->outputs.count) EC_TRY(write_merged(call, &request->outputs, err));
+    return tell(request, &call->merged, call->input_count, call->listener, err);
+}
+
+const ec_command ec_cmd_merge = {
+    .told = {.name = "merge", .operands = "A.exr [B.exr ...] -o ALL.exr [options]", .summary = "combine slices that were rendered separately",
+             .intro = "Combines slices that eclat render --samples wrote, or checkpoints, into one picture. In any order, the result has the same bits as a single render of "
+                       "all their samples. Slices of other scenes, options or versions, and slices with samples in common, are refused."},
+    .rows = list_rows, .size = sizeof(merge_request), .run = run,
+};

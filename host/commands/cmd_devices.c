@@ -1,0 +1,67 @@
+/* eclat devices */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cl/cl.h"
+#include "commands/command.h"
+#include "jobs/setters.h"
+#include "jobs/telling.h"
+#include "report/device_report.h"
+
+typedef struct devices_request {
+    bool json;
+} devices_request;
+
+#define REQUEST ((devices_request *)target)
+FLAG_SETTER(json, json)
+
+static const ec_option options[] = {{.name = "json", .set = set_json, .help = "print one JSON object instead of a table"}};
+EC_ROWS(options)
+
+static ec_result tell(const ec_device_report *report, bool json, const ec_listener *listener, ec_error *err)
+{
+    ec_telling t;
+    ec_result result = EC_OK;
+    EC_TRY(ec_telling_begin(&t, listener, err));
+    if (json) result = ec_device_report_json(report, t.to, err);
+    else ec_device_report_text(report, t.to);
+    return ec_telling_end(&t, result, err);
+}
+
+static ec_result run(ec_call *call, ec_error *err)
+{
+    if (call->input_count) return ec_usage(err, "devices takes no operand, not '%s'", call->inputs[0]);
+    ec_device_info *devices = NULL;
+    ec_device_report report = {.chosen = -1};
+    EC_TRY(ec_devices_list(&devices, &report.count, err));
+    report.devices = devices;
+
+    /* A wrong ECLAT_DEVICE must not hide the list that mends it. */
+    uint32_t chosen = 0;
+    ec_error reason = {0};
+    if (ec_device_choose(devices, report.count, NULL, &chosen, &report.why, &reason) == EC_OK) {
+        report.chosen = chosen;
+    } else {
+        ec_warn(&call->listener->log, "%s", reason.text);
+        report.why = reason.text;
+    }
+    ec_result result = tell(&report, ((const devices_request *)call->request)->json, call->listener, err);
+    free(devices);
+    return result;
+}
+
+static const eclat_note notes[] = {
+    {"Environment", "ECLAT_DEVICE", "the default device: its number or part of its name"},
+    {"Columns", "units", "compute units: cores or multiprocessors that work in parallel"},
+    {"Columns", "lanes", "native vector width in floats, which --lanes auto uses"},
+    {"Columns", "max alloc", "largest single buffer"},
+    {"Columns", "exact div", "division and square root are correctly rounded"},
+    {"Columns", "denormals, fma", "single-precision denormals; fused multiply-add in hardware"},
+    {0}};
+
+const ec_command ec_cmd_devices = {
+    .told = {.name = "devices", .operands = "[options]", .summary = "list the OpenCL devices and mark the default",
+             .intro = "Lists every OpenCL device with the properties that matter here; * marks the one that a render uses by default.",
+             .notes = notes},
+    .rows = list_rows, .size = sizeof(devices_request), .run = run,
+};
