@@ -22,11 +22,8 @@ typedef struct cli {
 
 static eclat_result unknown_command(const char *name, eclat_error *err)
 {
-    const eclat_command *pages[EC_PAGES_MOST];
-    const char *names[EC_PAGES_MOST];
-    const int count = ec_pages(pages);
-    for (int i = 0; i < count; i++) names[i] = pages[i]->name;
-    const char *nearest = ec_suggest(name, names, count);
+    const char *names[EC_PAGES_MOST + 1];
+    const char *nearest = ec_suggest(name, names, ec_page_names(names));
     const char *dot = strrchr(name, '.');
     if (name[0] == '-')
         return ec_wrong(err, "unknown option '%s' before a command; see 'eclat --help'", name);

@@ -12,21 +12,14 @@ static void put_words(FILE *to, const char *const *words)
     for (; *words; words++) fprintf(to, "%s%s", *words, words[1] ? " " : "");
 }
 
-/* Names of all commands. */
-static void put_commands(FILE *to, const char *last)
-{
-    const eclat_command *pages[EC_PAGES_MOST];
-    const int count = ec_pages(pages);
-    for (int i = 0; i < count; i++) fprintf(to, "%s%s", pages[i]->name, i + 1 < count ? " " : last);
-}
-
 /* Operands to choose from; false: there are none. */
 static bool put_operands(FILE *to, const eclat_command *page, const char *before, const char *after)
 {
+    const char *names[EC_PAGES_MOST + 1];
     if (page != &ec_page_help && page != &ec_page_completion) return false;
+    ec_page_names(names);
     fputs(before, to);
-    if (page == &ec_page_help) put_commands(to, "");
-    else put_words(to, ec_shell_names);
+    put_words(to, page == &ec_page_help ? names : ec_shell_names);
     fputs(after, to);
     return true;
 }
@@ -63,6 +56,7 @@ static void bash_command(const eclat_command *page, FILE *to)
 static void bash(FILE *to)
 {
     const eclat_command *pages[EC_PAGES_MOST];
+    const char *names[EC_PAGES_MOST + 1];
     const int count = ec_pages(pages);
     fputs("# Completion of eclat for bash, as `eclat completion bash` prints it.\n"
           "_eclat() {\n"
@@ -72,8 +66,9 @@ static void bash(FILE *to)
           "    elif [ \"$prev\" = = ]; then prev=\"${COMP_WORDS[COMP_CWORD-2]}=\"; fi\n"
           "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
           "        mapfile -t COMPREPLY < <(compgen -W \"", to);
-    put_commands(to, " ");
-    fputs("--help --version\" -- \"$cur\")\n"
+    ec_page_names(names);
+    put_words(to, names);
+    fputs(" --help --version\" -- \"$cur\")\n"
           "        return\n"
           "    fi\n"
           "    case \"${COMP_WORDS[1]}\" in\n", to);

@@ -114,16 +114,6 @@ static void write_group(const eclat_command *page, const eclat_option *rows, int
     }
 }
 
-/* The title of the first group from *group on that has options to tell in full; NULL: there is none. */
-static const char *next_group(const eclat_command *page, const eclat_option *rows, int count, int *group)
-{
-    const eclat_option *first = NULL;
-    for (int i = 0; i < count; i++)
-        if (rows[i].group >= *group && !is_brief(page, &rows[i]) && (!first || rows[i].group < first->group)) first = &rows[i];
-    if (first) *group = first->group + 1;
-    return first ? first->group_title : NULL;
-}
-
 static bool is_group(const char *heading, const eclat_option *rows, int count)
 {
     for (int i = 0; i < count; i++)
@@ -169,11 +159,13 @@ void ec_help_write(const eclat_command *page, const ec_help_style *style, FILE *
 {
     eclat_option rows[EC_OPTIONS_MOST], all[EC_OPTIONS_MOST];
     const int count = ec_help_rows(page, rows), all_count = ec_page_options(page, all);
-    int group = 0;
+    const char *title = "";
     style->usage(to, page);
     if (page->intro) style->paragraph(to, page->intro);
     if (page == &ec_page_main) write_commands(style, to);
-    for (const char *title; (title = next_group(page, rows, count, &group));) write_group(page, rows, count, title, style, to);
+    if (!all_count) write_group(page, rows, count, "Options", style, to);
+    for (int i = 0; i < all_count; i++)
+        if (!is_brief(page, &all[i]) && strcmp(title, all[i].group_title)) write_group(page, rows, count, title = all[i].group_title, style, to);
     if (page->borrows) write_list(page->borrows, rows, count, false, style, to);
     qsort(all, (size_t)all_count, sizeof *all, by_name);
     if (page->lacks) write_list(page->lacks, all, all_count, true, style, to);

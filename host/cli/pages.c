@@ -42,6 +42,15 @@ int ec_pages(const eclat_command *pages[EC_PAGES_MOST])
     return count;
 }
 
+int ec_page_names(const char *names[EC_PAGES_MOST + 1])
+{
+    const eclat_command *pages[EC_PAGES_MOST];
+    const int count = ec_pages(pages);
+    for (int i = 0; i < count; i++) names[i] = pages[i]->name;
+    names[count] = NULL;
+    return count;
+}
+
 const eclat_command *ec_page_find(const char *name)
 {
     const eclat_command *pages[EC_PAGES_MOST];

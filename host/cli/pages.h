@@ -9,6 +9,7 @@ extern const eclat_command ec_page_completion, ec_page_help;
 extern const char *const ec_shell_names[]; /* that completion is for, NULL-terminated */
 
 enum { EC_PAGES_MOST = 16 };
+int ec_page_names(const char *names[EC_PAGES_MOST + 1]); /* of all commands, NULL-terminated; returns their number */
 int ec_pages(const eclat_command *pages[EC_PAGES_MOST]); /* all commands by name; returns their number */
 const eclat_command *ec_page_find(const char *name);     /* NULL: there is none */
 

@@ -6,17 +6,12 @@
 #include "jobs/compare_job.h"
 #include "jobs/outputs.h"
 #include "jobs/setters.h"
-#include "jobs/telling.h"
 
 typedef struct compare_request {
     const char *a, *b, *diff;
-    bool json, quiet;
 } compare_request;
 
 #define REQUEST ((compare_request *)target)
-
-FLAG_SETTER(json, json)
-FLAG_SETTER(quiet, quiet)
 
 SETTER(diff)
 {
@@ -30,8 +25,8 @@ SETTER(diff)
 static const ec_option options[] = {
     {.name = "diff", .metavar = "FILE", .set = set_diff,
      .help = "write a map of the error relative to B, a .png: black is 0.1 % or less, pale yellow 100 % or more"},
-    {.name = "json", .set = set_json, .help = "print one JSON object instead of text"},
-    {.name = "quiet", .letter = 'q', .set = set_quiet, .help = "print nothing; only the exit code tells"},
+    {.name = "json", .help = "print one JSON object instead of text"},
+    {.name = "quiet", .letter = 'q', .help = "print nothing; only the exit code tells"},
 };
 
 EC_ROWS(options)
@@ -54,16 +49,6 @@ static ec_result check_diff(const compare_request *request, ec_error *err)
     return ec_image_check_writable(request->diff, err);
 }
 
-static ec_result tell(const compare_request *request, const ec_compare_report *report, const ec_listener *listener, ec_error *err)
-{
-    ec_telling t;
-    ec_result result = EC_OK;
-    EC_TRY(ec_telling_begin(&t, listener, err));
-    if (request->json) result = ec_compare_report_json(report, t.to, err);
-    else if (!request->quiet) ec_compare_report_text(report, t.to);
-    return ec_telling_end(&t, result, err);
-}
-
 static ec_result run(ec_call *call, ec_error *err)
 {
     compare_request *request = call->request;
@@ -74,7 +59,8 @@ static ec_result run(ec_call *call, ec_error *err)
     EC_TRY_CLEANUP(ec_compare_load(request->a, request->b, &job, err));
     EC_TRY_CLEANUP(ec_compare_measure(&job.report, request->diff, err));
     call->says_no = job.report.differ;
-    result = tell(request, &job.report, call->listener, err);
+    if (call->json) result = ec_compare_report_json(&job.report, call->listener->to, err);
+    else if (!call->quiet) ec_compare_report_text(&job.report, call->listener->to);
 cleanup:
     ec_compare_free(&job);
     return result;

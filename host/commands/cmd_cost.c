@@ -11,7 +11,6 @@
 #include "image/image.h"
 #include "jobs/render_setters.h"
 #include "jobs/setters.h"
-#include "jobs/telling.h"
 #include "report/json.h"
 
 #define COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */
@@ -97,9 +96,10 @@ static ec_result take_size(cost_request *request, ec_error *err)
 
 static bool show(void *user, const ec_cost_progress *progress)
 {
+    const ec_listener *listener = user;
     const ec_step step = {.doing = progress->doing, .done = progress->done, .count = progress->count, .seconds = progress->seconds,
                           .fraction = fmin(progress->seconds / progress->budget, 1), .seconds_left = fmax(progress->budget - progress->seconds, 0)};
-    return ec_listener_step(user, &step);
+    return listener->step(listener->user, &step);
 }
 
 static ec_result run_study(ec_cost_study *study, const ec_render_job *job, ec_error *err)
@@ -109,41 +109,29 @@ static ec_result run_study(ec_cost_study *study, const ec_render_job *job, ec_er
     study->cl = &cl;
     study->go_on = show;
     study->user = (void *)(uintptr_t)job->listener;
-    ec_listener_begin(job->listener, NULL, true);
+    job->listener->begin(job->listener->user, NULL, true);
     ec_say(study->log, "studying %ux%u pixels on %s for %g s", study->options.width, study->options.height, job->devices->name, study->budget);
     ec_result result = ec_cost_run(study, err);
-    ec_listener_end(job->listener);
+    job->listener->end(job->listener->user);
     ec_cl_close(&cl);
     return result;
-}
-
-static ec_result tell(const ec_cost_report *report, const cost_request *request, const ec_listener *listener, ec_error *err)
-{
-    ec_telling t;
-    ec_result result = EC_OK;
-    EC_TRY(ec_telling_begin(&t, listener, err));
-    if (is_told(request->json)) result = ec_json_print(ec_cost_json(report), t.to, err);
-    else if (!request->render.quiet) ec_cost_table(report, listener->bold, t.to);
-    return ec_telling_end(&t, result, err);
 }
 
 /* One file that cannot be written must not cost the others. */
 static ec_result deliver(const ec_cost_report *report, const cost_request *request, const ec_listener *listener, ec_error *err)
 {
-    ec_result result = EC_OK, told;
-    ec_error *first = err;
-    if (request->html && (result = ec_cost_write_html(report, request->html, first)) != EC_OK) first = NULL;
-    if (request->json && !is_told(request->json) && ec_cost_write_json(report, request->json, first) != EC_OK) result = EC_FAILED, first = NULL;
-    told = tell(report, request, listener, first);
-    return result == EC_OK ? told : result;
+    const bool is_json = is_told(request->json);
+    ec_result result = request->html ? ec_cost_write_html(report, request->html, err) : EC_OK;
+    if (request->json && !is_json && ec_cost_write_json(report, request->json, result == EC_OK ? err : NULL) != EC_OK) result = EC_FAILED;
+    if (is_json && ec_json_print(ec_cost_json(report), listener->to, result == EC_OK ? err : NULL) != EC_OK) result = EC_FAILED;
+    if (!is_json && !request->render.quiet) ec_cost_table(report, listener->bold, listener->to);
+    return result;
 }
 
 static void start(void *target)
 {
-    cost_request *request = target;
-    request->budget = EC_DEFAULT_BUDGET;
-    request->render.options.cutoff = EC_DEFAULT_CUTOFF;
-    request->render.env_strength = 1;
+    ec_render_request_start(target);
+    ((cost_request *)target)->budget = EC_DEFAULT_BUDGET;
 }
 
 static ec_result run(ec_call *call, ec_error *err)

@@ -4,29 +4,10 @@
 
 #include "cl/cl.h"
 #include "commands/command.h"
-#include "jobs/setters.h"
-#include "jobs/telling.h"
 #include "report/device_report.h"
 
-typedef struct devices_request {
-    bool json;
-} devices_request;
-
-#define REQUEST ((devices_request *)target)
-FLAG_SETTER(json, json)
-
-static const ec_option options[] = {{.name = "json", .set = set_json, .help = "print one JSON object instead of a table"}};
+static const ec_option options[] = {{.name = "json", .help = "print one JSON object instead of a table"}};
 EC_ROWS(options)
-
-static ec_result tell(const ec_device_report *report, bool json, const ec_listener *listener, ec_error *err)
-{
-    ec_telling t;
-    ec_result result = EC_OK;
-    EC_TRY(ec_telling_begin(&t, listener, err));
-    if (json) result = ec_device_report_json(report, t.to, err);
-    else ec_device_report_text(report, t.to);
-    return ec_telling_end(&t, result, err);
-}
 
 static ec_result run(ec_call *call, ec_error *err)
 {
@@ -45,7 +26,9 @@ static ec_result run(ec_call *call, ec_error *err)
         ec_warn(&call->listener->log, "%s", reason.text);
         report.why = reason.text;
     }
-    ec_result result = tell(&report, ((const devices_request *)call->request)->json, call->listener, err);
+    ec_result result = EC_OK;
+    if (call->json) result = ec_device_report_json(&report, call->listener->to, err);
+    else ec_device_report_text(&report, call->listener->to);
     free(devices);
     return result;
 }
@@ -63,5 +46,5 @@ const ec_command ec_cmd_devices = {
     .told = {.name = "devices", .operands = "[options]", .summary = "list the OpenCL devices and mark the default",
              .intro = "Lists every OpenCL device with the properties that matter here; * marks the one that a render uses by default.",
              .notes = notes},
-    .rows = list_rows, .size = sizeof(devices_request), .run = run,
+    .rows = list_rows, .run = run,
 };

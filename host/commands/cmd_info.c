@@ -8,7 +8,6 @@
 #include "gltf/reader.h"
 #include "jobs/combinations.h"
 #include "jobs/setters.h"
-#include "jobs/telling.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
@@ -108,16 +107,6 @@ static ec_result probe(const info_request *request, ec_scene_report *report, ec_
     return result;
 }
 
-static ec_result tell(const ec_render_request *request, const ec_scene_report *report, const ec_listener *listener, ec_error *err)
-{
-    ec_telling t;
-    ec_result result = EC_OK;
-    EC_TRY(ec_telling_begin(&t, listener, err));
-    if (request->json) result = ec_scene_report_json(report, t.to, err);
-    else ec_scene_report_text(report, t.to);
-    return ec_telling_end(&t, result, err);
-}
-
 static ec_result look(info_request *request, const ec_listener *listener, ec_error *err)
 {
     ec_render_request *render = &request->render;
@@ -132,12 +121,11 @@ static ec_result look(info_request *request, const ec_listener *listener, ec_err
     ec_result result = render->environment || render->adjusts_env ? ec_render_job_light(&job, err) : EC_OK;
     if (result == EC_OK) result = measure(render, &report, err);
     if (result == EC_OK && request->accel) result = probe(request, &report, &device, err);
-    if (result == EC_OK) result = tell(render, &report, listener, err);
+    if (result == EC_OK && render->json) result = ec_scene_report_json(&report, listener->to, err);
+    else if (result == EC_OK) ec_scene_report_text(&report, listener->to);
     ec_scene_free(job.scene);
     return result;
 }
-
-static void start(void *request) { ec_render_request_start(&((info_request *)request)->render); }
 
 static ec_result run(ec_call *call, ec_error *err)
 {
@@ -154,5 +142,5 @@ const ec_command ec_cmd_info = {
              .intro = "Reports what a glTF scene contains: geometry, materials, lights, cameras, extensions used and unsupported, the effects it calls for and why, the "
                        "memory it takes, and the quality of its bounding-volume hierarchy.",
              .borrows = "Options of eclat render, to report what such a render shows and calls for"},
-    .rows = list_rows, .size = sizeof(info_request), .start = start, .run = run,
+    .rows = list_rows, .size = sizeof(info_request), .start = ec_render_request_start, .run = run,
 };

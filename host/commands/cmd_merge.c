@@ -4,7 +4,6 @@
 #include "commands/command.h"
 #include "jobs/outputs.h"
 #include "jobs/setters.h"
-#include "jobs/telling.h"
 #include "report/merge_report.h"
 #include "report/names.h"
 
@@ -12,14 +11,12 @@ typedef struct merge_request {
     ec_outputs outputs;
     double exposure;
     ec_tonemap tonemap;
-    bool partial, quiet, json;
+    bool partial;
 } merge_request;
 
 #define REQUEST ((merge_request *)target)
 
-FLAG_SETTER(json, json)
 FLAG_SETTER(partial, partial)
-FLAG_SETTER(quiet, quiet)
 RANGE_SETTER(exposure, ec_parse_real, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST, exposure)
 CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
 
@@ -31,11 +28,11 @@ SETTER(output)
 
 static const ec_option options[] = {
     {.name = "exposure", .metavar = "EV", .set = set_exposure, .help = "brighten the PNG by this many stops", .otherwise = "0"},
-    {.name = "json", .set = set_json, .help = "print one JSON object instead of text"},
+    {.name = "json", .help = "print one JSON object instead of text"},
     {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output, .uses = EC_OPTION_REPEATS,
      .help = "write FILE, an .exr (all data, sums included, so that it can be merged again) or a .png; may be repeated"},
     {.name = "partial", .set = set_partial, .help = "write the picture even if samples are missing"},
-    {.name = "quiet", .letter = 'q', .set = set_quiet, .help = "print only warnings and errors"},
+    {.name = "quiet", .letter = 'q', .help = "print only warnings and errors"},
     {.name = "tonemap", .metavar = "CURVE", .set = set_tonemap, .choices = ec_tonemap_names,
      .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
 };
@@ -56,11 +53,13 @@ static ec_result check(const ec_call *call, const ec_outputs *outputs, ec_error 
     return ec_outputs_check(outputs, &inputs, err);
 }
 
-static ec_result tell(const merge_request *request, const ec_merged *m, int files, const ec_listener *listener, ec_error *err)
+static ec_result tell(const ec_call *call, ec_error *err)
 {
+    const merge_request *request = call->request;
+    const ec_merged *m = &call->merged;
     const char *outputs[EC_OUTPUTS_MAX];
     for (int i = 0; i < request->outputs.count; i++) outputs[i] = request->outputs.file[i].path;
-    const ec_merge_report report = {.files = files,
+    const ec_merge_report report = {.files = call->input_count,
                                     .samples_per_pixel = m->samples_per_pixel,
                                     .replicates = ec_film_replicates(&m->slices.all.film),
                                     .heavy_pixels = m->picture.heavy_count,
@@ -71,12 +70,9 @@ static ec_result tell(const merge_request *request, const ec_merged *m, int file
                                     .image_sha256 = m->sha256,
                                     .outputs = outputs,
                                     .output_count = request->outputs.count};
-    ec_telling t;
-    ec_result result = EC_OK;
-    EC_TRY(ec_telling_begin(&t, listener, err));
-    if (request->json) result = ec_merge_report_json(&report, t.to, err);
-    else if (!request->quiet) ec_merge_report_text(&report, t.to);
-    return ec_telling_end(&t, result, err);
+    if (call->json) return ec_merge_report_json(&report, call->listener->to, err);
+    if (!call->quiet) ec_merge_report_text(&report, call->listener->to);
+    return EC_OK;
 }
 
 static ec_result write_merged(ec_call *call, ec_outputs *outputs, ec_error *err)
@@ -92,7 +88,7 @@ static ec_result run(ec_call *call, ec_error *err)
     EC_TRY(check(call, &request->outputs, err));
     EC_TRY(ec_merged_make(call->inputs, call->input_count, request->partial, call->line, &call->merged, &call->listener->log, err));
     if (request->outputs.count) EC_TRY(write_merged(call, &request->outputs, err));
-    return tell(request, &call->merged, call->input_count, call->listener, err);
+    return tell(call, err);
 }
 
 const ec_command ec_cmd_merge = {

@@ -6,7 +6,6 @@
 #include "commands/command.h"
 #include "jobs/render_plan.h"
 #include "jobs/sequence.h"
-#include "jobs/telling.h"
 
 static int list_rows(ec_option rows[EC_OPTIONS_MAX])
 {
@@ -14,20 +13,15 @@ static int list_rows(ec_option rows[EC_OPTIONS_MAX])
     return ec_render_row_count;
 }
 
-static void start(void *request) { ec_render_request_start(request); }
-
 static ec_result plan(ec_render_job *job, ec_error *err)
 {
     ec_plan plan;
-    ec_telling t;
-    ec_result result = EC_OK;
     job->ranks = NULL; /* one process and its device stand for all */
     EC_TRY(ec_render_job_load(job, err));
     EC_TRY(ec_render_plan(job, &plan, err));
-    EC_TRY(ec_telling_begin(&t, job->listener, err));
-    if (job->request->json) result = ec_plan_json(&plan, t.to, err);
-    else ec_plan_text(&plan, job->devices->name, t.to);
-    return ec_telling_end(&t, result, err);
+    if (job->request->json) return ec_plan_json(&plan, job->listener->to, err);
+    ec_plan_text(&plan, job->devices->name, job->listener->to);
+    return EC_OK;
 }
 
 /* A slice is written with its sums. */
@@ -75,5 +69,5 @@ const ec_command ec_cmd_render = {
     .told = {.name = "render", .operands = "SCENE [options]", .summary = "render a scene to EXR and PNG",
              .intro = "Renders a glTF 2.0 scene (.gltf or .glb) and states the error of the image.",
              .notes = notes},
-    .rows = list_rows, .size = sizeof(ec_render_request), .start = start, .run = run, .is_shared = true,
+    .rows = list_rows, .size = sizeof(ec_render_request), .start = ec_render_request_start, .run = run, .is_shared = true,
 };

@@ -6,7 +6,6 @@
 #include "commands/command.h"
 #include "commands/view_command.h"
 #include "jobs/setters.h"
-#include "jobs/telling.h"
 #include "jobs/write_report.h"
 #include "pack/scene_view.h"
 #include "report/names.h"
@@ -126,14 +125,6 @@ static ec_result check_outputs(const view_job *job, const ec_outputs *outputs, e
     return result;
 }
 
-static ec_result tell_command(const ec_listener *listener, const char *command, ec_error *err)
-{
-    ec_telling t;
-    EC_TRY(ec_telling_begin(&t, listener, err));
-    fprintf(t.to, "%s\n", command);
-    return ec_telling_end(&t, EC_OK, err);
-}
-
 static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
 {
     ec_outputs outputs = job->render.outputs;
@@ -160,8 +151,9 @@ static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told,
         for (int i = 0; i < outputs.count && used > 0 && (size_t)used < size; i++)
             used += snprintf(told + used, size - (size_t)used, "%s %s", i ? "," : "", outputs.file[i].path);
         if (used > 0 && (size_t)used < size) snprintf(told + used, size - (size_t)used, "; again by: %s", command);
+        fprintf(job->listener->to, "%s\n", command);
         job->saved++;
-        result = tell_command(job->listener, command, err);
+        result = job->listener->report(job->listener->user, err);
     }
     free(command);
     return result;
@@ -170,13 +162,11 @@ static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told,
 static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
 {
     view_job *job = user;
-    ec_listener_begin(job->listener, NULL, false);
+    job->listener->begin(job->listener->user, NULL, false);
     ec_result result = write_shot(job, shot, told, size, err);
     job->unsaved = result == EC_OK ? (ec_error){.kind = EC_ERROR_OTHER} : *err;
     return result;
 }
-
-static void start(void *request) { ec_render_request_start(&((view_job *)request)->render); }
 
 static ec_result run(ec_call *call, ec_error *err)
 {
@@ -201,7 +191,7 @@ static ec_result run(ec_call *call, ec_error *err)
         .tonemap = job->render.tonemap, .scene = job->render.scene, .environment = job->render.environment, .against = job->against,
         .script = job->script, .stats = job->stats, .user = job, .load = load, .save = save, .stop = call->stop,
     };
-    ec_listener_begin(call->listener, NULL, false);
+    call->listener->begin(call->listener->user, NULL, false);
     EC_TRY(window->run(&request, err));
     return *job->unsaved.text ? ec_fail(err, "%s", job->unsaved.text) : EC_OK;
 }
@@ -213,5 +203,5 @@ const ec_command ec_cmd_view = {
                        "scene changes, it is loaded again.",
              .lacks = "All options of eclat render, except",
              .closing = "Limits (--spp, --error, --time) count from the moment the camera comes to rest; when one is reached, the window sleeps."},
-    .rows = list_rows, .size = sizeof(view_job), .start = start, .run = run, .is_interactive = true,
+    .rows = list_rows, .size = sizeof(view_job), .start = ec_render_request_start, .run = run, .is_interactive = true,
 };

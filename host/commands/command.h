@@ -21,6 +21,7 @@ typedef struct ec_call {
     int input_count;
     void *request;              /* of the command's own type, with all options set; owned */
     bool is_given[EC_OPTIONS_MAX]; /* by its rows */
+    bool json, quiet;           /* two options that most have */
     ec_words words;             /* the command, made of these; owned */
     const char *program, *line; /* as it was called */
     ec_ranks *ranks;            /* the other processes of an MPI job; NULL: there are none */
@@ -37,8 +38,8 @@ typedef struct ec_call {
 typedef struct ec_command {
     eclat_command told;
     int (*rows)(ec_option rows[EC_OPTIONS_MAX]); /* its options, those borrowed from `render` included; returns the number */
-    size_t size;                /* of its request, */
-    void (*start)(void *request); /* which this fills with defaults; NULL: they are all 0 */
+    size_t size;                /* of its request; 0: it has none */
+    void (*start)(void *request); /* fills that with defaults; NULL: they are all 0 */
     ec_result (*run)(ec_call *call, ec_error *err);
     bool is_shared;             /* by all ranks, where there are any */
     bool is_interactive;        /* it waits for a descriptor */

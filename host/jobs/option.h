@@ -50,7 +50,7 @@ typedef struct ec_option {
     char letter;                  /* short form; 0 = none */
     const char *metavar;          /* what help calls its value; NULL: a flag */
     bool value_optional;          /* then after "=" alone, and NULL without */
-    ec_option_set set;
+    ec_option_set set;            /* NULL: who asks looks whether it was given */
     ec_option_group group;
     const char *help;             /* without line breaks */
     const char *otherwise;        /* the default; NULL: none, or help says it */

@@ -88,6 +88,9 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
 /* Part of that: the film with its report to these files; a slice with its sums. */
 ec_result ec_render_job_write(ec_render_job *job, ec_outputs *outputs, ec_render_report *report, ec_error *err);
 
+/* Tells the listener, as the request wants it told. */
+ec_result ec_render_job_tell(const ec_render_job *job, const ec_render_report *report, ec_error *err);
+
 /* All of a prepared job: runs and delivers it. Where the device fails, the picture so far is written, and the job fails all the same. */
 ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err);
 /* What is known of the job by now, in figures; outputs: room for the paths. Texts are the job's. */

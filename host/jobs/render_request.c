@@ -4,9 +4,9 @@
 
 #include "jobs/defaults.h"
 
-void ec_render_request_start(ec_render_request *request)
+void ec_render_request_start(void *request)
 {
-    *request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF};
+    *(ec_render_request *)request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF};
 }
 
 ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *now, ec_render_request *request, ec_given_options *before, ec_error *err)

@@ -56,7 +56,7 @@ extern const ec_option ec_render_rows[];
 extern const int ec_render_row_count;
 const ec_option *ec_render_row(const char *name); /* NULL: there is none */
 int ec_render_rows_for(uint32_t use, ec_option *rows); /* copies those with that EC_OPTION_* as borrowed, returns their number */
-void ec_render_request_start(ec_render_request *request);
+void ec_render_request_start(void *request);
 ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
                                    ec_error *err);
 

@@ -25,7 +25,7 @@ eclat_result eclat_job_new(const char *command, eclat_job **job, eclat_error *er
     *job = NULL;
     if (!found) return ec_lib_end(ec_usage(&why, "there is no command %s; eclat_command_at lists them", command ? command : "(null)"), &why, err);
     eclat_job *made = calloc(1, sizeof *made);
-    if (made) made->checked = calloc(1, found->size);
+    if (made) made->checked = calloc(1, found->size + 1);
     if (!made || !made->checked) {
         free(made);
         return ec_lib_end(ec_fail(&why, "out of memory for a job"), &why, err);
@@ -64,6 +64,7 @@ static ec_result set(eclat_job *job, const char *name, const char *value, ec_err
     if (row->metavar && !row->value_optional && !value) return ec_usage(err, "option %s needs a value", name);
     if (!row->metavar && value) return ec_usage(err, "option %s takes no value", name);
     EC_TRY(ec_given_add(&job->given, row->name, value, err));
+    if (!row->set) return EC_OK;
     ec_result result = row->set(job->checked, row->name, job->given.list[job->given.count - 1].value, err);
     if (result != EC_OK) ec_given_drop_last(&job->given);
     return result;

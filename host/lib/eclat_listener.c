@@ -5,11 +5,24 @@
 #include "report/forecast_text.h"
 #include "report/progress_text.h"
 
+/* FNV-1a. Where more is said than is remembered, it is said again. */
+static bool was_said(ec_lib_ear *ear, const char *text)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (; *text; text++) hash = (hash ^ (unsigned char)*text) * UINT64_C(0x100000001b3);
+    for (int i = 0; i < ear->said_count; i++)
+        if (ear->said[i] == hash) return true;
+    if (ear->said_count < (int)(sizeof ear->said / sizeof *ear->said)) ear->said[ear->said_count++] = hash;
+    return false;
+}
+
 static void write_message(void *user, ec_severity severity, const char *text)
 {
-    const ec_lib_ear *ear = user;
+    ec_lib_ear *ear = user;
     const eclat_listener *to = ear->listener;
-    if (to && to->message && (!ear->is_quiet || severity >= EC_WARNING)) to->message(to->user, (eclat_severity)severity, text);
+    const bool may_repeat = !ear->says_once || severity == EC_STATUS || severity == EC_FAILURE;
+    if (!to || !to->message || (ear->is_quiet && severity < EC_WARNING) || (!may_repeat && was_said(ear, text))) return;
+    to->message(to->user, (eclat_severity)severity, text);
 }
 
 static void begin(void *user, const ec_render_options *options, bool has_progress)
@@ -71,15 +84,20 @@ static void hint(void *user, const char *line)
     if (to->hint) to->hint(to->user, line);
 }
 
-static ec_result report(void *user, const char *text, size_t size, ec_error *err)
+/* The next one takes the place of what is there. */
+static ec_result report(void *user, ec_error *err)
 {
-    const eclat_listener *to = ((ec_lib_ear *)user)->listener;
-    const char *why = to->report ? to->report(to->user, text, size) : NULL;
+    ec_lib_ear *ear = user;
+    const eclat_listener *to = ear->listener;
+    if (fflush(ear->to) != 0 || ferror(ear->to)) return ec_fail(err, "out of memory for a report");
+    ear->text[ear->size] = 0; /* a longer one was there */
+    const char *why = ear->size && to->report ? to->report(to->user, ear->text, ear->size) : NULL;
+    rewind(ear->to);
     return why ? ec_fail(err, "%s", why) : EC_OK;
 }
 
 ec_listener ec_lib_listener(ec_lib_ear *ear)
 {
     return (ec_listener){.user = ear, .log = {write_message, ear}, .begin = begin, .progress = show, .step = step, .end = end, .should_stop = should_stop,
-                         .hint = hint, .report = report, .bold = ear->listener && ear->listener->bold};
+                         .hint = hint, .to = ear->to, .report = report, .bold = ear->listener && ear->listener->bold};
 }

@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "jobs/telling.h"
 #include "lib/internal.h"
 #include "report/error_text.h"
 
@@ -24,7 +23,7 @@ static ec_result take_render(eclat_picture *p, ec_error *err)
     ec_render_report_attributes(&report, &p->attributes);
     ec_scene_free(job->scene);
     job->scene = NULL;
-    return job->in_memory ? ec_tell_render(job->listener, job->request, &report, err) : EC_OK;
+    return job->in_memory ? ec_render_job_tell(job, &report, err) : EC_OK;
 }
 
 static void take_merged(eclat_picture *p)

@@ -47,6 +47,12 @@ typedef struct ec_lib_ear {
     const eclat_listener *listener;
     atomic_int *is_stopped;   /* set once the listener wants so; NULL: nothing stops */
     bool is_quiet;            /* warnings and failures alone are passed on */
+    bool says_once;           /* what was said: notes and warnings */
+    uint64_t said[64];        /* their hashes */
+    int said_count;
+    FILE *to;                 /* a report, and its text once it is flushed. Owned by who made the ear */
+    char *text;
+    size_t size;
     const ec_render_options *options; /* of the render that is under way */
     bool has_foretold;        /* what it will take */
 } ec_lib_ear;
