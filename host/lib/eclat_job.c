@@ -54,7 +54,7 @@ void eclat_job_free(eclat_job *job)
 eclat_result eclat_job_add(eclat_job *job, const char *input, eclat_error *err)
 {
     ec_error why = {0};
-    return ec_lib_end(ec_lib_add_text(&job->inputs, &job->input_count, input, &why), &why, err);
+    return ec_lib_end(ec_lib_add_text(&job->inputs, &job->input_count, input ? input : "", &why), &why, err);
 }
 
 static ec_result set(eclat_job *job, const char *name, const char *value, ec_error *err)

@@ -76,7 +76,7 @@ typedef struct eclat_command {
     const char *intro, *closing;     /* paragraphs before and after its options; closing NULL: none */
     const char *borrows;             /* heading for its borrowed options, which are then listed by name alone; NULL: they are told like its own */
     const char *lacks;               /* heading for the options that it refuses; NULL: it refuses none */
-    const eclat_note *notes;         /* a NULL heading ends them */
+    const eclat_note *notes;         /* a NULL heading ends them; NULL: there are none */
 } eclat_command;
 
 typedef struct eclat_option {
