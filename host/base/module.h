@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 
-/* Loads eclat-NAME.so, beside the library or in the folder eclat there, and sets *symbol to its `EC_MODULE_SYMBOL`, which lives as long as the process.
- * remedy: how to get one that is not there, for the message. */
+/* Loads eclat-NAME.so, beside the library or in the folder eclat there, and sets *symbol to its `EC_MODULE_SYMBOL`, which lives as long as the
+ * process. remedy: how to get one that is not there, for the message. */
 ec_result ec_module_load(const char *name, const char *remedy, const void **symbol, ec_error *err);
 
 #define EC_MODULE_SYMBOL ec_module

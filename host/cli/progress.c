@@ -74,6 +74,6 @@ static void hint(void *user, const char *line)
 
 eclat_listener ec_progress_listener(ec_progress_view *view)
 {
-    return (eclat_listener){.user = view, .message = message, .progress = show, .report = report, .bold = isatty(STDOUT_FILENO) == 1, .begin = begin, .end = end,
-                            .hint = hint};
+    return (eclat_listener){.user = view, .message = message, .progress = show, .report = report, .bold = isatty(STDOUT_FILENO) == 1, .begin = begin,
+                            .end = end, .hint = hint};
 }

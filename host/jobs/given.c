@@ -78,8 +78,8 @@ static bool add_option(ec_words *words, const ec_option *row, const char *value)
     return fits;
 }
 
-ec_result ec_words_make(ec_words *words, const char *command, char *const *inputs, int input_count, const ec_given_options *given, const ec_option *rows,
-                        int row_count, ec_error *err)
+ec_result ec_words_make(ec_words *words, const char *command, char *const *inputs, int input_count, const ec_given_options *given,
+                        const ec_option *rows, int row_count, ec_error *err)
 {
     words->list = calloc((size_t)(input_count + 2 * given->count) + 3, sizeof *words->list);
     bool fits = words->list && add_word(words, "eclat") && add_word(words, "%s", command);
@@ -107,7 +107,8 @@ static const ec_option *find_word(const char *word, const ec_option *rows, int r
     return NULL;
 }
 
-ec_result ec_given_read(ec_given_options *given, const char **operand, int argc, char *const *argv, const ec_option *rows, int row_count, ec_error *err)
+ec_result ec_given_read(ec_given_options *given, const char **operand, int argc, char *const *argv, const ec_option *rows, int row_count,
+                        ec_error *err)
 {
     for (int i = 1; i < argc; i++) {
         const char *word = argv[i], *equals = strchr(word, '=');

@@ -30,11 +30,12 @@ typedef struct ec_words {
 } ec_words;
 
 /* "eclat", the command's name, inputs, options. To be freed on failure too. */
-ec_result ec_words_make(ec_words *words, const char *command, char *const *inputs, int input_count, const ec_given_options *given, const ec_option *rows,
-                        int row_count, ec_error *err);
+ec_result ec_words_make(ec_words *words, const char *command, char *const *inputs, int input_count, const ec_given_options *given,
+                        const ec_option *rows, int row_count, ec_error *err);
 void ec_words_free(ec_words *words);
 
 /* Reads options back from a command's name and what follows it, and its last operand, which is one of the words. */
-ec_result ec_given_read(ec_given_options *given, const char **operand, int argc, char *const *argv, const ec_option *rows, int row_count, ec_error *err);
+ec_result ec_given_read(ec_given_options *given, const char **operand, int argc, char *const *argv, const ec_option *rows, int row_count,
+                        ec_error *err);
 
 #endif

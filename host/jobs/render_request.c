@@ -9,7 +9,8 @@ void ec_render_request_start(void *request)
     *(ec_render_request *)request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF};
 }
 
-ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *now, ec_render_request *request, ec_given_options *before, ec_error *err)
+ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *now, ec_render_request *request, ec_given_options *before,
+                                   ec_error *err)
 {
     bool given[EC_OPTIONS_MAX] = {false};
     const char *scene = NULL;

@@ -68,6 +68,7 @@ const char *ec_render_whole_for(const ec_render_request *request);
 
 /* After --resume: the request that began the job, its limits as they were last, and what is given now over it: an output or a limit replaces all
  * that there were. request: of what is given now alone. before: the options that began the job, to which texts of the request point. */
-ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *now, ec_render_request *request, ec_given_options *before, ec_error *err);
+ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *now, ec_render_request *request, ec_given_options *before,
+                                   ec_error *err);
 
 #endif

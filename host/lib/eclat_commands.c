@@ -23,8 +23,8 @@ eclat_option eclat_option_at(const char *command, size_t i)
     const ec_command *c = ec_command_find(command);
     const ec_option *row = c ? row_at(rows, c->rows(rows), i) : NULL;
     if (!row) return (eclat_option){0};
-    return (eclat_option){.name = row->name, .letter = row->letter, .takes_value = ec_option_takes_value(row), .metavar = row->metavar, .help = row->help,
-                          .otherwise = row->otherwise, .choices = row->choices, .group = (int)row->group, .group_title = ec_group_titles[row->group],
-                          .repeats = (row->uses & EC_OPTION_REPEATS) != 0, .is_borrowed = (row->uses & EC_OPTION_BORROWED) != 0,
-                          .refused = c->told.lacks ? row->not_in_window : NULL};
+    return (eclat_option){.name = row->name, .letter = row->letter, .takes_value = ec_option_takes_value(row), .metavar = row->metavar,
+                          .help = row->help, .otherwise = row->otherwise, .choices = row->choices, .group = (int)row->group,
+                          .group_title = ec_group_titles[row->group], .repeats = (row->uses & EC_OPTION_REPEATS) != 0,
+                          .is_borrowed = (row->uses & EC_OPTION_BORROWED) != 0, .refused = c->told.lacks ? row->not_in_window : NULL};
 }

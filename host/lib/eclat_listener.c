@@ -98,6 +98,6 @@ static ec_result report(void *user, ec_error *err)
 
 ec_listener ec_lib_listener(ec_lib_ear *ear)
 {
-    return (ec_listener){.user = ear, .log = {write_message, ear}, .begin = begin, .progress = show, .step = step, .end = end, .should_stop = should_stop,
-                         .hint = hint, .to = ear->to, .report = report, .bold = ear->listener && ear->listener->bold};
+    return (ec_listener){.user = ear, .log = {write_message, ear}, .begin = begin, .progress = show, .step = step, .end = end,
+                         .should_stop = should_stop, .hint = hint, .to = ear->to, .report = report, .bold = ear->listener && ear->listener->bold};
 }

@@ -136,8 +136,8 @@ typedef struct eclat_listener {
     void (*message)(void *user, eclat_severity severity, const char *text);
     /* About twice a second; 0 stops the job and keeps what there is so far. */
     int (*progress)(void *user, const eclat_progress *progress);
-    /* What came of the job, or of one frame of it: in words, or as JSON and a newline with the option `json`. NULL, or why it has not arrived, with which
-     * the job fails. */
+    /* What came of the job, or of one frame of it: in words, or as JSON and a newline with the option `json`. Returns NULL, or why it has not
+     * arrived, with which the job fails. */
     const char *(*report)(void *user, const char *text, size_t size);
     int bold;                          /* a report may have the escape codes of a terminal for bold print */
     /* From here on a job that is killed loses something; may come several times. has_progress: progress follows, up to `end`. */
@@ -152,10 +152,10 @@ void eclat_job_listen(eclat_job *job, const eclat_listener *listener); /* copied
 /* Asks the job, or its next run, to end soon and to keep what there is so far. */
 void eclat_job_stop(eclat_job *job);
 
-/* Runs and waits; a job may run again. picture NULL: what the job makes goes to the files of the option "output", or to those that it names by itself.
- * Otherwise jobs that make one picture, "render" and "merge", give it, and write files only where "output" names them. *picture is NULL on
- * failure, but where the device failed halfway: then it is the picture so far. It is NULL on success too where there is none: a sequence of frames, and
- * a picture that does not fit into memory. */
+/* Runs and waits; a job may run again. picture NULL: what the job makes goes to the files of the option "output", or to those that it names by
+ * itself. Otherwise jobs that make one picture, "render" and "merge", give it, and write files only where "output" names them. *picture is NULL
+ * on failure, but where the device failed halfway: then it is the picture so far. It is NULL on success too where there is none: of a sequence
+ * of frames, or of a picture that does not fit into memory. */
 typedef struct eclat_picture eclat_picture;
 eclat_result eclat_job_run(eclat_job *job, eclat_picture **picture, eclat_error *err);
 
