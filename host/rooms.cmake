@@ -47,7 +47,8 @@ eclat_room(cost base accel cl film image pack render report)
 eclat_room(selftest base accel cl device film gltf render report scene)
 eclat_room(view base cl device film gltf image pack render report scene)
 eclat_room(jobs base accel cl device film gltf image pack ranks render report scene store)
-eclat_room(lib base cl film jobs report scene)
+eclat_room(commands accel base cl cost device film gltf image jobs pack ranks report scene selftest view)
+eclat_room(lib base cl commands film jobs ranks report scene view)
 
 # Rooms that know nothing of OpenCL, once more as a library by other compiler options.
 function(eclat_host_library name)

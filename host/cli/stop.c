@@ -5,15 +5,15 @@
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <sys/eventfd.h>
 
-#include "base/clock.h"
+#include "cli/seconds.h"
 
 /* The process's, as signals are. */
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;
-static int told = -1;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of the job, so that it is not freed meanwhile */
+static eclat_job *running;
 static const char *_Atomic hint;
 
 static void end(int signal_number)
@@ -33,11 +33,13 @@ static void *watch(void *signals)
     double first = 0;
     for (int number; sigwait(signals, &number) == 0;) {
         const bool again = atomic_load(&requested);
-        if (atomic_load(&manner) == ENDS || (again && ec_now() - first > ONE_WISH)) end(number);
+        if (atomic_load(&manner) == ENDS || (again && ec_seconds() - first > ONE_WISH)) end(number);
         if (again) continue;
-        first = ec_now();
+        first = ec_seconds();
         atomic_store(&requested, true);
-        if (told >= 0) eventfd_write(told, 1);
+        pthread_mutex_lock(&lock);
+        if (running) eclat_job_stop(running);
+        pthread_mutex_unlock(&lock);
         if (atomic_load(&hint)) fprintf(stderr, "eclat: %s\n", atomic_load(&hint));
         if (atomic_load(&manner) == TELLS)
             fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
@@ -55,7 +57,6 @@ void ec_stop_watch_signals(void)
         if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaddset(&signals, numbers[i]);
     }
     pthread_t thread;
-    told = eventfd(0, EFD_CLOEXEC);
     pthread_sigmask(SIG_BLOCK, &signals, NULL);
     if (pthread_create(&thread, NULL, watch, &signals) == 0) pthread_detach(thread);
     else pthread_sigmask(SIG_UNBLOCK, &signals, NULL); /* they end the process as ever */
@@ -68,17 +69,15 @@ void ec_stop_catch_signals(bool tell)
     atomic_store(&manner, tell ? TELLS : CATCHES);
 }
 
-int ec_stop_descriptor(void)
+void ec_stop_job(eclat_job *job)
 {
-    return told;
+    pthread_mutex_lock(&lock);
+    running = job;
+    if (job && atomic_load(&requested)) eclat_job_stop(job);
+    pthread_mutex_unlock(&lock);
 }
 
 void ec_stop_hint(const char *line)
 {
     atomic_store(&hint, line);
-}
-
-bool ec_stop_requested(void)
-{
-    return atomic_load(&requested);
 }

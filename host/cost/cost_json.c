@@ -170,7 +170,6 @@ static void put_line(FILE *to, const void *text) { fprintf(to, "%s\n", (const ch
 ec_result ec_cost_write_json(const ec_cost_report *report, const char *path, ec_error *err)
 {
     cJSON *root = ec_cost_json(report);
-    if (!strcmp(path, "-")) return ec_json_print(root, stdout, err);
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     if (!text) return ec_fail(err, "out of memory while writing '%s'", path);

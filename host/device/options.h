@@ -35,7 +35,6 @@ typedef enum ec_pixel_filter { EC_FILTER_BOX, EC_FILTER_BLACKMAN_HARRIS } ec_pix
 
 /* Kernels that take long to compile: beside the render, which begins with others (tiers.h), or first. */
 typedef enum ec_compile { EC_COMPILE_AUTO /* $ECLAT_COMPILE, else beside */, EC_COMPILE_BESIDE, EC_COMPILE_FIRST, EC_COMPILE_COUNT } ec_compile;
-extern const char *const ec_compile_names[]; /* "auto" and theirs, NULL-terminated */
 
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */

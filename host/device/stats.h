@@ -9,7 +9,6 @@
 
 /* With which kernels a render began: tiers.h. */
 typedef enum ec_begun { EC_BEGUN_FAST, EC_BEGUN_NARROW, EC_BEGUN_UNIVERSAL } ec_begun;
-extern const char *const ec_begun_names[];
 
 /* What came from one of several devices. */
 typedef struct ec_render_share {

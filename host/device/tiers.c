@@ -7,9 +7,6 @@
 #include "base/clock.h"
 #include "cl/workarounds.h"
 
-const char *const ec_compile_names[] = {[EC_COMPILE_AUTO] = "auto", [EC_COMPILE_BESIDE] = "beside", [EC_COMPILE_FIRST] = "first", NULL};
-const char *const ec_begun_names[] = {[EC_BEGUN_FAST] = "fast", [EC_BEGUN_NARROW] = "narrow", [EC_BEGUN_UNIVERSAL] = "universal"};
-
 static bool compiles_late(const ec_pipeline *p)
 {
     const ec_workaround *driver = ec_workaround_for(&p->cl->info);

@@ -2,7 +2,7 @@
 #ifndef EC_JOBS_RENDER_SETTERS_H
 #define EC_JOBS_RENDER_SETTERS_H
 
-#include "jobs/option_parser.h"
+#include "jobs/option.h"
 
 extern const char *const ec_adaptive_names[]; /* ec_adaptive */
 extern const char *const ec_effects_names[];  /* the scene's, all */

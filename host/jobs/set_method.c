@@ -53,10 +53,8 @@ SETTER(max_depth)
         REQUEST->endless = true;
         return EC_OK;
     }
-    ec_result result = ec_parse_u32(option, value, 1, EC_MAX_DEPTH, &REQUEST->options.max_depth, err);
-    if (result != EC_OK)
-        ec_usage(err, "--%s: '%s' is neither a whole number from 1 to %d nor inf", option, value, EC_MAX_DEPTH);
-    return result;
+    if (ec_parse_u32(option, value, 1, EC_MAX_DEPTH, &REQUEST->options.max_depth, err) == EC_OK) return EC_OK;
+    return ec_usage(err, "--%s: '%s' is neither a whole number from 1 to %d nor inf", option, value, EC_MAX_DEPTH);
 }
 
 SETTER(rr)

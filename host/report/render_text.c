@@ -6,6 +6,7 @@
 #include "report/error_text.h"
 #include "report/forecast_text.h"
 #include "report/format.h"
+#include "report/names.h"
 #include "report/render_report.h"
 
 void ec_render_report_summary(const ec_render_report *report, char *text, size_t size)

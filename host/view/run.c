@@ -16,10 +16,12 @@
 #define RESTS_AFTER 0.12  /* seconds without a move */
 #define PATIENCE 0.35     /* seconds that the window waits for the scene, whose camera says how wide it is */
 
-void ec_view_print_keys(void)
+bool ec_view_key_at(size_t i, const char **shown, const char **help)
 {
-    puts("\nKeys and mouse");
-    for (size_t i = 0; i < ec_view_key_count; i++) printf("  %-28s %s\n", ec_view_keys[i].shown, ec_view_keys[i].help);
+    if (i >= ec_view_key_count) return false;
+    *shown = ec_view_keys[i].shown;
+    *help = ec_view_keys[i].help;
+    return true;
 }
 
 void ec_view_post(ec_view *view)

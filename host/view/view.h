@@ -43,13 +43,13 @@ typedef struct ec_view_request {
 /* Until the window is closed. Fails where there is no window to be had, or the first load fails. */
 ec_result ec_view_run(const ec_view_request *request, ec_error *err);
 
-/* The keys as --help prints them: a line each. */
-void ec_view_print_keys(void);
+/* What the i-th key is called and does; false behind the last. */
+bool ec_view_key_at(size_t i, const char **shown, const char **help);
 
 /* Both of the module that has the window, for programs that do without where it is missing. */
 typedef struct ec_view_module {
     ec_result (*run)(const ec_view_request *request, ec_error *err);
-    void (*print_keys)(void);
+    bool (*key_at)(size_t i, const char **shown, const char **help);
 } ec_view_module;
 ec_result ec_view_load(const ec_view_module **module, ec_error *err);
 

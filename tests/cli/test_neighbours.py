@@ -35,10 +35,9 @@ def included():
 @functools.lru_cache(maxsize=None)
 def symbols(room):
     """What the room's archive defines, and what it needs, its module included."""
-    module = os.path.join(BUILD, {"view": "eclat-view.so", "ranks": "eclat-mpi.so"}.get(room, "none"))
-    text = subprocess.run(["nm", os.path.join(BUILD, f"libroom_{room}.a")], capture_output=True, text=True, check=True).stdout
-    if os.path.exists(module):
-        text += subprocess.run(["nm", module], capture_output=True, text=True, check=True).stdout
+    module = {"view": "eclat_view", "ranks": "eclat_mpi"}.get(room, "none")
+    objects = glob.glob(os.path.join(BUILD, "CMakeFiles", f"{module}.dir", "host", room, "*.o"))
+    text = subprocess.run(["nm", os.path.join(BUILD, f"libroom_{room}.a"), *objects], capture_output=True, text=True, check=True).stdout
     rows = [line.split() for line in text.splitlines() if line]
     defined = {row[2] for row in rows if len(row) == 3 and row[1] in "TDBRC"}
     return defined, {row[1] for row in rows if len(row) == 2 and row[0] == "U"} - defined
@@ -61,6 +60,16 @@ class Rooms(unittest.TestCase):
             if room in rooms and other in rooms and other != room:
                 self.assertIn(other, rooms[room], f"{where} includes {other}/")
             self.assertFalse(other == "cli" and room != "cli", f"{where} includes cli/")
+
+    def test_the_program_knows_the_public_header_alone(self):
+        """And the linker sees to it: it is given libeclat.so and no other library of ours, which has no symbol but those of the header."""
+        for path in [*glob.glob(os.path.join(HOST, "cli", "*")), os.path.join(HOST, "main.c")]:
+            with open(path, encoding="utf-8") as file:
+                for name in re.findall(r'^#include (?:"([^"]+)"|<eclat/(?!eclat\.h>).*>)', file.read(), re.M):
+                    self.assertRegex(name, r"^cli/", path)
+        program = subprocess.run(["objdump", "-p", ECLAT], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(re.findall(r"NEEDED +(?!ld-|libc\.|libm\.)(\S+)", program), ["libeclat.so.0"])
+        self.assertRegex(program, r"RUNPATH +\$ORIGIN")
 
     def test_symbols(self):
         rooms = permitted()

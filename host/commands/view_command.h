@@ -1,6 +1,6 @@
 /* The `eclat render` that makes a picture of the window again, bit for bit. */
-#ifndef EC_CLI_VIEW_COMMAND_H
-#define EC_CLI_VIEW_COMMAND_H
+#ifndef EC_COMMANDS_VIEW_COMMAND_H
+#define EC_COMMANDS_VIEW_COMMAND_H
 
 #include "jobs/render_request.h"
 #include "view/view.h"

@@ -3,12 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/cli.h"
-#include "jobs/defaults.h"
-#include "jobs/render_job.h"
+#include "commands/command.h"
+#include "commands/view_command.h"
 #include "jobs/setters.h"
-#include "cli/stop.h"
-#include "cli/view_command.h"
 #include "jobs/write_report.h"
 #include "pack/scene_view.h"
 #include "report/names.h"
@@ -22,7 +19,7 @@ typedef struct view_job {
     const char *against, *script;
     bool stats;
     ec_kept_options kept;     /* for the command that repeats a picture */
-    ec_console *console;
+    const ec_listener *listener;
     ec_device_info device;
     uint32_t device_index;
     const char *device_why;
@@ -63,7 +60,7 @@ static const ec_option own[] = {
     {.name = "stats", .set = set_stats, .help = "report at the end when there was first light, and how long frames took while the camera moved"},
 };
 
-int ec_view_rows(ec_option *rows)
+static int list_rows(ec_option rows[EC_OPTIONS_MAX])
 {
     int count = 0;
     for (; count < (int)(sizeof own / sizeof own[0]); count++) rows[count] = own[count];
@@ -80,26 +77,12 @@ int ec_view_rows(ec_option *rows)
     return count;
 }
 
-static ec_result parse(int argc, char **argv, view_job *job, ec_request *asked, ec_error *err)
-{
-    ec_option rows[EC_OPTIONS_MAX];
-    bool given[EC_OPTIONS_MAX] = {false};
-    int count = ec_view_rows(rows), first = 0;
-    ec_render_request_start(&job->render);
-    EC_TRY(ec_options_parse(rows, count, job, argc, argv, &first, given, asked, err));
-    if (*asked != EC_REQUEST_RUN) return EC_OK;
-    EC_TRY(ec_options_scene(argc, argv, first, &job->render.scene, err));
-    job->render.default_height = VIEW_HEIGHT;
-    return ec_render_request_settle(&job->render, rows, count, given, err);
-}
-
 /* The environment stays unturned: the window turns it. */
 static ec_result load(void *user, ec_scene **scene, ec_render_options *options, ec_error *err)
 {
     view_job *job = user;
     ec_render_request request = job->render;
-    const ec_listener listener = {.log = ec_console_log(job->console)};
-    ec_render_job render = {.request = &request, .listener = &listener};
+    ec_render_job render = {.request = &request, .listener = job->listener};
     request.env_degrees = 0;
     ec_result result = ec_render_job_load(&render, err);
     if (result != EC_OK) {
@@ -168,9 +151,9 @@ static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told,
         for (int i = 0; i < outputs.count && used > 0 && (size_t)used < size; i++)
             used += snprintf(told + used, size - (size_t)used, "%s %s", i ? "," : "", outputs.file[i].path);
         if (used > 0 && (size_t)used < size) snprintf(told + used, size - (size_t)used, "; again by: %s", command);
-        printf("%s\n", command);
-        fflush(stdout);
+        fprintf(job->listener->to, "%s\n", command);
         job->saved++;
+        result = job->listener->report(job->listener->user, err);
     }
     free(command);
     return result;
@@ -179,35 +162,46 @@ static ec_result write_shot(view_job *job, const ec_view_shot *shot, char *told,
 static ec_result save(void *user, const ec_view_shot *shot, char *told, size_t size, ec_error *err)
 {
     view_job *job = user;
-    ec_stop_ignore_file_size();
+    job->listener->begin(job->listener->user, NULL, false);
     ec_result result = write_shot(job, shot, told, size, err);
     job->unsaved = result == EC_OK ? (ec_error){.kind = EC_ERROR_OTHER} : *err;
     return result;
 }
 
-ec_result ec_cmd_view(ec_cli *cli, int argc, char **argv, ec_error *err)
+static ec_result run(ec_call *call, ec_error *err)
 {
-    view_job job = {.console = &cli->console};
-    ec_request asked;
-    EC_TRY(parse(argc, argv, &job, &asked, err));
-    if (ec_cli_leaves(cli, asked)) return EC_OK;
-    cli->console.quiet = job.render.quiet;
+    view_job *job = call->request;
+    ec_option rows[EC_OPTIONS_MAX];
     const ec_view_module *window;
+    job->listener = call->listener;
+    EC_TRY(ec_call_scene(call, "view", &job->render.scene, err));
+    job->render.default_height = VIEW_HEIGHT;
+    EC_TRY(ec_render_request_settle(&job->render, rows, list_rows(rows), call->is_given, err));
     EC_TRY(ec_view_load(&window, err));
-    EC_TRY(check_outputs(&job, &job.render.outputs, err));
-    EC_TRY(ec_device_find(job.render.device, &job.device, &job.device_index, &job.device_why, err));
-    if (job.against) {
+    EC_TRY(check_outputs(job, &job->render.outputs, err));
+    EC_TRY(ec_device_find(job->render.device, &job->device, &job->device_index, &job->device_why, err));
+    if (job->against) {
         uint32_t width, height;
         float *rgb;
-        EC_TRY(ec_image_read_rgb(job.against, &width, &height, &rgb, err));
+        EC_TRY(ec_image_read_rgb(job->against, &width, &height, &rgb, err));
         free(rgb);
     }
     const ec_view_request request = {
-        .device = job.device, .options = job.render.options, .env_degrees = job.render.env_degrees, .exposure = job.render.exposure,
-        .tonemap = job.render.tonemap, .scene = job.render.scene, .environment = job.render.environment, .against = job.against,
-        .script = job.script, .stats = job.stats, .user = &job, .load = load, .save = save, .stop = ec_stop_descriptor(),
+        .device = job->device, .options = job->render.options, .env_degrees = job->render.env_degrees, .exposure = job->render.exposure,
+        .tonemap = job->render.tonemap, .scene = job->render.scene, .environment = job->render.environment, .against = job->against,
+        .script = job->script, .stats = job->stats, .user = job, .load = load, .save = save, .stop = call->stop,
     };
-    ec_stop_catch_signals(false);
+    call->listener->begin(call->listener->user, NULL, false);
     EC_TRY(window->run(&request, err));
-    return *job.unsaved.text ? ec_fail(err, "%s", job.unsaved.text) : EC_OK;
+    return *job->unsaved.text ? ec_fail(err, "%s", job->unsaved.text) : EC_OK;
 }
+
+const ec_command ec_cmd_view = {
+    .told = {.name = "view", .operands = "SCENE [options]", .summary = "show a scene in a window while it renders",
+             .intro = "Opens a window that shows a glTF 2.0 scene as it renders: rasterised at once, then path traced, coarsely while the camera moves and ever finer once it "
+                       "rests. S saves what eclat render would have written and prints the command that renders the same picture again, bit for bit. When a file of the "
+                       "scene changes, it is loaded again.",
+             .lacks = "All options of eclat render, except",
+             .closing = "Limits (--spp, --error, --time) count from the moment the camera comes to rest; when one is reached, the window sleeps."},
+    .rows = list_rows, .size = sizeof(view_job), .start = ec_render_request_start, .run = run, .is_interactive = true,
+};

@@ -1,4 +1,4 @@
-#include "jobs/suggest.h"
+#include "cli/suggest.h"
 
 #include <string.h>
 

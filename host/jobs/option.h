@@ -1,6 +1,6 @@
-/* Reads a command's arguments by a table: one row an option. */
-#ifndef EC_JOBS_OPTION_PARSER_H
-#define EC_JOBS_OPTION_PARSER_H
+/* Options as tables: a row says how one is read, what help says of it, and who takes it. */
+#ifndef EC_JOBS_OPTION_H
+#define EC_JOBS_OPTION_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -10,7 +10,7 @@
 /* Stores one option's value; `option` is its name, value NULL for a flag. */
 typedef ec_result (*ec_option_set)(void *target, const char *option, const char *value, ec_error *err);
 
-enum { EC_VALUE_OPTIONAL = 2 }; /* as getopt_long has it */
+enum { EC_VALUE_OPTIONAL = 2 };
 
 /* Where help lists it. */
 typedef enum ec_option_group {
@@ -37,10 +37,12 @@ enum {
     EC_OPTION_WINDOW = 1 << 3,       /* eclat view writes it anew in the command that repeats a picture, or leaves it out there */
     EC_OPTION_NO_IDENTITY = 1 << 4,  /* no frame depends on it, or its identity says it in other words */
     EC_OPTION_SEQUENCE = 1 << 5,     /* belongs to a sequence as a whole: a frame's own command has none, or another */
-    EC_OPTION_COMMAND_LINE = 1 << 6, /* the library has a function for it, or no need */
+    EC_OPTION_KEEPING = 1 << 6,      /* of checkpoints: not in the command of a job that is gone on with */
     EC_OPTION_PART = 1 << 7,         /* renders something other than one whole picture: does not go with --plan */
     EC_OPTION_REPEATS = 1 << 8,      /* every value counts, not the last one alone */
     EC_OPTION_BORROWED = 1 << 9,     /* a copy of render's in another command: help lists it briefly */
+    EC_OPTION_LIMIT = 1 << 10,       /* ends a render: one given with --resume replaces all that there were */
+    EC_OPTION_OUTPUT = 1 << 11,      /* and so do outputs */
 };
 
 typedef struct ec_option {
@@ -48,7 +50,7 @@ typedef struct ec_option {
     char letter;                  /* short form; 0 = none */
     const char *metavar;          /* what help calls its value; NULL: a flag */
     bool value_optional;          /* then after "=" alone, and NULL without */
-    ec_option_set set;
+    ec_option_set set;            /* NULL: who asks looks whether it was given */
     ec_option_group group;
     const char *help;             /* without line breaks */
     const char *otherwise;        /* the default; NULL: none, or help says it */
@@ -65,15 +67,5 @@ int ec_option_takes_value(const ec_option *option);
 const ec_option *ec_options_find(const ec_option *options, int count, const char *name);
 
 enum { EC_OPTIONS_MAX = 64 };
-
-typedef enum ec_request { EC_REQUEST_RUN, EC_REQUEST_HELP, EC_REQUEST_VERSION } ec_request;
-
-/* Every table gets --help (-h) and --version too. Sets values in target; what is left in argv are operands, and *first
- * is the index of the first of them. given, if not NULL, has a place for each option: was it there? */
-ec_result ec_options_parse(const ec_option *options, int count, void *target, int argc, char **argv, int *first,
-                           bool *given, ec_request *request, ec_error *err);
-
-/* The one operand SCENE. */
-ec_result ec_options_scene(int argc, char **argv, int first, const char **scene, ec_error *err);
 
 #endif

@@ -3,14 +3,12 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "cli/cli.h"
-#include "jobs/combinations.h"
-#include "jobs/defaults.h"
-#include "jobs/render_job.h"
+#include "commands/command.h"
 #include "device/estimate.h"
+#include "gltf/reader.h"
+#include "jobs/combinations.h"
 #include "jobs/setters.h"
 #include "report/scene_report.h"
-#include "gltf/reader.h"
 
 typedef struct info_request {
     ec_render_request render; /* first: the setters of its options are used */
@@ -53,7 +51,7 @@ static void make_own(ec_option *row, const ec_option *mine)
     if (mine->set == set_accel) row->choices = accel_choices;
 }
 
-int ec_info_rows(ec_option *rows)
+static int list_rows(ec_option rows[EC_OPTIONS_MAX])
 {
     int count = ec_render_rows_for(EC_OPTION_INFO, rows);
     for (int i = 0; i < count; i++) {
@@ -61,19 +59,6 @@ int ec_info_rows(ec_option *rows)
         if (mine) make_own(&rows[i], mine);
     }
     return count;
-}
-
-static ec_result parse(int argc, char **argv, info_request *request, ec_request *asked, ec_error *err)
-{
-    ec_option rows[EC_OPTIONS_MAX];
-    bool given[EC_OPTIONS_MAX] = {false};
-    int count = ec_info_rows(rows), first = 0;
-    ec_render_request_start(&request->render);
-    EC_TRY(ec_options_parse(rows, count, request, argc, argv, &first, given, asked, err));
-    if (*asked != EC_REQUEST_RUN) return EC_OK;
-    EC_TRY(ec_options_scene(argc, argv, first, &request->render.scene, err));
-    EC_TRY(ec_combinations_check_grid(request->grid_density, request->accel, true, err));
-    return ec_render_request_settle(&request->render, rows, count, given, err);
 }
 
 static ec_result measure(const ec_render_request *request, ec_scene_report *report, ec_error *err)
@@ -122,14 +107,13 @@ static ec_result probe(const info_request *request, ec_scene_report *report, ec_
     return result;
 }
 
-static ec_result tell(info_request *request, const ec_log *log, ec_error *err)
+static ec_result look(info_request *request, const ec_listener *listener, ec_error *err)
 {
     ec_render_request *render = &request->render;
     ec_scene_report report = {.path = render->scene};
-    const ec_listener listener = {.log = *log};
-    ec_render_job job = {.request = render, .listener = &listener};
+    ec_render_job job = {.request = render, .listener = listener};
     double start = ec_now();
-    EC_TRY(ec_scene_load_choice(render->scene, &render->choice, &job.scene, log, err));
+    EC_TRY(ec_scene_load_choice(render->scene, &render->choice, &job.scene, &listener->log, err));
     report.load_seconds = ec_now() - start;
     report.scene = job.scene;
 
@@ -137,21 +121,26 @@ static ec_result tell(info_request *request, const ec_log *log, ec_error *err)
     ec_result result = render->environment || render->adjusts_env ? ec_render_job_light(&job, err) : EC_OK;
     if (result == EC_OK) result = measure(render, &report, err);
     if (result == EC_OK && request->accel) result = probe(request, &report, &device, err);
-    if (result == EC_OK && render->json)
-        result = ec_scene_report_json(&report, stdout, err);
-    else if (result == EC_OK)
-        ec_scene_report_text(&report, stdout);
+    if (result == EC_OK && render->json) result = ec_scene_report_json(&report, listener->to, err);
+    else if (result == EC_OK) ec_scene_report_text(&report, listener->to);
     ec_scene_free(job.scene);
     return result;
 }
 
-ec_result ec_cmd_info(ec_cli *cli, int argc, char **argv, ec_error *err)
+static ec_result run(ec_call *call, ec_error *err)
 {
-    info_request request = {0};
-    ec_request asked;
-    EC_TRY(parse(argc, argv, &request, &asked, err));
-    if (ec_cli_leaves(cli, asked)) return EC_OK;
-    cli->console.quiet = request.render.quiet;
-    ec_log log = ec_console_log(&cli->console);
-    return tell(&request, &log, err);
+    info_request *request = call->request;
+    ec_option rows[EC_OPTIONS_MAX];
+    EC_TRY(ec_call_scene(call, "info", &request->render.scene, err));
+    EC_TRY(ec_combinations_check_grid(request->grid_density, request->accel, true, err));
+    EC_TRY(ec_render_request_settle(&request->render, rows, list_rows(rows), call->is_given, err));
+    return look(request, call->listener, err);
 }
+
+const ec_command ec_cmd_info = {
+    .told = {.name = "info", .operands = "SCENE [options]", .summary = "report what a scene contains and what rendering it takes",
+             .intro = "Reports what a glTF scene contains: geometry, materials, lights, cameras, extensions used and unsupported, the effects it calls for and why, the "
+                       "memory it takes, and the quality of its bounding-volume hierarchy.",
+             .borrows = "Options of eclat render, to report what such a render shows and calls for"},
+    .rows = list_rows, .size = sizeof(info_request), .start = ec_render_request_start, .run = run,
+};

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* vasprintf */
-#include "cli/view_command.h"
+#include "commands/view_command.h"
 
 #include <stdarg.h>
 #include <stdio.h>
