@@ -19,6 +19,7 @@ typedef struct geometry {
     global const float *places;    /* of instances, or 0 */
     global const float *motion;    /* what moves, or 0 */
     lane_f time;                   /* with MOTION: of the paths */
+    global const float *parts;     /* ec_lamp_node by word, or 0 */
 } geometry;
 
 /* What the surface look-ups share: which triangle, where on it, what it is made of. Off lanes hold triangle 0. */
@@ -30,6 +31,7 @@ typedef struct hit_point {
     lane_u material;     /* first word of its material */
     bool is_one_material; /* with textures, which read much of it: is it the same on all lanes? */
     lane_f light_pdf_a;
+    lane_u parts;        /* with LAMP_PARTS: the first node of its parts, or 0 */
     lane_i placed;       /* with INSTANCES: on one of them, … */
     lane_u place;        /* … whose ec_place is at this word */
     lane_i turned;       /* … which is mirrored */
@@ -90,6 +92,7 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
     h.material = as_lane_u(v0.d) * EC_MATERIAL_WORDS;
     h.is_one_material = HAS_TEXTURES && all_same(h.material);
     h.light_pdf_a = v1.d;
+    h.parts = HAS(LAMP_PARTS) ? as_lane_u(v2.d) >> EC_PRIM_PARTS : U(0);
     if (HAS(INSTANCES) && any_lane(h.placed)) {
         v3 p1 = v3_select(h.turned, h.p2, h.p1), p2 = v3_select(h.turned, h.p1, h.p2);
         h.p0 = v3_select(h.placed, instance_point(g->places, h.place, h.p0), h.p0);

@@ -48,6 +48,7 @@
 #define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
 #define EC_FEATURE_LIGHT_TREE EC_FEATURE_BIT(43)
+#define EC_FEATURE_LAMP_PARTS EC_FEATURE_BIT(44)
 #define EC_FEATURE_MOTION EC_FEATURE_BIT(49)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
 #define EC_FEATURE_PANES EC_FEATURE_BIT(52)
@@ -95,6 +96,7 @@
     X(PIXEL_FILTER, "pixel-filter")                                                                \
     X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
     X(LIGHT_TREE, "light-tree")                                                                    \
+    X(LAMP_PARTS, "lamp-parts")                                                                    \
     X(MOTION, "motion-blur")                                                                       \
     X(INSTANCES, "instances")                                                                      \
     X(PANES, "transparent-shadows")                                                                \

@@ -21,6 +21,7 @@ EC_ASSERT_SIZE(ec_prim, 48);
 #define EC_PRIM_SINGLE_SIDED 1u /* camera rays pass through its back */
 #define EC_PRIM_ALPHA 2u        /* coverage must be looked up */
 #define EC_PRIM_PANE 4u         /* may let light straight on (lib/pane.h) */
+#define EC_PRIM_PARTS 8u        /* shift: of a lamp in parts its first ec_lamp_node; else 0 */
 
 /* Where instances stand, for shading: a header, an ec_place each, and behind them their first ids once more, side by side, to be
  * searched. */
@@ -129,6 +130,19 @@ EC_ASSERT_SIZE(ec_light_data, 64);
                               and in ec_prim: the area is that at the path's time */
 #define EC_LIGHT_COATED 64u /* dimmed by a clear coat, which goes by the angle */
 #define EC_LIGHT_OPEN 128u  /* coverage leaves some of it open */
+#define EC_LIGHT_PARTS 8u   /* shift: as EC_PRIM_PARTS */
+
+/* A triangle in four: three at its corners, and between them the fourth, turned by half a turn. Of 2^32 numbers each has those from its first
+ * one to the next one's; the last one's end where its parent's do. Node 0 is nobody's. */
+typedef struct ec_lamp_node {
+    ec_uint first[3]; /* of children 1, 2 and 3 */
+    ec_uint link;     /* 16 times the node of the first child that is in parts itself, beside which those of the others stand; + a bit for
+                         each that is */
+} ec_lamp_node;
+EC_ASSERT_SIZE(ec_lamp_node, 16);
+#define EC_LAMP_NODE_WORDS 4
+#define EC_LAMP_NODES_MOST 0x01000000u
+#define EC_LAMP_PARTS_NUMBERS 0xe0000000u /* numbers that choose a part; by the others the lamp is sampled as a whole */
 
 /* Entry of a distribution that is sampled by inversion: its share of the 32-bit numbers begins at `first` and ends where the next
  * entry's begins, the last one's at 2^32. guide: of the numbers r with r * n >> 32 equal to this entry's place the last one's entry. */

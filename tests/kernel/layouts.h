@@ -28,6 +28,7 @@
     S(ec_texture_data) F(ec_texture_data, offset) F(ec_texture_data, width) F(ec_texture_data, height) F(ec_texture_data, flags) \
     S(ec_light_data) F(ec_light_data, a) F(ec_light_data, b) F(ec_light_data, c) F(ec_light_data, emission) \
     F(ec_light_data, kind) F(ec_light_data, prim) F(ec_light_data, pmf) F(ec_light_data, pdf_a)    \
+    S(ec_lamp_node) F(ec_lamp_node, first[2]) F(ec_lamp_node, link)                                \
     S(ec_distribution_entry) F(ec_distribution_entry, first) F(ec_distribution_entry, guide)       \
     N(EC_PARTS) N(EC_PART_STRIDE) N(EC_STAGE_COUNT) N(EC_SLOT_COUNT) N(EC_KIND_ENVIRONMENT) N(EC_NO_ID) N(EC_LEAF_BIT)
 
