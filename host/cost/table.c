@@ -6,7 +6,7 @@
 #include "cost/report.h"
 #include "report/format.h"
 
-enum { CELL = 32, NAME_WIDTH = 33 };
+enum { CELL = 48, NAME_WIDTH = 33 };
 enum { TIME, RELATIVE, SLOPE, VARIANCE, BIAS, EFFICIENCY, TO_FIRST, MEMORY = TO_FIRST + EC_COST_TARGETS, COLUMNS };
 static const char *const titles[COLUMNS] = {"ns/sample", "time", "slope", "variance", "bias",  "efficiency",
                                             "to 5 %",    "2 %",  "1 %",   "0.5 %",    "memory"};

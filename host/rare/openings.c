@@ -142,7 +142,7 @@ static bool is_known(const finder *f, const patch *at)
 static ec_result find_patches(finder *f, const ec_rare_sun *sun, ec_error *err)
 {
     float towards[3];
-    uint32_t landed, count = 0;
+    uint32_t landed = 0, count = 0;
     uint64_t random = 11;
     patch found[LANDED];
     ec_rare_sun_direction(sun, &f->p->params, towards);

@@ -98,7 +98,7 @@ static void put_sliver(uint64_t *random, double aspect, float v[9])
 }
 
 /* Off a triangle's plane, and how much the kernels' own bound allows: in units of that bound. */
-static double off_plane(const ec_tracer *r, uint32_t i, const float v[9])
+static double off_plane(uint32_t i, const float v[9])
 {
     double normal[3], allowed = 0, off = 0;
     ec_triangle_normal(v, normal);
@@ -133,7 +133,7 @@ static ec_result slivers(ec_selftest *t, double aspect, bool has_weights, ec_err
         if (ec_tracer_hit(r, i).prim == EC_NO_ID) set_hit(r, i, 0, 0, 0);
     if (result == EC_OK) result = leave_hits(r, err);
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++)
-        off = ec_worse(off, off_plane(r, i, ec_tracer_triangle(r, ec_tracer_hit(r, i).prim)));
+        off = ec_worse(off, off_plane(i, ec_tracer_triangle(r, ec_tracer_hit(r, i).prim)));
     ec_soup_free(&soup);
     EC_TRY(result);
     snprintf(what, sizeof what, "1e%.0f, weights", log10(aspect));
