@@ -43,10 +43,11 @@ eclat_room(report base accel cl device film image pack render scene)
 eclat_room(store base film image render report)
 eclat_room(ranks base cl device film render report)
 eclat_room(cost base accel cl film image pack render report)
-eclat_room(selftest base accel cl device film gltf image render report scene)
+eclat_room(selftest base accel cl device film gltf render report scene)
 eclat_room(jobs base accel cl device film gltf image pack ranks render report scene store)
 eclat_room(live base cl device film gltf image jobs pack render report scene)
-eclat_room(lib base cl film jobs live report scene)
+eclat_room(commands accel base cl cost device film gltf image jobs pack ranks report scene selftest)
+eclat_room(lib base cl commands film image jobs live ranks report scene)
 
 # Rooms that know nothing of OpenCL, once more as a library by other compiler options.
 function(eclat_host_library name)

@@ -13,11 +13,11 @@ EC_ACCELS(EC_ACCEL_DECLARE)
  * out that the ray enters before t, cannot lose a hit. Cutting triangles to their cells would be tighter, but a triangle seen
  * edge-on has a t of any error, and would be missed where its box has no part. */
 typedef struct ec_ref {
-    float lo[3], hi[3]; /* no -0, no NaN */
+    ec_box box;         /* no -0, no NaN */
     uint32_t triangle;
 } ec_ref;
 /* Malloc'ed, the caller's. bounds: of all of them; 0 where there are none. */
-ec_result ec_accel_refs(ec_accel_input *input, ec_ref **refs, uint32_t *count, ec_ref *bounds, ec_error *err);
+ec_result ec_accel_refs(ec_accel_input *input, ec_ref **refs, uint32_t *count, ec_box *bounds, ec_error *err);
 
 /* The team a builder may use. */
 int ec_accel_threads(const ec_accel_input *input, uint32_t count);

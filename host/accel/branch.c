@@ -16,17 +16,6 @@ ec_bvh_build_node ec_node_of(const ec_range *range)
     return node;
 }
 
-int ec_branch_reserve(ec_branch *branch, uint32_t count)
-{
-    if (count <= branch->capacity) return 1;
-    uint32_t capacity = 2 * count;
-    ec_bvh_build_node *nodes = realloc(branch->nodes, capacity * sizeof *nodes);
-    if (!nodes) return 0;
-    branch->nodes = nodes;
-    branch->capacity = capacity;
-    return 1;
-}
-
 void ec_branch_number(ec_branch *branch, uint32_t slot, uint32_t *next)
 {
     branch->slot = slot;

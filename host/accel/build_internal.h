@@ -125,6 +125,7 @@ typedef struct ec_builder {
     const uint32_t *indices;
     const float *swept; /* 6 floats each of the first triangles: their boxes, in place of their vertices' */
     uint32_t swept_count;
+    uint32_t leaf_most; /* references of a leaf */
     ec_build_prim *prims[2];
     uint32_t *order;
     ec_box *boxes; /* NULL until triangles have been cut, unless some move */
@@ -153,14 +154,23 @@ typedef struct ec_branch {
     uint32_t rest;  /* there: of the children, or of nodes[1] */
 } ec_branch;
 ec_bvh_build_node ec_node_of(const ec_range *range); /* inner until told otherwise */
-int ec_branch_reserve(ec_branch *branch, uint32_t count);
 /* Gives every node its place, children side by side and subtrees whole; *next: the first free place. */
 void ec_branch_number(ec_branch *branch, uint32_t slot, uint32_t *next);
 void ec_branch_join(const ec_branch *branch, ec_bvh_build_node *nodes);
 void ec_branch_free(ec_branch *branch);
 
-/* tree.c: cache-line aligned memory for at least one element, for free(). */
+/* tree.c */
+/* Cache-line aligned memory for at least one element, for free(). */
 void *ec_allocate_lines(size_t count, size_t size);
+
+/* Room for `wanted` elements in such memory, at least twice what there was; the first `used` stay. array: the address of a pointer of some type. False:
+ * out of memory, and nothing has changed. */
+int ec_reserve_lines(void *array, uint32_t *room, uint32_t used, uint64_t wanted, size_t size);
+
+/* layout8.c: wide nodes over boxes [0 .. count), whose leaves are one box each: EC_LEAF_BIT | EC_INSTANCE_BIT | box + 1. No blocks. */
+ec_result ec_bvh8_of_boxes(const ec_box *boxes, uint32_t count, uint32_t threads, ec_bvh8 *layout, ec_error *err);
+/* bvh_build.c: the tree that they are made of. */
+ec_result ec_bvh_build_boxes(const ec_box *boxes, uint32_t count, uint32_t threads, ec_bvh *bvh, ec_error *err);
 
 /* stats.c: everything but the time is read off the tree. */
 void ec_bvh_measure(const ec_bvh *bvh, double build_seconds, ec_bvh_stats *stats);

@@ -18,6 +18,7 @@ typedef struct ec_bvh {
     ec_bvh_build_node *nodes;  /* nodes[0] is the root; owned */
     uint32_t triangle_count;
     uint32_t ref_count;        /* what the leaves hold: triangles, of which some may have been cut into several parts */
+    uint32_t leaf_most;        /* references that a leaf may hold: 8, or of trees of instances 1 */
     uint32_t moving_count;     /* the first triangles are only known by the boxes of their references */
     uint32_t *order;           /* triangle ids of the references in leaf order; owned */
     ec_box *boxes;             /* of the references, NULL where none was cut and none moves: then a triangle's own box is meant; owned */
@@ -39,25 +40,27 @@ typedef struct ec_bvh_stats {
  * deeper than 64 + log2 n, no quadratic time). */
 ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                        ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
-/* Cuts no triangle. */
-ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
-                             ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
-/* Likewise; the first triangles move, and are sorted by boxes of their own, 6 floats each. boxes is never NULL then. */
-ec_result ec_bvh_build_swept(const float *positions, const uint32_t *indices, uint32_t triangle_count,
-                             const float *swept, uint32_t swept_count, uint32_t threads, ec_bvh *bvh,
-                             ec_bvh_stats *stats, ec_error *err);
+/* Cuts no triangle. swept: the first of them move, and are sorted by boxes of their own, 6 floats each; with any, bvh->boxes is never NULL. */
+ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, const float *swept,
+                             uint32_t swept_count, uint32_t threads, ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err);
 void ec_bvh_free(ec_bvh *bvh);
 
-/* Every triangle once, or in parts whose boxes reach as far as its own; children inside parents; depth within the kernels'
- * stack. */
-ec_result ec_bvh_check(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_error *err);
+/* Layouts; arrays are malloc'ed and the caller's. boxes: one beside each triangle or block; NULL where bvh->boxes is. */
+typedef struct ec_bvh2 {
+    ec_bvh2_node *nodes;
+    ec_tri *triangles;
+    ec_box *boxes;
+    uint32_t node_count, triangle_count;
+} ec_bvh2;
+/* Leaves are split further: SAH per triangle, leaves of <= 4. */
+ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh2 *layout, ec_error *err);
 
-/* Layouts; arrays are malloc'ed and the caller's. BVH2 leaves are split further (SAH per triangle, leaves of <= 4).
- * boxes: one beside each triangle or block; NULL where bvh->boxes is. */
-ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh2_node **nodes,
-                         uint32_t *node_count, ec_tri **triangles, ec_box **boxes, uint32_t *triangle_count,
-                         ec_error *err);
-ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh8_node **nodes,
-                         uint32_t *node_count, ec_tri8 **blocks, ec_box8 **boxes, uint32_t *block_count, ec_error *err);
+typedef struct ec_bvh8 {
+    ec_bvh8_node *nodes;
+    ec_tri8 *blocks;
+    ec_box8 *boxes;
+    uint32_t node_count, block_count;
+} ec_bvh8;
+ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh8 *layout, ec_error *err);
 
 #endif

@@ -43,7 +43,7 @@ static void build_subtree(ec_builder *builder, ec_branch *tree, uint32_t index, 
         return;
     }
     uint32_t left = tree->node_count;
-    if (!ec_branch_reserve(tree, left + 2)) {
+    if (!ec_reserve_lines(&tree->nodes, &tree->capacity, left, left + 2, sizeof *tree->nodes)) {
         fail(builder);
         return;
     }
@@ -93,7 +93,7 @@ static void build_subtrees(ec_builder *builder, ec_branch *tree)
 #pragma omp task
     {
         tree->node_count = 1;
-        if (ec_branch_reserve(tree, 1 + tree->range.count / 4))
+        if (ec_reserve_lines(&tree->nodes, &tree->capacity, 0, 2 + tree->range.count / 2, sizeof *tree->nodes))
             build_subtree(builder, tree, 0, &tree->range);
         else
             fail(builder);
@@ -178,6 +178,7 @@ static ec_result build(ec_builder builder, uint32_t triangle_count, bool cut, ui
         bvh->nodes = malloc(bvh->node_count * sizeof *bvh->nodes);
     }
     bvh->triangle_count = triangle_count;
+    bvh->leaf_most = builder.leaf_most;
     bvh->moving_count = builder.swept_count;
     bvh->order = builder.order;
     bvh->boxes = builder.boxes;
@@ -196,21 +197,19 @@ static ec_result build(ec_builder builder, uint32_t triangle_count, bool cut, ui
 ec_result ec_bvh_build(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
                        ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
 {
-    return build((ec_builder){.positions = positions, .indices = indices}, triangle_count, true, threads, bvh, stats, err);
+    return build((ec_builder){.positions = positions, .indices = indices, .leaf_most = EC_LEAF_MAX}, triangle_count, true, threads, bvh, stats, err);
 }
 
-ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, uint32_t threads,
-                             ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
+ec_result ec_bvh_build_whole(const float *positions, const uint32_t *indices, uint32_t triangle_count, const float *swept,
+                             uint32_t swept_count, uint32_t threads, ec_bvh *bvh, ec_bvh_stats *stats, ec_error *err)
 {
-    return build((ec_builder){.positions = positions, .indices = indices}, triangle_count, false, threads, bvh, stats, err);
-}
-
-ec_result ec_bvh_build_swept(const float *positions, const uint32_t *indices, uint32_t triangle_count,
-                             const float *swept, uint32_t swept_count, uint32_t threads, ec_bvh *bvh,
-                             ec_bvh_stats *stats, ec_error *err)
-{
-    const ec_builder builder = {.positions = positions, .indices = indices, .swept = swept, .swept_count = swept_count};
+    const ec_builder builder = {.positions = positions, .indices = indices, .swept = swept, .swept_count = swept_count, .leaf_most = EC_LEAF_MAX};
     return build(builder, triangle_count, false, threads, bvh, stats, err);
+}
+
+ec_result ec_bvh_build_boxes(const ec_box *boxes, uint32_t count, uint32_t threads, ec_bvh *bvh, ec_error *err)
+{
+    return build((ec_builder){.swept = boxes->lo, .swept_count = count, .leaf_most = 1}, count, false, threads, bvh, NULL, err);
 }
 
 void ec_bvh_free(ec_bvh *bvh)

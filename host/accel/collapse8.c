@@ -64,7 +64,7 @@ static void solve(const dp *d, uint32_t index, int depth, slot_costs *costs)
         solve(d, node->left + 1, depth + 1, &right);
     }
     float inner = distribute(&left, &right, 8, &slots[8]) + COST_WIDE_NODE * area;
-    slots[1] = d->subtrees[index].count > EC_LEAF_MAX || inner < leaf;
+    slots[1] = d->subtrees[index].count > d->bvh->leaf_most || inner < leaf;
     costs->cost[0] = slots[1] ? inner : leaf;
     for (int j = 2; j < 8; j++) {
         costs->cost[j - 1] = distribute(&left, &right, j, &slots[j]);

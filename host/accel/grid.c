@@ -6,6 +6,7 @@
 
 #include "accel/accel_internal.h"
 #include "accel/build_internal.h"
+#include "accel/leaf.h"
 
 #define CELLS_AXIS_MOST 2048u /* a multiple of 4 */
 #define CELLS_MOST (1u << 28) /* counting what each holds takes 4 bytes on the host */
@@ -18,7 +19,7 @@ typedef struct grid {
     uint32_t ref_count, cells[3], threads;
     float *planes[3]; /* cells + 1 each, ascending */
     double per_unit[3];
-    ec_ref bounds;
+    ec_box bounds;
 } grid;
 
 /* As many cubes as wanted, if no axis were shorter than a cube; axes that are get the fewest cells and the others share. */
@@ -82,7 +83,7 @@ typedef struct cell_box {
 static cell_box cells_of(const grid *g, const ec_ref *ref)
 {
     cell_box box;
-    for (int axis = 0; axis < 3; axis++) range_of(g, axis, ref->lo[axis], ref->hi[axis], box.at[axis]);
+    for (int axis = 0; axis < 3; axis++) range_of(g, axis, ref->box.lo[axis], ref->box.hi[axis], box.at[axis]);
     return box;
 }
 
@@ -177,15 +178,8 @@ static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *tria
 {
 #pragma omp parallel for num_threads(g->threads)
     for (uint32_t i = 0; i < g->ref_count; i++) {
-        const uint32_t *corner = in->indices + 3 * (size_t)g->refs[i].triangle;
-        memset(&triangles[i], 0, sizeof triangles[i]);
-        memcpy(triangles[i].v0, in->positions + 3 * (size_t)corner[0], 12);
-        memcpy(triangles[i].v1, in->positions + 3 * (size_t)corner[1], 12);
-        memcpy(triangles[i].v2, in->positions + 3 * (size_t)corner[2], 12);
-        triangles[i].id = g->refs[i].triangle;
-        if (!boxes) continue;
-        memcpy(boxes[i].lo, g->refs[i].lo, sizeof boxes[i].lo);
-        memcpy(boxes[i].hi, g->refs[i].hi, sizeof boxes[i].hi);
+        triangles[i] = ec_tri_of(in->positions, in->indices, g->refs[i].triangle);
+        if (boxes) boxes[i] = g->refs[i].box;
     }
 }
 

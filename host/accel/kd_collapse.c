@@ -13,15 +13,7 @@ typedef struct collapse {
 
 static uint32_t add_node(collapse *c)
 {
-    if (c->count == c->room) {
-        uint32_t room = 2 * c->room + 64;
-        ec_kd_node *larger = ec_allocate_lines(room, sizeof *larger);
-        if (!larger) return 0;
-        if (c->count) memcpy(larger, c->nodes, c->count * sizeof *larger);
-        free(c->nodes);
-        c->nodes = larger;
-        c->room = room;
-    }
+    if (!ec_reserve_lines(&c->nodes, &c->room, c->count, c->count + 1ull, sizeof *c->nodes)) return 0;
     ec_kd_node *n = &c->nodes[c->count];
     memset(n, 0, sizeof *n);
     for (int k = 0; k < 7; k++) n->axes |= EC_KD_NO_PLANE << 2 * k;

@@ -10,7 +10,7 @@
 
 /* A reference within a cell: its box cut to the cell. */
 typedef struct ec_kd_item {
-    float lo[3], hi[3];
+    ec_box box;
     uint32_t ref;
 } ec_kd_item;
 
@@ -24,10 +24,6 @@ typedef struct ec_kd_binary {
 /* kd_collapse.c: the layout of the kernels. Malloc'ed, the caller's; NULL when out of memory. */
 ec_kd_node *ec_kd_collapse(const ec_kd_binary *tree, uint32_t *node_count);
 
-typedef struct ec_kd_cell {
-    float lo[3], hi[3];
-} ec_kd_cell;
-
 typedef struct ec_kd_split {
     float cost;      /* of the cell when split, in visits; INFINITY: no plane divides it */
     float plane;
@@ -39,13 +35,13 @@ typedef struct ec_kd_split {
 /* kd_split.c: the cheapest plane by the surface area heuristic. Up to EC_KD_EXACT items every side of a box is weighed, above that
  * equal steps (Wald and Havran 2006; Shevtsov et al. 2007). */
 #define EC_KD_EXACT 64u
-ec_kd_split ec_kd_choose(const ec_kd_item *items, uint32_t count, const ec_kd_cell *cell);
+ec_kd_split ec_kd_choose(const ec_kd_item *items, uint32_t count, const ec_box *cell);
 float ec_kd_leaf_cost(uint32_t count);
 
 /* Which sides an item is needed on: bit 0 below, bit 1 above. Boxes that end at the plane are not needed behind it. */
 static inline int ec_kd_sides(const ec_kd_item *item, const ec_kd_split *s)
 {
-    float lo = item->lo[s->axis], hi = item->hi[s->axis];
+    float lo = item->box.lo[s->axis], hi = item->box.hi[s->axis];
     if (lo == s->plane && hi == s->plane) return s->flat_left ? 1 : 2;
     return (lo < s->plane ? 1 : 0) | (hi > s->plane ? 2 : 0);
 }

@@ -50,13 +50,13 @@ static void sort(float *values, uint32_t count)
         }
 }
 
-static void weigh_all(chooser *c, int axis, const ec_kd_item *items, uint32_t count, const ec_kd_cell *cell)
+static void weigh_all(chooser *c, int axis, const ec_kd_item *items, uint32_t count, const ec_box *cell)
 {
     float lo[EC_KD_EXACT], hi[EC_KD_EXACT], flat[EC_KD_EXACT];
     uint32_t flats = 0, i = 0, k = 0, f = 0;
     for (uint32_t n = 0; n < count; n++) {
-        lo[n] = items[n].lo[axis];
-        hi[n] = items[n].hi[axis];
+        lo[n] = items[n].box.lo[axis];
+        hi[n] = items[n].box.hi[axis];
         if (lo[n] == hi[n]) flat[flats++] = lo[n];
     }
     sort(lo, count);
@@ -74,14 +74,14 @@ static void weigh_all(chooser *c, int axis, const ec_kd_item *items, uint32_t co
 }
 
 /* Bins by where items begin and end; the sides of all of them are planes too, so that empty space is cut off exactly. */
-static void weigh_steps(chooser *c, int axis, const ec_kd_item *items, uint32_t count, const ec_kd_cell *cell)
+static void weigh_steps(chooser *c, int axis, const ec_kd_item *items, uint32_t count, const ec_box *cell)
 {
     uint32_t begins[STEPS] = {0}, ends[STEPS] = {0};
-    float lo = items[0].lo[axis], hi = items[0].hi[axis];
+    float lo = items[0].box.lo[axis], hi = items[0].box.hi[axis];
     uint32_t flat_lo = 0, flat_hi = 0;
     for (uint32_t n = 1; n < count; n++) {
-        lo = fminf(lo, items[n].lo[axis]);
-        hi = fmaxf(hi, items[n].hi[axis]);
+        lo = fminf(lo, items[n].box.lo[axis]);
+        hi = fmaxf(hi, items[n].box.hi[axis]);
     }
     double step = ((double)hi - lo) / STEPS;
     if (!(step > 0.0)) {
@@ -90,11 +90,11 @@ static void weigh_steps(chooser *c, int axis, const ec_kd_item *items, uint32_t 
     }
     float per_step = (float)fmin(1.0 / step, 3e38);
     for (uint32_t n = 0; n < count; n++) {
-        float a = (items[n].lo[axis] - lo) * per_step, b = (items[n].hi[axis] - lo) * per_step;
+        float a = (items[n].box.lo[axis] - lo) * per_step, b = (items[n].box.hi[axis] - lo) * per_step;
         begins[a < STEPS - 1 ? (int)a : STEPS - 1]++;
         ends[b < STEPS - 1 ? (int)b : STEPS - 1]++;
-        flat_lo += items[n].hi[axis] == lo;
-        flat_hi += items[n].lo[axis] == hi;
+        flat_lo += items[n].box.hi[axis] == lo;
+        flat_hi += items[n].box.lo[axis] == hi;
     }
     if (lo > cell->lo[axis]) weigh(c, axis, lo, 0, flat_lo, count - flat_lo);
     if (hi < cell->hi[axis]) weigh(c, axis, hi, count - flat_hi, flat_hi, 0);
@@ -106,7 +106,7 @@ static void weigh_steps(chooser *c, int axis, const ec_kd_item *items, uint32_t 
     }
 }
 
-ec_kd_split ec_kd_choose(const ec_kd_item *items, uint32_t count, const ec_kd_cell *cell)
+ec_kd_split ec_kd_choose(const ec_kd_item *items, uint32_t count, const ec_box *cell)
 {
     chooser c = {.best = {.cost = INFINITY}};
     double edge[3], longest = 0.0;

@@ -16,6 +16,7 @@
 
 #include "accel/build_internal.h"
 #include "accel/kd_internal.h"
+#include "accel/leaf.h"
 
 #define SUBTREE 4096u     /* items; not tied to the number of threads, since the numbering follows from it */
 #define REFUSALS 3        /* splits in a row that do not pay by themselves: better ones may lie below */
@@ -27,7 +28,7 @@ typedef struct range {
     ec_kd_item *items; /* owned */
     uint32_t count, depth, refusals;
     double budget;     /* references in all leaves below */
-    ec_kd_cell cell;
+    ec_box cell;
     double area;       /* its surface as a share of the root's */
 } range;
 
@@ -53,12 +54,6 @@ static void fail(builder *b)
     b->failed = 1;
 }
 
-static double area_of(const ec_kd_cell *c)
-{
-    double x = (double)c->hi[0] - c->lo[0], y = (double)c->hi[1] - c->lo[1], z = (double)c->hi[2] - c->lo[2];
-    return x * y + (x + y) * z;
-}
-
 /* The items of each side, cut to it. False: out of memory. */
 static int divide(const range *r, const ec_kd_split *s, range children[2])
 {
@@ -66,7 +61,7 @@ static int divide(const range *r, const ec_kd_split *s, range children[2])
         range *c = &children[side];
         *c = (range){.depth = r->depth + 1, .refusals = r->refusals, .cell = r->cell};
         (side ? c->cell.lo : c->cell.hi)[s->axis] = s->plane;
-        c->area = area_of(&r->cell) > 0.0 ? r->area * area_of(&c->cell) / area_of(&r->cell) : 0.0;
+        c->area = ec_box_half_area(r->cell.lo, r->cell.hi) > 0.0 ? r->area * ec_box_half_area(c->cell.lo, c->cell.hi) / ec_box_half_area(r->cell.lo, r->cell.hi) : 0.0;
         for (uint32_t i = 0; i < r->count; i++) c->count += ec_kd_sides(&r->items[i], s) >> side & 1;
         c->items = malloc((c->count + (size_t)1) * sizeof *c->items);
         if (!c->items) return 0;
@@ -74,8 +69,8 @@ static int divide(const range *r, const ec_kd_split *s, range children[2])
         for (uint32_t i = 0; i < r->count; i++) {
             if (!(ec_kd_sides(&r->items[i], s) >> side & 1)) continue;
             *to = r->items[i];
-            if (side) to->lo[s->axis] = fmaxf(to->lo[s->axis], s->plane);
-            else to->hi[s->axis] = fminf(to->hi[s->axis], s->plane);
+            if (side) to->box.lo[s->axis] = fmaxf(to->box.lo[s->axis], s->plane);
+            else to->box.hi[s->axis] = fminf(to->box.hi[s->axis], s->plane);
             to++;
         }
     }
@@ -104,22 +99,10 @@ static int split(builder *b, range *r, ec_kd_split *s, range children[2])
     return 1;
 }
 
-/* Room for `more` elements behind `count`, at least twice what there was. */
-static int reserve(void **array, uint32_t count, uint32_t more, uint32_t *room, size_t size)
-{
-    if (count + more <= *room) return 1;
-    uint32_t wanted = 2 * (count + more);
-    void *larger = realloc(*array, wanted * size);
-    if (!larger) return 0;
-    *array = larger;
-    *room = wanted;
-    return 1;
-}
-
 static void make_leaf(builder *b, piece *p, uint32_t index, range *r)
 {
     uint32_t blocks = (r->count + 7) / 8, first = p->block_count;
-    if (!reserve((void **)&p->ids, first, blocks, &p->block_room, 8 * sizeof *p->ids)) {
+    if (!ec_reserve_lines(&p->ids, &p->block_room, first, (uint64_t)first + blocks, 8 * sizeof *p->ids)) {
         fail(b);
         return;
     }
@@ -141,7 +124,7 @@ static void build_subtree(builder *b, piece *p, uint32_t index, range *r)
         return;
     }
     uint32_t left = p->node_count;
-    if (reserve((void **)&p->nodes, left, 2, &p->node_room, sizeof *p->nodes)) {
+    if (ec_reserve_lines(&p->nodes, &p->node_room, left, left + 2ull, sizeof *p->nodes)) {
         p->node_count += 2;
         p->nodes[index] = (ec_kd_binary){.plane = s.plane, .axis = (uint32_t)s.axis, .index = left};
         p->cost += r->area;
@@ -171,7 +154,7 @@ static void build_piece(builder *b, range r, piece **result)
         build_piece(b, children[0], &p->child[0]);
         return;
     }
-    if (good) good = reserve((void **)&p->nodes, 0, 1, &p->node_room, sizeof *p->nodes);
+    if (good) good = ec_reserve_lines(&p->nodes, &p->node_room, 0, 2, sizeof *p->nodes);
     if (!good) {
         fail(b);
         free(r.items);
@@ -259,23 +242,18 @@ static void fill_blocks(const ec_accel_input *in, const ec_ref *refs, const join
     }
 }
 
-static range root_of(const ec_ref *refs, uint32_t count, const ec_ref *bounds)
+static range root_of(const ec_ref *refs, uint32_t count, const ec_box *bounds)
 {
-    range root = {.items = malloc((count + (size_t)1) * sizeof *root.items), .count = count, .area = 1.0,
+    range root = {.items = malloc((count + (size_t)1) * sizeof *root.items), .count = count, .cell = *bounds, .area = 1.0,
                   .budget = (double)REFS_MOST * count};
-    memcpy(root.cell.lo, bounds->lo, sizeof bounds->lo);
-    memcpy(root.cell.hi, bounds->hi, sizeof bounds->hi);
-    for (uint32_t i = 0; root.items && i < count; i++) {
-        memcpy(root.items[i].lo, refs[i].lo, sizeof refs[i].lo);
-        memcpy(root.items[i].hi, refs[i].hi, sizeof refs[i].hi);
-        root.items[i].ref = i;
-    }
+    for (uint32_t i = 0; root.items && i < count; i++) root.items[i] = (ec_kd_item){refs[i].box, i};
     return root;
 }
 
 ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
 {
-    ec_ref *refs, bounds;
+    ec_ref *refs;
+    ec_box bounds;
     uint32_t count;
     EC_TRY(ec_accel_refs(in, &refs, &count, &bounds, err));
     int threads = ec_accel_threads(in, count);

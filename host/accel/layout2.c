@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "accel/layout_internal.h"
+#include "accel/leaf.h"
 
 #define GROUP 64u /* subtrees that share one piece of memory while they are built */
 
@@ -174,13 +175,7 @@ static ec_bvh2_node *build_small(plan *p, uint32_t *node_count)
 static void fill_triangles(const plan *p, ec_tri *triangles)
 {
 #pragma omp parallel for schedule(dynamic, 4096) if (p->bvh->ref_count > 4096)
-    for (uint32_t i = 0; i < p->bvh->ref_count; i++) {
-        const uint32_t *corner = p->indices + 3 * (size_t)p->ids[i];
-        triangles[i] = (ec_tri){.id = p->ids[i]};
-        memcpy(triangles[i].v0, p->positions + 3 * (size_t)corner[0], sizeof triangles[i].v0);
-        memcpy(triangles[i].v1, p->positions + 3 * (size_t)corner[1], sizeof triangles[i].v1);
-        memcpy(triangles[i].v2, p->positions + 3 * (size_t)corner[2], sizeof triangles[i].v2);
-    }
+    for (uint32_t i = 0; i < p->bvh->ref_count; i++) triangles[i] = ec_tri_of(p->positions, p->indices, p->ids[i]);
 }
 
 /* Does `second` continue `first` to a quad: (p, q, r) and (p, r, s)? Those that move may part. */
@@ -226,27 +221,24 @@ static void pair_leaves(const ec_bvh2_node *nodes, uint32_t node_count, uint32_t
         }
 }
 
-ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh2_node **nodes,
-                         uint32_t *node_count, ec_tri **triangles, ec_box **boxes, uint32_t *triangle_count,
-                         ec_error *err)
+ec_result ec_bvh2_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh2 *layout, ec_error *err)
 {
     if (bvh->ref_count >= 1u << 27)
         return ec_fail(err, "%u triangles are more than the binary BVH layout can number", bvh->triangle_count);
     plan p = {.bvh = bvh, .positions = positions, .indices = indices};
-    ec_bvh2_node *n = NULL;
-    if (copy_references(&p)) n = bvh->ref_count > EC_SWEEP_MAX ? build_large(&p, node_count) : build_small(&p, node_count);
-    ec_tri *t = n ? ec_allocate_lines(bvh->ref_count, sizeof *t) : NULL;
-    if (t) {
-        fill_triangles(&p, t);
-        pair_leaves(n, *node_count, bvh->moving_count, t, p.boxes);
-        *nodes = n;
-        *triangles = t;
-        *boxes = p.boxes;
-        *triangle_count = bvh->ref_count;
+    ec_bvh2 made = {.triangle_count = bvh->ref_count};
+    if (copy_references(&p))
+        made.nodes = bvh->ref_count > EC_SWEEP_MAX ? build_large(&p, &made.node_count) : build_small(&p, &made.node_count);
+    if (made.nodes) made.triangles = ec_allocate_lines(bvh->ref_count, sizeof *made.triangles);
+    if (made.triangles) {
+        fill_triangles(&p, made.triangles);
+        pair_leaves(made.nodes, made.node_count, bvh->moving_count, made.triangles, p.boxes);
+        made.boxes = p.boxes;
         p.boxes = NULL;
+        *layout = made;
     } else {
-        free(n);
+        free(made.nodes);
     }
     free_plan(&p);
-    return t ? EC_OK : ec_fail(err, "out of memory for the binary BVH of %u triangles", bvh->triangle_count);
+    return made.triangles ? EC_OK : ec_fail(err, "out of memory for the binary BVH of %u triangles", bvh->triangle_count);
 }

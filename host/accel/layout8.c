@@ -1,9 +1,11 @@
 /* The 8-wide layout: first which binary nodes become children of which wide node, then the arrays, on all cores. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "accel/layout_internal.h"
+#include "accel/leaf.h"
 
 /* A traversal may have the siblings along one path on its stack and eight more children before it takes the next. */
 #define STACK_MAX (EC_BVH_STACK - 8)
@@ -86,6 +88,13 @@ static void plan_node(plan *p, uint32_t at, uint32_t index, uint32_t stack)
         plan_node(p, node->first_node + k, node->child[k], stack - (uint32_t)(count - 1));
 }
 
+/* The child that is a leaf: a block, or of a tree of instances one of them. */
+static uint32_t leaf_of(const plan *p, const wide *from, uint32_t k)
+{
+    const uint32_t instance = p->bvh->order[p->bvh->nodes[from->child[k]].first] + 1;
+    return EC_LEAF_BIT | (p->bvh->leaf_most == 1 ? EC_INSTANCE_BIT | instance : from->first_leaf + k - from->node_count);
+}
+
 static void fill_node(const plan *p, const wide *from, ec_bvh8_node *node)
 {
     memset(node, 0, sizeof *node);
@@ -96,48 +105,28 @@ static void fill_node(const plan *p, const wide *from, ec_bvh8_node *node)
             node->bound[2 * axis][k] = used ? child->lo[axis] : INFINITY;
             node->bound[2 * axis + 1][k] = used ? child->hi[axis] : -INFINITY;
         }
-        node->child[k] = !used                  ? EC_NO_CHILD
-                         : k < from->node_count ? from->first_node + k
-                                                : EC_LEAF_BIT | (from->first_leaf + k - from->node_count);
+        node->child[k] = !used ? EC_NO_CHILD : k < from->node_count ? from->first_node + k : leaf_of(p, from, k);
     }
 }
 
-static void fill_block(const plan *p, uint32_t index, const float *positions, const uint32_t *indices, ec_tri8 *block)
+static void fill_block(const plan *p, uint32_t index, const float *positions, const uint32_t *indices, ec_tri8 *block, ec_box8 *boxes)
 {
-    uint32_t first = p->bvh->nodes[index].first, count = p->subtrees[index].count;
-    memset(block, 0, sizeof *block);
-    for (uint32_t slot = 0; slot < 8; slot++) {
-        block->id[slot] = slot < count ? p->bvh->order[first + slot] : EC_NO_ID;
-        for (int corner = 0; slot < count && corner < 3; corner++) {
-            const float *v = positions + 3 * (size_t)indices[3 * (size_t)block->id[slot] + corner];
-            for (int axis = 0; axis < 3; axis++) block->v[corner][axis][slot] = v[axis];
-        }
-    }
-}
-
-static void fill_boxes(const plan *p, uint32_t index, ec_box8 *boxes)
-{
-    const ec_box *from = p->bvh->boxes + p->bvh->nodes[index].first;
-    memset(boxes, 0, sizeof *boxes);
+    const uint32_t first = p->bvh->nodes[index].first;
+    const ec_box *from = boxes ? p->bvh->boxes + first : NULL;
+    ec_block_clear(block, boxes);
     for (uint32_t slot = 0; slot < p->subtrees[index].count; slot++)
-        for (int axis = 0; axis < 3; axis++) {
-            boxes->lo[axis][slot] = from[slot].lo[axis];
-            boxes->hi[axis][slot] = from[slot].hi[axis];
-        }
+        ec_block_put(positions, indices, p->bvh->order[first + slot], from ? from[slot].lo : NULL, from ? from[slot].hi : NULL, slot, block, boxes);
 }
 
-static void fill(const plan *p, const float *positions, const uint32_t *indices, ec_bvh8_node *nodes, ec_tri8 *blocks,
-                 ec_box8 *boxes)
+static void fill(const plan *p, const float *positions, const uint32_t *indices, ec_bvh8 *made)
 {
 #pragma omp parallel if (p->leaf_count > CHUNK)
     {
 #pragma omp for nowait schedule(dynamic, CHUNK)
-        for (uint32_t i = 0; i < p->node_count; i++) fill_node(p, &p->nodes[i], &nodes[i]);
+        for (uint32_t i = 0; i < p->node_count; i++) fill_node(p, &p->nodes[i], &made->nodes[i]);
 #pragma omp for schedule(dynamic, CHUNK)
-        for (uint32_t i = 0; i < p->leaf_count; i++) {
-            fill_block(p, p->leaves[i], positions, indices, &blocks[i]);
-            if (boxes) fill_boxes(p, p->leaves[i], &boxes[i]);
-        }
+        for (uint32_t i = 0; i < p->leaf_count; i++)
+            fill_block(p, p->leaves[i], positions, indices, &made->blocks[i], made->boxes ? &made->boxes[i] : NULL);
     }
 }
 
@@ -155,37 +144,48 @@ static int make_plan(plan *p)
     return 1;
 }
 
-ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh8_node **nodes,
-                         uint32_t *node_count, ec_tri8 **blocks, ec_box8 **boxes, uint32_t *block_count, ec_error *err)
+static void free_plan(plan *p)
+{
+    free(p->subtrees);
+    free(p->promise);
+    free(p->collapse.slots);
+    free(p->nodes);
+    free(p->leaves);
+}
+
+ec_result ec_bvh8_layout(const ec_bvh *bvh, const float *positions, const uint32_t *indices, ec_bvh8 *layout, ec_error *err)
 {
     plan p = {.bvh = bvh};
-    ec_bvh8_node *n = NULL;
-    ec_tri8 *b = NULL;
-    ec_box8 *x = NULL;
+    ec_bvh8 made = {0};
     if (make_plan(&p)) {
-        n = ec_allocate_lines(p.node_count, sizeof *n);
-        b = ec_allocate_lines(p.leaf_count, sizeof *b);
-        if (bvh->boxes) x = ec_allocate_lines(p.leaf_count, sizeof *x);
+        made = (ec_bvh8){.node_count = p.node_count, .block_count = p.leaf_count};
+        made.nodes = ec_allocate_lines(p.node_count, sizeof *made.nodes);
+        made.blocks = ec_allocate_lines(p.leaf_count, sizeof *made.blocks);
+        if (bvh->boxes) made.boxes = ec_allocate_lines(p.leaf_count, sizeof *made.boxes);
     }
-    ec_result result = n && b && (x || !bvh->boxes)
-                           ? EC_OK
-                           : ec_fail(err, "out of memory for the 8-wide BVH of %u triangles", bvh->triangle_count);
-    if (result == EC_OK) {
-        fill(&p, positions, indices, n, b, x);
-        *nodes = n;
-        *blocks = b;
-        *boxes = x;
-        *node_count = p.node_count;
-        *block_count = p.leaf_count;
+    const bool is_whole = made.nodes && made.blocks && (made.boxes || !bvh->boxes);
+    if (is_whole) {
+        fill(&p, positions, indices, &made);
+        *layout = made;
     } else {
-        free(n);
-        free(b);
-        free(x);
+        free(made.nodes);
+        free(made.blocks);
+        free(made.boxes);
     }
-    free(p.subtrees);
-    free(p.promise);
-    free(p.collapse.slots);
-    free(p.nodes);
-    free(p.leaves);
-    return result;
+    free_plan(&p);
+    return is_whole ? EC_OK : ec_fail(err, "out of memory for the 8-wide BVH of %u triangles", bvh->triangle_count);
+}
+
+ec_result ec_bvh8_of_boxes(const ec_box *boxes, uint32_t count, uint32_t threads, ec_bvh8 *layout, ec_error *err)
+{
+    ec_bvh bvh;
+    EC_TRY(ec_bvh_build_boxes(boxes, count, threads, &bvh, err));
+    plan p = {.bvh = &bvh};
+    *layout = (ec_bvh8){0};
+    if (make_plan(&p)) layout->nodes = ec_allocate_lines(p.node_count, sizeof *layout->nodes);
+    for (uint32_t i = 0; layout->nodes && i < p.node_count; i++) fill_node(&p, &p.nodes[i], &layout->nodes[i]);
+    layout->node_count = p.node_count;
+    free_plan(&p);
+    ec_bvh_free(&bvh);
+    return layout->nodes ? EC_OK : ec_fail(err, "out of memory for %u instances", count);
 }

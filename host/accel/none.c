@@ -11,7 +11,8 @@ ec_result ec_none_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     if (in->triangle_count > NONE_MOST)
         return ec_fail(err, "without an acceleration structure at most %u triangles are traced, and the scene has %u: "
                        "take another --accel than none", NONE_MOST, in->triangle_count);
-    ec_ref *refs, bounds;
+    ec_ref *refs;
+    ec_box bounds;
     uint32_t ref_count;
     EC_TRY(ec_accel_refs(in, &refs, &ref_count, &bounds, err));
     uint32_t count = (ref_count + 7) / 8;

@@ -21,8 +21,9 @@ void ec_prims_load(const float *positions, const uint32_t *indices, uint32_t fir
     ec_range_clear(bounds);
     for (uint32_t id = first; id < first + count; id++) {
         ec_v4 v[3];
-        ec_prim_vertices(positions, indices, id, v);
-        if (id < swept_count) {
+        if (id >= swept_count) {
+            ec_prim_vertices(positions, indices, id, v);
+        } else {
             const float *box = swept + 6 * (size_t)id;
             v[0] = v[2] = (ec_v4){box[0], box[1], box[2], 0.0f};
             v[1] = (ec_v4){box[3], box[4], box[5], 0.0f};

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "accel/accel_internal.h"
+#include "accel/leaf.h"
 
 #define TEAM_MIN 4096u /* fewer are done sooner than a second thread wakes */
 
@@ -25,31 +26,17 @@ static ec_ref ref_of(const ec_accel_input *in, uint32_t triangle)
     for (int axis = 0; axis < 3; axis++) {
         float v[3];
         for (int corner = 0; corner < 3; corner++)
-            v[corner] = tame(in->positions[3 * (size_t)in->indices[3 * (size_t)triangle + corner] + axis]);
-        ref.lo[axis] = fminf(v[0], fminf(v[1], v[2]));
-        ref.hi[axis] = fmaxf(v[0], fmaxf(v[1], v[2]));
+            v[corner] = tame(ec_corner(in->positions, in->indices, triangle, (size_t)corner)[axis]);
+        ref.box.lo[axis] = fminf(v[0], fminf(v[1], v[2]));
+        ref.box.hi[axis] = fmaxf(v[0], fmaxf(v[1], v[2]));
     }
     return ref;
-}
-
-static void grow(ec_ref *box, const ec_ref *by)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        if (by->lo[axis] < box->lo[axis]) box->lo[axis] = by->lo[axis];
-        if (by->hi[axis] > box->hi[axis]) box->hi[axis] = by->hi[axis];
-    }
 }
 
 /* The parts that the BVH has cut triangles into: all structures must hold the same ones to give the same hits. */
-static ec_ref part_of(const ec_bvh *bvh, uint32_t i)
-{
-    ec_ref ref = {.triangle = bvh->order[i]};
-    memcpy(ref.lo, bvh->boxes[i].lo, sizeof ref.lo);
-    memcpy(ref.hi, bvh->boxes[i].hi, sizeof ref.hi);
-    return ref;
-}
+static ec_ref part_of(const ec_bvh *bvh, uint32_t i) { return (ec_ref){bvh->boxes[i], bvh->order[i]}; }
 
-ec_result ec_accel_refs(ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_ref *bounds, ec_error *err)
+ec_result ec_accel_refs(ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_box *bounds, ec_error *err)
 {
     EC_TRY(ec_accel_bvh(in, err));
     const ec_bvh *bvh = in->bvh.boxes ? &in->bvh : NULL;
@@ -57,18 +44,18 @@ ec_result ec_accel_refs(ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_r
     ec_ref *r = malloc((n + (size_t)1) * sizeof *r);
     if (!r) return ec_fail(err, "out of memory for the boxes of %u triangles", n);
     memset(bounds, 0, sizeof *bounds);
-    if (n) *bounds = bvh ? part_of(bvh, 0) : ref_of(in, 0);
+    if (n) *bounds = bvh ? part_of(bvh, 0).box : ref_of(in, 0).box;
 #pragma omp parallel num_threads(ec_accel_threads(in, n))
     {
-        ec_ref mine = *bounds;
+        ec_box mine = *bounds;
 #pragma omp barrier
 #pragma omp for
         for (uint32_t i = 0; i < n; i++) {
             r[i] = bvh ? part_of(bvh, i) : ref_of(in, i);
-            grow(&mine, &r[i]);
+            ec_box_grow(&mine, r[i].box.lo, r[i].box.hi);
         }
 #pragma omp critical(ec_accel_refs)
-        grow(bounds, &mine);
+        ec_box_grow(bounds, mine.lo, mine.hi);
     }
     *refs = r;
     *count = n;
@@ -78,17 +65,9 @@ ec_result ec_accel_refs(ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_r
 void ec_accel_block(const ec_accel_input *in, const ec_ref *refs, const uint32_t *which, uint32_t count, ec_tri8 *block,
                     ec_box8 *boxes)
 {
-    memset(block, 0, sizeof *block);
-    if (boxes) memset(boxes, 0, sizeof *boxes);
-    for (uint32_t slot = 0; slot < 8; slot++) {
-        const ec_ref *ref = slot < count ? &refs[which[slot]] : NULL;
-        block->id[slot] = ref ? ref->triangle : EC_NO_ID;
-        for (int axis = 0; ref && axis < 3; axis++) {
-            for (int corner = 0; corner < 3; corner++)
-                block->v[corner][axis][slot] = in->positions[3 * (size_t)in->indices[3 * (size_t)ref->triangle + corner] + axis];
-            if (!boxes) continue;
-            boxes->lo[axis][slot] = ref->lo[axis];
-            boxes->hi[axis][slot] = ref->hi[axis];
-        }
+    ec_block_clear(block, boxes);
+    for (uint32_t slot = 0; slot < count; slot++) {
+        const ec_ref *ref = &refs[which[slot]];
+        ec_block_put(in->positions, in->indices, ref->triangle, ref->box.lo, ref->box.hi, slot, block, boxes);
     }
 }

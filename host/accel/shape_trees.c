@@ -4,8 +4,8 @@
 
 static void free_tree(const ec_shape_tree *tree)
 {
-    free(tree->nodes);
-    free(tree->blocks);
+    free(tree->bvh.nodes);
+    free(tree->bvh.blocks);
 }
 
 void ec_shape_trees_begin(ec_shape_trees *trees)

@@ -4,15 +4,12 @@
 
 #include <stdbool.h>
 
-#include "base/error.h"
+#include "accel/bvh.h"
 #include "base/fingerprint.h"
-#include "shared/accel.h"
 
 typedef struct ec_shape_tree {
     ec_fingerprint key;      /* of the mesh's triangles in its own space */
-    ec_bvh8_node *nodes;     /* owned */
-    ec_tri8 *blocks;         /* owned */
-    uint32_t node_count, block_count;
+    ec_bvh8 bvh;             /* owned; cuts no triangle, and so has no boxes */
     bool wanted;             /* by the build that is under way */
 } ec_shape_tree;
 

@@ -73,7 +73,7 @@ int ec_range_split(ec_builder *builder, const ec_range *range, ec_range children
     }
     ec_binning binning = ec_binning_of(range);
     ec_split split = bin(builder->prims[range->buffer] + range->first, range, &binning, chunks, chunk_count);
-    int fits = range->count <= EC_LEAF_MAX, inner = 1;
+    int fits = range->count <= builder->leaf_most, inner = 1;
     uint32_t larger = split.left_count > range->count / 2 ? split.left_count : range->count - split.left_count;
     if (fits && !(split.cost + split.node_cost < split.leaf_cost)) {
         inner = 0;

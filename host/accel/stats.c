@@ -1,12 +1,8 @@
 /* Numbers that tell a good tree from a bad one. */
 #include "accel/build_internal.h"
+#include "accel/leaf.h"
 
-static double half_area(const ec_bvh_build_node *node)
-{
-    double x = (double)node->hi[0] - node->lo[0], y = (double)node->hi[1] - node->lo[1];
-    double z = (double)node->hi[2] - node->lo[2];
-    return x * y + (x + y) * z;
-}
+static double half_area(const ec_bvh_build_node *node) { return ec_box_half_area(node->lo, node->hi); }
 
 /* Adds the subtree's share of the SAH cost (MacDonald and Booth 1990) times the root's area. */
 static void visit(const ec_bvh *bvh, uint32_t index, uint32_t depth, ec_bvh_stats *stats)

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "accel/layout_internal.h"
+#include "accel/leaf.h"
 
 /* In units of one box test: packets of rays test both boxes of a node, and pay four times that for each triangle. */
 #define COST_NODE 2.0f
@@ -23,11 +24,11 @@ typedef struct plane {
     ec_box4 left, right;
 } plane;
 
-static ec_box4 triangle_box(const float *positions, const uint32_t *corner)
+static ec_box4 triangle_box(const float *positions, const uint32_t *indices, uint32_t triangle)
 {
     ec_box4 box = ec_box4_empty();
-    for (int k = 0; k < 3; k++) {
-        const float *p = positions + 3 * (size_t)corner[k];
+    for (size_t k = 0; k < 3; k++) {
+        const float *p = ec_corner(positions, indices, triangle, k);
         ec_v4 v = {p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, 0.0f}; /* no -0, see prim.c */
         ec_box4_grow(&box, v, v);
     }
@@ -155,7 +156,7 @@ uint32_t ec_sweep_build(const float *positions, const uint32_t *indices, uint32_
     sweep s = {.first = first, .nodes = nodes, .node_count = node_count};
     uint32_t given[EC_SWEEP_MAX];
     for (uint32_t i = 0; i < count; i++)
-        s.box[i] = boxes ? box4_of(&boxes[i]) : triangle_box(positions, indices + 3 * (size_t)ids[i]);
+        s.box[i] = boxes ? box4_of(&boxes[i]) : triangle_box(positions, indices, ids[i]);
     for (int axis = 0; axis < 3; axis++) sort_axis(&s, axis, count);
     ec_box4 box = bound(&s, 0, 0, count);
     uint32_t root = build(&s, &box, 0, count, depth);

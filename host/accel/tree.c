@@ -2,6 +2,7 @@
 #include "accel/layout_internal.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 ec_subtree *ec_bvh_subtrees(const ec_bvh *bvh)
 {
@@ -24,4 +25,19 @@ void *ec_allocate_lines(size_t count, size_t size)
 {
     size_t bytes = (count ? count : 1) * size;
     return aligned_alloc(64, (bytes + 63) / 64 * 64);
+}
+
+int ec_reserve_lines(void *array, uint32_t *room, uint32_t used, uint64_t wanted, size_t size)
+{
+    void *old, *larger;
+    if (wanted <= *room) return 1;
+    const uint64_t count = wanted > 2 * (uint64_t)*room ? wanted : 2 * (uint64_t)*room;
+    memcpy(&old, array, sizeof old);
+    larger = ec_allocate_lines(count, size);
+    if (!larger) return 0;
+    if (used) memcpy(larger, old, used * size);
+    free(old);
+    memcpy(array, &larger, sizeof larger);
+    *room = (uint32_t)count;
+    return 1;
 }

@@ -7,8 +7,8 @@
 
 #include "accel/accel_internal.h"
 #include "accel/build_internal.h"
+#include "accel/leaf.h"
 #include "accel/shape_trees.h"
-#include "accel/top.h"
 
 #define OFF_BOUND 40.0 /* u |M^-1| (|o| + reach): derived in kernels/lib/traverse_twolevel.h */
 #define UNIT 0x1p-24
@@ -23,58 +23,40 @@ typedef struct shape_facts {
 } shape_facts;
 
 typedef struct twolevel {
-    ec_bvh8_node *nodes;
-    ec_tri8 *blocks;
-    ec_box8 *boxes;
+    ec_bvh8 all;
     ec_instance *instances;
-    uint32_t node_count, block_count, node_room, block_room;
+    uint32_t node_room, block_room;
     shape_facts *shapes;
 } twolevel;
 
 static void free_all(twolevel *t)
 {
-    free(t->nodes);
-    free(t->blocks);
-    free(t->boxes);
+    free(t->all.nodes);
+    free(t->all.blocks);
+    free(t->all.boxes);
     free(t->instances);
     free(t->shapes);
 }
 
-static bool reserve(void *array, uint32_t *room, uint32_t used, uint64_t wanted, size_t size)
-{
-    void *old, *larger;
-    if (wanted <= *room) return true;
-    uint64_t count = wanted > 2 * (uint64_t)*room ? wanted : 2 * (uint64_t)*room;
-    memcpy(&old, array, sizeof old); /* `array` is the address of a pointer of some type */
-    larger = ec_allocate_lines(count, size);
-    if (!larger) return false;
-    if (used) memcpy(larger, old, used * size);
-    free(old);
-    memcpy(array, &larger, sizeof larger);
-    *room = (uint32_t)count;
-    return true;
-}
-
 /* Appends a tree; its references to itself move with it. */
-static ec_result append(twolevel *t, const ec_bvh8_node *nodes, uint32_t node_count, const ec_tri8 *blocks,
-                        uint32_t block_count, ec_error *err)
+static ec_result append(twolevel *t, const ec_bvh8 *tree, ec_error *err)
 {
-    uint64_t all_nodes = (uint64_t)t->node_count + node_count, all_blocks = (uint64_t)t->block_count + block_count;
-    if (all_nodes >= EC_INSTANCE_BIT || all_blocks >= EC_INSTANCE_BIT)
-        return ec_fail(err, "more meshes than two levels of trees can number");
-    if (!reserve(&t->nodes, &t->node_room, t->node_count, all_nodes, sizeof *nodes) ||
-        !reserve(&t->blocks, &t->block_room, t->block_count, all_blocks, sizeof *blocks))
+    ec_bvh8 *all = &t->all;
+    const uint64_t nodes = (uint64_t)all->node_count + tree->node_count, blocks = (uint64_t)all->block_count + tree->block_count;
+    if (nodes >= EC_INSTANCE_BIT || blocks >= EC_INSTANCE_BIT) return ec_fail(err, "more meshes than two levels of trees can number");
+    if (!ec_reserve_lines(&all->nodes, &t->node_room, all->node_count, nodes, sizeof *all->nodes) ||
+        !ec_reserve_lines(&all->blocks, &t->block_room, all->block_count, blocks, sizeof *all->blocks))
         return ec_fail(err, "out of memory for the trees of meshes");
-    memcpy(t->nodes + t->node_count, nodes, node_count * sizeof *nodes);
-    if (block_count) memcpy(t->blocks + t->block_count, blocks, block_count * sizeof *blocks);
-    for (uint32_t i = 0; i < node_count; i++)
+    memcpy(all->nodes + all->node_count, tree->nodes, tree->node_count * sizeof *all->nodes);
+    if (tree->block_count) memcpy(all->blocks + all->block_count, tree->blocks, tree->block_count * sizeof *all->blocks);
+    for (uint32_t i = all->node_count; i < nodes; i++)
         for (int k = 0; k < 8; k++) {
-            uint32_t *child = &t->nodes[t->node_count + i].child[k];
-            if (!(*child & EC_LEAF_BIT)) *child += t->node_count;
-            else if (!(*child & EC_INSTANCE_BIT)) *child += t->block_count; /* an instance, and none, stay what they are */
+            uint32_t *child = &all->nodes[i].child[k];
+            if (!(*child & EC_LEAF_BIT)) *child += all->node_count;
+            else if (!(*child & EC_INSTANCE_BIT)) *child += all->block_count; /* an instance, and none, stay what they are */
         }
-    t->node_count = (uint32_t)all_nodes;
-    t->block_count = (uint32_t)all_blocks;
+    all->node_count = (uint32_t)nodes;
+    all->block_count = (uint32_t)blocks;
     return EC_OK;
 }
 
@@ -83,8 +65,8 @@ static void measure(const ec_accel_input *in, const ec_shape *shape, shape_facts
     for (uint32_t i = 0; i < shape->count; i++)
         for (int k = 0; k < 3; k++) {
             float lo = FLT_MAX, hi = -FLT_MAX;
-            for (int c = 0; c < 3; c++) {
-                float x = in->positions[3 * (size_t)in->indices[3 * ((size_t)shape->first + i) + (uint32_t)c] + (uint32_t)k];
+            for (size_t c = 0; c < 3; c++) {
+                float x = ec_corner(in->positions, in->indices, shape->first + i, c)[k];
                 lo = fminf(lo, x);
                 hi = fmaxf(hi, x);
             }
@@ -93,14 +75,12 @@ static void measure(const ec_accel_input *in, const ec_shape *shape, shape_facts
         }
 }
 
-static ec_result build_shape(const ec_accel_input *in, const ec_shape *shape, ec_shape_tree *tree, ec_error *err)
+static ec_result build_shape(const ec_accel_input *in, const ec_shape *shape, ec_bvh8 *tree, ec_error *err)
 {
     const uint32_t *indices = in->indices + 3 * (size_t)shape->first;
     ec_bvh bvh;
-    ec_box8 *boxes;
-    EC_TRY(ec_bvh_build_whole(in->positions, indices, shape->count, in->threads, &bvh, NULL, err));
-    ec_result result = ec_bvh8_layout(&bvh, in->positions, indices, &tree->nodes, &tree->node_count, &tree->blocks,
-                                      &boxes, &tree->block_count, err);
+    EC_TRY(ec_bvh_build_whole(in->positions, indices, shape->count, NULL, 0, in->threads, &bvh, NULL, err));
+    ec_result result = ec_bvh8_layout(&bvh, in->positions, indices, tree, err);
     ec_bvh_free(&bvh);
     return result;
 }
@@ -137,15 +117,15 @@ static ec_result append_shape(const ec_accel_input *in, uint32_t index, twolevel
     if (in->trees) built.key = key_of(in, shape);
     const ec_shape_tree *tree = in->trees ? ec_shape_trees_find(in->trees, built.key) : NULL;
     bool is_kept = tree != NULL;
-    if (!is_kept) EC_TRY(build_shape(in, shape, &built, err));
+    if (!is_kept) EC_TRY(build_shape(in, shape, &built.bvh, err));
     if (!is_kept) tree = &built;
     measure(in, shape, f);
-    f->root = t->node_count;
-    note_parts(&tree->nodes[0], f);
-    ec_result result = append(t, tree->nodes, tree->node_count, tree->blocks, tree->block_count, err);
+    f->root = t->all.node_count;
+    note_parts(&tree->bvh.nodes[0], f);
+    ec_result result = append(t, &tree->bvh, err);
     if (!is_kept && in->trees && result == EC_OK) return ec_shape_trees_add(in->trees, &built, err);
-    free(built.nodes);
-    free(built.blocks);
+    free(built.bvh.nodes);
+    free(built.bvh.blocks);
     return result;
 }
 
@@ -210,40 +190,36 @@ static ec_result add_instances(const ec_accel_input *in, twolevel *t, ec_error *
 {
     double reach = 0;
     for (size_t i = 0; i < 3 * (size_t)in->triangle_count; i++)
-        for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(in->positions[3 * (size_t)in->indices[i] + (uint32_t)k]));
+        for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(in->positions[3 * (size_t)in->indices[i] + (size_t)k]));
     for (uint32_t i = 0; i < in->placed_count; i++)
         for (int row = 0; row < 3; row++) reach = fmax(reach, reach_of(&in->placed[i], &t->shapes[in->placed[i].shape], row));
+    const uint32_t root = t->all.node_count;
+    ec_bvh8 top = {0};
     ec_box *boxes = malloc(in->placed_count * sizeof *boxes);
-    ec_bvh8_node *top = ec_allocate_lines(in->placed_count + (size_t)1, sizeof *top);
-    uint32_t used = 0, root = t->node_count;
     t->instances = ec_allocate_lines(in->placed_count + (size_t)1, sizeof *t->instances);
-    ec_result result = boxes && top && t->instances ? EC_OK : ec_fail(err, "out of memory for %u instances", in->placed_count);
+    ec_result result = boxes && t->instances ? EC_OK : ec_fail(err, "out of memory for %u instances", in->placed_count);
     for (uint32_t i = 0; result == EC_OK && i < in->placed_count; i++) {
         boxes[i] = box_of(&in->placed[i], &t->shapes[in->placed[i].shape]);
         t->instances[i + 1] = instance_of(&in->placed[i], &t->shapes[in->placed[i].shape], reach);
     }
-    if (result == EC_OK && !ec_top_build(boxes, in->placed_count, top, &used))
-        result = ec_fail(err, "out of memory for %u instances", in->placed_count);
-    if (result == EC_OK) result = append(t, top, used, NULL, 0, err);
+    if (result == EC_OK) result = ec_bvh8_of_boxes(boxes, in->placed_count, in->threads, &top, err);
+    if (result == EC_OK) result = append(t, &top, err);
     if (result == EC_OK) t->instances[0] = (ec_instance){.root = root};
     free(boxes);
-    free(top);
+    free(top.nodes);
     return result;
 }
 
 ec_result ec_twolevel_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
 {
     twolevel t = {.shapes = calloc(in->shape_count + (size_t)1, sizeof *t.shapes)};
-    uint64_t references;
     EC_TRY(ec_accel_bvh(in, err));
     ec_result result = t.shapes ? EC_OK : ec_fail(err, "out of memory for %u meshes", in->shape_count);
-    if (result == EC_OK)
-        result = ec_bvh8_layout(&in->bvh, in->positions, in->indices, &t.nodes, &t.node_count, &t.blocks, &t.boxes,
-                                &t.block_count, err);
-    references = in->bvh.ref_count;
-    const uint64_t box_bytes = t.boxes ? t.block_count * (uint64_t)sizeof *t.boxes : 0; /* where triangles were cut: there are no instances then */
-    t.node_room = t.node_count;
-    t.block_room = t.block_count;
+    if (result == EC_OK) result = ec_bvh8_layout(&in->bvh, in->positions, in->indices, &t.all, err);
+    const uint64_t box_bytes = t.all.boxes ? t.all.block_count * (uint64_t)sizeof *t.all.boxes : 0; /* where triangles were cut: there are no instances then */
+    uint64_t references = in->bvh.ref_count;
+    t.node_room = t.all.node_count;
+    t.block_room = t.all.block_count;
     for (uint32_t i = 0; result == EC_OK && i < in->shape_count; i++) {
         result = append_shape(in, i, &t, err);
         references += in->shapes[i].count;
@@ -254,13 +230,11 @@ ec_result ec_twolevel_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
         return result;
     }
     free(t.shapes);
-    accel->buffers[0] = (ec_accel_buffer){"nodes", t.nodes, (uint64_t)t.node_count * sizeof *t.nodes};
-    accel->buffers[1] = (ec_accel_buffer){"triangle blocks", t.blocks, (uint64_t)t.block_count * sizeof *t.blocks};
-    if (t.boxes) accel->buffers[2] = (ec_accel_buffer){"boxes", t.boxes, box_bytes};
-    if (t.instances)
-        accel->buffers[3] =
-            (ec_accel_buffer){"instances", t.instances, (in->placed_count + (uint64_t)1) * sizeof *t.instances};
-    accel->stats = (ec_accel_stats){.nodes = t.node_count, .leaves = t.block_count, .references = references,
+    accel->buffers[0] = (ec_accel_buffer){"nodes", t.all.nodes, (uint64_t)t.all.node_count * sizeof *t.all.nodes};
+    accel->buffers[1] = (ec_accel_buffer){"triangle blocks", t.all.blocks, (uint64_t)t.all.block_count * sizeof *t.all.blocks};
+    if (t.all.boxes) accel->buffers[2] = (ec_accel_buffer){"boxes", t.all.boxes, box_bytes};
+    if (t.instances) accel->buffers[3] = (ec_accel_buffer){"instances", t.instances, (in->placed_count + (uint64_t)1) * sizeof *t.instances};
+    accel->stats = (ec_accel_stats){.nodes = t.all.node_count, .leaves = t.all.block_count, .references = references,
                                     .sah_cost = in->placed_count ? 0.0 : in->bvh_stats.sah_cost};
     return EC_OK;
 }

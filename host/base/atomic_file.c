@@ -185,19 +185,25 @@ ec_result ec_atomic_commit(ec_atomic_file *file, ec_error *err)
     return failed ? EC_FAILED : EC_OK;
 }
 
-ec_result ec_atomic_append(ec_atomic_file *file, const void *bytes, size_t size, ec_error *err)
+int ec_write_all(int fd, const void *bytes, size_t size, off_t at)
 {
     for (size_t done = 0; done < size;) {
-        ssize_t put = write(file->fd, (const char *)bytes + done, size - done);
+        const char *rest = (const char *)bytes + done;
+        ssize_t put = at < 0 ? write(fd, rest, size - done) : pwrite(fd, rest, size - done, at + (off_t)done);
         if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) {
-            ec_write_failed(err, file->target, put < 0 ? errno : ENOSPC);
-            ec_atomic_abort(file);
-            return EC_FAILED;
-        }
+        if (put <= 0) return put < 0 ? errno : ENOSPC;
         done += (size_t)put;
     }
-    return EC_OK;
+    return 0;
+}
+
+ec_result ec_atomic_append(ec_atomic_file *file, const void *bytes, size_t size, ec_error *err)
+{
+    int failed = ec_write_all(file->fd, bytes, size, -1);
+    if (!failed) return EC_OK;
+    ec_write_failed(err, file->target, failed);
+    ec_atomic_abort(file);
+    return EC_FAILED;
 }
 
 ec_result ec_atomic_write(const char *path, const void *bytes, size_t size, ec_error *err)

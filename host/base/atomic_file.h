@@ -3,6 +3,7 @@
 #define EC_BASE_ATOMIC_FILE_H
 
 #include <stddef.h>
+#include <sys/types.h>
 
 #include "base/error.h"
 
@@ -22,6 +23,9 @@ ec_result ec_atomic_append(ec_atomic_file *file, const void *bytes, size_t size,
 /* Flushes to disk and gives it its name. On failure the temporary file is gone and an older target is as it was. */
 ec_result ec_atomic_commit(ec_atomic_file *file, ec_error *err);
 void ec_atomic_abort(ec_atomic_file *file);
+
+/* Writes all of it from byte `at` on, -1: where the file stands. 0, or the errno value of what failed. */
+int ec_write_all(int fd, const void *bytes, size_t size, off_t at);
 
 /* All of it at once. */
 ec_result ec_atomic_write(const char *path, const void *bytes, size_t size, ec_error *err);

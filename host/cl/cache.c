@@ -114,8 +114,7 @@ bool ec_cache_load(const char *folder, const ec_cache_key *key, unsigned char **
     return good;
 }
 
-/* mkdir -p, private as XDG asks. */
-static bool make_folders(const char *folder)
+bool ec_cache_make_folder(const char *folder)
 {
     char path[4096];
     if (snprintf(path, sizeof path, "%s", folder) >= (int)sizeof path) return false;
@@ -131,7 +130,7 @@ bool ec_cache_store(const char *folder, const ec_cache_key *key, const unsigned 
 {
     char path[4096];
     ec_error ignored;
-    if (snprintf(path, sizeof path, "%s/%s.bin", folder, key->hex) >= (int)sizeof path || !make_folders(folder)) return false;
+    if (snprintf(path, sizeof path, "%s/%s.bin", folder, key->hex) >= (int)sizeof path || !ec_cache_make_folder(folder)) return false;
     cache_header header = {.bytes = bytes};
     memcpy(header.magic, EC_CACHE_MAGIC, sizeof header.magic);
     memcpy(header.key, key->bytes, sizeof header.key);

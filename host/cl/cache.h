@@ -12,6 +12,9 @@ typedef struct ec_cache_key {
 /* SHA-256 over everything that a binary depends on. */
 ec_cache_key ec_cache_key_of(const ec_device_info *device, const char *source, const char *options);
 
+/* mkdir -p, private as XDG asks. False if it is not there then. */
+bool ec_cache_make_folder(const char *folder);
+
 /* The folder: `chosen`, else ${XDG_CACHE_HOME:-$HOME/.cache}/eclat/kernels. False if there is none (no HOME). */
 bool ec_cache_folder(const char *chosen, char *path, size_t size);
 

@@ -166,7 +166,7 @@ ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count
     const char *from;
     const char *list = asked_for(id, &from);
     *chosen = 1;
-    if (!list || !is_list(devices, count, list)) return ec_device_choose(devices, count, id, indices, why, err);
+    if (most == 1 || !list || !is_list(devices, count, list)) return ec_device_choose(devices, count, id, indices, why, err);
     if (why) *why = from[0] == '-' ? "chosen by --device" : "chosen by ECLAT_DEVICE";
     if (is_all(list)) return choose_all(devices, count, indices, most, chosen, err);
     *chosen = 0;
@@ -193,12 +193,6 @@ ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32
 
 ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err)
 {
-    ec_device_info *devices = NULL;
-    uint32_t count = 0, chosen = 0;
-    EC_TRY(ec_devices_list(&devices, &count, err));
-    ec_result result = ec_device_choose(devices, count, id, &chosen, why, err);
-    if (result == EC_OK) *device = devices[chosen];
-    if (result == EC_OK && index) *index = chosen;
-    free(devices);
-    return result;
+    uint32_t own, chosen;
+    return ec_device_find_several(id, device, index ? index : &own, 1, &chosen, why, err);
 }

@@ -34,7 +34,7 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
                            const char **why, ec_error *err);
 
 /* Likewise for `all` (those that are available and have a compiler) and lists such as `0,2` or `pocl,intel`: several indices, `most` at
- * most, in the order given. */
+ * most, in the order given. With a `most` of 1 such a list is refused. */
 ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *indices, uint32_t most,
                                    uint32_t *chosen, const char **why, ec_error *err);
 
@@ -64,6 +64,7 @@ typedef struct ec_cl {
     double build_seconds;     /* spent in clBuildProgram and cache look-ups */
     uint32_t cache_hits, cache_misses;
     const char *cache_dir;    /* NULL: the default (see ec_program_build) */
+    const ec_log *log;        /* who hears that compiling takes long; NULL: nobody */
     bool keeps_programs;      /* set after ec_cl_open: programs stay built until ec_cl_close, and are found again */
     bool keeps_buffers;       /* likewise what of a scene is put on the device, as long as the next one wants it too */
     struct ec_kept_program *kept;

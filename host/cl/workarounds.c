@@ -16,7 +16,7 @@
 #include <string.h>
 
 static const ec_workaround workarounds[] = {
-    {"PoCL", "3.1, 2026-11", "binaries lack what launches use", .source_only = true},
+    {"PoCL", "3.1, 2026-11", "binaries lack what launches use", .source_only = true, .compiles_late = true},
     {"Oclgrind", "21.10, 2026-11", "names lines of the source; what lanes that are off read counts as uninitialised once another part of the buffer is written",
      .source_only = true, .no_touch = true},
     {"rusticl", "Mesa 22.3.6, 2026-11", "its compiler takes gigabytes and many minutes for kernels of more than one lane", .most_lanes = 1,

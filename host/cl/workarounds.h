@@ -10,6 +10,7 @@ typedef struct ec_workaround {
     const char *what;       /* what is wrong, for messages */
     bool source_only;       /* its programs do not go through eclat's binary cache */
     uint32_t most_lanes;    /* 0: any */
+    bool compiles_late;     /* at a kernel's first launch, under one lock, into a cache that processes share */
     bool rounds;            /* division and square root correctly, though it does not say so */
     bool no_touch;          /* buffers are not written to only to see whether there is memory for them */
 } ec_workaround;

@@ -1,167 +1,193 @@
 /* Which command is meant, and how the program ends. */
 #include <errno.h>
+#include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "cli/cli.h"
-#include "jobs/command_line.h"
 #include "cli/help.h"
+#include "cli/progress.h"
 #include "cli/stop.h"
-#include "jobs/suggest.h"
-#include "jobs/usage.h"
+#include "cli/suggest.h"
 
-static ec_result cmd_completion(ec_cli *cli, int argc, char **argv, ec_error *err);
-static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err);
+typedef struct cli {
+    ec_console console;
+    int argc;
+    char **argv;
+    int exit_code;       /* of a command that succeeded: 1 where the answer is no, as of compare and selftest */
+    eclat_ranks *ranks;  /* the other processes of an MPI job; NULL: there are none */
+    ec_asked asked;
+} cli;
 
-typedef struct command {
-    const char *name;
-    ec_result (*run)(ec_cli *cli, int argc, char **argv, ec_error *err);
-    bool by_all; /* the ranks of an MPI job, not the first of them alone */
-} command;
-
-static const command commands[] = {
-    {"render", ec_cmd_render, true},
-    {"cost", ec_cmd_cost, false},
-    {"info", ec_cmd_info, false},
-    {"compare", ec_cmd_compare, false},
-    {"merge", ec_cmd_merge, false},
-    {"devices", ec_cmd_devices, false},
-    {"selftest", ec_cmd_selftest, false},
-    {"view", ec_cmd_view, false},
-    {"completion", cmd_completion, false},
-    {"help", cmd_help, false},
-};
-enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
-
-static const command *find_command(const char *name)
+static eclat_result unknown_command(const char *name, eclat_error *err)
 {
-    for (int i = 0; i < COMMAND_COUNT; i++)
-        if (!strcmp(commands[i].name, name)) return &commands[i];
-    return NULL;
-}
-
-static ec_result unknown_command(const char *name, ec_error *err)
-{
-    const char *names[COMMAND_COUNT];
-    for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i].name;
-    const char *nearest = ec_suggest(name, names, COMMAND_COUNT);
+    const char *names[EC_PAGES_MOST + 1];
+    const char *nearest = ec_suggest(name, names, ec_page_names(names));
     const char *dot = strrchr(name, '.');
     if (name[0] == '-')
-        return ec_usage(err, "unknown option '%s' before a command; see 'eclat --help'", name);
+        return ec_wrong(err, "unknown option '%s' before a command; see 'eclat --help'", name);
     if (nearest)
-        return ec_usage(err, "unknown command '%s'; did you mean 'eclat %s'?", name, nearest);
+        return ec_wrong(err, "unknown command '%s'; did you mean 'eclat %s'?", name, nearest);
     if (dot && (!strcmp(dot, ".gltf") || !strcmp(dot, ".glb")))
-        return ec_usage(err, "'%s' is a scene, not a command: 'eclat render %s' renders it", name, name);
-    return ec_usage(err, "unknown command '%s'; see 'eclat --help'", name);
+        return ec_wrong(err, "'%s' is a scene, not a command: 'eclat render %s' renders it", name, name);
+    return ec_wrong(err, "unknown command '%s'; see 'eclat --help'", name);
 }
 
-static ec_result cmd_help(ec_cli *cli, int argc, char **argv, ec_error *err)
+static eclat_result set_man(void *user, const char *option, const char *value, eclat_error *err)
 {
-    ec_option rows[1];
-    bool man = false;
-    int first = 0;
-    ec_request asked;
-    EC_TRY(ec_options_parse(rows, ec_help_command_rows(rows), &man, argc, argv, &first, NULL, &asked, err));
-    if (ec_cli_leaves(cli, asked)) return EC_OK;
-    const char *topic = first < argc && strcmp(argv[first], "help") ? argv[first] : "";
-    if (argc - first > 1) return ec_usage(err, "help takes one command, as in 'eclat help render'");
-    if (*topic && !find_command(topic)) return unknown_command(topic, err);
+    (void)option, (void)value, (void)err;
+    *(bool *)user = true;
+    return ECLAT_OK;
+}
+
+static eclat_result print_help(int argc, char **argv, bool man, eclat_error *err)
+{
+    const char *topic = argc > 0 && strcmp(argv[0], "help") ? argv[0] : "";
+    const eclat_command *page = *topic ? ec_page_find(topic) : &ec_page_main;
+    if (argc > 1) return ec_wrong(err, "help takes one command, as in 'eclat help render'");
+    if (!page) return unknown_command(topic, err);
     if (man) ec_help_manual(stdout);
-    else ec_print_help(topic);
-    return EC_OK;
+    else ec_help_plain(page, stdout);
+    return ECLAT_OK;
 }
 
-static ec_result cmd_completion(ec_cli *cli, int argc, char **argv, ec_error *err)
+static eclat_result print_completion(int argc, char **argv, eclat_error *err)
 {
+    if (argc != 1) return ec_wrong(err, "completion takes the name of a shell, bash or zsh; see 'eclat completion --help'");
+    for (const char *const *shell = ec_shell_names; *shell; shell++) {
+        if (strcmp(*shell, argv[0])) continue;
+        ec_help_completion(*shell, stdout);
+        return ECLAT_OK;
+    }
+    return ec_wrong(err, "there is no completion for '%s'; give bash or zsh", argv[0]);
+}
+
+typedef struct setting {
+    cli *cli;
+    eclat_job *job;
+} setting;
+
+static eclat_result set(void *user, const char *option, const char *value, eclat_error *err)
+{
+    const setting *s = user;
+    s->cli->console.quiet |= !strcmp(option, "quiet");
+    return eclat_job_set(s->job, option, value, err);
+}
+
+static eclat_result run_job(cli *cli, eclat_job *job, int first, eclat_error *err)
+{
+    ec_progress_view view = {.console = &cli->console, .has_bar = !strcmp(cli->argv[1], "render")};
+    const eclat_listener listener = ec_progress_listener(&view);
+    eclat_result result = ECLAT_OK;
+    for (int i = first; result == ECLAT_OK && i < cli->argc - 1; i++) result = eclat_job_add(job, cli->argv[1 + i], err);
+    if (result != ECLAT_OK) return result;
+    eclat_job_listen(job, &listener);
+    eclat_job_share(job, cli->ranks);
+    ec_stop_job(job);
+    result = eclat_job_run(job, NULL, err);
+    ec_stop_job(NULL);
+    ec_stop_hint(NULL);
+    cli->exit_code = eclat_job_says_no(job);
+    return result;
+}
+
+/* One of the library's. */
+static eclat_result take_job(cli *cli, const eclat_command *page, const eclat_option *rows, int count, eclat_error *err)
+{
+    setting s = {.cli = cli};
     int first = 0;
-    uint32_t shell;
-    ec_request asked;
-    EC_TRY(ec_options_parse(NULL, 0, NULL, argc, argv, &first, NULL, &asked, err));
-    if (ec_cli_leaves(cli, asked)) return EC_OK;
-    if (argc - first != 1) return ec_usage(err, "completion takes the name of a shell, bash or zsh; see 'eclat completion --help'");
-    for (shell = 0; ec_shell_names[shell] && strcmp(ec_shell_names[shell], argv[first]); shell++) continue;
-    if (!ec_shell_names[shell]) return ec_usage(err, "there is no completion for '%s'; give bash or zsh", argv[first]);
-    ec_help_completion(ec_shell_names[shell], stdout);
-    return EC_OK;
+    eclat_result result = eclat_job_new(page->name, &s.job, err);
+    if (result == ECLAT_OK) result = eclat_job_typed(s.job, cli->argc, cli->argv, err);
+    if (result == ECLAT_OK) result = ec_arguments_read(rows, count, cli->argc - 1, cli->argv + 1, set, &s, &first, &cli->asked, err);
+    if (result == ECLAT_OK && cli->asked == EC_ASKED_RUN) result = run_job(cli, s.job, first, err);
+    eclat_job_free(s.job);
+    return result;
 }
 
-static ec_result run(ec_cli *cli, ec_error *err)
+/* One of the program's own. */
+static eclat_result take_own(cli *cli, const eclat_command *page, const eclat_option *rows, int count, eclat_error *err)
 {
+    int argc = cli->argc - 1, first = 0;
+    char **argv = cli->argv + 1;
+    bool man = false;
+    const eclat_result result = ec_arguments_read(rows, count, argc, argv, set_man, &man, &first, &cli->asked, err);
+    if (result != ECLAT_OK || cli->asked != EC_ASKED_RUN) return result;
+    if (page == &ec_page_completion) return print_completion(argc - first, argv + first, err);
+    return print_help(argc - first, argv + first, man, err);
+}
+
+static void print_version(void) { puts("eclat " EC_VERSION); }
+
+static eclat_result run(cli *cli, eclat_error *err)
+{
+    eclat_option rows[EC_OPTIONS_MOST];
     const char *name = cli->argv[1];
     if (!strcmp(name, "--help") || !strcmp(name, "-h")) name = "help";
     if (!strcmp(name, "--version")) {
-        ec_print_version();
-        return EC_OK;
+        print_version();
+        return ECLAT_OK;
     }
-    const command *found = find_command(name);
-    if (!found) return unknown_command(name, err);
-    if (cli->ranks && !found->by_all) ec_console_say(&cli->console, "note: only render is shared out; rank 0 does this alone");
-    EC_TRY(found->run(cli, cli->argc - 1, cli->argv + 1, err));
-    if (cli->asked == EC_REQUEST_HELP) ec_print_help(found->name);
-    if (cli->asked == EC_REQUEST_VERSION) ec_print_version();
-    return EC_OK;
+    const eclat_command *page = ec_page_find(name);
+    if (!page) return unknown_command(name, err);
+    const int count = ec_page_options(page, rows);
+    const bool is_own = page == &ec_page_help || page == &ec_page_completion;
+    const eclat_result result = (is_own ? take_own : take_job)(cli, page, rows, count, err);
+    if (result == ECLAT_OK && cli->asked == EC_ASKED_HELP) ec_help_plain(page, stdout);
+    if (result == ECLAT_OK && cli->asked == EC_ASKED_VERSION) print_version();
+    return result;
 }
 
 /* A result that did not arrive is a failure, however well the render went. */
-static ec_result flush_results(ec_error *err)
+static eclat_result flush_results(eclat_error *err)
 {
     errno = 0;
     int lost = ferror(stdout);
-    if (fflush(stdout) != 0 || lost)
-        return ec_fail(err, "cannot write the result to standard output: %s",
-                       errno ? strerror(errno) : "an earlier write failed");
-    return EC_OK;
+    if (fflush(stdout) == 0 && !lost) return ECLAT_OK;
+    snprintf(err->text, sizeof err->text, "cannot write the result to standard output: %s", errno ? strerror(errno) : "an earlier write failed");
+    return ECLAT_FAILED;
 }
 
 /* What a process does that is alone, or the first of several. */
-static int lead(ec_ranks *ranks, int argc, char **argv)
+static int lead(eclat_ranks *ranks, int argc, char **argv)
 {
-    ec_cli cli = {.console = {.terminal = isatty(STDERR_FILENO) == 1}, .argc = argc, .argv = argv, .ranks = ranks};
+    cli cli = {.console = {.terminal = isatty(STDERR_FILENO) == 1}, .argc = argc, .argv = argv, .ranks = ranks};
     if (argc < 2) {
         ec_help_short(stderr);
-        return EC_USAGE;
+        return ECLAT_USAGE;
     }
-    ec_error err = {0};
-    cli.line = ec_command_line(argc, argv);
-    ec_result result = cli.line ? run(&cli, &err) : ec_fail(&err, "out of memory");
-    if (result == EC_OK) result = flush_results(&err);
-    if (result != EC_OK) ec_console_error(&cli.console, err.text);
-    free(cli.line);
-    return result != EC_OK ? (int)result : cli.exit_code;
+    eclat_error err = {{0}, ECLAT_ERROR_OTHER};
+    eclat_result result = run(&cli, &err);
+    if (result == ECLAT_OK) result = flush_results(&err);
+    if (result != ECLAT_OK) ec_console_say(&cli.console, ECLAT_FAILURE, err.text);
+    return result != ECLAT_OK ? (int)result : cli.exit_code;
 }
 
-/* The other ranks of an MPI job read no command line. They end when rank 0 says so: signals go to all, and what is to be written is its. One that
- * fails ends without leaving, so that the launcher ends the others, which may be waiting for it. */
-static int follow(ec_ranks *ranks)
+/* The other ranks of an MPI job read no command line. They end when rank 0 says so: signals go to all, and what is to be written is its. */
+static int follow(eclat_ranks *ranks)
 {
-    ec_error err = {0};
+    eclat_error err;
     ec_console console = {0};
-    const ec_log log = ec_console_log(&console);
+    ec_progress_view view = {.console = &console};
+    const eclat_listener listener = ec_progress_listener(&view);
     ec_stop_catch_signals(false);
-    if (ec_ranks_serve(ranks, &log, &err) == EC_OK) {
-        ec_ranks_leave(ranks);
-        return 0;
-    }
-    ec_fail_more(&err, "; this was rank %d; eclat render --resume FILE goes on from what --checkpoint FILE has kept", ec_ranks_number(ranks));
-    ec_console_error(&console, err.text);
-    return EC_FAILED;
+    if (eclat_ranks_serve(ranks, &listener, &err) == ECLAT_OK) return 0;
+    ec_console_say(&console, ECLAT_FAILURE, err.text);
+    return ECLAT_FAILED;
 }
 
 int ec_cli_main(int argc, char **argv)
 {
-    if (ec_ranks_launched() < 2) return lead(NULL, argc, argv);
-    ec_ranks *ranks = NULL;
-    ec_error err = {0};
+    eclat_ranks *ranks = NULL;
+    eclat_error err;
     ec_console console = {0};
-    if (ec_ranks_join(&ranks, &err) != EC_OK) {
-        if (ec_ranks_launched_first()) ec_console_error(&console, err.text);
-        ec_ranks_leave(ranks);
-        return EC_FAILED;
+    if (eclat_ranks_join(&ranks, &err) != ECLAT_OK) {
+        if (eclat_ranks_number(NULL) == 0) ec_console_say(&console, ECLAT_FAILURE, err.text);
+        eclat_ranks_leave(ranks);
+        return ECLAT_FAILED;
     }
-    if (ec_ranks_number(ranks) > 0) return follow(ranks);
+    if (ranks && eclat_ranks_number(ranks) > 0) return follow(ranks);
     int code = lead(ranks, argc, argv);
-    ec_ranks_leave(ranks);
+    eclat_ranks_leave(ranks);
     return code;
 }

@@ -1,30 +1,38 @@
 /* Completion of commands, options and their values in a shell, from the tables of options. */
+#include <stdbool.h>
 #include <string.h>
 
 #include "cli/help.h"
 
 /* Do files complete it? Other values are for the user to know, but those of a list. */
-static bool is_file(const ec_option *option) { return option->metavar && !strncmp(option->metavar, "FILE", 4); }
-
-static bool has_files(const ec_help_page *page) { return *page->operands != '['; }
+static bool is_file(const eclat_option *option) { return option->metavar && !strncmp(option->metavar, "FILE", 4); }
 
 static void put_words(FILE *to, const char *const *words)
 {
     for (; *words; words++) fprintf(to, "%s%s", *words, words[1] ? " " : "");
 }
 
-static void put_commands(FILE *to)
+/* Operands to choose from; false: there are none. */
+static bool put_operands(FILE *to, const eclat_command *page, const char *before, const char *after)
 {
-    for (int i = 0; i < ec_help_page_count; i++) fprintf(to, "%s ", ec_help_pages[i].name);
+    const char *names[EC_PAGES_MOST + 1];
+    if (page != &ec_page_help && page != &ec_page_completion) return false;
+    ec_page_names(names);
+    fputs(before, to);
+    put_words(to, page == &ec_page_help ? names : ec_shell_names);
+    fputs(after, to);
+    return true;
 }
 
+static bool has_files(const eclat_command *page) { return *page->operands != '['; }
+
 /* What follows an option, by its name or letter: `files` for a file, `words` for one of a list, else nothing. */
-static void bash_values(const ec_option *rows, int count, FILE *to)
+static void bash_values(const eclat_option *rows, int count, FILE *to)
 {
     for (int i = 0; i < count; i++) {
         if (!rows[i].metavar) continue;
         fprintf(to, "            --%s=", rows[i].name);
-        if (!rows[i].value_optional) fprintf(to, "|--%s", rows[i].name);
+        if (rows[i].takes_value != 2) fprintf(to, "|--%s", rows[i].name);
         if (rows[i].letter) fprintf(to, "|-%c", rows[i].letter);
         fputs(is_file(&rows[i]) ? ") files=1" : ") words=\"", to);
         if (!is_file(&rows[i]) && rows[i].choices) put_words(to, rows[i].choices);
@@ -32,22 +40,24 @@ static void bash_values(const ec_option *rows, int count, FILE *to)
     }
 }
 
-static void bash_command(const ec_help_page *page, FILE *to)
+static void bash_command(const eclat_command *page, FILE *to)
 {
-    ec_option rows[EC_OPTIONS_MAX + 2];
+    eclat_option rows[EC_OPTIONS_MOST];
     int count = ec_help_rows(page, rows);
     fprintf(to, "    %s)\n        case \"$prev\" in\n", page->name);
     bash_values(rows, count, to);
     fputs("            *) options=\"", to);
-    for (int i = 0; i < count; i++) fprintf(to, "%s--%s%s", i ? " " : "", rows[i].name, rows[i].value_optional ? "=" : "");
+    for (int i = 0; i < count; i++) fprintf(to, "%s--%s%s", i ? " " : "", rows[i].name, rows[i].takes_value == 2 ? "=" : "");
     fputs("\"\n                ", to);
-    if (!page->words) fputs(has_files(page) ? "files=1 ;;\n" : ";;\n", to);
-    else fputs("words=\"", to), put_words(to, page->words), fputs("\" ;;\n", to);
+    if (!put_operands(to, page, "words=\"", "\" ;;\n")) fputs(has_files(page) ? "files=1 ;;\n" : ";;\n", to);
     fputs("        esac ;;\n", to);
 }
 
 static void bash(FILE *to)
 {
+    const eclat_command *pages[EC_PAGES_MOST];
+    const char *names[EC_PAGES_MOST + 1];
+    const int count = ec_pages(pages);
     fputs("# Completion of eclat for bash, as `eclat completion bash` prints it.\n"
           "_eclat() {\n"
           "    local cur=\"${COMP_WORDS[COMP_CWORD]}\" prev=\"${COMP_WORDS[COMP_CWORD-1]}\" words= options= files= value=\n"
@@ -56,12 +66,13 @@ static void bash(FILE *to)
           "    elif [ \"$prev\" = = ]; then prev=\"${COMP_WORDS[COMP_CWORD-2]}=\"; fi\n"
           "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
           "        mapfile -t COMPREPLY < <(compgen -W \"", to);
-    put_commands(to);
-    fputs("--help --version\" -- \"$cur\")\n"
+    ec_page_names(names);
+    put_words(to, names);
+    fputs(" --help --version\" -- \"$cur\")\n"
           "        return\n"
           "    fi\n"
           "    case \"${COMP_WORDS[1]}\" in\n", to);
-    for (int i = 0; i < ec_help_page_count; i++) bash_command(&ec_help_pages[i], to);
+    for (int i = 0; i < count; i++) bash_command(pages[i], to);
     fputs("    esac\n"
           "    case \"$cur\" in\n"
           "    -*) [ -n \"$value\" ] || words=\"$options\" files= ;;\n"
@@ -82,17 +93,17 @@ static void zsh_text(FILE *to, const char *text)
     }
 }
 
-static void zsh_option(const ec_option *o, FILE *to)
+static void zsh_option(const eclat_option *o, FILE *to)
 {
     char text[1024];
     ec_help_text(o, text, sizeof text);
     for (int form = o->letter ? 0 : 1; form < 2; form++) {
-        if (form == 0) fprintf(to, "            '%s-%c%s[", o->uses & EC_OPTION_REPEATS ? "*" : "", o->letter, o->metavar ? "+" : "");
-        else fprintf(to, "            '%s--%s%s[", o->uses & EC_OPTION_REPEATS ? "*" : "", o->name, o->value_optional ? "=-" : o->metavar ? "=" : "");
+        if (form == 0) fprintf(to, "            '%s-%c%s[", o->repeats ? "*" : "", o->letter, o->metavar ? "+" : "");
+        else fprintf(to, "            '%s--%s%s[", o->repeats ? "*" : "", o->name, o->takes_value == 2 ? "=-" : o->metavar ? "=" : "");
         zsh_text(to, text);
         fputc(']', to);
         if (o->metavar) {
-            fputs(o->value_optional ? "::" : ":", to);
+            fputs(o->takes_value == 2 ? "::" : ":", to);
             zsh_text(to, o->metavar);
             fputc(':', to);
             if (o->choices) fputc('(', to), put_words(to, o->choices), fputc(')', to);
@@ -104,13 +115,15 @@ static void zsh_option(const ec_option *o, FILE *to)
 
 static void zsh(FILE *to)
 {
+    const eclat_command *pages[EC_PAGES_MOST];
+    const int page_count = ec_pages(pages);
     fputs("#compdef eclat\n"
           "# Completion of eclat for zsh, as `eclat completion zsh` prints it.\n"
           "_eclat() {\n"
           "    local -a commands=(\n", to);
-    for (int i = 0; i < ec_help_page_count; i++) {
-        fprintf(to, "        '%s:", ec_help_pages[i].name);
-        zsh_text(to, ec_help_pages[i].summary);
+    for (int i = 0; i < page_count; i++) {
+        fprintf(to, "        '%s:", pages[i]->name);
+        zsh_text(to, pages[i]->summary);
         fputs("'\n", to);
     }
     fputs("    )\n"
@@ -122,14 +135,13 @@ static void zsh(FILE *to)
           "    shift words\n"
           "    (( CURRENT-- ))\n"
           "    case $command in\n", to);
-    for (int i = 0; i < ec_help_page_count; i++) {
-        ec_option rows[EC_OPTIONS_MAX + 2];
-        int count = ec_help_rows(&ec_help_pages[i], rows);
-        fprintf(to, "    %s)\n        _arguments -s \\\n", ec_help_pages[i].name);
+    for (int i = 0; i < page_count; i++) {
+        eclat_option rows[EC_OPTIONS_MOST];
+        int count = ec_help_rows(pages[i], rows);
+        fprintf(to, "    %s)\n        _arguments -s \\\n", pages[i]->name);
         for (int k = 0; k < count; k++) zsh_option(&rows[k], to);
         fputs("            '*:operand:", to);
-        if (ec_help_pages[i].words) fputc('(', to), put_words(to, ec_help_pages[i].words), fputs(")' ;;\n", to);
-        else fputs(has_files(&ec_help_pages[i]) ? "_files' ;;\n" : "' ;;\n", to);
+        if (!put_operands(to, pages[i], "(", ")' ;;\n")) fputs(has_files(pages[i]) ? "_files' ;;\n" : "' ;;\n", to);
     }
     fputs("    esac\n"
           "}\n"

@@ -1,10 +1,8 @@
 #include "cli/help.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "cli/cli.h"
-#include "view/view.h"
 
 enum { WIDTH = 119, ITEM_TEXT = 1024, LIST_TEXT = 4096 };
 
@@ -37,7 +35,7 @@ static void wrap(FILE *to, const char *text, int at, int indent)
     fputc('\n', to);
 }
 
-static void plain_usage(FILE *to, const ec_help_page *page)
+static void plain_usage(FILE *to, const eclat_command *page)
 {
     fprintf(to, "Usage: eclat%s%s %s\n", *page->name ? " " : "", page->name, page->operands);
 }
@@ -64,73 +62,72 @@ static void plain_item(FILE *to, const char *term, const char *text, int indent)
     wrap(to, text, indent, indent);
 }
 
-static const ec_help_style plain = {plain_usage, plain_heading, plain_paragraph, plain_item, plain_list};
-
-static int by_name(const void *a, const void *b) { return strcmp(((const ec_option *)a)->name, ((const ec_option *)b)->name); }
+static int by_name(const void *a, const void *b) { return strcmp(((const eclat_option *)a)->name, ((const eclat_option *)b)->name); }
 
 /* In a list of names alone. */
-static bool is_brief(const ec_help_page *page, const ec_option *row) { return (page->borrows || page->lacks) && row->uses & EC_OPTION_BORROWED; }
+static bool is_brief(const eclat_command *page, const eclat_option *row) { return (page->borrows || page->lacks) && row->is_borrowed; }
 
-int ec_help_rows(const ec_help_page *page, ec_option rows[EC_OPTIONS_MAX + 2])
+/* What all commands have comes last. */
+int ec_help_rows(const eclat_command *page, eclat_option rows[EC_OPTIONS_MOST])
 {
-    int all = page->rows ? page->rows(rows) : 0, count = 0;
-    ec_option_group last = EC_GROUP_OPTIONS;
+    int all = ec_page_options(page, rows), count = 0;
+    eclat_option last = {.group_title = "Options"};
     for (int i = 0; i < all; i++) {
-        if (rows[i].group == EC_GROUP_MESSAGES && !is_brief(page, &rows[i])) last = EC_GROUP_MESSAGES;
-        if (!(page->lacks && rows[i].not_in_window)) rows[count++] = rows[i];
+        if (!is_brief(page, &rows[i])) last = rows[i];
+        if (!rows[i].refused) rows[count++] = rows[i];
     }
-    rows[count++] = (ec_option){.name = "help", .letter = 'h', .group = last, .help = "show this"};
-    rows[count++] = (ec_option){.name = "version", .group = last, .help = "print the version"};
+    rows[count++] = (eclat_option){.name = "help", .letter = 'h', .group = last.group, .group_title = last.group_title, .help = "show this"};
+    rows[count++] = (eclat_option){.name = "version", .group = last.group, .group_title = last.group_title, .help = "print the version"};
     qsort(rows, (size_t)count, sizeof *rows, by_name);
     return count;
 }
 
-void ec_help_text(const ec_option *option, char *text, size_t size)
+void ec_help_text(const eclat_option *option, char *text, size_t size)
 {
     const char *otherwise = option->otherwise;
     snprintf(text, size, otherwise ? "%s (default: %s)" : "%s", option->help, otherwise);
 }
 
-static void write_option(const ec_option *o, const ec_help_style *style, FILE *to, int indent)
+static void write_option(const eclat_option *o, const ec_help_style *style, FILE *to, int indent)
 {
     char text[ITEM_TEXT], term[96], letter[8] = "    ";
     ec_help_text(o, text, sizeof text);
     if (o->letter) snprintf(letter, sizeof letter, "-%c, ", o->letter);
-    snprintf(term, sizeof term, o->value_optional ? "%s--%s[=%s]" : o->metavar ? "%s--%s %s" : "%s--%s", letter, o->name, o->metavar);
+    snprintf(term, sizeof term, o->takes_value == 2 ? "%s--%s[=%s]" : o->metavar ? "%s--%s %s" : "%s--%s", letter, o->name, o->metavar);
     style->item(to, term, text, indent);
 }
 
-static void write_group(const ec_help_page *page, const ec_option *rows, int count, ec_option_group group, const ec_help_style *style, FILE *to)
+/* Wide where options have long names. */
+static int indent_of(const eclat_command *page) { return strncmp(page->operands, "SCENE", 5) ? 21 : 29; }
+
+/* The options whose group has this title, and what else there is to say of it. */
+static void write_group(const eclat_command *page, const eclat_option *rows, int count, const char *title, const ec_help_style *style, FILE *to)
 {
-    bool has_any = false;
-    for (int i = 0; i < count; i++) {
-        if (rows[i].group != group || is_brief(page, &rows[i])) continue;
-        if (!has_any) style->heading(to, ec_group_titles[group]);
-        has_any = true;
-        write_option(&rows[i], style, to, page->indent);
-    }
-    for (const ec_help_note *note = page->notes; has_any && note->heading; note++) {
+    style->heading(to, title);
+    for (int i = 0; i < count; i++)
+        if (!strcmp(rows[i].group_title, title) && !is_brief(page, &rows[i])) write_option(&rows[i], style, to, indent_of(page));
+    for (const eclat_note *note = page->notes; note && note->heading; note++) {
         char term[64];
-        if (strcmp(note->heading, ec_group_titles[group])) continue;
+        if (strcmp(note->heading, title)) continue;
         snprintf(term, sizeof term, "    %s", note->term);
-        style->item(to, term, note->text, page->indent);
+        style->item(to, term, note->text, indent_of(page));
     }
 }
 
-static bool is_group(const char *heading)
+static bool is_group(const char *heading, const eclat_option *rows, int count)
 {
-    for (int i = 0; i < EC_GROUP_COUNT; i++)
-        if (!strcmp(ec_group_titles[i], heading)) return true;
+    for (int i = 0; i < count; i++)
+        if (!strcmp(rows[i].group_title, heading)) return true;
     return false;
 }
 
 /* Names, and metavars where they are of options that the command has. */
-static void write_list(const char *heading, const ec_option *rows, int count, bool lacks, const ec_help_style *style, FILE *to)
+static void write_list(const char *heading, const eclat_option *rows, int count, bool lacks, const ec_help_style *style, FILE *to)
 {
     char text[LIST_TEXT] = "";
     size_t used = 0;
     for (int i = 0; i < count && used < sizeof text; i++) {
-        if (!(lacks ? rows[i].not_in_window != NULL : rows[i].uses & EC_OPTION_BORROWED)) continue;
+        if (!(lacks ? rows[i].refused != NULL : rows[i].is_borrowed)) continue;
         used += (size_t)snprintf(text + used, sizeof text - used, "%s--%s%s%s", used ? ", " : "", rows[i].name, lacks || !rows[i].metavar ? "" : " ",
                                  lacks || !rows[i].metavar ? "" : rows[i].metavar);
     }
@@ -138,41 +135,45 @@ static void write_list(const char *heading, const ec_option *rows, int count, bo
     style->list(to, text);
 }
 
-void ec_help_write(const ec_help_page *page, const ec_help_style *style, FILE *to)
+static void write_commands(const ec_help_style *style, FILE *to)
 {
-    ec_option rows[EC_OPTIONS_MAX + 2];
-    int count = ec_help_rows(page, rows);
-    style->usage(to, page);
-    if (page->intro) style->paragraph(to, page->intro);
-    if (page == &ec_help_main) {
-        style->heading(to, "Commands");
-        for (int i = 0; i < ec_help_page_count; i++) style->item(to, ec_help_pages[i].name, ec_help_pages[i].summary, page->indent);
-    }
-    for (int group = 0; group < EC_GROUP_COUNT; group++) write_group(page, rows, count, (ec_option_group)group, style, to);
-    if (page->borrows) write_list(page->borrows, rows, count, false, style, to);
-    if (page->lacks) {
-        int all = page->rows(rows);
-        qsort(rows, (size_t)all, sizeof *rows, by_name);
-        write_list(page->lacks, rows, all, true, style, to);
-    }
+    const eclat_command *pages[EC_PAGES_MOST];
+    const int count = ec_pages(pages);
+    style->heading(to, "Commands");
+    for (int i = 0; i < count; i++) style->item(to, pages[i]->name, pages[i]->summary, indent_of(&ec_page_main));
+}
+
+/* Those that belong to no group. */
+static void write_notes(const eclat_command *page, const eclat_option *rows, int count, const ec_help_style *style, FILE *to)
+{
     const char *heading = "";
-    for (const ec_help_note *note = page->notes; note->heading; note++) {
-        if (is_group(note->heading)) continue;
+    for (const eclat_note *note = page->notes; note && note->heading; note++) {
+        if (is_group(note->heading, rows, count)) continue;
         if (strcmp(heading, note->heading)) style->heading(to, note->heading);
         heading = note->heading;
-        style->item(to, note->term, note->text, page->indent);
+        style->item(to, note->term, note->text, indent_of(page));
     }
+}
+
+void ec_help_write(const eclat_command *page, const ec_help_style *style, FILE *to)
+{
+    eclat_option rows[EC_OPTIONS_MOST], all[EC_OPTIONS_MOST];
+    const int count = ec_help_rows(page, rows), all_count = ec_page_options(page, all);
+    const char *title = "";
+    style->usage(to, page);
+    if (page->intro) style->paragraph(to, page->intro);
+    if (page == &ec_page_main) write_commands(style, to);
+    if (!all_count) write_group(page, rows, count, "Options", style, to);
+    for (int i = 0; i < all_count; i++)
+        if (!is_brief(page, &all[i]) && strcmp(title, all[i].group_title)) write_group(page, rows, count, title = all[i].group_title, style, to);
+    if (page->borrows) write_list(page->borrows, rows, count, false, style, to);
+    qsort(all, (size_t)all_count, sizeof *all, by_name);
+    if (page->lacks) write_list(page->lacks, all, all_count, true, style, to);
+    write_notes(page, rows, count, style, to);
     if (page->closing) style->paragraph(to, page->closing);
 }
 
-static const ec_help_page *find_page(const char *command)
-{
-    for (int i = 0; i < ec_help_page_count; i++)
-        if (!strcmp(ec_help_pages[i].name, command)) return &ec_help_pages[i];
-    return &ec_help_main;
-}
-
-static void write_short(const char *before, const ec_help_page *page, FILE *to)
+static void write_short(const char *before, const eclat_command *page, FILE *to)
 {
     const char *options = strstr(page->operands, "[options]");
     char usage[64];
@@ -182,22 +183,22 @@ static void write_short(const char *before, const ec_help_page *page, FILE *to)
 
 void ec_help_short(FILE *to)
 {
-    const ec_help_page *render = find_page("render");
+    const eclat_command *pages[EC_PAGES_MOST], *render = ec_page_find("render");
+    const int count = ec_pages(pages);
     write_short("Usage:", render, to);
-    for (int i = 0; i < ec_help_page_count; i++)
-        if (&ec_help_pages[i] != render) write_short("      ", &ec_help_pages[i], to);
+    for (int i = 0; i < count; i++)
+        if (pages[i] != render) write_short("      ", pages[i], to);
     fprintf(to, "       eclat %-35s %s\n", "--help", "show more help");
 }
 
-void ec_print_help(const char *command)
+void ec_help_plain(const eclat_command *page, FILE *to)
 {
-    const ec_help_page *page = find_page(command);
-    ec_help_write(page, &plain, stdout);
-    const ec_view_module *window;
-    if (!strcmp(page->name, "view") && ec_view_load(&window, NULL) == EC_OK) window->print_keys();
-}
-
-void ec_print_version(void)
-{
-    puts("eclat " ECLAT_VERSION);
+    static const ec_help_style plain = {plain_usage, plain_heading, plain_paragraph, plain_item, plain_list};
+    eclat_note key;
+    ec_help_write(page, &plain, to);
+    if (strcmp(page->name, "view")) return;
+    for (size_t i = 0; (key = eclat_view_key_at(i)).term; i++) {
+        if (i == 0) plain_heading(to, key.heading);
+        fprintf(to, "  %-28s %s\n", key.term, key.text);
+    }
 }

@@ -1,5 +1,6 @@
 /* The man page, set for groff's man macros. */
 #include <ctype.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "cli/help.h"
@@ -33,7 +34,7 @@ static void put_term(FILE *to, const char *term)
     fputc('\n', to);
 }
 
-static void man_usage(FILE *to, const ec_help_page *page)
+static void man_usage(FILE *to, const eclat_command *page)
 {
     fprintf(to, ".B eclat%s%s\n.I ", *page->name ? " " : "", page->name);
     put(to, page->operands);
@@ -72,14 +73,16 @@ static void man_item(FILE *to, const char *term, const char *text, int indent)
 void ec_help_manual(FILE *to)
 {
     static const ec_help_style man = {man_usage, man_heading, man_paragraph, man_item, man_list};
-    fputs(".TH ECLAT 1 \"\" \"eclat " ECLAT_VERSION "\" \"User Commands\"\n.SH NAME\neclat \\- ", to);
-    put(to, ec_help_main.summary);
+    fputs(".TH ECLAT 1 \"\" \"eclat " EC_VERSION "\" \"User Commands\"\n.SH NAME\neclat \\- ", to);
+    put(to, ec_page_main.summary);
     fputs("\n.SH SYNOPSIS\n", to);
-    ec_help_write(&ec_help_main, &man, to);
-    for (int i = 0; i < ec_help_page_count; i++) {
+    ec_help_write(&ec_page_main, &man, to);
+    const eclat_command *pages[EC_PAGES_MOST];
+    const int count = ec_pages(pages);
+    for (int i = 0; i < count; i++) {
         fputs(".SH \"ECLAT ", to);
-        for (const char *c = ec_help_pages[i].name; *c; c++) fputc(toupper((unsigned char)*c), to);
+        for (const char *c = pages[i]->name; *c; c++) fputc(toupper((unsigned char)*c), to);
         fputs("\"\n", to);
-        ec_help_write(&ec_help_pages[i], &man, to);
+        ec_help_write(pages[i], &man, to);
     }
 }

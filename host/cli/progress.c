@@ -1,14 +1,12 @@
 #include "cli/progress.h"
 
-#include <inttypes.h>
-#include <math.h>
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
-#include "base/clock.h"
+#include "cli/seconds.h"
 #include "cli/stop.h"
-#include "report/forecast_text.h"
-#include "report/format.h"
 
 #define SECONDS_BETWEEN_LINES 0.1
 enum { BAR_MAX = 24, BAR_MIN = 6 };
@@ -26,49 +24,56 @@ static void format_bar(double fraction, int width, char bar[BAR_MAX + 1])
     memcpy(bar + 1 + inner, "] ", 3);
 }
 
-static void format_time_left(double seconds, char *text, size_t size)
-{
-    if (!(seconds >= 0) || seconds > 360000)
-        snprintf(text, size, "time left unknown");
-    else if (seconds < 3600)
-        snprintf(text, size, "%d:%02d left", (int)seconds / 60, (int)seconds % 60);
-    else
-        snprintf(text, size, "%d:%02d:%02d left", (int)seconds / 3600, (int)seconds / 60 % 60, (int)seconds % 60);
-}
+static void message(void *user, eclat_severity severity, const char *text) { ec_console_say(((ec_progress_view *)user)->console, severity, text); }
 
-void ec_progress_format(const ec_progress *progress, int columns, char *line, size_t size)
-{
-    char bar[BAR_MAX + 1], text[200], left[48], rate[32], percent[32], bound[32], error[96] = "error unknown yet";
-    double fraction = progress->fraction >= 0 ? fmin(progress->fraction, 1) : 0; /* NaN: 0 */
-    format_time_left(progress->seconds_left, left, sizeof left);
-    ec_format_count(progress->samples_per_second, rate, sizeof rate);
-    if (isfinite(progress->error)) {
-        ec_format_percent(progress->error, percent, sizeof percent);
-        ec_format_percent(progress->error_bound, bound, sizeof bound);
-        if (isfinite(progress->error_bound)) snprintf(error, sizeof error, "error %s (bound %s)", percent, bound);
-        else snprintf(error, sizeof error, "error at least %s, no bound", percent);
-    }
-    snprintf(text, sizeof text, "%d %%  %s  %" PRIu64 " spp  %s samples/s  %s", (int)(100 * fraction), left,
-             progress->samples_per_pixel, rate, error);
-    format_bar(fraction, columns - (int)strlen(text), bar);
-    snprintf(line, size, "%s%s", bar, text);
-}
-
-bool ec_progress_show(void *user, const ec_progress *progress)
+static int show(void *user, const eclat_progress *progress)
 {
     ec_progress_view *view = user;
-    if (progress->pilot && !view->foretold) {
-        char forecast[256];
-        ec_forecast_text(progress->pilot, view->options, forecast, sizeof forecast);
-        ec_console_say(view->console, "after %.0f samples a pixel: %s", progress->pilot->pilot_samples, forecast);
-        view->foretold = true;
-    }
-    double now = ec_now();
+    const double now = ec_seconds(), part = progress->fraction, fraction = part >= 1 ? 1 : part >= 0 ? part : 0; /* NaN: 0 */
+    ec_stop_ignore_file_size();
     if (ec_console_wants_progress(view->console) && now - view->drawn_at >= SECONDS_BETWEEN_LINES) {
-        char line[256];
-        ec_progress_format(progress, ec_console_columns(view->console), line, sizeof line);
+        char bar[BAR_MAX + 1] = "", line[300];
+        if (view->has_bar) format_bar(fraction, ec_console_columns(view->console) - (int)strlen(progress->text), bar);
+        snprintf(line, sizeof line, "%s%s", bar, progress->text);
         ec_console_draw(view->console, line);
         view->drawn_at = now;
     }
-    return !ec_stop_requested();
+    return 1; /* Ctrl-C has stopped the job itself */
+}
+
+static const char *report(void *user, const char *text, size_t size)
+{
+    ec_progress_view *view = user;
+    errno = 0;
+    if (fwrite(text, 1, size, stdout) == size && fflush(stdout) == 0) return NULL;
+    snprintf(view->lost, sizeof view->lost, "cannot write the result to standard output: %s", errno ? strerror(errno) : "an earlier write failed");
+    return view->lost;
+}
+
+static void begin(void *user, int has_progress)
+{
+    ec_progress_view *view = user;
+    view->drawn_at = 0;
+    ec_stop_ignore_file_size();
+    ec_stop_catch_signals(has_progress && ec_console_wants_progress(view->console));
+}
+
+static void end(void *user)
+{
+    ec_stop_ignore_file_size();
+    ec_console_erase(((ec_progress_view *)user)->console);
+}
+
+static void hint(void *user, const char *line)
+{
+    ec_progress_view *view = user;
+    ec_stop_hint(NULL);
+    snprintf(view->hint, sizeof view->hint, "%s", line);
+    ec_stop_hint(view->hint);
+}
+
+eclat_listener ec_progress_listener(ec_progress_view *view)
+{
+    return (eclat_listener){.user = view, .message = message, .progress = show, .report = report, .bold = isatty(STDOUT_FILENO) == 1, .begin = begin,
+                            .end = end, .hint = hint};
 }

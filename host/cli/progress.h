@@ -1,26 +1,17 @@
-/* The progress line of a render: samples done, samples/s, error, time left. */
+/* What the program shows of a job that runs: messages and the progress line on standard error, reports on standard output. */
 #ifndef EC_CLI_PROGRESS_H
 #define EC_CLI_PROGRESS_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "cli/console.h"
-#include "render/render.h"
 
 typedef struct ec_progress_view {
     ec_console *console;
-    const ec_render_options *options;
-    bool foretold;         /* the forecast has been told */
-    double drawn_at;       /* ec_now() of the last line */
+    bool has_bar;          /* before the progress in words */
+    double drawn_at;       /* ec_seconds() of the last line */
+    char hint[5000];       /* what ec_stop_hint points at */
+    char lost[256];        /* why a report has not arrived */
 } ec_progress_view;
 
-/* An ec_progress_fn; user is an ec_progress_view. False on Ctrl-C. */
-bool ec_progress_show(void *user, const ec_progress *progress);
-
-/* "[====   ] 37 %  0:12 left  96 spp  5.42 M samples/s  error 2.31 % (bound 2.40 %)"; the bar takes what the columns
- * leave. */
-void ec_progress_format(const ec_progress *progress, int columns, char *line, size_t size);
+eclat_listener ec_progress_listener(ec_progress_view *view); /* valid as long as it */
 
 #endif

@@ -6,13 +6,14 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "base/clock.h"
+#include "cli/seconds.h"
 
 /* The process's, as signals are. */
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;
-static void (*_Atomic to_call)(void);
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of the job, so that it is not freed meanwhile */
+static eclat_job *running;
 static const char *_Atomic hint;
 
 static void end(int signal_number)
@@ -32,11 +33,13 @@ static void *watch(void *signals)
     double first = 0;
     for (int number; sigwait(signals, &number) == 0;) {
         const bool again = atomic_load(&requested);
-        if (atomic_load(&manner) == ENDS || (again && ec_now() - first > ONE_WISH)) end(number);
+        if (atomic_load(&manner) == ENDS || (again && ec_seconds() - first > ONE_WISH)) end(number);
         if (again) continue;
-        first = ec_now();
+        first = ec_seconds();
         atomic_store(&requested, true);
-        if (atomic_load(&to_call)) atomic_load(&to_call)();
+        pthread_mutex_lock(&lock);
+        if (running) eclat_job_stop(running);
+        pthread_mutex_unlock(&lock);
         if (atomic_load(&hint)) fprintf(stderr, "eclat: %s\n", atomic_load(&hint));
         if (atomic_load(&manner) == TELLS)
             fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
@@ -66,17 +69,15 @@ void ec_stop_catch_signals(bool tell)
     atomic_store(&manner, tell ? TELLS : CATCHES);
 }
 
-void ec_stop_call(void (*call)(void))
+void ec_stop_job(eclat_job *job)
 {
-    atomic_store(&to_call, call);
+    pthread_mutex_lock(&lock);
+    running = job;
+    if (job && atomic_load(&requested)) eclat_job_stop(job);
+    pthread_mutex_unlock(&lock);
 }
 
 void ec_stop_hint(const char *line)
 {
     atomic_store(&hint, line);
-}
-
-bool ec_stop_requested(void)
-{
-    return atomic_load(&requested);
 }

@@ -2,6 +2,7 @@
 #ifndef EC_CLI_STOP_H
 #define EC_CLI_STOP_H
 
+#include <eclat/eclat.h>
 #include <stdbool.h>
 
 /* First of all, while there is one thread: SIGINT, SIGTERM and SIGHUP go to a thread of their own, which for now ends the process as
@@ -12,12 +13,11 @@ void ec_stop_watch_signals(void);
 /* Files larger than `ulimit -f` allows are to be an error like others. Again where a driver's compiler may have taken the signal since. */
 void ec_stop_ignore_file_size(void);
 
-/* From here on the first one only makes ec_stop_requested() true, and says so on standard error if `tell`. */
+/* From here on the first one only asks the job to stop, and says so on standard error if `tell`. */
 void ec_stop_catch_signals(bool tell);
-bool ec_stop_requested(void);
 
-/* Called when the first one comes, from the thread that waits for signals. */
-void ec_stop_call(void (*call)(void));
+/* The job that the first one asks to stop; NULL: none, as before it is freed. */
+void ec_stop_job(eclat_job *job);
 
 /* Said on standard error when the first one comes, whatever happens then. A text that stays; NULL: none. */
 void ec_stop_hint(const char *line);

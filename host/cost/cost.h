@@ -114,7 +114,7 @@ typedef struct ec_cost_study {
 ec_result ec_cost_run(ec_cost_study *study, ec_error *err);
 void ec_cost_free(ec_cost_study *study);
 
-/* thumbnail.c: every step-th pixel as it is: means of several would hide the noise that is to be seen. */
+/* pictures.c: every step-th pixel as it is: means of several would hide the noise that is to be seen. */
 typedef struct ec_cost_thumbnail {
     uint32_t width, height, step;
 } ec_cost_thumbnail;

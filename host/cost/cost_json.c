@@ -16,21 +16,13 @@ static const char *state_name(const ec_cost_study *study, ec_cost_state state)
 
 static void add_settings(cJSON *to, const ec_render_options *o)
 {
-    char roulette[32];
     cJSON *settings = cJSON_AddObjectToObject(to, "settings");
-    ec_format_roulette(o->survival, roulette, sizeof roulette);
     ec_json_text(settings, "integrator", ec_integrator_names[o->integrator]);
     ec_json_text(settings, "sample", ec_sample_names[o->sample]);
     ec_json_text(settings, "sampler", ec_sampler_names[o->sampler]);
-    ec_json_text(settings, "rr", roulette);
-    if (o->max_depth)
-        ec_json_whole(settings, "max_depth", o->max_depth);
-    else
-        cJSON_AddNullToObject(settings, "max_depth");
-    if (o->clamp > 0)
-        ec_json_real(settings, "clamp", o->clamp);
-    else
-        cJSON_AddNullToObject(settings, "clamp");
+    ec_json_text(settings, "rr", ec_roulette(o->survival).text);
+    ec_json_real(settings, "max_depth", o->max_depth ? o->max_depth : NAN);
+    ec_json_real(settings, "clamp", o->clamp > 0 ? o->clamp : NAN);
     ec_json_text(settings, "scattering", ec_scattering_names[o->scattering]);
     ec_json_text(settings, "accel", o->accel ? o->accel : "auto");
     if (o->lanes)
@@ -121,10 +113,7 @@ static void add_reference(cJSON *to, const ec_cost_report *report)
     const ec_cost_reference *r = &report->study->reference;
     cJSON *reference = cJSON_AddObjectToObject(to, "reference");
     ec_json_text(reference, "file", r->source);
-    if (r->samples_per_pixel)
-        ec_json_whole(reference, "samples_per_pixel", r->samples_per_pixel);
-    else
-        cJSON_AddNullToObject(reference, "samples_per_pixel");
+    ec_json_real(reference, "samples_per_pixel", r->samples_per_pixel ? (double)r->samples_per_pixel : NAN);
     ec_json_real(reference, "error", r->has_variance ? sqrt(r->noise) : NAN);
     ec_json_real(reference, "mean_luminance", r->mean_luminance);
     ec_json_real(reference, "seconds", r->seconds);
@@ -181,7 +170,6 @@ static void put_line(FILE *to, const void *text) { fprintf(to, "%s\n", (const ch
 ec_result ec_cost_write_json(const ec_cost_report *report, const char *path, ec_error *err)
 {
     cJSON *root = ec_cost_json(report);
-    if (!strcmp(path, "-")) return ec_json_print(root, stdout, err);
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     if (!text) return ec_fail(err, "out of memory while writing '%s'", path);

@@ -23,7 +23,8 @@ static double median(double *values, uint32_t count)
     return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
-/* The standard error of a median: 1.2533 sigma / sqrt(n) for normal values; sigma by the median absolute deviation, since one of a few turns may be an
+/* The standard error of a median: 1.2533 sigma / sqrt(n) for normal values; sigma by the median absolute deviation,
+since one of a few turns may be an
  * outlier. */
 static double median_se(const double *values, uint32_t count, double middle)
 {
@@ -85,10 +86,9 @@ static ec_result take_levels(measurement *m, double end, ec_error *err)
 {
     double picture = m->runner->seconds_per_sample * (double)m->runner->pixels;
     if (ec_now() + PICTURES * picture > end) {
-        char needed[32];
-        ec_format_seconds(m->row->setup_seconds + 4 * PICTURES * picture, needed, sizeof needed);
         m->row->state = EC_COST_TOO_SMALL;
-        snprintf(m->row->note, sizeof m->row->note, "budget too small: it takes about %s alone", needed);
+        snprintf(m->row->note, sizeof m->row->note, "budget too small: it takes about %s alone",
+                 ec_seconds(m->row->setup_seconds + 4 * PICTURES * picture).text);
         return EC_OK;
     }
     EC_TRY(ec_cost_tally_create(&m->study->reference, m->runner->pixels, &m->tally, err));

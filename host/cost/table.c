@@ -6,7 +6,7 @@
 #include "cost/report.h"
 #include "report/format.h"
 
-enum { CELL = 32, NAME_WIDTH = 33 };
+enum { CELL = 48, NAME_WIDTH = 33 };
 enum { TIME, RELATIVE, SLOPE, VARIANCE, BIAS, EFFICIENCY, TO_FIRST, MEMORY = TO_FIRST + EC_COST_TARGETS, COLUMNS };
 static const char *const titles[COLUMNS] = {"ns/sample", "time", "slope", "variance", "bias",  "efficiency",
                                             "to 5 %",    "2 %",  "1 %",   "0.5 %",    "memory"};
@@ -77,19 +77,10 @@ static void format_target(const ec_cost_row *row, int i, char *text, size_t size
 
 static void format_bias(const ec_cost_row *row, char *text, size_t size)
 {
-    char percent[16];
-    if (isnan(row->bias2)) {
-        snprintf(text, size, "?");
-    } else if (row->biased) {
-        ec_format_percent(sqrt(row->bias2), percent, sizeof percent);
-        snprintf(text, size, "floor %s", percent);
-    } else if (row->unmet) {
-        ec_format_percent(sqrt(row->bias2), percent, sizeof percent);
-        snprintf(text, size, "lacks %s", percent);
-    } else {
-        ec_format_percent(sqrt(fmax(row->bias2, 0) + 2 * row->bias2_se), percent, sizeof percent);
-        snprintf(text, size, "< %s", percent);
-    }
+    if (isnan(row->bias2)) snprintf(text, size, "?");
+    else if (row->biased) snprintf(text, size, "floor %s", ec_percent(sqrt(row->bias2)).text);
+    else if (row->unmet) snprintf(text, size, "lacks %s", ec_percent(sqrt(row->bias2)).text);
+    else snprintf(text, size, "< %s", ec_percent(sqrt(fmax(row->bias2, 0) + 2 * row->bias2_se)).text);
 }
 
 static void format_cell(const ec_cost_row *row, int column, char *text, size_t size)
@@ -97,7 +88,7 @@ static void format_cell(const ec_cost_row *row, int column, char *text, size_t s
     text[0] = 0;
     if (column == TIME) snprintf(text, size, "%.4g", 1e9 * row->seconds_per_sample);
     if (column == RELATIVE) snprintf(text, size, "x%.2f", row->relative_time);
-    if (column == MEMORY) ec_format_bytes(row->device_bytes, text, size);
+    if (column == MEMORY) snprintf(text, size, "%s", ec_bytes(row->device_bytes).text);
     if (row->rung.speed_only) {
         if (column == BIAS) snprintf(text, size, "%s", row->same_bits ? "same bits" : "BITS DIFFER");
         return;
@@ -106,7 +97,7 @@ static void format_cell(const ec_cost_row *row, int column, char *text, size_t s
     if (column == VARIANCE) snprintf(text, size, "%.3g", row->variance);
     if (column == BIAS) format_bias(row, text, size);
     if (column == EFFICIENCY && isnan(row->efficiency)) snprintf(text, size, "?");
-    if (column == EFFICIENCY && !isnan(row->efficiency)) ec_format_count(row->efficiency, text, size);
+    if (column == EFFICIENCY && !isnan(row->efficiency)) snprintf(text, size, "%s", ec_count(row->efficiency).text);
     if (column >= TO_FIRST && column < MEMORY) format_target(row, column - TO_FIRST, text, size);
 }
 
@@ -131,29 +122,25 @@ static void print_row(const table *t, uint32_t index)
 static void print_reference(const ec_cost_report *report, FILE *to)
 {
     const ec_cost_reference *r = &report->study->reference;
-    char error[CELL], seconds[CELL];
-    ec_format_percent(sqrt(r->noise), error, sizeof error);
-    ec_format_seconds(r->seconds, seconds, sizeof seconds);
     if (!(r->mean_luminance > 0))
         fprintf(to, "reference  none: interrupted before\n");
     else if (!r->source)
-        fprintf(to, "reference  error %s, %llu samples a pixel in %s, seeds of its own\n", error,
-                (unsigned long long)r->samples_per_pixel, seconds);
+        fprintf(to, "reference  error %s, %llu samples a pixel in %s, seeds of its own\n", ec_percent(sqrt(r->noise)).text,
+                (unsigned long long)r->samples_per_pixel, ec_seconds(r->seconds).text);
     else
-        fprintf(to, "reference  %s, %s%s\n", r->source, r->has_variance ? "error " : "taken as exact: it states no error", r->has_variance ? error : "");
+        fprintf(to, "reference  %s, %s%s\n", r->source, r->has_variance ? "error " : "taken as exact: it states no error",
+                r->has_variance ? ec_percent(sqrt(r->noise)).text : "");
 }
 
 static void print_footer(const ec_cost_study *study, FILE *to)
 {
-    char seconds[CELL], budget[CELL];
-    ec_format_seconds(study->seconds, seconds, sizeof seconds);
-    ec_format_seconds(study->budget, budget, sizeof budget);
     fprintf(to, "\ntime     as a multiple of the first row's, measured in turns with it\n"
                 "slope    of error over samples in the log-log chart; independent samples: -0.50\n"
                 "bias     floor: the error that no time removes; lacks: rare light not met yet, so its figures are too good\n"
                 "to 5 %%   seconds for one picture of %ux%u pixels; ~ extrapolated, ? not known, never: under its floor\n"
                 "%s%s of %s%s\n",
-            study->options.width, study->options.height, study->interrupted ? "interrupted after " : "took     ", seconds, budget,
+            study->options.width, study->options.height, study->interrupted ? "interrupted after " : "took     ", ec_seconds(study->seconds).text,
+            ec_seconds(study->budget).text,
             study->interrupted ? "" : " budget");
 }
 

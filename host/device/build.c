@@ -2,16 +2,18 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "device/pipeline.h"
 
-static bool is_needed(const ec_pipeline *p, ec_stage_id id)
-{
-    if (ec_stages[id].lanes == EC_LANES_OF_ACCEL) return false; /* there is one for each accelerator: see below */
-    return ec_stages[id].integrators >> p->integrator & 1;
-}
-
-static uint32_t lanes_of(const ec_pipeline *p, uint32_t lanes) { return lanes == EC_LANES_OF_PIPELINE ? p->lanes : lanes; }
+/* One of a stage, or of an accelerator's two; at least as many as there can be. */
+typedef struct entry {
+    ec_stage_id stage;
+    uint32_t accel, lanes; /* accel: EC_ACCEL_COUNT where the stage has nothing to do with them */
+    char source[32], name[64];
+    cl_kernel *kernel;
+} entry;
+enum { ENTRIES = EC_STAGE_ID_COUNT + 2 * EC_ACCEL_COUNT };
 
 const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features)
 {
@@ -31,59 +33,121 @@ static uint64_t accel_bytes(const ec_pipeline *p, uint32_t accel)
     return sum;
 }
 
-/* One program for all stages of a lane width: each parse of the shared headers costs as much as compiling a stage. */
-static ec_result build_width(ec_pipeline *p, uint32_t lanes, cl_program *program, ec_error *err)
+static entry stage_entry(ec_kernel_set *set, ec_stage_id id)
 {
-    const char *names[EC_STAGE_ID_COUNT + EC_ACCEL_COUNT + 1] = {NULL};
-    char traversals[EC_ACCEL_COUNT][32];
-    uint64_t features = 0;
+    const uint32_t lanes = ec_stages[id].lanes == EC_LANES_OF_PIPELINE ? set->lanes : ec_stages[id].lanes;
+    entry e = {.stage = id, .accel = EC_ACCEL_COUNT, .lanes = lanes, .kernel = &set->stages[id]};
+    snprintf(e.source, sizeof e.source, "%s", ec_stages[id].source);
+    snprintf(e.name, sizeof e.name, "ec_%s", ec_stages[id].source);
+    return e;
+}
+
+static entry trace_entry(ec_kernel_set *set, int connect, uint32_t accel)
+{
+    const uint32_t lanes = ec_accels[accel].lanes ? ec_accels[accel].lanes : set->lanes;
+    entry e = {.stage = connect ? EC_CONNECT : EC_INTERSECT, .accel = accel, .lanes = lanes, .kernel = &set->traverse[accel][connect]};
+    snprintf(e.source, sizeof e.source, "traverse_%s", ec_accels[accel].name);
+    snprintf(e.name, sizeof e.name, "ec_%s_%s", ec_stages[e.stage].source, ec_accels[accel].name);
+    return e;
+}
+
+/* All of a set; returns how many. */
+static uint32_t list_entries(const ec_pipeline *p, ec_kernel_set *set, entry entries[ENTRIES])
+{
     uint32_t count = 0;
-    const char *traversal = "";
-    for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
-        if (!is_needed(p, (ec_stage_id)id) || lanes_of(p, ec_stages[id].lanes) != lanes) continue;
-        names[count++] = ec_stages[id].source;
-        features |= ec_stage_features(&ec_stages[id], p->effects.built);
-    }
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
-        if (!p->accels[a].in_use || lanes_of(p, ec_accels[a].lanes) != lanes) continue;
-        snprintf(traversals[a], sizeof traversals[a], "traverse_%s", ec_accels[a].name);
-        names[count++] = traversals[a];
-        features |= ec_stage_features(&ec_stages[EC_INTERSECT], p->effects.built) |
-                    ec_stage_features(&ec_stages[EC_CONNECT], p->effects.built);
-        const char *own = ec_traversal_options(&p->cl->info, a, accel_bytes(p, a), p->effects.built);
+    for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
+        if (ec_stages[id].lanes != EC_LANES_OF_ACCEL && ec_stages[id].integrators >> p->integrator & 1) entries[count++] = stage_entry(set, (ec_stage_id)id);
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
+        for (int connect = 0; set->accels >> a & 1 && connect < 2; connect++) entries[count++] = trace_entry(set, connect, a);
+    return count;
+}
+
+/* One program for all kernels of a lane width: each parse of the shared headers costs as much as compiling a stage. The source is the caller's to free. */
+static ec_result describe_width(const ec_pipeline *p, uint64_t built, const entry *entries, uint32_t count, uint32_t lanes, ec_compile_program *program, ec_error *err)
+{
+    const char *names[ENTRIES + 1] = {NULL}, *traversal = "";
+    uint64_t features = 0;
+    uint32_t used = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (entries[i].lanes != lanes) continue;
+        features |= ec_stage_features(&ec_stages[entries[i].stage], built);
+        if (entries[i].accel == EC_ACCEL_COUNT || entries[i].stage == EC_INTERSECT) names[used++] = entries[i].source; /* a source has both traversals */
+        if (entries[i].accel == EC_ACCEL_COUNT) continue;
+        const char *own = ec_traversal_options(&p->cl->info, entries[i].accel, accel_bytes(p, entries[i].accel), built);
         if (*own) traversal = own;
     }
-    char options[128], label[32], *source;
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s", lanes, features, traversal,
+    snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s", lanes, features, traversal,
              p->fast_math ? " " EC_FAST_MATH : "");
-    snprintf(label, sizeof label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
-    EC_TRY(ec_kernel_sources_join(names, &source, err));
-    ec_result result = ec_program_build(p->cl, label, source, options, program, err);
-    free(source);
-    return result;
+    snprintf(program->label, sizeof program->label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
+    return ec_kernel_sources_join(names, &program->source, err);
 }
 
-/* accel: the name of one, or NULL where the stage has nothing to do with them. */
-static ec_result build_kernel(ec_pipeline *p, const char *source, const char *accel, uint32_t lanes, cl_kernel *kernel,
-                              ec_error *err)
+ec_result ec_kernel_set_build(ec_pipeline *p, ec_kernel_set *set, ec_error *err)
 {
-    char name[64];
-    snprintf(name, sizeof name, "ec_%s%s%s", source, accel ? "_" : "", accel ? accel : "");
-    cl_program *program = &p->programs[lanes];
-    if (!*program) EC_TRY(build_width(p, lanes, program, err));
-    return ec_kernel_create(*program, name, kernel, err);
-}
-
-ec_result ec_pipeline_build(ec_pipeline *p, ec_error *err)
-{
-    for (int id = 0; id < EC_STAGE_ID_COUNT; id++) {
-        const ec_stage_entry *stage = &ec_stages[id];
-        if (is_needed(p, (ec_stage_id)id))
-            EC_TRY(build_kernel(p, stage->source, NULL, lanes_of(p, stage->lanes), &p->kernels[id], err));
+    entry entries[ENTRIES];
+    const uint32_t count = list_entries(p, set, entries);
+    for (uint32_t i = 0; i < count; i++) {
+        cl_program *program = &set->programs[entries[i].lanes];
+        ec_compile_program described = {.source = NULL};
+        if (!*program) EC_TRY(describe_width(p, set->features, entries, count, entries[i].lanes, &described, err));
+        ec_result result = *program ? EC_OK : ec_program_build(p->cl, described.label, described.source, described.options, program, err);
+        free(described.source);
+        if (result == EC_OK) result = ec_kernel_create(*program, entries[i].name, entries[i].kernel, err);
+        EC_TRY(result);
     }
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
-        for (int connect = 0; p->accels[a].in_use && connect < 2; connect++)
-            EC_TRY(build_kernel(p, ec_stages[connect ? EC_CONNECT : EC_INTERSECT].source, ec_accels[a].name,
-                                lanes_of(p, ec_accels[a].lanes), &p->accels[a].kernels[connect], err));
+    return EC_OK;
+}
+
+ec_result ec_kernel_set_warm(ec_pipeline *p, void (*compiled)(void *user, uint32_t done, uint32_t count), void *user, ec_error *err)
+{
+    const uint32_t nothing[EC_ARG_SCALAR_COUNT] = {0};
+    entry entries[ENTRIES];
+    const uint32_t count = list_entries(p, &p->kernels, entries);
+    EC_TRY(ec_buffer_zero(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof(ec_counters), err));
+    ec_pipeline_swap_queues(p, 0);
+    for (uint32_t i = 0; i < count; i++) {
+        const entry *e = &entries[i];
+        if (e->accel == EC_ACCEL_COUNT) EC_TRY(ec_pipeline_launch(p, e->stage, nothing, err));
+        else EC_TRY(ec_pipeline_launch_trace(p, e->stage == EC_CONNECT, e->accel, nothing, err));
+        EC_TRY(ec_cl_finish(p->cl, err));
+        if (compiled) compiled(user, i + 1, count);
+    }
+    return EC_OK;
+}
+
+static ec_result add_kernel(const ec_pipeline *p, const ec_kernel_set *set, const entry *e, uint32_t program, ec_compile_job *job, ec_error *err)
+{
+    const ec_stage_entry *stage = &ec_stages[e->stage];
+    if (job->kernel_count == EC_COMPILE_KERNELS || stage->argument_count > EC_COMPILE_ARGUMENTS) return ec_fail(err, "internal error: too many kernels");
+    ec_compile_kernel *k = &job->kernels[job->kernel_count++];
+    *k = (ec_compile_kernel){.program = program, .local = EC_LOCAL_SIZE, .argument_count = stage->argument_count};
+    snprintf(k->name, sizeof k->name, "%s", e->name);
+    k->global = e->stage == EC_ACCUMULATE || e->stage == EC_STORE_FEATURES ? EC_LOCAL_SIZE /* by the samples of a batch */
+                : ec_pipeline_items(p, e->stage, e->accel, set->lanes, p->triangle_count);
+    for (uint32_t i = 0; i < stage->argument_count; i++)
+        k->arguments[i] = stage->arguments[i] < EC_ARG_SCALAR_COUNT ? EC_COMPILE_SCALAR
+                          : stage->arguments[i] == EC_ARG_PARAMS  ? EC_COMPILE_CONSTANTS : EC_COMPILE_BUFFER;
+    return EC_OK;
+}
+
+ec_result ec_kernel_set_job(ec_pipeline *p, const ec_kernel_set *set, ec_compile_job *job, ec_error *err)
+{
+    entry entries[ENTRIES];
+    uint32_t programs[EC_LANES_MOST + 1];
+    ec_kernel_set none = *set; /* whose kernels are looked at no further */
+    const uint32_t count = list_entries(p, &none, entries);
+    ec_compile_job_for(p->cl, job);
+    memset(programs, 0xff, sizeof programs);
+    job->constants_bytes = sizeof p->params;
+    memcpy(job->constants, &p->params, sizeof p->params);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t *program = &programs[entries[i].lanes];
+        if (*program == UINT32_MAX) {
+            if (job->program_count == EC_COMPILE_PROGRAMS) return ec_fail(err, "internal error: too many programs");
+            EC_TRY(describe_width(p, set->features, entries, count, entries[i].lanes, &job->programs[job->program_count], err));
+            *program = job->program_count++;
+        }
+        EC_TRY(add_kernel(p, set, &entries[i], *program, job, err));
+    }
     return EC_OK;
 }

@@ -194,6 +194,8 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     head->replicates = ec_render_replicates(o);
     head->fast_math = o->fast_math;
     head->lanes = o->lanes;
+    head->compile = o->compile;
+    head->waves_until_fast = o->waves_until_fast;
     head->wave = o->wave;
     if (scene->motion.segments && o->integrator != EC_INTEGRATOR_PATH)
         return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");

@@ -26,6 +26,8 @@ typedef struct ec_cargo_head {
     uint32_t replicates;             /* film/schedule.h */
     bool fast_math;
     uint32_t lanes, wave;            /* as in the options: 0 = what suits the device */
+    ec_compile compile;
+    uint32_t waves_until_fast;
     uint32_t accels[EC_KIND_COUNT];  /* 1 << which: those that devices of a kind go through */
     uint32_t triangle_count;
     uint32_t bodies_too_many;        /* materials of bodies, more than can be told apart; else 0 */

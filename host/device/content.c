@@ -26,7 +26,8 @@ static ec_content_id group_of(ec_arg arg)
     case EC_ARG_LIGHT_TABLE:
     case EC_ARG_LIGHT_SHARES:
     case EC_ARG_LIGHT_TREE:
-    case EC_ARG_LIGHT_TRAILS: return EC_CONTENT_LIGHTS;
+    case EC_ARG_LIGHT_TRAILS:
+    case EC_ARG_LAMP_PARTS: return EC_CONTENT_LIGHTS;
     case EC_ARG_ENVIRONMENT_TEXELS:
     case EC_ARG_ENVIRONMENT_TABLE: return EC_CONTENT_ENVIRONMENT;
     default: return EC_CONTENT_GEOMETRY;

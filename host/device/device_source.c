@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "device/fold.h"
+#include "device/tiers.h"
 
 #define FEATURE_BYTES (4ull * EC_AOV_FIELDS)
 #define BATCH_BYTES (4ull * EC_BATCH_FIELDS)
@@ -85,7 +86,7 @@ static ec_result choose_samples(ec_device_source *s, const ec_batch_order *order
     const ec_batch_range range = ec_schedule_batch(s->replicates, order->index);
     const uint32_t samples = order->list ? order->samples : range.samples - order->cut, first = order->list ? 0 : (uint32_t)range.first;
     *numbers = order->list ? 0 : range.replicate * params->width * params->height + params->film_row * params->width;
-    s->base.least = p->wave / samples;
+    s->base.least = p->room / samples;
     if (params->batch == samples && params->first_sample == first && params->limit == order->limit) return EC_OK;
     params->batch = samples;
     params->first_sample = first;
@@ -102,11 +103,12 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     *complete = true;
     s->base.batches = 1;
     EC_TRY(choose_samples(s, order, &before, err));
-    const uint32_t per_wave = s->base.least;
     EC_TRY(upload_list(s, order, err));
     EC_TRY(prepare(s, order, err));
-    for (uint32_t first = order->done; first < order->count && *complete; first += per_wave) {
-        uint32_t count = order->count - first < per_wave ? order->count - first : per_wave;
+    for (uint32_t first = order->done, count; first < order->count && *complete; first += count) {
+        EC_TRY(ec_tiers_step(p, err));
+        count = p->wave / p->params.batch;
+        if (count > order->count - first) count = order->count - first;
         EC_TRY(ec_pipeline_run_wave(p, seed, before + first, count, order->aov != NULL, err));
         if (!s->has_begun) EC_TRY(ec_cl_finish(p->cl, err));
         s->has_begun = true;

@@ -15,13 +15,21 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     if (options->terminator == EC_TERMINATOR_SMOOTH && (called->bits & EC_FEATURE_SMOOTH_NORMALS))
         ec_effects_call(called, EC_FEATURE_TERMINATOR, "--terminator smooth, and there are vertex normals");
     if (pack->light_node_count) ec_effects_call(called, EC_FEATURE_LIGHT_TREE, "%u lights are chosen among", pack->light_count);
+    if (pack->lamp_node_count && options->integrator == EC_INTEGRATOR_PATH && ec_pipeline_joins(options, pack))
+        ec_effects_call(called, EC_FEATURE_LAMP_PARTS, "lamps in %u parts, as their textures vary", 3 * pack->lamp_node_count);
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
-    effects->built = called->bits | (options->all_effects ? EC_FEATURE_ALL & ~EC_FEATURE_SOBOL /* other random numbers, not more */ : options->more_effects);
+    effects->built = options->all_effects ? ec_universal_features(effects) : called->bits | options->more_effects;
     effects->built &= ~(effects->without & EC_FEATURE_PANES); /* paths through panes count on shadow rays to pass them too */
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
         if (ec_stages[id].integrators >> options->integrator & 1) effects->launched |= 1u << id;
     if (!ec_pipeline_joins(options, pack)) effects->launched &= ~(1u << EC_CONNECT | 1u << EC_WHITTED_LIGHT);
+}
+
+uint64_t ec_universal_features(const ec_render_effects *effects)
+{
+    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~EC_FEATURE_SOBOL); /* other random numbers, not more */
+    return all & ~(effects->without & EC_FEATURE_PANES);
 }
 
 /* Lights without extent are met no other way, whatever --sample is. */

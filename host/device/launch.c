@@ -3,7 +3,18 @@
 
 #include "device/pipeline.h"
 
-static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32_t lanes, const uint32_t *scalars, ec_error *err)
+/* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, and PoCL need not compile again for a
+ * smaller grid. */
+uint64_t ec_pipeline_items(const ec_pipeline *p, ec_stage_id id, uint32_t accel, uint32_t set_lanes, uint32_t triangles)
+{
+    const uint32_t lanes = accel < EC_ACCEL_COUNT ? ec_accels[accel].lanes : ec_stages[id].lanes;
+    uint64_t items = id == EC_RASTER_SETUP || id == EC_RASTER_FILL ? triangles : p->wave;
+    if (lanes == EC_LANES_OF_PIPELINE) items /= set_lanes;
+    if (id == EC_ACCUMULATE || id == EC_STORE_FEATURES) items /= p->params.batch;
+    return items;
+}
+
+static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32_t accel, const uint32_t *scalars, ec_error *err)
 {
     const ec_stage_entry *stage = &ec_stages[id];
     for (uint32_t i = 0; i < stage->argument_count; i++) {
@@ -13,21 +24,17 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32
                           : clSetKernelArg(kernel, i, sizeof(cl_mem), p->buffers[arg] ? &p->buffers[arg] : NULL);
         EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
     }
-    /* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, and PoCL
-     * need not compile again for a smaller grid. */
-    uint64_t global = id == EC_RASTER_SETUP || id == EC_RASTER_FILL ? scalars[EC_ARG_TRIANGLE_COUNT] : p->wave;
-    if (lanes == EC_LANES_OF_PIPELINE) global /= p->lanes;
-    if (id == EC_ACCUMULATE || id == EC_STORE_FEATURES) global /= p->params.batch;
-    return ec_kernel_run(p->cl, stage->label, kernel, global, EC_LOCAL_SIZE, err);
+    const uint64_t items = ec_pipeline_items(p, id, accel, p->kernels.lanes, scalars[EC_ARG_TRIANGLE_COUNT]);
+    return ec_kernel_run(p->cl, stage->label, kernel, items, EC_LOCAL_SIZE, err);
 }
 
 ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *scalars, ec_error *err)
 {
-    return launch(p, id, p->kernels[id], ec_stages[id].lanes, scalars, err);
+    return launch(p, id, p->kernels.stages[id], EC_ACCEL_COUNT, scalars, err);
 }
 
 ec_result ec_pipeline_launch_trace(ec_pipeline *p, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err)
 {
     memcpy(&p->buffers[EC_ARG_ACCEL], p->accels[accel].buffers, sizeof p->accels[accel].buffers);
-    return launch(p, connect ? EC_CONNECT : EC_INTERSECT, p->accels[accel].kernels[connect], ec_accels[accel].lanes, scalars, err);
+    return launch(p, connect ? EC_CONNECT : EC_INTERSECT, p->kernels.traverse[accel][connect], accel, scalars, err);
 }

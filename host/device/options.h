@@ -33,6 +33,9 @@ typedef enum ec_integrator {
 typedef enum ec_pixel_filter { EC_FILTER_BOX, EC_FILTER_BLACKMAN_HARRIS } ec_pixel_filter;
 #define EC_FILTER_WIDTH 1.5 /* as Cycles has it */
 
+/* Kernels that take long to compile: beside the render, which begins with others (tiers.h), or first. */
+typedef enum ec_compile { EC_COMPILE_AUTO /* $ECLAT_COMPILE, else beside */, EC_COMPILE_BESIDE, EC_COMPILE_FIRST, EC_COMPILE_COUNT } ec_compile;
+
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
     uint32_t camera;            /* index into the scene's cameras */
@@ -57,6 +60,8 @@ typedef struct ec_render_options {
     ec_terminator terminator;   /* smooth: rays start on the smooth surface, not on its facets */
     uint64_t seed;
     uint32_t lanes;             /* 1, 4, 8, 16; 0 = the device's native vector width */
+    ec_compile compile;
+    uint32_t waves_until_fast;  /* render so many waves with the kernels that compile soonest, then switch; 0 = by `compile`. For tests */
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
     uint64_t memory;            /* bytes that the process should not exceed: else it renders strips (strips.h); 0 = what is free */
     uint32_t slice_first, slice_end; /* batches (film/schedule.h) of a slice, for what they take of it; slice_end 0: it is none */

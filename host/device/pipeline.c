@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "cl/workarounds.h"
+#include "device/tiers.h"
 
 ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, ec_error *err)
 {
@@ -24,6 +25,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, 
     const ec_cargo_head *head = &cargo->head;
     memset(p, 0, sizeof *p);
     p->cl = cl;
+    p->compiler.report = -1;
     p->integrator = head->integrator;
     p->params = head->params;
     p->effects = head->effects;
@@ -34,20 +36,20 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, 
     double start = ec_now();
     uint64_t uploaded = cl->uploaded_bytes, found = cl->found_bytes;
     uint32_t programs = cl->programs_found;
-    ec_result result = spent ? ec_pipeline_unload(p, spent, err) : ec_pipeline_upload(p, cargo, err);
+    ec_result result = ec_pipeline_upload(p, cargo, spent, err);
     if (result == EC_OK) result = ec_pipeline_create_queues(p, head->wave, err);
     stats->pack_seconds += ec_now() - start;
     if (result != EC_OK) return result;
     start = ec_now();
-    result = ec_pipeline_build(p, err);
+    result = ec_tiers_begin(p, head, err);
     stats->kernel_seconds = ec_now() - start;
-    for (int i = 0; i <= EC_LANES_MOST; i++) stats->programs_built += p->programs[i] != NULL;
+    for (int i = 0; i <= EC_LANES_MOST; i++) stats->programs_built += p->kernels.programs[i] != NULL;
     stats->programs_found = cl->programs_found - programs;
     stats->programs_built -= stats->programs_found;
     stats->bytes_uploaded = cl->uploaded_bytes - uploaded;
     stats->bytes_found = cl->found_bytes - found;
     stats->lanes = p->lanes;
-    stats->wave = p->wave;
+    stats->wave = p->room;
     return result;
 }
 
@@ -59,15 +61,10 @@ ec_result ec_pipeline_read_invalid(ec_pipeline *p, uint32_t counts[EC_STAGE_COUN
 void ec_pipeline_destroy(ec_pipeline *p)
 {
     if (!p->cl) return;
-    for (int i = 0; i < EC_STAGE_ID_COUNT; i++)
-        if (p->kernels[i]) clReleaseKernel(p->kernels[i]);
-    for (int a = 0; a < EC_ACCEL_COUNT; a++) {
-        for (int i = 0; i < 2; i++)
-            if (p->accels[a].kernels[i]) clReleaseKernel(p->accels[a].kernels[i]);
+    ec_kernel_set_release(&p->kernels);
+    ec_compiler_leave(&p->compiler);
+    for (int a = 0; a < EC_ACCEL_COUNT; a++)
         for (int k = 0; k < EC_ACCEL_BUFFERS; k++) ec_buffer_release(p->cl, &p->accels[a].buffers[k]);
-    }
-    for (int i = 0; i <= EC_LANES_MOST; i++)
-        if (p->programs[i]) clReleaseProgram(p->programs[i]);
     p->buffers[EC_ARG_PATHS] = p->buffers[EC_ARG_NEXT] = NULL; /* views of path_queues, as these of accels */
     memset(&p->buffers[EC_ARG_ACCEL], 0, EC_ACCEL_BUFFERS * sizeof *p->buffers);
     for (int i = 0; i < EC_ARG_COUNT; i++) ec_buffer_release(p->cl, &p->buffers[i]);

@@ -2,14 +2,15 @@
 #ifndef EC_DEVICE_PIPELINE_H
 #define EC_DEVICE_PIPELINE_H
 
+#include "cl/compiler.h"
 #include "device/cargo.h"
 #include "device/options.h"
 #include "device/stats.h"
+#include "device/kernel_set.h"
 #include "device/stages.h"
 #include "shared/params.h"
 #include "shared/path_state.h"
 
-#define EC_LANES_MOST 16
 #define EC_TUNED_BOUNCES 4 /* bounces with a choice of their own; later ones share the last */
 
 typedef struct ec_pipeline {
@@ -19,23 +20,27 @@ typedef struct ec_pipeline {
     ec_counters counters;         /* the host's copy */
     ec_render_effects effects;
     uint32_t lanes, wave, triangle_count;
-    uint32_t first_wave;          /* the one that should have fitted the device; wave is smaller where it had no memory for it */
+    uint32_t room;                /* paths that the buffers of the wave hold; a wave of the first kernels has fewer (tiers.h) */
+    uint32_t first_room;          /* those that should have fitted the device; room is smaller where it had no memory for them */
     uint64_t wave_bytes;          /* of the wave's buffers, which drivers may not have given yet */
     uint64_t film_pixels;         /* that the films have room for */
     bool fast_math, wave_is_given;
     cl_mem buffers[EC_ARG_COUNT];
     cl_mem path_queues[2];
-    cl_program programs[EC_LANES_MOST + 1]; /* by lane width */
-    cl_kernel kernels[EC_STAGE_ID_COUNT];
+    ec_kernel_set kernels;        /* which are launched */
+    bool is_narrow;               /* they are those of the beginning (tiers.h) */
+    uint32_t waves_until_fast;    /* 0: until the compiler is done */
+    ec_begun begun;
+    double fast_since;            /* base/clock.h; 0: from the beginning, or not yet */
+    ec_compiler compiler;
     struct {
         bool in_use;
         cl_mem buffers[EC_ACCEL_BUFFERS];
-        cl_kernel kernels[2];     /* [0] intersect, [1] connect, as everywhere */
         /* Where there are several ways, all give the same hits: rays a second of each, the best trial at each bounce. */
         struct {
             double best_rate;
             uint32_t trials;
-        } tuning[2][EC_TUNED_BOUNCES][2]; /* rays as they come, and sorted */
+        } tuning[2][EC_TUNED_BOUNCES][2]; /* intersect and connect; rays as they come, and sorted */
     } accels[EC_ACCEL_COUNT];
     uint64_t rays;                /* traced so far, shadow rays included */
     double clocked_seconds, clocked_rays; /* of trials (trace.c) */
@@ -58,7 +63,7 @@ ec_integrate ec_integrate_paths;   /* wave.c */
 ec_integrate ec_integrate_whitted; /* whitted.c */
 ec_integrate ec_integrate_raster;  /* raster.c */
 
-/* wave.c: the sum of a queue's parts; the first paths, one part after the other; which queue is read and which written */
+/* queues.c: the sum of a queue's parts; the first paths, one part after the other; which queue is read and which written */
 uint64_t ec_pipeline_total(const uint32_t *parts);
 void ec_pipeline_fill_parts(ec_pipeline *pipeline, uint32_t paths);
 void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
@@ -66,14 +71,16 @@ void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
 /* raster.c: triangles are sorted into tiles once a camera */
 void ec_raster_forget(ec_pipeline *pipeline);
 
-/* whitted.c: of the stack of a slot; max_depth as in the options */
-uint64_t ec_whitted_stack_words(uint32_t max_depth);
+/* Of the stack of a slot of Whitted's trees; max_depth as in the options. */
+static inline uint64_t ec_whitted_stack_words(uint32_t max_depth)
+{
+    return 1 + (uint64_t)((max_depth ? max_depth : EC_WHITTED_DEPTH) - 1) * EC_BRANCH_FIELDS;
+}
 
 /* camera.c */
 ec_result ec_pipeline_set_camera(const ec_camera *camera, const ec_render_options *options, ec_params *params, ec_error *err);
-/* upload.c */
-ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_cargo *cargo, ec_error *err);
-ec_result ec_pipeline_unload(ec_pipeline *pipeline, ec_cargo *cargo, ec_error *err); /* the same, and the cargo is freed on the way */
+/* upload.c; spent: as for ec_pipeline_create */
+ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_cargo *cargo, ec_cargo *spent, ec_error *err);
 /* upload_plan.c: what of the scene goes to the device, and for which effects */
 typedef struct ec_upload {
     ec_arg arg;
@@ -87,18 +94,22 @@ ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density);
 /* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. wave: paths in flight; 0 = what
  * suits the device. */
 ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
+/* Paths of a wave by narrow kernels with these features: fewer, since they are slower, and may keep more of each path. 0: there is no room for a batch. */
+uint32_t ec_pipeline_narrow_wave(const ec_pipeline *pipeline, uint64_t features);
+/* The next waves are of so many paths, at most those that there is room for. */
+ec_result ec_pipeline_use_wave(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
 /* Room for films of so many pixels and batches of so many positions, which ec_pipeline_run_wave wants; what was in them is lost where they grow. */
 ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, uint64_t positions, ec_error *err);
-/* build.c */
-ec_result ec_pipeline_build(ec_pipeline *pipeline, ec_error *err);
-/* launch.c */
+/* launch.c; items: of a launch of this stage by kernels of a set. accel: EC_ACCEL_COUNT where it goes through none */
+uint64_t ec_pipeline_items(const ec_pipeline *pipeline, ec_stage_id stage, uint32_t accel, uint32_t set_lanes, uint32_t triangles);
 ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
 ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
 /* trace.c: the closest hits or the shadow rays of a bounce, in the way that has proved the fastest there; sets EC_ARG_SORTS. */
 ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce, uint32_t *scalars, ec_error *err);
 
-/* effects.c: which are called for, built and launched; which can change a stage's code; is light looked for by shadow rays? */
+/* effects.c: all that kernels can have, but for other random numbers and what is left out on purpose; which are called for, built and launched; which can change a stage's code; is light looked for by shadow rays? */
 void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects);
+uint64_t ec_universal_features(const ec_render_effects *effects);
 uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features);
 bool ec_pipeline_joins(const ec_render_options *options, const ec_pack *pack);
 

@@ -82,8 +82,9 @@ static ec_result build(ec_pipeline *p, uint32_t which, bool count, ec_error *err
 {
     char unit[64], options[64], name[64];
     uint32_t lanes = ec_accels[which].lanes ? ec_accels[which].lanes : count ? 1 : p->lanes;
-    cl_kernel *kernel = &p->accels[which].kernels[0];
-    cl_program *program = &p->programs[count ? 0 : lanes];
+    cl_kernel *kernel = &p->kernels.traverse[which][0];
+    p->kernels.lanes = count ? 1 : p->lanes;
+    cl_program *program = &p->kernels.programs[count ? 0 : lanes];
     if (*kernel) clReleaseKernel(*kernel);
     *kernel = NULL;
     snprintf(unit, sizeof unit, "traverse_%s", ec_accels[which].name);
@@ -96,16 +97,14 @@ static ec_result build(ec_pipeline *p, uint32_t which, bool count, ec_error *err
 static ec_result count(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, ec_error *err)
 {
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1, [EC_ARG_SORTS] = 1};
-    uint32_t lanes = p->lanes, *counts = malloc(2 * EC_PROBE_RAYS * sizeof *counts);
+    uint32_t *counts = malloc(2 * EC_PROBE_RAYS * sizeof *counts);
     uint64_t sums[2] = {0};
     if (!counts) return ec_fail(err, "out of memory for %u rays", EC_PROBE_RAYS);
-    p->lanes = 1;
     ec_result result = build(p, which, true, err);
     if (result == EC_OK) result = ec_pipeline_launch_trace(p, 0, which, scalars, err);
     if (result == EC_OK)
         result = ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], (uint64_t)EC_HIT_NODES * EC_PROBE_RAYS * 4,
                                 2 * EC_PROBE_RAYS * 4, counts, err);
-    p->lanes = lanes;
     for (uint32_t i = 0; result == EC_OK && i < 2 * EC_PROBE_RAYS; i++) sums[i / EC_PROBE_RAYS] += counts[i];
     probe->nodes = (double)sums[0] / EC_PROBE_RAYS;
     probe->triangles = (double)sums[1] / EC_PROBE_RAYS;
@@ -131,7 +130,7 @@ static ec_result measure(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, 
 static ec_result probe_one(ec_cl *cl, const ec_scene *scene, const ec_scene *built, uint32_t which, float grid_density,
                            ec_accel_probe *probe, ec_error *err)
 {
-    ec_pipeline p = {.cl = cl};
+    ec_pipeline p = {.cl = cl, .compiler = {.report = -1}};
     EC_TRY(ec_pipeline_lanes(cl, 0, &p.lanes, err));
     ec_accel_input input = ec_accel_input_of(built, grid_density);
     memset(probe, 0, sizeof *probe);
@@ -139,7 +138,7 @@ static ec_result probe_one(ec_cl *cl, const ec_scene *scene, const ec_scene *bui
     p.accels[which].in_use = true;
     ec_result result = ec_cargo_add_accel(&cargo, which, &input, &probe->build, err);
     ec_accel_input_free(&input);
-    if (result == EC_OK) result = ec_pipeline_unload(&p, &cargo, err);
+    if (result == EC_OK) result = ec_pipeline_upload(&p, &cargo, &cargo, err);
     if (result == EC_OK && scene->triangle_count) {
         result = make_buffers(&p, scene, err);
         if (result == EC_OK) result = count(&p, which, probe, err);

@@ -3,6 +3,7 @@
 #include "device/pipeline.h"
 
 #define EC_SMALLEST_WAVE 4096
+#define EC_NARROW_WAVE 32768 /* of which PoCL compiles every kernel once: see ec_kernel_run */
 
 /* A slot has R, G, B, and again of indirect light where it is kept apart. */
 static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3; }
@@ -44,12 +45,17 @@ static ec_result create(ec_pipeline *p, const char *label, uint64_t bytes, cl_me
     return ec_cl_finish(p->cl, err);
 }
 
+static uint32_t path_fields_of(uint64_t features)
+{
+    return features & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS : features & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
+}
+
 static ec_result create_wave(ec_pipeline *p, ec_error *err)
 {
+    p->room = p->wave;
     /* Lane-wide loads may read a packet past the last entry. */
     const uint64_t field = (uint64_t)p->wave * 4, slack = 64;
-    const uint64_t path_fields = p->effects.built & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS
-                                 : p->effects.built & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
+    const uint64_t path_fields = path_fields_of(p->effects.built);
     for (int i = 0; i < 2; i++) EC_TRY(create(p, "path queue", field * path_fields + slack, &p->path_queues[i], err));
     EC_TRY(create(p, "hits", field * EC_HIT_FIELDS + slack, &p->buffers[EC_ARG_HITS], err));
     EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));
@@ -73,7 +79,7 @@ static ec_result create_wave_that_fits(ec_pipeline *p, uint32_t wanted, ec_error
 {
     ec_error why = {0};
     set_wave(p, wanted ? wanted : fit_wave(p));
-    p->first_wave = p->wave;
+    p->first_room = p->wave;
     for (uint32_t refused = 0; create_wave(p, &why) != EC_OK; release_wave(p)) {
         bool lacks_memory = why.kind == EC_ERROR_DEVICE_MEMORY,
              is_last = wanted || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
@@ -99,6 +105,20 @@ ec_result ec_pipeline_create_queues(ec_pipeline *p, uint32_t wave, ec_error *err
     return ec_buffer_create(cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
 }
 
+uint32_t ec_pipeline_narrow_wave(const ec_pipeline *p, uint64_t features)
+{
+    const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, fits = (uint64_t)p->room * path_fields_of(p->effects.built) / path_fields_of(features);
+    const uint64_t wave = (fits < EC_NARROW_WAVE ? fits : EC_NARROW_WAVE) / unit * unit;
+    return wave < p->params.batch ? 0 : (uint32_t)wave;
+}
+
+ec_result ec_pipeline_use_wave(ec_pipeline *p, uint32_t wave, ec_error *err)
+{
+    p->wave = p->params.wave = wave;
+    p->params.part = wave / EC_PARTS;
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
+}
+
 static ec_result create_films(ec_pipeline *p, uint64_t pixels, uint64_t positions, ec_error *err)
 {
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
@@ -110,9 +130,9 @@ static ec_result create_films(ec_pipeline *p, uint64_t pixels, uint64_t position
 static ec_result halve_wave(ec_pipeline *p, ec_error *err)
 {
     release_wave(p);
-    set_wave(p, p->wave / 2);
+    set_wave(p, p->room / 2);
     EC_TRY(create_wave(p, err));
-    return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
+    return ec_pipeline_use_wave(p, p->is_narrow ? ec_pipeline_narrow_wave(p, p->kernels.features) : p->room, err);
 }
 
 /* Here too paths in flight make room. */
@@ -122,12 +142,34 @@ ec_result ec_pipeline_fit_films(ec_pipeline *p, uint64_t pixels, uint64_t positi
     if (pixels <= p->film_pixels) return EC_OK;
     p->film_pixels = 0;
     for (uint32_t refused = 0; create_films(p, pixels, positions, &why) != EC_OK;) {
-        bool is_last = p->wave_is_given || p->wave <= EC_SMALLEST_WAVE || p->wave == refused;
+        bool is_last = p->wave_is_given || p->room <= EC_SMALLEST_WAVE || p->room == refused;
         if (err) *err = why;
         if (why.kind != EC_ERROR_DEVICE_MEMORY || is_last) return EC_FAILED;
-        refused = p->wave;
+        refused = p->room;
         EC_TRY(halve_wave(p, err));
     }
     p->film_pixels = pixels;
     return EC_OK;
+}
+
+/* Queues have parts, each filled by some of the threads. */
+uint64_t ec_pipeline_total(const uint32_t *parts)
+{
+    uint64_t sum = 0;
+    for (int k = 0; k < EC_PARTS; k++) sum += parts[k * EC_PART_STRIDE];
+    return sum;
+}
+
+void ec_pipeline_swap_queues(ec_pipeline *p, uint32_t bounce)
+{
+    p->buffers[EC_ARG_PATHS] = p->path_queues[bounce & 1];
+    p->buffers[EC_ARG_NEXT] = p->path_queues[~bounce & 1];
+}
+
+void ec_pipeline_fill_parts(ec_pipeline *p, uint32_t paths)
+{
+    for (uint32_t k = 0; k < EC_PARTS; k++) {
+        uint32_t before = k * p->params.part, left = paths > before ? paths - before : 0;
+        p->counters.rays[0][k * EC_PART_STRIDE] = left < p->params.part ? left : p->params.part;
+    }
 }

@@ -32,7 +32,8 @@ static const ec_arg shade[] = {WAVE_ARGS,
                                EC_ARG_ENVIRONMENT_TEXELS,
                                EC_ARG_ENVIRONMENT_TABLE,
                                EC_ARG_LIGHT_TREE,
-                               EC_ARG_LIGHT_TRAILS};
+                               EC_ARG_LIGHT_TRAILS,
+                               EC_ARG_LAMP_PARTS};
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
                                  EC_ARG_NORMALS, EC_ARG_TANGENTS};
 static const ec_arg raster_setup[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_PRIMS, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS};
@@ -57,7 +58,7 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, 
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
 #define SHADING_FEATURES                                                                           \
     (EC_FEATURE_ALL & ~(EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | \
-                        EC_FEATURE_PANES | EC_FEATURE_MOTION | CAMERA_FEATURES))
+                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION | CAMERA_FEATURES))
 /* Shadow rays look at surfaces where there are panes, else at no more than alpha: see ec_stage_features. */
 #define SHADOW_FEATURES ((SHADING_FEATURES & ~EC_FEATURE_AREA_LIGHTS) | EC_FEATURE_PANES)
 
@@ -68,7 +69,7 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
                       EC_FEATURE_CULLING | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | ALPHA_FEATURES, ARGS(intersect)},
     [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE,
                   SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER |
-                      EC_FEATURE_PANES | EC_FEATURE_MOTION,
+                      EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION,
                   ARGS(shade)},
     [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL,
                     EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | SHADOW_FEATURES, ARGS(connect)},

@@ -7,6 +7,9 @@
 #include "device/effects.h"
 #include "film/forecast.h"
 
+/* With which kernels a render began: tiers.h. */
+typedef enum ec_begun { EC_BEGUN_FAST, EC_BEGUN_NARROW, EC_BEGUN_UNIVERSAL } ec_begun;
+
 /* What came from one of several devices. */
 typedef struct ec_render_share {
     double samples;               /* a pixel, in the mean */
@@ -20,6 +23,8 @@ typedef struct ec_render_stats {
     double seconds;               /* rendering, without set-up */
     double cpu_seconds;           /* processor time of this process meanwhile, all threads; on a CPU device the kernels' too */
     double accel_seconds, pack_seconds, kernel_seconds; /* set-up: BVH, buffers, kernel build or cache look-up */
+    ec_begun begun;               /* of the only device: the kernels that it began with */
+    double fast_after_seconds;    /* from ec_render's start until the fast ones took over; 0: never, or from the beginning */
     double first_pixel_seconds;   /* from ec_render's start to the first finished wave */
     uint64_t samples_per_pixel, samples, rays; /* samples: in the film; rays: those of a batch that was given up too */
     double samples_per_second, rays_per_second;

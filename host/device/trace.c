@@ -15,9 +15,9 @@ static uint32_t list_ways(const ec_pipeline *p, uint32_t bounce, way ways[2 * EC
 {
     uint32_t count = 0;
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
-        if (!p->accels[a].in_use) continue;
+        if (!(p->kernels.accels >> a & 1)) continue;
         ways[count++] = (way){a, 0};
-        if (is_packets(a) && p->lanes > 1 && bounce > 0) ways[count++] = (way){a, 1};
+        if (is_packets(a) && p->kernels.lanes > 1 && bounce > 0) ways[count++] = (way){a, 1};
     }
     return count;
 }

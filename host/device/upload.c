@@ -20,8 +20,7 @@ static void make_room(ec_pipeline *p, const ec_cargo *cargo, ec_fingerprint keys
     ec_buffers_keep_only(p->cl, keys, cargo->head.buffer_count);
 }
 
-/* spent: NULL, or the cargo, whose buffers are freed as the device has them. */
-static ec_result upload(ec_pipeline *p, const ec_cargo *cargo, ec_cargo *spent, ec_error *err)
+ec_result ec_pipeline_upload(ec_pipeline *p, const ec_cargo *cargo, ec_cargo *spent, ec_error *err)
 {
     ec_fingerprint keys[EC_CARGO_BUFFERS];
     bool keeps = p->cl->keeps_buffers;
@@ -35,14 +34,6 @@ static ec_result upload(ec_pipeline *p, const ec_cargo *cargo, ec_cargo *spent, 
         free(spent->buffers[i].owned);
         spent->buffers[i].owned = NULL;
     }
-    return result;
-}
-
-ec_result ec_pipeline_upload(ec_pipeline *p, const ec_cargo *cargo, ec_error *err) { return upload(p, cargo, NULL, err); }
-
-ec_result ec_pipeline_unload(ec_pipeline *p, ec_cargo *cargo, ec_error *err)
-{
-    ec_result result = upload(p, cargo, cargo, err);
-    ec_cargo_free(cargo);
+    if (spent) ec_cargo_free(spent);
     return result;
 }

@@ -1,5 +1,6 @@
 /* Which of the scene's data go to a device, and for which effects. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "device/cargo.h"
@@ -30,6 +31,7 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_ENVIRONMENT_TABLE, pack->environment_table, 0,
          {"environment table", EC_FEATURE_ENVIRONMENT_MAP, (texels + map_rows) * sizeof *pack->environment_table}},
         {EC_ARG_LIGHT_TREE, pack->light_tree, 0, {"light tree", EC_FEATURE_LIGHT_TREE, pack->light_node_count * sizeof *pack->light_tree}},
+        {EC_ARG_LAMP_PARTS, pack->lamp_nodes, 0, {"parts of lamps", EC_FEATURE_LAMP_PARTS, pack->lamp_node_count * sizeof *pack->lamp_nodes}},
         {EC_ARG_LIGHT_TRAILS, pack->light_of_prim, 0,
          {"trails of lamps", EC_FEATURE_LIGHT_TREE, pack->light_node_count ? (uint64_t)pack->prim_count * sizeof *pack->light_of_prim : 0}},
     };
@@ -44,6 +46,14 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         effects->buffers[i] = plan[i].buffer;
     }
     return count;
+}
+
+void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned)
+{
+    if (!data) return;
+    ec_cargo_buffer *buffer = &cargo->buffers[cargo->head.buffer_count++];
+    *buffer = (ec_cargo_buffer){.arg = arg, .accel = EC_ACCEL_COUNT, .bytes = bytes, .slack = slack, .data = data, .owned = owned};
+    snprintf(buffer->label, sizeof buffer->label, "%s", label);
 }
 
 /* Both sets side by side. They must be finite and small enough for the kernels' integer texels. */

@@ -4,11 +4,6 @@
 
 #include "device/pipeline.h"
 
-uint64_t ec_whitted_stack_words(uint32_t max_depth)
-{
-    return 1 + (uint64_t)((max_depth ? max_depth : EC_WHITTED_DEPTH) - 1) * EC_BRANCH_FIELDS;
-}
-
 /* Counters to the device, with nothing in the shadow queues. */
 static ec_result clear_shadows(ec_pipeline *p, ec_error *err)
 {

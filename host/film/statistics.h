@@ -28,7 +28,7 @@ double ec_binomial_upper_tail(double k, double n, double p);
 double ec_p_of_least(double least, double n);
 
 /* One p-value of several tests on the same data, each with a weight: right for small values however the tests depend on each
- * other, where Bonferroni's is too large for tests that depend. See p_values.c. */
+ * other, where Bonferroni's is too large for tests that depend. */
 double ec_p_combined(const double *p, const double *weight, int count);
 
 #ifdef __cplusplus

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gltf/load.h"
+#include "gltf/gltf.h"
 #include "gltf/reader.h"
 
 struct ec_animation {

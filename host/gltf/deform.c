@@ -5,9 +5,9 @@
 #include "gltf/flatten.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "base/memory.h"
 
 typedef struct deformer {
@@ -37,7 +37,7 @@ static bool has_influences(const ec_gltf_mesh *mesh)
 static ec_result check_memory(deformer *d, const ec_gltf_primitive *p)
 {
     uint64_t memory = ec_memory_of_machine();
-    d->bytes += d->g->accessors[p->streams.position].count * 72;
+    d->bytes += d->g->accessors[p->streams.of[EC_POSITION]].count * 72;
     if (d->bytes <= memory) return EC_OK;
     return ec_fail(d->err, "%s: its deformed meshes need %llu MB, this machine has %llu MB", d->g->path,
                    (unsigned long long)(d->bytes >> 20), (unsigned long long)(memory >> 20));
@@ -141,17 +141,14 @@ static ec_result visit(deformer *d, uint32_t index)
 
 ec_result ec_gltf_deform(ec_gltf *g, ec_placement_list *placements, ec_error *err)
 {
-    deformer d = {.g = g, .placements = placements, .err = err};
-    d.placement_of = malloc(((size_t)g->node_count + 1) * sizeof *d.placement_of);
-    d.shared = malloc(((size_t)g->mesh_count + 1) * sizeof *d.shared);
-    ec_result result = d.placement_of && d.shared ? EC_OK : ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
-    for (uint32_t i = 0; i < g->node_count && result == EC_OK; i++) d.placement_of[i] = -1;
-    for (uint32_t i = 0; i < g->mesh_count && result == EC_OK; i++) d.shared[i] = -1;
-    for (uint32_t i = 0; i < placements->count && result == EC_OK; i++)
-        if (!placements->items[i].extra) d.placement_of[placements->items[i].node] = (int32_t)i;
-    uint32_t count = placements->count;
-    for (uint32_t i = 0; i < count && result == EC_OK; i++) result = visit(&d, i);
-    free(d.placement_of);
-    free(d.shared);
-    return result;
+    EC_FREED int32_t *placement_of = malloc(((size_t)g->node_count + 1) * sizeof *placement_of);
+    EC_FREED int32_t *shared = malloc(((size_t)g->mesh_count + 1) * sizeof *shared);
+    deformer d = {g, placements, placement_of, shared, 0, err};
+    if (!placement_of || !shared) return ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
+    for (uint32_t i = 0; i < g->node_count; i++) placement_of[i] = -1;
+    for (uint32_t i = 0; i < g->mesh_count; i++) shared[i] = -1;
+    for (uint32_t i = 0; i < placements->count; i++)
+        if (!placements->items[i].extra) placement_of[placements->items[i].node] = (int32_t)i;
+    for (uint32_t i = 0, count = placements->count; i < count; i++) EC_TRY(visit(&d, i));
+    return EC_OK;
 }

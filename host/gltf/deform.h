@@ -4,15 +4,10 @@
 
 #include "gltf/gltf_tree.h"
 
-/* From the mesh as it is bound to the world, by way of one joint. */
-typedef struct ec_joint {
-    double linear[9], origin[3]; /* row major */
-} ec_joint;
-
 typedef struct ec_pose {
     const float *weights; /* of morph targets */
     uint32_t weight_count;
-    ec_joint *joints;     /* NULL: no skin. Owned by the pose */
+    ec_placement *joints; /* from the mesh as it is bound to the world, by way of each. NULL: no skin. Owned by the pose */
     uint32_t joint_count;
     double origin[3];     /* skinned vertices are kept relative to this, so that floats hold them far from the world's origin, */
     bool mirrored;        /* and with x turned where the skeleton mirrors: triangles are then turned as for a mirroring node */
@@ -24,7 +19,7 @@ ec_result ec_pose_skin(ec_gltf *gltf, int32_t skin, const ec_placement_list *pla
 
 /* What a vertex' influences make of the joints. Fails where a joint is not in the skin. */
 ec_result ec_pose_blend(const ec_gltf *gltf, const ec_gltf_primitive *primitive, const ec_pose *pose, uint32_t vertex,
-                        ec_joint *blend, const char *where, ec_error *err);
+                        ec_placement *blend, const char *where, ec_error *err);
 
 /* deform_vertex.c: new streams for a primitive, as new accessors. */
 ec_result ec_pose_primitive(ec_gltf *gltf, const ec_pose *pose, ec_gltf_primitive *primitive, const char *where, ec_error *err);

@@ -9,24 +9,16 @@ typedef struct moved {
     const ec_gltf_accessor *base;
     float *out;
     uint32_t components;
-    size_t member; /* of ec_gltf_streams */
 } moved;
 
-static int32_t stream_of(const ec_gltf_streams *streams, size_t member)
-{
-    int32_t accessor;
-    memcpy(&accessor, (const char *)streams + member, sizeof accessor);
-    return accessor;
-}
-
 /* What is stored plus the weighted differences. */
-static void morph(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose, const moved *m, uint32_t vertex, double out[4])
+static void morph(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose, int stream, const moved *m, uint32_t vertex, double out[4])
 {
     float value[4] = {0};
     ec_gltf_accessor_floats(m->base, vertex, m->components, value);
     for (uint32_t k = 0; k < 4; k++) out[k] = (double)value[k];
     for (uint32_t t = 0; t < pose->weight_count; t++) {
-        int32_t accessor = stream_of(&p->targets[t], m->member);
+        int32_t accessor = p->targets[t].of[stream];
         if (pose->weights[t] == 0 || accessor < 0) continue;
         const ec_gltf_accessor *a = &g->accessors[accessor];
         uint32_t count = a->components < m->components ? a->components : m->components; /* a tangent's sign stays */
@@ -41,28 +33,26 @@ static void turn(const double m[9], double v[4])
     for (int i = 0; i < 3; i++) v[i] = m[3 * i] * in[0] + m[3 * i + 1] * in[1] + m[3 * i + 2] * in[2];
 }
 
-enum { POSITION, NORMAL, TANGENT, STREAMS = 6 };
-
-static void skin(const ec_pose *pose, const ec_joint *blend, int stream, double v[4])
+static void skin(const ec_pose *pose, const ec_placement *blend, int stream, double v[4])
 {
     double normal_matrix[9];
-    if (stream == NORMAL) ec_gltf_normal_matrix(blend->linear, normal_matrix);
-    turn(stream == NORMAL ? normal_matrix : blend->linear, v);
-    for (int k = 0; k < 3 && stream == POSITION; k++) v[k] += blend->origin[k] - pose->origin[k];
+    if (stream == EC_NORMAL) ec_gltf_normal_matrix(blend->linear, normal_matrix);
+    turn(stream == EC_NORMAL ? normal_matrix : blend->linear, v);
+    for (int k = 0; k < 3 && stream == EC_POSITION; k++) v[k] += blend->origin[k] - pose->origin[k];
     if (pose->mirrored) v[0] = -v[0];
 }
 
 static ec_result move_vertex(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose,
-                             const moved streams[STREAMS], uint32_t vertex, const char *where, ec_error *err)
+                             const moved streams[EC_STREAMS], uint32_t vertex, const char *where, ec_error *err)
 {
-    ec_joint blend;
+    ec_placement blend;
     if (pose->joints) EC_TRY(ec_pose_blend(g, p, pose, vertex, &blend, where, err));
-    for (int i = 0; i < STREAMS; i++) {
+    for (int i = 0; i < EC_STREAMS; i++) {
         const moved *m = &streams[i];
         double value[4];
         if (!m->out) continue;
-        morph(g, p, pose, m, vertex, value);
-        if (pose->joints && i <= TANGENT) skin(pose, &blend, i, value);
+        morph(g, p, pose, i, m, vertex, value);
+        if (pose->joints && i <= EC_TANGENT) skin(pose, &blend, i, value);
         for (uint32_t k = 0; k < m->components; k++) m->out[(size_t)vertex * m->components + k] = (float)value[k];
     }
     return EC_OK;
@@ -85,38 +75,33 @@ static ec_result append(ec_gltf *g, float *values, uint64_t count, uint32_t comp
 }
 
 /* Does this pose change the stream? */
-static bool is_moved(const ec_gltf_primitive *p, const ec_pose *pose, int stream, size_t member)
+static bool is_moved(const ec_gltf_primitive *p, const ec_pose *pose, int stream)
 {
-    if (stream_of(&p->streams, member) < 0) return false;
-    if (pose->joints && stream <= TANGENT) return true;
+    if (p->streams.of[stream] < 0) return false;
+    if (pose->joints && stream <= EC_TANGENT) return true;
     for (uint32_t t = 0; t < pose->weight_count; t++)
-        if (pose->weights[t] != 0 && stream_of(&p->targets[t], member) >= 0) return true;
+        if (pose->weights[t] != 0 && p->targets[t].of[stream] >= 0) return true;
     return false;
 }
 
 ec_result ec_pose_primitive(ec_gltf *g, const ec_pose *pose, ec_gltf_primitive *p, const char *where, ec_error *err)
 {
-    static const size_t members[STREAMS] = {offsetof(ec_gltf_streams, position), offsetof(ec_gltf_streams, normal),
-                                            offsetof(ec_gltf_streams, tangent),  offsetof(ec_gltf_streams, color),
-                                            offsetof(ec_gltf_streams, uv[0]),    offsetof(ec_gltf_streams, uv[1])};
-    moved streams[STREAMS] = {{0}};
-    uint64_t count = g->accessors[p->streams.position].count;
+    moved streams[EC_STREAMS] = {{0}};
+    uint64_t count = g->accessors[p->streams.of[EC_POSITION]].count;
     ec_result result = EC_OK;
-    for (int i = 0; i < STREAMS; i++) {
-        if (!is_moved(p, pose, i, members[i])) continue;
-        const ec_gltf_accessor *base = &g->accessors[stream_of(&p->streams, members[i])];
-        streams[i] = (moved){base, calloc(count, base->components * sizeof(float)), base->components, members[i]};
+    for (int i = 0; i < EC_STREAMS; i++) {
+        if (!is_moved(p, pose, i)) continue;
+        const ec_gltf_accessor *base = &g->accessors[p->streams.of[i]];
+        streams[i] = (moved){base, calloc(count, base->components * sizeof(float)), base->components};
         if (!streams[i].out)
             result = ec_fail(err, "%s: %s: out of memory for %llu deformed vertices", g->path, where,
                              (unsigned long long)count);
     }
     for (uint32_t v = p->lowest; v <= p->highest && result == EC_OK; v++) result = move_vertex(g, p, pose, streams, v, where, err);
-    for (int i = 0; i < STREAMS; i++) {
+    for (int i = 0; i < EC_STREAMS; i++) {
         if (!streams[i].out) continue;
-        int32_t accessor = -1;
-        if (result == EC_OK) result = append(g, streams[i].out, count, streams[i].components, &accessor, err);
+        if (result == EC_OK) result = append(g, streams[i].out, count, streams[i].components, &p->streams.of[i], err);
         else free(streams[i].out);
-        if (accessor >= 0) memcpy((char *)&p->streams + members[i], &accessor, sizeof accessor);
     }
     return result;
 }

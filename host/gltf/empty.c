@@ -16,13 +16,12 @@ static bool is_flat(const ec_gltf_node *node)
 
 static ec_result add_cause(const ec_gltf *g, int32_t node, bool hidden, char *text, size_t size, ec_error *err)
 {
-    char name[128];
     int32_t cause;
     size_t used = strlen(text);
     EC_TRY(ec_gltf_node_above(g, node, hidden ? is_hidden : is_flat, &cause, err));
-    ec_gltf_describe_node(g, cause < 0 ? node : cause, name);
     const char *how = hidden ? "hidden by" : cause < 0 ? "without area at" : "scaled to nothing by";
-    snprintf(text + used, size - used, "%s%s %s", used ? ", " : "", how, name);
+    uint32_t at = (uint32_t)(cause < 0 ? node : cause);
+    snprintf(text + used, size - used, "%s%s %s", used ? ", " : "", how, ec_label_of("nodes", at, g->nodes[at].name).text);
     return EC_OK;
 }
 

@@ -3,11 +3,10 @@
 #include <cjson/cJSON.h>
 #include <fcntl.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/freed.h"
 #include "gltf/gltf.h"
 #include "gltf/reader.h"
 
@@ -30,9 +29,8 @@ static void add_uris(ec_scene_files *files, const cJSON *list, const char *folde
     cJSON_ArrayForEach(item, list)
     {
         const char *uri = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(item, "uri"));
-        char *name = uri ? ec_gltf_uri_file(uri) : NULL;
+        EC_FREED char *name = uri ? ec_gltf_uri_file(uri) : NULL;
         if (name) add(files, folder, folder_length, name);
-        free(name);
     }
 }
 
@@ -66,14 +64,13 @@ void ec_scene_files_list(const char *scene, ec_scene_files *files)
 {
     const char *slash = strrchr(scene, '/');
     const int folder_length = slash ? (int)(slash - scene) + 1 : 0;
-    char *text = read_json(scene);
+    EC_FREED char *text = read_json(scene);
     cJSON *json = text ? cJSON_Parse(text) : NULL;
     *files = (ec_scene_files){0};
     add(files, "", 0, scene);
     add_uris(files, cJSON_GetObjectItemCaseSensitive(json, "buffers"), scene, folder_length);
     add_uris(files, cJSON_GetObjectItemCaseSensitive(json, "images"), scene, folder_length);
     cJSON_Delete(json);
-    free(text);
 }
 
 void ec_scene_files_free(ec_scene_files *files)

@@ -1,6 +1,5 @@
 /* Flattens placed meshes into one triangle soup: positions go through double, are recentred and only then rounded. */
 #include "gltf/keep.h"
-#include "gltf/node_parts.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,7 +7,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/text.h"
 
 /* But for those of meshes that are kept once. */
 static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, ec_draw_function function)
@@ -26,8 +24,8 @@ static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_place
 /* Many instances of one mesh make a small file huge: say so rather than be killed for it. */
 static ec_result check_memory(const ec_flattener *f, const char *path)
 {
-    uint64_t per_vertex = 12u + 12u * f->has_normals + 16u * f->has_tangents + 16u * f->has_colors +
-                          8u * f->has_uv[0] + 8u * f->has_uv[1];
+    uint64_t per_vertex = 0;
+    for (int i = 0; i < EC_STREAMS; i++) per_vertex += (f->streams >> i & 1) * ec_stream_width[i] * sizeof(float);
     uint64_t bytes = f->vertex_bound * per_vertex + f->triangle_bound * 16;
     uint64_t memory = ec_memory_of_machine();
     if (bytes <= memory) return EC_OK;
@@ -42,9 +40,7 @@ static ec_result measure_draw(ec_flattener *f, const ec_draw *d)
     for (uint64_t t = 0; t < d->p->triangle_count; t++) {
         uint32_t v[3];
         double world[3][3];
-        ec_gltf_primitive_triangle(d->g, d->p, t, v);
-        for (int i = 0; i < 3; i++) ec_draw_world_position(d, v[i], world[i]);
-        if (!ec_is_placeable((const double(*)[3])world)) continue;
+        if (!ec_draw_corners(d, t, v, world)) continue;
         for (int i = 0; i < 9; i++) {
             f->low[i % 3] = fmin(f->low[i % 3], world[i / 3][i % 3]);
             f->high[i % 3] = fmax(f->high[i % 3], world[i / 3][i % 3]);
@@ -55,38 +51,10 @@ static ec_result measure_draw(ec_flattener *f, const ec_draw *d)
 
 static ec_result allocate(ec_flattener *f, const char *path)
 {
-    ec_scene *s = f->scene;
     size_t v = f->vertex_bound + 1, t = f->triangle_bound + 1; /* there may be none */
     f->remap = malloc((f->remap_size + 1) * sizeof *f->remap);
-    s->positions = malloc(v * 3 * sizeof(float));
-    s->indices = malloc(t * 3 * sizeof(uint32_t));
-    s->triangle_material = malloc(t * sizeof(uint32_t));
-    bool ok = f->remap && s->positions && s->indices && s->triangle_material;
-    if (f->has_normals) ok = (s->normals = malloc(v * 3 * sizeof(float))) && ok;
-    if (f->has_tangents) ok = (s->tangents = malloc(v * 4 * sizeof(float))) && ok;
-    if (f->has_colors) ok = (s->colors = malloc(v * 4 * sizeof(float))) && ok;
-    for (int i = 0; i < 2; i++)
-        if (f->has_uv[i]) ok = (s->uv[i] = malloc(v * 2 * sizeof(float))) && ok;
+    bool ok = ec_scene_allocate(f->scene, f->streams | 1u << EC_POSITION, v, t) && f->remap;
     return ok ? EC_OK : ec_fail(f->err, "%s: out of memory for %zu triangles", path, t);
-}
-
-/* Gives back what dropped triangles and unused vertices had reserved. */
-static void *shrink(void *block, size_t size)
-{
-    void *smaller = block ? realloc(block, size) : NULL;
-    return smaller ? smaller : block;
-}
-
-static void trim(ec_scene *s)
-{
-    size_t v = s->vertex_count * sizeof(float), t = s->triangle_count * sizeof(uint32_t);
-    s->positions = shrink(s->positions, 3 * v);
-    s->normals = shrink(s->normals, 3 * v);
-    s->tangents = shrink(s->tangents, 4 * v);
-    s->colors = shrink(s->colors, 4 * v);
-    for (int i = 0; i < 2; i++) s->uv[i] = shrink(s->uv[i], 2 * v);
-    s->indices = shrink(s->indices, 3 * t);
-    s->triangle_material = shrink(s->triangle_material, t);
 }
 
 static void set_bounds(ec_scene *s, uint32_t flat_vertices)
@@ -131,17 +99,15 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
         memset(s->bounds_max, 0, sizeof s->bounds_max);
         return ec_flatten_empty(f, g, placements);
     }
-    trim(s);
+    ec_scene_trim(s);
     return EC_OK;
 }
 
 static void warn_odd(const struct ec_odd_values *odd, const ec_gltf *g, const char *what, const ec_log *log)
 {
     if (!odd->count) return;
-    const char *name = g->meshes[odd->mesh].name;
-    ec_warn(log, "%s: %llu %s, the first in meshes[%d]%s%.*s%s; they are clamped", g->path,
-            (unsigned long long)odd->count, what, odd->mesh, name ? " \"" : "", EC_CUT(name ? name : "", 80),
-            name ? "\"" : "");
+    ec_warn(log, "%s: %llu %s, the first in %s; they are clamped", g->path, (unsigned long long)odd->count, what,
+            ec_label_of("meshes", (uint32_t)odd->mesh, g->meshes[odd->mesh].name).text);
 }
 
 ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)

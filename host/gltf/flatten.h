@@ -1,4 +1,4 @@
-/* From placed glTF meshes to the scene's triangle soup. Inside host/scene/ only. */
+/* From placed glTF meshes to the scene's triangle soup. Inside host/gltf/ only. */
 #ifndef EC_GLTF_FLATTEN_H
 #define EC_GLTF_FLATTEN_H
 

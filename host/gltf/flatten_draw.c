@@ -1,6 +1,5 @@
 /* One primitive at one place: how much of it there can be, and its triangles but for those that are none. */
 #include "gltf/flatten_vertex.h"
-#include "gltf/node_parts.h"
 
 #include <float.h>
 #include <math.h>
@@ -37,6 +36,13 @@ bool ec_is_placeable(const double world[3][3])
     return true;
 }
 
+bool ec_draw_corners(const ec_draw *d, uint64_t triangle, uint32_t vertices[3], double world[3][3])
+{
+    ec_gltf_primitive_triangle(d->g, d->p, triangle, vertices);
+    for (int i = 0; i < 3; i++) ec_draw_world_position(d, vertices[i], world[i]);
+    return ec_is_placeable((const double(*)[3])world);
+}
+
 ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
 {
     uint64_t range = (uint64_t)d->p->highest - d->p->lowest + 1, corners = 3 * d->p->triangle_count;
@@ -46,10 +52,8 @@ ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
         return ec_fail(f->err, "%s: more than %d triangles or vertices once all instances are counted; simplify the scene",
                        d->g->path, INT32_MAX);
     if (range > f->remap_size) f->remap_size = range;
-    f->has_normals |= d->p->streams.normal >= 0;
-    f->has_tangents |= d->p->streams.tangent >= 0 && d->p->streams.normal >= 0;
-    f->has_colors |= d->p->streams.color >= 0;
-    for (int i = 0; i < 2; i++) f->has_uv[i] |= d->p->streams.uv[i] >= 0;
+    for (int i = 0; i < EC_STREAMS; i++) /* glTF: tangents without normals are ignored */
+        f->streams |= (unsigned)(d->p->streams.of[i] >= 0 && (i != EC_TANGENT || d->p->streams.of[EC_NORMAL] >= 0)) << i;
     return EC_OK;
 }
 
@@ -73,7 +77,7 @@ static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
 {
     float local[3][3];
     double normal[3];
-    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.position], v[i], 3, local[i]);
+    for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.of[EC_POSITION]], v[i], 3, local[i]);
     cross_edges(local[0], local[1], local[2], normal);
     return largest_component(normal) == 0;
 }
@@ -106,12 +110,9 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
     for (uint64_t t = 0; t < d->p->triangle_count; t++) {
         uint32_t v[3];
         float position[3][3];
-        ec_gltf_primitive_triangle(d->g, d->p, t, v);
-        for (int i = 0; i < 3; i++) {
-            double world[3];
-            ec_draw_world_position(d, v[i], world);
-            for (int k = 0; k < 3; k++) position[i][k] = (float)(world[k] - d->center[k]);
-        }
+        double world[3][3];
+        ec_draw_corners(d, t, v, world); /* wherever they are: is_drawable counts */
+        for (int i = 0; i < 9; i++) position[i / 3][i % 3] = (float)(world[i / 3][i % 3] - d->center[i % 3]);
         if (!is_drawable(f, d, v, position)) continue;
         size_t n = s->triangle_count++;
         for (int i = 0; i < 3; i++) {

@@ -12,7 +12,7 @@ static void multiply(const double m[9], const float v[3], double out[3])
 void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3])
 {
     float local[3];
-    ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.position], vertex, 3, local);
+    ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.of[EC_POSITION]], vertex, 3, local);
     multiply(d->at->linear, local, out);
     for (int i = 0; i < 3; i++) out[i] += d->at->origin[i];
 }
@@ -33,13 +33,13 @@ void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tang
 {
     float in[4];
     double turned[3];
-    if (normal && d->p->streams.normal >= 0) {
-        ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.normal], vertex, 3, in);
+    if (normal && d->p->streams.of[EC_NORMAL] >= 0) {
+        ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.of[EC_NORMAL]], vertex, 3, in);
         multiply(d->normal_matrix, in, turned);
         store_direction(turned, normal);
     }
-    if (tangent && d->p->streams.tangent >= 0 && d->p->streams.normal >= 0) { /* glTF: tangents without normals are ignored */
-        ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.tangent], vertex, 4, in);
+    if (tangent && d->p->streams.of[EC_TANGENT] >= 0 && d->p->streams.of[EC_NORMAL] >= 0) { /* glTF: tangents without normals are ignored */
+        ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.of[EC_TANGENT]], vertex, 4, in);
         multiply(d->at->linear, in, turned);
         store_direction(turned, tangent);
         bool usable = tangent[0] != 0 || tangent[1] != 0 || tangent[2] != 0;
@@ -73,12 +73,12 @@ uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t 
     for (int i = 0; i < 2; i++) {
         if (!s->uv[i]) continue;
         memset(s->uv[i] + 2 * n, 0, 2 * sizeof(float));
-        store_values(&f->odd_uv, d, d->p->streams.uv[i], vertex, 2, -EC_UV_MOST, EC_UV_MOST, s->uv[i] + 2 * n);
+        store_values(&f->odd_uv, d, d->p->streams.of[EC_UV + i], vertex, 2, -EC_UV_MOST, EC_UV_MOST, s->uv[i] + 2 * n);
     }
     if (s->colors) {
         for (int i = 0; i < 4; i++) s->colors[4 * n + (size_t)i] = 1;
-        uint32_t components = d->p->streams.color >= 0 ? d->g->accessors[d->p->streams.color].components : 0;
-        store_values(&f->odd_colors, d, d->p->streams.color, vertex, components, 0, 1, s->colors + 4 * n);
+        uint32_t components = d->p->streams.of[EC_COLOR] >= 0 ? d->g->accessors[d->p->streams.of[EC_COLOR]].components : 0;
+        store_values(&f->odd_colors, d, d->p->streams.of[EC_COLOR], vertex, components, 0, 1, s->colors + 4 * n);
     }
     return (uint32_t)n;
 }

@@ -27,7 +27,7 @@ typedef struct ec_flattener {
     } odd_uv, odd_colors;
     uint32_t *remap; /* primitive's vertex - lowest -> scene's vertex */
     uint64_t remap_size;
-    bool has_normals, has_tangents, has_uv[2], has_colors;
+    unsigned streams;    /* bits: those that any primitive has */
     ec_source *sources;  /* NULL: nobody asks */
     uint32_t placement;  /* the one being drawn, or EC_STILL */
     int32_t node;        /* whose triangles are being drawn; -1: of a mesh that is kept once */
@@ -53,9 +53,15 @@ ec_draw ec_draw_of(const ec_gltf *g, const ec_placement *at, const double *cente
 
 /* Where a vertex lies in the world. */
 void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3]);
+/* A triangle's corners; false: not all at places that a scene can hold. */
+bool ec_draw_corners(const ec_draw *d, uint64_t triangle, uint32_t vertices[3], double world[3][3]);
 
 /* Appends a vertex with all of its streams; `position` is the recentred one. Returns its index. */
 uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t vertex, const float position[3]);
+
+/* node_parts.c: which nodes triangles are of, ec_scene.parts: room for so many, and the nodes' names. */
+ec_result ec_parts_start(ec_scene *scene, const ec_gltf *gltf, uint32_t most, ec_error *err);
+void ec_part_add(ec_scene *scene, uint32_t first, uint32_t node); /* triangles from this id on are of that node; ids rise */
 
 /* empty.c: no triangle is left. Says why, or fails. */
 ec_result ec_flatten_empty(const ec_flattener *f, const ec_gltf *g, const ec_placement_list *placements);

@@ -61,9 +61,9 @@ typedef struct ec_gltf_accessor {
     uint8_t *owned;      /* sparse: base and replacements merged */
 } ec_gltf_accessor;
 
-/* Accessors of a vertex' attributes, or of what a morph target adds to them. */
+/* Accessors of a vertex' attributes, or of what a morph target adds to them, by the streams of scene.h. */
 typedef struct ec_gltf_streams {
-    int32_t position, normal, tangent, color, uv[2];
+    int32_t of[EC_STREAMS];
 } ec_gltf_streams;
 
 typedef struct ec_gltf_draco {
@@ -178,8 +178,6 @@ typedef struct ec_gltf {
     uint32_t shutter_keys;  /* most keyframes of a channel within it */
     ec_source *sources;     /* of the scene's vertices, while a scene is made with a shutter */
     bool quantized;         /* KHR_mesh_quantization: integer positions, normals, tangents */
-    char **extensions_used, **extensions_ignored;
-    uint32_t extension_count, extension_ignored_count;
     ec_scene_contents contents;
 } ec_gltf;
 
@@ -199,10 +197,17 @@ void ec_gltf_free_looks(ec_gltf *gltf);    /* textures, materials, cameras, ligh
 void ec_gltf_digest_add(ec_gltf *gltf, const uint8_t *bytes, uint64_t length);
 void ec_gltf_digest_parts(ec_gltf *gltf);
 
-/* load.c: everything after reading. Takes strings and materials from the document, which stays the caller's. */
+/* load.c: the choice with the moment that a shutter stands for: its middle. */
+ec_result ec_settle_moment(const char *path, const ec_scene_choice *choice, ec_scene_choice *moment, ec_error *err);
+/* Everything after reading. Takes strings and materials from the document, which stays the caller's. */
 ec_result ec_scene_from_gltf(const ec_scene_choice *choice, ec_gltf *gltf, ec_scene **scene, const ec_log *log, ec_error *err);
 
-/* gltf_tree.c: translation x rotation x scale, column major. A quaternion of any length will do; zero is no rotation. */
+/* gltf_tree.c: nodes[3] "name", for messages; name may be NULL. */
+typedef struct ec_label {
+    char text[128];
+} ec_label;
+ec_label ec_label_of(const char *list, uint32_t index, const char *name);
+/* Translation x rotation x scale, column major. A quaternion of any length will do; zero is no rotation. */
 void ec_gltf_compose(const double translation[3], const double rotation[4], const double scale[3], double matrix[16]);
 
 /* gltf_uri.c */

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 extern "C" {
@@ -38,6 +39,7 @@ static bool may_move(const path &to)
 {
     if (to.size() < 3) return false;
     if (to[0] == "extensions") return to.size() >= 5 && to[1] == "KHR_lights_punctual" && to[2] == "lights";
+    if (std::any_of(to.begin(), to.end(), [](const std::string &part) { return part.find('/') != std::string::npos; })) return false;
     return to[0] == "nodes" || to[0] == "materials" || to[0] == "cameras" || (to[0] == "meshes" && to[2] == "weights");
 }
 
@@ -55,6 +57,13 @@ static const field *find_field(const schema &shape, const std::string &name)
     return nullptr;
 }
 
+/* Does a member's path lead through that object? */
+static bool has_within(const schema &shape, const std::string &object)
+{
+    return std::any_of(shape.fields, shape.fields + shape.count,
+                       [&](const field &f) { return std::strncmp(f.name, object.c_str(), object.size()) == 0; });
+}
+
 /* An object that has only defaults so far need not be in the file. One that names a texture, or is of an extension, means
  * more. */
 static bool has_defaults(const path &to, size_t i, const schema &shape)
@@ -69,11 +78,16 @@ static const field *find_target(const json &root, const path &to)
     if (!may_move(to)) return nullptr;
     const schema *shape = &document_schema;
     const json *at = &root; /* nothing where only defaults are */
+    std::string inner;      /* path within the shape */
     for (size_t i = 0; i < to.size(); i++) {
         bool last = i + 1 == to.size();
-        const field *f = find_field(*shape, to[i]);
-        if (!f) return nullptr;
+        const field *f = find_field(*shape, inner += to[i]);
         at = at && at->contains(to[i]) ? &(*at)[to[i]] : nullptr;
+        if (!f) {
+            const bool said = at || !(to[i] == "extensions" || to[i - 1] == "extensions");
+            if (last || !said || !has_within(*shape, inner += '/')) return nullptr;
+            continue;
+        }
         if (f->type == kind::number || f->type == kind::flag) return last ? f : nullptr;
         if (f->type == kind::numbers) { /* all, or one weight of many */
             bool one = i + 2 == to.size() && to[i] == "weights" && at && element(*at, to[i + 1]);
@@ -83,6 +97,7 @@ static const field *find_target(const json &root, const path &to)
         if (last || !(object || f->type == kind::objects)) return nullptr;
         if (object ? !at && !has_defaults(to, i, *f->members) : !at || !(at = element(*at, to[++i]))) return nullptr;
         shape = f->members;
+        inner.clear();
     }
     return nullptr;
 }

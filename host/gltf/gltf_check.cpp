@@ -3,6 +3,7 @@
 #include "gltf/gltf_shim.h"
 
 #include <cmath>
+#include <cstring>
 #include <sstream>
 
 namespace eclat {
@@ -25,6 +26,10 @@ class checker {
                 for (auto &item : value.items()) check_index(item.value(), f.detail, join(where, item.key()));
                 continue;
             }
+            if (const char *slash = std::strchr(f.name, '/')) {
+                check_inside(value, f, std::string(f.name, slash), slash + 1, where);
+                continue;
+            }
             auto found = value.find(f.name);
             if (found == value.end()) {
                 if (f.required) fail(join(where, f.name), "is missing");
@@ -38,6 +43,14 @@ class checker {
     json &root;
     const char *path;
     const ec_log *log;
+
+    /* A member of a member, by its path. */
+    void check_inside(json &value, const field &f, const std::string &outer, const char *rest, const std::string &where)
+    {
+        const field inner[] = {{rest, f.type, f.required, f.detail, f.members, f.low, f.high}};
+        auto found = value.find(outer);
+        if (found != value.end()) check_object(*found, schema(inner), join(where, outer));
+    }
 
     [[noreturn]] static void fail(const std::string &where, const std::string &what)
     {
@@ -72,10 +85,13 @@ class checker {
 
     void check_array(json &value, const field &f, const std::string &where)
     {
+        field row = f; /* what each array in an array is to be */
+        row.type = f.type == kind::index_rows ? kind::indices : kind::numbers;
         if (!value.is_array()) fail(where, "must be an array");
-        if (f.type == kind::numbers && f.low >= 0 && double(value.size()) != f.low)
-            fail(where, "must have " + std::to_string(int(f.low)) + " numbers, not " + std::to_string(value.size()));
         if (f.type == kind::index_rows || f.type == kind::number_rows) check_row_count(value, f, where);
+        else if (f.low > 0 && double(value.size()) != f.low)
+            fail(where, "must have " + std::to_string(int(f.low)) + (f.type == kind::indices ? " indices" : " numbers") + ", not " +
+                            std::to_string(value.size()));
         if (double(value.size()) > int_count) fail(where, "has too many elements");
         for (size_t i = 0; i < value.size(); i++) {
             switch (f.type) {
@@ -83,7 +99,7 @@ class checker {
             case kind::numbers: check_number(value[i], item(where, i)); break;
             case kind::texts: check_text(value[i], item(where, i)); break;
             case kind::index_rows:
-            case kind::number_rows: check_row(value[i], f, item(where, i)); break;
+            case kind::number_rows: check_array(value[i], row, item(where, i)); break;
             default: check_object(value[i], *f.members, item(where, i));
             }
         }
@@ -94,18 +110,6 @@ class checker {
         if (f.high > 0 && double(value.size()) != f.high)
             fail(where, "must have " + std::to_string(int(f.high)) + " arrays, not " + std::to_string(value.size()));
         if (value.empty()) fail(where, "is empty");
-    }
-
-    void check_row(json &row, const field &f, const std::string &where)
-    {
-        bool of_indices = f.type == kind::index_rows;
-        if (!row.is_array()) fail(where, "must be an array");
-        if (double(row.size()) != f.low)
-            fail(where, "must have " + std::to_string(int(f.low)) + (of_indices ? " indices" : " numbers") + ", not " + std::to_string(row.size()));
-        for (size_t i = 0; i < row.size(); i++) {
-            if (of_indices) check_index(row[i], f.detail, item(where, i));
-            else check_number(row[i], item(where, i));
-        }
     }
 
     void check_number(json &value, const std::string &where)

@@ -1,4 +1,4 @@
-/* Images, and tinygltf's cameras and lights, to ours. Index ranges are known to be good. */
+/* Images, cameras and lights from the checked JSON tree. */
 #include "gltf/gltf_shim.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void convert_image_light(const json &root, ec_gltf *gltf, const ec_log *log)
     const json &in = (*find_extension(root, "EXT_lights_image_based"))["lights"][size_t(out.index)];
     const json &sharpest = in["specularImages"][0];
     for (size_t i = 0; i < 6; i++) out.faces[i] = sharpest[i];
-    for (size_t i = 0; i < 4; i++) out.rotation[i] = in.contains("rotation") ? in["rotation"][i].get<double>() : i == 3;
+    for (size_t i = 0; i < 4; i++) out.rotation[i] = element(in, "rotation", i, i == 3);
     out.size = in["specularImageSize"];
     double intensity = in.value("intensity", 1.0);
     out.intensity = std::min(std::max(intensity, 0.0), double(EC_RADIANCE_MOST));
@@ -41,18 +41,26 @@ void convert_image_light(const json &root, ec_gltf *gltf, const ec_log *log)
 
 static const float widest_yfov = 3.0f; /* glTF only advises to stay below pi, where a picture has no plane */
 
-void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log)
+/* The schema knows that the member named as the type is there. */
+static void set_lens(const json &in, ec_camera &out)
 {
-    gltf->cameras = make_array<ec_camera>(model.cameras.size());
-    for (const tinygltf::Camera &in : model.cameras) {
+    const std::string &type = in["type"].get_ref<const std::string &>();
+    const json &lens = in[type];
+    out.type = type == "orthographic" ? EC_CAMERA_ORTHOGRAPHIC : EC_CAMERA_PERSPECTIVE;
+    out.yfov = float(lens.value("yfov", 0.0));
+    out.aspect = float(lens.value("aspectRatio", 0.0));
+    out.xmag = float(std::fabs(lens.value("xmag", 0.0)));
+    out.ymag = float(std::fabs(lens.value("ymag", 0.0)));
+}
+
+void convert_cameras(const json &list, ec_gltf *gltf, const ec_log *log)
+{
+    gltf->cameras = make_array<ec_camera>(list.size());
+    for (const json &in : list) {
         ec_camera &out = gltf->cameras[gltf->camera_count++];
-        out.type = in.type == "orthographic" ? EC_CAMERA_ORTHOGRAPHIC : EC_CAMERA_PERSPECTIVE;
-        out.yfov = float(in.perspective.yfov);
-        out.aspect = float(in.perspective.aspectRatio);
-        out.xmag = float(std::fabs(in.orthographic.xmag));
-        out.ymag = float(std::fabs(in.orthographic.ymag));
-        out.name = copy_string(in.name);
         std::string where = "cameras[" + std::to_string(gltf->camera_count - 1) + "]";
+        set_lens(in, out);
+        out.name = copy_string(in.value("name", ""));
         if (out.type == EC_CAMERA_PERSPECTIVE && !(out.yfov > 0))
             throw bad_file(where + ": yfov must be positive, not " + std::to_string(out.yfov));
         if (out.yfov > widest_yfov) {
@@ -66,46 +74,44 @@ void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *
     }
 }
 
-static const double half_pi = 1.57079632679489662;
+static const double half_pi = 1.57079632679489662, quarter_pi = 0.7853981634; /* rounded as tinygltf has it: pictures stay what they are */
 
-/* Is it outside what KHR_lights_punctual allows? Colours over 1 do no harm, but intensities that floats
- * overflow by do. */
-static bool is_odd(const tinygltf::Light &light)
+/* Colours over 1 do no harm, but intensities that floats overflow by do. */
+static void set_light(const json &in, ec_light &out, bool &odd)
 {
-    const tinygltf::SpotLight &spot = light.spot;
-    bool colored = std::all_of(light.color.begin(), light.color.end(), [](double c) { return c >= 0; });
-    bool cone = spot.innerConeAngle >= 0 && spot.innerConeAngle <= spot.outerConeAngle && spot.outerConeAngle <= half_pi + 1e-6;
-    bool bright = light.intensity > double(EC_RADIANCE_MOST);
-    return !colored || light.intensity < 0 || bright || light.range < 0 || (light.type == "spot" && !cone);
+    const std::string &type = in["type"].get_ref<const std::string &>();
+    double intensity = in.value("intensity", 1.0), range = in.value("range", 0.0), inner = 0, outer = quarter_pi;
+    out.type = type == "spot" ? EC_LIGHT_SPOT : type == "point" ? EC_LIGHT_POINT : EC_LIGHT_DIRECTIONAL;
+    odd = intensity < 0 || intensity > double(EC_RADIANCE_MOST) || range < 0;
+    for (size_t i = 0; i < 3; i++) {
+        double color = element(in, "color", i, 1);
+        odd = odd || color < 0;
+        out.intensity[i] = float(std::min(std::max(color * intensity, 0.0), double(EC_RADIANCE_MOST)));
+    }
+    if (out.type == EC_LIGHT_SPOT && in.contains("spot")) {
+        inner = in["spot"].value("innerConeAngle", inner);
+        outer = in["spot"].value("outerConeAngle", outer);
+        odd = odd || !(inner >= 0 && inner <= outer && outer <= half_pi + 1e-6);
+    }
+    out.range = float(std::max(range, 0.0));
+    outer = std::min(std::max(outer, 0.0), half_pi);
+    out.cos_outer = float(std::cos(outer));
+    out.cos_inner = float(std::cos(std::min(std::max(inner, 0.0), outer)));
 }
 
-/* For tinygltf that is the same as none. */
-static bool has_range_0(const json &root, uint32_t light)
+void convert_lights(const json &root, ec_gltf *gltf, const ec_log *log)
 {
-    const json &in = (*find_extension(root, "KHR_lights_punctual"))["lights"][light];
-    return in.value("range", 1.0) == 0;
-}
-
-void convert_lights(const tinygltf::Model &model, const json &root, ec_gltf *gltf, const ec_log *log)
-{
-    gltf->lights = make_array<ec_light>(model.lights.size());
-    for (const tinygltf::Light &in : model.lights) {
-        ec_light &out = gltf->lights[gltf->light_count++];
-        out.type = in.type == "spot" ? EC_LIGHT_SPOT : in.type == "point" ? EC_LIGHT_POINT : EC_LIGHT_DIRECTIONAL;
-        for (size_t i = 0; i < 3; i++) {
-            double value = (in.color.size() == 3 ? in.color[i] : 1.0) * in.intensity;
-            out.intensity[i] = float(std::min(std::max(value, 0.0), double(EC_RADIANCE_MOST)));
-        }
-        out.range = float(std::max(in.range, 0.0));
-        double outer = std::min(std::max(in.spot.outerConeAngle, 0.0), half_pi);
-        double inner = std::min(std::max(in.spot.innerConeAngle, 0.0), outer);
-        out.cos_inner = float(std::cos(inner));
-        out.cos_outer = float(std::cos(outer));
-        if (is_odd(in))
-            ec_warn(log, "%s: light %u has values out of KHR_lights_punctual's range; they are clamped", gltf->path, gltf->light_count - 1);
-        if (has_range_0(root, gltf->light_count - 1))
-            ec_warn(log, "%s: light %u has range 0, which KHR_lights_punctual does not allow; it is taken as endless", gltf->path,
-                    gltf->light_count - 1);
+    const json *extension = find_extension(root, "KHR_lights_punctual");
+    if (!extension) return;
+    const json &list = (*extension)["lights"];
+    gltf->lights = make_array<ec_light>(list.size());
+    for (const json &in : list) {
+        bool odd;
+        uint32_t index = gltf->light_count++;
+        set_light(in, gltf->lights[index], odd);
+        if (odd) ec_warn(log, "%s: light %u has values out of KHR_lights_punctual's range; they are clamped", gltf->path, index);
+        if (in.value("range", 1.0) == 0)
+            ec_warn(log, "%s: light %u has range 0, which KHR_lights_punctual does not allow; it is taken as endless", gltf->path, index);
     }
 }
 

@@ -1,11 +1,9 @@
 /* What a document is made of, byte for byte: two documents of one digest give the same scenes. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/types.h>
 
 #include <sha2.h>
 
+#include "base/freed.h"
 #include "gltf/gltf.h"
 
 /* A chain: what came before, how many bytes, and these. */
@@ -22,12 +20,11 @@ void ec_gltf_digest_add(ec_gltf *g, const uint8_t *bytes, uint64_t length)
 /* An image that cannot be read is one that the scene goes without. */
 static void add_image(ec_gltf *g, const ec_gltf_image *image)
 {
-    uint8_t *bytes = NULL;
+    EC_FREED uint8_t *bytes = NULL;
     uint64_t length = 0;
     if (!image->uri || !strncmp(image->uri, "data:", 5)) return; /* in the document */
-    if (ec_gltf_uri_load(g->folder, "image", image->uri, &bytes, &length, NULL) != EC_OK) bytes = NULL, length = 0;
+    ec_gltf_uri_load(g->folder, "image", image->uri, &bytes, &length, NULL);
     ec_gltf_digest_add(g, bytes, length);
-    free(bytes);
 }
 
 void ec_gltf_digest_parts(ec_gltf *g)

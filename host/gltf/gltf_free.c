@@ -3,12 +3,6 @@
 
 #include <stdlib.h>
 
-static void free_strings(char **list, uint32_t count)
-{
-    for (uint32_t i = 0; list && i < count; i++) free(list[i]);
-    free(list);
-}
-
 static void free_mesh(ec_gltf_mesh *mesh)
 {
     for (uint32_t i = 0; mesh->primitives && i < mesh->primitive_count; i++) {
@@ -86,17 +80,11 @@ void ec_gltf_free(ec_gltf *g)
         free(g->images[i].name);
         free(g->images[i].uri);
     }
-    for (uint32_t i = 0; i < g->decoded_count; i++) {
-        free(g->decoded[i].rgba8);
-        free(g->decoded[i].rgba16);
-        free(g->decoded[i].name);
-    }
+    for (uint32_t i = 0; i < g->decoded_count; i++) ec_image_free(&g->decoded[i]);
     free(g->decoded);
     free(g->images);
     ec_gltf_free_looks(g);
     if (g->tree) ec_gltf_tree_free(g);
-    free_strings(g->extensions_used, g->extension_count);
-    free_strings(g->extensions_ignored, g->extension_ignored_count);
     ec_scene_contents_free(&g->contents);
     free(g->folder);
     free(g);

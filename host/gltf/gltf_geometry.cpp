@@ -78,8 +78,10 @@ void convert_accessors(const json &list, ec_gltf *gltf)
 
 static ec_gltf_streams convert_streams(const json &attributes)
 {
-    auto find = [&](const char *name) { return attributes.value(name, -1); };
-    return {find("POSITION"), find("NORMAL"), find("TANGENT"), find("COLOR_0"), {find("TEXCOORD_0"), find("TEXCOORD_1")}};
+    static const char *const names[EC_STREAMS] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0", "TEXCOORD_0", "TEXCOORD_1"};
+    ec_gltf_streams streams;
+    for (int i = 0; i < EC_STREAMS; i++) streams.of[i] = attributes.value(names[i], -1);
+    return streams;
 }
 
 /* JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... */
@@ -124,11 +126,10 @@ static void convert_primitive(const json &in, ec_gltf_primitive &out)
     for (const json &target : targets) out.targets[out.target_count++] = convert_streams(target);
 }
 
-static float *copy_numbers(const json &list, uint32_t *count)
+template <typename T> static void copy_list(const json &list, T *&numbers, uint32_t &count)
 {
-    float *numbers = make_array<float>(list.size());
-    for (const json &number : list) numbers[(*count)++] = number;
-    return numbers;
+    numbers = make_array<T>(list.size());
+    for (const json &number : list) numbers[count++] = number;
 }
 
 void convert_meshes(const json &list, ec_gltf *gltf)
@@ -137,7 +138,7 @@ void convert_meshes(const json &list, ec_gltf *gltf)
     for (const json &in : list) {
         ec_gltf_mesh &out = gltf->meshes[gltf->mesh_count++];
         out.name = copy_string(in.value("name", ""));
-        out.weights = copy_numbers(list_of(in, "weights"), &out.weight_count);
+        copy_list(list_of(in, "weights"), out.weights, out.weight_count);
         out.primitives = make_array<ec_gltf_primitive>(in["primitives"].size());
         for (const json &primitive : in["primitives"]) convert_primitive(primitive, out.primitives[out.primitive_count++]);
     }
@@ -150,7 +151,7 @@ void convert_weights(const json &list, ec_gltf *gltf)
         free(out.weights);
         out.weights = nullptr;
         out.weight_count = 0;
-        out.weights = copy_numbers(list_of(list[i], "weights"), &out.weight_count);
+        copy_list(list_of(list[i], "weights"), out.weights, out.weight_count);
     }
 }
 
@@ -160,13 +161,11 @@ void convert_skins(const json &list, ec_gltf *gltf)
     for (const json &in : list) {
         ec_gltf_skin &out = gltf->skins[gltf->skin_count++];
         out.inverse_bind = in.value("inverseBindMatrices", -1);
-        out.joints = make_array<int32_t>(in["joints"].size());
-        for (const json &joint : in["joints"]) out.joints[out.joint_count++] = joint;
+        copy_list(in["joints"], out.joints, out.joint_count);
     }
 }
 
-/* Element i of an array member of numbers. */
-static double element(const json &object, const char *key, size_t i, double fallback)
+double element(const json &object, const char *key, size_t i, double fallback)
 {
     auto found = object.find(key);
     return found == object.end() ? fallback : (*found)[i].get<double>();
@@ -197,7 +196,7 @@ void convert_nodes(const json &list, ec_gltf *gltf)
         out.hidden = visibility && !visibility->value("visible", true);
         const json *light = find_extension(in, "KHR_lights_punctual");
         out.light = light ? (*light)["light"].get<int32_t>() : -1;
-        out.weights = copy_numbers(list_of(in, "weights"), &out.weight_count);
+        copy_list(list_of(in, "weights"), out.weights, out.weight_count);
         if (const json *instancing = find_extension(in, "EXT_mesh_gpu_instancing")) {
             const json &attributes = (*instancing)["attributes"];
             out.instances = {true, attributes.value("TRANSLATION", -1), attributes.value("ROTATION", -1), attributes.value("SCALE", -1)};
@@ -206,9 +205,7 @@ void convert_nodes(const json &list, ec_gltf *gltf)
             for (size_t i = 0; i < 16; i++) out.local[i] = element(in, "matrix", i, 0);
         else
             compose_local(out.local, in);
-        const json &children = list_of(in, "children");
-        out.children = make_array<int32_t>(children.size());
-        for (const json &child : children) out.children[out.child_count++] = child;
+        copy_list(list_of(in, "children"), out.children, out.child_count);
     }
 }
 

@@ -1,4 +1,4 @@
-/* One sampler of an animation. Inside host/scene/ only. */
+/* One sampler of an animation. Inside host/gltf/ only. */
 #ifndef EC_GLTF_GLTF_KEYFRAMES_H
 #define EC_GLTF_GLTF_KEYFRAMES_H
 

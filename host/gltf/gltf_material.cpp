@@ -1,39 +1,49 @@
-/* tinygltf's materials, samplers and textures to ours. */
+/* Materials by the rows of shared/material_fields.h, and what those cannot say; tinygltf's samplers and textures. */
 #include "gltf/gltf_shim.h"
 
 #include <cmath>
+#include <cstring>
 
 extern "C" {
 #include "gltf/codecs.h"
+#include "scene/material_fields.h"
 }
 
 namespace eclat {
 
-using tinygltf::Value;
+using nlohmann::json;
 
-static const Value *find_extension(const tinygltf::ExtensionMap &extensions, const char *name)
+static double get_number(const json &object, const char *key, double fallback)
 {
-    auto found = extensions.find(name);
-    return found == extensions.end() ? nullptr : &found->second;
-}
-
-static double get_number(const Value &object, const char *key, double fallback)
-{
-    if (!object.Has(key) || !object.Get(key).IsNumber()) return fallback;
-    return object.Get(key).GetNumberAsDouble();
+    auto found = object.find(key);
+    return found == object.end() ? fallback : found->get<double>();
 }
 
 /* Element i of an array member. */
-static double get_element(const Value &object, const char *key, int i, double fallback)
+static double get_element(const json &object, const char *key, size_t i, double fallback)
 {
-    if (!object.Has(key) || !object.Get(key).IsArray() || size_t(i) >= object.Get(key).ArrayLen()) return fallback;
-    return object.Get(key).Get(i).GetNumberAsDouble();
+    auto found = object.find(key);
+    return found == object.end() || i >= found->size() ? fallback : (*found)[i].get<double>();
+}
+
+/* NULL: the file does not say. */
+static const json *find_path(const json &material, const char *path)
+{
+    const json *at = &material;
+    while (*path) {
+        const std::string step(path, std::strcspn(path, "/"));
+        auto found = at->find(step);
+        if (found == at->end()) return nullptr;
+        at = &*found;
+        path += step.size() + (path[step.size()] == '/');
+    }
+    return at;
 }
 
 static const ec_texture_use no_texture = {-1, 0, {1, 0, 0, 0, 1, 0}};
 
 /* KHR_texture_transform: T x R x S, the rotation being counter-clockwise as seen with v pointing down. */
-static void set_transform(ec_texture_use &use, int64_t &uv_set, const Value &t)
+static void set_transform(ec_texture_use &use, int64_t &uv_set, const json &t)
 {
     double angle = get_number(t, "rotation", 0), c = std::cos(angle), s = std::sin(angle);
     double sx = get_element(t, "scale", 0, 1), sy = get_element(t, "scale", 1, 1);
@@ -42,133 +52,46 @@ static void set_transform(ec_texture_use &use, int64_t &uv_set, const Value &t)
     uv_set = int64_t(get_number(t, "texCoord", double(uv_set)));
 }
 
-static ec_texture_use make_use(int index, int64_t uv_set, const Value *transform, const std::string &where,
-                               const ec_gltf *gltf, const ec_log *log)
+static ec_texture_use make_use(const json &material, const char *path, const std::string &where, const ec_gltf *gltf, const ec_log *log)
 {
     ec_texture_use use = no_texture;
-    if (index < 0) return use;
-    use.texture = index;
+    const json *info = find_path(material, path);
+    if (!info) return use;
+    int64_t uv_set = int64_t(get_number(*info, "texCoord", 0));
+    const json *transform = find_extension(*info, "KHR_texture_transform");
     if (transform) set_transform(use, uv_set, *transform);
     if (uv_set < 0 || uv_set > 1) {
-        ec_warn(log, "%s: %s wants TEXCOORD_%lld, but only sets 0 and 1 are supported; the texture is left out",
-                gltf->path, where.c_str(), (long long)uv_set);
+        const char *slash = std::strrchr(path, '/');
+        ec_warn(log, "%s: %s.%s wants TEXCOORD_%lld, but only sets 0 and 1 are supported; the texture is left out", gltf->path, where.c_str(),
+                slash ? slash + 1 : path, (long long)uv_set);
         return no_texture;
     }
+    use.texture = int32_t(get_number(*info, "index", -1));
     use.uv_set = uint32_t(uv_set);
     return use;
 }
 
-static ec_texture_use make_use(const Value &extension, const char *key, const std::string &where, const ec_gltf *gltf,
-                               const ec_log *log)
+static void set_field(ec_material &out, const ec_material_field &field, const json &material)
 {
-    if (!extension.Has(key)) return no_texture;
-    const Value &info = extension.Get(key);
-    const Value *transform = nullptr;
-    if (info.Has("extensions") && info.Get("extensions").Has("KHR_texture_transform"))
-        transform = &info.Get("extensions").Get("KHR_texture_transform");
-    return make_use(int(get_number(info, "index", -1)), int64_t(get_number(info, "texCoord", 0)), transform,
-                    where + "." + key, gltf, log);
-}
-
-static void copy_floats(float *out, const std::vector<double> &in, size_t count)
-{
-    for (size_t i = 0; i < count && i < in.size(); i++) out[i] = float(in[i]);
-}
-
-static void set_specular(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf,
-                         const ec_log *log)
-{
-    out.specular = out.specular_color[0] = out.specular_color[1] = out.specular_color[2] = 1;
-    const Value *s = find_extension(in.extensions, "KHR_materials_specular");
-    if (!s) return;
-    out.specular = float(get_number(*s, "specularFactor", 1));
-    for (int i = 0; i < 3; i++) out.specular_color[i] = float(get_element(*s, "specularColorFactor", i, 1));
-    out.textures[EC_SLOT_SPECULAR] = make_use(*s, "specularTexture", where, gltf, log);
-    out.textures[EC_SLOT_SPECULAR_COLOR] = make_use(*s, "specularColorTexture", where, gltf, log);
+    const json *said = find_path(material, field.path);
+    float *floats = ec_material_floats(&out, &field);
+    for (int i = 0; said && i < field.floats; i++) floats[i] = said->is_array() ? (*said)[size_t(i)].get<float>() : said->get<float>();
 }
 
 /* attenuationColor is what is left of white light after attenuationDistance (Beer-Lambert). What a file says of a body's
  * thickness only tells bodies from thin walls: rays find the way through by themselves. */
-static void set_volume(ec_material &out, const Value &v, const std::string &where, const ec_gltf *gltf, const ec_log *log)
+static void set_volume(ec_material &out, const json &v, const std::string &where, const ec_gltf *gltf, const ec_log *log)
 {
     double thickness = get_number(v, "thicknessFactor", 0), distance = get_number(v, "attenuationDistance", INFINITY);
     bool odd = thickness < 0 || distance <= 0;
     out.volume = thickness > 0;
-    for (int i = 0; i < 3; i++) {
+    for (size_t i = 0; i < 3; i++) {
         double color = get_element(v, "attenuationColor", i, 1);
         odd = odd || color < 0 || color > 1;
         double absorption = color < 1 && distance < INFINITY ? -std::log(std::fmax(color, 0)) / std::fmax(distance, 0) : 0;
         if (out.volume) out.absorption[i] = float(std::fmin(absorption, 1e30));
     }
     if (odd) ec_warn(log, "%s: %s.KHR_materials_volume has values out of range; they are clamped", gltf->path, where.c_str());
-}
-
-static void set_transmission(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf,
-                             const ec_log *log)
-{
-    const Value *ior = find_extension(in.extensions, "KHR_materials_ior");
-    const Value *transmission = find_extension(in.extensions, "KHR_materials_transmission");
-    const Value *dispersion = find_extension(in.extensions, "KHR_materials_dispersion");
-    out.dispersion = dispersion ? float(get_number(*dispersion, "dispersion", 0)) : 0;
-    out.ior = ior ? float(get_number(*ior, "ior", 1.5)) : 1.5f;
-    if (!transmission) return;
-    out.transmission = float(get_number(*transmission, "transmissionFactor", 0));
-    out.textures[EC_SLOT_TRANSMISSION] = make_use(*transmission, "transmissionTexture", where, gltf, log);
-}
-
-static void set_diffuse_transmission(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
-{
-    const Value *d = find_extension(in.extensions, "KHR_materials_diffuse_transmission");
-    if (!d) return;
-    out.diffuse_transmission = float(get_number(*d, "diffuseTransmissionFactor", 0));
-    for (int i = 0; i < 3; i++) out.transmission_color[i] = float(get_element(*d, "diffuseTransmissionColorFactor", i, 1));
-    out.textures[EC_SLOT_DIFFUSE_TRANSMISSION] = make_use(*d, "diffuseTransmissionTexture", where, gltf, log);
-    out.textures[EC_SLOT_DIFFUSE_TRANSMISSION_COLOR] = make_use(*d, "diffuseTransmissionColorTexture", where, gltf, log);
-}
-
-static void set_coat(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
-{
-    out.coat_normal_scale = 1;
-    const Value *c = find_extension(in.extensions, "KHR_materials_clearcoat");
-    if (!c) return;
-    out.coat = float(get_number(*c, "clearcoatFactor", 0));
-    out.coat_roughness = float(get_number(*c, "clearcoatRoughnessFactor", 0));
-    out.textures[EC_SLOT_CLEARCOAT] = make_use(*c, "clearcoatTexture", where, gltf, log);
-    out.textures[EC_SLOT_CLEARCOAT_ROUGHNESS] = make_use(*c, "clearcoatRoughnessTexture", where, gltf, log);
-    out.textures[EC_SLOT_CLEARCOAT_NORMAL] = make_use(*c, "clearcoatNormalTexture", where, gltf, log);
-    if (c->Has("clearcoatNormalTexture")) out.coat_normal_scale = float(get_number(c->Get("clearcoatNormalTexture"), "scale", 1));
-}
-
-static void set_sheen(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
-{
-    const Value *s = find_extension(in.extensions, "KHR_materials_sheen");
-    if (!s) return;
-    for (int i = 0; i < 3; i++) out.sheen[i] = float(get_element(*s, "sheenColorFactor", i, 0));
-    out.sheen_roughness = float(get_number(*s, "sheenRoughnessFactor", 0));
-    out.textures[EC_SLOT_SHEEN_COLOR] = make_use(*s, "sheenColorTexture", where, gltf, log);
-    out.textures[EC_SLOT_SHEEN_ROUGHNESS] = make_use(*s, "sheenRoughnessTexture", where, gltf, log);
-}
-
-static void set_anisotropy(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
-{
-    const Value *a = find_extension(in.extensions, "KHR_materials_anisotropy");
-    if (!a) return;
-    out.anisotropy = float(get_number(*a, "anisotropyStrength", 0));
-    out.anisotropy_rotation = float(std::remainder(get_number(*a, "anisotropyRotation", 0), 6.283185307179586));
-    out.textures[EC_SLOT_ANISOTROPY] = make_use(*a, "anisotropyTexture", where, gltf, log);
-}
-
-static void set_film(ec_material &out, const tinygltf::Material &in, const std::string &where, const ec_gltf *gltf, const ec_log *log)
-{
-    const Value *f = find_extension(in.extensions, "KHR_materials_iridescence");
-    out.film_ior = 1.3f;
-    if (!f) return;
-    out.film = float(get_number(*f, "iridescenceFactor", 0));
-    out.film_ior = float(get_number(*f, "iridescenceIor", 1.3));
-    out.film_least = float(get_number(*f, "iridescenceThicknessMinimum", 100));
-    out.film_most = float(get_number(*f, "iridescenceThicknessMaximum", 400));
-    out.textures[EC_SLOT_IRIDESCENCE] = make_use(*f, "iridescenceTexture", where, gltf, log);
-    out.textures[EC_SLOT_IRIDESCENCE_THICKNESS] = make_use(*f, "iridescenceThicknessTexture", where, gltf, log);
 }
 
 /* One more texture: roughness from the glossiness in another's alpha. */
@@ -185,13 +108,13 @@ static int32_t append_gloss(ec_gltf *gltf, int32_t texture, double factor)
 
 /* KHR_materials_pbrSpecularGlossiness, archived. Its specular colour is the reflectance seen head-on, without metals: what
  * KHR_materials_ior has the index 0 for. Diffuse is weighed by 1 - max(F) there, by 1 - max(F0) here, so grazing views are darker. */
-static void set_specular_glossiness(ec_material &out, const tinygltf::Material &in, const std::string &where, ec_gltf *gltf, const ec_log *log)
+static void set_specular_glossiness(ec_material &out, const json &in, const std::string &where, ec_gltf *gltf, const ec_log *log)
 {
-    const Value *s = find_extension(in.extensions, "KHR_materials_pbrSpecularGlossiness");
-    if (!s || find_extension(in.extensions, "KHR_materials_specular")) return; /* a file that has both says it better there */
+    const json *s = find_extension(in, "KHR_materials_pbrSpecularGlossiness");
+    if (!s || find_extension(in, "KHR_materials_specular")) return; /* a file that has both says it better there */
     double glossiness = get_number(*s, "glossinessFactor", 1);
-    for (int i = 0; i < 4; i++) out.base_color[i] = float(get_element(*s, "diffuseFactor", i, 1));
-    for (int i = 0; i < 3; i++) out.specular_color[i] = float(get_element(*s, "specularFactor", i, 1));
+    for (size_t i = 0; i < 4; i++) out.base_color[i] = float(get_element(*s, "diffuseFactor", i, 1));
+    for (size_t i = 0; i < 3; i++) out.specular_color[i] = float(get_element(*s, "specularFactor", i, 1));
     out.ior = out.metallic = 0;
     out.specular = 1;
     out.roughness = float(1 - glossiness);
@@ -203,57 +126,34 @@ static void set_specular_glossiness(ec_material &out, const tinygltf::Material &
     out.roughness = 1;
 }
 
-static void set_emission(ec_material &out, const tinygltf::Material &in)
+static void set_material(ec_material &out, const json &in, const std::string &where, ec_gltf *gltf, const ec_log *log)
 {
-    const Value *strength = find_extension(in.extensions, "KHR_materials_emissive_strength");
-    double factor = strength ? get_number(*strength, "emissiveStrength", 1) : 1;
-    for (size_t i = 0; i < 3 && i < in.emissiveFactor.size(); i++)
-        out.emission[i] = float(in.emissiveFactor[i] * factor);
-}
-
-static void set_material(ec_material &out, const tinygltf::Material &in, const std::string &where, ec_gltf *gltf,
-                         const ec_log *log)
-{
-    auto use = [&](const auto &info, const char *name) {
-        return make_use(info.index, info.texCoord, find_extension(info.extensions, "KHR_texture_transform"),
-                        where + "." + name, gltf, log);
-    };
-    const tinygltf::PbrMetallicRoughness &pbr = in.pbrMetallicRoughness;
-    for (ec_texture_use &slot : out.textures) slot = no_texture;
-    out.base_color[0] = out.base_color[1] = out.base_color[2] = out.base_color[3] = 1;
-    copy_floats(out.base_color, pbr.baseColorFactor, 4);
-    out.metallic = float(pbr.metallicFactor);
-    out.roughness = float(pbr.roughnessFactor);
-    out.normal_scale = float(in.normalTexture.scale);
-    out.alpha_cutoff = float(in.alphaCutoff);
-    out.alpha_mode = in.alphaMode == "MASK" ? EC_ALPHA_MASK : in.alphaMode == "BLEND" ? EC_ALPHA_BLEND : EC_ALPHA_OPAQUE;
-    out.double_sided = in.doubleSided;
-    out.unlit = find_extension(in.extensions, "KHR_materials_unlit") != nullptr;
-    out.textures[EC_SLOT_BASE_COLOR] = use(pbr.baseColorTexture, "baseColorTexture");
-    out.textures[EC_SLOT_METALLIC_ROUGHNESS] = use(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
-    out.textures[EC_SLOT_NORMAL] = use(in.normalTexture, "normalTexture");
-    out.textures[EC_SLOT_EMISSION] = use(in.emissiveTexture, "emissiveTexture");
-    set_emission(out, in);
-    set_specular(out, in, where, gltf, log);
-    set_transmission(out, in, where, gltf, log);
-    set_diffuse_transmission(out, in, where, gltf, log);
-    const Value *volume = find_extension(in.extensions, "KHR_materials_volume");
-    bool passes = find_extension(in.extensions, "KHR_materials_transmission") || find_extension(in.extensions, "KHR_materials_diffuse_transmission");
+    out = ec_material_default();
+    for (int i = 0; i < ec_material_field_count; i++) set_field(out, ec_material_fields[i], in);
+    for (int i = 0; i < EC_SLOT_COUNT; i++) out.textures[i] = make_use(in, ec_material_slots[i].path, where, gltf, log);
+    const std::string mode = in.value("alphaMode", "OPAQUE");
+    out.alpha_mode = mode == "MASK" ? EC_ALPHA_MASK : mode == "BLEND" ? EC_ALPHA_BLEND : EC_ALPHA_OPAQUE;
+    out.double_sided = in.value("doubleSided", false);
+    out.unlit = find_extension(in, "KHR_materials_unlit") != nullptr;
+    if (const json *strength = find_extension(in, "KHR_materials_emissive_strength"))
+        for (size_t i = 0; i < 3; i++)
+            out.emission[i] = float(get_element(in, "emissiveFactor", i, 0) * get_number(*strength, "emissiveStrength", 1));
+    if (const json *anisotropy = find_extension(in, "KHR_materials_anisotropy"))
+        out.anisotropy_rotation = float(std::remainder(get_number(*anisotropy, "anisotropyRotation", 0), 6.283185307179586));
+    const json *volume = find_extension(in, "KHR_materials_volume");
+    for (float &absorption : out.absorption) absorption = 0; /* the file has a colour there */
+    bool passes = find_extension(in, "KHR_materials_transmission") || find_extension(in, "KHR_materials_diffuse_transmission");
     if (volume && passes) set_volume(out, *volume, where, gltf, log); /* into others nothing gets */
-    set_coat(out, in, where, gltf, log);
-    set_sheen(out, in, where, gltf, log);
-    set_anisotropy(out, in, where, gltf, log);
-    set_film(out, in, where, gltf, log);
     set_specular_glossiness(out, in, where, gltf, log);
-    out.name = copy_string(in.name);
+    out.name = copy_string(in.value("name", ""));
 }
 
-void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log)
+void convert_materials(const json &list, ec_gltf *gltf, const ec_log *log)
 {
-    gltf->materials = make_array<ec_material>(model.materials.size());
-    for (const tinygltf::Material &in : model.materials) {
-        std::string where = "materials[" + std::to_string(gltf->material_count) + "]";
-        if (!in.name.empty()) where += " \"" + shortened(in.name, 80) + "\"";
+    gltf->materials = make_array<ec_material>(list.size());
+    for (const json &in : list) {
+        std::string where = "materials[" + std::to_string(gltf->material_count) + "]", name = in.value("name", "");
+        if (!name.empty()) where += " \"" + shortened(name, 80) + "\"";
         set_material(gltf->materials[gltf->material_count++], in, where, gltf, log);
     }
 }
@@ -271,8 +171,8 @@ void convert_textures(const tinygltf::Model &model, ec_gltf *gltf)
     for (const tinygltf::Texture &in : model.textures) {
         ec_gltf_texture &out = gltf->textures[gltf->texture_count++];
         out = {in.source, EC_WRAP_REPEAT, EC_WRAP_REPEAT, false, false, 0};
-        const Value *webp = find_extension(in.extensions, "EXT_texture_webp");
-        if (webp && ec_has_webp) out.image = webp->Get("source").GetNumberAsInt();
+        auto webp = in.extensions.find("EXT_texture_webp");
+        if (webp != in.extensions.end() && ec_has_webp) out.image = webp->second.Get("source").GetNumberAsInt();
         if (in.sampler < 0) continue;
         const tinygltf::Sampler &sampler = model.samplers[size_t(in.sampler)];
         out.wrap_s = convert_wrap(sampler.wrapS);

@@ -23,8 +23,7 @@ typedef struct stream_rule {
     unsigned core, quantized; /* kinds allowed by glTF, and in addition by KHR_mesh_quantization */
 } stream_rule;
 
-enum { STREAMS = 6 };
-static const stream_rule rules[STREAMS] = {
+static const stream_rule rules[EC_STREAMS] = {
     {"POSITION", {3, 3}, FLOAT, SIGNED | UNSIGNED | SIGNED_NORM | UNSIGNED_NORM},
     {"NORMAL", {3, 3}, FLOAT, SIGNED_NORM},
     {"TANGENT", {4, 4}, FLOAT, SIGNED_NORM},
@@ -34,7 +33,7 @@ static const stream_rule rules[STREAMS] = {
 };
 
 /* What morph targets add. */
-static const stream_rule target_rules[STREAMS] = {
+static const stream_rule target_rules[EC_STREAMS] = {
     {"POSITION", {3, 3}, FLOAT, SIGNED | SIGNED_NORM},
     {"NORMAL", {3, 3}, FLOAT, SIGNED_NORM},
     {"TANGENT", {3, 3}, FLOAT, SIGNED_NORM},
@@ -63,11 +62,10 @@ static ec_result open_stream(ec_gltf *g, int32_t accessor, const stream_rule *ru
     return EC_OK;
 }
 
-static ec_result open_streams(ec_gltf *g, const ec_gltf_streams *s, const stream_rule of[STREAMS], uint64_t vertex_count,
+static ec_result open_streams(ec_gltf *g, const ec_gltf_streams *s, const stream_rule rule[EC_STREAMS], uint64_t vertex_count,
                               const char *where, ec_error *err)
 {
-    const int32_t accessors[STREAMS] = {s->position, s->normal, s->tangent, s->color, s->uv[0], s->uv[1]};
-    for (int i = 0; i < STREAMS; i++) EC_TRY(open_stream(g, accessors[i], &of[i], vertex_count, where, err));
+    for (int i = 0; i < EC_STREAMS; i++) EC_TRY(open_stream(g, s->of[i], &rule[i], vertex_count, where, err));
     return EC_OK;
 }
 
@@ -87,7 +85,7 @@ static ec_result open_indices(ec_gltf *g, const ec_gltf_primitive *p, const char
 /* Range of the indices; one beyond the vertices is an error. */
 static ec_result scan_indices(const ec_gltf *g, ec_gltf_primitive *p, uint64_t count, const char *where, ec_error *err)
 {
-    uint64_t vertices = g->accessors[p->streams.position].count;
+    uint64_t vertices = g->accessors[p->streams.of[EC_POSITION]].count;
     p->lowest = 0;
     p->highest = (uint32_t)(vertices - 1);
     if (p->indices < 0) return EC_OK;
@@ -117,9 +115,9 @@ ec_result ec_gltf_primitive_prepare(ec_gltf *g, ec_gltf_primitive *p, const char
 {
     if (p->prepared) return EC_OK;
     p->prepared = true;
-    if (p->mode < EC_GLTF_TRIANGLES || p->streams.position < 0) return EC_OK;
+    if (p->mode < EC_GLTF_TRIANGLES || p->streams.of[EC_POSITION] < 0) return EC_OK;
     if (p->draco_view >= 0 && ec_has_draco) EC_TRY(unpack(g, p, where, err));
-    uint64_t vertices = g->accessors[p->streams.position].count;
+    uint64_t vertices = g->accessors[p->streams.of[EC_POSITION]].count;
     if (vertices > INT32_MAX)
         return ec_fail(err, "%s: %s claims %llu vertices; at most %d are supported", g->path, where,
                        (unsigned long long)vertices, INT32_MAX);
@@ -135,12 +133,12 @@ ec_result ec_gltf_primitive_prepare(ec_gltf *g, ec_gltf_primitive *p, const char
 
 ec_result ec_gltf_target_prepare(ec_gltf *g, const ec_gltf_primitive *p, uint32_t target, const char *where, ec_error *err)
 {
-    return open_streams(g, &p->targets[target], target_rules, g->accessors[p->streams.position].count, where, err);
+    return open_streams(g, &p->targets[target], target_rules, g->accessors[p->streams.of[EC_POSITION]].count, where, err);
 }
 
 ec_result ec_gltf_influences_prepare(ec_gltf *g, const ec_gltf_primitive *p, const char *where, ec_error *err)
 {
-    uint64_t vertices = g->accessors[p->streams.position].count;
+    uint64_t vertices = g->accessors[p->streams.of[EC_POSITION]].count;
     for (uint32_t i = 0; i < p->influence_sets; i++) {
         EC_TRY(open_stream(g, p->joints[i], &joints_rule, vertices, where, err));
         EC_TRY(open_stream(g, p->weights[i], &weights_rule, vertices, where, err));

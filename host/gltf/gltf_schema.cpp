@@ -1,6 +1,7 @@
 /* The shape of a glTF document as tables. tinygltf silently replaces what it does not understand by defaults; here it is
  * an error that says where. Only members that eclat reads are listed. */
 #include "gltf/gltf_schema.h"
+#include "shared/material_fields.h"
 
 namespace eclat {
 
@@ -175,61 +176,20 @@ static const field texture_info[] = {index("index", "textures", required), count
                                      number("scale"), object("extensions", info_extensions_s)};
 static const schema texture_info_s(texture_info);
 
-static const field metallic_roughness[] = {
-    numbers("baseColorFactor", 4), number("metallicFactor"), number("roughnessFactor"),
-    object("baseColorTexture", texture_info_s), object("metallicRoughnessTexture", texture_info_s)};
-static const schema metallic_roughness_s(metallic_roughness);
-static const field specular[] = {number("specularFactor"), numbers("specularColorFactor", 3),
-                                 object("specularTexture", texture_info_s), object("specularColorTexture", texture_info_s)};
-static const schema specular_s(specular);
-static const field emissive_strength[] = {number("emissiveStrength")};
-static const schema emissive_strength_s(emissive_strength);
-static const field ior[] = {number("ior")};
-static const schema ior_s(ior);
-static const field transmission[] = {number("transmissionFactor"), object("transmissionTexture", texture_info_s)};
-static const schema transmission_s(transmission);
-static const field volume[] = {number("thicknessFactor"), object("thicknessTexture", texture_info_s),
-                               number("attenuationDistance"), numbers("attenuationColor", 3)};
-static const schema volume_s(volume);
-static const field clearcoat[] = {number("clearcoatFactor"), object("clearcoatTexture", texture_info_s),
-                                  number("clearcoatRoughnessFactor"), object("clearcoatRoughnessTexture", texture_info_s),
-                                  object("clearcoatNormalTexture", texture_info_s)};
-static const schema clearcoat_s(clearcoat);
-static const field sheen[] = {numbers("sheenColorFactor", 3), object("sheenColorTexture", texture_info_s),
-                              number("sheenRoughnessFactor"), object("sheenRoughnessTexture", texture_info_s)};
-static const schema sheen_s(sheen);
-static const field anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"), object("anisotropyTexture", texture_info_s)};
-static const schema anisotropy_s(anisotropy);
-static const field iridescence[] = {number("iridescenceFactor"), object("iridescenceTexture", texture_info_s), number("iridescenceIor"),
-                                    number("iridescenceThicknessMinimum"), number("iridescenceThicknessMaximum"),
-                                    object("iridescenceThicknessTexture", texture_info_s)};
-static const schema iridescence_s(iridescence);
-static const field diffuse_transmission[] = {number("diffuseTransmissionFactor"), object("diffuseTransmissionTexture", texture_info_s),
-                                             numbers("diffuseTransmissionColorFactor", 3),
-                                             object("diffuseTransmissionColorTexture", texture_info_s)};
-static const schema diffuse_transmission_s(diffuse_transmission);
-static const field dispersion[] = {number("dispersion")};
-static const schema dispersion_s(dispersion);
-static const field specular_glossiness[] = {
-    numbers("diffuseFactor", 4), object("diffuseTexture", texture_info_s), numbers("specularFactor", 3), number("glossinessFactor"),
-    object("specularGlossinessTexture", texture_info_s)};
-static const schema specular_glossiness_s(specular_glossiness);
-static const field material_extensions[] = {object("KHR_materials_pbrSpecularGlossiness", specular_glossiness_s),
-                                            object("KHR_materials_specular", specular_s), object("KHR_materials_unlit", nothing_s),
-                                            object("KHR_materials_emissive_strength", emissive_strength_s),
-                                            object("KHR_materials_ior", ior_s), object("KHR_materials_transmission", transmission_s),
-                                            object("KHR_materials_volume", volume_s),
-                                            object("KHR_materials_clearcoat", clearcoat_s), object("KHR_materials_sheen", sheen_s),
-                                            object("KHR_materials_anisotropy", anisotropy_s),
-                                            object("KHR_materials_iridescence", iridescence_s),
-                                            object("KHR_materials_diffuse_transmission", diffuse_transmission_s),
-                                            object("KHR_materials_dispersion", dispersion_s)};
-static const schema material_extensions_s(material_extensions);
+#define SHAPE_1(path) number(path),
+#define SHAPE_3(path) numbers(path, 3),
+#define SHAPE_4(path) numbers(path, 4),
+#define FIELD(name, floats, value, least, most, slot, channel, effect, has, path) SHAPE_##floats(path)
+#define SLOT(name, is_srgb, effect, textured, has, path) object(path, texture_info_s),
+#define OF_KERNELS(...)
+#define GLOSS EC_KHR "pbrSpecularGlossiness/"
 static const field material[] = {
-    object("pbrMetallicRoughness", metallic_roughness_s), object("normalTexture", texture_info_s),
-    object("emissiveTexture", texture_info_s), numbers("emissiveFactor", 3), choice("alphaMode", "OPAQUE MASK BLEND"),
-    number("alphaCutoff"), plain("doubleSided", kind::flag), plain("name", kind::text),
-    object("extensions", material_extensions_s)};
+    EC_MATERIAL_FIELDS(FIELD, FIELD, OF_KERNELS, OF_KERNELS) EC_SLOTS(SLOT)
+    choice("alphaMode", "OPAQUE MASK BLEND"), plain("doubleSided", kind::flag), plain("name", kind::text), object(EC_KHR "unlit", nothing_s),
+    number(EC_KHR "emissive_strength/emissiveStrength"), number(EC_KHR "volume/thicknessFactor"),
+    object(EC_KHR "volume/thicknessTexture", texture_info_s), number(EC_KHR "volume/attenuationDistance"),
+    numbers(GLOSS "diffuseFactor", 4), object(GLOSS "diffuseTexture", texture_info_s), numbers(GLOSS "specularFactor", 3),
+    number(GLOSS "glossinessFactor"), object(GLOSS "specularGlossinessTexture", texture_info_s)};
 static const schema material_s(material);
 
 static const field spot[] = {number("innerConeAngle"), number("outerConeAngle")};

@@ -26,12 +26,12 @@ enum class kind {
 
 struct schema;
 struct field {
-    const char *name;
+    const char *name;      /* or a path: "outer/inner" */
     kind type;
     bool required;
     const char *detail;    /* index: the array pointed into (rows: each element); choice: what is allowed */
     const schema *members; /* object(s) */
-    double low, high;      /* count; numbers: how many; rows: how long each is, how many (0: some) */
+    double low, high;      /* count; numbers: how many (0 or less: any); rows: how long each is, how many (0: some) */
 };
 struct schema {
     const field *fields;

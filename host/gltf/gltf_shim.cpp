@@ -9,31 +9,23 @@
 
 extern "C" {
 #include "gltf/codecs.h"
+#include "scene/material_fields.h"
 }
 
 namespace eclat {
 
 using nlohmann::json;
 
+/* Beside those in which a field of materials is. */
 static const char *const supported_extensions[] = {
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "KHR_animation_pointer",
     "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
     "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_variants",
-    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
     "KHR_texture_transform"};
@@ -56,6 +48,9 @@ static void refuse_unbuilt(const std::string &name)
 
 static bool is_supported(const std::string &name)
 {
+    const std::string place = "extensions/" + name + "/";
+    for (int i = 0; i < ec_material_field_count; i++)
+        if (std::strncmp(ec_material_fields[i].path, place.c_str(), place.size()) == 0) return true;
     for (auto &optional : optional_extensions)
         if (name == optional.name) return optional.built;
     return std::find(std::begin(supported_extensions), std::end(supported_extensions), name) !=
@@ -92,12 +87,12 @@ static std::string comma_list(const std::set<std::string> &names)
 }
 
 /* The list has its place before it has its strings: should one fail, what there is can be freed. */
-static void copy_strings(const std::set<std::string> &names, char **&list, uint32_t &count)
+static void copy_strings(const std::set<std::string> &names, ec_scene_names &list)
 {
-    list = make_array<char *>(names.size());
+    list.names = make_array<char *>(names.size());
     for (const std::string &name : names) {
-        list[count] = copy_string(name.empty() ? "?" : name);
-        ++count;
+        list.names[list.count] = copy_string(name.empty() ? "?" : name);
+        ++list.count;
     }
 }
 
@@ -117,8 +112,8 @@ static void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
     if (!ignored.empty())
         ec_warn(log, "%s: not supported, what it describes is left out: %s", gltf->path, comma_list(ignored).c_str());
     gltf->quantized = used.count("KHR_mesh_quantization") || needed.count("KHR_mesh_quantization");
-    copy_strings(used, gltf->extensions_used, gltf->extension_count);
-    copy_strings(ignored, gltf->extensions_ignored, gltf->extension_ignored_count);
+    copy_strings(used, gltf->contents.extensions);
+    copy_strings(ignored, gltf->contents.ignored);
 }
 
 static void check_uris(const json &list, const char *key)
@@ -164,34 +159,13 @@ static void load_buffers(json &list, const container &file, ec_gltf *gltf)
     }
 }
 
-static void default_member(json &object, const char *name, const json &value)
-{
-    if (!object.contains(name)) object[name] = value;
-}
-
-/* tinygltf insists on members that eclat has no use for. */
-static void pad_for_tinygltf(json &root)
-{
-    if (root.contains("extensions") && root["extensions"].contains("KHR_lights_punctual"))
-        for (json &light : root["extensions"]["KHR_lights_punctual"]["lights"])
-            default_member(light, "spot", json::object());
-    if (root.contains("cameras"))
-        for (json &camera : root["cameras"])
-            for (const char *kind : {"perspective", "orthographic"})
-                for (const char *member : {"znear", "zfar"})
-                    if (camera.contains(kind)) default_member(camera[kind], member, 1);
-}
-
-/* Without what is converted from the tree itself, and the members that hold files, so that tinygltf has nothing to open. As text once more,
+/* Materials and textures alone: the rest is converted from the tree itself, and tinygltf has nothing to open. As text once more,
  * because tinygltf 2 takes no parsed tree: LoadFromString is private, and what it calls is static in its source. */
 static void parse_rest(const json &root, tinygltf::Model &model)
 {
-    static const std::set<std::string> done = {"accessors", "animations", "buffers", "bufferViews", "images",
-                                               "meshes",    "nodes",      "scene",   "scenes",      "skins"};
     json rest = json::object();
-    for (auto &member : root.items())
-        if (!done.count(member.key())) rest[member.key()] = member.value();
-    pad_for_tinygltf(rest);
+    for (const char *name : {"asset", "samplers", "textures"})
+        if (root.contains(name)) rest[name] = root[name];
     std::string text = rest.dump(), error, warning;
     rest = json();
     if (text.size() > 0x7fffffff) throw bad_file("the JSON part has more than 2 GiB");
@@ -212,10 +186,10 @@ static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
 {
     tinygltf::Model model;
     parse_rest(root, model);
-    convert_cameras(model, gltf, log);
-    convert_lights(model, root, gltf, log);
+    convert_cameras(list_of(root, "cameras"), gltf, log);
+    convert_lights(root, gltf, log);
     convert_textures(model, gltf);
-    convert_materials(model, gltf, log);
+    convert_materials(list_of(root, "materials"), gltf, log);
 }
 
 static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice *choice, const ec_log *log)

@@ -34,6 +34,7 @@ void check_document(nlohmann::json &root, const char *path, const ec_log *log);
 /* gltf_geometry.cpp: lists of the checked tree */
 const nlohmann::json &list_of(const nlohmann::json &object, const char *key); /* empty where there is none */
 const nlohmann::json *find_extension(const nlohmann::json &object, const char *name);
+double element(const nlohmann::json &object, const char *key, size_t i, double fallback); /* i of an array member of numbers */
 void convert_views(const nlohmann::json &list, ec_gltf *gltf);
 void convert_accessors(const nlohmann::json &list, ec_gltf *gltf);
 void convert_meshes(const nlohmann::json &list, ec_gltf *gltf);
@@ -67,11 +68,11 @@ struct posable {
 /* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);
 void convert_image_light(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log); /* the shown scene's */
-void convert_cameras(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
-void convert_lights(const tinygltf::Model &model, const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
+void convert_cameras(const nlohmann::json &list, ec_gltf *gltf, const ec_log *log);
+void convert_lights(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
 
 /* gltf_material.cpp */
-void convert_materials(const tinygltf::Model &model, ec_gltf *gltf, const ec_log *log);
+void convert_materials(const nlohmann::json &list, ec_gltf *gltf, const ec_log *log);
 void convert_textures(const tinygltf::Model &model, ec_gltf *gltf);
 
 /* Zeroed C arrays and strings, so that ec_gltf_free can release half a document. */

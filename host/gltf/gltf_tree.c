@@ -1,17 +1,17 @@
 /* Walks the node tree without recursion: a file may be a chain of a million nodes. */
 #include "gltf/gltf_tree.h"
+#include "base/freed.h"
 #include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-void ec_gltf_describe_node(const ec_gltf *g, int32_t node, char text[128])
+ec_label ec_label_of(const char *list, uint32_t index, const char *name)
 {
-    const char *name = g->nodes[node].name;
-    int used = snprintf(text, 128, "nodes[%d]", node);
-    if (name) snprintf(text + used, 128 - (size_t)used, " \"%.*s\"", EC_CUT(name, 80));
+    ec_label label;
+    const char *quote = name ? "\"" : "";
+    snprintf(label.text, sizeof label.text, "%s[%u]%s%s%.*s%s", list, index, name ? " " : "", quote, EC_CUT(name ? name : "", 80), quote);
+    return label;
 }
 
 /* parent[i] = -1 for roots. */
@@ -21,12 +21,9 @@ static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
     for (uint32_t i = 0; i < g->node_count; i++) {
         for (uint32_t c = 0; c < g->nodes[i].child_count; c++) {
             int32_t child = g->nodes[i].children[c];
-            if (parent[child] >= 0) {
-                char name[128];
-                ec_gltf_describe_node(g, child, name);
+            if (parent[child] >= 0)
                 return ec_fail(err, "%s: %s is a child of nodes[%d] and of nodes[%u]; glTF's nodes must form a tree",
-                               g->path, name, parent[child], i);
-            }
+                               g->path, ec_label_of("nodes", (uint32_t)child, g->nodes[child].name).text, parent[child], i);
             parent[child] = (int32_t)i;
         }
     }
@@ -36,13 +33,12 @@ static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
 ec_result ec_gltf_node_above(const ec_gltf *g, int32_t node, bool (*is)(const ec_gltf_node *), int32_t *found,
                              ec_error *err)
 {
-    int32_t *parent = malloc(((size_t)g->node_count + 1) * sizeof *parent);
+    EC_FREED int32_t *parent = malloc(((size_t)g->node_count + 1) * sizeof *parent);
     if (!parent) return ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
-    ec_result result = find_parents(g, parent, err);
-    while (result == EC_OK && node >= 0 && !is(&g->nodes[node])) node = parent[node];
+    EC_TRY(find_parents(g, parent, err));
+    while (node >= 0 && !is(&g->nodes[node])) node = parent[node];
     *found = node;
-    free(parent);
-    return result;
+    return EC_OK;
 }
 
 /* Every node has at most one parent here, so going up from a node on a cycle comes back to where it started. */
@@ -54,11 +50,9 @@ static ec_result check_cycles(const ec_gltf *g, const int32_t *parent, uint32_t 
             seen_from[at] = i + 1;
             at = parent[at];
         }
-        if (at >= 0 && seen_from[at] == i + 1) {
-            char name[128];
-            ec_gltf_describe_node(g, at, name);
-            return ec_fail(err, "%s: the node tree has a cycle through %s; a node cannot contain itself", g->path, name);
-        }
+        if (at >= 0 && seen_from[at] == i + 1)
+            return ec_fail(err, "%s: the node tree has a cycle through %s; a node cannot contain itself", g->path,
+                           ec_label_of("nodes", (uint32_t)at, g->nodes[at].name).text);
     }
     return EC_OK;
 }
@@ -109,30 +103,16 @@ static ec_result walk(const ec_gltf *g, bool *visited, ec_placement_list *list, 
 
 ec_result ec_gltf_place_nodes(const ec_gltf *g, ec_placement_list *list, ec_error *err)
 {
-    ec_result result = EC_FAILED;
     size_t count = (size_t)g->node_count + 1;
-    int32_t *parent = malloc(count * sizeof *parent);
-    uint32_t *seen_from = calloc(count, sizeof *seen_from);
-    bool *visited = calloc(count, sizeof *visited);
-    list->count = 0;
-    list->room = (uint32_t)count;
-    list->items = malloc(count * sizeof *list->items);
-    if (!parent || !seen_from || !visited || !list->items) {
-        ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
-        goto cleanup;
-    }
-    EC_TRY_CLEANUP(find_parents(g, parent, err));
-    EC_TRY_CLEANUP(check_cycles(g, parent, seen_from, err));
-    EC_TRY_CLEANUP(walk(g, visited, list, err));
-cleanup:
-    free(parent);
-    free(seen_from);
-    free(visited);
-    if (result != EC_OK) {
-        free(list->items);
-        *list = (ec_placement_list){0};
-    }
-    return result;
+    EC_FREED int32_t *parent = malloc(count * sizeof *parent);
+    EC_FREED uint32_t *seen_from = calloc(count, sizeof *seen_from);
+    EC_FREED bool *visited = calloc(count, sizeof *visited);
+    *list = (ec_placement_list){.items = malloc(count * sizeof *list->items), .room = (uint32_t)count};
+    if (!parent || !seen_from || !visited || !list->items)
+        return ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
+    EC_TRY(find_parents(g, parent, err));
+    EC_TRY(check_cycles(g, parent, seen_from, err));
+    return walk(g, visited, list, err);
 }
 
 ec_result ec_placement_append(ec_placement_list *list, const ec_placement *placement, ec_error *err)

@@ -1,4 +1,4 @@
-/* The node tree, walked: what stands where in the world. Inside host/scene/ only. */
+/* The node tree, walked: what stands where in the world. Inside host/gltf/ only. */
 #ifndef EC_GLTF_GLTF_TREE_H
 #define EC_GLTF_GLTF_TREE_H
 
@@ -21,14 +21,13 @@ typedef struct ec_placement_list {
     uint32_t count, room;
 } ec_placement_list;
 
-/* Every node of the default scene, parents before children. A node with two parents or inside a cycle is an error. */
+/* Every node of the default scene, parents before children; items are the caller's, also after a failure: a node with two parents or
+ * inside a cycle is one. */
 ec_result ec_gltf_place_nodes(const ec_gltf *gltf, ec_placement_list *placements, ec_error *err);
 
 /* instances.c: where a node has instances, they stand in its place. */
 ec_result ec_gltf_place_instances(ec_gltf *gltf, ec_placement_list *placements, const ec_log *log, ec_error *err);
 
-/* nodes[3] "name", for messages. */
-void ec_gltf_describe_node(const ec_gltf *gltf, int32_t node, char text[128]);
 /* The nearest node that is so, this one or one it stands below; -1: none. */
 ec_result ec_gltf_node_above(const ec_gltf *gltf, int32_t node, bool (*is)(const ec_gltf_node *), int32_t *found,
                              ec_error *err);

@@ -1,12 +1,12 @@
 /* Where a glTF file's bytes come from: data URIs and files beside it. A URI may not leave the scene's folder: a scene
  * is data from strangers and must not be able to read (or probe for) anything else on the machine. */
+#include "base/freed.h"
 #include "base/text.h"
 #include "gltf/gltf.h"
 
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -79,41 +79,35 @@ static bool is_data_uri(const char *uri)
 static ec_result out_of_memory(const char *where, uint64_t bytes, ec_error *err)
 {
     ec_fail(err, "%s: out of memory for %llu bytes", where, (unsigned long long)bytes);
-    err->kind = EC_ERROR_HOST_MEMORY;
+    if (err) err->kind = EC_ERROR_HOST_MEMORY;
     return EC_FAILED;
 }
 
-/* The file a URI names, relative to the scene's folder; malloc'ed. */
+/* The file a URI names, relative to the scene's folder; the caller's, also after a failure. */
 static ec_result decode_file_uri(const char *where, const char *uri, char **path, ec_error *err)
 {
     size_t length = strlen(uri);
-    char *decoded = malloc(length + 1);
+    char *decoded = *path = strdup(uri);
     if (!decoded) return out_of_memory(where, length, err);
-    memcpy(decoded, uri, length + 1);
     length = percent_decode(decoded, length);
     const char *reason = length ? escape_reason(uri, decoded, length) : "it is empty";
-    if (reason) {
-        free(decoded);
-        return ec_fail(err, "%s: refusing URI \"%.*s\": %s; put the file in the scene's folder and name it relative "
-                       "to the scene", where, EC_CUT(uri, 200), reason);
-    }
-    *path = decoded;
-    return EC_OK;
+    if (!reason) return EC_OK;
+    return ec_fail(err, "%s: refusing URI \"%.*s\": %s; put the file in the scene's folder and name it relative "
+                   "to the scene", where, EC_CUT(uri, 200), reason);
 }
 
 ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err)
 {
-    if (is_data_uri(uri)) return EC_OK;
-    char *path;
-    EC_TRY(decode_file_uri(where, uri, &path, err));
-    free(path);
-    return EC_OK;
+    EC_FREED char *path = NULL;
+    return is_data_uri(uri) ? EC_OK : decode_file_uri(where, uri, &path, err);
 }
 
 char *ec_gltf_uri_file(const char *uri)
 {
-    char *path;
-    return is_data_uri(uri) || decode_file_uri("", uri, &path, NULL) != EC_OK ? NULL : path;
+    char *path = NULL;
+    if (is_data_uri(uri) || decode_file_uri("", uri, &path, NULL) == EC_OK) return path;
+    free(path);
+    return NULL;
 }
 
 static int base64_value(char c)
@@ -158,9 +152,8 @@ static ec_result load_data_uri(const char *where, const char *uri, uint8_t **byt
     size_t tail = sizeof base64 - 1;
     bool is_base64 = (size_t)(comma - uri) >= tail && !strncasecmp(comma - tail, base64, tail);
     size_t text_length = strlen(comma + 1);
-    char *text = malloc(text_length + 1);
+    char *text = strdup(comma + 1);
     if (!text) return out_of_memory(where, text_length, err);
-    memcpy(text, comma + 1, text_length + 1);
     if (!is_base64 || strchr(text, '%')) text_length = percent_decode(text, text_length);
     *length = text_length;
     if (is_base64 && !base64_decode(text, text_length, length)) {
@@ -211,23 +204,16 @@ ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *ur
                            ec_error *err)
 {
     if (is_data_uri(uri)) return load_data_uri(where, uri, bytes, length, err);
-    char *name;
+    EC_FREED char *name = NULL;
     EC_TRY(decode_file_uri(where, uri, &name, err));
     size_t size = strlen(folder) + strlen(name) + 1;
-    char *full = malloc(size);
-    if (!full) {
-        free(name);
-        return out_of_memory(where, size, err);
-    }
+    EC_FREED char *full = malloc(size);
+    if (!full) return out_of_memory(where, size, err);
     strcpy(full, folder);
     strcat(full, name);
     ec_error inner;
-    ec_result result = ec_gltf_file_load(full, bytes, length, &inner);
-    if (result != EC_OK) {
-        ec_fail(err, "%s: %.1200s", where, inner.text);
-        err->kind = inner.kind;
-    }
-    free(name);
-    free(full);
-    return result;
+    if (ec_gltf_file_load(full, bytes, length, &inner) == EC_OK) return EC_OK;
+    ec_fail(err, "%s: %.1200s", where, inner.text);
+    if (err) err->kind = inner.kind;
+    return EC_FAILED;
 }

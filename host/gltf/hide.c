@@ -1,9 +1,8 @@
 /* A surface of coverage 0 is not there: it is not seen, casts no shadow and gives no light. So rays need not go there to find that out,
  * and what its material has calls for nothing. */
+#include "base/freed.h"
 #include "gltf/flatten.h"
 #include "scene/texture_range.h"
-
-#include <stdlib.h>
 
 typedef struct hiding {
     ec_gltf *g;
@@ -34,7 +33,7 @@ static void strip(ec_material *m)
 
 ec_result ec_gltf_hide(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
-    bool *hidden = calloc((size_t)s->material_count + 1, sizeof *hidden);
+    EC_FREED bool *hidden = calloc((size_t)s->material_count + 1, sizeof *hidden);
     hiding h = {.g = g, .placements = placements, .hidden = hidden};
     if (!hidden) return ec_fail(err, "%s: out of memory for %u materials", g->path, s->material_count);
     for (uint32_t m = 0; m < s->material_count; m++) hidden[m] = ec_alpha_hides(s, &s->materials[m], 1.0f, true);
@@ -45,6 +44,5 @@ ec_result ec_gltf_hide(ec_gltf *g, const ec_placement_list *placements, ec_scene
             if (hidden[m]) strip(&s->materials[m]);
         ec_note(log, "%s: %llu triangles that alpha hides are left out", g->path, (unsigned long long)h.triangles);
     }
-    free(hidden);
     return EC_OK;
 }

@@ -1,4 +1,4 @@
-/* Encoded pixels to ec_image. Inside host/scene/ only. */
+/* Encoded pixels to ec_image. Inside host/gltf/ only. */
 #ifndef EC_GLTF_IMAGE_DECODE_H
 #define EC_GLTF_IMAGE_DECODE_H
 

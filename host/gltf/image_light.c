@@ -46,9 +46,7 @@ static void load_face(const ec_gltf *g, int f, face *out)
     out->width = image.width;
     out->height = image.height;
     if (!out->failed && image.width == image.height && image.width <= FACE_MOST) out->rgb = to_radiance(&image, light->intensity);
-    free(image.rgba8);
-    free(image.rgba16);
-    free(image.name);
+    ec_image_free(&image);
 }
 
 static ec_result check_face(const ec_gltf *g, int f, const face *faces, ec_error *err)

@@ -39,13 +39,11 @@ static void on_read(png_structp png, png_bytep out, size_t count)
 /* Whatever is in the file becomes four channels of 8 or, if it has 16, of 16 bits in this machine's byte order. */
 static void set_transforms(png_structp png, png_infop info, bool deep)
 {
-    const uint16_t probe = 1;
-    bool little_endian = *(const uint8_t *)&probe == 1;
     png_set_expand(png);
     if (png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY || png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY_ALPHA)
         png_set_gray_to_rgb(png);
     png_set_add_alpha(png, 0xffff, PNG_FILLER_AFTER);
-    if (deep && little_endian) png_set_swap(png);
+    if (deep && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) png_set_swap(png);
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
 }

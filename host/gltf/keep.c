@@ -4,12 +4,14 @@
 #include "gltf/keep.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+
+#include "base/freed.h"
 
 #define CONDITION_MOST 1e6 /* of a matrix; its inverse in double is then good to 2^-32, far below a float's rounding */
 #define SMALL_MESH 64u     /* triangles: keeping fewer once saves little more than their instances take */
 #define WORTH_TRIANGLES (1u << 20)
+
+const ec_placement ec_at_home = {.linear = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
 
 static bool emits_or_transmits(const ec_gltf *g, int32_t mesh, const ec_scene *scene)
 {
@@ -28,20 +30,15 @@ static void span_mesh(const ec_gltf *g, ec_kept_mesh *m)
         m->low[k] = INFINITY;
         m->high[k] = -INFINITY;
     }
+    ec_draw d = ec_draw_of(g, &ec_at_home, NULL);
     for (uint32_t i = 0; i < g->meshes[m->mesh].primitive_count; i++) {
-        const ec_gltf_primitive *p = &g->meshes[m->mesh].primitives[i];
-        if (!p->drawn) continue;
-        m->triangles += p->triangle_count;
-        for (uint64_t t = 0; t < p->triangle_count; t++) {
+        d.p = &g->meshes[m->mesh].primitives[i];
+        if (!d.p->drawn) continue;
+        m->triangles += d.p->triangle_count;
+        for (uint64_t t = 0; t < d.p->triangle_count; t++) {
             uint32_t v[3];
-            float at[3];
             double corner[3][3];
-            ec_gltf_primitive_triangle(g, p, t, v);
-            for (int c = 0; c < 3; c++) {
-                ec_gltf_accessor_floats(&g->accessors[p->streams.position], v[c], 3, at);
-                for (int k = 0; k < 3; k++) corner[c][k] = at[k];
-            }
-            if (!ec_is_placeable((const double(*)[3])corner)) continue;
+            if (!ec_draw_corners(&d, t, v, corner)) continue;
             for (int c = 0; c < 9; c++) {
                 m->low[c % 3] = fmin(m->low[c % 3], corner[c / 3][c % 3]);
                 m->high[c % 3] = fmax(m->high[c % 3], corner[c / 3][c % 3]);
@@ -76,15 +73,11 @@ static bool fits(const ec_placement *at, const ec_kept_mesh *m)
 static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error *err)
 {
     const ec_gltf *g = k->g;
-    ec_result result = EC_FAILED;
-    uint32_t *uses = calloc((size_t)g->mesh_count + 1, sizeof *uses);
-    int32_t *index = malloc(((size_t)g->mesh_count + 1) * sizeof *index);
+    EC_FREED uint32_t *uses = calloc((size_t)g->mesh_count + 1, sizeof *uses);
+    EC_FREED int32_t *index = malloc(((size_t)g->mesh_count + 1) * sizeof *index);
     k->meshes = calloc((size_t)g->mesh_count + 1, sizeof *k->meshes);
     k->candidate = malloc(((size_t)k->placements->count + 1) * sizeof *k->candidate);
-    if (!uses || !index || !k->meshes || !k->candidate) {
-        ec_fail(err, "%s: out of memory for %u meshes", g->path, g->mesh_count);
-        goto cleanup;
-    }
+    if (!uses || !index || !k->meshes || !k->candidate) return ec_fail(err, "%s: out of memory for %u meshes", g->path, g->mesh_count);
     for (uint32_t i = 0; i < k->placements->count; i++) {
         int32_t mesh = k->placements->items[i].mesh;
         if (mesh >= 0) uses[mesh]++;
@@ -102,11 +95,7 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
         k->candidate[i] = c >= 0 && !k->placements->items[i].moves && fits(&k->placements->items[i], &k->meshes[c]) ? c : -1;
         if (k->candidate[i] >= 0) k->meshes[c].places++;
     }
-    result = EC_OK;
-cleanup:
-    free(uses);
-    free(index);
-    return result;
+    return EC_OK;
 }
 
 /* By itself only where it saves a million triangles, and half of all: rays through instances cost more. */

@@ -1,4 +1,4 @@
-/* Meshes that are kept once instead of being written out at every place. Inside host/scene/ only. */
+/* Meshes that are kept once instead of being written out at every place. Inside host/gltf/ only. */
 #ifndef EC_GLTF_KEEP_H
 #define EC_GLTF_KEEP_H
 
@@ -23,6 +23,8 @@ typedef struct ec_keeping {
     int32_t *candidate;      /* by placement: index into meshes; -1: none, or not fit to be an instance there */
     bool *is_kept;           /* by placement; NULL: no mesh is kept */
 } ec_keeping;
+
+extern const ec_placement ec_at_home; /* in the file's coordinates */
 
 /* gltf->instancing says what is wished. Needs the materials. */
 ec_result ec_keep_choose(const ec_gltf *g, const ec_placement_list *placements, const ec_scene *scene,

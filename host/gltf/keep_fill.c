@@ -1,17 +1,14 @@
 /* The triangles of kept meshes, once each, and the matrices of the places where they stand. */
 #include "gltf/keep.h"
-#include "gltf/node_parts.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+
+#include "base/freed.h"
 
 #define EACH_KEPT(k, m) \
     for (ec_kept_mesh *m = (k)->meshes; (k)->is_kept && m < (k)->meshes + (k)->mesh_count; m++) \
         if (m->is_kept)
-
-static const ec_placement at_home = {.linear = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
 
 /* A mesh may stand far from its own origin; from its centre on, floats keep its digits. */
 static void center_of(const ec_kept_mesh *m, double center[3])
@@ -21,7 +18,7 @@ static void center_of(const ec_kept_mesh *m, double center[3])
 
 ec_result ec_keep_count(const ec_keeping *k, ec_flattener *f)
 {
-    EACH_KEPT(k, m) EC_TRY(ec_flattener_draw(f, k->g, m->mesh, &at_home, at_home.origin, ec_flattener_count));
+    EACH_KEPT(k, m) EC_TRY(ec_flattener_draw(f, k->g, m->mesh, &ec_at_home, ec_at_home.origin, ec_flattener_count));
     return EC_OK;
 }
 
@@ -31,23 +28,18 @@ typedef struct points {
 } points;
 
 /* Every vertex of a finite triangle, once. */
-static void gather(const ec_gltf *g, const ec_gltf_primitive *p, bool *seen, points *out)
+static void gather(const ec_draw *d, bool *seen, points *out)
 {
-    memset(seen, 0, (size_t)p->highest - p->lowest + 1);
-    for (uint64_t t = 0; t < p->triangle_count; t++) {
+    memset(seen, 0, (size_t)d->p->highest - d->p->lowest + 1);
+    for (uint64_t t = 0; t < d->p->triangle_count; t++) {
         uint32_t v[3];
-        float at[3][3];
         double corner[3][3];
-        ec_gltf_primitive_triangle(g, p, t, v);
+        if (!ec_draw_corners(d, t, v, corner)) continue;
         for (int c = 0; c < 3; c++) {
-            ec_gltf_accessor_floats(&g->accessors[p->streams.position], v[c], 3, at[c]);
-            for (int i = 0; i < 3; i++) corner[c][i] = at[c][i];
-        }
-        if (!ec_is_placeable((const double(*)[3])corner)) continue;
-        for (int c = 0; c < 3; c++) {
-            if (seen[v[c] - p->lowest]) continue;
-            seen[v[c] - p->lowest] = true;
-            memcpy(out->at + 3 * out->count++, at[c], sizeof at[c]);
+            if (seen[v[c] - d->p->lowest]) continue;
+            seen[v[c] - d->p->lowest] = true;
+            for (int k = 0; k < 3; k++) out->at[3 * out->count + (uint64_t)k] = (float)corner[c][k];
+            out->count++;
         }
     }
 }
@@ -61,15 +53,12 @@ static ec_result gather_mesh(const ec_gltf *g, int32_t mesh, points *out, ec_err
         most += range;
         if (range > longest) longest = range;
     }
-    bool *seen = malloc(longest);
+    EC_FREED bool *seen = malloc(longest);
     *out = (points){.at = malloc((most + 1) * 3 * sizeof(float))};
-    if (!seen || !out->at) {
-        free(seen);
-        return ec_fail(err, "%s: out of memory for the vertices of meshes[%d]", g->path, mesh);
-    }
-    for (uint32_t i = 0; i < m->primitive_count; i++)
-        if (m->primitives[i].drawn) gather(g, &m->primitives[i], seen, out);
-    free(seen);
+    if (!seen || !out->at) return ec_fail(err, "%s: out of memory for the vertices of meshes[%d]", g->path, mesh);
+    ec_draw d = ec_draw_of(g, &ec_at_home, NULL);
+    for (d.p = m->primitives; d.p < m->primitives + m->primitive_count; d.p++)
+        if (d.p->drawn) gather(&d, seen, out);
     return EC_OK;
 }
 
@@ -127,7 +116,7 @@ static ec_result fill_shape(ec_keeping *k, ec_kept_mesh *m, ec_flattener *f)
     ec_shape shape = {.first = s->triangle_count, .first_vertex = s->vertex_count};
     m->dropped_degenerate = s->dropped_degenerate;
     m->dropped_nonfinite = s->dropped_nonfinite;
-    EC_TRY(ec_flattener_draw(f, k->g, m->mesh, &at_home, center, ec_flattener_fill));
+    EC_TRY(ec_flattener_draw(f, k->g, m->mesh, &ec_at_home, center, ec_flattener_fill));
     m->dropped_degenerate = s->dropped_degenerate - m->dropped_degenerate;
     m->dropped_nonfinite = s->dropped_nonfinite - m->dropped_nonfinite;
     /* written out they would have been dropped at every place */

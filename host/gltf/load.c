@@ -1,6 +1,5 @@
 /* From a glTF document to a scene, step by step. */
 #include "gltf/flatten.h"
-#include "gltf/load.h"
 #include "scene/validate.h"
 #include "gltf/reader.h"
 
@@ -12,14 +11,8 @@ static void take_facts(ec_gltf *g, ec_scene *s)
 {
     s->mesh_count = g->mesh_count;
     s->node_count = g->node_count;
-    s->extensions_used = g->extensions_used;
-    s->extension_count = g->extension_count;
-    s->extensions_ignored = g->extensions_ignored;
-    s->extension_ignored_count = g->extension_ignored_count;
     s->contents = g->contents;
-    g->extensions_used = g->extensions_ignored = NULL;
-    g->extension_count = g->extension_ignored_count = 0; /* the first scene of an animation has them */
-    g->contents = (ec_scene_contents){0};
+    g->contents = (ec_scene_contents){0}; /* the first scene of an animation has them */
 }
 
 static ec_result build(const ec_scene_choice *choice, ec_gltf *g, ec_placement_list *placements, ec_scene *s,

@@ -2,19 +2,11 @@
  * texture coordinate set. */
 #include "base/text.h"
 #include "gltf/flatten.h"
-#include "gltf/model.h"
+#include "scene/material_fields.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-ec_material ec_material_default(void)
-{
-    ec_material m = {.base_color = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .normal_scale = 1, .specular = 1,
-                     .specular_color = {1, 1, 1}, .ior = 1.5f, .coat_normal_scale = 1, .film_ior = 1.3f, .alpha_cutoff = 0.5f};
-    for (int i = 0; i < EC_SLOT_COUNT; i++) m.textures[i] = (ec_texture_use){.texture = -1, .transform = {1, 0, 0, 0, 1, 0}};
-    return m;
-}
 
 static ec_result append(ec_scene *s, ec_material material, ec_error *err)
 {
@@ -30,7 +22,7 @@ static unsigned missing_sets(const ec_material *m, const ec_gltf_primitive *p)
 {
     unsigned missing = 0;
     for (int i = 0; i < EC_SLOT_COUNT; i++)
-        if (m->textures[i].texture >= 0 && p->streams.uv[m->textures[i].uv_set] < 0) missing |= 1u << m->textures[i].uv_set;
+        if (m->textures[i].texture >= 0 && p->streams.of[EC_UV + m->textures[i].uv_set] < 0) missing |= 1u << m->textures[i].uv_set;
     return missing;
 }
 

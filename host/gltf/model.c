@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3.h"
 #include "gltf/flatten.h"
 
 struct ec_model {
@@ -120,11 +121,11 @@ static int32_t add_accessor(ec_model *m, const void *data, uint64_t count, uint3
 
 void ec_model_add(ec_model *m, int32_t material, const ec_model_mesh *mesh)
 {
-    ec_gltf_primitive primitive = {.mode = EC_GLTF_TRIANGLES, .material = material, .draco_view = -1, .streams = {.color = -1, .uv = {-1, -1}}};
-    primitive.streams.position = add_accessor(m, mesh->positions, mesh->vertex_count, 3, EC_GLTF_FLOAT);
-    primitive.streams.normal = add_accessor(m, mesh->normals, mesh->vertex_count, 3, EC_GLTF_FLOAT);
-    primitive.streams.tangent = add_accessor(m, mesh->tangents, mesh->vertex_count, 4, EC_GLTF_FLOAT);
-    primitive.streams.uv[0] = add_accessor(m, mesh->uv, mesh->vertex_count, 2, EC_GLTF_FLOAT);
+    ec_gltf_primitive primitive = {.mode = EC_GLTF_TRIANGLES, .material = material, .draco_view = -1, .streams = {{-1, -1, -1, -1, -1, -1}}};
+    primitive.streams.of[EC_POSITION] = add_accessor(m, mesh->positions, mesh->vertex_count, 3, EC_GLTF_FLOAT);
+    primitive.streams.of[EC_NORMAL] = add_accessor(m, mesh->normals, mesh->vertex_count, 3, EC_GLTF_FLOAT);
+    primitive.streams.of[EC_TANGENT] = add_accessor(m, mesh->tangents, mesh->vertex_count, 4, EC_GLTF_FLOAT);
+    primitive.streams.of[EC_UV] = add_accessor(m, mesh->uv, mesh->vertex_count, 2, EC_GLTF_FLOAT);
     primitive.indices = add_accessor(m, mesh->indices, mesh->index_count, 1, EC_GLTF_UINT);
     ec_gltf_mesh one = {.primitives = malloc(sizeof primitive), .primitive_count = 1};
     if (!one.primitives || m->failed || !APPEND(m, meshes, mesh, one)) {
@@ -149,18 +150,16 @@ void ec_model_instancing(ec_model *m, ec_instancing instancing)
 /* A node that looks along its -z, y up as far as it can be. */
 static void looking(const double at[3], const double target[3], double local[16])
 {
-    double z[3], length = 0;
+    double x[3], y[3], z[3];
     for (int k = 0; k < 3; k++) z[k] = at[k] - target[k];
-    length = sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
-    for (int k = 0; k < 3; k++) z[k] /= length;
-    double up[3] = {fabs(z[1]) > 0.9, fabs(z[1]) <= 0.9, 0};
-    double x[3] = {up[1] * z[2] - up[2] * z[1], up[2] * z[0] - up[0] * z[2], up[0] * z[1] - up[1] * z[0]};
-    length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-    for (int k = 0; k < 3; k++) x[k] /= length;
+    ec_normalize(z);
+    ec_cross((double[3]){fabs(z[1]) > 0.9, fabs(z[1]) <= 0.9, 0}, z, x);
+    ec_normalize(x);
+    ec_cross(z, x, y);
     memcpy(local, identity, 16 * sizeof *local);
     for (int k = 0; k < 3; k++) {
         local[k] = x[k];
-        local[4 + k] = z[(k + 1) % 3] * x[(k + 2) % 3] - z[(k + 2) % 3] * x[(k + 1) % 3];
+        local[4 + k] = y[k];
         local[8 + k] = z[k];
         local[12 + k] = at[k];
     }

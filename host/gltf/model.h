@@ -5,15 +5,13 @@
 #ifndef EC_GLTF_MODEL_H
 #define EC_GLTF_MODEL_H
 
-#include "scene/scene.h"
+#include "scene/material_fields.h"
 
 typedef struct ec_model ec_model;
 
 ec_model *ec_model_new(void);
 void ec_model_free(ec_model *model); /* NULL is fine */
 
-/* glTF's defaults: white, metallic, rough. */
-ec_material ec_material_default(void);
 /* Pure Lambert that emits from its front. */
 ec_material ec_material_lambert(double albedo, double radiance);
 /* A body of glass; absorption: 1/m, of every channel. */

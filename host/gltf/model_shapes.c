@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/vec3.h"
 #include "gltf/model.h"
 
 void ec_model_quad(ec_model *m, int32_t material, const double at[3], const double u[3], const double v[3])
@@ -35,8 +36,8 @@ void ec_model_box(ec_model *m, int32_t material, const double low[3], const doub
 static void point_on_face(int face, int i, int j, int n, double p[3])
 {
     double s[3] = {(double)(n - i - j) / n, (double)i / n, (double)j / n};
-    double length = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-    for (int k = 0; k < 3; k++) p[k] = (face >> k & 1 ? -s[k] : s[k]) / length;
+    ec_normalize(s);
+    for (int k = 0; k < 3; k++) p[k] = face >> k & 1 ? -s[k] : s[k];
 }
 
 void ec_model_sphere(ec_model *m, int32_t material, const double center[3], double radius, int levels, bool smooth)

@@ -1,5 +1,5 @@
 /* What the parts of motion share: motion.c reads the moments, motion_deviation.c says how many keys they need, motion_keys.c makes these.
- * Inside host/scene/ only. */
+ * Inside host/gltf/ only. */
 #ifndef EC_GLTF_MOTION_H
 #define EC_GLTF_MOTION_H
 

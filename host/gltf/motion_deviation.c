@@ -4,8 +4,8 @@
 
 #include "gltf/motion_numbers.h"
 
-/* How far the first `count` numbers are off at all moments, from what the nearest keys on both sides say. Not a number counts as none. */
-static double distance_of(const ec_tracks *t, numbers_at *at, uint32_t thing, int count)
+/* How far `count` numbers from `first` on are off at all moments, from what the nearest keys on both sides say. Not a number counts as none. */
+static double distance_of(const ec_tracks *t, numbers_at *at, uint32_t thing, int first, int count)
 {
     const uint32_t stride = EC_MOMENTS / t->segments;
     double most = 0;
@@ -14,7 +14,7 @@ static double distance_of(const ec_tracks *t, numbers_at *at, uint32_t thing, in
         double f = (double)(m - key) / stride, sum = 0;
         if (m == key) continue;
         const float *a = at(t, key, thing), *b = at(t, key + stride, thing), *v = at(t, m, thing);
-        for (int k = 0; k < count; k++) {
+        for (int k = first; k < first + count; k++) {
             double d = v[k] - (a[k] + f * ((double)b[k] - a[k]));
             sum += d * d;
         }
@@ -48,7 +48,7 @@ static double mesh_deviation(const ec_tracks *t, uint32_t *i)
     double most = 0;
     for (; *i < t->count && t->base->sources[t->vertex[*i]].placement == node; ++*i) {
         sweep(t, vertex_at, *i, low, high);
-        most = fmax(most, distance_of(t, vertex_at, *i, 3));
+        most = fmax(most, distance_of(t, vertex_at, *i, 0, 3));
     }
     return share_of(most, low, high);
 }
@@ -57,7 +57,7 @@ static double path_deviation(const ec_tracks *t, numbers_at *at, uint32_t thing)
 {
     float low[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, high[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
     sweep(t, at, thing, low, high);
-    return share_of(distance_of(t, at, thing, 3), low, high);
+    return share_of(distance_of(t, at, thing, 0, 3), low, high);
 }
 
 double ec_tracks_deviation(const ec_tracks *t)
@@ -66,14 +66,12 @@ double ec_tracks_deviation(const ec_tracks *t)
     for (uint32_t i = 0; i < t->count;) most = fmax(most, mesh_deviation(t, &i));
     for (uint32_t i = 0; i < t->scene->camera_count; i++) {
         most = fmax(most, path_deviation(t, camera_place, i));
-        most = fmax(most, distance_of(t, camera_right, i, 3));
-        most = fmax(most, distance_of(t, camera_up, i, 3));
-        most = fmax(most, distance_of(t, camera_forward, i, 3));
-        most = fmax(most, distance_of(t, camera_view, i, 1));
+        for (int axis = 1; axis <= 3; axis++) most = fmax(most, distance_of(t, camera_place, i, 3 * axis, 3));
+        most = fmax(most, distance_of(t, camera_view, i, 0, 1));
     }
     for (uint32_t i = 0; i < t->scene->light_count; i++) {
         most = fmax(most, path_deviation(t, light_place, i));
-        most = fmax(most, distance_of(t, light_direction, i, 3));
+        most = fmax(most, distance_of(t, light_place, i, 3, 3));
     }
     return most;
 }

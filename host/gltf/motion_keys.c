@@ -1,15 +1,14 @@
 /* From tracks to keys: which vertices move, and what moves put first. */
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
+#include "base/freed.h"
 #include "gltf/motion_numbers.h"
 
-static bool differs(const ec_tracks *t, numbers_at *at, uint32_t thing, size_t count)
+static bool differs(const ec_tracks *t, numbers_at *at, uint32_t thing, size_t first, size_t count)
 {
     for (uint32_t m = t->step; m <= EC_MOMENTS; m += t->step)
-        if (memcmp(at(t, m, thing), at(t, 0, thing), count * sizeof(float))) return true;
+        if (memcmp(at(t, m, thing) + first, at(t, 0, thing) + first, count * sizeof(float))) return true;
     return false;
 }
 
@@ -60,7 +59,7 @@ static void decide(sorting *o)
     for (uint32_t v = 0; v < o->vertices; v++) o->track[v] = EC_STILL;
     for (uint32_t i = 0; i < o->t->count; i++) {
         o->track[o->t->vertex[i]] = i;
-        o->moving[o->t->vertex[i]] = differs(o->t, vertex_at, i, o->t->words);
+        o->moving[o->t->vertex[i]] = differs(o->t, vertex_at, i, 0, o->t->words);
     }
     for (uint32_t t = 0; t < o->triangles; t++) o->fate[t] = fate_of(o, t);
     memset(o->moving, 0, o->vertices * sizeof *o->moving);
@@ -76,11 +75,10 @@ static void decide(sorting *o)
 static ec_result permute(const sorting *o, float *stream, size_t words, ec_error *err)
 {
     if (!stream) return EC_OK;
-    float *old = malloc(o->vertices * words * sizeof *old);
+    EC_FREED float *old = malloc(o->vertices * words * sizeof *old);
     if (!old) return ec_fail(err, "%s: out of memory for %u vertices", o->t->base->path, o->vertices);
     memcpy(old, stream, o->vertices * words * sizeof *old);
     for (size_t v = 0; v < o->vertices; v++) memcpy(stream + o->place[v] * words, old + v * words, words * sizeof *old);
-    free(old);
     return EC_OK;
 }
 
@@ -99,28 +97,22 @@ static ec_result reorder(const sorting *o, ec_error *err)
 {
     ec_scene *s = o->s;
     const size_t n = o->triangles;
-    uint32_t *corners = malloc(3 * n * sizeof *corners + 4), *materials = malloc(n * sizeof *materials + 4), used = 0;
-    ec_result result = corners && materials ? EC_OK : ec_fail(err, "%s: out of memory for %zu triangles", o->t->base->path, n);
-    for (int pass = MOVES; result == EC_OK && pass >= STAYS; pass--)
+    uint32_t used = 0;
+    EC_FREED uint32_t *corners = malloc(3 * n * sizeof *corners + 4);
+    EC_FREED uint32_t *materials = malloc(n * sizeof *materials + 4);
+    if (!corners || !materials) return ec_fail(err, "%s: out of memory for %zu triangles", o->t->base->path, n);
+    for (int pass = MOVES; pass >= STAYS; pass--)
         for (size_t t = 0; t < n; t++) {
             if (o->fate[t] != pass) continue;
             for (int k = 0; k < 3; k++) corners[3 * (size_t)used + (size_t)k] = o->place[s->indices[3 * t + (size_t)k]];
             materials[used++] = s->triangle_material[t];
         }
-    if (result == EC_OK) {
-        memcpy(s->indices, corners, 3 * (size_t)used * sizeof *corners);
-        memcpy(s->triangle_material, materials, used * sizeof *materials);
-        close_up(s, o->triangles, used);
-        s->part_count = 0;
-        result = permute(o, s->positions, 3, err);
-    }
-    free(corners);
-    free(materials);
-    if (result == EC_OK) result = permute(o, s->normals, 3, err);
-    if (result == EC_OK) result = permute(o, s->tangents, 4, err);
-    if (result == EC_OK) result = permute(o, s->colors, 4, err);
-    for (int k = 0; k < 2 && result == EC_OK; k++) result = permute(o, s->uv[k], 2, err);
-    return result;
+    memcpy(s->indices, corners, 3 * (size_t)used * sizeof *corners);
+    memcpy(s->triangle_material, materials, used * sizeof *materials);
+    close_up(s, o->triangles, used);
+    s->part_count = 0;
+    for (int i = 0; i < EC_STREAMS; i++) EC_TRY(permute(o, ec_scene_stream(s, i), ec_stream_width[i], err));
+    return EC_OK;
 }
 
 static ec_result write_stream(const sorting *o, uint32_t word, float **stream, ec_error *err)
@@ -167,13 +159,13 @@ static ec_result keep_views(const ec_tracks *t, ec_scene *s, ec_error *err)
     if (!m->cameras || !m->lights)
         return ec_fail(err, "%s: out of memory for cameras and lights at %zu moments", t->base->path, keys);
     for (uint32_t i = 0; i < s->camera_count; i++) {
-        if (!differs(t, camera_place, i, 12) && !differs(t, camera_view, i, 4)) continue;
+        if (!differs(t, camera_place, i, 0, 12) && !differs(t, camera_view, i, 0, 4)) continue;
         for (size_t k = 0; k < keys; k++) m->cameras[m->camera_count * keys + k] = t->cameras[k * stride][i];
         s->cameras[i].moves = ++m->camera_count;
     }
     for (uint32_t i = 0; i < s->light_count; i++) {
-        bool turns = s->lights[i].type != EC_LIGHT_POINT && differs(t, light_direction, i, 3);
-        bool goes = s->lights[i].type != EC_LIGHT_DIRECTIONAL && differs(t, light_place, i, 3);
+        bool turns = s->lights[i].type != EC_LIGHT_POINT && differs(t, light_place, i, 3, 3);
+        bool goes = s->lights[i].type != EC_LIGHT_DIRECTIONAL && differs(t, light_place, i, 0, 3);
         if (!turns && !goes) continue;
         for (size_t k = 0; k < keys; k++) m->lights[m->light_count * keys + k] = t->lights[k * stride][i];
         s->lights[i].moves = ++m->light_count;
@@ -197,21 +189,14 @@ static ec_result keep(sorting *o, ec_error *err)
 ec_result ec_tracks_keep(const ec_tracks *t, ec_scene *s, const ec_log *log, ec_error *err)
 {
     ec_motion *m = &s->motion;
-    sorting o = {.t = t, .s = s, .triangles = ec_scene_flat_count(s)};
-    uint32_t bad = s->dropped_nonfinite, before = s->triangle_count;
-    o.vertices = s->shape_count ? s->shapes[0].first_vertex : s->vertex_count;
-    o.track = malloc(((size_t)o.vertices + 1) * sizeof *o.track);
-    o.place = malloc(((size_t)o.vertices + 1) * sizeof *o.place);
-    o.moving = calloc((size_t)o.vertices + 1, sizeof *o.moving);
-    o.fate = calloc((size_t)o.triangles + 1, sizeof *o.fate);
-    ec_result result = o.track && o.place && o.moving && o.fate
-                           ? keep(&o, err)
-                           : ec_fail(err, "%s: out of memory for %u vertices", t->base->path, o.vertices);
-    free(o.track);
-    free(o.place);
-    free(o.moving);
-    free(o.fate);
-    EC_TRY(result);
+    const uint32_t bad = s->dropped_nonfinite, before = s->triangle_count, triangles = ec_scene_flat_count(s);
+    const uint32_t vertices = s->shape_count ? s->shapes[0].first_vertex : s->vertex_count;
+    EC_FREED uint32_t *track = malloc(((size_t)vertices + 1) * sizeof *track);
+    EC_FREED uint32_t *place = malloc(((size_t)vertices + 1) * sizeof *place);
+    EC_FREED bool *moving = calloc((size_t)vertices + 1, sizeof *moving);
+    EC_FREED uint8_t *fate = calloc((size_t)triangles + 1, sizeof *fate);
+    if (!track || !place || !moving || !fate) return ec_fail(err, "%s: out of memory for %u vertices", t->base->path, vertices);
+    EC_TRY(keep(&(sorting){t, s, vertices, triangles, track, moving, place, fate}, err));
     if (s->dropped_nonfinite > bad)
         ec_warn(log, "%s: %u triangles with NaN or infinite positions within the shutter are left out", t->base->path,
                 s->dropped_nonfinite - bad);

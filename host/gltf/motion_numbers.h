@@ -1,4 +1,4 @@
-/* The numbers of tracks one by one, whatever they belong to. Inside host/scene/motion*.c only. */
+/* The numbers of tracks one by one, whatever they belong to. Inside host/gltf/motion*.c only. */
 #ifndef EC_GLTF_MOTION_NUMBERS_H
 #define EC_GLTF_MOTION_NUMBERS_H
 
@@ -11,15 +11,10 @@ static inline const float *vertex_at(const ec_tracks *t, uint32_t moment, uint32
 {
     return t->values[moment] + (size_t)i * t->words;
 }
+/* Position, right, up, forward. */
 static inline const float *camera_place(const ec_tracks *t, uint32_t moment, uint32_t i) { return t->cameras[moment][i].position; }
-static inline const float *camera_right(const ec_tracks *t, uint32_t moment, uint32_t i) { return t->cameras[moment][i].right; }
-static inline const float *camera_up(const ec_tracks *t, uint32_t moment, uint32_t i) { return t->cameras[moment][i].up; }
-static inline const float *camera_forward(const ec_tracks *t, uint32_t moment, uint32_t i) { return t->cameras[moment][i].forward; }
 static inline const float *camera_view(const ec_tracks *t, uint32_t moment, uint32_t i) { return &t->cameras[moment][i].yfov; }
+/* Position, direction. */
 static inline const float *light_place(const ec_tracks *t, uint32_t moment, uint32_t i) { return t->lights[moment][i].position; }
-static inline const float *light_direction(const ec_tracks *t, uint32_t moment, uint32_t i)
-{
-    return t->lights[moment][i].direction;
-}
 
 #endif

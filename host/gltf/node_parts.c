@@ -1,4 +1,4 @@
-#include "gltf/node_parts.h"
+#include "gltf/flatten_vertex.h"
 
 #include <stdlib.h>
 #include <string.h>

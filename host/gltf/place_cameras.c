@@ -2,9 +2,8 @@
 #include "gltf/flatten.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
+#include "base/freed.h"
 #include "base/vec3.h"
 
 /* An orthonormal frame nearest to looking along `forward` with `up` up; scale, shear and mirroring of the node do not
@@ -12,6 +11,7 @@
 static void set_frame(ec_camera *camera, double forward[3], double up[3])
 {
     double right[3];
+    if (!ec_normalize(up)) memcpy(up, (double[3]){0, 1, 0}, 3 * sizeof *up);
     if (!ec_normalize(forward)) memcpy(forward, (double[3]){0, 0, -1}, 3 * sizeof *forward);
     ec_cross(forward, up, right);
     if (!ec_normalize(right)) {
@@ -45,7 +45,6 @@ ec_result ec_camera_look(const ec_viewpoint *v, const double center[3], ec_camer
     if (!finite || !ec_normalize(forward))
         return ec_fail(err, "a camera at %g,%g,%g cannot look at %g,%g,%g: give two points that are apart", v->eye[0],
                        v->eye[1], v->eye[2], v->target[0], v->target[1], v->target[2]);
-    if (!ec_normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
     set_frame(camera, forward, up);
     return EC_OK;
 }
@@ -78,7 +77,6 @@ static bool place_camera(const ec_placement *at, const double center[3], ec_came
         camera->position[i] = (float)(at->origin[i] - center[i]);
         finite = finite && isfinite(camera->position[i]);
     }
-    if (!ec_normalize(up)) memcpy(up, (double[3]){0, 1, 0}, sizeof up);
     set_frame(camera, forward, up);
     return finite;
 }
@@ -136,10 +134,8 @@ ec_result ec_gltf_cameras_place(ec_gltf *g, const ec_placement_list *placements,
 
 ec_result ec_scene_find_camera(const ec_scene *s, const char *name_or_index, uint32_t *camera, ec_error *err)
 {
-    ec_scene_names list = {malloc(s->camera_count * sizeof *list.names), s->camera_count};
-    if (!list.names) return ec_fail(err, "out of memory");
-    for (uint32_t i = 0; i < list.count; i++) list.names[i] = s->cameras[i].name;
-    ec_result result = ec_scene_names_find(&list, "camera", name_or_index, camera, err);
-    free(list.names); /* the names themselves are the cameras' */
-    return result;
+    EC_FREED char **names = malloc(s->camera_count * sizeof *names); /* they themselves are the cameras' */
+    if (!names) return ec_fail(err, "out of memory");
+    for (uint32_t i = 0; i < s->camera_count; i++) names[i] = s->cameras[i].name;
+    return ec_scene_names_find(&(ec_scene_names){names, s->camera_count}, "camera", name_or_index, camera, err);
 }

@@ -5,13 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3.h"
+
 static void aim(const double linear[9], float direction[3])
 {
-    double v[3], length = 0; /* local -z */
+    double v[3]; /* local -z */
     for (int i = 0; i < 3; i++) v[i] = -linear[3 * i + 2];
-    length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    bool usable = length > 0 && isfinite(length);
-    for (int i = 0; i < 3; i++) direction[i] = usable ? (float)(v[i] / length) : i == 2 ? -1.0f : 0.0f;
+    bool usable = ec_normalize(v);
+    for (int i = 0; i < 3; i++) direction[i] = usable ? (float)v[i] : i == 2 ? -1.0f : 0.0f;
 }
 
 ec_result ec_gltf_lights_place(const ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log,

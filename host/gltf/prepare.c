@@ -18,7 +18,7 @@ static ec_result prepare_mesh(ec_gltf *g, int32_t index, tally *skipped, ec_erro
         else snprintf(where, sizeof where, "meshes[%d].primitives[%u]", index, k);
         EC_TRY(ec_gltf_primitive_prepare(g, p, where, err));
         if (p->mode < EC_GLTF_TRIANGLES) skipped->not_triangles++;
-        else if (p->streams.position < 0) skipped->no_positions++;
+        else if (p->streams.of[EC_POSITION] < 0) skipped->no_positions++;
     }
     return EC_OK;
 }

@@ -5,18 +5,6 @@
 
 #include "gltf/deform.h"
 
-static void multiply(const ec_placement *world, const float bind[16], ec_joint *out)
-{
-    for (int row = 0; row < 3; row++) {
-        out->origin[row] = world->origin[row];
-        for (int k = 0; k < 3; k++) out->origin[row] += world->linear[3 * row + k] * bind[12 + k];
-        for (int column = 0; column < 3; column++) {
-            out->linear[3 * row + column] = 0;
-            for (int k = 0; k < 3; k++) out->linear[3 * row + column] += world->linear[3 * row + k] * bind[4 * column + k];
-        }
-    }
-}
-
 static ec_result open_bind(ec_gltf *g, int32_t skin, const ec_gltf_accessor **bind, ec_error *err)
 {
     const ec_gltf_skin *s = &g->skins[skin];
@@ -37,22 +25,24 @@ static ec_result open_bind(ec_gltf *g, int32_t skin, const ec_gltf_accessor **bi
 ec_result ec_pose_skin(ec_gltf *g, int32_t skin, const ec_placement_list *placements, const int32_t *placement_of, ec_pose *pose,
                        ec_error *err)
 {
-    static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const ec_gltf_skin *s = &g->skins[skin];
     const ec_gltf_accessor *bind;
     int turned = 0;
     EC_TRY(open_bind(g, skin, &bind, err));
-    pose->joints = malloc(((size_t)s->joint_count + 1) * sizeof *pose->joints);
+    pose->joints = calloc((size_t)s->joint_count + 1, sizeof *pose->joints);
     if (!pose->joints) return ec_fail(err, "%s: out of memory for skins[%d]", g->path, skin);
     for (; pose->joint_count < s->joint_count; pose->joint_count++) {
         int32_t node = s->joints[pose->joint_count], at = placement_of[node];
-        ec_joint *joint = &pose->joints[pose->joint_count];
-        float matrix[16];
+        ec_placement *joint = &pose->joints[pose->joint_count];
+        float stored[16];
+        double matrix[16];
         if (at < 0)
             return ec_fail(err, "%s: skins[%d] has nodes[%d] as a joint, which is not in the scene of the mesh",
                            g->path, skin, node);
-        if (bind) ec_gltf_accessor_floats(bind, pose->joint_count, 16, matrix);
-        multiply(&placements->items[at], bind ? matrix : identity, joint);
+        if (bind) ec_gltf_accessor_floats(bind, pose->joint_count, 16, stored);
+        for (int i = 0; i < 16; i++) matrix[i] = bind ? (double)stored[i] : identity[i];
+        ec_placement_compose(&placements->items[at], matrix, joint);
         turned += ec_gltf_determinant(joint->linear) < 0 ? 1 : -1;
         for (int k = 0; k < 3 && pose->joint_count == 0; k++)
             pose->origin[k] = isfinite(placements->items[at].origin[k]) ? placements->items[at].origin[k] : 0;
@@ -61,17 +51,17 @@ ec_result ec_pose_skin(ec_gltf *g, int32_t skin, const ec_placement_list *placem
     return EC_OK;
 }
 
-static void add(ec_joint *sum, const ec_joint *joint, double weight)
+static void add(ec_placement *sum, const ec_placement *joint, double weight)
 {
     for (int i = 0; i < 9; i++) sum->linear[i] += weight * joint->linear[i];
     for (int i = 0; i < 3; i++) sum->origin[i] += weight * joint->origin[i];
 }
 
-ec_result ec_pose_blend(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose, uint32_t vertex, ec_joint *blend,
+ec_result ec_pose_blend(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose, uint32_t vertex, ec_placement *blend,
                         const char *where, ec_error *err)
 {
     double total = 0;
-    *blend = (ec_joint){{0}, {0}};
+    *blend = (ec_placement){.node = -1};
     for (uint32_t set = 0; set < p->influence_sets; set++) {
         float joint[4], weight[4];
         ec_gltf_accessor_floats(&g->accessors[p->joints[set]], vertex, 4, joint);

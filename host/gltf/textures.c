@@ -1,16 +1,16 @@
 /* The textures and images that the scene's triangles use; no others are opened. What is wanted is gathered first, then decoded by all
  * threads, and taken in the order in which materials name it: what is said, and what is first, is the same for any number of threads. */
+#include "base/freed.h"
 #include "base/text.h"
 #include "gltf/flatten.h"
 #include "gltf/image_decode.h"
 #include "scene/texture_range.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* An image of the file on its way into the scene. */
 typedef struct picture {
+    bool is_wanted;
     uint32_t index;               /* in the file */
     const ec_gltf_texture *gloss; /* not NULL: it becomes metallic-roughness, by that texture's factor */
     ec_image image;
@@ -23,11 +23,9 @@ typedef struct table {
     ec_gltf *g;
     ec_scene *s;
     const ec_log *log;
-    picture *pictures;
-    uint32_t picture_count;
-    int64_t *picture; /* of each image; then, where a texture has one for itself, of each texture; UNSEEN */
-    int64_t *texture; /* glTF texture -> scene texture; UNSEEN or UNUSABLE */
-    int slot;         /* whose use is looked at */
+    picture *pictures; /* of each image; then, where a texture has one for itself, of each texture */
+    int64_t *texture;  /* glTF texture -> scene texture; UNSEEN or UNUSABLE */
+    int slot;          /* whose use is looked at */
     ec_result result;
     ec_error *err;
 } table;
@@ -60,9 +58,8 @@ static bool no_memory(const char *where, ec_error *err)
 bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_error *err)
 {
     const ec_gltf_image *in = &g->images[index];
-    char where[160];
-    int used = snprintf(where, sizeof where, "images[%u]", index);
-    if (in->name) snprintf(where + used, sizeof where - (size_t)used, " \"%.*s\"", EC_CUT(in->name, 80));
+    const ec_label label = ec_label_of("images", index, in->name);
+    const char *where = label.text;
     const uint8_t *bytes = NULL;
     uint8_t *owned = NULL;
     uint64_t length = 0;
@@ -76,9 +73,7 @@ bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_erro
     }
     free(owned);
     if (!ok || !in->name || (out->name = strdup(in->name))) return ok;
-    free(out->rgba8);
-    free(out->rgba16);
-    *out = (ec_image){0};
+    ec_image_free(out);
     return no_memory(where, err);
 }
 
@@ -132,25 +127,18 @@ static int64_t take_picture(table *t, picture *p)
     return p->place = t->s->image_count++;
 }
 
-static int64_t *picture_of(const table *t, int32_t texture)
+static picture *picture_of(const table *t, int32_t texture)
 {
     const ec_gltf_texture *in = &t->g->textures[texture];
-    return in->is_gloss ? &t->picture[t->g->image_count + (uint32_t)texture] : &t->picture[in->image];
+    return &t->pictures[in->is_gloss ? t->g->image_count + (uint32_t)texture : (uint32_t)in->image];
 }
 
-/* One that has been wanted before is decoded once. */
 static void want(table *t, bool drawn, ec_texture_use *use)
 {
-    if (use->texture < 0 || !drawn) return;
-    const ec_gltf_texture *in = &t->g->textures[use->texture];
-    if (in->image < 0) return;
-    int64_t *place = picture_of(t, use->texture);
-    if (*place != UNSEEN) return;
-    *place = t->picture_count;
-    picture *p = &t->pictures[t->picture_count++];
-    p->index = (uint32_t)in->image;
-    p->gloss = in->is_gloss ? in : NULL;
-    p->place = UNSEEN;
+    const ec_gltf_texture *in = drawn && use->texture >= 0 ? &t->g->textures[use->texture] : NULL;
+    if (!in || in->image < 0) return;
+    *picture_of(t, use->texture) =
+        (picture){.is_wanted = true, .index = (uint32_t)in->image, .gloss = in->is_gloss ? in : NULL, .place = UNSEEN};
 }
 
 static int64_t map_texture(table *t, int32_t index)
@@ -159,7 +147,7 @@ static int64_t map_texture(table *t, int32_t index)
     const ec_gltf_texture *in = &t->g->textures[index];
     if (in->image < 0)
         ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; %s", t->g->path, index, instead_of(t));
-    int64_t image = in->image < 0 ? UNUSABLE : take_picture(t, &t->pictures[*picture_of(t, index)]);
+    int64_t image = in->image < 0 ? UNUSABLE : take_picture(t, picture_of(t, index));
     if (image < 0) return t->texture[index] = UNUSABLE;
     t->s->textures[t->s->texture_count] = (ec_texture){(uint32_t)image, in->wrap_s, in->wrap_t, in->nearest};
     return t->texture[index] = t->s->texture_count++;
@@ -185,11 +173,12 @@ static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, boo
     }
 }
 
-static void load_all(table *t, const bool *drawn)
+static void load_all(table *t, size_t most, const bool *drawn)
 {
     for_each_use(t, drawn, want);
-#pragma omp parallel for schedule(dynamic, 1) if (t->picture_count > 1)
-    for (uint32_t i = 0; i < t->picture_count; i++) decode(t, &t->pictures[i]);
+#pragma omp parallel for schedule(dynamic, 1) if (most > 1)
+    for (size_t i = 0; i < most; i++)
+        if (t->pictures[i].is_wanted) decode(t, &t->pictures[i]);
     for_each_use(t, drawn, map_use);
 }
 
@@ -208,23 +197,16 @@ static void mark_drawn(const ec_gltf *g, const ec_placement_list *placements, bo
 ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
     const size_t most = (size_t)g->image_count + g->texture_count; /* pictures: the images, and roughness made of glossiness */
-    table t = {.g = g, .s = s, .log = log, .err = err};
-    t.pictures = calloc(most + 1, sizeof *t.pictures);
-    t.picture = malloc((most + 1) * sizeof *t.picture);
-    t.texture = malloc(((size_t)g->texture_count + 1) * sizeof *t.texture);
+    EC_FREED picture *pictures = calloc(most + 1, sizeof *pictures);
+    EC_FREED int64_t *texture = malloc(((size_t)g->texture_count + 1) * sizeof *texture);
+    EC_FREED bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
+    table t = {.g = g, .s = s, .log = log, .pictures = pictures, .texture = texture, .err = err};
     s->images = calloc(most + 1, sizeof *s->images);
     s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
-    bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
-    bool ok = t.pictures && t.picture && t.texture && s->images && s->textures && drawn;
-    if (ok) {
-        for (size_t i = 0; i < most; i++) t.picture[i] = UNSEEN;
-        for (uint32_t i = 0; i < g->texture_count; i++) t.texture[i] = UNSEEN;
-        mark_drawn(g, placements, drawn);
-        load_all(&t, drawn);
-    }
-    free(t.pictures);
-    free(t.picture);
-    free(t.texture);
-    free(drawn);
-    return ok ? t.result : ec_fail(err, "%s: out of memory for textures", g->path);
+    if (!pictures || !texture || !s->images || !s->textures || !drawn)
+        return ec_fail(err, "%s: out of memory for textures", g->path);
+    for (uint32_t i = 0; i < g->texture_count; i++) texture[i] = UNSEEN;
+    mark_drawn(g, placements, drawn);
+    load_all(&t, most, drawn);
+    return t.result;
 }

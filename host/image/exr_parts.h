@@ -2,10 +2,7 @@
 #ifndef EC_IMAGE_EXR_PARTS_H
 #define EC_IMAGE_EXR_PARTS_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
-#include "base/error.h"
+#include "image/image.h"
 
 typedef struct ec_exr_file ec_exr_file;
 
@@ -18,13 +15,6 @@ const char *ec_exr_text(const ec_exr_file *file, const char *name);
 
 /* Is there a channel of that name in the part? */
 bool ec_exr_has(const ec_exr_file *file, const char *part, const char *channel);
-
-/* Where a channel's values are wanted: pixel (x, y) at data[stride * (y * width + x)], in 32-bit values. */
-typedef struct ec_exr_room {
-    const char *name;
-    void *data;
-    uint32_t stride;
-} ec_exr_room;
 
 /* Fills all rooms, all from one part, which must be of the file's size and have those channels with 32 bits a value. Others are skipped. */
 ec_result ec_exr_fill(ec_exr_file *file, const char *part, const ec_exr_room *rooms, uint32_t count, ec_error *err);

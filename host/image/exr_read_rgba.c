@@ -3,8 +3,9 @@
 #include "image/exr_read_rgba.h"
 
 #include <ImfCRgbaFile.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/freed.h"
 
 static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *exr, ec_error *err)
 {
@@ -25,7 +26,7 @@ static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *ex
 
 ec_result ec_exr_read_rgba(const char *path, int32_t origin_x, int32_t origin_y, ec_exr *exr, ec_error *err)
 {
-    ImfRgba *pixels = calloc((uint64_t)exr->width * exr->height, sizeof *pixels);
+    EC_FREED ImfRgba *pixels = calloc((uint64_t)exr->width * exr->height, sizeof *pixels);
     ImfInputFile *file = pixels ? ImfOpenInputFile(path) : NULL;
     ec_result result;
     /* The library wants the address that pixel (0, 0) would have, which may lie outside the picture. */
@@ -40,6 +41,5 @@ ec_result ec_exr_read_rgba(const char *path, int32_t origin_x, int32_t origin_y,
     else
         result = copy_planes(path, pixels, exr, err);
     if (file) ImfCloseInputFile(file);
-    free(pixels);
     return result;
 }

@@ -1,11 +1,11 @@
 /* OpenEXR out: scan lines, ZIP (16 lines a block) or plain, 32-bit values; one part, or several and a seal; rows as they come. */
-#include <errno.h>
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/freed.h"
 #include "image/exr_blocks.h"
 #include "image/image.h"
 #include "image/seal.h"
@@ -18,7 +18,7 @@ enum {
 /* A file on its way. The parts are the caller's; of what they point to no more is needed after the header than channels' names. */
 struct ec_exr_rows {
     ec_atomic_file file;
-    char *path;              /* owned */
+    const char *path;     /* the caller's */
     uint32_t width, height;
     const ec_exr_part *parts;
     uint32_t part_count;
@@ -48,18 +48,10 @@ static int64_t write_all(exr_const_context_t context, void *user, const void *bu
                          exr_stream_error_func_ptr_t report)
 {
     ec_exr_rows *stream = user;
-    uint64_t done = 0;
     (void)context, (void)report;
-    while (done < size) {
-        ssize_t written = pwrite(stream->file.fd, (const char *)buffer + done, size - done, (off_t)(offset + done));
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) {
-            if (!stream->write_error) stream->write_error = written < 0 ? errno : ENOSPC;
-            return -1;
-        }
-        done += (uint64_t)written;
-    }
-    return (int64_t)size;
+    int failed = ec_write_all(stream->file.fd, buffer, size, (off_t)offset);
+    if (failed && !stream->write_error) stream->write_error = failed;
+    return failed ? -1 : (int64_t)size;
 }
 
 static int64_t write_to_memory(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
@@ -78,7 +70,6 @@ static exr_result_t set_attribute(exr_context_t context, int part, const ec_attr
     switch (attribute->type) {
     case EC_ATTR_STRING: return exr_attr_set_string(context, part, attribute->name, attribute->string);
     case EC_ATTR_INT: return exr_attr_set_int(context, part, attribute->name, (int32_t)attribute->number);
-    case EC_ATTR_FLOAT: return exr_attr_set_float(context, part, attribute->name, (float)attribute->number);
     case EC_ATTR_DOUBLE: return exr_attr_set_double(context, part, attribute->name, attribute->number);
     }
     return EXR_ERR_INVALID_ARGUMENT;
@@ -174,16 +165,9 @@ ec_result ec_exr_rows_begin(ec_exr_rows **made, const char *path, uint32_t width
 {
     ec_exr_rows *rows = calloc(1, sizeof *rows);
     *made = NULL;
-    if (!rows || !(rows->path = strdup(path))) {
-        free(rows);
-        return ec_fail(err, "out of memory for '%s'", path);
-    }
-    rows->file.fd = -1;
-    rows->width = width;
-    rows->height = height;
-    rows->parts = parts;
-    rows->part_count = part_count;
-    rows->room = room < ROOM_MAX ? room : ROOM_MAX;
+    if (!rows) return ec_fail(err, "out of memory for '%s'", path);
+    *rows = (ec_exr_rows){.file.fd = -1, .path = path, .width = width, .height = height, .parts = parts, .part_count = part_count,
+                          .room = room < ROOM_MAX ? room : ROOM_MAX};
     if (begin(rows, err) != EC_OK) {
         ec_exr_rows_abort(rows);
         return EC_FAILED;
@@ -210,9 +194,9 @@ ec_result ec_exr_rows_put(ec_exr_rows *rows, const ec_exr_part *part, uint32_t c
 /* The header once more, over the first one: what it says was not known then. Blanks make up for what has become longer or shorter. */
 static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, ec_error *err)
 {
-    header_bytes header = {.most = rows->header_size + ROOM_MAX};
-    header.bytes = malloc(header.most);
-    if (!header.bytes) return ec_fail(err, "out of memory for '%s'", rows->path);
+    EC_FREED uint8_t *bytes = malloc(rows->header_size + ROOM_MAX);
+    header_bytes header = {.bytes = bytes, .most = rows->header_size + ROOM_MAX};
+    if (!bytes) return ec_fail(err, "out of memory for '%s'", rows->path);
     exr_result_t code = EXR_ERR_SUCCESS;
     for (uint32_t attempt = 0, blanks = rows->room;
          code == EXR_ERR_SUCCESS && header.size != rows->header_size && attempt < 2; attempt++) {
@@ -229,7 +213,6 @@ static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, 
     }
     bool fits = code == EXR_ERR_SUCCESS && header.size == rows->header_size;
     if (fits && write_all(NULL, rows, header.bytes, header.size, 0, NULL) < 0) code = EXR_ERR_WRITE_IO;
-    free(header.bytes);
     if (code != EXR_ERR_SUCCESS) return failed(rows, code, err);
     return fits ? EC_OK : ec_fail(err, "cannot write '%s': what is told of the picture does not fit its header", rows->path);
 }
@@ -259,7 +242,6 @@ void ec_exr_rows_abort(ec_exr_rows *rows)
     ec_exr_blocks_free(&rows->blocks, rows->context);
     if (rows->context) exr_finish(&rows->context);
     ec_atomic_abort(&rows->file);
-    free(rows->path);
     free(rows);
 }
 
@@ -276,10 +258,9 @@ ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, 
 {
     ec_exr_rows *rows;
     EC_TRY(ec_exr_rows_begin(&rows, path, width, height, parts, part_count, 0, err));
-    for (uint32_t k = 0; k < part_count; k++) {
-        if (ec_exr_rows_put(rows, &parts[k], height, err) == EC_OK) continue;
-        ec_exr_rows_abort(rows);
-        return EC_FAILED;
-    }
-    return ec_exr_rows_end(rows, NULL, 0, err);
+    ec_result result = EC_OK;
+    for (uint32_t k = 0; k < part_count && result == EC_OK; k++) result = ec_exr_rows_put(rows, &parts[k], height, err);
+    if (result == EC_OK) return ec_exr_rows_end(rows, NULL, 0, err);
+    ec_exr_rows_abort(rows);
+    return result;
 }

@@ -4,8 +4,10 @@
 #include "image/hdr.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stdbool.h>
 #include <string.h>
+
+#include "base/freed.h"
 
 /* SIDE_MAX in pixels: beyond it a header is taken for damaged. Only widths in the other range are run-length encoded. */
 enum { SIDE_MAX = 1 << 17, RLE_WIDTH_MIN = 8, RLE_WIDTH_MAX = 0x7fff };
@@ -16,7 +18,7 @@ static const char cut_short[] = "it ends too early";
 static const char *read_header(FILE *file, uint32_t *width, uint32_t *height)
 {
     char line[1024];
-    int format_known = 0;
+    bool format_known = false;
     while (fgets(line, sizeof line, file) && line[0] != '\n' && line[0] != '\r') {
         if (strncmp(line, "FORMAT=", 7) != 0) continue;
         format_known = strncmp(line + 7, "32-bit_rle_rgbe", 15) == 0;
@@ -32,52 +34,22 @@ static const char *read_header(FILE *file, uint32_t *width, uint32_t *height)
     return NULL;
 }
 
-/* What is left of a file, a block at a time: a call of the library for each byte would take as long as all the rest. */
-typedef struct source {
-    FILE *file;
-    size_t at, end;
-    uint8_t block[1 << 16];
-} source;
-
-/* EOF at the end. */
-static int next_byte(source *s)
-{
-    if (s->at == s->end) {
-        s->at = 0;
-        s->end = fread(s->block, 1, sizeof s->block, s->file);
-        if (!s->end) return EOF;
-    }
-    return s->block[s->at++];
-}
-
-static const char *read_bytes(source *s, uint8_t *bytes, size_t count)
-{
-    while (count > 0) {
-        int first = next_byte(s);
-        if (first == EOF) return cut_short;
-        *bytes++ = (uint8_t)first;
-        size_t more = s->end - s->at < count - 1 ? s->end - s->at : count - 1;
-        memcpy(bytes, s->block + s->at, more);
-        s->at += more;
-        bytes += more;
-        count -= 1 + more;
-    }
-    return NULL;
-}
+/* The file is this thread's alone: without the library's locks a byte costs no call. */
+static bool read_bytes(FILE *file, uint8_t *bytes, size_t count) { return fread_unlocked(bytes, 1, count, file) == count; }
 
 /* One component of a scan line, run-length encoded: a count above 128 repeats one byte, others precede as many bytes. */
-static const char *read_runs(source *s, uint8_t *values, uint32_t width)
+static const char *read_runs(FILE *file, uint8_t *values, uint32_t width)
 {
     for (uint32_t x = 0; x < width;) {
-        int count = next_byte(s);
-        int repeat = count > 128;
+        int count = getc_unlocked(file);
+        bool repeat = count > 128;
         if (repeat) count -= 128;
         if (count == EOF) return cut_short;
         if (count == 0 || (uint32_t)count > width - x) return "a run leaves its scan line";
-        int value = repeat ? next_byte(s) : 0;
+        int value = repeat ? getc_unlocked(file) : 0;
         if (value == EOF) return cut_short;
         if (repeat) memset(values + x, value, (size_t)count);
-        else if (read_bytes(s, values + x, (size_t)count)) return cut_short;
+        else if (!read_bytes(file, values + x, (size_t)count)) return cut_short;
         x += (uint32_t)count;
     }
     return NULL;
@@ -89,7 +61,7 @@ static void put(uint8_t *line, uint32_t width, uint32_t x, const uint8_t pixel[4
 }
 
 /* Plain pixels from `first` on; a pixel of mantissas 1, 1, 1 repeats its predecessor, by 8 more bits each time in a row. */
-static const char *read_plain(source *s, uint8_t *line, uint32_t width, const uint8_t first[4])
+static const char *read_plain(FILE *file, uint8_t *line, uint32_t width, const uint8_t first[4])
 {
     int shift = 0;
     uint8_t pixel[4], last[4] = {0};
@@ -105,21 +77,21 @@ static const char *read_plain(source *s, uint8_t *line, uint32_t width, const ui
             put(line, width, x++, pixel);
             shift = 0;
         }
-        if (x < width && read_bytes(s, pixel, 4)) return cut_short;
+        if (x < width && !read_bytes(file, pixel, 4)) return cut_short;
     }
     return NULL;
 }
 
 /* line: the four components, one after the other. */
-static const char *read_line(source *s, uint8_t *line, uint32_t width)
+static const char *read_line(FILE *file, uint8_t *line, uint32_t width)
 {
     uint8_t start[4];
-    if (read_bytes(s, start, 4)) return cut_short;
-    int encoded = width >= RLE_WIDTH_MIN && width <= RLE_WIDTH_MAX && start[0] == 2 && start[1] == 2 && start[2] < 128;
-    if (!encoded) return read_plain(s, line, width, start);
+    if (!read_bytes(file, start, 4)) return cut_short;
+    bool encoded = width >= RLE_WIDTH_MIN && width <= RLE_WIDTH_MAX && start[0] == 2 && start[1] == 2 && start[2] < 128;
+    if (!encoded) return read_plain(file, line, width, start);
     if (((uint32_t)start[2] << 8 | start[3]) != width) return "a scan line has the wrong width";
     const char *problem = NULL;
-    for (size_t component = 0; component < 4 && !problem; component++) problem = read_runs(s, line + component * width, width);
+    for (size_t component = 0; component < 4 && !problem; component++) problem = read_runs(file, line + component * width, width);
     return problem;
 }
 
@@ -134,17 +106,13 @@ static void to_floats(const uint8_t *line, uint32_t width, const float scale[256
 static const char *read_pixels(FILE *file, uint32_t width, uint32_t height, float *rgb)
 {
     float scale[256] = {0}; /* exponent 0 is black */
-    uint8_t *line = malloc(4ul * width);
-    source *s = malloc(sizeof *s);
-    const char *problem = line && s ? NULL : "out of memory";
+    EC_FREED uint8_t *line = malloc(4ul * width);
+    const char *problem = line ? NULL : "out of memory";
     for (int e = 1; e < 256; e++) scale[e] = ldexpf(1, e - 136);
-    if (s) s->file = file, s->at = s->end = 0;
     for (uint32_t y = 0; y < height && !problem; y++) {
-        problem = read_line(s, line, width);
+        problem = read_line(file, line, width);
         if (!problem) to_floats(line, width, scale, rgb + 3 * (size_t)y * width);
     }
-    free(s);
-    free(line);
     return problem;
 }
 

@@ -16,7 +16,7 @@ typedef struct ec_channel {
     bool is_words;      /* 32-bit unsigned integers, and so in the file */
 } ec_channel;
 
-typedef enum ec_attribute_type { EC_ATTR_STRING, EC_ATTR_INT, EC_ATTR_FLOAT, EC_ATTR_DOUBLE } ec_attribute_type;
+typedef enum ec_attribute_type { EC_ATTR_STRING, EC_ATTR_INT, EC_ATTR_DOUBLE } ec_attribute_type;
 typedef struct ec_attribute {
     const char *name;   /* e.g. "eclat.seed" */
     ec_attribute_type type;
@@ -41,7 +41,7 @@ typedef struct ec_exr_part {
 ec_result ec_exr_write_parts(const char *path, uint32_t width, uint32_t height, const ec_exr_part *parts,
                              uint32_t part_count, ec_error *err);
 
-/* Writes rows that come one after the other, from the top; `parts` stay as they are until the end. room: bytes by which the attributes
+/* Writes rows that come one after the other, from the top; path and parts stay as they are until the end. room: bytes by which the attributes
  * of the end may be longer or shorter than those of the beginning, by blanks in an attribute eclat.room; 0: they are as long. */
 typedef struct ec_exr_rows ec_exr_rows;
 enum { EC_EXR_ROWS = 16 }; /* that are compressed together */
@@ -53,6 +53,13 @@ ec_result ec_exr_rows_put(ec_exr_rows *rows, const ec_exr_part *part, uint32_t c
 /* The file gets its name; after a failure there is none. attributes: what the first part's have become; NULL: nothing else. Frees rows. */
 ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err);
 void ec_exr_rows_abort(ec_exr_rows *rows); /* leaves nothing; frees rows; NULL is fine */
+
+/* Where a channel's values are wanted: pixel (x, y) at data[stride * (y * width + x)], in 32-bit values. */
+typedef struct ec_exr_room {
+    const char *name;
+    void *data;
+    uint32_t stride;
+} ec_exr_room;
 
 /* All channels of an EXR file's first part as float planes, half and uint converted. Tiled (first level) and scan-line,
  * every compression; of DWAA and DWAB files only R, G, B and A. Deep and subsampled images are refused. */
@@ -89,7 +96,7 @@ typedef struct ec_png_text {
     const char *keyword, *text; /* NULL: none */
 } ec_png_text;
 
-/* Writes rows that come one after the other, from the top. text: NULL is none. */
+/* Writes rows that come one after the other, from the top; path stays until the end. text: NULL is none. */
 typedef struct ec_png_rows ec_png_rows;
 ec_result ec_png_rows_begin(ec_png_rows **rows, const char *path, uint32_t width, uint32_t height,
                             const ec_png_text *text, ec_error *err);

@@ -1,12 +1,10 @@
 /* PNG out: 8-bit sRGB. In memory through libpng's simplified API, to files row by row, compressed by all threads (png_strips.h); both
  * write the sRGB chunk. */
-#include <errno.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "image/image.h"
@@ -28,7 +26,7 @@ ec_result ec_png_encode(uint32_t width, uint32_t height, const uint8_t *rgb, uin
 
 struct ec_png_rows {
     ec_atomic_file file;
-    char *path;           /* owned */
+    const char *path;     /* the caller's */
     png_structp png;
     png_infop info;
     ec_png_strips strips;
@@ -55,15 +53,8 @@ static void warn(png_structp png, png_const_charp message)
 static void write_all(png_structp png, png_bytep bytes, size_t size)
 {
     ec_png_rows *rows = png_get_io_ptr(png);
-    for (size_t done = 0; done < size;) {
-        ssize_t put = write(rows->file.fd, bytes + done, size - done);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) {
-            rows->write_error = put < 0 ? errno : ENOSPC;
-            png_error(png, "write");
-        }
-        done += (size_t)put;
-    }
+    rows->write_error = ec_write_all(rows->file.fd, bytes, size, -1);
+    if (rows->write_error) png_error(png, "write");
 }
 
 static void flush(png_structp png) { (void)png; }
@@ -103,12 +94,8 @@ ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, uint32_t width
 {
     ec_png_rows *rows = calloc(1, sizeof *rows);
     *made = NULL;
-    if (!rows || !(rows->path = strdup(path))) {
-        free(rows);
-        return ec_fail(err, "out of memory for '%s'", path);
-    }
-    rows->file.fd = -1;
-    rows->width = width;
+    if (!rows) return ec_fail(err, "out of memory for '%s'", path);
+    *rows = (ec_png_rows){.file.fd = -1, .path = path, .width = width};
     if (begin(rows, height, text, err) != EC_OK) {
         ec_png_rows_abort(rows);
         return EC_FAILED;
@@ -167,7 +154,6 @@ void ec_png_rows_abort(ec_png_rows *rows)
     png_destroy_write_struct(&rows->png, &rows->info);
     ec_png_strips_free(&rows->strips);
     ec_atomic_abort(&rows->file);
-    free(rows->path);
     free(rows);
 }
 

@@ -38,6 +38,7 @@ ec_result ec_image_read_rgb(const char *path, uint32_t *width, uint32_t *height,
     EC_TRY(ec_image_check_regular(path, err));
     FILE *file = fopen(path, "rb");
     if (!file) return ec_fail(err, "cannot open '%s': %s", path, strerror(errno));
+    setvbuf(file, NULL, _IOFBF, 1 << 16);
     unsigned char start[4] = {0};
     errno = 0;
     size_t count = fread(start, 1, sizeof start, file);

@@ -4,13 +4,14 @@
 #include <fcntl.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 #include <unistd.h>
 
 #include <sha2.h>
 
+#include "base/atomic_file.h"
+#include "base/freed.h"
 #include "image/image.h"
 
 static const char mark[] = "eclat: sealed by SHA-256\n";
@@ -19,7 +20,7 @@ enum { MARK_SIZE = sizeof mark - 1, SEAL_SIZE = MARK_SIZE + SHA256_DIGEST_LENGTH
 /* The fingerprint of the first `size` bytes; 0 or an errno value. */
 static int digest_of(int fd, off_t size, uint8_t digest[SHA256_DIGEST_LENGTH])
 {
-    uint8_t *bytes = malloc(AT_ONCE);
+    EC_FREED uint8_t *bytes = malloc(AT_ONCE);
     SHA2_CTX context;
     int failed = bytes ? 0 : ENOMEM;
     SHA256Init(&context);
@@ -31,7 +32,6 @@ static int digest_of(int fd, off_t size, uint8_t digest[SHA256_DIGEST_LENGTH])
         else SHA256Update(&context, bytes, (size_t)got);
         done += got;
     }
-    free(bytes);
     SHA256Final(digest, &context);
     return failed;
 }
@@ -43,13 +43,7 @@ int ec_seal(int fd)
     if (size < 0) return errno;
     memcpy(seal, mark, MARK_SIZE);
     int failed = digest_of(fd, size, seal + MARK_SIZE);
-    for (size_t done = 0; !failed && done < SEAL_SIZE;) {
-        ssize_t put = pwrite(fd, seal + done, SEAL_SIZE - done, size + (off_t)done);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) failed = put < 0 ? errno : ENOSPC;
-        done += put > 0 ? (size_t)put : 0;
-    }
-    return failed;
+    return failed ? failed : ec_write_all(fd, seal, SEAL_SIZE, size);
 }
 
 static ec_result check(int fd, const char *path, ec_error *err)

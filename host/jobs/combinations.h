@@ -2,7 +2,7 @@
 #ifndef EC_JOBS_COMBINATIONS_H
 #define EC_JOBS_COMBINATIONS_H
 
-#include "jobs/option_parser.h"
+#include "jobs/option.h"
 #include "render/render.h"
 
 /* given[i]: options[i] was on the command line. EC_USAGE, and one line that says what belongs together, where it does not. */

@@ -14,32 +14,6 @@
 #include "device/content.h"
 #include "store/identity_text.h"
 
-static ec_result note(void *target, const char *option, const char *value, ec_error *err)
-{
-    ec_given_options *given = target;
-    if (given->count == EC_GIVEN_MAX) return ec_fail(err, "more than %d options", EC_GIVEN_MAX);
-    given->list[given->count].option = option;
-    given->list[given->count++].value = value;
-    return EC_OK;
-}
-
-ec_result ec_given_options_read(int argc, char *const *argv, ec_given_options *given, ec_error *err)
-{
-    ec_option rows[EC_OPTIONS_MAX];
-    ec_request asked;
-    int first;
-    char **words = malloc(((size_t)argc + 1) * sizeof *words); /* getopt changes their order */
-    if (!words) return ec_fail(err, "out of memory");
-    memcpy(words, argv, (size_t)argc * sizeof *words);
-    words[argc] = NULL;
-    memcpy(rows, ec_render_rows, (size_t)ec_render_row_count * sizeof *rows);
-    for (int i = 0; i < ec_render_row_count; i++) rows[i].set = note;
-    given->count = 0;
-    ec_result result = ec_options_parse(rows, ec_render_row_count, given, argc, words, &first, NULL, &asked, err);
-    free(words);
-    return result;
-}
-
 static void put(ec_identity *identity, const char *name, const char *value, bool repeats)
 {
     for (uint32_t i = 0; i < identity->count; i++) { /* of what may be repeated, all; else the last */
@@ -106,26 +80,18 @@ void ec_frame_identify(const ec_identity *all, const ec_render_request *request,
 
 char *ec_frame_command(const ec_given_options *given, const ec_render_request *request, const ec_outputs *outputs, uint32_t frame)
 {
-    static char program[] = "eclat", render[] = "render", frames[] = "--frames", output[] = "-o";
-    char number[16], names[EC_GIVEN_MAX][40], *words[2 * EC_GIVEN_MAX + 2 * EC_OUTPUTS_MAX + 8];
-    int count = 0;
-    words[count++] = program;
-    words[count++] = render;
-    words[count++] = (char *)(uintptr_t)request->scene;
-    for (int i = 0; i < given->count; i++) {
-        if (ec_render_row(given->list[i].option)->uses & EC_OPTION_SEQUENCE) continue;
-        snprintf(names[i], sizeof names[i], "--%s", given->list[i].option);
-        words[count++] = names[i];
-        if (given->list[i].value) words[count++] = (char *)(uintptr_t)given->list[i].value;
-    }
+    char number[16], *line = NULL, *scene = (char *)(uintptr_t)request->scene;
+    ec_given_options alone = {0};
+    ec_words words = {0};
     snprintf(number, sizeof number, "%u", frame);
-    words[count++] = frames;
-    words[count++] = number;
-    for (int i = 0; i < outputs->count; i++) {
-        words[count++] = output;
-        words[count++] = (char *)(uintptr_t)outputs->file[i].path;
-    }
-    return ec_command_line(count, words);
+    ec_result result = ec_given_add_all(&alone, given, ec_render_rows, ec_render_row_count, EC_OPTION_SEQUENCE, NULL);
+    if (result == EC_OK) result = ec_given_add(&alone, "frames", number, NULL);
+    for (int i = 0; result == EC_OK && i < outputs->count; i++) result = ec_given_add(&alone, "output", outputs->file[i].path, NULL);
+    if (result == EC_OK) result = ec_words_make(&words, "render", &scene, 1, &alone, ec_render_rows, ec_render_row_count, NULL);
+    if (result == EC_OK) line = ec_command_line(words.count, words.list);
+    ec_words_free(&words);
+    ec_given_free(&alone);
+    return line;
 }
 
 static ec_frame_state look_at(const ec_output *output, const ec_identity *identity, char *difference, size_t size)

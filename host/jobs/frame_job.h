@@ -2,18 +2,9 @@
 #ifndef EC_JOBS_FRAME_JOB_H
 #define EC_JOBS_FRAME_JOB_H
 
+#include "jobs/given.h"
 #include "jobs/outputs.h"
 #include "jobs/render_request.h"
-
-/* Options as they were given, in their order; texts are the command line's. */
-enum { EC_GIVEN_MAX = 128 };
-typedef struct ec_given_options {
-    struct {
-        const char *option, *value; /* value NULL: a flag */
-    } list[EC_GIVEN_MAX];
-    int count;
-} ec_given_options;
-ec_result ec_given_options_read(int argc, char *const *argv, ec_given_options *given, ec_error *err);
 
 /* What all frames are of: version, kernels, the bytes of the scene's files (their digest) and of the environment's, and every option that a
  * picture may depend on, as it was given. */

@@ -122,13 +122,10 @@ static uint64_t room_for(const char *path)
 void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log)
 {
     const uint64_t bytes_per_pixel[] = {[EC_OUTPUT_EXR] = 25 * 4, [EC_OUTPUT_PNG] = 3}; /* uncompressed */
-    char needed_text[32], room_text[32];
     for (int i = 0; i < outputs->count; i++) {
         const ec_output *output = &outputs->file[i];
         uint64_t needed = pixel_count * bytes_per_pixel[output->kind], room = room_for(output->path);
         if (needed <= room) continue;
-        ec_format_bytes(needed, needed_text, sizeof needed_text);
-        ec_format_bytes(room, room_text, sizeof room_text);
-        ec_warn(log, "'%s' may take up to %s, and its disk has %s left", output->path, needed_text, room_text);
+        ec_warn(log, "'%s' may take up to %s, and its disk has %s left", output->path, ec_bytes(needed).text, ec_bytes(room).text);
     }
 }

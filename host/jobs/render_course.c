@@ -10,67 +10,47 @@
 #include "jobs/render_job.h"
 #include "jobs/write_report.h"
 
-/* Is argv[*i] one of these options? Then *i moves on to its value, if that is a word of its own. */
-static bool is_one_of(char *const *argv, int *i, const char *const *names)
-{
-    const char *word = argv[*i];
-    for (; *names; names++) {
-        size_t size = strlen(*names);
-        if (strncmp(word, *names, size) || (word[size] && word[size] != '=' && word[1] == '-')) continue;
-        *i += !word[size];
-        return true;
-    }
-    return false;
-}
-
 /* What a command lacks that has other limits than the one which chose where samples go; NULL: nothing. */
-static const char *adaptive_word(const ec_render_options *o, int count, char *const *words)
+static const char *adaptive_word(const ec_render_options *o, const ec_given_options *given)
 {
     bool is_told = o->adaptive == (o->error_target > 0);
-    for (int i = 0; i < count; i++) is_told |= !strncmp(words[i], "--adaptive", 10) && strcmp(words[i], "--adaptive=auto") != 0;
-    return is_told ? NULL : o->adaptive ? "--adaptive=on" : "--adaptive=off";
+    for (int i = 0; i < given->count; i++)
+        is_told |= !strcmp(given->list[i].option, "adaptive") && (!given->list[i].value || strcmp(given->list[i].value, "auto"));
+    return is_told ? NULL : o->adaptive ? "on" : "off";
 }
 
 /* The job's command with the options of now in place of those that they replace: what renders the picture without a break. */
-static ec_result make_command(ec_render_job *job, int argc, char *const *argv, ec_error *err)
+static ec_result make_command(ec_render_job *job, const ec_given_options *now, ec_error *err)
 {
-    static const char *const limits[] = {"--spp", "--time", "--error", NULL}, *const outputs[] = {"--output", "-o", NULL},
-                             *const files[] = {"--resume", "--checkpoint", "--every", NULL};
-    const ec_job *before = &job->stored.job;
-    bool has_limit = false, has_output = false;
-    char **words = malloc(((size_t)before->argc + (size_t)argc + 4) * sizeof *words);
-    int count = 0;
-    if (!words) return ec_fail(err, "out of memory");
-    for (int i = 1; i < argc; i++) {
-        has_limit |= is_one_of(argv, &i, limits);
-        has_output |= i < argc && is_one_of(argv, &i, outputs);
-    }
-    words[count++] = (char[]){"eclat"};
-    for (int i = 0; i < before->argc; i++) {
-        bool is_replaced = is_one_of(before->argv, &i, files) ||
-                           (has_limit && is_one_of(before->argv, &i, limits)) ||
-                           (has_output && is_one_of(before->argv, &i, outputs));
-        if (!is_replaced && i < before->argc) words[count++] = before->argv[i];
-    }
-    for (int i = 1; i < argc; i++)
-        if (!is_one_of(argv, &i, files) && i < argc) words[count++] = argv[i];
-    const char *adaptive = adaptive_word(&job->request->options, count, words);
-    if (adaptive) words[count++] = (char *)(uintptr_t)adaptive;
-    job->whole_command = ec_command_line(count, words);
-    free(words);
-    if (!job->whole_command) return ec_fail(err, "out of memory");
-    job->command = job->whole_command;
-    return EC_OK;
+    const ec_option *rows = ec_render_rows;
+    const int count = ec_render_row_count;
+    uint32_t replaced = EC_OPTION_KEEPING;
+    char *scene = (char *)(uintptr_t)job->request->scene;
+    ec_given_options whole = {0};
+    ec_words words = {0};
+    ec_result result;
+    for (int i = 0; i < now->count; i++) replaced |= ec_render_row(now->list[i].option)->uses & (EC_OPTION_LIMIT | EC_OPTION_OUTPUT);
+    EC_TRY_CLEANUP(ec_given_add_all(&whole, &job->before, rows, count, replaced, err));
+    EC_TRY_CLEANUP(ec_given_add_all(&whole, now, rows, count, EC_OPTION_KEEPING, err));
+    const char *adaptive = adaptive_word(&job->request->options, &whole);
+    if (adaptive) EC_TRY_CLEANUP(ec_given_add(&whole, "adaptive", adaptive, err));
+    EC_TRY_CLEANUP(ec_words_make(&words, "render", &scene, 1, &whole, rows, count, err));
+    job->command = job->whole_command = ec_command_line(words.count, words.list);
+    if (!job->command) result = ec_fail(err, "out of memory");
+cleanup:
+    ec_words_free(&words);
+    ec_given_free(&whole);
+    return result;
 }
 
-ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err)
+ec_result ec_render_job_take_up(ec_render_job *job, const ec_given_options *now, ec_error *err)
 {
     const char *path = job->request->resume;
     EC_TRY(ec_store_read(path, &job->stored, err));
     if (job->stored.job.merged)
         return ec_fail(err, "cannot go on from '%s': it was merged; render what is missing with --samples, and merge that", path);
-    EC_TRY(ec_render_request_resume(&job->stored.job, argc, argv, job->request, err));
-    EC_TRY(make_command(job, job->job.argc, job->job.argv, err)); /* as given: getopt has changed argv's order */
+    EC_TRY(ec_render_request_resume(&job->stored.job, now, job->request, &job->before, err));
+    EC_TRY(make_command(job, now, err));
     job->job.argc = job->stored.job.argc;
     job->job.argv = job->stored.job.argv;
     job->job.folder = job->stored.job.folder;

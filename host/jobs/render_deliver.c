@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "jobs/render_job.h"
 #include "jobs/write_report.h"
+#include "report/error_text.h"
 
 /* What a slice says of itself, beside its sums. */
 static ec_past past_of(const ec_render_job *job)
@@ -27,6 +28,20 @@ ec_result ec_render_job_write(ec_render_job *job, ec_outputs *outputs, ec_render
     const ec_slice slice = {&job->job, &past};
     return ec_write_report(outputs, &job->film, job->request->has_slice ? &slice : NULL, report,
                            job->image_sha256, err);
+}
+
+ec_result ec_render_job_tell(const ec_render_job *job, const ec_render_report *report, ec_error *err)
+{
+    const ec_listener *listener = job->listener;
+    char summary[EC_ERROR_TEXT + 128];
+    if (job->request->json) {
+        ec_render_report_summary(report, summary, sizeof summary);
+        ec_say(&listener->log, "%s", summary);
+        EC_TRY(ec_render_report_json(report, listener->to, err));
+    } else if (!job->request->quiet) {
+        (report->frame ? ec_frame_report_text : ec_render_report_text)(report, listener->to);
+    }
+    return listener->report(listener->user, err);
 }
 
 /* For a picture in strips, whose rows are in the files already. */
@@ -59,7 +74,7 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
     report.peak_memory_bytes = ec_peak_memory_bytes();
     if (job->stats.invalid_samples > 0)
         ec_warn(&job->listener->log, "%llu samples were not finite and count as black: please report the scene", (unsigned long long)job->stats.invalid_samples);
-    return ec_listener_rendered(job->listener, &report, err);
+    return ec_render_job_tell(job, &report, err);
 }
 
 /* Hours of samples are not to be lost with the device. */

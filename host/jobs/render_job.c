@@ -228,5 +228,6 @@ void ec_render_job_free(ec_render_job *job)
     ec_film_destroy(&job->film);
     ec_row_writer_abort(job->rows);
     ec_stored_free(&job->stored);
+    ec_given_free(&job->before);
     free(job->whole_command);
 }

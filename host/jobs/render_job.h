@@ -54,6 +54,7 @@ typedef struct ec_render_job {
     char image_sha256[EC_HASH_SIZE];
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
     ec_stored stored;            /* what is gone on from. Owned */
+    ec_given_options before;     /* that began what is gone on with */
     char device_text[1024];      /* their drivers: cl/workarounds.h */
     char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
     bool has_kept;               /* a checkpoint */
@@ -76,7 +77,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err);
 ec_result ec_render_job_light(ec_render_job *job, ec_error *err);
 
 /* With --resume, first of all: reads the checkpoint and completes the request by it. */
-ec_result ec_render_job_take_up(ec_render_job *job, int argc, char **argv, ec_error *err);
+ec_result ec_render_job_take_up(ec_render_job *job, const ec_given_options *now, ec_error *err);
 
 /* Which batches are taken, from what on, and what is kept on the way. Takes the film of a checkpoint over. */
 ec_course ec_render_job_course(ec_render_job *job);
@@ -89,6 +90,9 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
 
 /* Part of that: the film with its report to these files; a slice with its sums. */
 ec_result ec_render_job_write(ec_render_job *job, ec_outputs *outputs, ec_render_report *report, ec_error *err);
+
+/* Tells the listener, as the request wants it told. */
+ec_result ec_render_job_tell(const ec_render_job *job, const ec_render_report *report, ec_error *err);
 
 /* All of a prepared job: runs and delivers it. Where the device fails, the picture so far is written, and the job fails all the same. */
 ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err);

@@ -63,7 +63,7 @@ const ec_option ec_render_rows[] = {
     {.name = "look-at", .metavar = "X,Y,Z", .set = ec_set_look_at, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", .set = ec_set_output, .group = EC_GROUP_PICTURE,
-     .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS,
+     .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
      .help = "write FILE, an .exr (all data) or a .png; may be repeated",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
@@ -80,12 +80,12 @@ const ec_option ec_render_rows[] = {
      .help = "take more samples where the first ones show more noise; the N of --spp is then the mean over all pixels. auto does so with --error where it "
              "saves at least 5 %; on, like --adaptive alone, always does; off never",
      .otherwise = "auto", .not_in_window = "a window takes as many samples in every pixel"},
-    {.name = "error", .metavar = "PCT", .set = ec_set_error, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW,
+    {.name = "error", .metavar = "PCT", .set = ec_set_error, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
      .help = "stop when the 95 % bound of the image's error is below PCT per cent, as in 2 or 2%; the bound is checked after 32, 64, 80, 96, 112, 128, 160 "
              "samples per pixel and so on, four times per octave"},
-    {.name = "spp", .metavar = "N", .set = ec_set_spp, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW,
+    {.name = "spp", .metavar = "N", .set = ec_set_spp, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
      .help = "stop after N samples per pixel; without this option, --time and --error give up after " EC_TEXT(EC_SAFETY_SPP)},
-    {.name = "time", .metavar = "S", .set = ec_set_time, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW,
+    {.name = "time", .metavar = "S", .set = ec_set_time, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
      .help = "stop before S seconds of rendering have passed; 30s, 2m and 1h are understood too"},
 
     /* Animation */
@@ -101,15 +101,15 @@ const ec_option ec_render_rows[] = {
      .help = "replace existing frames of a different job; without this option they are an error", .not_in_window = MOVING},
 
     /* Resume and distribute */
-    {.name = "checkpoint", .metavar = "FILE", .set = ec_set_checkpoint, .group = EC_GROUP_RESUME,
+    {.name = "checkpoint", .metavar = "FILE", .set = ec_set_checkpoint, .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
      .help = "write FILE, an .exr, at intervals, atomically; it is a picture and holds all that --resume needs", .not_in_window = LASTING},
-    {.name = "every", .metavar = "S", .set = ec_set_every, .group = EC_GROUP_RESUME,
+    {.name = "every", .metavar = "S", .set = ec_set_every, .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
      .help = "seconds between checkpoints; there is one at the end too, also after Ctrl-C", .otherwise = EC_TEXT(EC_DEFAULT_EVERY), .not_in_window = LASTING},
-    {.name = "plan", .metavar = "RANKS", .set = ec_set_plan, .group = EC_GROUP_RESUME, .uses = EC_OPTION_COMMAND_LINE,
+    {.name = "plan", .metavar = "RANKS", .set = ec_set_plan, .group = EC_GROUP_RESUME,
      .help = "measure a few batches, predict how long 1 to RANKS processes of an MPI job would take, and print why; renders no picture. RANKS,GBIT,US "
              "assumes GBIT Gbit/s between two machines and US microseconds per message (default: 10,50)",
      .not_in_window = "a window is one process"},
-    {.name = "resume", .metavar = "FILE", .set = ec_set_resume, .group = EC_GROUP_RESUME, .uses = EC_OPTION_COMMAND_LINE | EC_OPTION_PART,
+    {.name = "resume", .metavar = "FILE", .set = ec_set_resume, .group = EC_GROUP_RESUME, .uses = EC_OPTION_PART | EC_OPTION_KEEPING,
      .help = "continue from a checkpoint as if the render had never stopped. Scene, options and limits come from the checkpoint; only --spp, --time, "
              "--error (each for the whole render) and -o may be given anew. SCENE may be left out",
      .not_in_window = LASTING},
@@ -163,6 +163,9 @@ const ec_option ec_render_rows[] = {
     {.name = "device", .metavar = "ID", .set = ec_set_device, .group = EC_GROUP_DEVICE, .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
      .help = "OpenCL device: its number in eclat devices, or part of its name; for several, a list such as 0,2, or all",
      .otherwise = "$ECLAT_DEVICE, else the first GPU, else the first CPU"},
+    {.name = "compile", .metavar = "WHEN", .set = ec_set_compile, .group = EC_GROUP_DEVICE, .choices = ec_compile_names, .uses = EC_OPTION_NO_IDENTITY,
+     .help = "when to compile kernels that the driver does not have yet: beside (a render begins with kernels that compile sooner) or first; the image is the same",
+     .otherwise = "auto: $ECLAT_COMPILE, else beside"},
     {.name = "lanes", .metavar = "N", .set = ec_set_lanes, .group = EC_GROUP_DEVICE, .choices = ec_lanes_names, .uses = EC_OPTION_NO_IDENTITY,
      .help = "paths per work-item: 1, 4, 8, 16 or auto; the image is the same", .otherwise = "auto"},
     {.name = "memory", .metavar = "SIZE", .set = ec_set_memory, .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
@@ -202,13 +205,13 @@ const ec_option ec_render_rows[] = {
 
     /* Messages */
     {.name = "json", .set = ec_set_json, .group = EC_GROUP_MESSAGES,
-     .uses = EC_OPTION_INFO | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_COMMAND_LINE,
+     .uses = EC_OPTION_INFO | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "print one JSON object with everything measured instead of text", .not_in_window = TALKING},
     {.name = "quiet", .letter = 'q', .set = ec_set_quiet, .group = EC_GROUP_MESSAGES,
-     .uses = EC_OPTION_INFO | EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_COMMAND_LINE,
+     .uses = EC_OPTION_INFO | EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "print only warnings and errors, and what --json prints"},
     {.name = "verbose", .letter = 'v', .set = ec_set_verbose, .group = EC_GROUP_MESSAGES,
-     .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_COMMAND_LINE,
+     .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "also print what calls for each effect, and the kernels and buffers it causes", .not_in_window = TALKING},
 };
 _Static_assert(sizeof ec_render_rows / sizeof ec_render_rows[0] <= EC_OPTIONS_MAX, "a larger EC_OPTIONS_MAX");

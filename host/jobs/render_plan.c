@@ -25,7 +25,7 @@ static bool watch(void *user, const ec_progress *progress)
     if (p->first.samples == 0 && done >= p->rounds[0]) p->first = (ec_mark){done, progress->seconds};
     if (done > p->last.samples) p->last = (ec_mark){done, progress->seconds};
     const bool suffices = done >= p->rounds[1] && !p->is_foretold && progress->seconds > ENOUGH_SECONDS;
-    return done < p->rounds[PILOT_ROUNDS - 1] && !suffices && !ec_listener_should_stop(p->listener);
+    return done < p->rounds[PILOT_ROUNDS - 1] && !suffices && !p->listener->should_stop(p->listener->user);
 }
 
 enum { TIMES = 3 }; /* and once before, which touches the memory */
@@ -87,11 +87,11 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
     options.adaptive = false;
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(job->devices, &cl, err));
-    ec_listener_begin(listener, &options);
+    listener->begin(listener->user, &options, true);
     ec_say(&listener->log, "measuring up to %.0f samples a pixel on %s", p.rounds[PILOT_ROUNDS - 1] / (double)p.pixels, job->devices->name);
     ec_result result = ec_render(&cl, job->scene, &options, watch, &p, &job->film, &job->stats, &listener->log, err);
     ec_cl_close(&cl);
-    ec_listener_end(listener);
+    listener->end(listener->user);
     EC_TRY(result);
     if (!(p.last.samples > p.first.samples)) return ec_fail(err, "--plan: the pilot was over before its second round; give more --spp or --time");
     const ec_render_stats *s = &job->stats;

@@ -7,7 +7,7 @@
 
 #include "jobs/camera_change.h"
 #include "jobs/frame_range.h"
-#include "jobs/option_parser.h"
+#include "jobs/given.h"
 #include "jobs/outputs.h"
 #include "image/image.h"
 #include "render/render.h"
@@ -57,7 +57,7 @@ extern const int ec_render_row_count;
 const ec_option *ec_render_row(const char *name); /* NULL: there is none */
 ec_result ec_render_refuse_live(void *target, const char *option, const char *value, ec_error *err); /* the setter of rows that are not_in_window */
 int ec_render_rows_for(uint32_t use, ec_option *rows); /* copies those with that EC_OPTION_* as borrowed, returns their number */
-void ec_render_request_start(ec_render_request *request);
+void ec_render_request_start(void *request);
 ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
                                    ec_error *err);
 
@@ -67,11 +67,9 @@ bool ec_render_has_limit(const ec_render_options *options);
 /* Why a picture of this request has to be rendered whole, an option; NULL: it may be rendered in strips. */
 const char *ec_render_whole_for(const ec_render_request *request);
 
-/* Reads the arguments of `render`; unless *asked is EC_REQUEST_RUN nothing else is read. */
-ec_result ec_render_request_parse(int argc, char **argv, ec_render_request *request, ec_request *asked, ec_error *err);
-
-/* After --resume: the request that began the job, its limits as they were last, and these arguments over it: an output or a limit
- * replaces all that there were. */
-ec_result ec_render_request_resume(const ec_job *job, int argc, char **argv, ec_render_request *request, ec_error *err);
+/* After --resume: the request that began the job, its limits as they were last, and what is given now over it: an output or a limit replaces all
+ * that there were. request: of what is given now alone. before: the options that began the job, to which texts of the request point. */
+ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *now, ec_render_request *request, ec_given_options *before,
+                                   ec_error *err);
 
 #endif

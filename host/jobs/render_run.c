@@ -43,7 +43,7 @@ static void hint_at_resume(const ec_render_job *job, const char *command)
                       : command ? "it goes on from the last checkpoint, alone or behind mpirun, with: "
                                 : "with --checkpoint FILE it could be gone on with";
     snprintf(hint, sizeof hint, "asked to stop, as mpirun asks all where one rank has died; %s%s", how, command ? command : "");
-    ec_listener_hint(job->listener, hint);
+    job->listener->hint(job->listener->user, hint);
 }
 
 /* ", with 3 more processes,": who renders beside the first device. */
@@ -151,7 +151,7 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : own;
     if (!job->share) EC_TRY(open_devices(job, devices, log, err));
     else EC_TRY(open_shared(job, log, err));
-    ec_listener_begin(listener, &job->request->options); /* until here there is nothing to save */
+    listener->begin(listener->user, &job->request->options, true); /* until here there is nothing to save */
     if (job->ranks) ec_ranks_note_binding(job->ranks, job->devices, job->device_count, log);
     else if (!job->share && !job->request->has_slice && ec_ranks_apart() > 1)
         ec_warn(log, "srun started %d processes that know nothing of one another: each renders all of the picture; with 'srun --mpi=pmix', or what "
@@ -161,15 +161,15 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     if (job->ranks) hint_at_resume(job, going_on);
     free(going_on);
     ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course,
-                                        ec_listener_progress, (void *)(uintptr_t)listener, &job->film, &job->stats, log, err);
-    ec_listener_end(listener);
+                                        listener->progress, listener->user, &job->film, &job->stats, log, err);
+    listener->end(listener->user);
     for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
     if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     const bool has_picture = job->film.batch_count || job->rows;
     if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");
-    if (result != EC_OK && !has_picture && ec_listener_should_stop(listener) && job->has_kept)
+    if (result != EC_OK && !has_picture && listener->should_stop(listener->user) && job->has_kept)
         return ec_fail(err, "interrupted before there was a picture; 'eclat render --resume %s' goes on", job->request->checkpoint);
-    if (result != EC_OK && !has_picture && ec_listener_should_stop(listener))
+    if (result != EC_OK && !has_picture && listener->should_stop(listener->user))
         return ec_fail(err, "interrupted before there was a picture; nothing is written");
     if (result == EC_OK && job->film.unsampled && job->request->checkpoint && !job->has_kept && !*job->keep_error.text)
         ec_warn(log, "no checkpoint is written: there was no whole wave of samples yet");

@@ -2,7 +2,7 @@
 #ifndef EC_JOBS_RENDER_SETTERS_H
 #define EC_JOBS_RENDER_SETTERS_H
 
-#include "jobs/option_parser.h"
+#include "jobs/option.h"
 
 extern const char *const ec_adaptive_names[]; /* ec_adaptive */
 extern const char *const ec_effects_names[];  /* the scene's, all */
@@ -20,7 +20,7 @@ ec_setter ec_set_adaptive, ec_set_error, ec_set_every, ec_set_time, ec_set_fps, 
 
 /* set_method.c */
 ec_setter ec_set_instancing, ec_set_integrator, ec_set_light_choice, ec_set_sample, ec_set_sampler, ec_set_scattering,
-    ec_set_terminator, ec_set_device, ec_set_lanes, ec_set_memory, ec_set_clamp, ec_set_cutoff, ec_set_replicates, ec_set_wave,
+    ec_set_terminator, ec_set_compile, ec_set_device, ec_set_lanes, ec_set_memory, ec_set_clamp, ec_set_cutoff, ec_set_replicates, ec_set_wave,
     ec_set_accel, ec_set_grid_density, ec_set_max_depth, ec_set_rr, ec_set_seed, ec_set_effects, ec_set_without;
 
 #endif

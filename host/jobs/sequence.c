@@ -8,6 +8,7 @@
 #include "jobs/frame_job.h"
 #include "jobs/frame_names.h"
 #include "jobs/render_job.h"
+#include "report/json.h"
 #include "store/identity_text.h"
 #include "gltf/reader.h"
 
@@ -65,10 +66,24 @@ static ec_result look_around(sequence *s, ec_inputs *inputs, ec_error *err)
     return EC_FAILED;
 }
 
-static ec_result tell_end(const sequence *s, uint32_t frame, ec_frame_end end, const char *error, const ec_outputs *names, ec_error *err)
+static ec_result tell_json(const ec_listener *listener, cJSON *object, ec_error *err)
 {
-    const ec_frame_told told = {frame, ec_frame_seconds(&s->request->frames, frame), end, error, names};
-    return ec_listener_frame(s->listener, &told, err);
+    EC_TRY(ec_json_print(object, listener->to, err));
+    return listener->report(listener->user, err);
+}
+
+/* A frame without a new picture. failure: why; NULL: it was skipped. */
+static ec_result tell_frame(const sequence *s, uint32_t frame, const char *failure, const ec_outputs *outputs, ec_error *err)
+{
+    if (!s->request->json) return EC_OK;
+    cJSON *object = cJSON_CreateObject();
+    ec_json_whole(object, "frame", frame);
+    ec_json_real(object, "frame_seconds", ec_frame_seconds(&s->request->frames, frame));
+    ec_json_text(object, "state", failure ? "failed" : "skipped");
+    if (failure) ec_json_text(object, "error", failure);
+    cJSON *names = cJSON_AddArrayToObject(object, "outputs");
+    for (int i = 0; i < outputs->count; i++) ec_json_text(names, NULL, outputs->file[i].path);
+    return tell_json(s->listener, object, err);
 }
 
 /* *stopped: by the listener, before it was done; nothing of it is written then. */
@@ -84,7 +99,7 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, err);
     if (result == EC_OK) result = ec_render_job_run(&job, err);
-    *stopped = ec_listener_should_stop(s->listener) && (result != EC_OK || !strcmp(job.stats.stopped_by, "user"));
+    *stopped = s->listener->should_stop(s->listener->user) && (result != EC_OK || !strcmp(job.stats.stopped_by, "user"));
     if (result == EC_OK && !*stopped) result = ec_render_job_deliver(&job, start, err);
     ec_render_job_free(&job);
     free(words);
@@ -104,14 +119,14 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
     ec_result told = EC_OK, result = outputs_of(s, frame, &request->outputs, &why);
     if (s->states[i] == EC_FRAME_DONE) {
         s->skipped++;
-        told = tell_end(s, frame, EC_FRAME_SKIPPED, NULL, &request->outputs, err);
+        told = tell_frame(s, frame, NULL, &request->outputs, err);
     } else {
         if (result == EC_OK) result = render_frame(s, request, i, stopped, &why);
         if (result == EC_OK && !*stopped) s->rendered++;
         if (result != EC_OK && !*stopped) {
             ec_tell(&s->listener->log, EC_FAILURE, "frame %u: %s", frame, why.text);
             s->failed++;
-            told = tell_end(s, frame, EC_FRAME_FAILED, why.text, &request->outputs, err);
+            told = tell_frame(s, frame, why.text, &request->outputs, err);
             ec_frame_share_close(&s->share); /* what a device has forgotten or not done right is not to be taken for there */
         }
     }
@@ -119,11 +134,22 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
     return told;
 }
 
+static ec_result tell_all(const sequence *s, double seconds, ec_error *err)
+{
+    if (!s->request->json) return EC_OK;
+    cJSON *object = cJSON_CreateObject();
+    ec_json_whole(object, "frames", s->count);
+    ec_json_whole(object, "rendered", s->rendered);
+    ec_json_whole(object, "skipped", s->skipped);
+    ec_json_whole(object, "failed", s->failed);
+    ec_json_real(object, "total_seconds", seconds);
+    return tell_json(s->listener, object, err);
+}
+
 static ec_result conclude(const sequence *s, bool stopped, double start, ec_error *err)
 {
     uint32_t there = s->rendered + s->skipped;
-    const ec_sequence_told told = {s->count, s->rendered, s->skipped, s->failed, ec_now() - start};
-    EC_TRY(ec_listener_sequence(s->listener, &told, err));
+    EC_TRY(tell_all(s, ec_now() - start, err));
     if (s->skipped) ec_say(&s->listener->log, "%u of %u frames were there already", s->skipped, s->count);
     if (stopped)
         return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there,
@@ -170,7 +196,7 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
     EC_TRY(begin(s, err));
     for (uint32_t i = 0; i < s->count && !stopped; i++) {
         EC_TRY(take_frame(s, i, &stopped, err));
-        stopped |= ec_listener_should_stop(s->listener) && i + 1 < s->count;
+        stopped |= s->listener->should_stop(s->listener->user) && i + 1 < s->count;
     }
     return conclude(s, stopped, start, err);
 }

@@ -21,6 +21,7 @@ CHOICE_SETTER(sample, options.sample, ec_sample, ec_sample_names)
 CHOICE_SETTER(sampler, options.sampler, ec_sampler_type, ec_sampler_names)
 CHOICE_SETTER(scattering, options.scattering, ec_scattering, ec_scattering_names)
 CHOICE_SETTER(terminator, options.terminator, ec_terminator, ec_terminator_names)
+CHOICE_SETTER(compile, options.compile, ec_compile, ec_compile_names)
 TEXT_SETTER(device, device)
 PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
 PARSED_SETTER(memory, ec_parse_bytes, options.memory)
@@ -52,10 +53,8 @@ SETTER(max_depth)
         REQUEST->endless = true;
         return EC_OK;
     }
-    ec_result result = ec_parse_u32(option, value, 1, EC_MAX_DEPTH, &REQUEST->options.max_depth, err);
-    if (result != EC_OK)
-        ec_usage(err, "--%s: '%s' is neither a whole number from 1 to %d nor inf", option, value, EC_MAX_DEPTH);
-    return result;
+    if (ec_parse_u32(option, value, 1, EC_MAX_DEPTH, &REQUEST->options.max_depth, err) == EC_OK) return EC_OK;
+    return ec_usage(err, "--%s: '%s' is neither a whole number from 1 to %d nor inf", option, value, EC_MAX_DEPTH);
 }
 
 SETTER(rr)

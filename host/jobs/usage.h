@@ -5,6 +5,6 @@
 #include "base/error.h"
 
 /* Like ec_fail, but returns EC_USAGE. */
-ec_result ec_usage(ec_error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
+#define ec_usage(...) (ec_fail(__VA_ARGS__), EC_USAGE)
 
 #endif

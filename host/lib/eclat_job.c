@@ -1,34 +1,39 @@
 #include <stdlib.h>
 #include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
-#include "jobs/usage.h"
+#include "jobs/command_line.h"
 #include "lib/internal.h"
 
-const ec_option *ec_lib_find_option(const char *name)
+ec_result ec_lib_add_text(char ***list, int *count, const char *text, ec_error *err)
 {
-    const ec_option *row = ec_render_row(name);
-    return row && !(row->uses & EC_OPTION_COMMAND_LINE) ? row : NULL;
+    char **longer = realloc(*list, ((size_t)*count + 1) * sizeof *longer), *copy = strdup(text);
+    if (longer) *list = longer;
+    if (longer && copy) {
+        longer[(*count)++] = copy;
+        return EC_OK;
+    }
+    free(copy);
+    return ec_fail(err, "out of memory for '%s'", text);
 }
 
-eclat_option eclat_option_at(size_t i)
-{
-    for (int row = 0; row < ec_render_row_count; row++)
-        if (!(ec_render_rows[row].uses & EC_OPTION_COMMAND_LINE) && i-- == 0)
-            return (eclat_option){ec_render_rows[row].name, ec_option_takes_value(&ec_render_rows[row])};
-    return (eclat_option){0};
-}
-
-eclat_result eclat_job_new(const char *scene, eclat_job **job, eclat_error *err)
+eclat_result eclat_job_new(const char *command, eclat_job **job, eclat_error *err)
 {
     ec_error why = {0};
+    const ec_command *found = command ? ec_command_find(command) : NULL;
     *job = NULL;
-    if (!scene || !*scene) return ec_lib_end(ec_usage(&why, "a job needs a scene: the path of a .gltf or .glb"), &why, err);
+    if (!found) return ec_lib_end(ec_usage(&why, "there is no command %s; eclat_command_at lists them", command ? command : "(null)"), &why, err);
     eclat_job *made = calloc(1, sizeof *made);
-    if (made) made->scene = strdup(scene);
-    if (!made || !made->scene) {
+    if (made) made->checked = calloc(1, found->size + 1);
+    if (!made || !made->checked) {
         free(made);
         return ec_lib_end(ec_fail(&why, "out of memory for a job"), &why, err);
     }
+    made->command = found;
+    made->row_count = found->rows(made->rows);
+    atomic_init(&made->wakes, -1);
+    if (found->start) found->start(made->checked);
     *job = made;
     return ec_lib_end(EC_OK, &why, err);
 }
@@ -36,62 +41,61 @@ eclat_result eclat_job_new(const char *scene, eclat_job **job, eclat_error *err)
 void eclat_job_free(eclat_job *job)
 {
     if (!job) return;
-    for (size_t i = 0; i < job->option_count; i++) {
-        free(job->options[i].name);
-        free(job->options[i].value);
-    }
-    free(job->options);
-    free(job->scene);
+    if (job->wakes >= 0) close(job->wakes);
+    while (job->input_count) free(job->inputs[--job->input_count]);
+    free(job->inputs);
+    ec_given_free(&job->given);
+    free(job->checked);
+    free(job->program);
+    free(job->line);
     free(job);
 }
 
-static ec_result append(eclat_job *job, const char *name, const char *value, ec_error *err)
+eclat_result eclat_job_add(eclat_job *job, const char *input, eclat_error *err)
 {
-    ec_lib_option *options = realloc(job->options, (job->option_count + 1) * sizeof *options);
-    if (!options) return ec_fail(err, "out of memory for option %s", name);
-    job->options = options;
-    const ec_lib_option added = {strdup(name), value ? strdup(value) : NULL};
-    if (!added.name || (value && !added.value)) {
-        free(added.name);
-        free(added.value);
-        return ec_fail(err, "out of memory for option %s", name);
-    }
-    options[job->option_count++] = added;
-    return EC_OK;
+    ec_error why = {0};
+    return ec_lib_end(ec_lib_add_text(&job->inputs, &job->input_count, input ? input : "", &why), &why, err);
 }
 
-eclat_job *ec_lib_job_copy(const eclat_job *job)
+static ec_result set(eclat_job *job, const char *name, const char *value, ec_error *err)
 {
-    eclat_job *copy = calloc(1, sizeof *copy);
-    bool is_whole = copy && (copy->scene = strdup(job->scene));
-    for (size_t i = 0; is_whole && i < job->option_count; i++)
-        is_whole = append(copy, job->options[i].name, job->options[i].value, NULL) == EC_OK;
-    if (is_whole) return copy;
-    eclat_job_free(copy);
-    return NULL;
-}
-
-static ec_result check(const char *name, const char *value, ec_error *err)
-{
-    const ec_option *row = name ? ec_lib_find_option(name) : NULL;
-    if (!row && name && ec_render_row(name))
-        return ec_usage(err, "option %s is the command line's; a program has functions for it, or needs none", name);
+    const ec_option *row = name ? ec_options_find(job->rows, job->row_count, name) : NULL;
     if (!row) return ec_usage(err, "there is no option %s; eclat_option_at lists them", name ? name : "(null)");
     if (row->metavar && !row->value_optional && !value) return ec_usage(err, "option %s needs a value", name);
     if (!row->metavar && value) return ec_usage(err, "option %s takes no value", name);
-    ec_render_request scratch;
-    ec_render_request_start(&scratch);
-    return row->set(&scratch, name, value, err);
+    EC_TRY(ec_given_add(&job->given, row->name, value, err));
+    if (!row->set) return EC_OK;
+    ec_result result = row->set(job->checked, row->name, job->given.list[job->given.count - 1].value, err);
+    if (result != EC_OK) ec_given_drop_last(&job->given);
+    return result;
 }
 
 eclat_result eclat_job_set(eclat_job *job, const char *option, const char *value, eclat_error *err)
 {
     ec_error why = {0};
-    ec_result result = check(option, value, &why);
-    if (result == EC_OK) result = append(job, option, value, &why);
-    return ec_lib_end(result, &why, err);
+    return ec_lib_end(set(job, option, value, &why), &why, err);
+}
+
+eclat_result eclat_job_typed(eclat_job *job, int argc, char *const *argv, eclat_error *err)
+{
+    ec_error why = {0};
+    char *program = argc > 0 ? strdup(argv[0]) : NULL, *line = program ? ec_command_line(argc, (char **)(uintptr_t)argv) : NULL;
+    free(job->program);
+    free(job->line);
+    job->program = program;
+    job->line = line;
+    return ec_lib_end(line || argc < 1 ? EC_OK : ec_fail(&why, "out of memory"), &why, err);
 }
 
 void eclat_job_listen(eclat_job *job, const eclat_listener *listener) { job->listener = listener ? *listener : (eclat_listener){0}; }
 
-void eclat_job_stop(eclat_job *job) { atomic_store(&job->is_stopped, 1); }
+void eclat_job_share(eclat_job *job, eclat_ranks *ranks) { job->ranks = (ec_ranks *)ranks; }
+
+int eclat_job_says_no(const eclat_job *job) { return job->says_no; }
+
+void eclat_job_stop(eclat_job *job)
+{
+    atomic_store(&job->is_stopped, 1);
+    const int wakes = atomic_load(&job->wakes);
+    if (wakes >= 0) eventfd_write(wakes, 1);
+}

@@ -7,22 +7,35 @@
 
 struct eclat_live {
     ec_live session;
-    eclat_job *options;   /* a copy, whose texts the session's request points to. Owned */
+    char *scene_path;         /* owned; the request points to it, and into the session's options */
+    eclat_listener listener;
     ec_lib_ear ear;
-    eclat_facts facts;    /* as the caller got them */
-    ec_live_scene *scene; /* theirs; a user of it */
+    eclat_facts facts;        /* as the caller got them */
+    ec_live_scene *scene;     /* theirs; a user of it */
 };
 
-static ec_result open_session(eclat_live *live, const char *against, ec_error *err)
+static ec_result read_job(eclat_live *live, const eclat_job *job, ec_error *err)
 {
     ec_live *session = &live->session;
-    const ec_given_options *given = &session->given;
-    EC_TRY(ec_lib_read_options(live->options, &session->request, &session->given, err));
-    for (int i = 0; i < given->count; i++)
-        if (ec_render_row(given->list[i].option)->not_in_window) return ec_render_refuse_live(NULL, given->list[i].option, NULL, err);
-    live->ear.listener = &live->options->listener;
-    session->listener = ec_lib_listener(&live->ear);
-    return ec_live_open(session, against, err);
+    bool is_given[EC_OPTIONS_MAX] = {false};
+    if (strcmp(job->command->told.name, "render")) return ec_usage(err, "a live session shows a job of the command render, not of %s", job->command->told.name);
+    if (job->input_count != 1) return ec_usage(err, "a live session needs a job with one scene");
+    for (int i = 0; i < job->given.count; i++)
+        if (ec_render_row(job->given.list[i].option)->not_in_window) return ec_render_refuse_live(NULL, job->given.list[i].option, NULL, err);
+    EC_TRY(ec_given_add_all(&session->given, &job->given, job->rows, job->row_count, 0, err));
+    live->scene_path = strdup(job->inputs[0]);
+    if (!live->scene_path) return ec_fail(err, "out of memory for a live session");
+    ec_render_request_start(&session->request);
+    EC_TRY(ec_given_apply(&session->given, job->rows, job->row_count, &session->request, is_given, err));
+    session->request.scene = live->scene_path;
+    return ec_render_request_settle(&session->request, job->rows, job->row_count, is_given, err);
+}
+
+static void free_live(eclat_live *live)
+{
+    ec_given_free(&live->session.given);
+    free(live->scene_path);
+    free(live);
 }
 
 eclat_result eclat_live_open(const eclat_job *job, const char *against, const eclat_live_listener *listener, eclat_live **live, eclat_error *err)
@@ -30,16 +43,16 @@ eclat_result eclat_live_open(const eclat_job *job, const char *against, const ec
     ec_error why = {0};
     eclat_live *made = calloc(1, sizeof *made);
     *live = NULL;
-    if (made) made->options = ec_lib_job_copy(job);
-    ec_result result = made && made->options ? EC_OK : ec_fail(&why, "out of memory for a live session");
-    if (result == EC_OK) made->options->listener = job->listener;
-    if (result == EC_OK && listener) made->session.hears = *listener;
-    if (result == EC_OK) result = open_session(made, against, &why);
+    if (!made) return ec_lib_end(ec_fail(&why, "out of memory for a live session"), &why, err);
+    made->listener = job->listener;
+    made->ear.listener = &made->listener;
+    made->ear.is_quiet = ec_given_has(&job->given, "quiet");
+    made->session.listener = ec_lib_listener(&made->ear);
+    if (listener) made->session.hears = *listener;
+    ec_result result = read_job(made, job, &why);
+    if (result == EC_OK) result = ec_live_open(&made->session, against, &why);
     if (result == EC_OK) *live = made;
-    else if (made) {
-        eclat_job_free(made->options);
-        free(made);
-    }
+    else free_live(made);
     return ec_lib_end(result, &why, err);
 }
 
@@ -48,8 +61,7 @@ void eclat_live_close(eclat_live *live)
     if (!live) return;
     ec_live_scene_release(&live->session, live->scene);
     ec_live_close(&live->session);
-    eclat_job_free(live->options);
-    free(live);
+    free_live(live);
 }
 
 /* The caller alone changes it. */

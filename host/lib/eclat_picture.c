@@ -5,27 +5,43 @@
 #include "lib/internal.h"
 #include "report/error_text.h"
 
-static const ec_picture *planes_of(const eclat_picture *p) { return p->planes.rgb ? &p->planes : &p->merged.picture; }
+static const ec_picture *planes_of(const eclat_picture *p) { return p->planes.rgb ? &p->planes : &p->call.merged.picture; }
+
+static ec_result take_render(eclat_picture *p, ec_error *err)
+{
+    const char *names[EC_OUTPUTS_MAX];
+    ec_render_job *job = &p->call.render;
+    const ec_film *film = &job->film;
+    EC_TRY(ec_picture_resolve(film, true, &p->planes, err));
+    p->error = job->stats.film = ec_film_estimate_error(film);
+    p->samples_per_pixel = (double)job->stats.samples / ((double)film->width * film->height);
+    p->replicates = ec_film_replicates(film);
+    ec_hash_rgb(p->planes.rgb, (uint64_t)p->planes.width * p->planes.height, job->image_sha256);
+    ec_render_report report = ec_render_job_report(job, names);
+    report.heavy_pixels = p->planes.heavy_count;
+    report.clamp = ec_film_clamp_error(film);
+    ec_render_report_attributes(&report, &p->attributes);
+    ec_scene_free(job->scene);
+    job->scene = NULL;
+    return job->in_memory ? ec_render_job_tell(job, &report, err) : EC_OK;
+}
+
+static void take_merged(eclat_picture *p)
+{
+    const ec_merged *m = &p->call.merged;
+    p->attributes.count = ec_merged_attributes(m, p->attributes.list);
+    p->error = m->error;
+    p->samples_per_pixel = (double)m->samples_per_pixel;
+    p->replicates = ec_film_replicates(&m->slices.all.film);
+}
 
 ec_result ec_lib_picture_finish(eclat_picture *p, ec_error *err)
 {
-    const char *names[EC_OUTPUTS_MAX];
-    if (!p->merged.picture.rgb) {
-        const ec_film *film = &p->job.film;
-        EC_TRY(ec_picture_resolve(film, true, &p->planes, err));
-        p->error = p->job.stats.film = ec_film_estimate_error(film);
-        p->samples_per_pixel = (double)p->job.stats.samples / ((double)film->width * film->height);
-        p->replicates = ec_film_replicates(film);
-        ec_hash_rgb(p->planes.rgb, (uint64_t)p->planes.width * p->planes.height, p->job.image_sha256);
-        ec_render_report report = ec_render_job_report(&p->job, names);
-        report.heavy_pixels = p->planes.heavy_count;
-        report.clamp = ec_film_clamp_error(film);
-        ec_render_report_attributes(&report, &p->attributes);
-        ec_scene_free(p->job.scene);
-        p->job.scene = NULL;
-    }
+    if (p->call.merged.picture.rgb) take_merged(p);
+    else EC_TRY(take_render(p, err));
     ec_picture_channels(planes_of(p), &p->channels);
     ec_error_why(&p->error, p->why, sizeof p->why);
+    p->call.listener = p->call.render.listener = NULL; /* it ends here */
     return EC_OK;
 }
 
@@ -33,12 +49,8 @@ void eclat_picture_free(eclat_picture *p)
 {
     if (!p) return;
     ec_picture_free(&p->planes);
-    ec_merged_free(&p->merged);
-    ec_render_job_free(&p->job);
-    eclat_job_free(p->options);
-    while (p->word_count) free(p->words[--p->word_count]);
-    free(p->words);
-    free(p->command);
+    ec_call_free(&p->call);
+    free(p->line);
     free(p);
 }
 
@@ -89,6 +101,6 @@ eclat_result eclat_picture_write(const eclat_picture *p, const char *path, eclat
     ec_error why = {0};
     ec_outputs outputs = {0};
     ec_result result = ec_outputs_add(&outputs, path ? path : "", &why);
-    if (result == EC_OK) result = p->write((eclat_picture *)(uintptr_t)p, &outputs, &why);
+    if (result == EC_OK) result = p->call.write((ec_call *)(uintptr_t)&p->call, &outputs, &why);
     return ec_lib_end(result, &why, err);
 }

@@ -2,37 +2,31 @@
 #ifndef EC_LIB_INTERNAL_H
 #define EC_LIB_INTERNAL_H
 
-#include <limits.h>
 #include <stdatomic.h>
 
+#include "commands/command.h"
 #include "eclat/eclat.h"
-#include "jobs/frame_job.h"
-#include "jobs/listener.h"
-#include "jobs/merge_job.h"
-#include "jobs/render_job.h"
-
-/* An option as it was set; both texts owned by the job. */
-typedef struct ec_lib_option {
-    char *name, *value; /* value NULL: none */
-} ec_lib_option;
 
 struct eclat_job {
-    char *scene;
-    ec_lib_option *options;
-    size_t option_count;
+    const ec_command *command;
+    ec_option rows[EC_OPTIONS_MAX]; /* of the command */
+    int row_count;
+    ec_given_options given;     /* owned, as all that follows */
+    char **inputs;
+    int input_count;
+    void *checked;              /* a request with these options, so that a wrong one is told when it is set */
+    char *program, *line;       /* as typed; NULL: it was not */
     eclat_listener listener;
+    ec_ranks *ranks;            /* not owned */
     atomic_int is_stopped;
+    atomic_int wakes;           /* a descriptor for commands that wait, readable once they are to stop; -1: none */
+    bool says_no;
 };
 
-/* A picture is rendered or merged. `write` puts it into files. */
+/* A picture is rendered or merged. */
 struct eclat_picture {
-    ec_render_job job;        /* rendered; its film is the picture */
-    ec_render_request request;
-    eclat_job *options;       /* a copy, whose texts the request points to. Owned */
-    char **words, *command;   /* the command that renders the same; owned, as its words are */
-    int word_count;
-    char folder[PATH_MAX];    /* in which the job began */
-    ec_merged merged;         /* or merged */
+    ec_call call;             /* that made it, with what it left */
+    char *line;               /* the command that makes the same; owned */
     ec_picture planes;        /* of what was rendered */
     ec_channel_list channels;
     ec_report_attributes attributes;
@@ -40,28 +34,34 @@ struct eclat_picture {
     double samples_per_pixel;
     uint32_t replicates;
     char why[2048];
-    ec_result (*write)(struct eclat_picture *picture, ec_outputs *outputs, ec_error *err);
 };
 
 /* Fills in a caller's error, which may be NULL. */
 eclat_result ec_lib_end(ec_result result, const ec_error *from, eclat_error *to);
 
-/* The rows of the render command that a caller may set: NULL for others. */
-const ec_option *ec_lib_find_option(const char *name);
+/* A text at the end of a list of texts. */
+ec_result ec_lib_add_text(char ***list, int *count, const char *text, ec_error *err);
 
-/* What the command line would read for the job's options; list: as they were given. */
-ec_result ec_lib_read_options(const eclat_job *job, ec_render_request *request, ec_given_options *list, ec_error *err);
-
-/* A listener that passes messages and progress on to a caller's; `listener` and the flag, which may be NULL, must last. */
+/* A listener that passes all on to a caller's; what it points to must last. */
 typedef struct ec_lib_ear {
     const eclat_listener *listener;
-    atomic_int *is_stopped;
+    atomic_int *is_stopped;   /* set once the listener wants so; NULL: nothing stops */
+    bool is_quiet;            /* warnings and failures alone are passed on */
+    bool says_once;           /* what was said: notes and warnings */
+    uint64_t said[64];        /* their hashes */
+    int said_count;
+    FILE *to;                 /* a report, and its text once it is flushed. Owned by who made the ear */
+    char *text;
+    size_t size;
+    const ec_render_options *options; /* of the render that is under way */
+    bool has_foretold;        /* what it will take */
 } ec_lib_ear;
 ec_listener ec_lib_listener(ec_lib_ear *ear);
 
-/* Takes planes, channels and error from what was rendered or merged. */
-ec_result ec_lib_picture_finish(eclat_picture *picture, ec_error *err);
+/* Runs the command "view". */
+ec_result ec_lib_view(eclat_job *job, const ec_call *call, ec_error *err);
 
-eclat_job *ec_lib_job_copy(const eclat_job *job); /* NULL: out of memory */
+/* Takes planes, channels, attributes and error from what was rendered or merged. */
+ec_result ec_lib_picture_finish(eclat_picture *picture, ec_error *err);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "pack/pack.h"
+#include "scene/material_fields.h"
 #include "scene/texture_range.h"
 
 static float max3(const float v[3])
@@ -74,94 +75,48 @@ __attribute__((format(printf, 3, 4))) static void call(scan *s, uint64_t feature
     ec_effects_call(&s->found, feature, "%s %s", s->name, text);
 }
 
-/* All that a kernel looks at beside the diffuse base. */
-#define EC_FEATURES_OVER_DIFFUSE                                                                                       \
-    (EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION)
-
 static bool has_texture(const scan *s, int slot) { return s->m->textures[slot].texture >= 0; }
-static bool calls_for(const scan *s, uint64_t features) { return s->found.bits & features; }
 
-static void scan_emission(scan *s)
-{
-    if (max3(s->m->emission) == 0.0f) return;
-    call(s, EC_FEATURE_EMISSION, "emits");
-    call(s, EC_FEATURE_AREA_LIGHTS, "emits");
-    if (has_texture(s, EC_SLOT_EMISSION)) call(s, EC_FEATURE_EMISSION_TEXTURE, "has an emissive texture");
-}
-
-static void scan_transmission(scan *s)
-{
-    const ec_material *m = s->m;
-    if (m->transmission == 0.0f) return;
-    call(s, EC_FEATURE_TRANSMISSION, "has transmission %g", (double)m->transmission);
-    if (has_texture(s, EC_SLOT_TRANSMISSION)) call(s, EC_FEATURE_TRANSMISSION_TEXTURE, "has a transmission texture");
-    if (ec_refracts(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
-    if (ec_pack_is_pane(s->scene, m)) call(s, EC_FEATURE_PANES, "lets light straight through a thin wall");
-    if (m->dispersion > 0.0f) call(s, EC_FEATURE_DISPERSION, "has dispersion %g", (double)m->dispersion);
-}
-
+/* The coat's own roughness. */
 static void scan_coat(scan *s)
 {
     const ec_material *m = s->m;
     float least, most;
-    if (m->coat == 0.0f) return;
-    call(s, EC_FEATURE_CLEARCOAT, "has clear coat %g", (double)m->coat);
-    if (has_texture(s, EC_SLOT_CLEARCOAT) || has_texture(s, EC_SLOT_CLEARCOAT_ROUGHNESS))
-        call(s, EC_FEATURE_CLEARCOAT_TEXTURE, "has a texture of its clear coat");
-    if (has_texture(s, EC_SLOT_CLEARCOAT_NORMAL))
-        call(s, EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE, "has a normal map of its clear coat");
     ec_texture_range(s->scene, &m->textures[EC_SLOT_CLEARCOAT_ROUGHNESS], 1, &least, &most);
-    if (is_smooth(m->coat_roughness * least))
+    if (m->coat > 0.0f && is_smooth(m->coat_roughness * least))
         call(s, EC_FEATURE_SMOOTH, "has a coat of roughness %g", (double)(m->coat_roughness * least));
-}
-
-static void scan_sheen(scan *s)
-{
-    if (max3(s->m->sheen) == 0.0f) return;
-    call(s, EC_FEATURE_SHEEN, "has sheen");
-    if (has_texture(s, EC_SLOT_SHEEN_COLOR) || has_texture(s, EC_SLOT_SHEEN_ROUGHNESS))
-        call(s, EC_FEATURE_SHEEN_TEXTURE, "has a texture of its sheen");
-}
-
-static void scan_film(scan *s)
-{
-    if (s->m->film == 0.0f) return;
-    call(s, EC_FEATURE_IRIDESCENCE, "has iridescence %g", (double)s->m->film);
-    if (has_texture(s, EC_SLOT_IRIDESCENCE) || has_texture(s, EC_SLOT_IRIDESCENCE_THICKNESS))
-        call(s, EC_FEATURE_IRIDESCENCE_TEXTURE, "has a texture of its film");
-}
-
-static void scan_diffuse_transmission(scan *s)
-{
-    const ec_material *m = s->m;
-    if (m->diffuse_transmission == 0.0f) return;
-    call(s, EC_FEATURE_DIFFUSE_TRANSMISSION, "has diffuse transmission %g", (double)m->diffuse_transmission);
-    if (has_texture(s, EC_SLOT_DIFFUSE_TRANSMISSION) || has_texture(s, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR))
-        call(s, EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, "has a texture of its diffuse transmission");
-    if (ec_bounds(m) && max3(m->absorption) > 0.0f) call(s, EC_FEATURE_ABSORPTION, "absorbs in its volume");
-}
-
-static void scan_anisotropy(scan *s)
-{
-    if (s->m->anisotropy == 0.0f) return;
-    call(s, EC_FEATURE_ANISOTROPY, "has anisotropy %g", (double)s->m->anisotropy);
-    if (has_texture(s, EC_SLOT_ANISOTROPY)) call(s, EC_FEATURE_ANISOTROPY_TEXTURE, "has an anisotropy texture");
 }
 
 static void scan_specular(scan *s)
 {
+    const uint64_t over_diffuse = ~(uint64_t)(EC_FEATURE_EMISSION | EC_FEATURE_SPECULAR | EC_FEATURE_ANISOTROPY);
     const ec_material *m = s->m;
     if (m->metallic > 0.0f) call(s, EC_FEATURE_SPECULAR, "has metallic %g", (double)m->metallic);
     else if (m->specular > 0.0f) call(s, EC_FEATURE_SPECULAR, "has specular reflection");
-    else if (calls_for(s, EC_FEATURES_OVER_DIFFUSE)) call(s, EC_FEATURE_SPECULAR, "has more than a diffuse base");
+    else if (ec_material_has(m, over_diffuse)) call(s, EC_FEATURE_SPECULAR, "has more than a diffuse base");
     else return;
-    if (may_be_smooth(s->scene, m, calls_for(s, EC_FEATURE_TRANSMISSION) && ec_refracts(m)))
-        call(s, EC_FEATURE_SMOOTH, "reflects or refracts in one direction, by its roughness or ior");
+    if (may_be_smooth(s->scene, m, ec_refracts(m))) call(s, EC_FEATURE_SMOOTH, "reflects or refracts in one direction, by its roughness or ior");
     if (has_texture(s, EC_SLOT_METALLIC_ROUGHNESS))
         call(s, EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE, "has a metallic-roughness texture");
     if (has_texture(s, EC_SLOT_SPECULAR) || has_texture(s, EC_SLOT_SPECULAR_COLOR))
         call(s, EC_FEATURE_SPECULAR_TEXTURE, "has a specular texture");
-    scan_anisotropy(s);
+    if (m->anisotropy == 0.0f) return;
+    call(s, EC_FEATURE_ANISOTROPY, "has anisotropy %g", (double)m->anisotropy);
+    if (has_texture(s, EC_SLOT_ANISOTROPY)) call(s, EC_FEATURE_ANISOTROPY_TEXTURE, "has an anisotropy texture");
+}
+
+/* What shared/material_fields.h says of it. */
+static void scan_rows(scan *s)
+{
+    for (int i = 0; i < ec_material_field_count; i++) {
+        const ec_material_field *f = &ec_material_fields[i];
+        float most = ec_material_most(s->m, f);
+        if (!f->has || most == 0.0f) continue;
+        if (f->floats == 1) call(s, f->effect, "%s %g", f->has, (double)most);
+        else call(s, f->effect, "%s", f->has);
+    }
+    for (int slot = 0; slot < EC_SLOT_COUNT; slot++)
+        if (has_texture(s, slot) && ec_material_slots[slot].has) call(s, ec_material_slots[slot].textured, "%s", ec_material_slots[slot].has);
 }
 
 static void scan_base_color(scan *s)
@@ -187,14 +142,11 @@ static void scan_material(scan *s)
         call(s, EC_FEATURE_UNLIT, "is unlit");
         return;
     }
-    scan_emission(s);
-    scan_transmission(s);
+    scan_rows(s);
+    if (ec_emits(m)) call(s, EC_FEATURE_AREA_LIGHTS, "emits");
+    if (ec_pack_is_pane(s->scene, m)) call(s, EC_FEATURE_PANES, "lets light straight through a thin wall");
     scan_coat(s);
-    scan_sheen(s);
-    scan_film(s);
-    scan_diffuse_transmission(s);
     scan_specular(s);
-    if (has_texture(s, EC_SLOT_NORMAL)) call(s, EC_FEATURE_NORMAL_TEXTURE, "has a normal map");
 }
 
 static void scan_images(scan *s)

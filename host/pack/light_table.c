@@ -7,6 +7,7 @@
 #include "base/luminance.h"
 #include "pack/coincident.h"
 #include "pack/distribution.h"
+#include "pack/lamp_parts.h"
 #include "pack/light_order.h"
 #include "pack/pack.h"
 #include "pack/texture_mean.h"
@@ -57,6 +58,19 @@ static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec
     l->prim = prim;
     l->pdf_a = (float)(1.0 / area); /* times pmf once that is known */
     return PI * area * ec_luminance(radiance) * (m->double_sided ? 2.0 : 1.0);
+}
+
+/* Those that lie on others are not cut: only one of them is sampled. */
+static ec_result cut_lamps(const ec_scene *scene, ec_pack *pack, const bool *emits, const uint32_t *first, light_list *list, ec_error *err)
+{
+    bool *may_cut = malloc((pack->prim_count + (size_t)1) * sizeof *may_cut);
+    if (!may_cut) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
+    for (uint32_t p = 0; p < pack->prim_count; p++) may_cut[p] = true;
+    for (uint32_t p = 0; p < pack->prim_count; p++)
+        if (emits[pack->prims[p].material] && first[p] != p) may_cut[first[p]] = false;
+    ec_result result = ec_lamp_parts_find(scene, pack, list->lights, list->power, list->count, may_cut, err);
+    free(may_cut);
+    return result;
 }
 
 /* Each of those that lie in one place once. whole: by material. */
@@ -191,6 +205,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
     if (result == EC_OK) result = ec_coincident_find(scene, pack, emits, &first, err);
     if (result == EC_OK) {
         add_triangles(scene, pack, emits, first, mean, &list);
+        result = cut_lamps(scene, pack, emits, first, &list, err);
         for (uint32_t i = 0; i < scene->light_count; i++)
             add_punctual(&scene->lights[i], scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius,
                          &list);
@@ -199,7 +214,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
             list.lights[list.count] = (ec_light_data){.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID};
             list.power[list.count++] = 4.0 * PI * PI * r * r * environment_luminance;
         }
-        result = finish_table(pack, &list, err);
+        if (result == EC_OK) result = finish_table(pack, &list, err);
         if (result == EC_OK) mark_moving(scene, pack, &list);
         for (uint32_t p = 0; p < pack->prim_count; p++)
             if (emits[pack->prims[p].material]) pack->prims[p].light_pdf_a = pack->prims[first[p]].light_pdf_a;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/material_fields.h"
+
 static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     pack->prim_count = scene->triangle_count;
@@ -47,9 +49,6 @@ static void pack_slot(const ec_scene *scene, const ec_texture_use *use, int is_s
     memcpy(slot->transform, use->transform, sizeof slot->transform);
 }
 
-#define SLOT_IS_SRGB(name, is_srgb) is_srgb,
-static const int slot_is_srgb[EC_SLOT_COUNT] = {EC_SLOTS(SLOT_IS_SRGB)};
-
 /* Reflectance of a dielectric in air, seen head-on; KHR_materials_ior: an index of 0 stands for an infinite one. */
 static float head_on_reflectance(float ior)
 {
@@ -70,6 +69,9 @@ static void pack_bodies(const ec_scene *scene, ec_pack *pack)
     }
 }
 
+#define COPY(field, floats, value, least, most, slot, channel, effect, has, path) memcpy(&d->field, &m->field, sizeof d->field);
+#define WORKED_OUT(...)
+#define OF_KERNELS(...)
 static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     pack->material_count = scene->material_count;
@@ -78,37 +80,15 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const ec_material *m = &scene->materials[i];
         ec_material_data *d = &pack->materials[i];
-        memcpy(d->base_color, m->base_color, sizeof d->base_color);
-        memcpy(d->emission, m->emission, sizeof d->emission);
-        memcpy(d->absorption, m->absorption, sizeof d->absorption);
+        EC_MATERIAL_FIELDS(COPY, WORKED_OUT, OF_KERNELS, OF_KERNELS)
         for (int k = 0; k < 3; k++) d->f0[k] = m->specular_color[k] * head_on_reflectance(m->ior);
         d->flags = (m->double_sided ? EC_MATERIAL_DOUBLE_SIDED : 0) | (ec_emits(m) && !m->unlit ? EC_MATERIAL_EMISSIVE : 0) |
                    (m->unlit ? EC_MATERIAL_UNLIT : 0) | (m->alpha_mode == EC_ALPHA_MASK ? EC_MATERIAL_MASK : 0) |
                    (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0) | (ec_refracts(m) ? EC_MATERIAL_REFRACTS : 0) |
                    (ec_bounds(m) ? EC_MATERIAL_BOUNDS : 0);
-        d->metallic = m->metallic;
-        d->roughness = m->roughness;
-        d->normal_scale = m->normal_scale;
-        d->alpha_cutoff = m->alpha_cutoff;
-        d->specular = m->specular;
-        d->transmission = m->transmission;
-        d->ior = m->ior;
-        d->dispersion = m->dispersion;
-        memcpy(d->sheen, m->sheen, sizeof d->sheen);
-        d->sheen_roughness = m->sheen_roughness;
-        d->anisotropy = m->anisotropy;
         d->anisotropy_cosine = cosf(m->anisotropy_rotation);
         d->anisotropy_sine = sinf(m->anisotropy_rotation);
-        memcpy(d->transmission_color, m->transmission_color, sizeof d->transmission_color);
-        d->diffuse_transmission = m->diffuse_transmission;
-        d->film = m->film;
-        d->film_ior = m->film_ior;
-        d->film_least = m->film_least;
-        d->film_most = m->film_most;
-        d->coat = m->coat;
-        d->coat_roughness = m->coat_roughness;
-        d->coat_normal_scale = m->coat_normal_scale;
-        for (int k = 0; k < EC_SLOT_COUNT; k++) pack_slot(scene, &m->textures[k], slot_is_srgb[k], &d->slots[k]);
+        for (int k = 0; k < EC_SLOT_COUNT; k++) pack_slot(scene, &m->textures[k], ec_material_slots[k].is_srgb, &d->slots[k]);
     }
     return EC_OK;
 }
@@ -145,6 +125,7 @@ void ec_pack_free(ec_pack *pack)
     free(pack->light_shares);
     free(pack->light_of_prim);
     free(pack->light_tree);
+    free(pack->lamp_nodes);
     if (!pack->environment_lent) free(pack->environment_texels);
     if (!pack->environment_lent) free(pack->environment_table);
     memset(pack, 0, sizeof *pack);

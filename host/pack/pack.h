@@ -39,6 +39,8 @@ typedef struct ec_pack {
     uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */
     uint32_t light_node_count;     /* 0: lights are chosen by power alone */
     ec_light_node *light_tree;
+    uint32_t lamp_node_count;      /* 0: no lamp is in parts */
+    ec_lamp_node *lamp_nodes;      /* of lamps whose texture varies (lamp_parts.h) */
     float lamp_share;              /* lamps' part of all lights' power */
     uint32_t light_tree_numbers;   /* of 2^31 numbers those by which light sampling goes to the tree */
     uint32_t environment_width, environment_height;

@@ -5,6 +5,7 @@
 
 #include "pack/texture_fold.h"
 #include "pack/pack.h"
+#include "scene/material_fields.h"
 #include "scene/texture_range.h"
 
 /* What the triangles of a material have. */
@@ -26,12 +27,8 @@ static void plain_transmission(const ec_scene *scene, ec_material *m)
     if (!(m->metallic * least < 1.0f)) m->diffuse_transmission = 0.0f;
     ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
     if (m->transmission * least == 1.0f) m->diffuse_transmission = 0.0f; /* nothing of the light is left for it */
-    if (m->transmission == 0.0f) drop(m, EC_SLOT_TRANSMISSION);
     if (!ec_refracts(m) || m->ior <= 1.0f) m->dispersion = 0.0f;
     if (!ec_refracts(m) && !ec_bounds(m)) memset(m->absorption, 0, sizeof m->absorption);
-    if (m->diffuse_transmission > 0.0f) return;
-    drop(m, EC_SLOT_DIFFUSE_TRANSMISSION);
-    drop(m, EC_SLOT_DIFFUSE_TRANSMISSION_COLOR);
 }
 
 /* A film of no thickness, or of air, is none; one of the same thickness everywhere needs no texture. */
@@ -43,18 +40,6 @@ static void plain_film(const ec_scene *scene, ec_material *m)
     if (m->film_ior == 1.0f || !thick) m->film = 0.0f;
     if (low == high) m->film_most = low * m->film_most + (1.0f - low) * m->film_least;
     if (low == high || m->film_least == m->film_most) drop(m, EC_SLOT_IRIDESCENCE_THICKNESS);
-    if (m->film > 0.0f) return;
-    drop(m, EC_SLOT_IRIDESCENCE);
-    drop(m, EC_SLOT_IRIDESCENCE_THICKNESS);
-}
-
-static void plain_coat(ec_material *m)
-{
-    if (m->coat > 0.0f && m->coat_normal_scale == 0.0f) drop(m, EC_SLOT_CLEARCOAT_NORMAL);
-    if (m->coat > 0.0f) return;
-    drop(m, EC_SLOT_CLEARCOAT);
-    drop(m, EC_SLOT_CLEARCOAT_ROUGHNESS);
-    drop(m, EC_SLOT_CLEARCOAT_NORMAL);
 }
 
 /* At roughness 1 a lobe is as wide as it gets in all directions. */
@@ -63,9 +48,7 @@ static void plain_anisotropy(const ec_scene *scene, ec_material *m)
     float least, most, unused;
     ec_texture_range(scene, &m->textures[EC_SLOT_ANISOTROPY], 2, &unused, &most);
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &unused);
-    if (m->anisotropy * most > 0.0f && m->roughness * least < 1.0f) return;
-    m->anisotropy = 0.0f;
-    drop(m, EC_SLOT_ANISOTROPY);
+    if (!(m->anisotropy * most > 0.0f && m->roughness * least < 1.0f)) m->anisotropy = 0.0f;
 }
 
 /* An effect on what shows its base colour alone is none. */
@@ -73,10 +56,7 @@ static void clear_lobes(ec_material *m)
 {
     for (int k = 0; k < EC_SLOT_COUNT; k++)
         if (k != EC_SLOT_BASE_COLOR) drop(m, k);
-    memset(m->emission, 0, sizeof m->emission);
-    memset(m->sheen, 0, sizeof m->sheen);
-    memset(m->absorption, 0, sizeof m->absorption);
-    m->metallic = m->specular = m->transmission = m->coat = m->anisotropy = m->film = m->diffuse_transmission = m->dispersion = 0.0f;
+    ec_material_clear(m, EC_FEATURE_ALL);
 }
 
 /* Nor is one on what no ray sees. */
@@ -129,12 +109,13 @@ static void plain_material(const ec_scene *scene, ec_material *m, const shown *s
         ec_texture_fold(scene, m, EC_SLOT_BASE_COLOR);
     }
     plain_transmission(scene, m);
-    plain_coat(m);
     plain_film(scene, m);
-    if (is_zero(m->sheen)) drop(m, EC_SLOT_SHEEN_ROUGHNESS);
+    plain_anisotropy(scene, m);
     if (m->specular == 0.0f) drop(m, EC_SLOT_SPECULAR_COLOR);
     if (m->normal_scale == 0.0f) drop(m, EC_SLOT_NORMAL);
-    plain_anisotropy(scene, m);
+    if (m->coat_normal_scale == 0.0f) drop(m, EC_SLOT_CLEARCOAT_NORMAL);
+    for (int slot = 0; slot < EC_SLOT_COUNT; slot++)
+        if (ec_material_slots[slot].effect && !ec_material_has(m, ec_material_slots[slot].effect)) drop(m, slot);
 }
 
 static void look_at_triangles(const ec_scene *scene, shown *list)

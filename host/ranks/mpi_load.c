@@ -1,7 +1,8 @@
 #include "base/module.h"
 #include "ranks/mpi_module.h"
 
-static const ec_ranks_module *module_of(const ec_ranks *ranks) { return ((const ec_ranks_head *)ranks)->module; }
+static const ec_ranks_head *head_of(const ec_ranks *ranks) { return (const ec_ranks_head *)ranks; }
+static const ec_ranks_module *module_of(const ec_ranks *ranks) { return head_of(ranks)->module; }
 
 ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err)
 {
@@ -15,8 +16,8 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err)
     return result;
 }
 
-int ec_ranks_number(const ec_ranks *ranks) { return module_of(ranks)->number(ranks); }
-int ec_ranks_count(const ec_ranks *ranks) { return module_of(ranks)->count(ranks); }
+int ec_ranks_number(const ec_ranks *ranks) { return head_of(ranks)->number; }
+int ec_ranks_count(const ec_ranks *ranks) { return head_of(ranks)->count; }
 
 ec_peers ec_ranks_peers(ec_ranks *ranks, const char *device, const char *own, bool own_round)
 {

@@ -92,16 +92,14 @@ static uint32_t next_count(const ec_plan *p, uint32_t ranks)
 
 void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
 {
-    char scene[32], sums[32], block[32];
-    ec_format_bytes(p->scene_bytes, scene, sizeof scene);
-    ec_format_bytes(BATCH_BYTES * p->pixels, sums, sizeof sums);
-    ec_format_bytes(ec_sums_bytes(p->replicates) * p->pixels, block, sizeof block);
     fprintf(to, "job         %.0f batches of %.3g samples a pixel%s, %llu pixels\n", p->batches, p->samples,
             p->batches_foretold ? " (foretold)" : "", (unsigned long long)p->pixels);
-    fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, a block %.3g s, on %s\n", p->load, p->start, p->batch, p->add,
+    fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, a block %.3g s, on %s\n", p->load, p->start,
+            p->batch, p->add,
             p->add_block, device);
-    fprintf(to, "sent        scene: %s to each rank, down a tree of %d to one; sums, to rank 0: %s a batch, or %s a block of %u or %u\n", scene, EC_TREE_FANOUT, sums,
-            block, EC_FILM_FIRST, EC_FILM_FIRST * EC_FILM_RADIX);
+    fprintf(to, "sent        scene: %s to each rank, down a tree of %d to one; sums, to rank 0: %s a batch, or %s a block of %u or %u\n",
+            ec_bytes(p->scene_bytes).text, EC_TREE_FANOUT, ec_bytes(BATCH_BYTES * p->pixels).text,
+            ec_bytes(ec_sums_bytes(p->replicates) * p->pixels).text, EC_FILM_FIRST, EC_FILM_FIRST * EC_FILM_RADIX);
     fprintf(
         to,
         "assumed     %g Gbit/s, %g us a message (--plan RANKS,GBIT,US); all ranks as fast as this one, started at once;\n"
@@ -114,9 +112,8 @@ void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
     const double alone = ec_plan_for(p, 1).seconds;
     for (uint32_t ranks = 1; ranks; ranks = next_count(p, ranks)) {
         const ec_plan_row row = ec_plan_for(p, ranks);
-        ec_format_bytes((uint64_t)row.received, sums, sizeof sums);
         fprintf(to, "%8u %10.4g %9.4g %9.0f %% %10s   %s\n", ranks, row.seconds, alone / row.seconds,
-                100 * row.efficiency, sums, row.held_by);
+                100 * row.efficiency, ec_bytes((uint64_t)row.received).text, row.held_by);
     }
 }
 

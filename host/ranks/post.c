@@ -8,19 +8,7 @@
 #define ASKED_SECONDS 0.05            /* between two questions whether to wait on */
 #define FINALIZE_SECONDS 10.0             /* that ranks may take to end after others are lost */
 
-int ec_post_rank(const ec_post *post) { return post->rank; }
-int ec_post_size(const ec_post *post) { return post->size; }
-int ec_post_local_rank(const ec_post *post) { return post->local_rank; }
-int ec_post_local_size(const ec_post *post) { return post->local_size; }
-
-int ec_post_parent(const ec_post *p) { return p->rank ? (p->rank - 1) / p->fanout : -1; }
-int ec_post_child(const ec_post *p, int i) { return p->rank * p->fanout + 1 + i; }
-
-int ec_post_children(const ec_post *p)
-{
-    const int64_t behind = (int64_t)p->size - 1 - (int64_t)p->rank * p->fanout;
-    return behind < 0 ? 0 : behind < p->fanout ? (int)behind : p->fanout;
-}
+const ec_rank_place *ec_post_place(const ec_post *post) { return &post->place; }
 
 ec_result ec_post_open(ec_post **post, ec_error *err)
 {
@@ -52,7 +40,7 @@ void ec_post_close(ec_post *p, bool is_any_lost)
     pthread_mutex_unlock(&p->lock);
     if (!closed) return; /* its memory is the thread's until the process ends */
     pthread_join(p->thread, NULL);
-    for (int r = 0; p->peers && r < p->size; r++)
+    for (int r = 0; p->peers && r < p->place.size; r++)
         for (incoming *next, *in = p->peers[r].first; in; in = next) {
             next = in->next;
             free(in->letter.body);
@@ -154,19 +142,20 @@ uint64_t ec_post_received(ec_post *p)
 
 ec_result ec_post_spread(ec_post *p, void *bytes, uint64_t count, uint32_t box, ec_error *err)
 {
+    const ec_rank_place *place = &p->place;
     for (uint64_t at = 0; at < count; at += EC_SPREAD_BYTES) {
         ec_letter part = {.box = box, .bytes = count - at < EC_SPREAD_BYTES ? count - at : EC_SPREAD_BYTES, .body = (char *)bytes + at};
-        if (p->rank > 0) {
+        if (place->parent >= 0) {
             ec_letter come;
-            EC_TRY(ec_post_receive(p, ec_post_parent(p), box, NULL, NULL, &come, err));
+            EC_TRY(ec_post_receive(p, place->parent, box, NULL, NULL, &come, err));
             const bool fits = come.bytes == part.bytes;
             if (fits) memcpy(part.body, come.body, come.bytes);
             free(come.body);
             if (!fits)
-                return ec_fail(err, "rank %d sent %llu bytes in place of %llu", ec_post_parent(p),
+                return ec_fail(err, "rank %d sent %llu bytes in place of %llu", place->parent,
                                (unsigned long long)come.bytes, (unsigned long long)part.bytes);
         }
-        for (int i = 0; i < ec_post_children(p); i++) (void)ec_post_send(p, ec_post_child(p, i), &part, NULL); /* who is lost is found so later */
+        for (int i = 0; i < place->children; i++) (void)ec_post_send(p, place->first_child + i, &part, NULL); /* who is lost is found so later */
     }
     return EC_OK;
 }

@@ -27,19 +27,19 @@ ec_result ec_post_open(ec_post **post, ec_error *err);
 /* Ends MPI, together with the other ranks; gives up on that after a while where one was lost. NULL is fine. */
 void ec_post_close(ec_post *post, bool is_any_lost);
 
-int ec_post_rank(const ec_post *post);
-int ec_post_size(const ec_post *post);
-int ec_post_local_rank(const ec_post *post); /* among those on this host */
-int ec_post_local_size(const ec_post *post);
-
 /* Ranks are a tree with rank 0 at its root, so that nobody has more than EC_TREE_FANOUT + 1 others to talk to, however many there are: a rank
  * exchanges letters with its parent and its children alone. ECLAT_RANK_FANOUT sets another number, the same for all: for tests. */
 #define EC_TREE_FANOUT 16
 #define EC_SPREAD_BYTES (4u << 20) /* of one part of what goes to all: while a rank hands it on, the next one comes */
 #define EC_LOST_SECONDS 60.0 /* without a sign of life of a rank until it is lost; ECLAT_RANK_LOST sets others, the same for all: for tests */
-int ec_post_parent(const ec_post *post);   /* -1: it is the root */
-int ec_post_child(const ec_post *post, int i);
-int ec_post_children(const ec_post *post); /* how many */
+
+typedef struct ec_rank_place {
+    int rank, size;
+    int local_rank, local_size;    /* among those on this host */
+    int parent;                    /* -1: it is the root */
+    int first_child, children;     /* the children are numbered in a row */
+} ec_rank_place;
+const ec_rank_place *ec_post_place(const ec_post *post);
 
 /* Returns when the letter and its body have been taken by MPI; they stay the caller's. Fails where the rank is lost. */
 ec_result ec_post_send(ec_post *post, int to, const ec_letter *letter, ec_error *err);

@@ -48,7 +48,7 @@ struct ec_post {
     pthread_mutex_t lock;              /* of all that follows */
     pthread_cond_t call, news;         /* to the thread; from it */
     MPI_Comm comm;
-    int rank, size, local_rank, local_size, fanout;
+    ec_rank_place place;
     peer *peers;                       /* by rank */
     outgoing *to_send;
     uint64_t received;                 /* bytes */

@@ -21,21 +21,16 @@ static int chunk_bytes(uint64_t bytes, uint64_t i) { return bytes - i * CHUNK < 
 
 static bool is_peer(const ec_post *p, int rank)
 {
-    return rank == ec_post_parent(p) || (rank > 0 && (rank - 1) / p->fanout == p->rank);
+    const ec_rank_place *place = &p->place;
+    return rank == place->parent || (rank >= place->first_child && rank < place->first_child + place->children);
 }
 
-static int fanout(void)
+/* What the environment says, if it is above 0. */
+static double setting(const char *name, double otherwise)
 {
-    const char *given = getenv("ECLAT_RANK_FANOUT");
-    const int n = given ? atoi(given) : EC_TREE_FANOUT;
-    return n > 0 ? n : EC_TREE_FANOUT;
-}
-
-static double lost_after(void)
-{
-    const char *given = getenv("ECLAT_RANK_LOST");
-    const double seconds = given ? atof(given) : EC_LOST_SECONDS;
-    return seconds > 0 ? seconds : EC_LOST_SECONDS;
+    const char *given = getenv(name);
+    const double value = given ? atof(given) : 0;
+    return value > 0 ? value : otherwise;
 }
 
 /* With the lock. */
@@ -158,7 +153,7 @@ static bool has_ended(const peer *from) { return from->process && kill(from->pro
 static bool receive_letters(ec_post *p)
 {
     bool any = false;
-    for (int r = 0; r < p->size; r++) {
+    for (int r = 0; r < p->place.size; r++) {
         if (!is_peer(p, r) || p->peers[r].lost) continue;
         bool moved = false;
         const bool is_over = has_ended(&p->peers[r]); /* before the look, which then finds what it said last */
@@ -172,7 +167,7 @@ static void say_alive(ec_post *p)
 {
     if (ec_now() - p->said_alive < fmin(ALIVE_SECONDS, p->lost_after / ALIVE_SIGNS)) return;
     p->said_alive = ec_now();
-    for (int r = 0; r < p->size; r++) {
+    for (int r = 0; r < p->place.size; r++) {
         if (!is_peer(p, r) || p->peers[r].lost) continue;
         outgoing *o = calloc(1, sizeof *o);
         if (!o) return;
@@ -186,10 +181,10 @@ static void find_processes(ec_post *p, MPI_Comm local)
 {
     struct stat space = {0};
     (void)stat("/proc/self/ns/pid", &space);
-    const uint64_t own[3] = {(uint64_t)p->rank, (uint64_t)getpid(), space.st_ino};
-    uint64_t(*all)[3] = malloc((size_t)p->local_size * sizeof own);
+    const uint64_t own[3] = {(uint64_t)p->place.rank, (uint64_t)getpid(), space.st_ino};
+    uint64_t(*all)[3] = malloc((size_t)p->place.local_size * sizeof own);
     if (!all || MPI_Allgather(own, sizeof own, MPI_BYTE, all, sizeof own, MPI_BYTE, local) != MPI_SUCCESS) p->open = false;
-    for (int i = 0; p->open && i < p->local_size; i++)
+    for (int i = 0; p->open && i < p->place.local_size; i++)
         if (space.st_ino && all[i][2] == own[2]) p->peers[all[i][0]].process = (pid_t)all[i][1];
     free(all);
 }
@@ -197,6 +192,7 @@ static void find_processes(ec_post *p, MPI_Comm local)
 static void start(ec_post *p)
 {
     int provided = MPI_THREAD_SINGLE;
+    ec_rank_place *place = &p->place;
     MPI_Comm local;
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS || provided < MPI_THREAD_FUNNELED) {
         ec_fail(&p->error, "this MPI cannot be used by a program with threads (MPI_THREAD_FUNNELED); use another one");
@@ -204,19 +200,22 @@ static void start(ec_post *p)
     }
     MPI_Comm_dup(MPI_COMM_WORLD, &p->comm);
     MPI_Comm_set_errhandler(p->comm, MPI_ERRORS_RETURN);
-    MPI_Comm_rank(p->comm, &p->rank);
-    MPI_Comm_size(p->comm, &p->size);
-    p->fanout = fanout();
-    p->lost_after = lost_after();
+    MPI_Comm_rank(p->comm, &place->rank);
+    MPI_Comm_size(p->comm, &place->size);
+    p->lost_after = setting("ECLAT_RANK_LOST", EC_LOST_SECONDS);
+    const int64_t fanout = (int64_t)fmax(setting("ECLAT_RANK_FANOUT", EC_TREE_FANOUT), 1), first = place->rank * fanout + 1, left = place->size - first;
+    place->parent = place->rank ? (int)((place->rank - 1) / fanout) : -1;
+    place->first_child = (int)(left > 0 ? first : place->size);
+    place->children = (int)(left < 0 ? 0 : left < fanout ? left : fanout);
     MPI_Comm_split_type(p->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &local);
-    MPI_Comm_rank(local, &p->local_rank);
-    MPI_Comm_size(local, &p->local_size);
-    p->peers = calloc((size_t)p->size, sizeof *p->peers);
+    MPI_Comm_rank(local, &place->local_rank);
+    MPI_Comm_size(local, &place->local_size);
+    p->peers = calloc((size_t)place->size, sizeof *p->peers);
     p->open = p->peers != NULL;
     if (p->open) find_processes(p, local);
     MPI_Comm_free(&local);
     if (!p->open) ec_fail(&p->error, "out of memory");
-    for (int r = 0; p->open && r < p->size; r++) p->peers[r].heard = ec_now(), pthread_cond_init(&p->peers[r].news, NULL);
+    for (int r = 0; p->open && r < place->size; r++) p->peers[r].heard = ec_now(), pthread_cond_init(&p->peers[r].news, NULL);
 }
 
 void *ec_post_run(void *user)

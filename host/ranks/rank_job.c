@@ -1,4 +1,3 @@
-#include "ranks/rank_job.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,17 +5,13 @@
 #include <unistd.h>
 
 #include "cl/workarounds.h"
-#include "ranks/remote.h"
+#include "ranks/ranks_internal.h"
 
 /* Plain values: the ranks run one program on machines of one kind. Then follow the buffers, in order. */
 typedef struct sheet {
     ec_cargo_head head;
     uint64_t seed;
-    struct {
-        uint32_t arg, accel;
-        char label[sizeof((ec_cargo_buffer *)0)->label];
-        uint64_t bytes, slack;
-    } buffers[EC_CARGO_BUFFERS];
+    ec_cargo_buffer buffers[EC_CARGO_BUFFERS]; /* but for their addresses */
 } sheet;
 
 static void mix(uint64_t *hash, const char *text) /* FNV-1a */
@@ -39,14 +34,7 @@ static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, e
     if (!s) return ec_fail(err, "out of memory");
     s->head = cargo->head;
     s->seed = seed;
-    for (uint32_t i = 0; i < cargo->head.buffer_count; i++) {
-        const ec_cargo_buffer *b = &cargo->buffers[i];
-        s->buffers[i].arg = b->arg;
-        s->buffers[i].accel = b->accel;
-        memcpy(s->buffers[i].label, b->label, sizeof b->label);
-        s->buffers[i].bytes = b->bytes;
-        s->buffers[i].slack = b->slack;
-    }
+    memcpy(s->buffers, cargo->buffers, sizeof s->buffers);
     ec_result result = ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err);
     for (uint32_t i = 0; result == EC_OK && i < cargo->head.buffer_count; i++)
         result = ec_post_spread(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, EC_BOX_SCENE, err); /* from here: only read */
@@ -78,7 +66,7 @@ static void hear(ec_ranks *r, uint32_t child, readiness *all)
     ec_letter letter;
     ec_error why;
     ec_remote *remote = &r->remotes[child];
-    const int rank = ec_post_child(r->post, (int)child);
+    const int rank = r->place->first_child + (int)child;
     *remote = (ec_remote){.ranks = r, .rank = rank};
     if (ec_post_receive(r->post, rank, EC_BOX_WORD, NULL, NULL, &letter, &why) != EC_OK) {
         char line[sizeof why.text + 64];
@@ -100,7 +88,7 @@ static void hear(ec_ranks *r, uint32_t child, readiness *all)
 /* The word to the children, and what they answer. Who is lost has no answer. */
 static void ask_below(ec_ranks *r, const ec_letter *word, readiness *all)
 {
-    for (uint32_t i = 0; i < r->remote_count; i++) (void)ec_post_send(r->post, ec_post_child(r->post, (int)i), word, NULL);
+    for (uint32_t i = 0; i < r->remote_count; i++) (void)ec_post_send(r->post, r->place->first_child + (int)i, word, NULL);
     for (uint32_t i = 0; i < r->remote_count; i++) hear(r, i, all);
 }
 
@@ -130,14 +118,12 @@ static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_
     ec_result result = s ? ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err) : ec_fail(err, "out of memory");
     if (result == EC_OK) cargo->head = s->head, *seed = s->seed, cargo->head.buffer_count = 0;
     for (uint32_t i = 0; result == EC_OK && i < s->head.buffer_count; i++) {
-        void *data = malloc(s->buffers[i].bytes + 1);
-        if (!data)
-            result = ec_fail(err, "out of memory for %llu bytes of the scene's %s",
-                             (unsigned long long)s->buffers[i].bytes, s->buffers[i].label);
-        if (data) ec_cargo_add(cargo, s->buffers[i].arg, s->buffers[i].label, s->buffers[i].bytes, s->buffers[i].slack, data, data);
-        if (data)
-            cargo->buffers[i].accel = s->buffers[i].accel,
-            result = ec_post_spread(r->post, data, s->buffers[i].bytes, EC_BOX_SCENE, err);
+        ec_cargo_buffer *b = &cargo->buffers[i];
+        *b = s->buffers[i];
+        b->data = b->owned = malloc(b->bytes + 1);
+        cargo->head.buffer_count += b->owned != NULL;
+        result = b->owned ? ec_post_spread(r->post, b->owned, b->bytes, EC_BOX_SCENE, err)
+                          : ec_fail(err, "out of memory for %llu bytes of the scene's %s", (unsigned long long)b->bytes, b->label);
     }
     free(s);
     return result;
@@ -151,8 +137,8 @@ static void describe(const ec_ranks *r, uint32_t kind, const char *text, readine
     own->kind = kind;
     snprintf(own->text, sizeof own->text, "%s%s%.600s", host, *text ? ": " : "", text);
     if (kind == EC_READY_WITHOUT_DEVICE)
-        snprintf(line, sizeof line, "rank %d on %.900s; the others go on without it", r->rank, own->text);
-    if (kind == EC_READY_OTHER_PROGRAM) snprintf(line, sizeof line, "rank %d on %.900s " OTHER_PROGRAM, r->rank, own->text);
+        snprintf(line, sizeof line, "rank %d on %.900s; the others go on without it", r->place->rank, own->text);
+    if (kind == EC_READY_OTHER_PROGRAM) snprintf(line, sizeof line, "rank %d on %.900s " OTHER_PROGRAM, r->place->rank, own->text);
     if (kind != EC_READY) add_line(own, line);
 }
 
@@ -165,7 +151,7 @@ static void look_at_rounding(const ec_ranks *r, const ec_letter *word, const cha
         ec_device_drivers(&devices[i], 1, driver, sizeof driver);
         if (strstr(drivers, driver) || (word->numbers[EC_JOB_ROUNDS] && ec_device_rounds(&devices[i]))) continue;
         snprintf(line, sizeof line, "rank %d has %s and rank 0 %.300s: where one of these does not round division and square root correctly, the "
-                                    "last bits are not those of one device", r->rank, driver, drivers);
+                                    "last bits are not those of one device", r->place->rank, driver, drivers);
         add_line(own, line);
         return;
     }
@@ -197,7 +183,7 @@ ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, ui
     ask_below(r, word, &all);
     const ec_letter letter = {.kind = all.kind, .box = EC_BOX_WORD, .bytes = strlen(all.text) + 1, .body = all.text,
                               .numbers = {[EC_READY_RANKS] = all.ranks}};
-    EC_TRY(ec_post_send(r->post, ec_post_parent(r->post), &letter, err));
+    EC_TRY(ec_post_send(r->post, r->place->parent, &letter, err));
     uint64_t go = 0;
     EC_TRY(ec_post_spread(r->post, &go, sizeof go, EC_BOX_SCENE, err));
     if (go) return receive_sheet(r, cargo, seed, err);

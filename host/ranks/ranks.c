@@ -3,8 +3,8 @@
 
 #include <mpi.h>
 
-#include "ranks/rank_job.h"
-#include "ranks/remote.h"
+#include "base/module.h"
+#include "ranks/ranks_internal.h"
 
 /* Each would be rank 0 of one. */
 static ec_result fail_of_launcher(int size, ec_error *err)
@@ -17,33 +17,20 @@ static ec_result fail_of_launcher(int size, ec_error *err)
                         "one, or build eclat with the launcher's (cmake -DMPI_C_COMPILER=MPICC)", ec_ranks_launched(), size, library);
 }
 
-ec_result ec_mpi_join(ec_ranks **ranks, ec_error *err)
+static ec_result join(ec_ranks **ranks, ec_error *err)
 {
     ec_ranks *r = *ranks = calloc(1, sizeof *r);
     if (!r) return ec_fail(err, "out of memory");
     EC_TRY(ec_post_open(&r->post, err));
-    r->rank = ec_post_rank(r->post);
-    r->size = ec_post_size(r->post);
+    r->place = ec_post_place(r->post);
+    r->head.number = r->place->rank;
+    r->head.count = r->place->size;
     r->last_box = EC_BOX_RESULTS;
-    r->remote_count = (uint32_t)ec_post_children(r->post);
-    if (r->size != ec_ranks_launched()) return fail_of_launcher(r->size, err);
+    r->remote_count = (uint32_t)r->place->children;
+    if (r->place->size != ec_ranks_launched()) return fail_of_launcher(r->place->size, err);
     r->remotes = calloc(r->remote_count + 1, sizeof *r->remotes);
     pthread_mutex_init(&r->lock, NULL);
     return r->remotes ? EC_OK : ec_fail(err, "out of memory for %u ranks", r->remote_count);
-}
-
-int ec_mpi_number(const ec_ranks *ranks) { return ranks->rank; }
-int ec_mpi_count(const ec_ranks *ranks) { return ranks->size; }
-
-void ec_mpi_share_devices(const ec_ranks *r, ec_device_info *devices, uint32_t *indices, uint32_t *count)
-{
-    const uint32_t of = (uint32_t)ec_post_local_size(r->post), first = (uint32_t)ec_post_local_rank(r->post) % *count;
-    uint32_t kept = 0;
-    for (uint32_t i = first; i < *count; i += of) {
-        devices[kept] = devices[i];
-        indices[kept++] = indices[i];
-    }
-    *count = kept;
 }
 
 static ec_result send_job(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err)
@@ -54,14 +41,7 @@ static ec_result send_job(void *user, const ec_cargo *cargo, uint64_t seed, cons
 
 static uint64_t received(void *user) { return ec_post_received(((const ec_ranks *)user)->post); }
 
-bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit)
-{
-    ec_remote *m = &((ec_ranks *)user)->remotes[i];
-    *recruit = (ec_team_recruit){.name = m->name, .open = ec_remote_open, .user = m, .processes = m->ready};
-    return m->is_ready;
-}
-
-ec_peers ec_mpi_peers(ec_ranks *r, const char *device, const char *own, bool own_round)
+static ec_peers peers(ec_ranks *r, const char *device, const char *own, bool own_round)
 {
     r->device = device;
     r->own = own;
@@ -88,17 +68,20 @@ static bool say_end(ec_ranks *r, int to, uint32_t kind, bool lost)
 
 /* What a rank sent last may still be on its way, and MPI does not end before it is taken: so they say farewell, behind all else. And it does not
  * end at all where one is lost, of whom only some know: so the farewells say that, and the root tells all. */
-void ec_mpi_leave(ec_ranks *r)
+static void leave(ec_ranks *r)
 {
     if (!r) return;
-    const int children = (int)r->remote_count, parent = r->rank > 0 ? ec_post_parent(r->post) : -1;
+    const int first = r->place ? r->place->first_child : 0, end = first + (int)r->remote_count, parent = r->place ? r->place->parent : -1;
     bool lost = false;
-    for (int i = 0; i < children; i++) lost |= say_end(r, ec_post_child(r->post, i), EC_WORD_HOME, false);
-    for (int i = 0; i < children; i++) lost |= hear_end(r, ec_post_child(r->post, i), EC_WORD_HOME);
+    for (int child = first; child < end; child++) lost |= say_end(r, child, EC_WORD_HOME, false);
+    for (int child = first; child < end; child++) lost |= hear_end(r, child, EC_WORD_HOME);
     if (parent >= 0) lost |= say_end(r, parent, EC_WORD_HOME, lost) || hear_end(r, parent, EC_WORD_OVER);
-    for (int i = 0; i < children; i++) lost |= say_end(r, ec_post_child(r->post, i), EC_WORD_OVER, lost);
+    for (int child = first; child < end; child++) lost |= say_end(r, child, EC_WORD_OVER, lost);
     ec_post_close(r->post, lost);
     free(r->remotes);
     pthread_mutex_destroy(&r->lock);
     free(r);
 }
+
+EC_MODULE_EXPORT extern const ec_ranks_module EC_MODULE_SYMBOL;
+const ec_ranks_module EC_MODULE_SYMBOL = {join, peers, ec_mpi_share_devices, ec_mpi_note_binding, leave, ec_mpi_serve};

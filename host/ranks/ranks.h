@@ -2,7 +2,7 @@
  * sends what a device is given of it to all others; they know no files. Pieces of batches go down a tree of ranks (post.h) as ranks get free: a
  * rank is a team of its own devices and its children, and to its parent one source. What comes up are sums over the samples of a batch, or of a
  * block of batches where they come fast: the picture has the same bits as that of one process.
- * Those that call MPI are a module (mpi_module.c), loaded by processes that a launcher started. */
+ * Those that call MPI are a module (mpi_module.h), loaded by processes that a launcher started. */
 #ifndef EC_RANKS_RANKS_H
 #define EC_RANKS_RANKS_H
 
@@ -11,7 +11,7 @@
 
 #include "render/sources.h"
 
-/* launch.c: as one of how many was this process started, by an MPI launcher? And as the first of them? Tells by its environment, without MPI. */
+/* launcher.c: as one of how many was this process started, by an MPI launcher? And as the first of them? Tells by its environment, without MPI. */
 int ec_ranks_launched(void);
 bool ec_ranks_launched_first(void);
 /* Counts processes that srun started without MPI, so that each does all of the work: how many; 1 for all but the first of them. */

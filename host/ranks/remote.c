@@ -1,4 +1,4 @@
-#include "ranks/remote.h"
+#include "ranks/ranks_internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -94,7 +94,7 @@ static void close_remote(ec_batch_source *source)
     end((ec_remote *)source);
 }
 
-ec_result ec_remote_open(void *user, ec_batch_source **source, ec_error *err)
+static ec_result open_remote(void *user, ec_batch_source **source, ec_error *err)
 {
     ec_remote *m = user;
     (void)err;
@@ -102,4 +102,11 @@ ec_result ec_remote_open(void *user, ec_batch_source **source, ec_error *err)
     m->is_over = false;
     *source = &m->base;
     return EC_OK;
+}
+
+bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit)
+{
+    ec_remote *m = &((ec_ranks *)user)->remotes[i];
+    *recruit = (ec_team_recruit){.name = m->name, .open = open_remote, .user = m, .processes = m->ready};
+    return m->is_ready;
 }

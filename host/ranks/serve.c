@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "render/sources.h"
-#include "ranks/rank_job.h"
-#include "ranks/remote.h"
+#include "ranks/ranks_internal.h"
 
 typedef struct server {
     ec_ranks *ranks;
@@ -20,7 +19,7 @@ static bool goes_on(void *user, uint32_t done)
 {
     const server *s = user;
     (void)done;
-    return !ec_post_has(s->ranks->post, ec_post_parent(s->ranks->post), EC_BOX_ORDERS);
+    return !ec_post_has(s->ranks->post, s->ranks->place->parent, EC_BOX_ORDERS);
 }
 
 /* What an order asks for, of the positions from `first` on, as it is sent. */
@@ -86,7 +85,7 @@ static bool fill_answer(server *s, const ec_letter *letter, const ec_error *unfi
 
 static ec_result take_orders(server *s, const ec_error *unfit, ec_error *err)
 {
-    const int parent = ec_post_parent(s->ranks->post);
+    const int parent = s->ranks->place->parent;
     for (;;) {
         ec_letter letter, answer;
         EC_TRY(ec_post_receive(s->ranks->post, parent, EC_BOX_ORDERS, NULL, NULL, &letter, err));
@@ -100,7 +99,7 @@ static ec_result take_orders(server *s, const ec_error *unfit, ec_error *err)
 static void pass_on(void *user, ec_severity severity, const char *text)
 {
     const server *s = user;
-    if (severity == EC_WARNING) ec_warn(s->log, "told by rank %d: %s", s->ranks->rank, text);
+    if (severity == EC_WARNING) ec_warn(s->log, "told by rank %d: %s", s->ranks->place->rank, text);
 }
 
 /* Those that open; none: fails with the last one's reason, unless there are others below. */
@@ -166,7 +165,7 @@ ec_result ec_mpi_serve(ec_ranks *r, const ec_log *log, ec_error *err)
 {
     for (;;) {
         ec_letter word;
-        EC_TRY(ec_post_receive(r->post, ec_post_parent(r->post), EC_BOX_WORD, NULL, NULL, &word, err));
+        EC_TRY(ec_post_receive(r->post, r->place->parent, EC_BOX_WORD, NULL, NULL, &word, err));
         ec_result result = word.kind == EC_WORD_JOB ? serve_job(r, &word, log, err) : EC_OK;
         free(word.body);
         if (word.kind == EC_WORD_HOME || result != EC_OK) return result;

@@ -50,6 +50,20 @@ static bool is_chain(const ec_params *params, float pdf)
     return pdf < 0 || pdf > EC_CHAIN_SHARP;
 }
 
+static void set_segment(const tracer *t, uint32_t slot, uint32_t entry, uint32_t segment, ec_chain *c)
+{
+    for (int k = 0; k < 3; k++) {
+        c->origin[k] = word(t, t->queue, EC_PATH_OX + k, entry);
+        c->direction[k] = word(t, t->queue, EC_PATH_DX + k, entry);
+    }
+    c->beta = (float)ec_luminance((double[3]){word(t, t->queue, EC_PATH_BR, entry), word(t, t->queue, EC_PATH_BG, entry), word(t, t->queue, EC_PATH_BB, entry)});
+    c->prim = word_u(t, t->queue, EC_PATH_PRIM, entry);
+    c->hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
+    c->reach = c->hit == EC_NO_ID ? INFINITY : NAN;
+    c->place = ec_pixel_place(&t->p->params, t->list[EC_LIST_WORDS * (t->first + slot)]);
+    c->segment = segment;
+}
+
 static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
 {
     const float pdf = word(t, t->queue, EC_PATH_PDF, entry);
@@ -57,18 +71,15 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segmen
     if (!is_direct) t->wide[slot] = 1;
     if (t->found->count == t->room || !is_chain(&t->p->params, pdf)) return;
     ec_chain *c = &t->found->chains[t->last[slot] = t->found->count++];
-    for (int k = 0; k < 3; k++) {
-        c->origin[k] = word(t, t->queue, EC_PATH_OX + k, entry);
-        c->direction[k] = word(t, t->queue, EC_PATH_DX + k, entry);
-    }
-    c->beta = (float)ec_luminance((double[3]){word(t, t->queue, EC_PATH_BR, entry), word(t, t->queue, EC_PATH_BG, entry), word(t, t->queue, EC_PATH_BB, entry)});
+    set_segment(t, slot, entry, segment, c);
     c->pdf = pdf > EC_CHAIN_SHARP ? pdf : INFINITY;
-    c->prim = word_u(t, t->queue, EC_PATH_PRIM, entry);
-    c->hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
-    c->reach = c->hit == EC_NO_ID ? INFINITY : NAN;
-    c->place = ec_pixel_place(&t->p->params, t->list[EC_LIST_WORDS * (t->first + slot)]);
     c->is_direct = is_direct;
-    c->segment = segment;
+}
+
+/* Where a surface has one direction, no light is sampled. */
+static void note_vertex(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
+{
+    if (segment && word(t, t->queue, EC_PATH_PDF, entry) > 0) set_segment(t, slot, entry, segment, &t->found->vertices[t->found->vertex_count++]);
 }
 
 /* Where the path goes on, its last segment has ended. */
@@ -92,7 +103,8 @@ static void look(tracer *t, uint32_t segment)
         if (entry != UINT32_MAX) end_chain(t, slot, entry);
         t->last[slot] = -1;
         if (entry == UINT32_MAX) continue;
-        note_chain(t, slot, entry, segment);
+        if (t->found->vertices) note_vertex(t, slot, entry, segment);
+        else note_chain(t, slot, entry, segment);
         const uint32_t hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
         if (hit != EC_NO_ID) t->found->visits[ec_rare_material_of(t->lights, hit)]++;
     }
@@ -101,7 +113,7 @@ static void look(tracer *t, uint32_t segment)
 static uint32_t accel_of(const ec_pipeline *p)
 {
     uint32_t accel = 0;
-    while (!p->accels[accel].in_use) accel++;
+    while (!(p->kernels.accels >> accel & 1)) accel++;
     return accel;
 }
 
@@ -151,7 +163,8 @@ static ec_result trace_wave(tracer *t, ec_error *err)
     ec_pipeline_swap_queues(p, 0);
     EC_TRY(ec_pipeline_launch(p, EC_GENERATE, scalars, err));
     ec_pipeline_fill_parts(p, t->count);
-    for (uint32_t b = 0; b < bounces_of(p) && ec_pipeline_total(p->counters.rays[0]); b++)
+    const uint32_t bounces = t->found->vertices ? EC_CHAIN_VERTICES : bounces_of(p);
+    for (uint32_t b = 0; b < bounces && b < p->params.max_depth && ec_pipeline_total(p->counters.rays[0]); b++)
         EC_TRY(bounce(t, scalars, b, err));
     return EC_OK;
 }
@@ -204,12 +217,12 @@ static void list_paths(const ec_params *params, uint32_t *list)
     }
 }
 
-ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
+static ec_result trace_into(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
 {
     const uint32_t wave = p->wave < EC_CHAIN_PATHS ? p->wave : EC_CHAIN_PATHS;
     tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * EC_CHAIN_PATHS};
-    *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains),
-                          .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
+    chains->paths = EC_CHAIN_PATHS;
+    chains->visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits);
     t.list = malloc(4 * EC_LIST_WORDS * EC_CHAIN_PATHS);
     t.at = malloc(4ull * wave);
     t.last = malloc(8ull * wave);
@@ -217,7 +230,7 @@ ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chain
     t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
     t.hits = malloc(4ull * (wave + p->params.part));
     ec_result result = EC_OK;
-    if (!chains->chains || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
+    if (!(chains->chains || chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
         result = ec_fail(err, "out of memory for %d paths", EC_CHAIN_PATHS);
     if (result == EC_OK) {
         list_paths(&p->params, t.list);
@@ -232,9 +245,22 @@ ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chain
     return result;
 }
 
+ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
+{
+    *chains = (ec_chains){.chains = malloc(8 * EC_CHAIN_PATHS * sizeof *chains->chains)};
+    return trace_into(p, lights, chains, err);
+}
+
+ec_result ec_chains_trace_vertices(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
+{
+    *chains = (ec_chains){.vertices = malloc(EC_CHAIN_VERTICES * EC_CHAIN_PATHS * sizeof *chains->vertices)};
+    return trace_into(p, lights, chains, err);
+}
+
 void ec_chains_free(ec_chains *chains)
 {
     free(chains->chains);
+    free(chains->vertices);
     free(chains->visits);
     *chains = (ec_chains){0};
 }

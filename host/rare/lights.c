@@ -1,4 +1,5 @@
 #include "rare/lights.h"
+#include "rare/suns.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -221,7 +222,8 @@ ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error
     for (uint32_t m = 0; result == EC_OK && m < all->material_count && m < pack->material_count; m++) all->sharp[m] = sharp_share(&pack->materials[m]);
     if (result == EC_OK) result = find_in_environment(pack, all, err);
     if (result == EC_OK) result = find_lamps(pack, all, err);
-    if (result != EC_OK || !all->count) ec_rare_lights_free(all);
+    if (result == EC_OK) result = ec_rare_suns_find(pack, all, err);
+    if (result != EC_OK || (!all->count && !all->sun_count)) ec_rare_lights_free(all);
     return result;
 }
 
@@ -233,6 +235,7 @@ void ec_rare_lights_free(ec_rare_lights *all)
     free(all->materials);
     free(all->shapes);
     free(all->placed);
+    free(all->edges);
     *all = (ec_rare_lights){0};
 }
 
@@ -250,10 +253,21 @@ uint32_t ec_rare_material_of(const ec_rare_lights *all, uint32_t id)
     return id < all->stored_count ? all->triangle_material[id] : 0;
 }
 
-void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3])
+static void turn_from_map(const float *d, const ec_params *params, float direction[3])
 {
     for (int k = 0; k < 3; k++) {
-        const float *turn = params->environment_turn + 4 * k, *d = light->direction;
+        const float *turn = params->environment_turn + 4 * k;
         direction[k] = params->environment_turned ? turn[0] * d[0] + turn[1] * d[1] + turn[2] * d[2] : d[k];
     }
+}
+
+void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3])
+{
+    turn_from_map(light->direction, params, direction);
+}
+
+void ec_rare_sun_direction(const ec_rare_sun *sun, const ec_params *params, float direction[3])
+{
+    if (sun->is_on_map) turn_from_map(sun->direction, params, direction);
+    else memcpy(direction, sun->direction, sizeof sun->direction);
 }

@@ -7,7 +7,7 @@
 #include "pack/pack.h"
 #include "shared/params.h"
 
-enum { EC_RARE_LAMPS = 32, EC_RARE_LIGHTS = 96 };
+enum { EC_RARE_LAMPS = 32, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_EDGES = 1 << 13 };
 
 /* A lamp's triangle, which stands for `weight` of its group. */
 typedef struct ec_rare_lamp {
@@ -28,6 +28,14 @@ typedef struct ec_rare_light {
     uint32_t lamp_count;
 } ec_rare_light;
 
+/* What shines from one direction, or nearly so: a directional light, or a small part of an environment. */
+typedef struct ec_rare_sun {
+    char name[EC_RARE_NAME];
+    float direction[3]; /* towards it, unit; on the map if it is on one */
+    bool is_on_map;
+    double irradiance;  /* luminance, of a surface that faces it */
+} ec_rare_sun;
+
 typedef struct ec_rare_lights {
     uint32_t count;
     double power;                    /* of all lights of the scene */
@@ -40,6 +48,10 @@ typedef struct ec_rare_lights {
     ec_shape *shapes;
     ec_placed *placed;
     uint32_t placed_count;
+    ec_rare_sun suns[EC_RARE_SUNS];  /* the strongest */
+    uint32_t sun_count;
+    float (*edges)[3];               /* points just beside edges of triangles, outside of those; NULL where there is no sun */
+    uint32_t edge_count, flat_count; /* flat_count: triangles that stand where they were made, which come first */
 } ec_rare_lights;
 
 /* Empty where the scene has no such light. */
@@ -48,6 +60,8 @@ void ec_rare_lights_free(ec_rare_lights *lights); /* zero-initialised or freed i
 
 /* Towards an environment's part, in the scene. */
 void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3]);
+
+void ec_rare_sun_direction(const ec_rare_sun *sun, const ec_params *params, float direction[3]);
 
 /* The material of a triangle by the id that rays know. */
 uint32_t ec_rare_material_of(const ec_rare_lights *lights, uint32_t id);

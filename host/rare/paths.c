@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "rare/blind.h"
+#include "rare/openings.h"
 #include "rare/sight.h"
 
 #define PI 3.14159265358979323846
@@ -258,10 +259,12 @@ ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, e
 {
     ec_chains chains = {0};
     *rare = (ec_rare){0};
-    if (!lights->count || p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
+    if (!lights->count && !lights->sun_count) return EC_OK;
+    if (p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
     ec_result result = ec_chains_trace(p, lights, &chains, err);
     if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, p, rare, err);
     if (result == EC_OK) result = ec_rare_blind_find(lights, &chains, p, rare, err);
+    if (result == EC_OK) result = ec_rare_openings_find(lights, p, rare, err);
     ec_chains_free(&chains);
     return result;
 }

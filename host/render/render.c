@@ -52,9 +52,9 @@ static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *er
     if (!r->strip_rows) EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
     if (!alone) return EC_OK;
     if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
-    r->stats->wave = alone->wave;
-    if (alone->wave < alone->first_wave)
-        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", alone->wave, alone->first_wave);
+    r->stats->wave = alone->room;
+    if (alone->room < alone->first_room)
+        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", alone->room, alone->first_room);
     return EC_OK;
 }
 
@@ -136,6 +136,14 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     return r->strip_rows ? EC_OK : ec_render_find_limit(r, 0, r->options->height, log, err);
 }
 
+static void tell_kernels(ec_render_state *r)
+{
+    const ec_pipeline *alone = ec_sources_alone(&r->sources);
+    if (!alone) return;
+    r->stats->begun = alone->begun;
+    if (alone->fast_since > 0) r->stats->fast_after_seconds = alone->fast_since - r->start;
+}
+
 ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene,
                            const ec_render_options *options, const ec_course *course, ec_progress_fn progress,
                            void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err)
@@ -157,6 +165,7 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
         stats->cpu_seconds = ec_cpu_now() - cpu_start;
         if (result != EC_OK) r.stopped_by = why.kind == EC_ERROR_OTHER ? "failure" : "device";
         if (result != EC_OK && err) *err = why;
+        tell_kernels(&r);
         ec_render_finish_stats(&r);
     }
     ec_allotment_free(&r.past.allotment);

@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "base/random.h"
-#include "device/pipeline.h"
+#include "device/tiers.h"
 #include "rare/paths.h"
 
 struct ec_session {
@@ -56,7 +56,7 @@ void ec_session_close(ec_session *session)
     free(session);
 }
 
-uint32_t ec_session_largest(const ec_session *session) { return session->pipeline.wave; }
+uint32_t ec_session_largest(const ec_session *session) { return session->pipeline.room; }
 
 ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *err)
 {
@@ -158,6 +158,7 @@ ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error
     EC_TRY(set_batch(p, batch, err));
     for (uint32_t first = 0, count; first < pixels; first += count) {
         if (batch->go_on && !batch->go_on(batch->user)) return ec_cl_finish(p->cl, err);
+        EC_TRY(ec_tiers_step(p, err));
         count = pixels_a_wave(session, batch);
         if (count > pixels - first) count = pixels - first;
         EC_TRY(take_wave(session, batch, first, count, err));

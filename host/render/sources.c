@@ -32,7 +32,7 @@ static ec_result load(void *user, ec_batch_source **source, ec_error *err)
     if (--s->unloaded == 0) ec_cargo_free(&s->cargo);
     pthread_mutex_unlock(&s->lock);
     if (result == EC_OK) result = r->source.base.turn_to(*source, 0, r->source.pipeline.params.height, err);
-    r->stats.wave = r->source.pipeline.wave;
+    r->stats.wave = r->source.pipeline.room;
     return result;
 }
 
@@ -71,6 +71,7 @@ ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_peers *peers, c
         return EC_OK;
     }
     *source = &s->recruits->source.base;
+    s->devices->log = log;
     return ec_device_source_open(s->devices, &s->cargo, &s->cargo, seed, &s->recruits->source, stats, err);
 }
 

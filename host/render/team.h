@@ -43,11 +43,11 @@ typedef struct ec_team ec_team;
 /* Starts the threads. log gets a warning for each member that fails while there are others. */
 ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height,
                        uint32_t replicates, const ec_log *log, ec_team **team, ec_error *err);
-/* Until one of the first so many members is ready, or all of these have failed. */
 /* The member has failed at something else, while nothing was ordered: the next take tells of it. */
 void ec_team_leave_out(ec_team *team, uint32_t member, const ec_error *why);
 /* Has it been loaded, and not failed since? waits: until that is known. */
 bool ec_team_is_ready(ec_team *team, uint32_t member, bool waits);
+/* Until one of the first so many members is ready, or all of these have failed. */
 void ec_team_wait(ec_team *team, uint32_t count);
 /* What to take batches from. Takes fail once all members have. Closing it ends the threads, each after the wave that it is in. */
 ec_batch_source *ec_team_source(ec_team *team);

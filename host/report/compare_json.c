@@ -1,12 +1,6 @@
 #include "report/compare_report.h"
 #include "report/json.h"
 
-static void add_three(cJSON *root, const char *key, const double *values)
-{
-    cJSON *array = cJSON_AddArrayToObject(root, key);
-    for (int i = 0; i < 3; i++) cJSON_AddItemToArray(array, cJSON_CreateNumber(values[i]));
-}
-
 static void add_picture(cJSON *root, const char *key, const char *path, const char *why, const ec_measured *image, double mean)
 {
     cJSON *object = cJSON_AddObjectToObject(root, key);
@@ -14,8 +8,7 @@ static void add_picture(cJSON *root, const char *key, const char *path, const ch
     ec_json_real(object, "mean_luminance", mean);
     cJSON_AddBoolToObject(object, "standard_errors", image->se != NULL);
     ec_json_real(object, "replicates", image->se ? image->replicates : INFINITY);
-    if (why) ec_json_text(object, "error_bound_why", why);
-    else cJSON_AddNullToObject(object, "error_bound_why");
+    ec_json_text(object, "error_bound_why", why);
 }
 
 static void add_place(cJSON *root, const char *key, const ec_noise_place *place)
@@ -34,8 +27,8 @@ static void add_test(cJSON *root, const ec_noise_test *test)
     ec_json_real(root, "p_pixels", test->p_pixels);
     ec_json_real(root, "p_share", test->p_share);
     ec_json_real(root, "significance", EC_NOISE_SIGNIFICANCE);
-    add_three(root, "mean_difference", test->mean_difference);
-    add_three(root, "mean_standard_errors", test->mean_t);
+    cJSON_AddItemToObject(root, "mean_difference", cJSON_CreateDoubleArray(test->mean_difference, 3));
+    cJSON_AddItemToObject(root, "mean_standard_errors", cJSON_CreateDoubleArray(test->mean_t, 3));
     ec_json_real(root, "outlying_share", test->judged ? (double)test->outlying / (double)test->judged : 0);
     add_place(root, "worst_block", &test->block);
     add_place(root, "worst_pixel", &test->pixel);

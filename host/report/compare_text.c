@@ -4,31 +4,21 @@
 #include "report/compare_report.h"
 #include "report/format.h"
 
-static void format_share(double share, char *text, size_t size)
-{
-    if (share > 0)
-        ec_format_percent(share, text, size);
-    else
-        snprintf(text, size, "0 %%");
-}
+static ec_figure share_of(double share) { return share > 0 ? ec_percent(share) : (ec_figure){"0 %"}; }
 
 static void print_figures(const ec_compare_report *report, FILE *to)
 {
     const ec_difference *d = &report->difference;
-    char error[32], mape[32], noise[64] = "", noise_relmse[64] = "";
-    format_share(d->relative_rms, error, sizeof error);
-    format_share(d->mape, mape, sizeof mape);
+    char noise[64] = "", noise_relmse[64] = "";
     if (isfinite(d->noise_relative_rms)) {
-        char percent[32];
-        format_share(d->noise_relative_rms, percent, sizeof percent);
-        snprintf(noise, sizeof noise, "; noise alone makes %s", percent);
+        snprintf(noise, sizeof noise, "; noise alone makes %s", share_of(d->noise_relative_rms).text);
         snprintf(noise_relmse, sizeof noise_relmse, " (noise alone %.3g)", d->noise_relmse);
     }
     if (d->mean_b > 0)
-        fprintf(to, "error     %s of B's mean luminance, root mean square%s\n", error, noise);
+        fprintf(to, "error     %s of B's mean luminance, root mean square%s\n", share_of(d->relative_rms).text, noise);
     else
         fprintf(to, "error     relative to B: undefined, B is black\n");
-    fprintf(to, "          RMSE %.3g, relMSE %.3g%s, MAPE %s, PSNR ", d->rmse, d->relmse, noise_relmse, mape);
+    fprintf(to, "          RMSE %.3g, relMSE %.3g%s, MAPE %s, PSNR ", d->rmse, d->relmse, noise_relmse, share_of(d->mape).text);
     if (isfinite(d->psnr))
         fprintf(to, "%.1f dB\n", d->psnr);
     else

@@ -1,6 +1,7 @@
 #include "report/device_report.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 #include "report/format.h"
@@ -21,21 +22,17 @@ static void short_version(const char *version, char *text, size_t size)
     snprintf(text, size, "%.*s", (int)strcspn(version, " "), version);
 }
 
-static const char *yes(bool value)
-{
-    return value ? "yes" : "no";
-}
+static const char *yes(bool value) { return value ? "yes" : "no"; }
 
 static void print_row(const ec_device_report *report, uint32_t i, int name_width, FILE *to)
 {
     const ec_device_info *device = &report->devices[i];
-    char version[16], memory[32], allocation[32];
+    char version[16];
     short_version(device->version, version, sizeof version);
-    ec_format_bytes(device->memory_bytes, memory, sizeof memory);
-    ec_format_bytes(device->max_allocation_bytes, allocation, sizeof allocation);
     fprintf(to, "%c %2u  %-*s  %-5s  %-6s  %5u  %5u  %10s  %10s  %-9s  %-9s  %s%s\n",
             report->chosen == (int64_t)i ? '*' : ' ', i, name_width, device->name, ec_device_type_name(device->type),
-            version, device->compute_units, device->native_float_width, memory, allocation,
+            version, device->compute_units, device->native_float_width, ec_bytes(device->memory_bytes).text,
+            ec_bytes(device->max_allocation_bytes).text,
             yes(device->correctly_rounded_divide_sqrt), yes(device->denormals), yes(device->fma),
             !device->available ? "  (not available)" : !device->compiler_available ? "  (no compiler)" : "");
 }
@@ -88,10 +85,7 @@ ec_result ec_device_report_json(const ec_device_report *report, FILE *to, ec_err
     cJSON *devices = cJSON_AddArrayToObject(root, "devices");
     for (uint32_t i = 0; i < report->count; i++)
         cJSON_AddItemToArray(devices, ec_device_json(&report->devices[i], i));
-    if (report->chosen >= 0)
-        ec_json_whole(root, "default", (uint64_t)report->chosen);
-    else
-        cJSON_AddNullToObject(root, "default");
+    ec_json_real(root, "default", report->chosen >= 0 ? (double)report->chosen : NAN);
     ec_json_text(root, "why", report->why);
     return ec_json_print(root, to, err);
 }

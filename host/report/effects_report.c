@@ -4,24 +4,11 @@
 
 #include "report/format.h"
 
-static void add_list(cJSON *object, const char *key, const char *list)
-{
-    cJSON *array = cJSON_AddArrayToObject(object, key);
-    while (*list) {
-        char word[64];
-        int size = (int)strcspn(list, ",");
-        snprintf(word, sizeof word, "%.*s", size, list);
-        ec_json_text(array, NULL, word);
-        list += size;
-        list += strspn(list, ", ");
-    }
-}
-
 void ec_effects_json(cJSON *root, const ec_render_effects *effects)
 {
     char text[EC_EFFECT_NAMES];
     ec_feature_names(effects->built, text, sizeof text);
-    ec_json_words(root, "effects", text);
+    ec_json_words(root, "effects", text, ' ');
     cJSON *list = cJSON_AddArrayToObject(root, "effect_list");
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         ec_effect_row row = ec_effect_describe(effects, i);
@@ -31,12 +18,12 @@ void ec_effects_json(cJSON *root, const ec_render_effects *effects)
         cJSON_AddBoolToObject(object, "called_for", row.called);
         cJSON_AddBoolToObject(object, "left_out", row.left_out);
         ec_json_text(object, "why", row.called ? row.why : NULL);
-        add_list(object, "kernels", row.kernels);
-        add_list(object, "buffers", row.buffers);
+        ec_json_words(object, "kernels", row.kernels, ',');
+        ec_json_words(object, "buffers", row.buffers, ',');
         ec_json_whole(object, "buffer_bytes", row.bytes);
     }
     ec_effects_kernels(effects, text, sizeof text);
-    add_list(root, "kernels", text);
+    ec_json_words(root, "kernels", text, ',');
 }
 
 void ec_effects_line(const ec_render_effects *effects, char *text, size_t size)
@@ -50,12 +37,10 @@ void ec_effects_line(const ec_render_effects *effects, char *text, size_t size)
 
 void ec_effect_made(const ec_effect_row *row, char *text, size_t size)
 {
-    char bytes[32];
     size_t used = 0;
     text[0] = 0;
     if (*row->kernels) used = (size_t)snprintf(text, size, "; in %s", row->kernels);
-    ec_format_bytes(row->bytes, bytes, sizeof bytes);
-    if (*row->buffers && used < size) snprintf(text + used, size - used, "; %s, %s", row->buffers, bytes);
+    if (*row->buffers && used < size) snprintf(text + used, size - used, "; %s, %s", row->buffers, ec_bytes(row->bytes).text);
 }
 
 static void print_row(const ec_effect_row *row, FILE *to)

@@ -21,47 +21,69 @@ const char *ec_error_grade(const ec_film_error *e)
 
 void ec_error_why(const ec_film_error *e, char *text, size_t size)
 {
-    char way[EC_RARE_WAY], unmet[32], share[32];
+    char way[EC_RARE_WAY];
     *text = 0;
     if (!e->is_open) return;
     ec_rare_way(e->through, e->light, way, sizeof way);
-    ec_format_percent(e->unmet, unmet, sizeof unmet);
-    ec_format_percent(e->tail_share, share, sizeof share);
     snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise; paths %s are hardly met yet: while their light is missing the error is some %s)",
-             EC_TAIL_FEW, share, way, unmet);
+             EC_TAIL_FEW, ec_percent(e->tail_share).text, way, ec_percent(e->unmet).text);
 }
 
 void ec_error_help(const ec_film_error *e, char *text, size_t size)
 {
-    char samples[64] = "more samples", count[32];
+    char samples[64] = "more samples";
     *text = 0;
     if (!e->is_open) return;
-    ec_format_count(ceil(e->unmet_samples), count, sizeof count);
-    if (e->unmet_samples > 0) snprintf(samples, sizeof samples, "some %s samples a pixel", count);
+    if (e->unmet_samples > 0) snprintf(samples, sizeof samples, "some %s samples a pixel", ec_count(ceil(e->unmet_samples)).text);
     if (*e->through)
-        snprintf(text, size, "%s; or a rougher \"%s\", a larger light, --without specular; or --clamp 10, which says what it takes away", samples, e->through);
+        snprintf(text, size, "%s; or a rougher \"%s\", a larger light, --without specular; or --clamp 10, which says what it takes away", samples,
+                 e->through);
     else snprintf(text, size, "%s; or a larger light; or --clamp 10, which says what it takes away", samples);
 }
 
 void ec_error_text(const ec_film_error *e, char *text, size_t size)
 {
-    char error[32], bound[32], why[EC_ERROR_TEXT - 64];
-    ec_format_percent(e->error, error, sizeof error);
-    ec_format_percent(e->error_bound, bound, sizeof bound);
+    char why[EC_ERROR_TEXT - 64];
     ec_error_why(e, why, sizeof why);
     if (!isfinite(e->error) && e->mean_luminance == 0) snprintf(text, size, "error unknown, since no sample has met any light");
     else if (!isfinite(e->error)) snprintf(text, size, "error unknown");
-    else if (*why) snprintf(text, size, "error at least %s: no bound, since %s", error, why);
-    else snprintf(text, size, "error %s (95 %% bound %s)", error, bound);
+    else if (*why) snprintf(text, size, "error at least %s: no bound, since %s", ec_percent(e->error).text, why);
+    else snprintf(text, size, "error %s (95 %% bound %s)", ec_percent(e->error).text, ec_percent(e->error_bound).text);
 }
 
 void ec_error_json(cJSON *root, const ec_film_error *e)
 {
     char why[EC_ERROR_TEXT];
     ec_error_why(e, why, sizeof why);
-    if (*why) ec_json_text(root, "error_bound_why", why);
-    else cJSON_AddNullToObject(root, "error_bound_why");
+    ec_json_text(root, "error_bound_why", *why ? why : NULL);
     ec_json_text(root, "quality", ec_error_grade(e));
     ec_json_real(root, "error_unmet", e->unmet);
     ec_json_real(root, "tail_share", e->tail_share);
+}
+
+void ec_clamp_text(const ec_clamp_error *c, bool is_open, char *text, size_t size)
+{
+    if (!isfinite(c->error)) {
+        snprintf(text, size, "how much light is missing is not known");
+        return;
+    }
+    snprintf(text, size, "%s%s of the light is missing (standard error %s); noise %s, bias %s, together %s", is_open ? "at least " : "",
+             ec_percent(c->missing).text, ec_percent(c->missing_stderr).text, ec_percent(c->noise).text,
+             ec_percent(c->bias).text, ec_percent(c->error).text);
+}
+
+void ec_clamp_json(cJSON *root, double limit, double luminance, const ec_clamp_error *c)
+{
+    if (!(limit > 0)) {
+        cJSON_AddNullToObject(root, "clamp");
+        return;
+    }
+    cJSON *clamp = cJSON_AddObjectToObject(root, "clamp");
+    ec_json_real(clamp, "limit", limit);
+    ec_json_real(clamp, "luminance", luminance);
+    ec_json_real(clamp, "missing", c->missing);
+    ec_json_real(clamp, "missing_stderr", c->missing_stderr);
+    ec_json_real(clamp, "noise", c->noise);
+    ec_json_real(clamp, "bias", c->bias);
+    ec_json_real(clamp, "error", c->error);
 }

@@ -4,8 +4,8 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
+
+#include "base/freed.h"
 
 void ec_json_real(cJSON *object, const char *key, double value)
 {
@@ -37,35 +37,33 @@ static int utf8_size(const unsigned char *s)
 
 void ec_json_text(cJSON *object, const char *key, const char *value)
 {
-    char *clean = value ? strdup(value) : NULL;
-    if (!clean) {
-        if (cJSON_IsArray(object)) cJSON_AddItemToArray(object, cJSON_CreateNull());
-        else cJSON_AddNullToObject(object, key);
-        return;
-    }
-    for (char *c = clean; *c;) {
+    EC_FREED char *clean = value ? strdup(value) : NULL;
+    for (char *c = clean; c && *c;) {
         int size = utf8_size((unsigned char *)c);
         if (size == 0) *c = '?';
         c += size ? size : 1;
     }
-    cJSON *text = cJSON_CreateString(clean);
-    if (cJSON_IsArray(object))
-        cJSON_AddItemToArray(object, text);
-    else
-        cJSON_AddItemToObject(object, key, text);
-    free(clean);
+    cJSON *text = clean ? cJSON_CreateString(clean) : cJSON_CreateNull();
+    if (cJSON_IsArray(object)) cJSON_AddItemToArray(object, text);
+    else cJSON_AddItemToObject(object, key, text);
 }
 
-void ec_json_words(cJSON *object, const char *key, const char *words)
+void ec_json_words(cJSON *object, const char *key, const char *words, char end)
 {
     cJSON *array = cJSON_AddArrayToObject(object, key);
-    while (*(words += strspn(words, " "))) {
+    while (*(words += strspn(words, ", "))) {
         char word[128];
-        int size = (int)strcspn(words, " ");
+        int size = (int)strcspn(words, (const char[]){end, 0});
         snprintf(word, sizeof word, "%.*s", size, words);
         ec_json_text(array, NULL, word);
         words += size;
     }
+}
+
+void ec_json_texts(cJSON *object, const char *key, const char *const *texts, size_t count)
+{
+    cJSON *array = cJSON_AddArrayToObject(object, key);
+    for (size_t i = 0; i < count; i++) ec_json_text(array, NULL, texts[i]);
 }
 
 ec_result ec_json_print(cJSON *object, FILE *to, ec_error *err)

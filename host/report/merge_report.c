@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "report/clamp_report.h"
 #include "report/error_text.h"
 #include "report/json.h"
 
@@ -25,7 +24,7 @@ void ec_merge_report_text(const ec_merge_report *r, FILE *to)
 
 ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err)
 {
-    cJSON *object = cJSON_CreateObject(), *outputs;
+    cJSON *object = cJSON_CreateObject();
     ec_json_text(object, "version", ECLAT_VERSION);
     ec_json_whole(object, "files", (uint64_t)r->files);
     ec_json_whole(object, "samples_per_pixel", r->samples_per_pixel);
@@ -38,7 +37,6 @@ ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err
     ec_json_whole(object, "heavy_pixels", r->heavy_pixels);
     ec_clamp_json(object, r->limit, r->luminance, &r->clamp);
     ec_json_text(object, "image_sha256", r->image_sha256);
-    outputs = cJSON_AddArrayToObject(object, "outputs");
-    for (int i = 0; i < r->output_count; i++) ec_json_text(outputs, NULL, r->outputs[i]);
+    ec_json_texts(object, "outputs", r->outputs, (size_t)r->output_count);
     return ec_json_print(object, to, err);
 }

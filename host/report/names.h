@@ -2,6 +2,8 @@
 #ifndef EC_REPORT_NAMES_H
 #define EC_REPORT_NAMES_H
 
+extern const char *const ec_compile_names[];    /* ec_compile */
+extern const char *const ec_begun_names[];      /* ec_begun */
 extern const char *const ec_instancing_names[]; /* ec_instancing */
 extern const char *const ec_filter_names[];     /* ec_pixel_filter */
 extern const char *const ec_light_choice_names[]; /* ec_light_choice */

@@ -10,10 +10,14 @@
 #include "report/render_report.h"
 #include "report/settings.h"
 
+static void add(ec_report_attributes *attributes, ec_attribute attribute)
+{
+    if (attributes->count < EC_REPORT_ATTRIBUTES_MAX) attributes->list[attributes->count++] = attribute;
+}
+
 static void add_text(ec_report_attributes *attributes, const char *name, const char *text)
 {
-    if (attributes->count == EC_REPORT_ATTRIBUTES_MAX) return;
-    attributes->list[attributes->count++] = (ec_attribute){.name = name, .type = EC_ATTR_STRING, .string = text};
+    add(attributes, (ec_attribute){.name = name, .type = EC_ATTR_STRING, .string = text});
 }
 
 __attribute__((format(printf, 3, 4))) static void add_made(ec_report_attributes *attributes, const char *name,
@@ -32,20 +36,14 @@ __attribute__((format(printf, 3, 4))) static void add_made(ec_report_attributes 
 
 static void add_real(ec_report_attributes *attributes, const char *name, double number)
 {
-    if (attributes->count == EC_REPORT_ATTRIBUTES_MAX) return;
-    attributes->list[attributes->count++] = (ec_attribute){.name = name, .type = EC_ATTR_DOUBLE, .number = number};
+    add(attributes, (ec_attribute){.name = name, .type = EC_ATTR_DOUBLE, .number = number});
 }
 
 /* Counts that fit an int are ints; the few that may not are texts. */
 static void add_whole(ec_report_attributes *attributes, const char *name, uint64_t number)
 {
-    if (number > INT32_MAX) {
-        add_made(attributes, name, "%" PRIu64, number);
-        return;
-    }
-    if (attributes->count == EC_REPORT_ATTRIBUTES_MAX) return;
-    attributes->list[attributes->count++] =
-        (ec_attribute){.name = name, .type = EC_ATTR_INT, .number = (double)number};
+    if (number > INT32_MAX) add_made(attributes, name, "%" PRIu64, number);
+    else add(attributes, (ec_attribute){.name = name, .type = EC_ATTR_INT, .number = (double)number});
 }
 
 /* As --eye, --look-at, --up and --fov or --parallel take them. */

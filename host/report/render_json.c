@@ -1,4 +1,5 @@
-#include "report/clamp_report.h"
+#include <math.h>
+
 #include "report/device_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
@@ -73,10 +74,7 @@ static void add_result(cJSON *root, const ec_render_report *report)
     ec_json_real(root, "error_bound", stats->film.error_bound);
     ec_error_json(root, &stats->film);
     ec_json_real(root, "relmse", stats->film.relmse);
-    if (report->replicates >= 2)
-        ec_json_whole(root, "heavy_pixels", report->heavy_pixels);
-    else
-        cJSON_AddNullToObject(root, "heavy_pixels");
+    ec_json_real(root, "heavy_pixels", report->replicates >= 2 ? (double)report->heavy_pixels : NAN);
     ec_json_real(root, "mean_luminance", report->mean_luminance);
     ec_json_text(root, "stopped_by", stats->stopped_by);
     ec_json_text(root, "image_sha256", report->image_sha256);
@@ -119,6 +117,9 @@ static void add_cost(cJSON *root, const ec_render_report *report)
     ec_json_real(root, "pack_seconds", stats->pack_seconds);
     ec_json_real(root, "kernel_seconds", stats->kernel_seconds);
     ec_json_real(root, "first_pixel_seconds", stats->first_pixel_seconds);
+    ec_json_text(root, "first_kernels", ec_begun_names[stats->begun]);
+    if (stats->fast_after_seconds > 0) ec_json_real(root, "fast_kernels_after_seconds", stats->fast_after_seconds);
+    else cJSON_AddNullToObject(root, "fast_kernels_after_seconds");
     ec_json_real(root, "write_seconds", report->write_seconds);
     ec_json_real(root, "total_seconds", report->total_seconds);
     ec_json_whole(root, "kernel_cache_hits", stats->cache_hits);
@@ -168,7 +169,6 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     ec_json_whole(root, "ranks", report->stats->peers + 1);
     ec_json_real(root, "other_ranks_samples_per_pixel", report->stats->peer_samples);
     ec_json_whole(root, "received_bytes", report->stats->peer_bytes);
-    cJSON *outputs = cJSON_AddArrayToObject(root, "outputs");
-    for (int i = 0; i < report->output_count; i++) ec_json_text(outputs, NULL, report->outputs[i]);
+    ec_json_texts(root, "outputs", report->outputs, (size_t)report->output_count);
     return ec_json_print(root, to, err);
 }

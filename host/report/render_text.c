@@ -2,35 +2,29 @@
 #include <math.h>
 #include <string.h>
 
-#include "report/clamp_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
 #include "report/forecast_text.h"
 #include "report/format.h"
+#include "report/names.h"
 #include "report/render_report.h"
 
 void ec_render_report_summary(const ec_render_report *report, char *text, size_t size)
 {
     const ec_render_stats *stats = report->stats;
-    char error[EC_ERROR_TEXT], seconds[32], rate[32];
+    char error[EC_ERROR_TEXT];
     ec_error_text(&stats->film, error, sizeof error);
     if (report->replicates < 2) snprintf(error, sizeof error, "error unknown (it takes two samples a pixel)");
-    ec_format_seconds(stats->seconds, seconds, sizeof seconds);
-    ec_format_count(stats->samples_per_second, rate, sizeof rate);
     snprintf(text, size, "%s: %s at %" PRIu64 " samples a pixel in %s, %s samples/s", ec_error_grade(&stats->film), error, stats->samples_per_pixel,
-             seconds, rate);
+             ec_seconds(stats->seconds).text, ec_count(stats->samples_per_second).text);
 }
 
 static void print_shared(const ec_render_stats *stats, FILE *to)
 {
     const ec_follow_report *f = &stats->followed;
-    char seconds[32], build[32], kept[32], uploaded[32];
-    ec_format_seconds(f->seconds, seconds, sizeof seconds);
-    ec_format_seconds(f->build_seconds, build, sizeof build);
-    ec_format_bytes(stats->bytes_found, kept, sizeof kept);
-    ec_format_bytes(stats->bytes_uploaded, uploaded, sizeof uploaded);
     fprintf(to, "  structures %s in %s, at %.3f times the cost after their last build, which took %s; programs: %u kept, %u built; buffers: %s kept, %s uploaded\n",
-            ec_follow_names[f->what], seconds, f->expense, build, stats->programs_found, stats->programs_built, kept, uploaded);
+            ec_follow_names[f->what], ec_seconds(f->seconds).text, f->expense, ec_seconds(f->build_seconds).text, stats->programs_found,
+            stats->programs_built, ec_bytes(stats->bytes_found).text, ec_bytes(stats->bytes_uploaded).text);
 }
 
 static void print_clamped(const ec_render_report *report, FILE *to)
@@ -55,23 +49,20 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
 /* Four times the samples bring half the error where they are independent, and less where their order tells. */
 static void format_more(const ec_render_stats *stats, char *text, size_t size)
 {
-    char error[32];
-    ec_format_percent(stats->film.error / 2, error, sizeof error);
     *text = 0;
     if (isfinite(stats->film.error) && !stats->film.is_open)
-        snprintf(text, size, "; 4 times the samples would bring the picture's error to %s or less", error);
+        snprintf(text, size, "; 4 times the samples would bring the picture's error to %s or less", ec_percent(stats->film.error / 2).text);
 }
 
 /* Which pixels' own errors can be trusted. Nothing to say without an error, or where every pixel's can. */
 static void print_heavy(const ec_render_report *report, FILE *to)
 {
     if (report->replicates < 2 || report->heavy_pixels == 0) return;
-    char share[32], more[128];
+    char more[128];
     double pixels = (double)report->options->width * report->options->height;
-    ec_format_percent((double)report->heavy_pixels / pixels, share, sizeof share);
     format_more(report->stats, more, sizeof more);
     fprintf(to, "pixels   %" PRIu64 " (%s) want more samples for an error of their own (channel heavy): theirs is at least what is stated%s\n",
-            report->heavy_pixels, share, more);
+            report->heavy_pixels, ec_percent((double)report->heavy_pixels / pixels).text, more);
 }
 
 static void print_help(const ec_film_error *error, FILE *to)
@@ -91,14 +82,13 @@ static void print_effects(const ec_render_effects *effects, FILE *to)
 /* What came before the first ray. Some drivers keep kernels of earlier runs themselves, for others eclat does and counts them. */
 static void print_setup(const ec_render_stats *stats, FILE *to)
 {
-    char kernels[32], accel[32], buffers[32], first[32], counted[64] = "";
-    ec_format_seconds(stats->kernel_seconds, kernels, sizeof kernels);
-    ec_format_seconds(stats->accel_seconds, accel, sizeof accel);
-    ec_format_seconds(stats->pack_seconds, buffers, sizeof buffers);
-    ec_format_seconds(stats->first_pixel_seconds, first, sizeof first);
+    char counted[64] = "", then[64] = "";
     if (stats->cache_misses || stats->cache_hits)
         snprintf(counted, sizeof counted, " (%u compiled, %u from the cache)", stats->cache_misses, stats->cache_hits);
-    fprintf(to, "set-up   kernels %s%s, acceleration structure %s, buffers %s; first pixel after %s\n", kernels, counted, accel, buffers, first);
+    if (stats->fast_after_seconds > 0) snprintf(then, sizeof then, ", fast kernels after %s", ec_seconds(stats->fast_after_seconds).text);
+    fprintf(to, "set-up   %s%skernels %s%s, acceleration structure %s, buffers %s; first pixel after %s%s\n",
+            stats->begun == EC_BEGUN_FAST ? "" : ec_begun_names[stats->begun], stats->begun == EC_BEGUN_FAST ? "" : " ", ec_seconds(stats->kernel_seconds).text,
+            counted, ec_seconds(stats->accel_seconds).text, ec_seconds(stats->pack_seconds).text, ec_seconds(stats->first_pixel_seconds).text, then);
 }
 
 static const char *stop_in_words(const char *stopped_by)
@@ -114,13 +104,10 @@ static const char *stop_in_words(const char *stopped_by)
 void ec_render_report_text(const ec_render_report *report, FILE *to)
 {
     const ec_render_stats *stats = report->stats;
-    char summary[EC_ERROR_TEXT + 128], rays[32], memory[32], received[32];
+    char summary[EC_ERROR_TEXT + 128];
     for (int i = 0; i < report->output_count; i++) fprintf(to, "picture  %s\n", report->outputs[i]);
     ec_render_report_summary(report, summary, sizeof summary);
-    ec_format_count(stats->rays_per_second, rays, sizeof rays);
-    ec_format_bytes(report->peak_memory_bytes, memory, sizeof memory);
-    ec_format_bytes(stats->peer_bytes, received, sizeof received);
-    fprintf(to, "result   %s, %s rays/s\n", summary, rays);
+    fprintf(to, "result   %s, %s rays/s\n", summary, ec_count(stats->rays_per_second).text);
     print_help(&stats->film, to);
     print_clamped(report, to);
     if (stats->forecast.pilot_samples > 0) {
@@ -133,7 +120,8 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
                 stats->instances, stats->stored_triangles);
     print_heavy(report, to);
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
-    if (!stats->share_count) fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, memory);
+    if (!stats->share_count)
+        fprintf(to, "device   %s, %u lanes, peak memory %s\n", report->device->name, stats->lanes, ec_bytes(report->peak_memory_bytes).text);
     for (uint32_t i = 0; i < stats->share_count; i++) {
         const ec_render_share *share = &stats->shares[i];
         fprintf(to, "device   %s, %u lanes: %.4g of %" PRIu64 " samples a pixel%s\n", report->device[i].name, share->lanes,
@@ -141,8 +129,8 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     }
     if (stats->peers)
         fprintf(to, "ranks    %u more: %.4g of %" PRIu64 " samples a pixel, %s received\n", stats->peers,
-                stats->peer_samples, stats->samples_per_pixel, received);
-    if (stats->share_count) fprintf(to, "memory   %s at the peak\n", memory);
+                stats->peer_samples, stats->samples_per_pixel, ec_bytes(stats->peer_bytes).text);
+    if (stats->share_count) fprintf(to, "memory   %s at the peak\n", ec_bytes(report->peak_memory_bytes).text);
     print_setup(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);
     else print_effects(&stats->effects, to);

@@ -67,17 +67,16 @@ static void add_cameras(cJSON *root, const ec_scene *scene)
     ec_json_whole(root, "default_camera", scene->default_camera);
 }
 
-static void add_list(cJSON *root, const char *key, char **names, uint32_t count)
+static void add_names(cJSON *root, const char *key, const ec_scene_names *list)
 {
-    cJSON *array = cJSON_AddArrayToObject(root, key);
-    for (uint32_t i = 0; i < count; i++) ec_json_text(array, NULL, names[i]);
+    ec_json_texts(root, key, (const char *const *)list->names, list->count);
 }
 
 static void add_contents(cJSON *root, const ec_scene_contents *contents)
 {
-    add_list(root, "scenes", contents->scenes.names, contents->scenes.count);
+    add_names(root, "scenes", &contents->scenes);
     ec_json_whole(root, "scene_shown", contents->scene);
-    add_list(root, "variants", contents->variants.names, contents->variants.count);
+    add_names(root, "variants", &contents->variants);
     cJSON *animations = cJSON_AddArrayToObject(root, "animations");
     for (uint32_t i = 0; i < contents->animations.count; i++) {
         cJSON *object = cJSON_CreateObject();
@@ -136,8 +135,8 @@ ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error
     add_lights(root, report);
     add_cameras(root, scene);
     add_contents(root, &scene->contents);
-    add_list(root, "extensions_used", scene->extensions_used, scene->extension_count);
-    add_list(root, "extensions_unsupported", scene->extensions_ignored, scene->extension_ignored_count);
+    add_names(root, "extensions_used", &scene->contents.extensions);
+    add_names(root, "extensions_unsupported", &scene->contents.ignored);
     ec_effects_json(root, &report->effects);
     add_bvh(root, &report->bvh);
     add_accels(root, report);

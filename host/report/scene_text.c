@@ -57,11 +57,11 @@ static void print_cameras(const ec_scene *scene, FILE *to)
     }
 }
 
-static void print_list(const char *title, char **names, uint32_t count, FILE *to)
+static void print_list(const char *title, const ec_scene_names *list, FILE *to)
 {
     fprintf(to, "%s", title);
-    if (count == 0) fputs("none", to);
-    for (uint32_t i = 0; i < count; i++) fprintf(to, "%s%s", i ? ", " : "", names[i]);
+    if (list->count == 0) fputs("none", to);
+    for (uint32_t i = 0; i < list->count; i++) fprintf(to, "%s%s", i ? ", " : "", list->names[i]);
     fputc('\n', to);
 }
 
@@ -91,39 +91,30 @@ static void print_contents(const ec_scene_contents *contents, FILE *to)
 static void print_cost(const ec_scene_report *report, FILE *to)
 {
     const ec_bvh_stats *bvh = &report->bvh;
-    char device[32], host[32], load[32], build[32];
-    ec_format_bytes(report->device_bytes, device, sizeof device);
-    ec_format_bytes(report->peak_memory_bytes, host, sizeof host);
-    ec_format_seconds(report->load_seconds, load, sizeof load);
-    ec_format_seconds(bvh->build_seconds, build, sizeof build);
     ec_effects_text(&report->effects, to, 12);
-    fprintf(to, "memory      %s on the device for the scene, without the film; %s on the host at peak\n", device, host);
+    fprintf(to, "memory      %s on the device for the scene, without the film; %s on the host at peak\n", ec_bytes(report->device_bytes).text,
+            ec_bytes(report->peak_memory_bytes).text);
     fprintf(to, "BVH         %u nodes, %u leaves, depth %u, SAH cost %.4g, leaf blocks %.0f %% full\n", bvh->node_count,
             bvh->leaf_count, bvh->max_depth, bvh->sah_cost, 100 * bvh->leaf_fill);
     uint32_t triangles = ec_scene_flat_count(report->scene); /* of the rest there is one for each mesh that is kept once */
     if (bvh->ref_count > triangles)
         fprintf(to, "            %u references: triangles cut into %.1f %% more parts\n", bvh->ref_count,
                 100.0 * (bvh->ref_count - triangles) / triangles);
-    fprintf(to, "time        %s to load, %s to build the BVH\n", load, build);
+    fprintf(to, "time        %s to load, %s to build the BVH\n", ec_seconds(report->load_seconds).text, ec_seconds(bvh->build_seconds).text);
 }
 
 static void print_accel(const ec_accel_report *a, FILE *to)
 {
     const ec_accel_stats *b = &a->probe.build;
-    char build[32], bytes[32], nodes[32], leaves[32], references[32], rate[32], cost[32] = "-";
+    char cost[32] = "-";
     if (*a->refused) {
         fprintf(to, "%-8s %s\n", a->name, a->refused);
         return;
     }
-    ec_format_seconds(b->build_seconds, build, sizeof build);
-    ec_format_bytes(b->bytes, bytes, sizeof bytes);
-    ec_format_count((double)b->nodes, nodes, sizeof nodes);
-    ec_format_count((double)b->leaves, leaves, sizeof leaves);
-    ec_format_count((double)b->references, references, sizeof references);
-    ec_format_count(a->probe.rays_per_second, rate, sizeof rate);
     if (b->sah_cost > 0) snprintf(cost, sizeof cost, "%.4g", b->sah_cost);
-    fprintf(to, "%-8s %9s %10s %8s %8s %10s %8s %10.1f %14.1f %9s\n", a->name, build, bytes, nodes, leaves, references, cost,
-            a->probe.nodes, a->probe.triangles, rate);
+    fprintf(to, "%-8s %9s %10s %8s %8s %10s %8s %10.1f %14.1f %9s\n", a->name, ec_seconds(b->build_seconds).text, ec_bytes(b->bytes).text,
+            ec_count((double)b->nodes).text, ec_count((double)b->leaves).text, ec_count((double)b->references).text, cost,
+            a->probe.nodes, a->probe.triangles, ec_count(a->probe.rays_per_second).text);
 }
 
 static void print_accels(const ec_scene_report *report, FILE *to)
@@ -143,8 +134,8 @@ void ec_scene_report_text(const ec_scene_report *report, FILE *to)
     print_lights(report, to);
     print_cameras(scene, to);
     print_contents(&scene->contents, to);
-    print_list("extensions  ", scene->extensions_used, scene->extension_count, to);
-    print_list("unsupported ", scene->extensions_ignored, scene->extension_ignored_count, to);
+    print_list("extensions  ", &scene->contents.extensions, to);
+    print_list("unsupported ", &scene->contents.ignored, to);
     print_cost(report, to);
     print_accels(report, to);
 }

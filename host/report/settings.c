@@ -48,7 +48,7 @@ GET(max_depth)
 
 GET(rr)
 {
-    ec_format_roulette(o->survival, value->made, sizeof value->made);
+    snprintf(value->made, sizeof value->made, "%s", ec_roulette(o->survival).text);
     put_text(value, value->made);
 }
 
@@ -109,7 +109,7 @@ const ec_setting ec_settings[] = {
     {"sample", "sample", "eclat.sample", EC_IDENTITY_BY_VALUE, get_sample},
     {"max-depth", "max_depth", "eclat.maxDepth", EC_IDENTITY_BY_VALUE, get_max_depth},
     {"rr", "rr", "eclat.rr", EC_IDENTITY_BY_VALUE, get_rr},
-    {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reports: with what it took, report/clamp_report.h */
+    {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reports: with what it took, report/error_text.h */
     {"terminator", "terminator", "eclat.terminator", EC_IDENTITY_BY_VALUE, get_terminator},
     {"scattering", "scattering", "eclat.scattering", EC_IDENTITY_BY_CONTENT, get_scattering},
     {"light-choice", "light_choice", "eclat.lightChoice", EC_IDENTITY_BY_CONTENT, get_light_choice},

@@ -18,6 +18,8 @@ void ec_scene_contents_free(ec_scene_contents *contents)
     free_names(&contents->scenes);
     free_names(&contents->variants);
     free_names(&contents->animations);
+    free_names(&contents->extensions);
+    free_names(&contents->ignored);
     free(contents->seconds);
     *contents = (ec_scene_contents){0};
 }

@@ -15,15 +15,10 @@
 static int parse_color(const char *spec, float rgb[3])
 {
     if (strspn(spec, "0123456789+-.eE, \t") != strlen(spec) || !strchr(spec, ',')) return 0;
-    for (int i = 0; i < 3; i++) {
-        char *end;
-        rgb[i] = strtof(spec, &end);
-        if (end == spec || !isfinite(rgb[i]) || rgb[i] < 0) return -1;
-        while (*end == ' ' || *end == '\t') end++;
-        if (*end != (i < 2 ? ',' : 0)) return -1;
-        spec = end + (i < 2);
-    }
-    return 1;
+    int used = 0;
+    bool is_good = sscanf(spec, "%f ,%f ,%f %n", &rgb[0], &rgb[1], &rgb[2], &used) == 3 && used && !spec[used];
+    for (int i = 0; i < 3; i++) is_good = is_good && isfinite(rgb[i]) && rgb[i] >= 0;
+    return is_good ? 1 : -1;
 }
 
 static void clean(float *values, uint64_t count, const char *spec, const ec_log *log)

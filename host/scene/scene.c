@@ -3,13 +3,17 @@
 
 #include <stdlib.h>
 
-static void free_strings(char **list, uint32_t count)
-{
-    for (uint32_t i = 0; list && i < count; i++) free(list[i]);
-    free(list);
-}
-
 #define DROP(memory) (free(memory), (memory) = NULL)
+
+void ec_image_free(ec_image *image)
+{
+    if (!image->lent) {
+        free(image->rgba8);
+        free(image->rgba16);
+        free(image->name);
+    }
+    *image = (ec_image){0};
+}
 
 void ec_scene_drop_data(ec_scene *s)
 {
@@ -18,14 +22,7 @@ void ec_scene_drop_data(ec_scene *s)
         DROP(s->images[i].rgba8);
         DROP(s->images[i].rgba16);
     }
-    DROP(s->positions);
-    DROP(s->normals);
-    DROP(s->tangents);
-    DROP(s->uv[0]);
-    DROP(s->uv[1]);
-    DROP(s->colors);
-    DROP(s->indices);
-    DROP(s->triangle_material);
+    ec_scene_free_geometry(s);
     if (!s->environment.lent) DROP(s->environment.rgb);
 }
 
@@ -47,20 +44,18 @@ void ec_scene_free(ec_scene *s)
     for (uint32_t i = 0; i < s->material_count; i++) free(s->materials[i].name);
     for (uint32_t i = 0; i < s->camera_count; i++) free(s->cameras[i].name);
     for (uint32_t i = 0; i < s->light_count; i++) free(s->lights[i].name);
-    for (uint32_t i = 0; i < s->image_count; i++)
-        if (!s->images[i].lent) free(s->images[i].name);
+    for (uint32_t i = 0; i < s->image_count; i++) ec_image_free(&s->images[i]);
     free(s->shapes);
     free(s->placed);
     free(s->parts);
-    free_strings(s->node_names, s->node_count);
+    for (uint32_t i = 0; s->node_names && i < s->node_count; i++) free(s->node_names[i]);
+    free(s->node_names);
     free(s->materials);
     free(s->textures);
     free(s->images);
     free(s->lights);
     free(s->cameras);
     ec_motion_free(&s->motion);
-    free_strings(s->extensions_used, s->extension_count);
-    free_strings(s->extensions_ignored, s->extension_ignored_count);
     free(s->lost_image);
     ec_scene_contents_free(&s->contents);
     free(s);

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "scene/placed.h"
-#include "shared/texture_slots.h"
+#include "shared/material_fields.h"
 
 /* Decoded pixels, row 0 at the top (glTF's v = 0), always four channels. Exactly one of the two is set. */
 typedef struct ec_image {
@@ -21,6 +21,8 @@ typedef struct ec_image {
     bool has_range;   /* the next two are known (texture_range.h); else they are looked for where they are asked for */
     uint16_t least[4], most[4]; /* of each channel, as stored */
 } ec_image;
+
+void ec_image_free(ec_image *image); /* leaves zeros; pixels that are lent stay */
 
 /* Radiance and intensity beyond this are taken as this, with a warning: what sampling divides by then stays within float. */
 #define EC_RADIANCE_MOST 1e30f
@@ -45,26 +47,16 @@ typedef struct ec_texture_use {
 
 typedef enum ec_alpha_mode { EC_ALPHA_OPAQUE, EC_ALPHA_MASK, EC_ALPHA_BLEND } ec_alpha_mode;
 
+/* base_color, emission and all else that is numbers: each is explained in shared/material_fields.h. */
+#define EC_FLOATS_1(field) float field;
+#define EC_FLOATS_3(field) float field[3];
+#define EC_FLOATS_4(field) float field[4];
+#define EC_NUMBERS(field, floats, value, least, most, slot, channel, effect, has, path) EC_FLOATS_##floats(field)
+#define EC_NOT_NUMBERS(type, field)
+#define EC_NOT_FLOATS(field)
 typedef struct ec_material {
-    float base_color[4];       /* linear RGB, alpha (coverage) */
-    float metallic, roughness; /* factors; alpha_ggx = roughness^2 */
-    float emission[3];         /* radiance: emissiveFactor x emissiveStrength, linear RGB */
-    float normal_scale;
-    float specular;            /* KHR_materials_specular; 1 where absent */
-    float specular_color[3];   /* likewise; 1 where absent; may exceed 1 */
-    float ior;                 /* KHR_materials_ior; 1.5 where absent; 0: reflects all, as that extension says */
-    float dispersion;          /* KHR_materials_dispersion, 20 / Abbe number; 0 where absent */
-    float transmission;        /* KHR_materials_transmission; 0 where absent */
+    EC_MATERIAL_FIELDS(EC_NUMBERS, EC_NUMBERS, EC_NOT_NUMBERS, EC_NOT_FLOATS)
     bool volume;               /* KHR_materials_volume with a thickness: bounds a body that refracts; else thin-walled */
-    float absorption[3];       /* 1/m: -ln attenuationColor / attenuationDistance; 0 where nothing is absorbed */
-    float coat, coat_roughness; /* KHR_materials_clearcoat; 0 where absent */
-    float coat_normal_scale;
-    float anisotropy, anisotropy_rotation; /* KHR_materials_anisotropy; 0 where absent; radians from the tangent */
-    float diffuse_transmission, transmission_color[3];     /* KHR_materials_diffuse_transmission: share of diffuse light, 0 where absent; its colour */
-    float film, film_ior;      /* KHR_materials_iridescence; 0 where absent */
-    float film_least, film_most; /* thickness in nanometres where its texture is 0, and where it is 1 */
-    float sheen[3], sheen_roughness; /* KHR_materials_sheen; 0 where absent */
-    float alpha_cutoff;
     ec_alpha_mode alpha_mode;
     bool double_sided;
     bool unlit;                /* KHR_materials_unlit */
@@ -135,13 +127,14 @@ typedef struct ec_environment {
     float turn[9];
 } ec_environment;
 
-/* Among what a file lets one choose. All owned; a name may be NULL. */
+/* What a file names, among it what it lets one choose. All owned; a name may be NULL. */
 typedef struct ec_scene_names {
     char **names;
     uint32_t count;
 } ec_scene_names;
 typedef struct ec_scene_contents {
     ec_scene_names scenes, variants, animations;
+    ec_scene_names extensions, ignored; /* ignored: those not supported here */
     uint32_t scene;        /* the one that is shown */
     double *seconds;       /* how long each animation is; NaN: the file does not say */
 } ec_scene_contents;
@@ -199,10 +192,6 @@ typedef struct ec_scene {
     uint32_t mesh_count, node_count, instance_count;
     uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */
     uint32_t skipped_primitives;                     /* points, lines and meshes without POSITION */
-    char **extensions_used;        /* owned strings */
-    uint32_t extension_count;
-    char **extensions_ignored;     /* used by the file, not supported here; owned strings */
-    uint32_t extension_ignored_count;
     char *lost_image;              /* owned: why the first of those that are taken as white could not be read; NULL: all could */
     ec_scene_contents contents;
 } ec_scene;
@@ -219,6 +208,20 @@ typedef struct ec_scene_choice {
     ec_instancing instancing;  /* which meshes are kept once */
     bool frame;                /* of a sequence: where an animation may move meshes no triangle is cut, at any of its moments */
 } ec_scene_choice;
+
+/* The streams of a vertex by number, and how many floats each takes. */
+enum { EC_POSITION, EC_NORMAL, EC_TANGENT, EC_COLOR, EC_UV, EC_STREAMS = EC_UV + 2 };
+static const uint8_t ec_stream_width[EC_STREAMS] = {3, 3, 4, 4, 2, 2};
+static inline float *ec_scene_stream(const ec_scene *s, int stream)
+{
+    float *const all[EC_STREAMS] = {s->positions, s->normals, s->tangents, s->colors, s->uv[0], s->uv[1]};
+    return all[stream];
+}
+
+/* Makes room for triangles, and for vertices with the streams whose bits are set; others become NULL. False: out of memory. */
+bool ec_scene_allocate(ec_scene *scene, unsigned streams, size_t vertices, size_t triangles);
+void ec_scene_trim(ec_scene *scene); /* gives back what more there was room for */
+void ec_scene_free_geometry(ec_scene *scene);
 
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
 /* Frees what only those look at who make a cargo of it: vertices, triangles, pixels of images and of the environment. Counts, names, cameras,

@@ -1,6 +1,7 @@
 /* The promises of scene.h, checked. */
 #include "scene/validate.h"
 #include "base/text.h"
+#include "scene/material_fields.h"
 
 #include <math.h>
 
@@ -11,28 +12,26 @@ static bool clamp(float *value, float low, float high)
     return *value != old;
 }
 
+static bool clamp_material(ec_material *m)
+{
+    bool changed = false;
+    for (int i = 0; i < ec_material_field_count; i++) {
+        const ec_material_field *f = &ec_material_fields[i];
+        float *floats = ec_material_floats(m, f);
+        for (int k = 0; k < f->floats; k++)
+            if (floats != &m->ior || m->ior != 0) changed |= clamp(&floats[k], f->least, f->most);
+    }
+    for (int slot = 0; slot < EC_SLOT_COUNT; slot++)
+        for (int k = 0; k < 6; k++) changed |= clamp(&m->textures[slot].transform[k], -EC_UV_MOST, EC_UV_MOST);
+    return changed;
+}
+
 void ec_scene_clamp_materials(ec_scene *s, const char *path, const ec_log *log)
 {
     for (uint32_t i = 0; i < s->material_count; i++) {
-        ec_material *m = &s->materials[i];
-        bool changed = clamp(&m->metallic, 0, 1) | clamp(&m->roughness, 0, 1) | clamp(&m->specular, 0, 1);
-        for (int k = 0; k < 4; k++) changed |= clamp(&m->base_color[k], 0, 1);
-        for (int k = 0; k < 3; k++) changed |= clamp(&m->emission[k], 0, EC_RADIANCE_MOST) | clamp(&m->specular_color[k], 0, 1e30f);
-        changed |= clamp(&m->transmission, 0, 1) | clamp(&m->coat, 0, 1) | clamp(&m->coat_roughness, 0, 1);
-        changed |= clamp(&m->coat_normal_scale, -1e30f, 1e30f) | clamp(&m->sheen_roughness, 0, 1);
-        changed |= clamp(&m->anisotropy, 0, 1) | clamp(&m->anisotropy_rotation, -7, 7);
-        changed |= clamp(&m->diffuse_transmission, 0, 1) | clamp(&m->dispersion, 0, 1e3f);
-        for (int k = 0; k < 3; k++) changed |= clamp(&m->transmission_color[k], 0, 1);
-        changed |= clamp(&m->film, 0, 1) | clamp(&m->film_ior, 1, 1e3f) | clamp(&m->film_least, 0, 1e6f) |
-                   clamp(&m->film_most, 0, 1e6f);
-        for (int k = 0; k < 3; k++) changed |= clamp(&m->sheen[k], 0, 1);
-        if (m->ior != 0) changed |= clamp(&m->ior, 1, 1e3f);
-        changed |= clamp(&m->alpha_cutoff, 0, 1e30f) | clamp(&m->normal_scale, -1e30f, 1e30f);
-        for (int slot = 0; slot < EC_SLOT_COUNT; slot++)
-            for (int k = 0; k < 6; k++) changed |= clamp(&m->textures[slot].transform[k], -EC_UV_MOST, EC_UV_MOST);
-        if (changed)
-            ec_warn(log, "%s: materials[%u] \"%.*s\" has factors out of glTF's range; they are clamped", path, i,
-                    EC_CUT(m->name ? m->name : "", 80));
+        const char *name = s->materials[i].name;
+        if (clamp_material(&s->materials[i]))
+            ec_warn(log, "%s: materials[%u] \"%.*s\" has factors out of glTF's range; they are clamped", path, i, EC_CUT(name ? name : "", 80));
     }
 }
 
@@ -52,9 +51,8 @@ static bool unit_or_zero(const float *v)
 static ec_result check_vertices(const ec_scene *s, ec_error *err)
 {
     uint64_t n = s->vertex_count;
-    if (!all_finite(s->positions, 3 * n) || !all_finite(s->normals, 3 * n) || !all_finite(s->tangents, 4 * n) ||
-        !all_finite(s->uv[0], 2 * n) || !all_finite(s->uv[1], 2 * n) || !all_finite(s->colors, 4 * n))
-        return ec_fail(err, "internal error: a vertex stream is not finite");
+    for (int i = 0; i < EC_STREAMS; i++)
+        if (!all_finite(ec_scene_stream(s, i), ec_stream_width[i] * n)) return ec_fail(err, "internal error: a vertex stream is not finite");
     for (uint64_t i = 0; i < n; i++) {
         if (s->normals && !unit_or_zero(s->normals + 3 * i))
             return ec_fail(err, "internal error: normal %llu is not unit", (unsigned long long)i);
@@ -83,9 +81,10 @@ static ec_result check_material(const ec_scene *s, const ec_material *m, ec_erro
         if (!all_finite(use->transform, 6)) return ec_fail(err, "internal error: texture transform is not finite");
         if (use->texture >= 0 && !s->uv[use->uv_set]) return ec_fail(err, "internal error: texture without coordinates");
     }
-    bool finite = all_finite(m->base_color, 4) && all_finite(m->emission, 3) && all_finite(m->specular_color, 3) &&
-                  all_finite(m->absorption, 3) && isfinite(m->normal_scale) && isfinite(m->alpha_cutoff);
-    return finite ? EC_OK : ec_fail(err, "internal error: a material is not finite");
+    for (int i = 0; i < ec_material_field_count; i++)
+        if (!all_finite((const float *)((const char *)m + ec_material_fields[i].at), (uint64_t)ec_material_fields[i].floats))
+            return ec_fail(err, "internal error: a material is not finite");
+    return EC_OK;
 }
 
 static ec_result check_images(const ec_scene *s, ec_error *err)

@@ -15,9 +15,10 @@ static void write_vertices(const ec_scene *s, const ec_placed *p, ec_scene *w)
         if (s->normals) ec_placed_normal(p, s->normals + 3 * (from + i), w->normals + 3 * (to + i));
         if (s->tangents) ec_placed_tangent(p, s->tangents + 4 * (from + i), w->tangents + 4 * (to + i));
     }
-    if (s->colors) memcpy(w->colors + 4 * to, s->colors + 4 * from, 4 * n * sizeof(float));
-    for (int k = 0; k < 2; k++)
-        if (s->uv[k]) memcpy(w->uv[k] + 2 * to, s->uv[k] + 2 * from, 2 * n * sizeof(float));
+    for (int k = EC_COLOR; k < EC_STREAMS; k++) {
+        const size_t width = ec_stream_width[k];
+        if (ec_scene_stream(s, k)) memcpy(ec_scene_stream(w, k) + width * to, ec_scene_stream(s, k) + width * from, width * n * sizeof(float));
+    }
 }
 
 static void write_triangles(const ec_scene *s, const ec_placed *p, ec_scene *w)
@@ -36,28 +37,17 @@ static void write_triangles(const ec_scene *s, const ec_placed *p, ec_scene *w)
 
 static bool allocate(const ec_scene *s, size_t vertices, size_t triangles, ec_scene *w)
 {
-    w->positions = malloc(vertices * 12);
-    w->indices = malloc(triangles * 12);
-    w->triangle_material = malloc(triangles * 4);
-    bool ok = w->positions && w->indices && w->triangle_material;
-    if (s->normals) ok = (w->normals = malloc(vertices * 12)) && ok;
-    if (s->tangents) ok = (w->tangents = malloc(vertices * 16)) && ok;
-    if (s->colors) ok = (w->colors = malloc(vertices * 16)) && ok;
-    for (int k = 0; k < 2; k++)
-        if (s->uv[k]) ok = (w->uv[k] = malloc(vertices * 8)) && ok;
-    return ok;
+    unsigned streams = 0;
+    for (int k = 0; k < EC_STREAMS; k++) streams |= (unsigned)(ec_scene_stream(s, k) != NULL) << k;
+    return ec_scene_allocate(w, streams, vertices, triangles);
 }
 
 static void copy_flat(const ec_scene *s, uint32_t triangles, uint32_t vertices, ec_scene *w)
 {
-    memcpy(w->positions, s->positions, (size_t)vertices * 12);
     memcpy(w->indices, s->indices, (size_t)triangles * 12);
     memcpy(w->triangle_material, s->triangle_material, (size_t)triangles * 4);
-    if (s->normals) memcpy(w->normals, s->normals, (size_t)vertices * 12);
-    if (s->tangents) memcpy(w->tangents, s->tangents, (size_t)vertices * 16);
-    if (s->colors) memcpy(w->colors, s->colors, (size_t)vertices * 16);
-    for (int k = 0; k < 2; k++)
-        if (s->uv[k]) memcpy(w->uv[k], s->uv[k], (size_t)vertices * 8);
+    for (int k = 0; k < EC_STREAMS; k++)
+        if (ec_scene_stream(s, k)) memcpy(ec_scene_stream(w, k), ec_scene_stream(s, k), (size_t)vertices * ec_stream_width[k] * sizeof(float));
     w->triangle_count = triangles;
     w->vertex_count = vertices;
 }
@@ -68,14 +58,13 @@ ec_result ec_scene_write_out(const ec_scene *s, ec_scene *w, ec_error *err)
     uint64_t triangles = ec_scene_met_count(s), vertices = flat_vertices;
     for (uint32_t i = 0; i < s->placed_count; i++) vertices += s->shapes[s->placed[i].shape].vertex_count;
     *w = *s;
-    w->positions = w->normals = w->tangents = w->colors = w->uv[0] = w->uv[1] = NULL;
-    w->indices = w->triangle_material = NULL;
     w->shapes = NULL;
     w->placed = NULL;
     w->shape_count = w->placed_count = 0;
     /* What an accelerator adds is more than the soup itself: 200 bytes a triangle are little. */
     uint64_t memory = ec_memory_of_machine(), needed = triangles * 200;
-    if (triangles > INT32_MAX || vertices > INT32_MAX || needed > memory || !allocate(s, vertices + 1, triangles + 1, w)) {
+    bool fits = triangles <= INT32_MAX && vertices <= INT32_MAX && needed <= memory;
+    if (!allocate(s, fits ? vertices + 1 : 0, fits ? triangles + 1 : 0, w) || !fits) {
         ec_scene_written_free(w);
         return ec_fail(err, "%llu triangles of %u instances written out need %llu MB, and this machine has %llu MB; leave --accel out or take "
                        "twolevel, which keeps meshes once", (unsigned long long)triangles, s->placed_count,
@@ -93,13 +82,6 @@ ec_result ec_scene_write_out(const ec_scene *s, ec_scene *w, ec_error *err)
 
 void ec_scene_written_free(ec_scene *w)
 {
-    free(w->positions);
-    free(w->normals);
-    free(w->tangents);
-    free(w->colors);
-    free(w->uv[0]);
-    free(w->uv[1]);
-    free(w->indices);
-    free(w->triangle_material);
+    ec_scene_free_geometry(w);
     *w = (ec_scene){0};
 }

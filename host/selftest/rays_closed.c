@@ -1,8 +1,8 @@
-/* Closed surfaces: no ray gets out between two triangles, or sees the one behind before the one in front. */
+/* Closed surfaces: no ray gets out between two triangles. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
+#include "base/random.h"
 #include "selftest/tracer.h"
 
 /* A point within a ball of ec_soup_ball: one of its surface, moved towards the middle; or, near a target, across its longest axis only,
@@ -16,9 +16,7 @@ static void put_origin(const double surface[3], double in, bool near, const doub
     for (int k = 0; k < 3; k++) o[k] = (float)(centre[k] + (near && stretch[k] == longest ? 1 : in) * (surface[k] - centre[k]));
 }
 
-/* From within at a vertex, at a point of an edge or at any; a third from below a point of the same triangle. Some along an axis, with
- * components of 0 and -0. */
-static void put_rays(ec_tracer *r, uint64_t *random, const double centre[3], const double stretch[3])
+void ec_rays_within(ec_tracer *r, uint64_t *random, const double centre[3], const double stretch[3])
 {
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
         const float *v = ec_tracer_triangle(r, (uint32_t)(ec_random_bits(random) % r->soup->count));
@@ -84,7 +82,7 @@ ec_result ec_selftest_watertight(ec_selftest *t, ec_error *err)
         EC_TRY(ec_soup_ball(shape->levels, shape->bumps, shape->stretch, shape->centre, &soup, err));
         ec_result result = ec_tracer_build(r, &soup, err);
         for (int run = 0; run < (t->full ? LONG_RUNS : 1) && result == EC_OK; run++) {
-            put_rays(r, &random, shape->centre, shape->stretch);
+            ec_rays_within(r, &random, shape->centre, shape->stretch);
             for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
                 for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
                     bool is_out = ec_tracer_hit(r, i).prim == EC_NO_ID;
@@ -99,49 +97,4 @@ ec_result ec_selftest_watertight(ec_selftest *t, ec_error *err)
         EC_TRY(ec_selftest_none(t, shape->name, out, rays, note, err));
     }
     return EC_OK;
-}
-
-/* Two balls, the second 4e-5 of the radius within the first, facets parallel. Seen from outside the outer one is in front everywhere,
- * from inside the inner one. Along a ray they lie 4e-5 / cosine apart, and t is wrong by 2e-6 reach / cosine at most. */
-ec_result ec_selftest_nested(ec_selftest *t, ec_error *err)
-{
-    enum { LEVELS = 4 };
-    const double inner = 1 - 4e-5, nowhere[3] = {0, 0, 0};
-    uint64_t random = 3;
-    ec_soup outer_ball, inner_ball, both;
-    ec_tracer *r;
-    EC_TRY(ec_tracer_of(t, &r, err));
-    EC_TRY(ec_soup_ball(LEVELS, 0, (double[3]){1, 1, 1}, nowhere, &outer_ball, err));
-    ec_result result = ec_soup_ball(LEVELS, 0, (double[3]){inner, inner, inner}, nowhere, &inner_ball, err);
-    if (result == EC_OK) result = ec_soup_make(2 * outer_ball.count, &both, err);
-    if (result == EC_OK) {
-        memcpy(both.vertices, outer_ball.vertices, 9 * sizeof(float) * outer_ball.count);
-        memcpy(both.vertices + 9 * (size_t)outer_ball.count, inner_ball.vertices, 9 * sizeof(float) * outer_ball.count);
-    }
-    uint32_t half = outer_ball.count;
-    uint64_t rays = 0, wrong[2] = {0};
-    ec_soup_free(&outer_ball);
-    ec_soup_free(&inner_ball);
-    EC_TRY(result);
-    result = ec_tracer_build(r, &both, err);
-    for (int outside = 0; outside < 2 && result == EC_OK; outside++) {
-        put_rays(r, &random, nowhere, (double[3]){1, 1, 1});
-        for (uint32_t i = 0; i < EC_TRACER_RAYS && outside; i++) { /* back along the same lines, to stay on the far side's outside */
-            float o[3], d[3];
-            ec_tracer_given(r, i, o, d);
-            for (int k = 0; k < 3; k++) o[k] += 3 * d[k], d[k] = -d[k];
-            ec_tracer_ray(r, i, o, d, EC_NO_ID);
-        }
-        for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
-            for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
-                uint32_t prim = ec_tracer_hit(r, i).prim;
-                wrong[outside] += prim == EC_NO_ID || (prim < half) != (outside == 1);
-            }
-            rays += EC_TRACER_RAYS;
-        }
-    }
-    ec_soup_free(&both);
-    EC_TRY(result);
-    EC_TRY(ec_selftest_none(t, "from inside", wrong[0], rays / 2, NULL, err));
-    return ec_selftest_none(t, "from outside", wrong[1], rays / 2, NULL, err);
 }

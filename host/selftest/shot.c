@@ -58,15 +58,9 @@ ec_result ec_shot_take(ec_selftest *t, const ec_scene *scene, const ec_render_op
 ec_result ec_shot_row(ec_selftest *t, const char *what, const ec_scene *scene, const ec_render_options *options, double expected,
                       ec_error *err)
 {
-    return ec_shot_rounded_row(t, what, scene, options, expected, EC_SHOT_ROUNDING, err);
-}
-
-ec_result ec_shot_rounded_row(ec_selftest *t, const char *what, const ec_scene *scene, const ec_render_options *options,
-                              double expected, double rounding, ec_error *err)
-{
     ec_shot shot;
     EC_TRY(ec_shot_take(t, scene, options, &shot, err));
-    double tolerance = fmin(4 * shot.noise, 0.02 * fabs(expected)) + rounding * fabs(expected);
+    double tolerance = fmin(4 * shot.noise, 0.02 * fabs(expected)) + EC_SHOT_ROUNDING * fabs(expected);
     ec_result result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, tolerance, err);
     ec_shot_free(&shot);
     return result;

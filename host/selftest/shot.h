@@ -24,9 +24,6 @@ ec_result ec_shot_take(ec_selftest *t, const ec_scene *scene, const ec_render_op
 ec_result ec_shot_row(ec_selftest *t, const char *what, const ec_scene *scene, const ec_render_options *options, double expected,
                       ec_error *err);
 #define EC_SHOT_ROUNDING 1e-5
-/* A row where another relative error has to be allowed for rounding. */
-ec_result ec_shot_rounded_row(ec_selftest *t, const char *what, const ec_scene *scene, const ec_render_options *options,
-                              double expected, double rounding, ec_error *err);
 /* A row, and ends the scene. */
 ec_result ec_shot_only_row(ec_selftest *t, const char *what, ec_scene *scene, const ec_render_options *options, double expected,
                            ec_error *err);

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/vec3.h"
 #include "gltf/model.h"
 
 ec_result ec_soup_make(uint32_t count, ec_soup *soup, ec_error *err)
@@ -33,23 +32,6 @@ ec_result ec_soup_from_scene(const ec_scene *scene, ec_soup *soup, ec_error *err
     return EC_OK;
 }
 
-ec_result ec_soup_random(uint64_t *random, uint32_t count, double edge, double spread, const double centre[3],
-                         ec_soup *soup, ec_error *err)
-{
-    uint32_t kept = 0;
-    EC_TRY(ec_soup_make(count, soup, err));
-    for (uint32_t i = 0; i < count; i++) {
-        float *v = soup->vertices + 9 * (size_t)kept;
-        double at[3], normal[3];
-        for (int k = 0; k < 3; k++) at[k] = centre[k] + ec_random_between(random, -spread, spread);
-        for (int k = 0; k < 9; k++) v[k] = (float)(at[k % 3] + ec_random_between(random, -edge, edge));
-        ec_triangle_normal(v, normal);
-        kept += ec_dot(normal, normal) > 0;
-    }
-    soup->count = kept;
-    return EC_OK;
-}
-
 ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const double centre[3], ec_soup *soup, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -67,25 +49,4 @@ ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const 
         for (int k = 0; k < 3; k++) p[k] = (float)(centre[k] + stretch[k] * radius * p[k]);
     }
     return EC_OK;
-}
-
-static void edges_of(const float v[9], double e1[3], double e2[3])
-{
-    for (int k = 0; k < 3; k++) e1[k] = (double)v[3 + k] - v[k], e2[k] = (double)v[6 + k] - v[k];
-}
-
-void ec_triangle_normal(const float v[9], double normal[3])
-{
-    double e1[3], e2[3];
-    edges_of(v, e1, e2);
-    ec_cross(e1, e2, normal);
-}
-
-void ec_direction(uint64_t *random, double d[3])
-{
-    double z = ec_random_between(random, -1, 1), angle = ec_random_between(random, -3.14159265358979323846, 3.14159265358979323846);
-    double r = sqrt(1 - z * z);
-    d[0] = r * cos(angle);
-    d[1] = r * sin(angle);
-    d[2] = z;
 }

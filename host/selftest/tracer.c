@@ -5,36 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3.h"
 #include "shared/params.h"
-#include "shared/scene_buffers.h"
 
 enum { LOCAL = 64, BRUTE_FORCE_MOST = 64 };
 
-static ec_result build(ec_cl *cl, const char *label, const char *const *names, uint32_t lanes, cl_program *program, ec_error *err)
-{
-    char options[64], *source;
-    snprintf(options, sizeof options, "-DFEATURES=0x0u -DPROBE -DLANES=%u", lanes);
-    EC_TRY(ec_kernel_sources_join(names, &source, err));
-    ec_result result = ec_program_build(cl, label, source, options, program, err);
-    free(source);
-    return result;
-}
-
 static ec_result build_programs(ec_tracer *r, ec_error *err)
 {
-    const char *packets[EC_ACCEL_COUNT + 1] = {NULL}, *singles[EC_ACCEL_COUNT + 1] = {NULL}, *leaving[] = {"rays", NULL};
-    char names[EC_ACCEL_COUNT][32];
-    uint32_t packet_count = 0, single_count = 0;
+    char name[64], options[64];
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
         if (!(r->used >> a & 1)) continue;
-        snprintf(names[a], sizeof names[a], "traverse_%s", ec_accels[a].name);
         r->lanes[a] = ec_accels[a].lanes ? 1 : r->t->lanes;
-        if (ec_accels[a].lanes) singles[single_count++] = names[a];
-        else packets[packet_count++] = names[a];
+        snprintf(name, sizeof name, "traverse_%s", ec_accels[a].name);
+        snprintf(options, sizeof options, "-DFEATURES=0x0u -DPROBE -DLANES=%u", ec_accels[a].lanes ? ec_accels[a].lanes : r->t->lanes);
+        EC_TRY(ec_program_build(r->t->cl, name, ec_kernel_source(name), options, &r->programs[a], err));
     }
-    if (packet_count) EC_TRY(build(r->t->cl, "selftest_packets", packets, r->t->lanes, &r->packets, err));
-    if (single_count) EC_TRY(build(r->t->cl, "selftest_singles", singles, 8, &r->singles, err));
-    return build(r->t->cl, "selftest_rays", leaving, r->t->lanes, &r->leaving, err);
+    return EC_OK;
 }
 
 static ec_result open_tracer(ec_tracer *r, ec_error *err)
@@ -43,8 +29,7 @@ static ec_result open_tracer(ec_tracer *r, ec_error *err)
     if (!r->t->full) EC_TRY(ec_accels_choose(NULL, 1000, r->t->cl->info.type & CL_DEVICE_TYPE_CPU, &r->used, err));
     r->paths = calloc((size_t)EC_PATH_FIELDS * EC_TRACER_RAYS, sizeof *r->paths);
     r->hits = calloc((size_t)EC_HIT_PROBE_FIELDS * EC_TRACER_RAYS, sizeof *r->hits);
-    r->left = calloc((size_t)EC_LEAVE_FIELDS * EC_TRACER_RAYS, sizeof *r->left);
-    if (!r->paths || !r->hits || !r->left) return ec_fail(err, "out of memory for %u rays", EC_TRACER_RAYS);
+    if (!r->paths || !r->hits) return ec_fail(err, "out of memory for %u rays", EC_TRACER_RAYS);
     return build_programs(r, err);
 }
 
@@ -66,20 +51,16 @@ ec_result ec_tracer_of(ec_selftest *t, ec_tracer **tracer, ec_error *err)
 static void free_accels(ec_tracer *r)
 {
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) ec_accel_free(&r->accels[a]);
-    free(r->prims);
-    r->prims = NULL;
 }
 
 void ec_tracer_close(ec_tracer *r)
 {
     if (!r) return;
     free_accels(r);
-    if (r->packets) clReleaseProgram(r->packets);
-    if (r->singles) clReleaseProgram(r->singles);
-    if (r->leaving) clReleaseProgram(r->leaving);
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
+        if (r->programs[a]) clReleaseProgram(r->programs[a]);
     free(r->paths);
     free(r->hits);
-    free(r->left);
     free(r);
 }
 
@@ -89,13 +70,9 @@ ec_result ec_tracer_build(ec_tracer *r, const ec_soup *soup, ec_error *err)
     memset(r->hits, 0, (size_t)EC_HIT_PROBE_FIELDS * EC_TRACER_RAYS * sizeof *r->hits); /* no triangle of another soup stays */
     r->soup = soup;
     r->largest = ec_soup_largest(soup);
-    r->prims = calloc((size_t)EC_PRIM_WORDS * soup->count + 1, sizeof *r->prims);
     uint32_t *indices = malloc((3 * (size_t)soup->count + 1) * sizeof *indices);
-    ec_result result = r->prims && indices ? EC_OK : ec_fail(err, "out of memory for %u triangles", soup->count);
-    for (uint32_t i = 0; i < 3 * soup->count && result == EC_OK; i++) {
-        indices[i] = i;
-        memcpy(r->prims + 4 * (size_t)i, soup->vertices + 3 * (size_t)i, 3 * sizeof *r->prims);
-    }
+    ec_result result = indices ? EC_OK : ec_fail(err, "out of memory for %u triangles", soup->count);
+    for (uint32_t i = 0; i < 3 * soup->count && result == EC_OK; i++) indices[i] = i;
     ec_accel_input input = {.positions = soup->vertices, .indices = indices, .triangle_count = soup->count};
     for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++)
         if (r->used >> a & 1 && (strcmp(ec_accels[a].name, "none") || soup->count <= BRUTE_FORCE_MOST))
@@ -124,9 +101,7 @@ void ec_tracer_given(const ec_tracer *r, uint32_t i, float o[3], float d[3])
     }
 }
 
-#define BUFFER(k) {accel->buffers[k].data, accel->buffers[k].data ? accel->buffers[k].bytes : 0, EC_ARRAY_IN}
-#define NO_BUFFER {NULL, 0, EC_ARRAY_IN}
-#define COUNT_OF(array) (uint32_t)(sizeof(array) / sizeof *(array))
+enum { BUFFERS_AT = 10, ARGUMENTS = 26 }; /* of traverse_NAME's kernel: the structure's buffers; what follows them is not read here */
 
 ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *err)
 {
@@ -135,35 +110,13 @@ ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *er
     char name[64];
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = r->largest};
     ec_counters counters = {.rays = {{count}}};
-    const ec_array arrays[] = {EC_IN(&params, 1),
-                               EC_SCALAR(zero),
-                               EC_SCALAR(zero),
-                               NO_BUFFER,
-                               EC_SCALAR(zero),
-                               EC_SCALAR(zero),
-                               EC_IN(&counters, 1),
-                               EC_SCALAR(zero),
-                               EC_IN(r->paths, EC_PATH_FIELDS * wave),
-                               EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave),
-                               BUFFER(0),
-                               BUFFER(1),
-                               BUFFER(2),
-                               BUFFER(3),
-                               BUFFER(4),
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER,
-                               NO_BUFFER};
+    ec_array arrays[ARGUMENTS] = {EC_IN(&params, 1), EC_SCALAR(zero), EC_SCALAR(zero), [4] = EC_SCALAR(zero), EC_SCALAR(zero), EC_IN(&counters, 1),
+                                  EC_SCALAR(zero), EC_IN(r->paths, EC_PATH_FIELDS * wave), EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave)};
+    for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++)
+        if (accel->buffers[k].data) arrays[BUFFERS_AT + k] = (ec_array){accel->buffers[k].data, accel->buffers[k].bytes, EC_ARRAY_IN};
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[a].name);
-    return ec_kernel_call(r->t->cl, ec_accels[a].lanes ? r->singles : r->packets, name,
-                          (count + r->lanes[a] - 1) / r->lanes[a], LOCAL, arrays, COUNT_OF(arrays), err);
+    return ec_kernel_call(r->t->cl, r->programs[a], name,
+                          (count + r->lanes[a] - 1) / r->lanes[a], LOCAL, arrays, ARGUMENTS, err);
 }
 
 bool ec_tracer_next(ec_tracer *r, uint32_t *a, uint32_t count, ec_result *result, ec_error *err)
@@ -174,28 +127,12 @@ bool ec_tracer_next(ec_tracer *r, uint32_t *a, uint32_t count, ec_result *result
     return *result == EC_OK;
 }
 
-ec_result ec_tracer_leave(ec_tracer *r, ec_error *err)
-{
-    uint32_t wave = EC_TRACER_RAYS;
-    const ec_array arrays[] = {EC_SCALAR(wave), EC_SCALAR(r->largest), EC_IN(r->prims, EC_PRIM_WORDS * (size_t)r->soup->count),
-                               EC_IN(r->hits, EC_HIT_FIELDS * wave), EC_OUT(r->paths, EC_PATH_FIELDS * wave),
-                               EC_OUT(r->left, EC_LEAVE_FIELDS * wave)};
-    return ec_kernel_call(r->t->cl, r->leaving, "ec_selftest_leave", wave / r->t->lanes, LOCAL, arrays, COUNT_OF(arrays), err);
-}
-
 ec_traced ec_tracer_hit(const ec_tracer *r, uint32_t i)
 {
     ec_traced h = {.b1 = r->hits[EC_HIT_B1 * EC_TRACER_RAYS + i], .b2 = r->hits[EC_HIT_B2 * EC_TRACER_RAYS + i],
                    .t = r->hits[EC_HIT_T * EC_TRACER_RAYS + i]};
     memcpy(&h.prim, &r->hits[i], sizeof h.prim);
     return h;
-}
-
-void ec_tracer_set_hit(ec_tracer *r, uint32_t i, uint32_t prim, double b1, double b2)
-{
-    memcpy(&r->hits[i], &prim, sizeof prim);
-    r->hits[EC_HIT_B1 * EC_TRACER_RAYS + i] = (float)b1;
-    r->hits[EC_HIT_B2 * EC_TRACER_RAYS + i] = (float)b2;
 }
 
 void ec_float_direction(const double from[3], const double to[3], float d[3])

@@ -6,7 +6,6 @@
 #include "selftest/cases.h"
 #include "selftest/soup.h"
 #include "shared/path_state.h"
-#include "shared/selftest_rays.h"
 
 /* Rays of one run: one size, under PoCL's 65536, so that each kernel is compiled once. */
 #define EC_TRACER_RAYS 32768u
@@ -15,14 +14,12 @@ typedef struct ec_tracer {
     ec_selftest *t;
     uint32_t used;         /* a bit for each accelerator: all of them, or in the short form those that renders choose by themselves */
     uint32_t lanes[EC_ACCEL_COUNT];
-    cl_program packets, singles, leaving; /* by lane width: the device's, 8, and again the device's */
+    cl_program programs[EC_ACCEL_COUNT];
     const ec_soup *soup;
     float largest;         /* |coordinate| of it */
     ec_accel accels[EC_ACCEL_COUNT];
-    float *prims;          /* as the shading kernels read them */
     float *paths;          /* ec_path_field */
     float *hits;           /* ec_hit_field, as with PROBE */
-    float *left;           /* ec_leave_field */
 } ec_tracer;
 
 /* The one of this self-test; made when first asked for. */
@@ -40,23 +37,18 @@ ec_result ec_tracer_trace(ec_tracer *tracer, uint32_t accel, uint32_t count, ec_
 /* Traces by accelerators in turn: for (uint32_t a = 0; ec_tracer_next(r, &a, count, &result, err); a++), which steps over those that
  * are not built, and ends where *result is no longer EC_OK. */
 bool ec_tracer_next(ec_tracer *tracer, uint32_t *accel, uint32_t count, ec_result *result, ec_error *err);
-/* Gives paths that leave the hits in their directions their origins. */
-ec_result ec_tracer_leave(ec_tracer *tracer, ec_error *err);
-
 typedef struct ec_traced {
     uint32_t prim;         /* EC_NO_ID: none */
     float b1, b2, t;
 } ec_traced;
 ec_traced ec_tracer_hit(const ec_tracer *tracer, uint32_t i);
-void ec_tracer_set_hit(ec_tracer *tracer, uint32_t i, uint32_t prim, double b1, double b2);
 static inline const float *ec_tracer_triangle(const ec_tracer *tracer, uint32_t prim)
 {
     return tracer->soup->vertices + 9 * (size_t)prim;
 }
-static inline float ec_tracer_left(const ec_tracer *tracer, int field, uint32_t i)
-{
-    return tracer->left[(size_t)field * EC_TRACER_RAYS + i];
-}
+/* rays_closed.c: from within at a vertex, at a point of an edge or at any; a third from below a point of the same triangle. Some along an axis, with
+ * components of 0 and -0. */
+void ec_rays_within(ec_tracer *tracer, uint64_t *random, const double centre[3], const double stretch[3]);
 
 /* `to` - `from`, made unit in float as the shading stages' directions are. */
 void ec_float_direction(const double from[3], const double to[3], float d[3]);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -30,17 +31,31 @@ static void stop(void)
     wake(NULL);
 }
 
-static void print_command(void *user, const char *command)
+static void report_command(void *user, const char *command)
 {
-    (void)user;
-    printf("%s\n", command);
-    fflush(stdout);
+    const ec_view_request *request = user;
+    char line[8192];
+    snprintf(line, sizeof line, "%s\n", command);
+    request->report(request->user, line);
 }
 
-static void print_keys(void)
+static void report_frames(const ec_window *w)
 {
-    puts("\nKeys and mouse");
-    for (size_t i = 0; i < ec_view_key_count; i++) printf("  %-28s %s\n", ec_view_keys[i].shown, ec_view_keys[i].help);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    if (!to) return;
+    ec_frames_print(&w->frames, w->status.first_light, to);
+    if (fclose(to) == 0) w->request->report(w->request->user, text);
+    free(text);
+}
+
+static bool key_at(size_t i, const char **shown, const char **help)
+{
+    if (i >= ec_view_key_count) return false;
+    *shown = ec_view_keys[i].shown;
+    *help = ec_view_keys[i].help;
+    return true;
 }
 
 /* Tells the session what is wished now, and learns what there is. */
@@ -150,14 +165,15 @@ static eclat_result conclude(const ec_window *w, eclat_error *err)
     if (w->request->script && why_stuck(s)) return ec_view_fail(err, "%s", why_stuck(s));
     if (w->input.saves != s->saves) return ec_view_fail(err, "not saved: the window was closed before the picture's first samples were there");
     if (s->is_unsaved) return ec_view_fail(err, "%s", s->told);
-    if (w->request->stats) ec_frames_print(&w->frames, s->first_light, stdout);
+    if (w->request->stats) report_frames(w);
     return ECLAT_OK;
 }
 
 static eclat_result run(const ec_view_request *request, eclat_error *err)
 {
-    static const eclat_live_listener listener = {NULL, wake, print_command};
+    const eclat_live_listener listener = {(void *)(uintptr_t)request, wake, report_command};
     ec_window w = {.request = request};
+    atomic_store(&is_stopped, false);
     eclat_result result = eclat_live_open(request->job, request->against, &listener, &w.live, err);
     if (result != ECLAT_OK) return result;
     w.input = (ec_view_input){.live = w.live, .first = eclat_live_wished(w.live), .second = ECLAT_SECOND_ERROR, .has_file = request->against != NULL,
@@ -177,4 +193,4 @@ static eclat_result run(const ec_view_request *request, eclat_error *err)
     return result;
 }
 
-const ec_view_module ec_module = {run, stop, print_keys};
+const ec_view_module ec_module = {run, stop, key_at};

@@ -10,7 +10,9 @@ typedef struct ec_view_request {
     const eclat_job *job;
     const char *against;             /* .exr beside the picture, or NULL */
     const char *script;              /* file, "orbit" or NULL */
-    bool stats;                      /* first light and frame times to standard output at the end */
+    bool stats;                      /* reports first light and frame times at the end */
+    void *user;
+    void (*report)(void *user, const char *text); /* results, whole lines; from any thread, one at a time */
 } ec_view_request;
 
 /* What the module has for the program, which looks it up by this name. */
@@ -18,7 +20,7 @@ typedef struct ec_view_module {
     eclat_result (*run)(const ec_view_request *request, eclat_error *err); /* until the window is closed. Fails where there can be no window, no
                                                                             * picture, or where the last save failed */
     void (*stop)(void);              /* closes it, from any thread */
-    void (*print_keys)(void);        /* as --help has them: a line each */
+    bool (*key_at)(size_t i, const char **shown, const char **help); /* what the i-th key is called and does; false behind the last */
 } ec_view_module;
 __attribute__((visibility("default"))) extern const ec_view_module ec_module;
 

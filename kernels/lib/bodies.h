@@ -14,14 +14,14 @@ EC_FN lane_u bodies_material(const geometry *g, lane_u bodies)
 {
     lane_i inside = bodies != 0u;
     lane_u rank = 31u - clz(bodies & (~bodies + 1u));
-    lane_u material = as_lane_u(gather_f(g->materials, (inside ? rank : U(0)) * EC_MATERIAL_WORDS + EC_MATERIAL_BODY_OF_RANK));
+    lane_u material = as_lane_u(gather_f(g->materials, (inside ? rank : U(0)) * EC_MATERIAL_WORDS + EC_WORD_body_of_rank));
     return inside ? material : U(EC_NO_ID);
 }
 
 EC_FN lane_f bodies_index(const geometry *g, lane_u material)
 {
     lane_i inside = material != EC_NO_ID;
-    lane_f index = gather_f(g->materials, (inside ? material : U(0)) + EC_MATERIAL_IOR);
+    lane_f index = gather_f(g->materials, (inside ? material : U(0)) + EC_WORD_ior);
     return inside ? index : F(1.0f);
 }
 

@@ -20,7 +20,6 @@
 #include "ggx.h"
 #include "iridescence.h"
 #include "multiscatter.h"
-#include "sheen.h"
 #include "surface.h"
 
 typedef struct bsdf {
@@ -37,7 +36,8 @@ typedef struct bsdf {
     lane_f p_below;      /* probability of that side, for the diffuse lobe */
     thin_film film;
     multiscatter again;  /* what facets scatter more than once */
-    sheen sheen;
+#define BSDF_LAYER(feature, layer) layer layer;
+    LAYERS_UP(BSDF_LAYER)
     coat coat;
 } bsdf;
 
@@ -76,13 +76,13 @@ EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest, lane_f *
     return sum > 0.0f ? reflected / sum : F(1.0f);
 }
 
-/* Of what goes to the base, the share that could be scattered there; rest: as bsdf_fresnel has it. */
+/* Share of the light that goes to the base which could be scattered there; rest: as bsdf_fresnel has it. */
 EC_FN lane_f bsdf_rest_scattered(const bsdf *b, lane_f rest)
 {
     return HAS(TRANSMISSION) ? (b->base_first ? 1.0f - b->metallic : rest) : rest;
 }
 
-/* Of what the base gets, the share that it scatters back to this side. */
+/* Share of the base's light that it scatters back to this side. */
 EC_FN lane_f bsdf_scatters_back(const bsdf *b)
 {
     lane_f share = 1.0f - b->transmission;
@@ -155,10 +155,12 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local, bool multiple)
             sum += b.again.albedo;
         }
     }
-    if (HAS(SHEEN)) {
-        b.sheen = sheen_make(s->sheen, s->sheen_roughness, wo_local.z, sum);
-        sum = fma(b.sheen.own, 1.0f - sum, sum);
+#define BSDF_MAKE(feature, layer)                           \
+    if (HAS(feature)) {                                     \
+        b.layer = layer##_make(&s->layer, wo_local, sum);   \
+        sum = fma(b.layer.own, 1.0f - sum, sum);            \
     }
+    LAYERS_UP(BSDF_MAKE)
     if (HAS(CLEARCOAT)) b.coat = coat_make(s, wo_local, sum);
     return b;
 }
@@ -195,7 +197,7 @@ EC_FN v3 bsdf_eval_diffuse_transmission(const bsdf *b, v3 wi, lane_f *pdf)
     return v3_scale(b->transmission_color, bsdf_rest_scattered(b, rest) * (1.0f - b->transmission) * b->diffuse_transmission * spread);
 }
 
-/* Of the surface without what lies over it. */
+/* The surface without the layers over it. */
 EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 {
     lane_f no = b->wo.z, ni = wi.z;
@@ -255,7 +257,9 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 {
     v3 f = bsdf_eval_base(b, wi, pdf);
     if (HAS(MULTISCATTER) && HAS(SPECULAR)) multiscatter_over(&b->again, b->wo, wi, &f, pdf);
-    if (HAS(SHEEN)) sheen_over(&b->sheen, b->wo, wi, &f, pdf);
+#define BSDF_OVER(feature, layer) \
+    if (HAS(feature)) layer##_over(&b->layer, b->wo, wi, &f, pdf);
+    LAYERS_UP(BSDF_OVER)
     if (HAS(CLEARCOAT)) coat_over(&b->coat, wi, &f, pdf);
     return f;
 }
@@ -264,7 +268,9 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 EC_FN lane_i bsdf_is_single(const bsdf *b)
 {
     lane_i single = b->facets.smooth & (b->p_specular == 1.0f);
-    if (HAS(SHEEN)) single = single & (b->sheen.p == 0.0f);
+#define BSDF_SPREADS(feature, layer) \
+    if (HAS(feature)) single = single & (b->layer.p == 0.0f);
+    LAYERS_UP(BSDF_SPREADS)
     if (HAS(CLEARCOAT)) single = single & ((b->coat.p == 0.0f) | b->coat.facets.smooth);
     return single;
 }
@@ -322,7 +328,9 @@ EC_FN lane_f bsdf_p_spread(const bsdf *b)
 {
     if (!HAS(SMOOTH)) return F(1.0f);
     lane_f p = b->facets.smooth ? 1.0f - b->p_specular : F(1.0f);
-    if (HAS(SHEEN)) p = (1.0f - b->sheen.p) * p + b->sheen.p;
+#define BSDF_P_SPREAD(feature, layer) \
+    if (HAS(feature)) p = (1.0f - b->layer.p) * p + b->layer.p;
+    LAYERS_UP(BSDF_P_SPREAD)
     if (HAS(CLEARCOAT)) p = (1.0f - b->coat.p) * p + (b->coat.facets.smooth ? F(0.0f) : b->coat.p);
     return p;
 }
@@ -332,17 +340,20 @@ EC_FN lane_f bsdf_p_spread(const bsdf *b)
 EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, chooser number, lane_f u_pass)
 {
     bsdf_direction r;
-    lane_i left = TRUE_MASK, by_coat = !TRUE_MASK, by_sheen = !TRUE_MASK, again = !TRUE_MASK, again_below = !TRUE_MASK;
+    lane_i left = TRUE_MASK, by_coat = !TRUE_MASK, again = !TRUE_MASK, again_below = !TRUE_MASK;
     lane_i specular = !TRUE_MASK, sinks = !TRUE_MASK, single = !TRUE_MASK;
     const bool may_again = HAS(MULTISCATTER) && HAS(SPECULAR) && any_lane(b->again.p > 0.0f);
     if (HAS(CLEARCOAT)) {
         by_coat = choose(&number, left, b->coat.p);
         left = left & !by_coat;
     }
-    if (HAS(SHEEN)) {
-        by_sheen = choose(&number, left, b->sheen.p);
-        left = left & !by_sheen;
+#define BSDF_CHOOSE(feature, layer)                      \
+    lane_i by_##layer = !TRUE_MASK;                      \
+    if (HAS(feature)) {                                  \
+        by_##layer = choose(&number, left, b->layer.p);  \
+        left = left & !by_##layer;                       \
     }
+    LAYERS_DOWN(BSDF_CHOOSE)
     if (may_again) { /* of smooth surfaces its p is 0 */
         again = choose(&number, left, b->again.p);
         if (HAS(TRANSMISSION)) again_below = choose(&number, again, b->again.p_below);
@@ -358,7 +369,9 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, chooser n
     if (HAS(DIFFUSE_TRANSMISSION)) r.wi.z = sinks ? -r.wi.z : r.wi.z;
     if (blind) {
         r.wi = blind_sample(b, u1, u2, &blind_pdf);
-        again = by_sheen = !TRUE_MASK;
+#define BSDF_UNCHOOSE(feature, layer) by_##layer = !TRUE_MASK;
+        LAYERS_UP(BSDF_UNCHOOSE)
+        again = !TRUE_MASK;
         specular = single;
     }
     v3 single_weight = v3_zero();
@@ -368,11 +381,12 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, chooser n
         single_weight = s.weight;
     }
     if (may_again) r.wi = v3_select(again, multiscatter_sample(&b->again, cosine, sine, u2, again_below), r.wi);
-    if (HAS(SHEEN)) {
-        lane_f r_uniform = sqrt(max(fma(-u2, u2, F(1.0f)), F(0.0f)));
-        r.wi = v3_select(by_sheen, v3_make(r_uniform * cosine, r_uniform * sine, u2), r.wi);
-        single_weight = v3_scale(single_weight, sheen_leaves(&b->sheen, r.wi.z) / (1.0f - b->sheen.p));
+#define BSDF_SAMPLE(feature, layer)                                                                                       \
+    if (HAS(feature)) {                                                                                                   \
+        r.wi = v3_select(by_##layer, layer##_sample(&b->layer, b->wo, cosine, sine, u2), r.wi);                           \
+        single_weight = v3_scale(single_weight, layer##_leaves(&b->layer, r.wi.z) / (1.0f - b->layer.p));                 \
     }
+    LAYERS_UP(BSDF_SAMPLE)
     if (HAS(CLEARCOAT)) single_weight = v3_scale(single_weight, (1.0f - b->coat.share) / (1.0f - b->coat.p));
     if (HAS(CLEARCOAT) && any_lane(by_coat)) {
         lane_i mirrored = by_coat & b->coat.facets.smooth;

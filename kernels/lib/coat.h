@@ -24,7 +24,7 @@ EC_FN v3 coat_local(const coat *c, v3 w)
     return v3_make(v3_dot(w, c->s), v3_dot(w, c->t), v3_dot(w, c->n));
 }
 
-/* Of light along a way at this cosine to its normal. */
+/* Fresnel reflectance of the coat at this cosine to its normal. */
 EC_FN lane_f coat_reflectance(lane_f cosine)
 {
     return fma(pow5(1.0f - min(max(cosine, F(0.0f)), F(1.0f))), F(0.96f), F(0.04f));
@@ -35,12 +35,12 @@ EC_FN lane_f coat_reflectance(lane_f cosine)
 EC_FN v3 coat_emission(const geometry *g, const hit_point *h, lane_i m, v3 wo, v3 emission)
 {
     if (!HAS(CLEARCOAT)) return emission;
-    m = m & (material_quad(g, h, EC_MATERIAL_COAT).a > 0.0f);
+    m = m & (material_quad(g, h, EC_WORD_coat).a > 0.0f);
     if (!any_lane(m)) return emission;
     surface s;
     surface_place(h, wo, &s);
     surface_frame(g, h, m, wo, &s);
-    lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
+    lane_u flags = as_lane_u(material_quad(g, h, EC_WORD_emission).d);
     m = m & (s.front | ((flags & (EC_MATERIAL_REFRACTS | EC_MATERIAL_BOUNDS)) == 0u));
     lane_f share = surface_coat_weight(g, h, m) * coat_reflectance(v3_dot(s.coat_ns, wo));
     return v3_select(m, v3_scale(emission, 1.0f - share), emission);

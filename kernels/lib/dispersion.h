@@ -29,7 +29,7 @@ EC_FN lane_i dispersion_choose(v3 beta, lane_f *u, v3 *left)
 /* Gives the surface the index of one channel, and beta only that. *u chooses where there is such glass, and goes on. */
 EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f *u, surface *s, v3 *beta)
 {
-    quad q = material_quad(g, h, EC_MATERIAL_IOR);
+    quad q = material_quad(g, h, EC_WORD_ior);
     m = m & s->refracts & !s->displaced & (s->transmission > 0.0f) & (q.b > 0.0f) & (q.a > 1.0f) & (v3_max_component(*beta) > 0.0f);
     if (!any_lane(m)) return;
     v3 left;

@@ -26,7 +26,7 @@ EC_FN lane_u distribution_pick(global const uint *table, lane_u at, uint n, lane
     return low;
 }
 
-/* The same entry of a short table of which none is empty: one after the other, without a gather. */
+/* distribution_pick for a short table without empty entries: looks at one after the other, without a gather. */
 EC_FN lane_u distribution_pick_few(global const uint *table, uint n, lane_u r, lane_u *first, lane_u *share)
 {
     lane_u entry = U(0), next = U(n > 1u ? table[2] : 0u);

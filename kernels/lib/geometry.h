@@ -19,6 +19,7 @@ typedef struct geometry {
     global const float *places;    /* of instances, or 0 */
     global const float *motion;    /* what moves, or 0 */
     lane_f time;                   /* with MOTION: of the paths */
+    global const float *parts;     /* ec_lamp_node by word, or 0 */
 } geometry;
 
 /* What the surface look-ups share: which triangle, where on it, what it is made of. Off lanes hold triangle 0. */
@@ -30,6 +31,7 @@ typedef struct hit_point {
     lane_u material;     /* first word of its material */
     bool is_one_material; /* with textures, which read much of it: is it the same on all lanes? */
     lane_f light_pdf_a;
+    lane_u parts;        /* with LAMP_PARTS: the first node of its parts, or 0 */
     lane_i placed;       /* with INSTANCES: on one of them, … */
     lane_u place;        /* … whose ec_place is at this word */
     lane_i turned;       /* … which is mirrored */
@@ -90,6 +92,7 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
     h.material = as_lane_u(v0.d) * EC_MATERIAL_WORDS;
     h.is_one_material = HAS_TEXTURES && all_same(h.material);
     h.light_pdf_a = v1.d;
+    h.parts = HAS(LAMP_PARTS) ? as_lane_u(v2.d) >> EC_PRIM_PARTS : U(0);
     if (HAS(INSTANCES) && any_lane(h.placed)) {
         v3 p1 = v3_select(h.turned, h.p2, h.p1), p2 = v3_select(h.turned, h.p1, h.p2);
         h.p0 = v3_select(h.placed, instance_point(g->places, h.place, h.p0), h.p0);
@@ -176,12 +179,12 @@ EC_FN quad texture_entry(const geometry *g, const hit_point *h, lane_i m, lane_i
 /* A material's texture at the hit; white where it has none. */
 EC_FN rgba material_texture(const geometry *g, const hit_point *h, lane_i m, uint slot, bool is_srgb)
 {
-    quad head = material_quad(g, h, EC_MATERIAL_SLOTS + slot * 8u);
+    quad head = material_quad(g, h, EC_WORD_slots + slot * 8u);
     lane_i id = uint_to_lane_i(as_lane_u(head.a));
     m = m & (id >= 0);
     rgba white = {v3_splat(F(1.0f)), F(1.0f)};
     if (!any_lane(m)) return white;
-    quad tail = material_quad(g, h, EC_MATERIAL_SLOTS + slot * 8u + 4u);
+    quad tail = material_quad(g, h, EC_WORD_slots + slot * 8u + 4u);
     lane_i second = as_lane_u(head.b) != 0u;
     lane_f u = second ? h->uv.c : h->uv.a, v = second ? h->uv.d : h->uv.b;
     lane_f tu = fma(head.c, u, fma(head.d, v, tail.a)), tv = fma(tail.b, u, fma(tail.c, v, tail.d));
@@ -191,7 +194,7 @@ EC_FN rgba material_texture(const geometry *g, const hit_point *h, lane_i m, uin
 /* Base colour and coverage. */
 EC_FN rgba surface_base_color(const geometry *g, const hit_point *h, lane_i m)
 {
-    quad base = material_quad(g, h, EC_MATERIAL_BASE_COLOR);
+    quad base = material_quad(g, h, EC_WORD_base_color);
     rgba r = {v3_make(base.a, base.b, base.c), base.d};
     if (HAS(BASE_COLOR_TEXTURE)) {
         rgba t = material_texture(g, h, m, EC_SLOT_BASE_COLOR, true);
@@ -210,8 +213,8 @@ EC_FN rgba surface_base_color(const geometry *g, const hit_point *h, lane_i m)
 EC_FN lane_f surface_coverage(const geometry *g, const hit_point *h, lane_i m)
 {
     lane_f alpha = surface_base_color(g, h, m).a;
-    lane_i is_mask = (as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d) & EC_MATERIAL_MASK) != 0u;
-    lane_f cutoff = material_quad(g, h, EC_MATERIAL_METALLIC).d;
+    lane_i is_mask = (as_lane_u(material_quad(g, h, EC_WORD_emission).d) & EC_MATERIAL_MASK) != 0u;
+    lane_f cutoff = material_quad(g, h, EC_WORD_metallic).d;
     return is_mask ? (alpha >= cutoff ? F(1.0f) : F(0.0f)) : alpha;
 }
 

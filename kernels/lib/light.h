@@ -5,6 +5,7 @@
 
 #include "coat.h"
 #include "environment.h"
+#include "lamp_parts.h"
 #include "light_tree.h"
 #include "spherical_triangle.h"
 #include "surface.h"
@@ -144,30 +145,68 @@ EC_FN lane_f light_near_pdf(const spherical_triangle *t, lane_f pdf_a, v3 n)
     return t->turns > 0.0f ? pmf * (0.25f * EC_INV_PI) / t->turns : F(0.0f);
 }
 
-/* The density that light_sample_triangle has at p for the point of triangle h that a path from p has met: d2 away, seen
- * under this cosine. Near or far is decided from the same numbers on both sides. */
-EC_FN lane_f light_found_pdf(const hit_point *h, lane_i m, v3 p, lane_f d2, lane_f cosine)
+/* The density at p of points of a triangle, one of them d2 away, seen under this cosine. Near or far is decided from the same numbers
+ * wherever it is asked for. */
+EC_FN lane_f light_triangle_pdf(v3 v0, v3 v1, v3 v2, lane_f pdf_a, lane_i m, v3 p, lane_f d2, lane_f cosine)
 {
-    lane_f pdf = h->light_pdf_a * d2 / cosine;
-    lane_i near = m & light_is_near(h->p0, h->p1, h->p2, p);
+    lane_f pdf = pdf_a * d2 / cosine;
+    lane_i near = m & light_is_near(v0, v1, v2, p);
     if (any_lane(near)) {
-        v3 a = v3_sub(h->p0, p), b = v3_sub(h->p1, p), c = v3_sub(h->p2, p);
-        v3 n = v3_cross(v3_sub(h->p1, h->p0), v3_sub(h->p2, h->p0));
+        v3 a = v3_sub(v0, p), b = v3_sub(v1, p), c = v3_sub(v2, p);
+        v3 n = v3_cross(v3_sub(v1, v0), v3_sub(v2, v0));
         spherical_triangle t = spherical_triangle_make(a, b, c, n);
-        pdf = near ? light_near_pdf(&t, h->light_pdf_a, n) : pdf;
+        pdf = near ? light_near_pdf(&t, pdf_a, n) : pdf;
     }
     return pdf;
 }
 
-/* A point of a triangle, seen from p. */
-EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f u1, lane_f u2)
+/* And of a lamp in parts: that of the whole, an eighth of the time, and that of the part which the point lies in. */
+EC_FN lane_f light_parted_pdf(lane_f whole, const lamp_part *part, v3 v0, v3 v1, v3 v2, lane_f pdf_a, lane_i m, v3 p, lane_f d2, lane_f cosine)
+{
+    lamp_part_corners(part, &v0, &v1, &v2);
+    lane_f own = light_triangle_pdf(v0, v1, v2, pdf_a * lamp_part_density(part), m, p, d2, cosine);
+    return fma(whole, F(EC_LAMP_WHOLE), own);
+}
+
+/* The density that light_sample_lamp has at p for the point of triangle h that a path from p has met. */
+EC_FN lane_f light_found_pdf(const geometry *g, const hit_point *h, lane_i m, v3 p, lane_f d2, lane_f cosine)
+{
+    lane_f pdf = light_triangle_pdf(h->p0, h->p1, h->p2, h->light_pdf_a, m, p, d2, cosine);
+    lane_i parted = m & (h->parts != 0u);
+    if (!HAS(LAMP_PARTS) || !g->parts || !any_lane(parted)) return pdf;
+    lamp_part part = lamp_part_descend(g->parts, parted, h->parts, false, U(0), h->b1, h->b2);
+    return parted ? light_parted_pdf(pdf, &part, h->p0, h->p1, h->p2, h->light_pdf_a, parted, p, d2, cosine) : pdf;
+}
+
+/* What a sample of the lamp, by its part or as a whole, has for a density. */
+EC_FN void light_mix_parts(const light_record *l, const geometry *g, const lamp_part *part, lane_i m, v3 p, lane_f b1, lane_f b2, light_sample *s)
+{
+    lane_i parted = m & ((l->kind >> EC_LIGHT_PARTS) != 0u), whole = parted & (part->size == 1.0f);
+    if (!g->parts || !any_lane(parted)) return;
+    lamp_part own = *part;
+    if (any_lane(whole)) {
+        lamp_part found = lamp_part_descend(g->parts, whole, l->kind >> EC_LIGHT_PARTS, false, U(0), b1, b2);
+        own.b1 = whole ? found.b1 : own.b1;
+        own.b2 = whole ? found.b2 : own.b2;
+        own.size = whole ? found.size : own.size;
+        own.share = whole ? found.share : own.share;
+    }
+    lane_f d2 = v3_dot(s->towards, s->towards), cosine = fabs(v3_dot(s->wi, s->end_normal));
+    lane_f all = light_triangle_pdf(l->a, l->b, l->c, l->pdf_a, parted, p, d2, cosine);
+    s->pdf = parted ? light_parted_pdf(all, &own, l->a, l->b, l->c, l->pdf_a, parted, p, d2, cosine) : s->pdf;
+    s->valid = s->valid & (!parted | (s->pdf > 0.0f));
+}
+
+/* A point of a triangle or, with LAMP_PARTS, of its part, seen from p. */
+EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *g, const lamp_part *part, lane_i m, v3 p, lane_f u1, lane_f u2)
 {
     lane_f root = sqrt(u1), b1 = u2 * root, b2 = root - b1, pdf = F(0.0f);
-    v3 wi = v3_zero();
-    lane_i near = m & light_is_near(l->a, l->b, l->c, p), seen = near;
+    v3 wi = v3_zero(), v0 = l->a, v1 = l->b, v2 = l->c;
+    if (HAS(LAMP_PARTS)) lamp_part_corners(part, &v0, &v1, &v2);
+    lane_i near = m & light_is_near(v0, v1, v2, p), seen = near;
     if (any_lane(near)) {
-        v3 a = v3_sub(l->a, p), b = v3_sub(l->b, p), c = v3_sub(l->c, p);
-        v3 n = v3_cross(v3_sub(l->b, l->a), v3_sub(l->c, l->a));
+        v3 a = v3_sub(v0, p), b = v3_sub(v1, p), c = v3_sub(v2, p);
+        v3 n = v3_cross(v3_sub(v1, v0), v3_sub(v2, v0));
         spherical_triangle t = spherical_triangle_make(a, b, c, n);
         lane_f near_b1, near_b2;
         wi = spherical_triangle_sample(&t, u1, u2, &near_b1, &near_b2);
@@ -176,13 +215,31 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
         pdf = light_near_pdf(&t, l->pdf_a, n);
         seen = (pdf > 0.0f) & ((v3_dot(a, n) < 0.0f) | ((l->kind & EC_LIGHT_TWO_SIDED) != 0u));
     }
+    if (HAS(LAMP_PARTS)) {
+        b1 = fma(part->size, b1, part->b1);
+        b2 = fma(part->size, b2, part->b2);
+    }
     light_sample s = light_point_of_triangle(l, m, p, b1, b2);
     /* The direction itself: right above the lamp the way to its point, whose place is rounded, leads anywhere. */
     s.wi = v3_select(near, wi, s.wi);
     s.radiance = light_radiance(l, g, m, b1, b2, s.wi);
     s.pdf = near ? pdf : s.pdf;
     s.valid = near ? seen : s.valid;
+    if (HAS(LAMP_PARTS)) light_mix_parts(l, g, part, m, p, b1, b2, &s);
     return s;
+}
+
+/* By a part of it, where it is in parts. */
+EC_FN light_sample light_sample_lamp(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f u1, lane_u r2)
+{
+    lamp_part part = lamp_part_all();
+    lane_f u2 = to_unit(r2), left;
+    lane_i parted = m & ((l->kind >> EC_LIGHT_PARTS) != 0u);
+    if (HAS(LAMP_PARTS) && g->parts && any_lane(parted)) {
+        part = lamp_part_choose(g->parts, parted, l->kind >> EC_LIGHT_PARTS, r2, &left);
+        u2 = parted ? left : u2;
+    }
+    return light_sample_triangle(l, g, &part, m, p, u1, u2);
 }
 
 /* KHR_lights_punctual: inverse square with a smooth range window, cone falloff squared. */
@@ -270,7 +327,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
 
     light_sample s;
     s.valid = !TRUE_MASK;
-    if (HAS(AREA_LIGHTS)) s = light_sample_triangle(&one, g, m & (type == EC_KIND_TRIANGLE), p, u1, to_unit(r2));
+    if (HAS(AREA_LIGHTS)) s = light_sample_lamp(&one, g, m & (type == EC_KIND_TRIANGLE), p, u1, r2);
     if (HAS(PUNCTUAL_LIGHTS)) {
         lane_i is = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
         light_sample other = light_sample_punctual(&one, m & is, p, params->scene_radius);

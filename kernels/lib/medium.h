@@ -34,7 +34,7 @@ EC_FN v3 medium_transmittance(const geometry *g, lane_u material, lane_f distanc
 {
     lane_i inside = material != EC_NO_ID;
     if (!any_lane(inside)) return v3_splat(F(1.0f));
-    quad a = gather_quad(g->materials, (inside ? material : U(0)) + EC_MATERIAL_ABSORPTION);
+    quad a = gather_quad(g->materials, (inside ? material : U(0)) + EC_WORD_absorption);
     v3 t = v3_make(exp_negative(-a.a * distance), exp_negative(-a.b * distance), exp_negative(-a.c * distance));
     return v3_select(inside, t, v3_splat(F(1.0f)));
 }

@@ -4,7 +4,7 @@
 
 #include "block8.h"
 
-/* The same numbers as slab_near: the sign of d chooses the plane instead of min and max. */
+/* Gives the numbers of slab_near: the sign of d chooses the plane instead of min and max. */
 EC_FN float8 node8_near(const ray8 *q, global const float8 *bound, float t_max, uint *mask)
 {
     float8 near = max(max(fma(bound[q->near_x], q->r.inverse.x, q->near_offset_x),

@@ -21,7 +21,9 @@ EC_FN v3 bsdf_straight(const bsdf *b)
 {
     lane_f rest;
     bsdf_fresnel(b, min(max(b->wo.z, F(0.0f)), F(1.0f)), &rest);
-    if (HAS(SHEEN)) rest *= sheen_leaves(&b->sheen, b->wo.z);
+#define PANE_LEAVES(feature, layer) \
+    if (HAS(feature)) rest *= layer##_leaves(&b->layer, b->wo.z);
+    LAYERS_UP(PANE_LEAVES)
     if (HAS(CLEARCOAT)) rest *= 1.0f - b->coat.share;
     lane_i straight = b->facets.smooth & !b->refracts & (b->wo.z > 0.0f);
     return v3_scale(b->base, straight ? rest * b->transmission : F(0.0f));

@@ -30,7 +30,7 @@ EC_FN seen seen_surface(const geometry *g, lane_i found, lane_u prim, lane_f b1,
     surface_material(g, &e.h, found, &e.s);
     e.glow = v3_zero();
     e.lit = found;
-    quad emission = material_quad(g, &e.h, EC_MATERIAL_EMISSION);
+    quad emission = material_quad(g, &e.h, EC_WORD_emission);
     lane_u flags = as_lane_u(emission.d);
     if (HAS(EMISSION)) {
         lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) & (e.s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));

@@ -9,8 +9,26 @@
 #ifndef EC_LIB_SHEEN_H
 #define EC_LIB_SHEEN_H
 
-#include "math.h"
+#include "geometry.h"
 #include "sheen_table.h"
+
+typedef struct sheen_look {
+    v3 color; /* 0: none */
+    lane_f roughness;
+} sheen_look;
+
+EC_FN sheen_look sheen_read(const geometry *g, const hit_point *h, lane_i m)
+{
+    quad q = material_quad(g, h, EC_WORD_sheen);
+    sheen_look look = {v3_make(q.a, q.b, q.c), q.d};
+    if (HAS(SHEEN_TEXTURE)) {
+        look.color = v3_mul(look.color, material_texture(g, h, m, EC_SLOT_SHEEN_COLOR, true).rgb);
+        look.roughness *= material_texture(g, h, m, EC_SLOT_SHEEN_ROUGHNESS, false).a;
+    }
+    return look;
+}
+
+EC_FN void sheen_hide(lane_i m, sheen_look *look) { look->color = v3_select(m, v3_zero(), look->color); }
 
 typedef struct sheen {
     v3 color;
@@ -60,14 +78,14 @@ EC_FN lane_f sheen_albedo(const sheen *s, lane_f cosine)
 }
 
 /* albedo: about what the surface under it reflects. */
-EC_FN sheen sheen_make(v3 color, lane_f roughness, lane_f cosine, lane_f albedo)
+EC_FN sheen sheen_make(const sheen_look *look, v3 wo, lane_f albedo)
 {
     sheen s;
-    s.color = color;
-    s.most = v3_max_component(color);
-    s.roughness = max(roughness, F(SHEEN_LEAST_ROUGHNESS));
+    s.color = look->color;
+    s.most = v3_max_component(look->color);
+    s.roughness = max(look->roughness, F(SHEEN_LEAST_ROUGHNESS));
     s.power = 1.0f / (s.roughness * s.roughness);
-    cosine = min(max(cosine, F(0.0f)), F(1.0f));
+    lane_f cosine = min(max(wo.z, F(0.0f)), F(1.0f));
     s.albedo_o = sheen_albedo(&s, cosine);
     s.shadowing_o = sheen_shadowing(&s, cosine);
     s.own = s.most * min(s.albedo_o, F(1.0f));
@@ -82,7 +100,19 @@ EC_FN lane_f sheen_leaves(const sheen *s, lane_f cosine)
     return 1.0f - s->most * min(max(s->albedo_o, sheen_albedo(s, min(fabs(cosine), F(1.0f)))), F(1.0f));
 }
 
-/* Lays it over f |cos wi| and the density of the surface; its own sampling is uniform over the hemisphere. */
+/* Uniform over the hemisphere. */
+EC_FN v3 sheen_sample(const sheen *s, v3 wo, lane_f cosine, lane_f sine, lane_f u)
+{
+    lane_f r = sqrt(max(fma(-u, u, F(1.0f)), F(0.0f)));
+    return v3_make(r * cosine, r * sine, u);
+}
+
+EC_FN v3 sheen_ambient(const sheen *s, v3 under)
+{
+    return v3_fma(s->color, min(s->albedo_o, F(1.0f)), v3_scale(under, 1.0f - s->own));
+}
+
+/* Lays it over f |cos wi| and the density of the surface. */
 EC_FN void sheen_over(const sheen *s, v3 wo, v3 wi, v3 *f, lane_f *pdf)
 {
     lane_i covered = (s->most > 0.0f) & (wo.z > 0.0f), above = covered & (wi.z > 0.0f);

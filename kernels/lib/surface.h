@@ -3,6 +3,7 @@
 #define EC_LIB_SURFACE_H
 
 #include "bodies.h"
+#include "layers.h"
 
 typedef struct surface {
     v3 p;          /* hit point, recentred frame */
@@ -31,8 +32,8 @@ typedef struct surface {
     v3 coat_ns;
     lane_f film;       /* weight of a thin film; with it its index and nanometres */
     lane_f film_ior, film_thickness;
-    v3 sheen;          /* colour of fibres over it; 0: none */
-    lane_f sheen_roughness;
+#define SURFACE_LAYER(feature, layer) layer##_look layer;
+    LAYERS_UP(SURFACE_LAYER)
 } surface;
 
 /* Position, its error bound and the geometric normal; wo points away from the surface. */
@@ -60,7 +61,7 @@ EC_FN v3 surface_offset(v3 p, v3 p_error, v3 n, v3 towards)
 /* What a picture's coordinates are of those of the mesh, by KHR_texture_transform and but for its offset: two rows. */
 EC_FN quad surface_turn(const geometry *g, const hit_point *h, uint slot)
 {
-    quad head = material_quad(g, h, EC_MATERIAL_SLOTS + slot * 8u), tail = material_quad(g, h, EC_MATERIAL_SLOTS + slot * 8u + 4u);
+    quad head = material_quad(g, h, EC_WORD_slots + slot * 8u), tail = material_quad(g, h, EC_WORD_slots + slot * 8u + 4u);
     quad turn = {head.c, head.d, tail.b, tail.c};
     return turn;
 }
@@ -107,7 +108,7 @@ EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, q
 /* The normal n bent by the normal map in a slot, whose scale is the third of four words of the material. */
 EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, v3 n, uint map, uint words)
 {
-    quad slot = material_quad(g, h, EC_MATERIAL_SLOTS + map * 8u);
+    quad slot = material_quad(g, h, EC_WORD_slots + map * 8u);
     m = m & (uint_to_lane_i(as_lane_u(slot.a)) >= 0);
     if (!any_lane(m)) return n;
     lane_f scale = material_quad(g, h, words).c, handedness;
@@ -147,9 +148,9 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
             n = v3_select(length2 > 0.0f, v3_scale(smooth, 1.0f / sqrt(length2)), n);
         }
         v3 coat = n;
-        if (HAS(NORMAL_TEXTURE)) n = surface_mapped_normal(g, h, m, n, EC_SLOT_NORMAL, EC_MATERIAL_METALLIC);
+        if (HAS(NORMAL_TEXTURE)) n = surface_mapped_normal(g, h, m, n, EC_SLOT_NORMAL, EC_WORD_metallic);
         s->ns = s->coat_ns = surface_seen_normal(s, wo, n);
-        if (HAS(CLEARCOAT_NORMAL_TEXTURE)) coat = surface_mapped_normal(g, h, m, coat, EC_SLOT_CLEARCOAT_NORMAL, EC_MATERIAL_COAT);
+        if (HAS(CLEARCOAT_NORMAL_TEXTURE)) coat = surface_mapped_normal(g, h, m, coat, EC_SLOT_CLEARCOAT_NORMAL, EC_WORD_coat);
         if (HAS(CLEARCOAT) && HAS_BENDING) s->coat_ns = surface_seen_normal(s, wo, coat);
     }
     v3_frame(s->ns, &s->s, &s->t);
@@ -188,7 +189,8 @@ EC_FN void surface_displace(surface *s)
     s->transmission = gone ? F(1.0f) : s->transmission;
     s->smooth = s->smooth | gone;
     s->coat = gone ? F(0.0f) : s->coat;
-    s->sheen = v3_select(gone, v3_zero(), s->sheen);
+#define SURFACE_LOSES(feature, layer) layer##_hide(gone, &s->layer);
+    LAYERS_UP(SURFACE_LOSES)
     s->diffuse_transmission = gone ? F(0.0f) : s->diffuse_transmission;
     s->film = gone ? F(0.0f) : s->film;
     s->eta = gone ? F(1.0f) : s->eta;
@@ -216,9 +218,9 @@ EC_FN void surface_widen(lane_i m, surface *s)
 /* KHR_materials_transmission, _ior and _volume. A body is entered through its front. Around it is air, where no bodies are nested. */
 EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
-    lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
-    quad index = material_quad(g, h, EC_MATERIAL_IOR);
-    s->transmission = material_quad(g, h, EC_MATERIAL_ABSORPTION).d;
+    lane_u flags = as_lane_u(material_quad(g, h, EC_WORD_emission).d);
+    quad index = material_quad(g, h, EC_WORD_ior);
+    s->transmission = material_quad(g, h, EC_WORD_absorption).d;
     if (HAS(TRANSMISSION_TEXTURE)) s->transmission *= material_texture(g, h, m, EC_SLOT_TRANSMISSION, false).rgb.x;
     s->refracts = ((flags & EC_MATERIAL_REFRACTS) != 0u) & (s->transmission > 0.0f) & (s->metallic < 1.0f);
     s->eta = s->refracts ? (s->front ? index.a : 1.0f / index.a) : F(1.0f);
@@ -230,7 +232,7 @@ EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m,
  * a mesh has no tangents, nor coordinates to make them of, the lobe stays round. */
 EC_FN void surface_anisotropy(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
-    quad q = material_quad(g, h, EC_MATERIAL_ANISOTROPY);
+    quad q = material_quad(g, h, EC_WORD_anisotropy);
     lane_f strength = q.a, x = q.b, y = q.c, handedness;
     lane_u second = U(0);
     quad turn = {F(1.0f), F(0.0f), F(0.0f), F(1.0f)};
@@ -238,7 +240,7 @@ EC_FN void surface_anisotropy(const geometry *g, const hit_point *h, lane_i m, s
     if (!any_lane(m)) return;
     if (HAS(ANISOTROPY_TEXTURE)) {
         v3 t = material_texture(g, h, m, EC_SLOT_ANISOTROPY, false).rgb;
-        quad slot = material_quad(g, h, EC_MATERIAL_SLOTS + EC_SLOT_ANISOTROPY * 8u);
+        quad slot = material_quad(g, h, EC_WORD_slots + EC_SLOT_ANISOTROPY * 8u);
         lane_i textured = uint_to_lane_i(as_lane_u(slot.a)) >= 0;
         lane_f u = textured ? fma(t.x, F(2.0f), F(-1.0f)) : F(1.0f), v = textured ? fma(t.y, F(2.0f), F(-1.0f)) : F(0.0f);
         x = fma(q.b, u, -q.c * v);
@@ -264,39 +266,26 @@ EC_FN void surface_anisotropy(const geometry *g, const hit_point *h, lane_i m, s
 
 EC_FN lane_f surface_coat_weight(const geometry *g, const hit_point *h, lane_i m)
 {
-    lane_f weight = material_quad(g, h, EC_MATERIAL_COAT).a;
+    lane_f weight = material_quad(g, h, EC_WORD_coat).a;
     if (HAS(CLEARCOAT_TEXTURE)) weight *= material_texture(g, h, m, EC_SLOT_CLEARCOAT, false).rgb.x;
     return weight;
 }
 
-/* KHR_materials_clearcoat. The inside of a body that refracts has none. */
+/* KHR_materials_clearcoat. The inside of a body that refracts has none, nor other layers. */
 EC_FN void surface_coat(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
-    lane_f roughness = material_quad(g, h, EC_MATERIAL_COAT).b, weight = surface_coat_weight(g, h, m);
+    lane_f roughness = material_quad(g, h, EC_WORD_coat).b, weight = surface_coat_weight(g, h, m);
     if (HAS(CLEARCOAT_TEXTURE)) roughness *= material_texture(g, h, m, EC_SLOT_CLEARCOAT_ROUGHNESS, false).rgb.y;
     s->coat = (s->refracts & !s->front) ? F(0.0f) : weight;
     s->coat_alpha = max(roughness * roughness, F(EC_SMOOTH_ALPHA));
     s->coat_smooth = roughness * roughness < EC_SMOOTH_ALPHA;
 }
 
-/* KHR_materials_sheen, likewise. */
-EC_FN void surface_sheen(const geometry *g, const hit_point *h, lane_i m, surface *s)
-{
-    quad q = material_quad(g, h, EC_MATERIAL_SHEEN);
-    s->sheen = v3_make(q.a, q.b, q.c);
-    s->sheen_roughness = q.d;
-    if (HAS(SHEEN_TEXTURE)) {
-        s->sheen = v3_mul(s->sheen, material_texture(g, h, m, EC_SLOT_SHEEN_COLOR, true).rgb);
-        s->sheen_roughness *= material_texture(g, h, m, EC_SLOT_SHEEN_ROUGHNESS, false).a;
-    }
-    s->sheen = v3_select(s->refracts & !s->front, v3_zero(), s->sheen);
-}
-
 /* KHR_materials_diffuse_transmission. */
 EC_FN void surface_diffuse_transmission(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
-    quad q = material_quad(g, h, EC_MATERIAL_SEEPING);
-    lane_u flags = as_lane_u(material_quad(g, h, EC_MATERIAL_EMISSION).d);
+    quad q = material_quad(g, h, EC_WORD_transmission_color);
+    lane_u flags = as_lane_u(material_quad(g, h, EC_WORD_emission).d);
     s->transmission_color = v3_make(q.a, q.b, q.c);
     s->diffuse_transmission = q.d;
     if (HAS(DIFFUSE_TRANSMISSION_TEXTURE)) {
@@ -308,7 +297,7 @@ EC_FN void surface_diffuse_transmission(const geometry *g, const hit_point *h, l
     s->refracts = s->refracts | (((flags & EC_MATERIAL_BOUNDS) != 0u) & (s->diffuse_transmission > 0.0f));
     if (HAS(NESTED)) {
         lane_u here, there;
-        surface_cross(g, material_quad(g, h, EC_MATERIAL_IOR),
+        surface_cross(g, material_quad(g, h, EC_WORD_ior),
                       s->refracts & !bends & ((flags & EC_MATERIAL_NESTED) != 0u), s, &here, &there);
     }
 }
@@ -316,7 +305,7 @@ EC_FN void surface_diffuse_transmission(const geometry *g, const hit_point *h, l
 /* KHR_materials_iridescence. */
 EC_FN void surface_film(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
-    quad q = material_quad(g, h, EC_MATERIAL_FILM);
+    quad q = material_quad(g, h, EC_WORD_film);
     s->film = q.a;
     s->film_ior = q.b;
     s->film_thickness = q.d;
@@ -341,11 +330,12 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->eta = s->head_on = F(1.0f);
     s->displaced = !TRUE_MASK;
     s->coat = F(0.0f);
-    s->sheen = v3_zero();
+#define SURFACE_LACKS(feature, layer) layer##_hide(TRUE_MASK, &s->layer);
+    LAYERS_UP(SURFACE_LACKS)
     s->film = s->diffuse_transmission = F(0.0f);
     s->transmission_color = v3_zero();
     if (!HAS(SPECULAR)) return;
-    quad factors = material_quad(g, h, EC_MATERIAL_METALLIC), specular = material_quad(g, h, EC_MATERIAL_F0);
+    quad factors = material_quad(g, h, EC_WORD_metallic), specular = material_quad(g, h, EC_WORD_f0);
     lane_f roughness = factors.b;
     s->metallic = factors.a;
     if (HAS(METALLIC_ROUGHNESS_TEXTURE)) {
@@ -370,7 +360,12 @@ EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, sur
     s->f90 = weight;
     if (HAS(DIFFUSE_TRANSMISSION)) surface_diffuse_transmission(g, h, m, s);
     if (HAS(CLEARCOAT)) surface_coat(g, h, m, s);
-    if (HAS(SHEEN)) surface_sheen(g, h, m, s);
+#define SURFACE_READS(feature, layer)              \
+    if (HAS(feature)) {                            \
+        s->layer = layer##_read(g, h, m);          \
+        layer##_hide(s->refracts & !s->front, &s->layer); \
+    }
+    LAYERS_UP(SURFACE_READS)
     if (HAS(IRIDESCENCE)) surface_film(g, h, m, s);
     if (HAS(NESTED)) surface_displace(s);
 }

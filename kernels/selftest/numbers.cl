@@ -1,6 +1,5 @@
 /* Arithmetic, the renderer's own functions and its random numbers over arrays: shared/selftest.h says which function is which. */
 #include "../lib/elementary.h"
-#include "../lib/roulette.h"
 #include "../lib/sampler.h"
 #include "../shared/selftest.h"
 
@@ -22,9 +21,6 @@ EC_FN lane_f value_of(uint function, lane_f a, lane_f b, lane_f c)
     case EC_NUMBERS_EXP: return exp_negative(a);
     case EC_NUMBERS_LOG: return log_unit(a, 1.0f - a);
     case EC_NUMBERS_ATAN2: return atan2_over_2pi(a, b);
-    case EC_NUMBERS_MIS: return mis_weight(a, b);
-    case EC_NUMBERS_SURVIVAL: return roulette_survival(a, 0.0f);
-    case EC_NUMBERS_UNIT: return to_unit(as_lane_u(a));
     case EC_NUMBERS_IS_FINITE: return is_finite_bits(a) ? F(1.0f) : F(0.0f);
     case EC_NUMBERS_COMPARED: return compared(a, b);
     case EC_NUMBERS_ADD: return a + b;

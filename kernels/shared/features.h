@@ -3,9 +3,11 @@
 #ifndef EC_SHARED_FEATURES_H
 #define EC_SHARED_FEATURES_H
 
+#include "material_fields.h"
 #include "types.h"
 
 #define EC_FEATURE_BIT(n) ((ec_ulong)1 << (n))
+#define EC_FEATURE_NONE 0
 #define EC_FEATURE_EMISSION EC_FEATURE_BIT(0)
 #define EC_FEATURE_AREA_LIGHTS EC_FEATURE_BIT(1)
 #define EC_FEATURE_PUNCTUAL_LIGHTS EC_FEATURE_BIT(2)
@@ -46,6 +48,7 @@
 #define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
 #define EC_FEATURE_LIGHT_TREE EC_FEATURE_BIT(43)
+#define EC_FEATURE_LAMP_PARTS EC_FEATURE_BIT(44)
 #define EC_FEATURE_MOTION EC_FEATURE_BIT(49)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
 #define EC_FEATURE_PANES EC_FEATURE_BIT(52)
@@ -93,6 +96,7 @@
     X(PIXEL_FILTER, "pixel-filter")                                                                \
     X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
     X(LIGHT_TREE, "light-tree")                                                                    \
+    X(LAMP_PARTS, "lamp-parts")                                                                    \
     X(MOTION, "motion-blur")                                                                       \
     X(INSTANCES, "instances")                                                                      \
     X(PANES, "transparent-shadows")                                                                \
@@ -104,12 +108,8 @@
 EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_its_own_bit);
 
 /* All of what reads a texture or goes along one, and so wants texels and places on them. */
-#define EC_FEATURES_TEXTURED                                                                                          \
-    (EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_METALLIC_ROUGHNESS_TEXTURE | EC_FEATURE_NORMAL_TEXTURE |              \
-     EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_SPECULAR_TEXTURE | EC_FEATURE_TRANSMISSION_TEXTURE |                    \
-     EC_FEATURE_CLEARCOAT_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE | EC_FEATURE_SHEEN_TEXTURE |                       \
-     EC_FEATURE_ANISOTROPY | EC_FEATURE_ANISOTROPY_TEXTURE | EC_FEATURE_IRIDESCENCE_TEXTURE |                      \
-     EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE)
+#define EC_FEATURE_OF_SLOT_(name, is_srgb, effect, textured, has, path) | EC_FEATURE_##textured
+#define EC_FEATURES_TEXTURED (EC_FEATURE_ANISOTROPY EC_SLOTS(EC_FEATURE_OF_SLOT_))
 /* What bends normals, what has a direction: what wants tangents. */
 #define EC_FEATURES_BENDING (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)

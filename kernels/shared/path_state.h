@@ -37,7 +37,7 @@ enum ec_shadow_field {
     EC_SHADOW_FIELDS
 };
 
-/* Of Whitted's ray trees, the branches that wait: a stack for each slot. Field f of branch k of slot s stands at word
+/* Branches of Whitted's ray trees that wait: a stack for each slot. Field f of branch k of slot s stands at word
  * (1 + k * EC_BRANCH_FIELDS + f) * wave + s; word s says how many there are. One branch of a tree is under way and leaves at most
  * one other behind in each of its segments, so max_depth - 1 are enough. */
 enum ec_branch_field {

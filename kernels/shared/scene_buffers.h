@@ -4,7 +4,7 @@
 #ifndef EC_SHARED_SCENE_BUFFERS_H
 #define EC_SHARED_SCENE_BUFFERS_H
 
-#include "texture_slots.h"
+#include "material_fields.h"
 #include "types.h"
 
 /* One triangle, in scene order: the hit's id is the index, but on an instance. */
@@ -21,6 +21,7 @@ EC_ASSERT_SIZE(ec_prim, 48);
 #define EC_PRIM_SINGLE_SIDED 1u /* camera rays pass through its back */
 #define EC_PRIM_ALPHA 2u        /* coverage must be looked up */
 #define EC_PRIM_PANE 4u         /* may let light straight on (lib/pane.h) */
+#define EC_PRIM_PARTS 8u        /* shift: of a lamp in parts its first ec_lamp_node; else 0 */
 
 /* Where instances stand, for shading: a header, an ec_place each, and behind them their first ids once more, side by side, to be
  * searched. */
@@ -64,44 +65,27 @@ typedef struct ec_texture_slot {
 } ec_texture_slot;
 EC_ASSERT_SIZE(ec_texture_slot, 32);
 
+/* EC_WORD_sheen: where a field lies in a material's record. */
+#define EC_MATERIAL_WORD(field, floats, value, least, most, slot, channel, effect, has, path) \
+    EC_WORD_##field, EC_WORD_##field##_last = EC_WORD_##field + floats - 1,
+#define EC_MATERIAL_NO_WORD(field, floats, value, least, most, slot, channel, effect, has, path)
+#define EC_MATERIAL_OWN_WORD(type, field) EC_WORD_##field,
+#define EC_MATERIAL_OWN_WORDS(field) EC_WORD_##field, EC_WORD_##field##_last = EC_WORD_##field + 2,
+enum ec_material_word {
+    EC_MATERIAL_FIELDS(EC_MATERIAL_WORD, EC_MATERIAL_NO_WORD, EC_MATERIAL_OWN_WORD, EC_MATERIAL_OWN_WORDS) EC_WORD_slots,
+    EC_MATERIAL_WORDS = EC_WORD_slots + 8 * EC_SLOT_COUNT
+};
+
+#define EC_MATERIAL_FLOATS_1(field) ec_float field;
+#define EC_MATERIAL_FLOATS_3(field) ec_float field[3];
+#define EC_MATERIAL_FLOATS_4(field) ec_float field[4];
+#define EC_MATERIAL_FIELD(field, floats, value, least, most, slot, channel, effect, has, path) EC_MATERIAL_FLOATS_##floats(field)
+#define EC_MATERIAL_OWN_FIELD(type, field) type field;
 typedef struct ec_material_data {
-    ec_float base_color[4];     /* linear, alpha = coverage */
-    ec_float emission[3];       /* radiance */
-    ec_uint flags;              /* EC_MATERIAL_* */
-    ec_float metallic, roughness, normal_scale, alpha_cutoff;
-    ec_float f0[3];             /* specular colour times the dielectric's reflectance at normal incidence */
-    ec_float specular;
-    ec_float absorption[3];     /* 1/m, inside the body */
-    ec_float transmission;
-    ec_float ior, dispersion;
-    ec_uint body;               /* with NESTED: bit of this material in sets of bodies */
-    ec_uint body_of_rank;       /* of material k: first word of that of the body of rank k */
-    ec_float coat, coat_roughness, coat_normal_scale, coat_pad;
-    ec_float sheen[3], sheen_roughness;
-    ec_float anisotropy, anisotropy_cosine, anisotropy_sine, anisotropy_pad;
-    ec_float transmission_color[3], diffuse_transmission; /* diffuse transmission: colour, share */
-    ec_float film, film_ior, film_least, film_most; /* nanometres */
+    EC_MATERIAL_FIELDS(EC_MATERIAL_FIELD, EC_MATERIAL_NO_WORD, EC_MATERIAL_OWN_FIELD, EC_MATERIAL_FLOATS_3)
     ec_texture_slot slots[EC_SLOT_COUNT];
 } ec_material_data;
-EC_ASSERT_SIZE(ec_material_data, 720);
-#define EC_MATERIAL_WORDS 180
-#define EC_MATERIAL_BASE_COLOR 0
-#define EC_MATERIAL_EMISSION 4
-#define EC_MATERIAL_FLAGS 7
-#define EC_MATERIAL_METALLIC 8
-#define EC_MATERIAL_ROUGHNESS 9
-#define EC_MATERIAL_NORMAL_SCALE 10
-#define EC_MATERIAL_ALPHA_CUTOFF 11
-#define EC_MATERIAL_F0 12
-#define EC_MATERIAL_ABSORPTION 16
-#define EC_MATERIAL_IOR 20
-#define EC_MATERIAL_BODY_OF_RANK 23
-#define EC_MATERIAL_COAT 24
-#define EC_MATERIAL_SHEEN 28
-#define EC_MATERIAL_ANISOTROPY 32
-#define EC_MATERIAL_SEEPING 36
-#define EC_MATERIAL_FILM 40
-#define EC_MATERIAL_SLOTS 44
+EC_ASSERT(sizeof(ec_material_data) == 4 * EC_MATERIAL_WORDS && EC_WORD_slots % 4 == 0, ec_a_material_is_made_of_fours);
 #define EC_MATERIAL_DOUBLE_SIDED 1u
 #define EC_MATERIAL_EMISSIVE 2u
 #define EC_MATERIAL_UNLIT 4u
@@ -146,6 +130,19 @@ EC_ASSERT_SIZE(ec_light_data, 64);
                               and in ec_prim: the area is that at the path's time */
 #define EC_LIGHT_COATED 64u /* dimmed by a clear coat, which goes by the angle */
 #define EC_LIGHT_OPEN 128u  /* coverage leaves some of it open */
+#define EC_LIGHT_PARTS 8u   /* shift: as EC_PRIM_PARTS */
+
+/* A triangle in four: three at its corners, and between them the fourth, turned by half a turn. Of 2^32 numbers each has those from its first
+ * one to the next one's; the last one's end where its parent's do. Node 0 is nobody's. */
+typedef struct ec_lamp_node {
+    ec_uint first[3]; /* of children 1, 2 and 3 */
+    ec_uint link;     /* 16 times the node of the first child that is in parts itself, beside which those of the others stand; + a bit for
+                         each that is */
+} ec_lamp_node;
+EC_ASSERT_SIZE(ec_lamp_node, 16);
+#define EC_LAMP_NODE_WORDS 4
+#define EC_LAMP_NODES_MOST 0x01000000u
+#define EC_LAMP_PARTS_NUMBERS 0xe0000000u /* numbers that choose a part; by the others the lamp is sampled as a whole */
 
 /* Entry of a distribution that is sampled by inversion: its share of the 32-bit numbers begins at `first` and ends where the next
  * entry's begins, the last one's at 2^32. guide: of the numbers r with r * n >> 32 equal to this entry's place the last one's entry. */

@@ -8,7 +8,7 @@
 #error "one work-item a pixel: build with LANES 1"
 #endif
 
-/* Of 64 plainly, of those sums with what each addition loses put back (Kahan 1965): plain floats gain or lose 6e-4 in 65536. */
+/* Adds 64 at a time plainly, and these sums with what each addition loses put back (Kahan 1965): plain floats gain or lose 6e-4 in 65536. */
 static float sum_of(global const float *in, uint count, float scale)
 {
     float sum = 0.0f, lost = 0.0f;

@@ -56,7 +56,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const float *motion, global const float *times,
                      global const float *light_table, global const uint *light_shares,
                      global const float *environment_texels, global const uint *environment_table,
-                     global const float *light_tree, global const uint *light_trails)
+                     global const float *light_tree, global const uint *light_trails, global const float *lamp_parts)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -72,6 +72,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i), prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
     slot = active ? slot : U(0);
     if (HAS(MOTION) && motion) g.time = gather_f(times, slot);
+    g.parts = lamp_parts;
     lane_i found = active & (prim != EC_NO_ID);
     v3 wo = v3_negate(d);
 
@@ -96,7 +97,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     bool nested = MEDIA_NESTED(params);
     if (nested) s.bodies = found ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
     surface_material(&g, &h, found, &s);
-    quad emission = material_quad(&g, &h, EC_MATERIAL_EMISSION);
+    quad emission = material_quad(&g, &h, EC_WORD_emission);
     lane_u flags = as_lane_u(emission.d), medium = U(EC_NO_ID);
     if (HAS_MEDIUM) medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
     if (HAS(ABSORPTION)) {
@@ -116,7 +117,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                 h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source,
                                                 params->light_tree_numbers, gather_u(light_trails, lamp));
             }
-            lane_f pdf = light_found_pdf(&h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
+            lane_f pdf = light_found_pdf(&g, &h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = coat_emission(&g, &h, m, wo, surface_emission(&g, &h, m, emission));
             Le = v3_scale(Le, found_weight(params->sample, path_pdf, pdf));
             emitted = v3_select(m, Le, emitted);

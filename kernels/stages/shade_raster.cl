@@ -51,7 +51,9 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
         v3 fresnel = HAS(SPECULAR) ? bsdf_fresnel(&b, F(1.0f), &rest) : v3_zero();
         v3 albedo = HAS(SPECULAR) ? v3_fma(b.base, rest, fresnel) : b.base;
         if (HAS(DIFFUSE_TRANSMISSION)) albedo = v3_fma(b.base, rest * (1.0f - b.diffuse_transmission), fresnel);
-        if (HAS(SHEEN)) albedo = v3_fma(b.sheen.color, min(b.sheen.albedo_o, F(1.0f)), v3_scale(albedo, 1.0f - b.sheen.own));
+#define AMBIENT(feature, layer) \
+    if (HAS(feature)) albedo = layer##_ambient(&b.layer, albedo);
+        LAYERS_UP(AMBIENT)
         if (HAS(CLEARCOAT)) albedo = v3_fma(v3_splat(F(1.0f)), b.coat.share, v3_scale(albedo, 1.0f - b.coat.share));
         direct = v3_add(direct, light_ambient(params, albedo));
     }

@@ -18,17 +18,18 @@ RING = os.path.join(SOURCE, "scenes", "ring", "ring.gltf")
 # Kernels compiled once serve every test of this build, and the user's own cache is left alone.
 ENVIRONMENT = dict(os.environ)
 ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
+ENVIRONMENT["ECLAT_COMPILE"] = "first"  # no processes that outlive a test; test_compile has its own
 
 # The same kernels for every scene, in all tests that want them: see case_with_all_effects.
 QUICK = ("--effects", "all", "--lanes", "4")
 
 
-def eclat(*arguments, cwd=None, env=None, timeout=300, **options):
-    """Runs eclat to its end; stdout and stderr as text."""
+def eclat(*arguments, cwd=None, env=None, timeout=300, program=None, **options):
+    """Runs eclat, or another program, to its end; stdout and stderr as text."""
     environment = dict(ENVIRONMENT, **(env or {}))
     options.setdefault("stdout", subprocess.PIPE)
     options.setdefault("stderr", subprocess.PIPE)
-    return subprocess.run([ECLAT, *arguments], cwd=cwd, env=environment, timeout=timeout, stdin=subprocess.DEVNULL,
+    return subprocess.run([program or ECLAT, *arguments], cwd=cwd, env=environment, timeout=timeout, stdin=subprocess.DEVNULL,
                           encoding="utf-8", errors="replace", **options)
 
 

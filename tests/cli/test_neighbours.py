@@ -12,6 +12,7 @@ from support import ECLAT, SOURCE
 
 BUILD = os.path.dirname(os.path.abspath(ECLAT))
 HOST = os.path.join(SOURCE, "host")
+COMPILE = {"base", "cl"}  # what eclat-compile, a program of its own, may use
 
 
 def permitted():
@@ -34,8 +35,9 @@ def included():
 @functools.lru_cache(maxsize=None)
 def symbols(room):
     """What the room's archive defines, and what it needs, its module included."""
-    module = os.path.join(BUILD, {"ranks": "eclat-mpi.so"}.get(room, "none"))
-    return symbols_of(os.path.join(BUILD, f"libroom_{room}.a"), *([module] if os.path.exists(module) else []))
+    module = {"ranks": "eclat_mpi"}.get(room, "none")
+    objects = glob.glob(os.path.join(BUILD, "CMakeFiles", f"{module}.dir", "host", room, "*.o"))
+    return symbols_of(os.path.join(BUILD, f"libroom_{room}.a"), *objects)
 
 
 def symbols_of(*files):
@@ -54,10 +56,10 @@ class Rooms(unittest.TestCase):
 
     def test_every_folder_is_a_room(self):
         folders = {name for name in os.listdir(HOST) if glob.glob(os.path.join(HOST, name, "*.c"))}
-        self.assertEqual(folders - {"cli", "view"}, set(permitted()))
+        self.assertEqual(folders - {"cli", "compile", "view"}, set(permitted()))
 
     def test_includes(self):
-        rooms = permitted()
+        rooms = dict(permitted(), compile=COMPILE)
         for room, other, where in included():
             if room in rooms and other in rooms and other != room:
                 self.assertIn(other, rooms[room], f"{where} includes {other}/")
@@ -73,6 +75,16 @@ class Rooms(unittest.TestCase):
             needs = symbols_of(os.path.join(BUILD, "eclat-view.so"))[1]
             self.assertIn("eclat_live_open", needs)
             self.assertEqual({name for name in needs if name.startswith("ec_")}, set())
+
+    def test_the_program_knows_the_public_header_alone(self):
+        """And the linker sees to it: it is given libeclat.so and no other library of ours, which has no symbol but those of the header."""
+        for path in [*glob.glob(os.path.join(HOST, "cli", "*")), os.path.join(HOST, "main.c")]:
+            with open(path, encoding="utf-8") as file:
+                for name in re.findall(r'^#include (?:"([^"]+)"|<eclat/(?!eclat\.h>).*>)', file.read(), re.M):
+                    self.assertRegex(name, r"^cli/", path)
+        program = subprocess.run(["objdump", "-p", ECLAT], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(re.findall(r"NEEDED +(?!ld-|libc\.|libm\.)(\S+)", program), ["libeclat.so.0"])
+        self.assertRegex(program, r"RUNPATH +\$ORIGIN")
 
     def test_symbols(self):
         rooms = permitted()

@@ -12,8 +12,6 @@ from support import ECLAT, Case
 BUILD = os.path.dirname(os.path.abspath(ECLAT))
 SOURCE = os.environ["ECLAT_SOURCE_DIR"]
 
-# Folders that still have circles. One without them goes from this list, and none comes to it.
-CIRCULAR = {"ranks"}
 
 OBJECT = re.compile(r"CMakeFiles/(?:room_\w+|eclat|eclat_view|eclat_mpi)\.dir/(host/([^/]+)/.+)\.o$")
 
@@ -28,12 +26,6 @@ def objects():
             if found and os.path.exists(os.path.join(SOURCE, found[1])):
                 rooms[found[2]][found[1]] = path
     return rooms
-
-
-def is_whole(room, files):
-    """False in builds without the preview or MPI."""
-    sources = os.listdir(os.path.join(SOURCE, "host", room))
-    return all(f"host/{room}/{name}" in files for name in sources if name.endswith(".c") and not name.startswith("no_"))
 
 
 def calls(files):
@@ -63,16 +55,13 @@ def circle(graph):
 
 class Rooms(Case):
     @unittest.skipUnless(shutil.which("nm"), "nm is not there")
-    def test_no_folder_has_a_circle_but_those_listed(self):
+    def test_no_folder_has_a_circle(self):
         rooms = objects()
         self.assertGreater(len(rooms), 10)
         for room, files in sorted(rooms.items()):
             with self.subTest(room):
                 left = sorted(circle(calls(files)))
-                if room in CIRCULAR:
-                    self.assertTrue(left or not is_whole(room, files), f"host/{room} has no circle any more: take it off the list")
-                else:
-                    self.assertEqual(left, [], f"files of host/{room} call each other in a circle")
+                self.assertEqual(left, [], f"files of host/{room} call each other in a circle")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 /* tier: quick */
 /* The binary tree: its promises on easy and hostile meshes, the same bits for any number of threads, its cost. */
 #include "accel/bvh.h"
+#include "support/bvh_check.h"
 #include "test_accel_meshes.h"
 
 static void test_promises(void)
@@ -11,7 +12,7 @@ static void test_promises(void)
         ec_bvh bvh;
         ec_bvh_stats stats;
         CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, &stats, &err), err);
-        CHECK_MSG(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_OK, "%s: %s", m.name, err.text);
+        CHECK_MSG(bvh_check(&bvh, m.positions, m.indices, &err) == EC_OK, "%s: %s", m.name, err.text);
         CHECK_MSG(stats.max_depth < 64, "%s: depth %u", m.name, stats.max_depth);
         CHECK_MSG(stats.node_count == 2 * stats.leaf_count - 1, "%s", m.name);
         CHECK_MSG(stats.leaf_fill <= 1.0 && (stats.leaf_fill > 0.1 || m.triangle_count < 2), "%s: fill %g", m.name,
@@ -49,7 +50,7 @@ static void test_not_numbers(void)
         m.positions[i] = i % 3 == 0 ? NAN : i % 3 == 1 ? INFINITY : -INFINITY;
     ec_bvh bvh;
     CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, NULL, &err), err);
-    CHECK_OK(ec_bvh_check(&bvh, m.positions, m.indices, &err), err);
+    CHECK_OK(bvh_check(&bvh, m.positions, m.indices, &err), err);
     ec_bvh_free(&bvh);
     mesh_free(&m);
 }
@@ -150,34 +151,34 @@ static void test_check_sees_damage(void)
     uint32_t *ids = bvh.order + bvh.nodes[leaf].first, id = ids[0];
     CHECK(bvh.nodes[leaf].count >= 2);
     ids[0] = ids[1];
-    CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "held already"));
+    CHECK(bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "held already"));
     ids[0] = id;
 
     float hi = bvh.nodes[leaf].hi[1];
     bvh.nodes[leaf].hi[1] = nextafterf(hi, -1e9f);
-    CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "sticks out of BVH leaf"));
+    CHECK(bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "sticks out of BVH leaf"));
     bvh.nodes[leaf].hi[1] = hi;
 
     float lo = bvh.nodes[0].lo[0];
     bvh.nodes[0].lo[0] = nextafterf(lo, 1e9f);
-    CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "its parent"));
+    CHECK(bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED && strstr(err.text, "its parent"));
     bvh.nodes[0].lo[0] = lo;
 
     bvh.nodes[leaf].count--;
-    CHECK(ec_bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED);
+    CHECK(bvh_check(&bvh, m.positions, m.indices, &err) == EC_FAILED);
     bvh.nodes[leaf].count++;
-    CHECK_OK(ec_bvh_check(&bvh, m.positions, m.indices, &err), err);
+    CHECK_OK(bvh_check(&bvh, m.positions, m.indices, &err), err);
     ec_bvh_free(&bvh);
     mesh_free(&m);
 
     m = mesh_make(&(mesh_kind){"beams", triangle_beam, 4000});
     CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, NULL, &err), err);
-    CHECK_OK(ec_bvh_check(&bvh, m.positions, m.indices, &err), err);
+    CHECK_OK(bvh_check(&bvh, m.positions, m.indices, &err), err);
     for (uint32_t i = 0; bvh.boxes && i < bvh.ref_count; i++) {
         float hi_0 = bvh.boxes[i].hi[0];
         if (bvh.order[i] % 10) continue;
         for (int k = 0; k < 3; k++) bvh.boxes[i].hi[0] = nextafterf(bvh.boxes[i].hi[0], -1.0f);
-        if (ec_bvh_check(&bvh, m.positions, m.indices, &err) != EC_OK) break; /* the part that has the far end */
+        if (bvh_check(&bvh, m.positions, m.indices, &err) != EC_OK) break; /* the part that has the far end */
         bvh.boxes[i].hi[0] = hi_0;
     }
     CHECK(strstr(err.text, "does not hold all of triangle"));

@@ -21,11 +21,13 @@ static layouts make_layouts(const mesh *m)
 {
     ec_error err;
     layouts l;
+    ec_bvh2 two;
+    ec_bvh8 eight;
     CHECK_OK(ec_bvh_build(m->positions, m->indices, m->triangle_count, 0, &l.bvh, NULL, &err), err);
-    CHECK_OK(ec_bvh2_layout(&l.bvh, m->positions, m->indices, &l.nodes2, &l.count2, &l.triangles, &l.boxes2,
-                            &l.triangle_count, &err), err);
-    CHECK_OK(ec_bvh8_layout(&l.bvh, m->positions, m->indices, &l.nodes8, &l.count8, &l.blocks, &l.boxes8,
-                            &l.block_count, &err), err);
+    CHECK_OK(ec_bvh2_layout(&l.bvh, m->positions, m->indices, &two, &err), err);
+    CHECK_OK(ec_bvh8_layout(&l.bvh, m->positions, m->indices, &eight, &err), err);
+    l.nodes2 = two.nodes, l.triangles = two.triangles, l.boxes2 = two.boxes, l.count2 = two.node_count, l.triangle_count = two.triangle_count;
+    l.nodes8 = eight.nodes, l.blocks = eight.blocks, l.boxes8 = eight.boxes, l.count8 = eight.node_count, l.block_count = eight.block_count;
     return l;
 }
 

@@ -72,7 +72,7 @@ static void test_weights(void)
     PAIR(ANISOTROPY, (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1), (m->roughness = 0.5f, m->anisotropy = 1));
     PAIR(ANISOTROPY, (m->transmission = 1, m->roughness = 0.5f, m->anisotropy = 1), (m->transmission = m->roughness = m->anisotropy = 1));
     PAIR(ANISOTROPY, (m->transmission = 1, m->volume = true, m->roughness = 0, m->anisotropy = 0.1f), (m->transmission = 1, m->volume = true, m->roughness = 0));
-    PAIR(IRIDESCENCE, (m->film = 1, m->film_ior = 1.3f, m->film_most = 400), (m->film = 1, m->film_ior = 1.3f));
+    PAIR(IRIDESCENCE, m->film = 1, (m->film = 1, m->film_least = m->film_most = 0));
     PAIR(IRIDESCENCE, (m->film = 1, m->film_ior = 1.3f, m->film_most = 400), (m->film = 1, m->film_ior = 1, m->film_most = 400));
     PAIR(DIFFUSE_TRANSMISSION, m->diffuse_transmission = 1, (m->diffuse_transmission = 1, USE(DIFFUSE_TRANSMISSION, BLACK)));
     PAIR(DIFFUSE_TRANSMISSION, m->diffuse_transmission = 1, (m->diffuse_transmission = m->metallic = 1));

@@ -109,9 +109,11 @@ static void test_scale_and_weights(void)
     expect_corner(second, &one, 1, 1, (double[3]){1 + 0.5 + 1.5, 0, 0});
 }
 
-#define LAMP                                                                                                             \
+#define LAMP_AND(MATERIAL)                                                                                               \
     ",'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point','intensity':1}]}},"                                 \
-    "'cameras':[{'type':'perspective','perspective':{'yfov':0.5}}],'materials':[{}]"
+    "'cameras':[{'type':'perspective','perspective':{'yfov':0.5}}],'materials':[{" MATERIAL "}]"
+#define LAMP LAMP_AND("")
+#define GLASS LAMP_AND("'extensions':{'KHR_materials_ior':{'ior':4}}")
 #define LAMP_NODE ",'camera':0,'extensions':{'KHR_lights_punctual':{'light':0}}"
 
 static void test_pointers(void)
@@ -126,6 +128,9 @@ static void test_pointers(void)
     const keys colors = {.times = {0, 2, 4}, .values = {0, 0, 0, 1, 0.5f, 0.25f, 1, 1}};
     s = load_at(ANIMATED(LAMP_NODE, POINTER("/materials/0/pbrMetallicRoughness/baseColorFactor"), "LINEAR", FLOATS("3", "VEC4"), LAMP), &colors, 1);
     if (s) CHECK_NEAR(s->materials[0].base_color[1], 0.125, 0);
+    ec_scene_free(s);
+    s = load_at(ANIMATED(LAMP_NODE, POINTER("/materials/0/extensions/KHR_materials_ior/ior"), "LINEAR", FLOATS("3", "SCALAR"), GLASS), &k, 1);
+    if (s) CHECK_NEAR(s->materials[0].ior, 2, 0);
     ec_scene_free(s);
     s = load_at(ANIMATED(LAMP_NODE, POINTER("/nodes/0/translation"), "LINEAR", FLOATS("3", "VEC3"), LAMP), &k, 2);
     if (s) CHECK_NEAR(s->cameras[0].position[0] + s->center[0], 7, 1e-6);

@@ -33,7 +33,7 @@ static void expect(const char *json, uint32_t triangles, uint32_t lights)
     CHECK_MSG(s != NULL, "%s", err.text);
     if (!s) return;
     CHECK_MSG(s->triangle_count == triangles && s->light_count == lights, "%u triangles, %u lights", s->triangle_count, s->light_count);
-    CHECK(s->camera_count == 1 && s->extension_ignored_count == 0);
+    CHECK(s->camera_count == 1 && s->contents.ignored.count == 0);
     ec_scene_free(s);
 }
 

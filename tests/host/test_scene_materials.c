@@ -51,8 +51,8 @@ static void test_factors(void)
     CHECK(m->specular == 0 && m->specular_color[0] == 2 && m->specular_color[2] == 0.5f);
     CHECK(m->textures[EC_SLOT_SPECULAR].texture >= 0 && m->textures[EC_SLOT_NORMAL].texture >= 0);
     CHECK(!has_light(s)); /* 0.4 is less than the cutoff */
-    CHECK(s->extension_count == 2 && s->extension_ignored_count == 1);
-    CHECK(!strcmp(s->extensions_ignored[0], "KHR_materials_unknown"));
+    CHECK(s->contents.extensions.count == 2 && s->contents.ignored.count == 1);
+    CHECK(!strcmp(s->contents.ignored.names[0], "KHR_materials_unknown"));
     CHECK_MSG(strstr(messages, "KHR_materials_unknown") != NULL, "%s", messages);
     ec_scene_free(s);
     s = load(TEXTURED(",'extensions':{'KHR_materials_unlit':{}},'alphaMode':'BLEND'", ""));

@@ -28,15 +28,8 @@
     S(ec_texture_data) F(ec_texture_data, offset) F(ec_texture_data, width) F(ec_texture_data, height) F(ec_texture_data, flags) \
     S(ec_light_data) F(ec_light_data, a) F(ec_light_data, b) F(ec_light_data, c) F(ec_light_data, emission) \
     F(ec_light_data, kind) F(ec_light_data, prim) F(ec_light_data, pmf) F(ec_light_data, pdf_a)    \
+    S(ec_lamp_node) F(ec_lamp_node, first[2]) F(ec_lamp_node, link)                                \
     S(ec_distribution_entry) F(ec_distribution_entry, first) F(ec_distribution_entry, guide)       \
     N(EC_PARTS) N(EC_PART_STRIDE) N(EC_STAGE_COUNT) N(EC_SLOT_COUNT) N(EC_KIND_ENVIRONMENT) N(EC_NO_ID) N(EC_LEAF_BIT)
-
-/* Word offsets that kernels name, and what they are of: W(EC_NAME, type, field). */
-#define WORDS(W)                                                                                   \
-    W(EC_MATERIAL_BASE_COLOR, ec_material_data, base_color) W(EC_MATERIAL_EMISSION, ec_material_data, emission) \
-    W(EC_MATERIAL_FLAGS, ec_material_data, flags) W(EC_MATERIAL_METALLIC, ec_material_data, metallic) \
-    W(EC_MATERIAL_ROUGHNESS, ec_material_data, roughness) W(EC_MATERIAL_NORMAL_SCALE, ec_material_data, normal_scale) \
-    W(EC_MATERIAL_ALPHA_CUTOFF, ec_material_data, alpha_cutoff) W(EC_MATERIAL_F0, ec_material_data, f0) \
-    W(EC_MATERIAL_ABSORPTION, ec_material_data, absorption) W(EC_MATERIAL_IOR, ec_material_data, ior) W(EC_MATERIAL_SLOTS, ec_material_data, slots)
 
 #endif

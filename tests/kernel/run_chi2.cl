@@ -46,8 +46,8 @@ static bsdf make_bsdf(constant float *m)
     s.t = v3_make(F(0.0f), F(1.0f), F(0.0f));
     s.ns = v3_make(F(0.0f), F(0.0f), F(1.0f));
     s.stretch = F(1.0f + m[PACKED_STRETCH]);
-    s.sheen = v3_make(F(m[PACKED_SHEEN]), F(m[PACKED_SHEEN + 1]), F(m[PACKED_SHEEN + 2]));
-    s.sheen_roughness = F(m[PACKED_SHEEN_ROUGHNESS]);
+    s.sheen.color = v3_make(F(m[PACKED_SHEEN]), F(m[PACKED_SHEEN + 1]), F(m[PACKED_SHEEN + 2]));
+    s.sheen.roughness = F(m[PACKED_SHEEN_ROUGHNESS]);
     s.diffuse_transmission = F(m[PACKED_DIFFUSE_TRANSMISSION]);
     s.transmission_color = v3_make(F(m[PACKED_DIFFUSE_TRANSMISSION + 1]), F(m[PACKED_DIFFUSE_TRANSMISSION + 2]), F(m[PACKED_DIFFUSE_TRANSMISSION + 3]));
     s.film = F(m[PACKED_FILM]);

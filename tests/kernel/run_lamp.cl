@@ -20,14 +20,16 @@ kernel void lamps(uint n, global const float *points, global const float *corner
     lane_f pdf_a = 2.0f / sqrt(v3_dot(normal, normal)), u1 = LANE_LOAD(u + at), u2 = LANE_LOAD(u + n + at), b1, b2;
     light_record l = {v0, v1, v2, v3_splat(F(1.0f)), U(EC_KIND_TRIANGLE | EC_LIGHT_TWO_SIDED), U(0), F(1.0f), pdf_a};
     geometry g = {0, 0, 0, 0, 0, 0, 0, {0, 0, 0}};
-    light_sample s = light_sample_triangle(&l, &g, TRUE_MASK, p, u1, u2);
+    lamp_part whole = lamp_part_all();
+    light_sample s = light_sample_triangle(&l, &g, &whole, TRUE_MASK, p, u1, u2);
     spherical_triangle_sample(&t, u1, u2, &b1, &b2);
     hit_point h;
     h.p0 = v0;
     h.p1 = v1;
     h.p2 = v2;
     h.light_pdf_a = pdf_a;
-    lane_f found = light_found_pdf(&h, TRUE_MASK, p, v3_dot(s.towards, s.towards), fabs(v3_dot(s.wi, s.end_normal)));
+    h.parts = U(0);
+    lane_f found = light_found_pdf(&g, &h, TRUE_MASK, p, v3_dot(s.towards, s.towards), fabs(v3_dot(s.wi, s.end_normal)));
     LANE_STORE(b1, out + n + at);
     LANE_STORE(b2, out + 2 * n + at);
     LANE_STORE(s.pdf, out + 3 * n + at);

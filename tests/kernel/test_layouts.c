@@ -19,8 +19,14 @@ static const struct expected {
 
 static void words_are_those_of_the_structs(void)
 {
-#define WORD(name, type, field) CHECK(name * 4 == offsetof(type, field));
-    WORDS(WORD)
+#define IS_AT(field) CHECK_MSG(EC_WORD_##field * 4 == offsetof(ec_material_data, field), "%s", #field);
+#define FIELD(field, floats, value, least, most, slot, channel, effect, has, path) IS_AT(field)
+#define FILES(field, floats, value, least, most, slot, channel, effect, has, path)
+#define WORD(type, field) IS_AT(field)
+    EC_MATERIAL_FIELDS(FIELD, FILES, WORD, IS_AT)
+    static const int in_fours[] = {EC_WORD_base_color, EC_WORD_emission, EC_WORD_metallic, EC_WORD_f0, EC_WORD_absorption, EC_WORD_ior, EC_WORD_coat,
+                                   EC_WORD_sheen, EC_WORD_anisotropy, EC_WORD_transmission_color, EC_WORD_film, EC_WORD_slots};
+    for (size_t i = 0; i < sizeof in_fours / sizeof *in_fours; i++) CHECK(in_fours[i] % 4 == 0);
     CHECK(EC_PRIM_WORDS * 4 == sizeof(ec_prim));
     CHECK(EC_MATERIAL_WORDS * 4 == sizeof(ec_material_data));
     CHECK(EC_LIGHT_WORDS * 4 == sizeof(ec_light_data));

@@ -33,7 +33,8 @@ static eclat_job *make_job(const char *scene, const char *output)
 {
     eclat_error err;
     eclat_job *job = NULL;
-    CHECK_MSG(eclat_job_new(scene, &job, &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_job_new("render", &job, &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_job_add(job, scene, &err) == ECLAT_OK, "%s", err.text);
     CHECK_MSG(eclat_job_set(job, "spp", "4", &err) == ECLAT_OK, "%s", err.text);
     CHECK_MSG(eclat_job_set(job, "output", output, &err) == ECLAT_OK, "%s", err.text);
     return job;
@@ -97,13 +98,13 @@ static eclat_picture *render_command(char *command)
     eclat_picture *picture = NULL;
     const char *word = strtok(command, " ");
     CHECK(word && !strcmp(word, "eclat") && !strcmp(strtok(NULL, " "), "render"));
-    CHECK(eclat_job_new(strtok(NULL, " "), &job, NULL) == ECLAT_OK);
+    CHECK(eclat_job_new("render", &job, NULL) == ECLAT_OK && eclat_job_add(job, strtok(NULL, " "), NULL) == ECLAT_OK);
     while ((word = strtok(NULL, " ")) && !strncmp(word, "--", 2)) {
         char *value = strchr(word, '=');
         if (value) *value++ = 0;
         CHECK_MSG(eclat_job_set(job, word + 2, value, &err) == ECLAT_OK, "%s", err.text);
     }
-    CHECK_MSG(eclat_job_render(job, &picture, &err) == ECLAT_OK, "%s", err.text);
+    CHECK_MSG(eclat_job_run(job, &picture, &err) == ECLAT_OK, "%s", err.text);
     eclat_job_free(job);
     return picture;
 }

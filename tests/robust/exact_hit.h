@@ -4,7 +4,10 @@
 
 #include <math.h>
 
-#include "selftest/soup.h"
+#include "robust/soups.h"
+
+/* The larger; NaN once there is one, which fmax would pass over. */
+static inline double ec_worse(double worst, double value) { return value <= worst || worst != worst ? worst : value; }
 
 /* The line o + t d and a triangle's plane, on the float numbers (Moeller and Trumbore 1997). */
 typedef struct exact_hit {

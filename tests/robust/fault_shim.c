@@ -28,7 +28,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/auxv.h>
 #include <unistd.h>
 
 #define CALLS(X)                                                                                                                   \
@@ -297,24 +296,26 @@ int open(const char *path, int flags, ...)
     return file_fault(is_below(path), CALL_open) ? -1 : REAL(open)(path, flags, mode);
 }
 
-/* Memory that the program asks for itself; libraries are not ours to judge. */
-static const char *program, *program_end;
+/* Memory that libeclat asks for itself; other libraries are not ours to judge. */
+static const char *ours, *ours_end;
 
-__attribute__((constructor)) static void find_program(void)
+static int find_ours(struct dl_phdr_info *info, size_t size, void *user)
 {
-    const ElfW(Phdr) *header = (const ElfW(Phdr) *)getauxval(AT_PHDR);
-    const char *base = NULL;
-    for (unsigned long i = 0; i < getauxval(AT_PHNUM); i++) {
-        if (header[i].p_type == PT_PHDR) base = (const char *)header - header[i].p_vaddr;
-        if (!base || header[i].p_type != PT_LOAD || !(header[i].p_flags & PF_X)) continue;
-        program = base + header[i].p_vaddr;
-        program_end = program + header[i].p_memsz;
+    (void)size, (void)user;
+    for (int i = 0; i < info->dlpi_phnum && strstr(info->dlpi_name, "/libeclat.so"); i++) {
+        const ElfW(Phdr) *header = &info->dlpi_phdr[i];
+        if (header->p_type != PT_LOAD || !(header->p_flags & PF_X)) continue;
+        ours = (const char *)info->dlpi_addr + header->p_vaddr;
+        ours_end = ours + header->p_memsz;
     }
+    return 0;
 }
+
+__attribute__((constructor)) static void find_library(void) { dl_iterate_phdr(find_ours, NULL); }
 
 static bool memory_fault(const void *caller)
 {
-    if ((const char *)caller < program || (const char *)caller >= program_end || !is_due(CALL_malloc)) return false;
+    if ((const char *)caller < ours || (const char *)caller >= ours_end || !is_due(CALL_malloc)) return false;
     errno = ENOMEM;
     return true;
 }

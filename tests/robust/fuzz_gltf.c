@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "accel/accel.h"
+#include "../support/bvh_check.h"
 #include "fuzz.h"
 #include "pack/pack.h"
 #include "scene/validate.h"
@@ -64,7 +65,7 @@ static void build(const ec_scene *scene)
     }
     ec_error err = {0};
     if (input.bvh.nodes)
-        PROMISE(ec_bvh_check(&input.bvh, scene->positions, scene->indices, &err) == EC_OK, "%s", err.text);
+        PROMISE(bvh_check(&input.bvh, scene->positions, scene->indices, &err) == EC_OK, "%s", err.text);
     ec_accel_input_free(&input);
 }
 

@@ -7,7 +7,8 @@
 
 #include "robust/cases.h"
 #include "robust/exact_hit.h"
-#include "selftest/room.h"
+#include "robust/leave.h"
+#include "robust/room.h"
 #include "selftest/shot.h"
 #include "selftest/tracer.h"
 
@@ -66,9 +67,9 @@ static ec_result put_bounces(ec_tracer *r, const ec_room *room, const view *v, e
         ec_room_moved(room, v->rays[i].next, moved);
         ec_float_direction(nowhere, moved, d);
         ec_tracer_ray(r, i, unset, d, h.prim);
-        if (h.prim == EC_NO_ID) ec_tracer_set_hit(r, i, 0, 0, 0);
+        if (h.prim == EC_NO_ID) set_hit(r, i, 0, 0, 0);
     }
-    return ec_tracer_leave(r, err);
+    return leave_hits(r, err);
 }
 
 static void keep(const ec_tracer *r, uint32_t count, ec_traced *hits)

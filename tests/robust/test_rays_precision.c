@@ -6,6 +6,7 @@
 
 #include "robust/cases.h"
 #include "robust/exact_hit.h"
+#include "robust/leave.h"
 #include "selftest/tracer.h"
 
 /* At a point within a triangle, from `distance` away, at this cosine to its normal. */
@@ -97,13 +98,13 @@ static void put_sliver(uint64_t *random, double aspect, float v[9])
 }
 
 /* Off a triangle's plane, and how much the kernels' own bound allows: in units of that bound. */
-static double off_plane(const ec_tracer *r, uint32_t i, const float v[9])
+static double off_plane(uint32_t i, const float v[9])
 {
     double normal[3], allowed = 0, off = 0;
     ec_triangle_normal(v, normal);
     for (int k = 0; k < 3; k++) {
-        off += normal[k] * ((double)ec_tracer_left(r, EC_LEAVE_P + k, i) - v[k]);
-        allowed += fabs(normal[k]) * ec_tracer_left(r, EC_LEAVE_ERROR + k, i);
+        off += normal[k] * ((double)left(EC_LEAVE_P + k, i) - v[k]);
+        allowed += fabs(normal[k]) * left(EC_LEAVE_ERROR + k, i);
     }
     return fabs(off) / allowed;
 }
@@ -129,10 +130,10 @@ static ec_result slivers(ec_selftest *t, double aspect, bool has_weights, ec_err
         for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) compare(r, i, &all);
     }
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) /* what missed still needs a triangle to leave */
-        if (ec_tracer_hit(r, i).prim == EC_NO_ID) ec_tracer_set_hit(r, i, 0, 0, 0);
-    if (result == EC_OK) result = ec_tracer_leave(r, err);
+        if (ec_tracer_hit(r, i).prim == EC_NO_ID) set_hit(r, i, 0, 0, 0);
+    if (result == EC_OK) result = leave_hits(r, err);
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++)
-        off = ec_worse(off, off_plane(r, i, ec_tracer_triangle(r, ec_tracer_hit(r, i).prim)));
+        off = ec_worse(off, off_plane(i, ec_tracer_triangle(r, ec_tracer_hit(r, i).prim)));
     ec_soup_free(&soup);
     EC_TRY(result);
     snprintf(what, sizeof what, "1e%.0f, weights", log10(aspect));

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "robust/cases.h"
+#include "robust/soups.h"
 #include "selftest/tracer.h"
 
 enum { BOXES = 16, QUADS = 30 }; /* few enough triangles for the accelerator that tries them all */

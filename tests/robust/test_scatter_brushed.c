@@ -1,7 +1,7 @@
 /* tier: full */
 /* Stretched lobes (KHR_materials_anisotropy): as wide as they get along x while they are next to smooth across, of metal and of glass. */
 #include "robust/cases.h"
-#include "selftest/scatter.h"
+#include "robust/scatter.h"
 
 static double unit24(uint64_t *random) { return (double)(ec_random_bits(random) >> 40) * EC_U; }
 

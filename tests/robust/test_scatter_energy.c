@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "robust/cases.h"
-#include "selftest/scatter.h"
+#include "robust/scatter.h"
 
 static double unit24(uint64_t *random) { return (double)(ec_random_bits(random) >> 40) * EC_U; }
 

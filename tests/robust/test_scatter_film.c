@@ -1,7 +1,7 @@
 /* tier: full */
 /* What a thin film on a surface reflects, where the answer is known without a film. */
 #include "robust/cases.h"
-#include "selftest/scatter.h"
+#include "robust/scatter.h"
 
 /* Half of them at grazing angles. */
 static double cosine_of(uint32_t i)

@@ -6,7 +6,7 @@
 
 #include "robust/cases.h"
 #include "gltf/model.h"
-#include "selftest/scatter.h"
+#include "robust/scatter.h"
 #include "selftest/shot.h"
 #include "shared/features.h"
 

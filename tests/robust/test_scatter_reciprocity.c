@@ -1,7 +1,7 @@
 /* tier: full */
 /* Does light go both ways alike? */
 #include "robust/cases.h"
-#include "selftest/scatter.h"
+#include "robust/scatter.h"
 
 /* Cosine between wo and the microfacet that refracts it to w. */
 static double facing(const ec_scatter_run *run, uint32_t i, double eta)

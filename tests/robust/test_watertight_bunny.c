@@ -3,6 +3,7 @@
 #include <math.h>
 #include <unistd.h>
 
+#include "base/vec3.h"
 #include "kernel/kernel_run.h"
 #include "selftest/tracer.h"
 

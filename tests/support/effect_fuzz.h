@@ -20,7 +20,7 @@
 enum { EF_MATERIALS = 7 };
 /* Not a scene's to call for. */
 #define EF_NEVER                                                                                                      \
-    (EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LIGHT_TREE |  \
+    (EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LIGHT_TREE | EC_FEATURE_LAMP_PARTS | \
      EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_MULTISCATTER)
 
 typedef enum effect_run { EF_SHARED, EF_EXACT } effect_run;
@@ -168,7 +168,7 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
     if (EF_HAS(DISPERSION) || (!m->volume && EF_NEARLY(DISPERSION))) m->dispersion = ef_between(d, 151, 1e-3f, 0, 1, 20);
     if (EF_HAS(IRIDESCENCE) || EF_NEARLY(IRIDESCENCE)) {
         m->film = 0.5f + 0.5f * ef_real(d, 152);
-        m->film_ior = 1.3f;
+        m->film_least = 0;
         m->film_most = EF_HAS(IRIDESCENCE) ? ef_between(d, 153, 1e-3f, 200, 500, 1e5f) : 0;
         if (EF_HAS(IRIDESCENCE) && EF_HAS(IRIDESCENCE_TEXTURE)) EF_USE(IRIDESCENCE_THICKNESS, NOISE);
     }

@@ -61,30 +61,26 @@ static void build_ours(const bench_mesh *mesh, times *t, int run)
 {
     ec_error err;
     ec_bvh bvh;
-    ec_bvh8_node *wide;
-    ec_tri8 *blocks;
-    ec_bvh2_node *binary;
-    ec_tri *triangles;
-    ec_box *boxes;
-    ec_box8 *wide_boxes;
-    uint32_t count;
+    ec_bvh8 wide;
+    ec_bvh2 binary;
     double start = ec_now();
     if (ec_bvh_build(mesh->positions, mesh->indices, mesh->triangle_count, 0, &bvh, &t->stats, &err)) die(err.text);
     t->tree[run] = t->stats.build_seconds;
     start = ec_now();
-    if (ec_bvh8_layout(&bvh, mesh->positions, mesh->indices, &wide, &t->wide_nodes, &blocks, &wide_boxes, &t->blocks, &err))
-        die(err.text);
+    if (ec_bvh8_layout(&bvh, mesh->positions, mesh->indices, &wide, &err)) die(err.text);
     t->wide[run] = ec_now() - start;
-    free(wide);
-    free(blocks);
-    free(wide_boxes);
+    t->wide_nodes = wide.node_count;
+    t->blocks = wide.block_count;
+    free(wide.nodes);
+    free(wide.blocks);
+    free(wide.boxes);
     start = ec_now();
-    if (ec_bvh2_layout(&bvh, mesh->positions, mesh->indices, &binary, &t->binary_nodes, &triangles, &boxes, &count, &err))
-        die(err.text);
+    if (ec_bvh2_layout(&bvh, mesh->positions, mesh->indices, &binary, &err)) die(err.text);
     t->binary[run] = ec_now() - start;
-    free(binary);
-    free(triangles);
-    free(boxes);
+    t->binary_nodes = binary.node_count;
+    free(binary.nodes);
+    free(binary.triangles);
+    free(binary.boxes);
     ec_bvh_free(&bvh);
 }
 

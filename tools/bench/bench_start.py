@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Time to the first pixel of the Cornell box, cold and warm, and memory on a million triangles. See README.md."""
+"""Time to the first pixel: with empty caches, after a render of another scene, and with full caches; and memory on a million triangles. See README.md."""
 import argparse
+import glob
 import os
 import shutil
 import tempfile
+import time
 
 import bench_common as common
 
-COLD, WARM = 3.0, 0.5  # seconds
+# Seconds to the first pixel: at the very first use, by scene; after any earlier render; and with all kernels there.
+FIRST = {"cornell-box": 1.8, "showcase": 3.0, "lamps": 4.0, "DamagedHelmet": 3.0}
+AFTER, WARM = 1.0, 0.3
 MEMORY = 600.0         # MB
 
 
@@ -20,26 +24,72 @@ def first_pixel(report):
     return outside + max(before - setup, 0.0) + report["first_pixel_seconds"]
 
 
-def start(eclat, scene, folder, caches):
-    environment = dict(os.environ, XDG_CACHE_HOME=os.path.join(caches, "xdg"), POCL_CACHE_DIR=os.path.join(caches, "pocl"))
-    os.makedirs(environment["XDG_CACHE_HOME"], exist_ok=True)
-    os.makedirs(environment["POCL_CACHE_DIR"], exist_ok=True)
-    return common.run_eclat(eclat, [scene, "--size", "512x512", "--spp", "1", "-o", os.path.join(folder, "start.exr")], environment)
+def scenes():
+    helmet = common.shared("assets", "gltf", "DamagedHelmet", "glTF-Binary", "DamagedHelmet.glb") or common.shared("assets", "gltf", "DamagedHelmet", "glTF", "DamagedHelmet.gltf")
+    found = {name: os.path.join(common.ROOT, "scenes", name, name + ".gltf") for name in FIRST if name != "DamagedHelmet"}
+    return dict(found, DamagedHelmet=helmet) if helmet else found
+
+
+class Caches:
+    """Folders for the program's and the driver's kernels, which stay the same folders when they are emptied: the program knows them again."""
+
+    def __init__(self, folder):
+        self.folder, self.kept = os.path.join(folder, "caches"), os.path.join(folder, "kept")
+        self.environment = dict(os.environ, XDG_CACHE_HOME=os.path.join(self.folder, "xdg"), POCL_CACHE_DIR=os.path.join(self.folder, "pocl"))
+        for path in (self.environment["XDG_CACHE_HOME"], self.environment["POCL_CACHE_DIR"]):
+            os.makedirs(path)
+
+    def empty(self):
+        for path in glob.glob(os.path.join(self.folder, "*", "*")):
+            shutil.rmtree(path) if os.path.isdir(path) else os.remove(path)
+
+    def keep(self):
+        shutil.copytree(self.folder, self.kept)
+
+    def restore(self):
+        self.empty()
+        shutil.copytree(self.kept, self.folder, dirs_exist_ok=True)
+
+    def wait(self):
+        """Until nothing is compiled into them any more."""
+        mark = os.fsencode("XDG_CACHE_HOME=" + self.environment["XDG_CACHE_HOME"])
+        while any(self.is_compiler(path, mark) for path in glob.glob("/proc/[0-9]*")):
+            time.sleep(0.2)
+
+    @staticmethod
+    def is_compiler(path, mark):
+        try:
+            with open(os.path.join(path, "cmdline"), "rb") as command, open(os.path.join(path, "environ"), "rb") as environment:
+                return b"eclat-compile" in command.read() and mark in environment.read()
+        except OSError:
+            return False
+
+
+def start(eclat, scene, folder, caches, size="512x512"):
+    report = common.run_eclat(eclat, [scene, "--size", size, "--spp", "1", "-o", os.path.join(folder, "start.exr")], caches.environment)
+    return first_pixel(report)
 
 
 def measure_start(eclat, runs, folder):
-    scene = common.cornell_box()
-    cold, warm, walls = [], [], {"cold": [], "warm": []}
-    caches = os.path.join(folder, "caches")
-    for _ in range(runs):
-        shutil.rmtree(caches, ignore_errors=True)
-        report = start(eclat, scene, folder, caches)
-        cold.append(first_pixel(report))
-        walls["cold"].append(report["wall_seconds"])
-        report = start(eclat, scene, folder, caches)
-        warm.append(first_pixel(report))
-        walls["warm"].append(report["wall_seconds"])
-    return {"cold": cold, "warm": warm, "wall": walls}
+    caches, found = Caches(folder), scenes()
+    times = {name: {"first": [], "after": [], "warm": []} for name in found}
+    for name, scene in found.items():
+        for _ in range(runs):
+            caches.wait()
+            caches.empty()
+            times[name]["first"].append(start(eclat, scene, folder, caches))
+        caches.wait()
+        times[name]["warm"] = [start(eclat, scene, folder, caches) for _ in range(runs)]
+    caches.empty()
+    start(eclat, os.path.join(common.ROOT, "scenes", "ring", "ring.gltf"), folder, caches, "64x64")
+    caches.wait()
+    caches.keep()
+    for name, scene in found.items():
+        for _ in range(runs):
+            caches.restore()
+            times[name]["after"].append(start(eclat, scene, folder, caches))
+            caches.wait()
+    return times
 
 
 def measure_memory(eclat, folder):
@@ -53,7 +103,7 @@ def measure_memory(eclat, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
-    parser.add_argument("--runs", type=int, default=5, help="cold and warm starts each")
+    parser.add_argument("--runs", type=int, default=5, help="starts of each kind and scene")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
     parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
     options = parser.parse_args()
@@ -62,10 +112,10 @@ def main():
         starts = measure_start(eclat, options.runs, folder)
         memory = measure_memory(eclat, folder)
     rows = []
-    for name, target in (("cold", COLD), ("warm", WARM)):
-        value = common.median(starts[name])
-        rows.append(common.row(f"first pixel, {name} start, Cornell box", f"{value:.2f} s", f"<= {target:.1f} s", value <= target,
-                               f"+- {common.spread(starts[name]):.0%}; whole process {common.median(starts['wall'][name]):.2f} s"))
+    for scene, times in starts.items():
+        for name, what, target in (("first", "first use", FIRST[scene]), ("after", "after another scene", AFTER), ("warm", "warm", WARM)):
+            value = common.median(times[name])
+            rows.append(common.row(f"first pixel, {what}, {scene}", f"{value:.2f} s", f"<= {target:.1f} s", value <= target, f"+- {common.spread(times[name]):.0%}"))
     if memory is None:
         rows.append(common.row("peak memory, MetalRoughSpheresNoTextures", "skipped", f"<= {MEMORY:.0f} MB", None, "../shared/assets is not here"))
     else:

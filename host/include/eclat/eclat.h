@@ -3,18 +3,18 @@
  *     eclat_job *job = NULL;
  *     eclat_picture *picture = NULL;
  *     eclat_error err;
- *     if (eclat_job_new("scene.glb", &job, &err) || eclat_job_set(job, "error", "2%", &err) ||
- *         eclat_job_render(job, &picture, &err) || eclat_picture_write(picture, "scene.exr", &err))
+ *     if (eclat_job_new("render", &job, &err) || eclat_job_add(job, "scene.glb", &err) || eclat_job_set(job, "error", "2%", &err) ||
+ *         eclat_job_run(job, &picture, &err) || eclat_picture_write(picture, "scene.exr", &err))
  *         fprintf(stderr, "%s\n", err.text);
  *     eclat_picture_free(picture);
  *     eclat_job_free(job);
  *
  * Errors. Functions that can fail return an eclat_result and fill an eclat_error (which may be NULL) with one line: what went wrong, where, and
  * how to mend it. What they were to create is NULL then.
- * Ownership. The caller frees what _new, _list, _render and _merge create by the _free of its type, which takes NULL too. Texts and arrays that
- * are returned as const belong to the object they are asked of, and last as long as it.
+ * Ownership. The caller frees what _new, _list, _join and _run create by the _free or _leave of its type, which takes NULL too. Texts and arrays
+ * that are returned as const belong to the object they are asked of, and last as long as it; those of tables last for ever.
  * Threads. Objects are independent of one another: each may be used by any one thread at a time. eclat_job_stop alone may be called at any
- * time from any thread, or from a signal handler. A render uses all cores or the device that it is told. The library has no global state,
+ * time from any thread, or from a signal handler. A job uses all cores or the device that it is told. The library has no global state,
  * prints nothing, and installs no signal handler; an OpenCL driver may.
  * Texts are UTF-8; numbers in option values use a decimal point. */
 #ifndef ECLAT_ECLAT_H
@@ -61,52 +61,126 @@ typedef struct eclat_device {
 eclat_result eclat_devices_list(eclat_device **devices, size_t *count, eclat_error *err);
 void eclat_devices_free(eclat_device *devices);
 
-/* ---- Jobs: a scene, and how it is to be rendered ---- */
+/* ---- Commands: what jobs there are, and which options they take ---- */
+
+/* A term and what it means. */
+typedef struct eclat_note {
+    const char *heading; /* the title of a group of options, or one of its own */
+    const char *term, *text;
+} eclat_note;
+
+typedef struct eclat_command {
+    const char *name;                /* "render" */
+    const char *operands;            /* what follows the name: "SCENE [options]" */
+    const char *summary;             /* a line on what it does */
+    const char *intro, *closing;     /* paragraphs before and after its options; closing NULL: none */
+    const char *borrows;             /* heading for its borrowed options, which are then listed by name alone; NULL: they are told like its own */
+    const char *lacks;               /* heading for the options that it refuses; NULL: it refuses none */
+    const eclat_note *notes;         /* a NULL heading ends them; NULL: there are none */
+} eclat_command;
+
+typedef struct eclat_option {
+    const char *name;                /* "spp" */
+    char letter;                     /* its short form on a command line; 0: none */
+    int takes_value;                 /* 0, 1, or 2: it may */
+    const char *metavar;             /* what `help` calls the value; NULL: it takes none */
+    const char *help;                /* without a line break or a full stop at its end */
+    const char *otherwise;           /* the default in words; NULL: there is none, or `help` says it */
+    const char *const *choices;      /* all values that it takes, NULL behind the last; NULL: others too */
+    int group;                       /* options that belong together; shown in the order of these numbers */
+    const char *group_title;
+    int repeats;                     /* every value counts, not the last one alone */
+    int is_borrowed;                 /* it is what it is in `render` */
+    const char *refused;             /* why this command does not take it, though `render` does; NULL: it does */
+} eclat_option;
+
+/* By name, i from 0 on; NULL behind the last. */
+const eclat_command *eclat_command_at(size_t i);
+
+/* The options of a command, by group; name NULL behind the last, and where there is no such command. */
+eclat_option eclat_option_at(const char *command, size_t i);
+
+/* ---- Jobs: a command, its inputs, its options ---- */
 
 typedef struct eclat_job eclat_job;
 
-/* scene: the path of a .gltf or .glb. It is read when the job renders, each time. */
-eclat_result eclat_job_new(const char *scene, eclat_job **job, eclat_error *err);
+/* command: "render", "cost", "info", "compare", "merge", "devices", "selftest" or "view"; the manual says what each does. */
+eclat_result eclat_job_new(const char *command, eclat_job **job, eclat_error *err);
 void eclat_job_free(eclat_job *job);
 
-/* Options by the names that `eclat render --help` lists, without dashes: "spp" "256", "size" "640x480", "device" "0". value: NULL for one that takes
- * none, as "adaptive" may. The last one counts, but "output" and "without" add to what was set. Fails with ECLAT_USAGE where there is no such option or
- * the value is wrong. Without "output" a render writes no files. */
+/* Adds an input: the path of a scene, or of a picture. Files are read when the job runs, each time. */
+eclat_result eclat_job_add(eclat_job *job, const char *input, eclat_error *err);
+
+/* Sets an option by its name, without dashes: "spp" "256", "size" "640x480", "device" "0". value: NULL for one that takes none, as "adaptive" may.
+ * The last one counts, but options that repeat add to what was set. Fails with ECLAT_USAGE where there is no such option or the value is wrong. */
 eclat_result eclat_job_set(eclat_job *job, const char *option, const char *value, eclat_error *err);
 
-typedef struct eclat_option {
-    const char *name;
-    int takes_value; /* 0, 1, or 2: it may */
-} eclat_option;
-
-/* The options that eclat_job_set takes, i from 0 on; name NULL behind the last. */
-eclat_option eclat_option_at(size_t i);
+/* The command line that the job stands for, its program first: what its files and reports say of where they come from. Without it, that is a
+ * line made of inputs and options. */
+eclat_result eclat_job_typed(eclat_job *job, int argc, char *const *argv, eclat_error *err);
 
 typedef enum eclat_severity { ECLAT_STATUS, ECLAT_NOTE, ECLAT_WARNING, ECLAT_FAILURE } eclat_severity;
 
 typedef struct eclat_progress {
-    double fraction;                   /* 0 to 1, of the first limit that will end the render */
+    double fraction;                   /* 0 to 1, of the first limit that will end the job */
     double seconds, seconds_left;      /* seconds_left < 0: not known */
     double samples_per_pixel;
-    double error, error_bound;         /* as eclat_picture_error has them */
+    double error, error_bound;         /* as eclat_picture_error has them; of jobs that do not render one picture, INFINITY */
+    const char *text;                  /* the same, and more, in words: "37 %  0:12 left  96 spp  5.42 M samples/s  error 2.31 % (bound 2.40 %)" */
 } eclat_progress;
 
-/* Called from the thread that renders, never two at a time. */
+/* Called from the thread that runs the job, or from one of its own; never two at a time. Functions may be NULL. */
 typedef struct eclat_listener {
     void *user;
-    void (*message)(void *user, eclat_severity severity, const char *text); /* one line. NULL: messages are dropped */
-    int (*progress)(void *user, const eclat_progress *progress);            /* about twice a second; 0 stops the render and keeps the picture so far */
+    /* One line. With the option `quiet` there are warnings and failures only. */
+    void (*message)(void *user, eclat_severity severity, const char *text);
+    /* About twice a second; 0 stops the job and keeps what there is so far. */
+    int (*progress)(void *user, const eclat_progress *progress);
+    /* What came of the job, or of one frame of it: in words, or as JSON and a newline with the option `json`. Returns NULL, or why it has not
+     * arrived, with which the job fails. */
+    const char *(*report)(void *user, const char *text, size_t size);
+    int bold;                          /* a report may have the escape codes of a terminal for bold print */
+    /* From here on a job that is killed loses something; may come several times. has_progress: progress follows, up to `end`. */
+    void (*begin)(void *user, int has_progress);
+    void (*end)(void *user);
+    /* What to tell should the process be killed from outside. Valid during the call. */
+    void (*hint)(void *user, const char *text);
 } eclat_listener;
 
 void eclat_job_listen(eclat_job *job, const eclat_listener *listener); /* copied; NULL: nobody */
 
-/* Asks the render that is under way, or the next one, to end soon and to keep the picture so far. */
+/* Asks the job, or its next run, to end soon and to keep what there is so far. */
 void eclat_job_stop(eclat_job *job);
 
-/* Renders and waits. *picture is NULL on failure, but where the device failed halfway: then it is the picture so far. It is NULL on success too
- * for what goes to the files of "output" alone: a sequence (option "frames"), and a picture that does not fit into memory. A job may render again. */
+/* Runs and waits; a job may run again. picture NULL: what the job makes goes to the files of the option "output", or to those that it names by
+ * itself. Otherwise jobs that make one picture, "render" and "merge", give it, and write files only where "output" names them. *picture is NULL
+ * on failure, but where the device failed halfway: then it is the picture so far. It is NULL on success too where there is none: of a sequence
+ * of frames, or of a picture that does not fit into memory. */
 typedef struct eclat_picture eclat_picture;
-eclat_result eclat_job_render(eclat_job *job, eclat_picture **picture, eclat_error *err);
+eclat_result eclat_job_run(eclat_job *job, eclat_picture **picture, eclat_error *err);
+
+/* Of the last run that succeeded, 1 where its answer is no: pictures differ by more than noise, or a case of the self-test failed. */
+int eclat_job_says_no(const eclat_job *job);
+
+/* ---- Many machines: the processes that an MPI launcher has started, as one renderer ---- */
+
+typedef struct eclat_ranks eclat_ranks;
+
+/* Finds the others; *ranks is NULL where this process is alone. It may be there on failure too, and is to be left then. */
+eclat_result eclat_ranks_join(eclat_ranks **ranks, eclat_error *err);
+int eclat_ranks_number(const eclat_ranks *ranks); /* 0: the first, whose jobs the others help with. NULL: by the launcher's word */
+
+/* What all others do: helps until the first one leaves, and leaves. */
+eclat_result eclat_ranks_serve(eclat_ranks *ranks, const eclat_listener *listener, eclat_error *err);
+void eclat_ranks_leave(eclat_ranks *ranks);
+
+/* Lets them help with a job, if it renders. */
+void eclat_job_share(eclat_job *job, eclat_ranks *ranks);
+
+/* ---- The window of the command "view" ---- */
+
+/* What keys and the mouse do there; term NULL behind the last, and where there is no window to be had. */
+eclat_note eclat_view_key_at(size_t i);
 
 /* ---- Pictures ---- */
 
@@ -148,7 +222,7 @@ eclat_attribute eclat_picture_attribute_at(const eclat_picture *picture, size_t 
 eclat_attribute eclat_picture_attribute(const eclat_picture *picture, const char *name);   /* name NULL where there is no such attribute */
 
 /* All channels and attributes to an .exr, or the tone-mapped picture to a .png. The file has its name only once it is whole. A slice's .exr is one that
- * eclat_merge takes. */
+ * "merge" takes. */
 eclat_result eclat_picture_write(const eclat_picture *picture, const char *path, eclat_error *err);
 
 /* ---- Files ---- */
@@ -161,9 +235,6 @@ typedef struct eclat_comparison {
 
 /* Two .exr files of one size; b is the reference. */
 eclat_result eclat_compare(const char *a, const char *b, eclat_comparison *comparison, eclat_error *err);
-
-/* Makes one picture of slices (option "samples") or checkpoints of one job. listener may be NULL. is_partial: samples may be missing. */
-eclat_result eclat_merge(const char *const *paths, size_t count, int is_partial, const eclat_listener *listener, eclat_picture **picture, eclat_error *err);
 
 /* ---- Live: a picture that follows a camera ----
  * For windows and viewports:

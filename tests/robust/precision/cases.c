@@ -103,11 +103,11 @@ static void put_material(float *memory, uint32_t id, int32_t normal_map)
 {
     float *material = memory + EC_PRECISION_MATERIALS + EC_MATERIAL_WORDS * id;
     for (uint32_t slot = 0; slot < EC_SLOT_COUNT; slot++) {
-        float *s = material + EC_MATERIAL_SLOTS + 8 * slot;
+        float *s = material + EC_WORD_slots + 8 * slot;
         s[0] = ec_float_of_bits((uint32_t)(slot == EC_SLOT_NORMAL ? normal_map : -1));
         s[2] = s[6] = 1; /* (u, v) as they are */
     }
-    material[EC_MATERIAL_NORMAL_SCALE] = 1;
+    material[EC_WORD_normal_scale] = 1;
 }
 
 static void put_even_table(float *entries, uint32_t n)

@@ -93,5 +93,5 @@ void ec_inputs_share(uint64_t *random, float *x)
 void ec_inputs_distance(uint64_t *random, float *x)
 {
     x[0] = (float)ec_draw_log(random, 1e-6, 1e4);
-    for (int k = 0; k < 3; k++) x[EC_MATERIAL_ABSORPTION + k] = (float)(ec_draw_log(random, 1e-8, 80) / x[0]);
+    for (int k = 0; k < 3; k++) x[EC_WORD_absorption + k] = (float)(ec_draw_log(random, 1e-8, 80) / x[0]);
 }

@@ -21,7 +21,7 @@ EC_FN surface material_of(global const float *in)
     s.refracts = s.eta != 1.0f;
     s.stretch = X(18);
     s.coat = F(0.0f);
-    s.sheen = v3_zero();
+    s.sheen.color = v3_zero();
     s.film = s.diffuse_transmission = F(0.0f);
     s.transmission_color = v3_zero();
     return s;
@@ -81,7 +81,8 @@ PRECISION(multiscatter_over)
 }
 PRECISION(sheen_over)
 {
-    sheen s = sheen_make(V(6), X(12), X(2), F(0.5f));
+    sheen_look look = {V(6), X(12)};
+    sheen s = sheen_make(&look, V(0), F(0.5f));
     v3 f = v3_zero();
     lane_f pdf = F(0.0f);
     sheen_over(&s, V(0), V(3), &f, &pdf);

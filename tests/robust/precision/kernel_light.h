@@ -20,7 +20,8 @@ PRECISION(light_sample_triangle)
 {
     geometry g = geometry_of(in, memory);
     light_record l = light_of(in);
-    light_sample s = light_sample_triangle(&l, &g, TRUE_MASK, V(0), X(19), X(20));
+    lamp_part whole = lamp_part_all();
+    light_sample s = light_sample_triangle(&l, &g, &whole, TRUE_MASK, V(0), X(19), X(20));
     PUT_V(0, v3_select(s.valid, s.wi, v3_zero()));
     v3 e1 = v3_sub(l.b, l.a), e2 = v3_sub(l.c, l.a);
     lane_f height = fabs(v3_dot(v3_sub(l.a, V(0)), s.end_normal));

@@ -31,6 +31,7 @@ EC_FN hit_point hit_of(global const float *in)
     h.uv2.b = X(16);
     h.material = U(0);
     h.light_pdf_a = F(0.0f);
+    h.parts = U(0);
     h.placed = h.turned = !TRUE_MASK;
     h.place = U(0);
     return h;

@@ -1,0 +1,134 @@
+/* What is known of the driver's own cache, which cannot be asked: for each job that was compiled into it a list of the files that the driver then
+ * had loaded, with their hashes. Drivers load what they find, and a damaged file ends the process; so each is looked at before. */
+#include <sha2.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cl/cache.h"
+#include "cl/compile_job.h"
+
+#define PATH_SIZE 4096
+#define PROGRAM "program.bc" /* of PoCL, two folders above the kernels */
+
+/* Where PoCL keeps its cache, as it chooses itself. */
+static bool driver_folder(char path[PATH_SIZE])
+{
+    const char *own = getenv("POCL_CACHE_DIR"), *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    int size = -1;
+    if (own && *own) size = snprintf(path, PATH_SIZE, "%s", own);
+    else if (xdg && *xdg) size = snprintf(path, PATH_SIZE, "%s/pocl/kcache", xdg);
+    else if (home && *home) size = snprintf(path, PATH_SIZE, "%s/.cache/pocl/kcache", home);
+    return size > 0 && size < PATH_SIZE;
+}
+
+/* The key of all that it was compiled from and for, and where to. False where there is no cache to speak of. */
+static bool key_of(const ec_cl *cl, const ec_compile_job *job, char folder[PATH_SIZE], ec_cache_key *key)
+{
+    char path[PATH_SIZE], where[PATH_SIZE + 64];
+    struct stat status;
+    const char *is_used = getenv("POCL_KERNEL_CACHE");
+    if (is_used && !strcmp(is_used, "0")) return false;
+    if (!ec_cache_folder(cl->cache_dir, folder, PATH_SIZE) || !driver_folder(path) || stat(path, &status) != 0) return false;
+    snprintf(where, sizeof where, "%s %llu %llu", path, (unsigned long long)status.st_dev, (unsigned long long)status.st_ino);
+    *key = ec_cache_key_of(&cl->info, where, "");
+    for (uint32_t i = 0; i < job->program_count; i++) {
+        char options[256];
+        snprintf(options, sizeof options, "%s %s", job->programs[i].options, key->hex);
+        *key = ec_cache_key_of(&cl->info, job->programs[i].source, options);
+    }
+    for (uint32_t i = 0; i < job->kernel_count; i++) {
+        const ec_compile_kernel *k = &job->kernels[i];
+        char launch[256];
+        snprintf(launch, sizeof launch, "%s %u %d %s", k->name, k->local, k->global < 65536, key->hex); /* see ec_kernel_run */
+        *key = ec_cache_key_of(&cl->info, launch, "");
+    }
+    return true;
+}
+
+/* Takes the program that a damaged file belongs to out of the driver's way. */
+static void set_aside(const ec_cl *cl, const char *path, const char *driver)
+{
+    char program[PATH_SIZE], aside[PATH_SIZE + 32];
+    size_t length = strlen(driver) + 1;
+    for (int levels = 0; levels < 2; levels++) length += strcspn(path + length, "/") + 1; /* XX/the rest of its hash */
+    snprintf(program, sizeof program, "%.*s", (int)length - 1, path);
+    snprintf(aside, sizeof aside, "%s.damaged-%ld", program, (long)getpid());
+    if (rename(program, aside) == 0) ec_warn(cl->log, "a damaged file in the driver's cache, '%s', is set aside: its kernels are compiled again", aside);
+}
+
+/* Is each file of the list as it was? One that is gone is compiled again by the driver; one that is other than it was would end the process. */
+static bool is_intact(const ec_cl *cl, char *list)
+{
+    char driver[PATH_SIZE], hash[SHA256_DIGEST_STRING_LENGTH], *rest = NULL;
+    bool is_whole = driver_folder(driver);
+    for (char *line = strtok_r(list, "\n", &rest); line && is_whole; line = strtok_r(NULL, "\n", &rest)) {
+        char *path = strchr(line, ' ');
+        if (!path) return false;
+        *path++ = 0;
+        is_whole = SHA256File(path, hash) && !strcmp(hash, line);
+        if (!is_whole && access(path, F_OK) == 0 && !strncmp(path, driver, strlen(driver))) set_aside(cl, path, driver);
+    }
+    return is_whole;
+}
+
+bool ec_compile_job_is_done(const ec_cl *cl, const ec_compile_job *job)
+{
+    char folder[PATH_SIZE], *list = NULL;
+    ec_cache_key key;
+    unsigned char *found = NULL;
+    size_t bytes = 0;
+    if (!key_of(cl, job, folder, &key) || !ec_cache_load(folder, &key, &found, &bytes)) return false;
+    list = strndup((char *)found, bytes);
+    const bool is_done = list && is_intact(cl, list);
+    free(list);
+    free(found);
+    return is_done;
+}
+
+static void add_file(FILE *list, const char *path)
+{
+    char hash[SHA256_DIGEST_STRING_LENGTH];
+    if (SHA256File(path, hash)) fprintf(list, "%s %s\n", hash, path);
+}
+
+/* A kernel's own file, and its program's: .../program.bc for .../kernel/size/kernel.so. */
+static void add_kernel(FILE *list, const char *path)
+{
+    char program[PATH_SIZE + 16];
+    int length = (int)strlen(path);
+    add_file(list, path);
+    for (int levels = 0; levels < 3 && length > 0; levels++)
+        while (length > 0 && path[--length] != '/') {}
+    snprintf(program, sizeof program, "%.*s/" PROGRAM, length, path);
+    add_file(list, program);
+}
+
+/* What the driver has loaded into this process from its cache. */
+static void list_files(FILE *list, const char *driver)
+{
+    char line[PATH_SIZE + 128], last[PATH_SIZE + 128] = "";
+    FILE *maps = fopen("/proc/self/maps", "r");
+    while (maps && fgets(line, sizeof line, maps)) {
+        char *path = strchr(line, '/');
+        if (!path || strncmp(path, driver, strlen(driver))) continue;
+        path[strcspn(path, "\n")] = 0;
+        if (strcmp(path, last)) add_kernel(list, path); /* a file is mapped in several pieces, one after the other */
+        snprintf(last, sizeof last, "%s", path);
+    }
+    if (maps) fclose(maps);
+}
+
+void ec_compile_job_done(const ec_cl *cl, const ec_compile_job *job)
+{
+    char folder[PATH_SIZE], driver[PATH_SIZE], *text = NULL;
+    ec_cache_key key;
+    size_t size = 0;
+    if (!key_of(cl, job, folder, &key) || !driver_folder(driver)) return;
+    FILE *list = open_memstream(&text, &size);
+    if (!list) return;
+    list_files(list, driver);
+    if (fclose(list) == 0 && size) ec_cache_store(folder, &key, (const unsigned char *)text, size);
+    free(text);
+}

@@ -1,0 +1,18 @@
+/* The program's commands: the jobs of the library, and two of its own. */
+#ifndef EC_CLI_PAGES_H
+#define EC_CLI_PAGES_H
+
+#include "cli/arguments.h"
+
+extern const eclat_command ec_page_main; /* the program itself; its name is "" */
+extern const eclat_command ec_page_completion, ec_page_help;
+extern const char *const ec_shell_names[]; /* that completion is for, NULL-terminated */
+
+enum { EC_PAGES_MOST = 16 };
+int ec_page_names(const char *names[EC_PAGES_MOST + 1]); /* of all commands, NULL-terminated; returns their number */
+int ec_pages(const eclat_command *pages[EC_PAGES_MOST]); /* all commands by name; returns their number */
+const eclat_command *ec_page_find(const char *name);     /* NULL: there is none */
+
+int ec_page_options(const eclat_command *page, eclat_option rows[EC_OPTIONS_MOST]); /* its options, but --help and --version */
+
+#endif

@@ -1,0 +1,99 @@
+/* eclat merge A.exr B.exr … -o ALL.exr: slices of one job into one picture, to the same bits in any order. */
+#include <string.h>
+
+#include "commands/command.h"
+#include "jobs/outputs.h"
+#include "jobs/setters.h"
+#include "report/merge_report.h"
+#include "report/names.h"
+
+typedef struct merge_request {
+    ec_outputs outputs;
+    double exposure;
+    ec_tonemap tonemap;
+    bool partial;
+} merge_request;
+
+#define REQUEST ((merge_request *)target)
+
+FLAG_SETTER(partial, partial)
+RANGE_SETTER(exposure, ec_parse_real, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST, exposure)
+CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
+
+SETTER(output)
+{
+    (void)option;
+    return ec_outputs_add(&REQUEST->outputs, value, err);
+}
+
+static const ec_option options[] = {
+    {.name = "exposure", .metavar = "EV", .set = set_exposure, .help = "brighten the PNG by this many stops", .otherwise = "0"},
+    {.name = "json", .help = "print one JSON object instead of text"},
+    {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output, .uses = EC_OPTION_REPEATS,
+     .help = "write FILE, an .exr (all data, sums included, so that it can be merged again) or a .png; may be repeated"},
+    {.name = "partial", .set = set_partial, .help = "write the picture even if samples are missing"},
+    {.name = "quiet", .letter = 'q', .help = "print only warnings and errors"},
+    {.name = "tonemap", .metavar = "CURVE", .set = set_tonemap, .choices = ec_tonemap_names,
+     .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
+};
+
+EC_ROWS(options)
+
+static ec_result check(const ec_call *call, const ec_outputs *outputs, ec_error *err)
+{
+    char **paths = call->inputs;
+    const int count = call->input_count;
+    if (count == 0) return ec_usage(err, "merge needs slices, A.exr B.exr …, and -o ALL.exr; see 'eclat merge --help'");
+    if (outputs->count == 0 && !call->wants_picture)
+        return ec_usage(err, "merge needs -o ALL.exr, where the slices come together; see 'eclat merge --help'");
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < i; k++)
+            if (ec_same_file(paths[i], paths[k])) return ec_fail(err, "'%s' and '%s' are the same slice; leave one out", paths[k], paths[i]);
+    ec_inputs inputs = {.files = (const char *const *)paths, .file_count = count};
+    return ec_outputs_check(outputs, &inputs, err);
+}
+
+static ec_result tell(const ec_call *call, ec_error *err)
+{
+    const merge_request *request = call->request;
+    const ec_merged *m = &call->merged;
+    const char *outputs[EC_OUTPUTS_MAX];
+    for (int i = 0; i < request->outputs.count; i++) outputs[i] = request->outputs.file[i].path;
+    const ec_merge_report report = {.files = call->input_count,
+                                    .samples_per_pixel = m->samples_per_pixel,
+                                    .replicates = ec_film_replicates(&m->slices.all.film),
+                                    .heavy_pixels = m->picture.heavy_count,
+                                    .error = m->error,
+                                    .limit = ec_merged_clamp(m),
+                                    .luminance = (double)m->slices.all.film.limit,
+                                    .clamp = m->clamp,
+                                    .image_sha256 = m->sha256,
+                                    .outputs = outputs,
+                                    .output_count = request->outputs.count};
+    if (call->json) return ec_merge_report_json(&report, call->listener->to, err);
+    if (!call->quiet) ec_merge_report_text(&report, call->listener->to);
+    return EC_OK;
+}
+
+static ec_result write_merged(ec_call *call, ec_outputs *outputs, ec_error *err)
+{
+    const merge_request *request = call->request;
+    return ec_merged_write(&call->merged, outputs, request->exposure, request->tonemap, err);
+}
+
+static ec_result run(ec_call *call, ec_error *err)
+{
+    merge_request *request = call->request;
+    call->write = write_merged;
+    EC_TRY(check(call, &request->outputs, err));
+    EC_TRY(ec_merged_make(call->inputs, call->input_count, request->partial, call->line, &call->merged, &call->listener->log, err));
+    if (request->outputs.count) EC_TRY(write_merged(call, &request->outputs, err));
+    return tell(call, err);
+}
+
+const ec_command ec_cmd_merge = {
+    .told = {.name = "merge", .operands = "A.exr [B.exr ...] -o ALL.exr [options]", .summary = "combine slices that were rendered separately",
+             .intro = "Combines slices that eclat render --samples wrote, or checkpoints, into one picture. In any order, the result has the same bits as a single render of "
+                       "all their samples. Slices of other scenes, options or versions, and slices with samples in common, are refused."},
+    .rows = list_rows, .size = sizeof(merge_request), .run = run,
+};

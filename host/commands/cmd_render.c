@@ -1,0 +1,73 @@
+/* eclat render SCENE */
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "commands/command.h"
+#include "jobs/render_plan.h"
+#include "jobs/sequence.h"
+
+static int list_rows(ec_option rows[EC_OPTIONS_MAX])
+{
+    memcpy(rows, ec_render_rows, (size_t)ec_render_row_count * sizeof *rows);
+    return ec_render_row_count;
+}
+
+static ec_result plan(ec_render_job *job, ec_error *err)
+{
+    ec_plan plan;
+    job->ranks = NULL; /* one process and its device stand for all */
+    EC_TRY(ec_render_job_load(job, err));
+    EC_TRY(ec_render_plan(job, &plan, err));
+    if (job->request->json) return ec_plan_json(&plan, job->listener->to, err);
+    ec_plan_text(&plan, job->devices->name, job->listener->to);
+    return EC_OK;
+}
+
+/* A slice is written with its sums. */
+static ec_result write_rendered(ec_call *call, ec_outputs *outputs, ec_error *err)
+{
+    const char *names[EC_OUTPUTS_MAX];
+    ec_render_report report = ec_render_job_report(&call->render, names);
+    return ec_render_job_write(&call->render, outputs, &report, err);
+}
+
+/* What is asked for, and what it goes on from. */
+static ec_result take_request(ec_call *call, ec_render_request *request, ec_error *err)
+{
+    if (!request->resume || call->input_count) EC_TRY(ec_call_scene(call, "render", &request->scene, err));
+    if (request->resume) return ec_render_job_take_up(&call->render, &call->given, err);
+    return ec_render_request_settle(request, ec_render_rows, ec_render_row_count, call->is_given, err);
+}
+
+static ec_result run(ec_call *call, ec_error *err)
+{
+    const double start = ec_now();
+    ec_render_request *request = call->request;
+    ec_render_job *job = &call->render;
+    if (!getcwd(call->folder, sizeof call->folder)) call->folder[0] = 0;
+    *job = (ec_render_job){.request = request, .listener = call->listener, .takes_several = true, .ranks = call->ranks, .program = call->program,
+                           .command = call->line, .job = {.argc = call->words.count - 1, .argv = call->words.list + 1, .folder = call->folder}};
+    call->write = write_rendered;
+    EC_TRY(take_request(call, request, err));
+    if (request->frames.given) return ec_frames_render(call->listener, request, job->ranks, &call->given, start, err);
+    if (request->plan_ranks) return plan(job, err);
+    job->in_memory = call->wants_picture && !request->outputs.count;
+    ec_result result = job->in_memory ? ec_render_job_load(job, err) : ec_render_job_prepare(job, err);
+    if (result == EC_FAILED && request->resume && strcmp(call->folder, job->job.folder))
+        ec_fail_more(err, "; the job was begun in '%s'", job->job.folder);
+    EC_TRY(result);
+    return job->in_memory ? ec_render_job_run(job, err) : ec_render_job_complete(job, start, err);
+}
+
+static const eclat_note notes[] = {
+    {EC_TITLE_LIMITS, "Ctrl-C", "stop cleanly and write the image so far (exit code 0); a second one aborts"},
+    {EC_TITLE_RESUME, "mpirun -n N eclat ...", "render one picture with several processes, one per machine (if eclat was built with MPI)"},
+    {0}};
+
+const ec_command ec_cmd_render = {
+    .told = {.name = "render", .operands = "SCENE [options]", .summary = "render a scene to EXR and PNG",
+             .intro = "Renders a glTF 2.0 scene (.gltf or .glb) and states the error of the image.",
+             .notes = notes},
+    .rows = list_rows, .size = sizeof(ec_render_request), .start = ec_render_request_start, .run = run, .is_shared = true,
+};

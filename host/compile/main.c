@@ -1,0 +1,88 @@
+/* eclat-compile: compiles the kernels of jobs (cl/compile_job.h) on standard input into the driver's cache, and tells of each on standard output. The
+ * library starts it where a driver compiles under one lock for its whole process. It outlives who started it. */
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "cl/cache.h"
+#include "cl/compiler.h"
+
+#define LOWEST 19 /* of priorities */
+
+static void tell(char what)
+{
+    ssize_t ignored = write(STDOUT_FILENO, &what, 1); /* who started it may be gone */
+    (void)ignored;
+}
+
+static void compiled(uint32_t kernel)
+{
+    (void)kernel;
+    tell(EC_COMPILED_KERNEL);
+}
+
+/* One process at a time: whoever comes second finds kernels compiled. -1: no lock, or where nobody waits for it, somebody else's. */
+static int lock(const char *cache_dir, const char *name, bool waits)
+{
+    char folder[PATH_MAX], path[PATH_MAX + 32];
+    if (!ec_cache_folder(*cache_dir ? cache_dir : NULL, folder, sizeof folder) || !ec_cache_make_folder(folder)) return -1;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    const int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
+    if (fd < 0 || flock(fd, waits ? LOCK_EX : LOCK_EX | LOCK_NB) == 0) return fd;
+    close(fd);
+    return -1;
+}
+
+static bool find_device(const ec_compile_job *job, ec_device_info *info)
+{
+    ec_device_info *devices;
+    uint32_t count;
+    bool is_there = false;
+    if (ec_devices_list(&devices, &count, NULL) != EC_OK) return false;
+    for (uint32_t i = 0; i < count && !is_there; i++) {
+        is_there = !strcmp(devices[i].platform_name, job->platform) && !strcmp(devices[i].name, job->device) && !strcmp(devices[i].driver, job->driver);
+        if (is_there) *info = devices[i];
+    }
+    free(devices);
+    return is_there;
+}
+
+static bool run(ec_cl *cl, const ec_compile_job *job, void (*told)(uint32_t kernel))
+{
+    if (ec_compile_job_run(cl, job, told, NULL) != EC_OK) return false;
+    ec_compile_job_done(cl, job);
+    return true;
+}
+
+/* The first job is waited for; others are not. */
+static int compile_all(ec_compile_job *job)
+{
+    ec_device_info info;
+    ec_cl cl;
+    int turn = lock(job->cache_dir, "compiling", true);
+    if (!find_device(job, &info) || ec_cl_open(&info, &cl, NULL) != EC_OK) return 1;
+    if (*job->cache_dir) cl.cache_dir = job->cache_dir;
+    if (!run(&cl, job, compiled)) return 1;
+    tell(EC_COMPILED_ALL);
+    if (turn >= 0) close(turn);
+    turn = lock(job->cache_dir, "compiling-ahead", false);
+    (void)!setpriority(PRIO_PROCESS, 0, LOWEST);
+    while (turn >= 0 && ec_compile_job_read(job, stdin))
+        if (!ec_compile_job_is_done(&cl, job) && !run(&cl, job, NULL)) return 1;
+    return 0;
+}
+
+int main(void)
+{
+    static ec_compile_job job;
+    signal(SIGPIPE, SIG_IGN);
+    if (!ec_compile_job_read(&job, stdin)) return 1;
+    if (fork() != 0) _exit(0); /* who waits for this process goes on; exit() would move the place in standard input, which both share */
+    setsid(); /* Ctrl-C is for the render */
+    return compile_all(&job);
+}

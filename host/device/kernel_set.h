@@ -1,0 +1,35 @@
+/* The kernels that a pipeline launches: which there are for a lane width and some accelerators, built with the features that can change their
+ * code and no others. All sets give the same bits, so that one may take the place of another between two waves. */
+#ifndef EC_DEVICE_KERNEL_SET_H
+#define EC_DEVICE_KERNEL_SET_H
+
+#include "cl/compile_job.h"
+#include "device/stages.h"
+
+#define EC_LANES_MOST 16
+
+typedef struct ec_kernel_set {
+    uint32_t lanes;
+    uint64_t features;                        /* EC_FEATURE_* that are built in */
+    uint32_t accels;                          /* 1 << accelerator: those that it goes through */
+    cl_program programs[EC_LANES_MOST + 1];   /* by lane width */
+    cl_kernel stages[EC_STAGE_ID_COUNT];
+    cl_kernel traverse[EC_ACCEL_COUNT][2];    /* [0] intersect, [1] connect, as everywhere */
+} ec_kernel_set;
+
+/* Half-built ones are fine; empty afterwards. */
+void ec_kernel_set_release(ec_kernel_set *set);
+
+struct ec_pipeline;
+
+/* Builds those of set->lanes and set->accels for what the pipeline is to render. */
+ec_result ec_kernel_set_build(struct ec_pipeline *pipeline, ec_kernel_set *set, ec_error *err);
+
+/* Launches each over a wave without paths, since some drivers compile at the first launch. The pipeline's set is meant; compiled, which may be
+ * NULL, hears of each. */
+ec_result ec_kernel_set_warm(struct ec_pipeline *pipeline, void (*compiled)(void *user, uint32_t done, uint32_t count), void *user, ec_error *err);
+
+/* What another process has to compile for it. The caller frees the job. */
+ec_result ec_kernel_set_job(struct ec_pipeline *pipeline, const ec_kernel_set *set, ec_compile_job *job, ec_error *err);
+
+#endif

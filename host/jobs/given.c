@@ -1,0 +1,125 @@
+#define _GNU_SOURCE /* vasprintf */
+#include "jobs/given.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "jobs/usage.h"
+
+ec_result ec_given_add(ec_given_options *given, const char *option, const char *value, ec_error *err)
+{
+    void *list = realloc(given->list, ((size_t)given->count + 1) * sizeof *given->list);
+    if (!list) return ec_fail(err, "out of memory for option %s", option);
+    given->list = list;
+    char *name = strdup(option), *text = value ? strdup(value) : NULL;
+    given->list[given->count].option = name;
+    given->list[given->count++].value = text;
+    if (name && (text || !value)) return EC_OK;
+    ec_given_drop_last(given);
+    return ec_fail(err, "out of memory for option %s", option);
+}
+
+ec_result ec_given_add_all(ec_given_options *given, const ec_given_options *from, const ec_option *rows, int row_count, uint32_t but, ec_error *err)
+{
+    for (int i = 0; i < from->count; i++)
+        if (!(ec_options_find(rows, row_count, from->list[i].option)->uses & but))
+            EC_TRY(ec_given_add(given, from->list[i].option, from->list[i].value, err));
+    return EC_OK;
+}
+
+bool ec_given_has(const ec_given_options *given, const char *option)
+{
+    for (int i = 0; i < given->count; i++)
+        if (!strcmp(given->list[i].option, option)) return true;
+    return false;
+}
+
+void ec_given_drop_last(ec_given_options *given)
+{
+    given->count--;
+    free(given->list[given->count].option);
+    free(given->list[given->count].value);
+}
+
+void ec_given_free(ec_given_options *given)
+{
+    while (given->count) ec_given_drop_last(given);
+    free(given->list);
+    given->list = NULL;
+}
+
+ec_result ec_given_apply(const ec_given_options *given, const ec_option *rows, int row_count, void *target, bool *is_given, ec_error *err)
+{
+    for (int i = 0; i < given->count; i++) {
+        const ec_option *row = ec_options_find(rows, row_count, given->list[i].option);
+        if (row->set) EC_TRY(row->set(target, row->name, given->list[i].value, err));
+        if (is_given) is_given[row - rows] = true;
+    }
+    return EC_OK;
+}
+
+__attribute__((format(printf, 2, 3))) static bool add_word(ec_words *words, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const bool fits = vasprintf(&words->list[words->count], format, args) >= 0;
+    va_end(args);
+    words->count += fits;
+    return fits;
+}
+
+static bool add_option(ec_words *words, const ec_option *row, const char *value)
+{
+    const bool is_apart = value && !row->value_optional;
+    bool fits = row->letter ? add_word(words, "-%c", row->letter) : add_word(words, value && !is_apart ? "--%s=%s" : "--%s", row->name, value);
+    if (is_apart) fits &= add_word(words, "%s", value);
+    return fits;
+}
+
+ec_result ec_words_make(ec_words *words, const char *command, char *const *inputs, int input_count, const ec_given_options *given,
+                        const ec_option *rows, int row_count, ec_error *err)
+{
+    words->list = calloc((size_t)(input_count + 2 * given->count) + 3, sizeof *words->list);
+    bool fits = words->list && add_word(words, "eclat") && add_word(words, "%s", command);
+    for (int i = 0; fits && i < input_count; i++) fits = add_word(words, *inputs[i] == '-' ? "./%s" : "%s", inputs[i]);
+    for (int i = 0; fits && i < given->count; i++)
+        fits = add_option(words, ec_options_find(rows, row_count, given->list[i].option), given->list[i].value);
+    return fits ? EC_OK : ec_fail(err, "out of memory for a command line");
+}
+
+void ec_words_free(ec_words *words)
+{
+    while (words->count) free(words->list[--words->count]);
+    free(words->list);
+    words->list = NULL;
+}
+
+/* "--name", "--name=value" or "-n". */
+static const ec_option *find_word(const char *word, const ec_option *rows, int row_count)
+{
+    const size_t size = strcspn(word, "=");
+    for (int i = 0; i < row_count; i++) {
+        const bool is_long = !strncmp(word, "--", 2) && size == strlen(rows[i].name) + 2 && !strncmp(word + 2, rows[i].name, size - 2);
+        if (is_long || (rows[i].letter && word[1] == rows[i].letter && !word[2])) return &rows[i];
+    }
+    return NULL;
+}
+
+ec_result ec_given_read(ec_given_options *given, const char **operand, int argc, char *const *argv, const ec_option *rows, int row_count,
+                        ec_error *err)
+{
+    for (int i = 1; i < argc; i++) {
+        const char *word = argv[i], *equals = strchr(word, '=');
+        if (word[0] != '-') {
+            *operand = word;
+            continue;
+        }
+        const ec_option *row = find_word(word, rows, row_count);
+        const bool is_apart = row && ec_option_takes_value(row) == true && !equals;
+        if (!row || (is_apart && i + 1 == argc) || (equals && !row->metavar)) return ec_usage(err, "'%s' is no option, or lacks its value", word);
+        EC_TRY(ec_given_add(given, row->name, is_apart ? argv[++i] : equals ? equals + 1 : NULL, err));
+    }
+    return EC_OK;
+}

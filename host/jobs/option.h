@@ -1,0 +1,71 @@
+/* Options as tables: a row says how one is read, what help says of it, and who takes it. */
+#ifndef EC_JOBS_OPTION_H
+#define EC_JOBS_OPTION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+/* Stores one option's value; `option` is its name, value NULL for a flag. */
+typedef ec_result (*ec_option_set)(void *target, const char *option, const char *value, ec_error *err);
+
+enum { EC_VALUE_OPTIONAL = 2 };
+
+/* Where help lists it. */
+typedef enum ec_option_group {
+    EC_GROUP_OPTIONS, /* of commands with few of them */
+    EC_GROUP_STUDY,
+    EC_GROUP_SCENE,
+    EC_GROUP_PICTURE,
+    EC_GROUP_LIMITS,
+    EC_GROUP_ANIMATION,
+    EC_GROUP_RESUME,
+    EC_GROUP_TRANSPORT,
+    EC_GROUP_DEVICE,
+    EC_GROUP_MEASURE,
+    EC_GROUP_RESULTS,
+    EC_GROUP_MESSAGES,
+    EC_GROUP_COUNT
+} ec_option_group;
+
+/* Who takes an option of `eclat render`, and what depends on it. */
+enum {
+    EC_OPTION_INFO = 1 << 0,         /* eclat info takes it too */
+    EC_OPTION_COST = 1 << 1,         /* eclat cost takes it too */
+    EC_OPTION_CAMERA = 1 << 2,       /* places the camera: eclat view drops it once the camera has moved */
+    EC_OPTION_WINDOW = 1 << 3,       /* eclat view writes it anew in the command that repeats a picture, or leaves it out there */
+    EC_OPTION_NO_IDENTITY = 1 << 4,  /* no frame depends on it, or its identity says it in other words */
+    EC_OPTION_SEQUENCE = 1 << 5,     /* belongs to a sequence as a whole: a frame's own command has none, or another */
+    EC_OPTION_KEEPING = 1 << 6,      /* of checkpoints: not in the command of a job that is gone on with */
+    EC_OPTION_PART = 1 << 7,         /* renders something other than one whole picture: does not go with --plan */
+    EC_OPTION_REPEATS = 1 << 8,      /* every value counts, not the last one alone */
+    EC_OPTION_BORROWED = 1 << 9,     /* a copy of render's in another command: help lists it briefly */
+    EC_OPTION_LIMIT = 1 << 10,       /* ends a render: one given with --resume replaces all that there were */
+    EC_OPTION_OUTPUT = 1 << 11,      /* and so do outputs */
+};
+
+typedef struct ec_option {
+    const char *name;             /* without dashes */
+    char letter;                  /* short form; 0 = none */
+    const char *metavar;          /* what help calls its value; NULL: a flag */
+    bool value_optional;          /* then after "=" alone, and NULL without */
+    ec_option_set set;            /* NULL: who asks looks whether it was given */
+    ec_option_group group;
+    const char *help;             /* without line breaks */
+    const char *otherwise;        /* the default; NULL: none, or help says it */
+    const char *const *choices;   /* values, NULL-terminated; NULL: others too */
+    uint32_t integrators;         /* bits by ec_integrator; 0: all */
+    uint32_t uses;                /* EC_OPTION_* */
+    const char *not_in_window;    /* why eclat view refuses it; NULL: it does not */
+} ec_option;
+
+/* false, true or EC_VALUE_OPTIONAL. */
+int ec_option_takes_value(const ec_option *option);
+
+/* NULL: none of them has this name. */
+const ec_option *ec_options_find(const ec_option *options, int count, const char *name);
+
+enum { EC_OPTIONS_MAX = 64 };
+
+#endif

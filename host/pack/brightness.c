@@ -1,0 +1,206 @@
+#include "pack/brightness.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/luminance.h"
+#include "image/image.h"
+
+#define SIDE 4.0 /* squares that a triangle reaches across, about, where it is large */
+#define SMALL 1.0 /* texels: under that it is looked at point by point */
+enum { POINTS = 4 }; /* an edge is cut in so many */
+
+static double texel(const ec_image *image, const double *bytes, size_t index, int channel)
+{
+    return image->rgba8 ? bytes[image->rgba8[4 * index + channel]] : ec_srgb_to_linear(image->rgba16[4 * index + channel] / 65535.0);
+}
+
+static uint32_t wrapped(int64_t i, uint32_t size, ec_wrap wrap)
+{
+    const int64_t last = (int64_t)size - 1;
+    if (wrap == EC_WRAP_REPEAT) return (uint32_t)((i % size + size) % size);
+    return (uint32_t)(i < 0 ? 0 : i > last ? last : i);
+}
+
+static float texel_at(const ec_brightness *b, uint32_t x, uint32_t y) { return b->texels[(size_t)y * b->width + x]; }
+
+/* Right of and below a texel's middle: of a bilinear function by its values at four corners. */
+static ec_bright patch(const ec_brightness *b, uint32_t x, uint32_t y)
+{
+    const uint32_t right = wrapped((int64_t)x + 1, b->width, b->wrap[0]), below = wrapped((int64_t)y + 1, b->height, b->wrap[1]);
+    const double p = texel_at(b, x, y), q = texel_at(b, right, y), r = texel_at(b, x, below), s = texel_at(b, right, below);
+    if (b->nearest) return (ec_bright){(float)p, (float)(p * p)};
+    const double squares = p * p + q * q + r * r + s * s, edges = p * q + r * s + p * r + q * s, diagonals = p * s + q * r;
+    return (ec_bright){(float)((p + q + r + s) / 4), (float)((squares + edges + diagonals / 2) / 9)};
+}
+
+static ec_bright square_of(const ec_brightness *b, uint32_t level, uint32_t x, uint32_t y)
+{
+    return level ? b->levels[level][(size_t)y * b->columns[level] + x] : patch(b, x, y);
+}
+
+/* The mean of up to four of the level below. */
+static ec_bright join(const ec_brightness *b, uint32_t level, uint32_t x, uint32_t y)
+{
+    double mean = 0, square = 0;
+    int count = 0;
+    for (uint32_t k = 0; k < 4; k++) {
+        const uint32_t i = 2 * x + k % 2, j = 2 * y + k / 2;
+        if (i >= b->columns[level - 1] || j >= b->rows[level - 1]) continue;
+        const ec_bright one = square_of(b, level - 1, i, j);
+        mean += one.mean, square += one.square, count++;
+    }
+    return (ec_bright){(float)(mean / count), (float)(square / count)};
+}
+
+static void fill_texels(const ec_scene *scene, const ec_material *m, ec_brightness *b)
+{
+    const ec_image *image = &scene->images[scene->textures[m->textures[EC_SLOT_EMISSION].texture].image];
+    const double *bytes = ec_srgb_bytes();
+#pragma omp parallel for
+    for (uint32_t y = 0; y < b->height; y++)
+        for (size_t i = (size_t)y * b->width; i < (y + (size_t)1) * b->width; i++)
+            b->texels[i] = (float)ec_luminance((double[3]){m->emission[0] * texel(image, bytes, i, 0), m->emission[1] * texel(image, bytes, i, 1),
+                                                          m->emission[2] * texel(image, bytes, i, 2)});
+}
+
+static ec_result add_level(ec_brightness *b, uint32_t level, ec_error *err)
+{
+    const uint32_t columns = b->columns[level] = (b->columns[level - 1] + 1) / 2, rows = b->rows[level] = (b->rows[level - 1] + 1) / 2;
+    b->levels[level] = malloc((size_t)columns * rows * sizeof **b->levels);
+    if (!b->levels[level]) return ec_fail(err, "out of memory for the brightness of a texture of %u x %u", b->width, b->height);
+#pragma omp parallel for if (rows > 64)
+    for (uint32_t y = 0; y < rows; y++)
+        for (uint32_t x = 0; x < columns; x++) b->levels[level][(size_t)y * columns + x] = join(b, level, x, y);
+    return EC_OK;
+}
+
+ec_result ec_brightness_make(const ec_scene *scene, const ec_material *m, ec_brightness *b, ec_error *err)
+{
+    const ec_texture *texture = &scene->textures[m->textures[EC_SLOT_EMISSION].texture];
+    const ec_image *image = &scene->images[texture->image];
+    *b = (ec_brightness){.width = image->width, .height = image->height, .wrap = {texture->wrap_s, texture->wrap_t}, .nearest = texture->nearest};
+    b->texels = malloc((size_t)b->width * b->height * sizeof *b->texels);
+    if (!b->texels) return ec_fail(err, "out of memory for the brightness of a texture of %u x %u", b->width, b->height);
+    fill_texels(scene, m, b);
+    b->columns[0] = b->width, b->rows[0] = b->height;
+    for (uint32_t level = 1; b->columns[level - 1] > 1 || b->rows[level - 1] > 1; level++) EC_TRY(add_level(b, level, err));
+    return EC_OK;
+}
+
+void ec_brightness_free(ec_brightness *b)
+{
+    free(b->texels);
+    for (int level = 0; level < EC_BRIGHT_LEVELS; level++) free(b->levels[level]);
+    *b = (ec_brightness){0};
+}
+
+/* Into [0, 1] by a mirror. */
+static double mirrored(double u)
+{
+    return 1 - fabs(2 * (u / 2 - floor(u / 2)) - 1);
+}
+
+/* In texels, where the first one's middle is 0 (with nearest its edge). Between two values of a coordinate: what lies in between is there too. */
+static void range_on_axis(const ec_brightness *b, int axis, double low, double high, int64_t *first, int64_t *last)
+{
+    const uint32_t size = axis ? b->height : b->width;
+    if (b->wrap[axis] == EC_WRAP_CLAMP) low = fmin(fmax(low, 0), 1), high = fmin(fmax(high, 0), 1);
+    if (b->wrap[axis] == EC_WRAP_MIRROR) {
+        const double p = mirrored(low), q = mirrored(high);
+        const bool turns = floor(low) != floor(high), is_odd = fmod(floor(low), 2) != 0; /* at 1 where the part before it goes up */
+        const bool is_all = high - low >= 1;
+        low = is_all || (turns && is_odd) ? 0 : fmin(p, q);
+        high = is_all || (turns && !is_odd) ? 1 : fmax(p, q);
+    }
+    if (b->wrap[axis] == EC_WRAP_REPEAT) {
+        high -= floor(low), low -= floor(low);
+        if (high - low >= 1) low = 0, high = 1;
+    }
+    *first = (int64_t)floor(low * size - (b->nearest ? 0 : 0.5));
+    *last = (int64_t)floor(high * size - (b->nearest ? 0 : 0.5));
+    if (*last - *first >= size) *first = 0, *last = size - 1;
+}
+
+/* Sums over squares of a level, in columns and rows that may go on beyond the seam. */
+typedef struct squares {
+    double mean, square;
+    uint64_t count;
+} squares;
+
+static void add_squares(const ec_brightness *b, uint32_t level, const uint32_t x[2], const uint32_t y[2], squares *sum)
+{
+    for (uint32_t j = y[0] >> level; j <= y[1] >> level; j++)
+        for (uint32_t i = x[0] >> level; i <= x[1] >> level; i++) {
+            const ec_bright one = square_of(b, level, i, j);
+            sum->mean += one.mean, sum->square += one.square, sum->count++;
+        }
+}
+
+/* One run of patches along an axis, or two across the seam. */
+static int split_at_seam(const ec_brightness *b, int axis, int64_t first, int64_t last, uint32_t runs[2][2])
+{
+    const uint32_t size = axis ? b->height : b->width;
+    runs[0][0] = wrapped(first, size, b->wrap[axis]), runs[0][1] = wrapped(last, size, b->wrap[axis]);
+    if (runs[0][0] <= runs[0][1]) return 1;
+    runs[1][0] = 0, runs[1][1] = runs[0][1], runs[0][1] = size - 1;
+    return 2;
+}
+
+static ec_bright over_box(const ec_brightness *b, const int64_t first[2], const int64_t last[2])
+{
+    const double extent = fmax((double)(last[0] - first[0] + 1), (double)(last[1] - first[1] + 1));
+    const uint32_t level = extent > SIDE ? (uint32_t)ceil(log2(extent / SIDE)) : 0;
+    uint32_t x[2][2], y[2][2];
+    const int columns = split_at_seam(b, 0, first[0], last[0], x), rows = split_at_seam(b, 1, first[1], last[1], y);
+    squares sum = {0};
+    for (int j = 0; j < rows; j++)
+        for (int i = 0; i < columns; i++) add_squares(b, level, x[i], y[j], &sum);
+    return (ec_bright){(float)(sum.mean / (double)sum.count), (float)(sum.square / (double)sum.count)};
+}
+
+/* As kernels look it up. */
+static double at_point(const ec_brightness *b, const double p[2])
+{
+    uint32_t first[2], second[2];
+    double weight[2];
+    for (int k = 0; k < 2; k++) {
+        const uint32_t size = k ? b->height : b->width;
+        const double u = b->wrap[k] == EC_WRAP_REPEAT ? p[k] - floor(p[k]) : b->wrap[k] == EC_WRAP_MIRROR ? mirrored(p[k]) : fmin(fmax(p[k], 0), 1);
+        const double x = u * size - (b->nearest ? 0 : 0.5), low = floor(x);
+        first[k] = wrapped((int64_t)low, size, b->wrap[k]);
+        second[k] = b->nearest ? first[k] : wrapped((int64_t)low + 1, size, b->wrap[k]);
+        weight[k] = x - low;
+    }
+    const double above = (1 - weight[0]) * texel_at(b, first[0], first[1]) + weight[0] * texel_at(b, second[0], first[1]);
+    const double below = (1 - weight[0]) * texel_at(b, first[0], second[1]) + weight[0] * texel_at(b, second[0], second[1]);
+    return (1 - weight[1]) * above + weight[1] * below;
+}
+
+/* From a net of points, the corners and the edges among them: a bilinear function is largest there, but for a texel's middle inside. */
+static ec_bright over_points(const ec_brightness *b, const double corners[3][2])
+{
+    double mean = 0, square = 0;
+    int count = 0;
+    for (int i = 0; i <= POINTS; i++)
+        for (int j = 0; i + j <= POINTS; j++, count++) {
+            double p[2];
+            for (int k = 0; k < 2; k++) p[k] = (corners[0][k] * (POINTS - i - j) + corners[1][k] * i + corners[2][k] * j) / POINTS;
+            const double bright = at_point(b, p);
+            mean += bright, square += bright * bright;
+        }
+    return (ec_bright){(float)(mean / count), (float)(square / count)};
+}
+
+ec_bright ec_brightness_over(const ec_brightness *b, const double corners[3][2], double *texels)
+{
+    int64_t first[2], last[2];
+    *texels = 0;
+    for (int k = 0; k < 2; k++) {
+        const double low = fmin(corners[0][k], fmin(corners[1][k], corners[2][k])), high = fmax(corners[0][k], fmax(corners[1][k], corners[2][k]));
+        *texels = fmax(*texels, (high - low) * (k ? b->height : b->width));
+        range_on_axis(b, k, low, high, &first[k], &last[k]);
+    }
+    return *texels < SMALL ? over_points(b, corners) : over_box(b, first, last);
+}

@@ -1,0 +1,236 @@
+#include "rare/openings.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+
+#define PI 3.14159265358979323846
+#define BESIDE 1e-4   /* of the scene's radius: so far from an edge rays go past it */
+#define ABOVE 1e-5    /* likewise, above what is lit */
+#define GRAZING 0.05  /* cosine under which light goes along what it falls on */
+enum { LANDED = 64 }; /* rays of a sun whose surroundings are felt for */
+enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one before */
+#define LARGEST 0.3   /* of the scene's radius: the first one */
+#define SMALL 3e-4    /* of the disk around the scene: what is lit more is met soon */
+#define NEAREST 12    /* vertices by which their density is told … */
+#define FLAT 0.05     /* … that lie no further from its plane, over their distance */
+#define COMMON 0.02   /* chance beyond which every picture meets its light, as in paths.c */
+
+/* Where sunlight falls. */
+typedef struct patch {
+    float point[3], normal[3]; /* towards the sun's side */
+    double cosine, area;
+    const ec_rare_sun *sun;
+} patch;
+
+typedef struct finder {
+    const ec_rare_lights *all;
+    ec_pipeline *p;
+    ec_chain *rays;
+    patch *patches;            /* those that are small */
+    uint32_t count;
+} finder;
+
+static double dot(const float *a, const float *b) { return (double)a[0] * b[0] + (double)a[1] * b[1] + (double)a[2] * b[2]; }
+
+static double square_between(const float *a, const float *b)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += ((double)a[k] - b[k]) * ((double)a[k] - b[k]);
+    return sum;
+}
+
+/* From a point moved `back` against a direction, along it. */
+static void set_ray(ec_chain *ray, const float point[3], const float direction[3], double sign, double back)
+{
+    ray->prim = EC_NO_ID;
+    for (int k = 0; k < 3; k++) {
+        ray->direction[k] = (float)(sign * direction[k]);
+        ray->origin[k] = (float)(point[k] - back * ray->direction[k]);
+    }
+}
+
+/* The corners of a triangle that stands where it was made. */
+static ec_result read_corners(const finder *f, uint32_t prim, float corners[3][3], ec_error *err)
+{
+    ec_prim p;
+    EC_TRY(ec_buffer_read(f->p->cl, f->p->buffers[EC_ARG_PRIMS], (uint64_t)prim * sizeof p, sizeof p, &p, err));
+    memcpy(corners[0], p.v0, sizeof p.v0), memcpy(corners[1], p.v1, sizeof p.v1), memcpy(corners[2], p.v2, sizeof p.v2);
+    return EC_OK;
+}
+
+/* Where a ray of the sun ends; false where it only grazes. */
+static ec_result land(const finder *f, const ec_chain *ray, const ec_rare_sun *sun, patch *at, bool *is_there, ec_error *err)
+{
+    float v[3][3], e[3], g[3], n[3], way[3];
+    EC_TRY(read_corners(f, ray->hit, v, err));
+    for (int k = 0; k < 3; k++) e[k] = v[1][k] - v[0][k], g[k] = v[2][k] - v[0][k], way[k] = v[0][k] - ray->origin[k];
+    for (int k = 0; k < 3; k++) n[k] = e[(k + 1) % 3] * g[(k + 2) % 3] - e[(k + 2) % 3] * g[(k + 1) % 3];
+    const double length = sqrt(dot(n, n)), along = dot(n, ray->direction) / length, t = dot(n, way) / dot(n, ray->direction);
+    *is_there = fabs(along) > GRAZING && t > 0 && isfinite(t);
+    *at = (patch){.cosine = fabs(along), .sun = sun};
+    for (int k = 0; k < 3; k++) {
+        at->point[k] = (float)(ray->origin[k] + t * ray->direction[k]);
+        at->normal[k] = (float)(along > 0 ? -n[k] / length : n[k] / length);
+    }
+    return EC_OK;
+}
+
+/* Of its rays past edges those that get by and land: moved to the front. */
+static ec_result pass_edges(finder *f, const float towards[3], uint32_t *landed, ec_error *err)
+{
+    const uint32_t count = f->all->edge_count;
+    const double back = BESIDE * f->all->radius;
+    uint32_t passed = 0;
+    uint32_t *which = malloc(count * sizeof *which);
+    if (!which) return ec_fail(err, "out of memory for %u rays", count);
+    for (uint32_t i = 0; i < count; i++) set_ray(&f->rays[i], f->all->edges[i], towards, 1, back);
+    ec_result result = ec_chains_meet(f->p, f->rays, count, err);
+    for (uint32_t i = 0; i < count; i++)
+        if (f->rays[i].hit == EC_NO_ID) which[passed++] = i;
+    for (uint32_t i = 0; i < passed; i++) set_ray(&f->rays[i], f->all->edges[which[i]], towards, -1, back);
+    if (result == EC_OK && passed) result = ec_chains_meet(f->p, f->rays, passed, err);
+    *landed = 0;
+    for (uint32_t i = 0; i < passed; i++)
+        if (f->rays[i].hit < f->all->flat_count) f->rays[(*landed)++] = f->rays[i];
+    free(which);
+    return result;
+}
+
+/* Adds up rings around a patch's point, from the smallest on, up to where nothing is lit. */
+static double lit_area(const finder *f, const ec_chain *rays)
+{
+    double area = 0, outer = LARGEST * f->all->radius * ldexp(1, 1 - RINGS), inner = 0;
+    for (int ring = RINGS - 1; ring >= 0; ring--, inner = outer, outer *= 2) {
+        int lit = 0;
+        for (int k = 0; k < AROUND; k++) lit += rays[ring * AROUND + k].hit == EC_NO_ID;
+        if (!lit && ring < RINGS - 1) break;
+        area += PI * (outer * outer - inner * inner) * lit / AROUND;
+    }
+    return area;
+}
+
+/* Rays from around it towards the sun: in each ring evenly. */
+static void feel_around(const finder *f, const patch *at, const float towards[3], uint64_t *random, ec_chain *rays)
+{
+    const int axis = fabsf(at->normal[0]) < 0.6f ? 0 : 1;
+    const float *n = at->normal;
+    double u[3], v[3], length = 0;
+    for (int k = 0; k < 3; k++) u[k] = (k == axis) - (double)n[axis] * n[k], length += u[k] * u[k];
+    for (int k = 0; k < 3; k++) u[k] /= sqrt(length);
+    for (int k = 0; k < 3; k++) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+    for (int i = 0; i < RINGS * AROUND; i++) {
+        const double outer = LARGEST * f->all->radius * ldexp(1, -(i / AROUND)), inner = i / AROUND < RINGS - 1 ? outer / 2 : 0;
+        const double r = sqrt(ec_random_between(random, inner * inner, outer * outer)), above = ABOVE * f->all->radius;
+        const double angle = 2 * PI * (i % AROUND + ec_random_unit(random)) / AROUND;
+        float point[3];
+        for (int k = 0; k < 3; k++) point[k] = (float)(at->point[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]) + above * n[k]);
+        set_ray(&rays[i], point, towards, 1, 0);
+    }
+}
+
+static bool is_known(const finder *f, const patch *at)
+{
+    for (uint32_t i = 0; i < f->count; i++)
+        if (f->patches[i].sun == at->sun && square_between(f->patches[i].point, at->point) < 4 * f->patches[i].area) return true;
+    return false;
+}
+
+static ec_result find_patches(finder *f, const ec_rare_sun *sun, ec_error *err)
+{
+    float towards[3];
+    uint32_t landed = 0, count = 0;
+    uint64_t random = 11;
+    patch found[LANDED];
+    ec_rare_sun_direction(sun, &f->p->params, towards);
+    EC_TRY(pass_edges(f, towards, &landed, err));
+    for (uint32_t k = 0; k < landed && k < LANDED; k++) { /* some of them, evenly */
+        bool is_there;
+        EC_TRY(land(f, &f->rays[landed > LANDED ? (uint64_t)k * landed / LANDED : k], sun, &found[count], &is_there, err));
+        count += is_there;
+    }
+    for (uint32_t k = 0; k < count; k++) feel_around(f, &found[k], towards, &random, f->rays + (size_t)k * RINGS * AROUND);
+    if (count) EC_TRY(ec_chains_meet(f->p, f->rays, count * RINGS * AROUND, err));
+    const double most = SMALL * PI * f->all->radius * f->all->radius;
+    for (uint32_t k = 0; k < count; k++) {
+        found[k].area = lit_area(f, f->rays + (size_t)k * RINGS * AROUND);
+        if (found[k].area > 0 && found[k].area < most && !is_known(f, &found[k])) f->patches[f->count++] = found[k];
+    }
+    return EC_OK;
+}
+
+/* A vertex that paths left, as far from the patch. */
+typedef struct near_vertex {
+    double square;
+    const ec_chain *from;
+} near_vertex;
+
+/* Those of the patch's plane and side, the nearest first; seen: by the camera, or only on the way. */
+static uint32_t find_near(const finder *f, const ec_chains *paths, const patch *at, bool seen, near_vertex near[NEAREST])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < paths->vertex_count; i++) {
+        const ec_chain *c = &paths->vertices[i];
+        const float way[3] = {c->origin[0] - at->point[0], c->origin[1] - at->point[1], c->origin[2] - at->point[2]};
+        const double square = dot(way, way), height = dot(way, at->normal);
+        const bool is_there = dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BESIDE * f->all->radius;
+        if ((c->segment == 1) != seen || !is_there) continue;
+        if (count == NEAREST && square >= near[NEAREST - 1].square) continue;
+        uint32_t k = count < NEAREST ? count++ : NEAREST - 1;
+        for (; k > 0 && near[k - 1].square > square; k--) near[k] = near[k - 1];
+        near[k] = (near_vertex){square, c};
+    }
+    return count;
+}
+
+/* Root mean square over the mean, from pairs in one tile: as if there were many. */
+static double gathered(const uint32_t *tiles, uint32_t count)
+{
+    uint32_t pairs = 0;
+    for (uint32_t i = 0; i < EC_RARE_SHARES; i++) pairs += tiles[i] * (tiles[i] - (tiles[i] > 0));
+    return sqrt(fmax(1, count > 1 ? (double)EC_RARE_SHARES * pairs / count / (count - 1) : EC_RARE_SHARES));
+}
+
+static void add_kind(const finder *f, const ec_chains *paths, const patch *at, bool seen, ec_rare *rare)
+{
+    near_vertex near[NEAREST];
+    uint32_t tiles[EC_RARE_SHARES] = {0};
+    const uint32_t count = find_near(f, paths, at, seen, near);
+    double beta = 0;
+    if (!count) return;
+    const double chance = count * fmin(at->area / (PI * near[count - 1].square), 1) / paths->paths;
+    const double pixels = (double)rare->width * rare->height;
+    for (uint32_t i = 0; i < count; i++) {
+        beta += (double)near[i].from->beta / count;
+        tiles[ec_rare_tile(rare, near[i].from->place % rare->width, near[i].from->place / rare->width)]++;
+    }
+    const double luminance = chance * beta * at->sun->irradiance * at->cosine / PI;
+    const double spread = seen ? sqrt(fmin(1 / chance, pixels)) : gathered(tiles, count);
+    ec_rare_kind *kind = luminance > 0 && chance < COMMON ? ec_rare_make_room(rare, luminance * spread) : NULL;
+    if (!kind) return;
+    *kind = (ec_rare_kind){.chance = chance, .luminance = luminance, .clamped = seen ? 0 : 1, .gathered = spread, .peak = seen ? EC_RARE_SHARES : 1};
+    if (!seen) memset(kind->share, 255, sizeof kind->share);
+    for (int i = 0; i < EC_RARE_SHARES; i++)
+        if (seen && tiles[i]) kind->share[i] = 255;
+    snprintf(kind->light, sizeof kind->light, "a small patch lit by %.*s", EC_RARE_NAME - 24, at->sun->name);
+}
+
+ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_rare *rare, ec_error *err)
+{
+    const size_t most = all->edge_count > LANDED * RINGS * AROUND ? all->edge_count : LANDED * RINGS * AROUND;
+    if (!all->sun_count || !all->edge_count) return EC_OK;
+    finder f = {.all = all, .p = p, .rays = calloc(most, sizeof *f.rays), .patches = calloc((size_t)all->sun_count * LANDED, sizeof *f.patches)};
+    ec_chains paths = {0};
+    ec_result result = f.rays && f.patches ? EC_OK : ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
+    for (uint32_t i = 0; result == EC_OK && i < all->sun_count; i++) result = find_patches(&f, &all->suns[i], err);
+    if (result == EC_OK && f.count) result = ec_chains_trace_vertices(p, all, &paths, err);
+    for (uint32_t i = 0; result == EC_OK && i < f.count; i++)
+        for (int seen = 0; seen < 2; seen++) add_kind(&f, &paths, &f.patches[i], seen, rare);
+    ec_chains_free(&paths);
+    free(f.rays);
+    free(f.patches);
+    return result;
+}

@@ -1,0 +1,85 @@
+#include "rare/suns.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "base/text.h"
+#include "film/film.h"
+
+#define BESIDE 1e-4 /* of the scene's radius, from the edge */
+
+/* In place of the weakest where there is no room. */
+static void add_sun(const ec_rare_sun *sun, ec_rare_lights *all)
+{
+    uint32_t at = all->sun_count;
+    if (!(sun->irradiance > 0)) return;
+    if (at < EC_RARE_SUNS) {
+        all->suns[all->sun_count++] = *sun;
+        return;
+    }
+    at = 0;
+    for (uint32_t i = 1; i < EC_RARE_SUNS; i++)
+        if (all->suns[i].irradiance < all->suns[at].irradiance) at = i;
+    if (all->suns[at].irradiance < sun->irradiance) all->suns[at] = *sun;
+}
+
+static void add_directional(const ec_scene *scene, ec_rare_lights *all)
+{
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const ec_light *l = &scene->lights[i];
+        if (l->type != EC_LIGHT_DIRECTIONAL) continue;
+        ec_rare_sun sun = {.irradiance = ec_luminance((double[3]){l->intensity[0], l->intensity[1], l->intensity[2]})};
+        for (int k = 0; k < 3; k++) sun.direction[k] = -l->direction[k];
+        if (l->name && *l->name) snprintf(sun.name, sizeof sun.name, "\"%.*s\"", EC_CUT(l->name, 16));
+        else snprintf(sun.name, sizeof sun.name, "directional light %u", i);
+        add_sun(&sun, all);
+    }
+}
+
+static void add_from_map(ec_rare_lights *all)
+{
+    for (uint32_t i = 0; i < all->count; i++) {
+        const ec_rare_light *l = &all->lights[i];
+        if (l->lamp_count || (l->direction[0] == 0 && l->direction[1] == 0 && l->direction[2] == 0)) continue;
+        ec_rare_sun sun = {.is_on_map = true, .irradiance = l->radiance * l->solid_angle, .name = "the environment"};
+        memcpy(sun.direction, l->direction, sizeof sun.direction);
+        add_sun(&sun, all);
+    }
+}
+
+/* Beside the middle of a triangle's edge, in its plane, on the side where it is not. */
+static void set_beside(const ec_prim *p, int edge, double distance, float point[3])
+{
+    const float *v[3] = {p->v0, p->v1, p->v2}, *a = v[edge], *b = v[(edge + 1) % 3], *c = v[(edge + 2) % 3];
+    double along = 0, square = 0, length = 0, out[3];
+    for (int k = 0; k < 3; k++) along += ((double)c[k] - a[k]) * ((double)b[k] - a[k]), square += ((double)b[k] - a[k]) * ((double)b[k] - a[k]);
+    for (int k = 0; k < 3; k++) out[k] = a[k] + along / fmax(square, 1e-300) * ((double)b[k] - a[k]) - c[k], length += out[k] * out[k];
+    for (int k = 0; k < 3; k++) point[k] = (float)(0.5 * ((double)a[k] + b[k]) + distance * out[k] / fmax(sqrt(length), 1e-300));
+}
+
+/* All edges, or some of them where there are many. */
+static ec_result find_edges(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    const uint64_t edges = 3ull * all->flat_count;
+    uint64_t random = 5;
+    all->edge_count = edges < EC_RARE_EDGES ? (uint32_t)edges : EC_RARE_EDGES;
+    if (!all->edge_count) return EC_OK;
+    all->edges = malloc(all->edge_count * sizeof *all->edges);
+    if (!all->edges) return ec_fail(err, "out of memory for %u edges", all->edge_count);
+    for (uint32_t i = 0; i < all->edge_count; i++) {
+        const uint64_t edge = edges > all->edge_count ? ec_random_bits(&random) % edges : i;
+        set_beside(&pack->prims[edge / 3], (int)(edge % 3), BESIDE * (double)all->radius, all->edges[i]);
+    }
+    return EC_OK;
+}
+
+ec_result ec_rare_suns_find(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    add_directional(&pack->plain.scene, all);
+    add_from_map(all);
+    all->flat_count = ec_scene_flat_count(&pack->plain.scene);
+    return all->sun_count ? find_edges(pack, all, err) : EC_OK;
+}

@@ -1,0 +1,111 @@
+"""Rooms whose light is hard to find: what test_bounds.py renders. Metres; y up; standard library only."""
+import base64
+import math
+import struct
+import zlib
+
+from support import data_uri, write_gltf
+
+SUN, HOLE = (0.3, -1.0, 0.1), 0.005  # the way its light goes; the hole's side
+SIDES = [(0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0, 1)]
+
+
+def png(side, grey):
+    """Square, 16 bits."""
+    rows = b"".join(b"\0" + struct.pack(f">{side}H", *grey[side * y:side * y + side]) for y in range(side))
+    chunks = (b"IHDR", struct.pack(">IIBBBBB", side, side, 16, 0, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(d)) + k + d + struct.pack(">I", zlib.crc32(k + d)) for k, d in chunks)
+
+
+class Room:
+    """A white box of 4 x 3 x 4, open above, and a camera in a corner."""
+
+    def __init__(self, albedo):
+        self.json = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "accessors": [],
+                     "bufferViews": [], "materials": [], "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.01}}],
+                     "extensionsUsed": ["KHR_materials_specular", "KHR_materials_emissive_strength"]}
+        self.buffer = b""
+        self.white = self.material(albedo)
+        for at, u, v in (((-2, 0, -2), (0, 0, 4), (4, 0, 0)), ((-2, 0, -2), (0, 3, 0), (0, 0, 4)), ((2, 0, -2), (0, 0, 4), (0, 3, 0)),
+                         ((-2, 0, -2), (4, 0, 0), (0, 3, 0)), ((-2, 0, 2), (0, 3, 0), (4, 0, 0))):
+            self.quad(self.white, at, u, v)
+        # from (1.7, 1.6, 1.8), a little downwards, 37 degrees to the left of -z
+        turn, tilt = math.radians(37) / 2, math.radians(-6) / 2
+        c, s, d, t = math.cos(turn), math.sin(turn), math.cos(tilt), math.sin(tilt)
+        rotation = [c * t, s * d, -s * t, c * d]
+        self.node(camera=0, translation=[1.7, 1.6, 1.8], rotation=rotation)
+
+    def node(self, **node):
+        self.json["nodes"].append(node)
+        self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
+
+    def material(self, albedo, radiance=0, **more):
+        matt = {"KHR_materials_specular": {"specularFactor": 0}, "KHR_materials_emissive_strength": {"emissiveStrength": max(radiance, 1)}}
+        base = {"baseColorFactor": [albedo] * 3 + [1], "metallicFactor": 0}
+        self.json["materials"].append({"pbrMetallicRoughness": base, "emissiveFactor": [min(radiance, 1)] * 3, "extensions": matt, **more})
+        return len(self.json["materials"]) - 1
+
+    def floats(self, width, values):
+        data = struct.pack(f"<{len(values)}f", *values)
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data)})
+        accessor = {"bufferView": len(self.json["bufferViews"]) - 1, "componentType": 5126, "count": len(values) // width, "type": f"VEC{width}"}
+        if width == 3:
+            accessor.update(min=[min(values[k::3]) for k in range(3)], max=[max(values[k::3]) for k in range(3)])
+        self.json["accessors"].append(accessor)
+        self.buffer += data
+        return len(self.json["accessors"]) - 1
+
+    def quad(self, material, at, u, v):
+        """Faces u x v."""
+        points = [at[k] + a * u[k] + b * v[k] for a, b in SIDES for k in range(3)]
+        streams = {"POSITION": self.floats(3, points), "TEXCOORD_0": self.floats(2, [c for side in SIDES for c in side])}
+        self.json["meshes"].append({"primitives": [{"attributes": streams, "material": material}]})
+        self.node(mesh=len(self.json["meshes"]) - 1)
+
+    def ceiling(self, hole=None):
+        a, b, c, d = hole or (0, 0, 0, 0)
+        for x0, x1, z0, z1 in ((-2, 2, -2, c), (-2, 2, d, 2), (-2, a, c, d), (b, 2, c, d)):
+            if x0 < x1 and z0 < z1:
+                self.quad(self.white, (x0, 3, z0), (x1 - x0, 0, 0), (0, 0, z1 - z0))
+
+    def sun(self, irradiance):
+        length = math.sqrt(sum(c * c for c in SUN))
+        x, y, z = (c / length for c in SUN)
+        axis, cosine = (y, -x, 0), -z  # -z turned to SUN, about their cross product
+        w = math.sqrt((1 + cosine) / 2)
+        self.node(rotation=[c / (2 * w) for c in axis] + [w], extensions={"KHR_lights_punctual": {"light": 0}})
+        self.json["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": irradiance}]}}
+        self.json["extensionsUsed"].append("KHR_lights_punctual")
+
+    def write(self, path):
+        self.json["buffers"] = [{"byteLength": len(self.buffer), "uri": data_uri(self.buffer)}]
+        write_gltf(path, self.json)
+        return path
+
+
+def texel_room(path):
+    """A lamp of 1 m^2 of which one texel of 128 x 128 is 10^4 times as bright as the others."""
+    room, side = Room(0.6), 128
+    room.ceiling()
+    grey = [round(65535 * 12.92e-4)] * side ** 2
+    grey[50 * side + 37] = 65535
+    room.json.update(images=[{"uri": "data:image/png;base64," + base64.b64encode(png(side, grey)).decode()}], textures=[{"source": 0}])
+    lamp = room.material(0, 2e4, emissiveTexture={"index": 0})
+    room.quad(lamp, (-0.5, 2.9, -0.5), (1, 0, 0), (0, 0, 1))
+    return room.write(path)
+
+
+def sun_room(path, kind):
+    """A dim lamp of 5 W, and outside a sun of 10^5 W/m^2. Through a "hole" of 5 mm it lights a patch of the floor; the room is "sealed"; or, in
+    place of both, the "patch" shines as what is reflected there."""
+    room, irradiance = Room(0.7), 1e5
+    x, z = 0.5, 0.3
+    room.quad(room.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
+    room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
+    if kind == "patch":
+        cosine = -SUN[1] / math.sqrt(sum(c * c for c in SUN))
+        lit = room.material(0.7, 0.7 * irradiance * cosine / math.pi)
+        room.quad(lit, (x - 3 * SUN[0] / SUN[1], 1e-5, z - 3 * SUN[2] / SUN[1]), (0, 0, HOLE), (HOLE, 0, 0))
+    else:
+        room.sun(irradiance)
+    return room.write(path)

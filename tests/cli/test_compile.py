@@ -1,0 +1,136 @@
+# tier: full
+"""Kernels that the driver does not have yet: a render begins with others, which compile sooner, while eclat-compile makes the fast ones."""
+import glob
+import json
+import os
+import shutil
+import signal
+import unittest
+
+from polling import poll_until
+from support import CORNELL, ECLAT, Case, eclat
+
+FIRST_LINE = "compiling kernels for what this scene calls for"
+
+
+def children(cache):
+    """Processes of eclat-compile that use this cache."""
+    found = []
+    for folder in glob.glob("/proc/[0-9]*"):
+        try:
+            with open(os.path.join(folder, "cmdline"), "rb") as file:
+                is_compiler = b"eclat-compile" in file.read()
+            with open(os.path.join(folder, "environ"), "rb") as file:
+                is_ours = is_compiler and os.fsencode(f"XDG_CACHE_HOME={cache}") in file.read().split(b"\0")
+        except OSError:
+            continue
+        if is_ours:
+            found.append(int(os.path.basename(folder)))
+    return found
+
+
+class Compile(Case):
+    def setUp(self):
+        super().setUp()
+        self.cache = self.path("cache")
+        os.mkdir(self.cache)
+        self.addCleanup(self.end_children)
+
+    def end_children(self):
+        """What would write to the folder while it is removed."""
+        while found := children(self.cache):
+            for process in found:
+                try:
+                    os.kill(process, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+
+    def hurry(self):
+        """True once they have ended. Beside other work, processes of the lowest priority might take for ever."""
+        found = children(self.cache)
+        for process in found:
+            try:
+                os.setpriority(os.PRIO_PROCESS, process, 0)
+            except PermissionError:
+                self.skipTest("only root may raise the priority of eclat-compile")
+            except ProcessLookupError:
+                pass
+        return not found
+
+    def render(self, *options, eclat_is=None, spp=8):
+        environment = {"XDG_CACHE_HOME": self.cache, "POCL_CACHE_DIR": os.path.join(self.cache, "pocl"), "ECLAT_COMPILE": "beside"}
+        arguments = ["render", CORNELL, "--size", "48x48", "--spp", str(spp), "--json", "-o", self.path("a.exr"), *options]
+        run = self.assert_ok(eclat(*arguments, env=environment, program=eclat_is))
+        return json.loads(run.stdout), run.stderr
+
+    def skip_unless_late(self, report):
+        if "Portable Computing Language" not in report["device"]["platform"]:
+            self.skipTest("this driver does not compile at the first launch")
+
+    def test_begins_at_once_and_then_finds_the_fast_ones(self):
+        first, said = self.render()
+        self.skip_unless_late(first)
+        self.assertIn(FIRST_LINE, said)
+        self.assertEqual(first["first_kernels"], "narrow")
+        self.assertEqual(first["lanes"] > 1, True)
+        again, _ = self.render("--compile", "first")
+        self.assertEqual((again["first_kernels"], again["image_sha256"]), ("fast", first["image_sha256"]))
+        later, said = self.render()  # what was compiled first counts too
+        self.assertEqual((later["first_kernels"], later["image_sha256"]), ("fast", first["image_sha256"]))
+        self.assertNotIn(FIRST_LINE, said)
+
+    def test_the_fast_ones_take_over(self):
+        report, _ = self.render(spp=40000)
+        self.skip_unless_late(report)
+        self.assertEqual(report["first_kernels"], "narrow")
+        self.assertGreater(report["fast_kernels_after_seconds"], 0)
+        self.assertEqual(report["image_sha256"], self.render("--compile", "first", spp=40000)[0]["image_sha256"])
+
+    def test_a_killed_compiler_leaves_the_cache_whole(self):
+        report, _ = self.render()
+        self.skip_unless_late(report)
+        poll_until(lambda: children(self.cache))
+        self.end_children()
+        again, _ = self.render()
+        self.assertEqual(again["first_kernels"], "narrow")
+        self.assertEqual(again["image_sha256"], report["image_sha256"])
+        self.hurry()
+        poll_until(lambda: self.render()[0]["first_kernels"] == "fast", pause=1)
+
+    def test_without_the_compiler_the_fast_ones_come_first(self):
+        alone = self.path("eclat")
+        shutil.copy(ECLAT, alone)
+        for library in glob.glob(os.path.join(os.path.dirname(ECLAT), "libeclat.so*")):
+            shutil.copy(library, self.folder)
+        report, _ = self.render(eclat_is=alone)
+        self.assertEqual(report["first_kernels"], "fast")
+
+    def test_a_damaged_file_is_set_aside(self):
+        whole, said = self.render("--lanes", "1")  # compiles quickest
+        self.skip_unless_late(whole)
+        for name, damage in (("ec_shade.so", b""), ("ec_shade.so", b"no library"), ("program.bc", None)):
+            with self.subTest(name, damage=damage):
+                paths = [path for path in glob.glob(os.path.join(self.cache, "pocl", "*", "*", "**", name), recursive=True) if "damaged" not in path]
+                path = max(paths, key=os.path.getsize)
+                with open(path, "rb") as file:
+                    data = file.read()
+                with open(path, "wb") as file:
+                    file.write(data[:len(data) // 2] if damage is None else damage)
+                mended, said = self.render("--lanes", "1")
+                self.assertIn("damaged file in the driver's cache", said)
+                self.assertEqual(mended["image_sha256"], whole["image_sha256"])
+                self.assertNotIn("damaged", self.render("--lanes", "1")[1])
+
+    def test_another_scene_finds_universal_kernels(self):
+        self.skip_unless_late(self.render()[0])
+        poll_until(self.hurry, pause=1)
+        report, said = self.render("--without", "back-face-culling")
+        self.assertEqual(report["first_kernels"], "universal")
+        self.assertNotIn(FIRST_LINE, said)
+        self.end_children()
+        fast, _ = self.render("--without", "back-face-culling", "--compile", "first")
+        self.assertEqual((fast["first_kernels"], fast["image_sha256"]), ("fast", report["image_sha256"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
