@@ -46,8 +46,8 @@ eclat_room(cost base accel cl film image pack render report)
 eclat_room(selftest base accel cl device film gltf render report scene)
 eclat_room(jobs base accel cl device film gltf image pack ranks render report scene store)
 eclat_room(live base cl device film gltf image jobs pack render report scene)
-eclat_room(commands accel base cl cost device film gltf image jobs pack ranks report scene selftest)
-eclat_room(lib base cl commands film image jobs live ranks report scene)
+eclat_room(commands accel base cl cost device gltf image jobs ranks report scene selftest)
+eclat_room(lib base cl commands film jobs live ranks report scene)
 
 # Rooms that know nothing of OpenCL, once more as a library by other compiler options.
 function(eclat_host_library name)

@@ -34,9 +34,9 @@ static void stop(void)
 static void report_command(void *user, const char *command)
 {
     const ec_view_request *request = user;
-    char line[8192];
-    snprintf(line, sizeof line, "%s\n", command);
-    request->report(request->user, line);
+    char *line = malloc(strlen(command) + 2);
+    if (line) request->report(request->user, strcat(strcpy(line, command), "\n"));
+    free(line);
 }
 
 static void report_frames(const ec_window *w)
