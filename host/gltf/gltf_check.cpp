@@ -116,7 +116,7 @@ class checker {
     {
         if (!value.is_number()) fail(where, "must be a number");
         if (!std::isfinite(float(value.get<double>()))) fail(where, "is too large: " + value.dump());
-        value = value.get<double>(); /* tinygltf cuts integers in extensions to 32 bits */
+        value = value.get<double>(); /* whatever is written without a point */
     }
 
     void check_text(const json &value, const std::string &where)
@@ -129,7 +129,7 @@ class checker {
         double n = value.is_number() ? value.get<double>() : -1;
         if (n < 0 || n != std::floor(n)) fail(where, "must be a non-negative integer");
         if (n < low || n > high) fail(where, "is out of range: " + value.dump());
-        value = uint64_t(n); /* 3.0 is a legal way to write 3, which tinygltf would refuse */
+        value = uint64_t(n); /* 3.0 is a legal way to write 3 */
     }
 
     void check_index(json &value, const char *target, const std::string &where)

@@ -5,7 +5,7 @@
 
 namespace eclat {
 
-/* Deeper than any real file; libraries that recurse over the tree (tinygltf does) stay within the stack. */
+/* Deeper than any real file; what recurses over the tree stays within the stack. */
 static const int max_json_depth = 64;
 
 static void check_depth(const char *text, size_t length)

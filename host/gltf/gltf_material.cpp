@@ -1,4 +1,4 @@
-/* Materials by the rows of shared/material_fields.h, and what those cannot say; tinygltf's samplers and textures. */
+/* Materials by the rows of shared/material_fields.h, and what those cannot say; textures with their samplers. */
 #include "gltf/gltf_shim.h"
 
 #include <cmath>
@@ -17,13 +17,6 @@ static double get_number(const json &object, const char *key, double fallback)
 {
     auto found = object.find(key);
     return found == object.end() ? fallback : found->get<double>();
-}
-
-/* Element i of an array member. */
-static double get_element(const json &object, const char *key, size_t i, double fallback)
-{
-    auto found = object.find(key);
-    return found == object.end() || i >= found->size() ? fallback : (*found)[i].get<double>();
 }
 
 /* NULL: the file does not say. */
@@ -46,8 +39,8 @@ static const ec_texture_use no_texture = {-1, 0, {1, 0, 0, 0, 1, 0}};
 static void set_transform(ec_texture_use &use, int64_t &uv_set, const json &t)
 {
     double angle = get_number(t, "rotation", 0), c = std::cos(angle), s = std::sin(angle);
-    double sx = get_element(t, "scale", 0, 1), sy = get_element(t, "scale", 1, 1);
-    double matrix[6] = {c * sx, s * sy, get_element(t, "offset", 0, 0), -s * sx, c * sy, get_element(t, "offset", 1, 0)};
+    double sx = element(t, "scale", 0, 1), sy = element(t, "scale", 1, 1);
+    double matrix[6] = {c * sx, s * sy, element(t, "offset", 0, 0), -s * sx, c * sy, element(t, "offset", 1, 0)};
     for (int i = 0; i < 6; i++) use.transform[i] = float(matrix[i]);
     uv_set = int64_t(get_number(t, "texCoord", double(uv_set)));
 }
@@ -86,7 +79,7 @@ static void set_volume(ec_material &out, const json &v, const std::string &where
     bool odd = thickness < 0 || distance <= 0;
     out.volume = thickness > 0;
     for (size_t i = 0; i < 3; i++) {
-        double color = get_element(v, "attenuationColor", i, 1);
+        double color = element(v, "attenuationColor", i, 1);
         odd = odd || color < 0 || color > 1;
         double absorption = color < 1 && distance < INFINITY ? -std::log(std::fmax(color, 0)) / std::fmax(distance, 0) : 0;
         if (out.volume) out.absorption[i] = float(std::fmin(absorption, 1e30));
@@ -113,8 +106,8 @@ static void set_specular_glossiness(ec_material &out, const json &in, const std:
     const json *s = find_extension(in, "KHR_materials_pbrSpecularGlossiness");
     if (!s || find_extension(in, "KHR_materials_specular")) return; /* a file that has both says it better there */
     double glossiness = get_number(*s, "glossinessFactor", 1);
-    for (size_t i = 0; i < 4; i++) out.base_color[i] = float(get_element(*s, "diffuseFactor", i, 1));
-    for (size_t i = 0; i < 3; i++) out.specular_color[i] = float(get_element(*s, "specularFactor", i, 1));
+    for (size_t i = 0; i < 4; i++) out.base_color[i] = float(element(*s, "diffuseFactor", i, 1));
+    for (size_t i = 0; i < 3; i++) out.specular_color[i] = float(element(*s, "specularFactor", i, 1));
     out.ior = out.metallic = 0;
     out.specular = 1;
     out.roughness = float(1 - glossiness);
@@ -137,7 +130,7 @@ static void set_material(ec_material &out, const json &in, const std::string &wh
     out.unlit = find_extension(in, "KHR_materials_unlit") != nullptr;
     if (const json *strength = find_extension(in, "KHR_materials_emissive_strength"))
         for (size_t i = 0; i < 3; i++)
-            out.emission[i] = float(get_element(in, "emissiveFactor", i, 0) * get_number(*strength, "emissiveStrength", 1));
+            out.emission[i] = float(element(in, "emissiveFactor", i, 0) * get_number(*strength, "emissiveStrength", 1));
     if (const json *anisotropy = find_extension(in, "KHR_materials_anisotropy"))
         out.anisotropy_rotation = float(std::remainder(get_number(*anisotropy, "anisotropyRotation", 0), 6.283185307179586));
     const json *volume = find_extension(in, "KHR_materials_volume");
@@ -165,19 +158,19 @@ static ec_wrap convert_wrap(int wrap)
                                                            : EC_WRAP_REPEAT;
 }
 
-void convert_textures(const tinygltf::Model &model, ec_gltf *gltf)
+void convert_textures(const json &root, ec_gltf *gltf)
 {
-    gltf->textures = make_array<ec_gltf_texture>(model.textures.size());
-    for (const tinygltf::Texture &in : model.textures) {
+    const json &list = list_of(root, "textures"), &samplers = list_of(root, "samplers");
+    gltf->textures = make_array<ec_gltf_texture>(list.size());
+    for (const json &in : list) {
         ec_gltf_texture &out = gltf->textures[gltf->texture_count++];
-        out = {in.source, EC_WRAP_REPEAT, EC_WRAP_REPEAT, false, false, 0};
-        auto webp = in.extensions.find("EXT_texture_webp");
-        if (webp != in.extensions.end() && ec_has_webp) out.image = webp->second.Get("source").GetNumberAsInt();
-        if (in.sampler < 0) continue;
-        const tinygltf::Sampler &sampler = model.samplers[size_t(in.sampler)];
-        out.wrap_s = convert_wrap(sampler.wrapS);
-        out.wrap_t = convert_wrap(sampler.wrapT);
-        out.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+        const json *webp = ec_has_webp ? find_extension(in, "EXT_texture_webp") : nullptr;
+        out = {(webp ? *webp : in).value("source", -1), EC_WRAP_REPEAT, EC_WRAP_REPEAT, false, false, 0};
+        if (!in.contains("sampler")) continue;
+        const json &sampler = samplers[in["sampler"].get<size_t>()];
+        out.wrap_s = convert_wrap(sampler.value("wrapS", TINYGLTF_TEXTURE_WRAP_REPEAT));
+        out.wrap_t = convert_wrap(sampler.value("wrapT", TINYGLTF_TEXTURE_WRAP_REPEAT));
+        out.nearest = sampler.value("magFilter", TINYGLTF_TEXTURE_FILTER_LINEAR) == TINYGLTF_TEXTURE_FILTER_NEAREST;
     }
 }
 

@@ -1,5 +1,4 @@
-/* The shape of a glTF document as tables. tinygltf silently replaces what it does not understand by defaults; here it is
- * an error that says where. Only members that eclat reads are listed. */
+/* The shape of a glTF document as tables: what does not have it is an error that says where. Only members that eclat reads are listed. */
 #include "gltf/gltf_schema.h"
 #include "shared/material_fields.h"
 

@@ -39,7 +39,7 @@ struct schema {
     template <size_t n> constexpr schema(const field (&list)[n]) : fields(list), count(n) {}
 };
 
-constexpr double int_count = 2147483647; /* tinygltf keeps indices and some offsets in an int */
+constexpr double int_count = 2147483647; /* indices and some offsets are kept in an int */
 
 extern const schema document_schema;
 

@@ -1,5 +1,5 @@
-/* .gltf or .glb to ec_gltf. tinygltf maps checked JSON to structs; files, URIs, buffers and images it never sees: its
- * own handling of those trusts the file (it falls back to the working directory, for one). */
+/* .gltf or .glb to ec_gltf: the tree is parsed and checked once, and each part is made of it. tinygltf, whose reader would parse the text again, and
+ * trusts what files say, brings the format's constants. */
 #include "gltf/gltf_shim.h"
 
 #include <algorithm>
@@ -159,22 +159,6 @@ static void load_buffers(json &list, const container &file, ec_gltf *gltf)
     }
 }
 
-/* Materials and textures alone: the rest is converted from the tree itself, and tinygltf has nothing to open. As text once more,
- * because tinygltf 2 takes no parsed tree: LoadFromString is private, and what it calls is static in its source. */
-static void parse_rest(const json &root, tinygltf::Model &model)
-{
-    json rest = json::object();
-    for (const char *name : {"asset", "samplers", "textures"})
-        if (root.contains(name)) rest[name] = root[name];
-    std::string text = rest.dump(), error, warning;
-    rest = json();
-    if (text.size() > 0x7fffffff) throw bad_file("the JSON part has more than 2 GiB");
-    tinygltf::TinyGLTF reader;
-    if (reader.LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), "")) return;
-    std::replace(error.begin(), error.end(), '\n', ' ');
-    throw bad_file("tinygltf: " + (error.empty() ? "cannot read the document" : error));
-}
-
 static void check_views(const ec_gltf *gltf)
 {
     ec_error err;
@@ -184,11 +168,9 @@ static void check_views(const ec_gltf *gltf)
 /* What is told by name or factor: textures, materials, cameras, lights. */
 static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
 {
-    tinygltf::Model model;
-    parse_rest(root, model);
     convert_cameras(list_of(root, "cameras"), gltf, log);
     convert_lights(root, gltf, log);
-    convert_textures(model, gltf);
+    convert_textures(root, gltf);
     convert_materials(list_of(root, "materials"), gltf, log);
 }
 

@@ -73,7 +73,7 @@ void convert_lights(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log
 
 /* gltf_material.cpp */
 void convert_materials(const nlohmann::json &list, ec_gltf *gltf, const ec_log *log);
-void convert_textures(const tinygltf::Model &model, ec_gltf *gltf);
+void convert_textures(const nlohmann::json &root, ec_gltf *gltf);
 
 /* Zeroed C arrays and strings, so that ec_gltf_free can release half a document. */
 template <typename T> T *make_array(size_t count)
