@@ -21,6 +21,7 @@ static ec_result open_session(ec_cost_study *study, const ec_cost_rung *rung, ec
 {
     uint64_t before = study->cl->allocated_bytes;
     ec_render_options options = rung->options;
+    options.compile = EC_COMPILE_FIRST; /* what is measured is rendering with the fast kernels */
     options.clamp_luminance = options.clamp * study->reference.mean_luminance; /* no pilot knows it better */
     study->cl->peak_allocated_bytes = before;
     ec_result result = ec_session_open(study->cl, study->scene, &options, LARGEST_BATCH, session, stats, err);

@@ -85,6 +85,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
         p.rounds[i] = (double)(ec_schedule_samples(replicates, batch) * p.pixels);
     }
     options.adaptive = false;
+    options.compile = EC_COMPILE_FIRST; /* what is measured is what all will do */
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(job->devices, &cl, err));
     listener->begin(listener->user, &options, true);

@@ -32,6 +32,12 @@ void ec_goal_batch(ec_goal *g, double samples, double seconds, double took)
     g->recent[1] = here;
 }
 
+void ec_goal_restart_pace(ec_goal *g)
+{
+    g->first = g->recent[0] = g->recent[1] = (ec_mark){0, 0};
+    g->took = g->squares = g->timed = 0;
+}
+
 /* Seconds a sample: of the last half or more, since the first batches are small. */
 static double pace(const ec_goal *g, ec_mark at)
 {

@@ -31,6 +31,9 @@ void ec_goal_set(ec_goal *goal, double samples, double seconds, double error);
 /* A batch is done; `took` seconds of it were its own. */
 void ec_goal_batch(ec_goal *goal, double samples, double seconds, double took);
 
+/* The batches so far say nothing of the pace of those to come, as where slower kernels took part (device/tiers.h). */
+void ec_goal_restart_pace(ec_goal *goal);
+
 /* A round is done, and the film has so much error. */
 void ec_goal_round(ec_goal *goal, const ec_film_error *now, ec_mark at);
 

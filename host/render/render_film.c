@@ -223,7 +223,11 @@ static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     const bool at_round = is_round(r);
     const ec_mark at = ec_render_mark(r);
+    const ec_pipeline *alone = ec_sources_alone(&r->sources);
+    const bool is_narrow = alone && alone->is_narrow;
     ec_goal_batch(&r->goal, at.samples, at.seconds, at.seconds - r->batch_end);
+    if (is_narrow || r->was_narrow) ec_goal_restart_pace(&r->goal);
+    r->was_narrow = is_narrow;
     if (at_round) {
         r->error = ec_film_estimate_error(r->film);
         ec_goal_round(&r->goal, &r->error, at);

@@ -25,6 +25,7 @@ typedef struct ec_render_state {
     uint32_t cut;              /* samples that batch `end` lacks, where it is wanted: else 0 */
     ec_film_error error;
     bool is_withheld_noted;
+    bool was_narrow;           /* the last batch ended with the kernels of the beginning (device/tiers.h) */
     ec_rare rare;              /* foretold before the first sample */
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */

@@ -22,7 +22,7 @@ void ec_shot_free(ec_shot *shot)
 
 ec_render_options ec_shot_options(const ec_selftest *t, uint32_t size, uint32_t spp)
 {
-    return (ec_render_options){.width = size, .height = size, .spp = spp, .lanes = t->lanes, .more_effects = EC_SHOT_EFFECTS};
+    return (ec_render_options){.width = size, .height = size, .spp = spp, .lanes = t->lanes, .compile = EC_COMPILE_FIRST, .more_effects = EC_SHOT_EFFECTS};
 }
 
 static ec_result measure(ec_shot *s, ec_error *err)

@@ -162,6 +162,22 @@ static void limits_are_met(void)
     CHECK(!ec_goal_met(&goal, (ec_mark){1e6, 1e6}, true, 8));
 }
 
+/* Ten seconds of one sample a second, by slow kernels; then a hundred a second: only these foretell. */
+static void slow_kernels_are_forgotten(void)
+{
+    ec_goal goal = {.replicates = REPLICATES, .pixels = 1};
+    ec_goal_set(&goal, 1010, 0, 0);
+    for (int i = 1; i <= 10; i++) {
+        ec_goal_batch(&goal, i, i, 1);
+        ec_goal_restart_pace(&goal);
+    }
+    ec_goal_foretell(&goal, (ec_mark){10, 10}, 1);
+    CHECK(!(goal.pilot.pilot_samples > 0)); /* nothing yet */
+    for (int i = 1; i <= 10; i++) ec_goal_batch(&goal, 10 + 10 * i, 10 + 0.1 * i, 0.1);
+    ec_goal_foretell(&goal, (ec_mark){110, 11}, 1);
+    CHECK_MSG(fabs(goal.forecast.seconds - 20) < 0.01, "%g s", goal.forecast.seconds);
+}
+
 int main(void)
 {
     static const workload workloads[] = {
@@ -173,5 +189,6 @@ int main(void)
     for (size_t i = 0; i < sizeof workloads / sizeof *workloads; i++) check(&workloads[i]);
     other_limits();
     limits_are_met();
+    slow_kernels_are_forgotten();
     TEST_END();
 }
