@@ -35,7 +35,7 @@ class Caches:
 
     def __init__(self, folder):
         self.folder, self.kept = os.path.join(folder, "caches"), os.path.join(folder, "kept")
-        self.environment = dict(os.environ, XDG_CACHE_HOME=os.path.join(self.folder, "xdg"), POCL_CACHE_DIR=os.path.join(self.folder, "pocl"))
+        self.environment = dict(os.environ, ECLAT_COMPILE="beside", XDG_CACHE_HOME=os.path.join(self.folder, "xdg"), POCL_CACHE_DIR=os.path.join(self.folder, "pocl"))
         for path in (self.environment["XDG_CACHE_HOME"], self.environment["POCL_CACHE_DIR"]):
             os.makedirs(path)
 
