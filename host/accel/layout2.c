@@ -150,7 +150,7 @@ static ec_bvh2_node *build_large(plan *p, uint32_t *node_count)
     return nodes;
 }
 
-/* As above, for any smaller tree. A root is always a node, if need be with a single child. */
+/* Builds any smaller tree. A root is always a node, if need be with a single child. */
 static ec_bvh2_node *build_small(plan *p, uint32_t *node_count)
 {
     uint32_t count = p->bvh->ref_count;

@@ -19,7 +19,7 @@ static inline void ec_box_grow(ec_box *box, const float lo[3], const float hi[3]
     }
 }
 
-/* Of its surface; 0 where there is nothing in it. */
+/* Half the surface of a box; 0 where there is nothing in it. */
 static inline double ec_box_half_area(const float lo[3], const float hi[3])
 {
     const double x = (double)hi[0] - lo[0], y = (double)hi[1] - lo[1], z = (double)hi[2] - lo[2];

@@ -71,7 +71,7 @@ void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
 /* raster.c: triangles are sorted into tiles once a camera */
 void ec_raster_forget(ec_pipeline *pipeline);
 
-/* Of the stack of a slot of Whitted's trees; max_depth as in the options. */
+/* Words of the stack of a slot of Whitted's trees; max_depth as in the options. */
 static inline uint64_t ec_whitted_stack_words(uint32_t max_depth)
 {
     return 1 + (uint64_t)((max_depth ? max_depth : EC_WHITTED_DEPTH) - 1) * EC_BRANCH_FIELDS;

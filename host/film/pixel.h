@@ -19,7 +19,7 @@ typedef struct ec_pixel {
 /* Pixels [first, first + count), in row order. */
 void ec_film_look(const ec_film *film, uint64_t first, uint64_t count, ec_pixel *pixels);
 
-/* Its ec_sums.tail, which must begin with zeros. */
+/* The pixel's ec_sums.tail, which must begin with zeros. */
 void ec_film_tail(const ec_film *film, uint64_t pixel, float tail[3]);
 
 /* Squared standard error of the pixel's mean: of channel 0 to 2, or of luminance, 3. 0 with one replicate. */

@@ -35,7 +35,7 @@ int ec_exr_number(const char *path, const char *attribute, double *value)
     return is_number;
 }
 
-/* Its last line's block, whole? Blocks may stand in any order, but are written in theirs. */
+/* Is the last line's block whole? Blocks may stand in any order, but are written in theirs. */
 static bool is_whole(const ec_exr_input *input)
 {
     exr_attr_box2i_t window;

@@ -10,7 +10,7 @@ int ec_exr_is_half(const char *path, const char *channel);
 
 /* The value of a text attribute, malloc'ed; NULL where there is none. */
 char *ec_exr_header_text(const char *path, const char *attribute);
-/* As above; NULL also where the file's picture is cut short. */
+/* ec_exr_header_text; NULL also where the file's picture is cut short. */
 char *ec_exr_whole_text(const char *path, const char *attribute);
 
 #endif

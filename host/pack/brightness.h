@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-/* Of luminance, and of its square. */
+/* Means of luminance and of its square. */
 typedef struct ec_bright {
     float mean, square;
 } ec_bright;

@@ -13,7 +13,7 @@
 #define EC_LAMP_DEPTH 12      /* halvings of an edge */
 #define EC_LAMP_TEXELS 0.25   /* across which a part is not cut further */
 
-/* Of `count` lights those that are triangles with a texture: a lamp that is cut has its first node in its kind and in pack->prims' flags, and its
+/* Cuts those of `count` lights that are triangles with a texture: a lamp that is cut has its first node in its kind and in pack->prims' flags, and its
  * power set right. may_cut: by triangle. */
 ec_result ec_lamp_parts_find(const ec_scene *scene, ec_pack *pack, ec_light_data *lights, double *power, uint32_t count, const bool *may_cut,
                              ec_error *err);

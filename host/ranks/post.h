@@ -58,7 +58,7 @@ bool ec_post_has(ec_post *post, int from, uint32_t box);
 /* Bytes of all letters that have come so far, heads and signs of life too. */
 uint64_t ec_post_received(ec_post *post);
 
-/* The same bytes on all ranks, from rank 0, as letters in that box: down the tree in parts. All are to call it. Fails where the parent is lost;
+/* Sends bytes of rank 0 to all ranks, as letters in that box: down the tree in parts. All are to call it. Fails where the parent is lost;
  * a child that is lost is left out. (MPI_Bcast would wait for it for ever.) */
 ec_result ec_post_spread(ec_post *post, void *bytes, uint64_t count, uint32_t box, ec_error *err);
 

@@ -71,7 +71,7 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     return result;
 }
 
-/* Its failure is the parent's to judge. False: there is nothing to say. */
+/* The failure of a part is the parent's to judge. False: there is nothing to say. */
 static bool fill_answer(server *s, const ec_letter *letter, const ec_error *unfit, ec_letter *answer)
 {
     ec_error why = *unfit;

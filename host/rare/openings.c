@@ -79,7 +79,7 @@ static ec_result land(const finder *f, const ec_chain *ray, const ec_rare_sun *s
     return EC_OK;
 }
 
-/* Of its rays past edges those that get by and land: moved to the front. */
+/* Moves the rays past edges that get by and land to the front. */
 static ec_result pass_edges(finder *f, const float towards[3], uint32_t *landed, ec_error *err)
 {
     const uint32_t count = f->all->edge_count;

@@ -238,7 +238,7 @@ static inline uint64_t ec_scene_met_count(const ec_scene *s)
     return last ? (uint64_t)last->id + s->shapes[last->shape].count : s->triangle_count;
 }
 
-/* Its node, by a triangle's id; -1: not known. */
+/* Node of a triangle, by its id; -1: not known. */
 int64_t ec_scene_node_of(const ec_scene *s, uint32_t id);
 
 /* The scene with every instance written out, to the last bit: for what knows triangles only. What it shares with `scene` stays

@@ -97,7 +97,7 @@ EC_FN v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
     global const float8 *v = (global const float8 *)b->v[k];
     return ray8_shear(q, v[q->axis_x], v[q->axis_y], v[q->axis_z]);
 }
-/* The same, read again: nothing of it is to be kept in a register by those who seldom need it. */
+/* Reads the corner again: nothing of it is to be kept in a register by those who seldom need it. */
 EC_FN v3 tri8_sheared_again(const ray8 *q, global const ec_tri8 *b, uint k)
 {
     volatile global const float8 *v = (volatile global const float8 *)b->v[k];
@@ -142,7 +142,7 @@ EC_FN bool block8_moves(const hit_filter *filter, uint8 id)
     return HAS(MOTION) && filter->g.motion && mask_bits8(motion_moves(filter->g.motion, id));
 }
 
-/* The same, of which some move. */
+/* Tests a block of which some triangles move. */
 EC_FN void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, uint8 id,
                          uint skip0, uint skip1, bool any_hit, hit8 *h)
 {

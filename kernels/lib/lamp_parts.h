@@ -59,13 +59,13 @@ EC_FN lamp_part lamp_part_descend(global const float *nodes, lane_i m, lane_u no
     return part;
 }
 
-/* Its density by area over that of the whole. */
+/* Density by area of samples of the part, over that of samples of the whole. */
 EC_FN lane_f lamp_part_density(const lamp_part *part)
 {
     return to_lane_f(part->share) * (1.0f / 4294967296.0f) / (part->size * part->size);
 }
 
-/* Its corners, of those of the lamp; the whole has its own. */
+/* Makes the part's corners of those of the lamp; the whole has the lamp's. */
 EC_FN void lamp_part_corners(const lamp_part *part, v3 *a, v3 *b, v3 *c)
 {
     lane_i is_all = part->size == 1.0f;

@@ -68,7 +68,7 @@ EC_FN void light_move(const geometry *g, light_record *l)
     }
 }
 
-/* The same light for every lane. */
+/* Loads one light for all lanes. */
 EC_FN light_record light_load_one(global const float *table, uint id)
 {
     global const float *p = table + id * EC_LIGHT_WORDS;

@@ -159,7 +159,7 @@ void eclat_job_stop(eclat_job *job);
 typedef struct eclat_picture eclat_picture;
 eclat_result eclat_job_run(eclat_job *job, eclat_picture **picture, eclat_error *err);
 
-/* Of the last run that succeeded, 1 where its answer is no: pictures differ by more than noise, or a case of the self-test failed. */
+/* 1 where the answer of the last run that succeeded is no: pictures differ by more than noise, or a case of the self-test failed. */
 int eclat_job_says_no(const eclat_job *job);
 
 /* ---- Many machines: the processes that an MPI launcher has started, as one renderer ---- */
@@ -322,7 +322,7 @@ typedef struct eclat_facts {
     int has_map;                     /* an environment that can be turned */
 } eclat_facts;
 
-/* Of the scene as it was loaded last; all it points to lasts until this is called again. */
+/* Facts of the scene as it was loaded last; all they point to lasts until this is called again. */
 const eclat_facts *eclat_live_facts(eclat_live *live);
 
 /* What a pixel shows. */
