@@ -15,7 +15,8 @@
  * that are returned as const belong to the object they are asked of, and last as long as it; those of tables last for ever.
  * Threads. Objects are independent of one another: each may be used by any one thread at a time. eclat_job_stop alone may be called at any
  * time from any thread, or from a signal handler. A job uses all cores or the device that it is told. The library has no global state,
- * prints nothing, and installs no signal handler; an OpenCL driver may.
+ * prints nothing, and installs no signal handler; an OpenCL driver may. A render whose kernels the driver does not have yet starts the program
+ * eclat-compile, which outlives it by some seconds; the option compile "first" does without.
  * Texts are UTF-8; numbers in option values use a decimal point. */
 #ifndef ECLAT_ECLAT_H
 #define ECLAT_ECLAT_H
