@@ -35,7 +35,7 @@ class Rules(unittest.TestCase):
             with open(path, encoding="utf-8") as file:
                 parts = re.search(r"^ *@full$|\btest_tier\(", file.read(), re.M)
             with self.subTest(path):
-                self.assertEqual(bool(parts), tiers.of_file(path) == ["quick", "full"])
+                self.assertEqual(bool(parts), len(tiers.of_file(path)) > 1)
 
     def test_no_test_reads_a_clock_or_sleeps(self):
         found, read = [], set()

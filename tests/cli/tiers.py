@@ -6,7 +6,8 @@ import sys
 import unittest
 
 FIRST_LINE = re.compile(r"(?:# (.*)|/\* (.*) \*/)\n")
-KINDS = {"tier: quick": ["quick"], "tier: full": ["full"], "tier: long": ["long"], "tiers: quick, full": ["quick", "full"]}
+KINDS = {"tier: quick": ["quick"], "tier: full": ["full"], "tier: long": ["long"], "tiers: quick, full": ["quick", "full"],
+         "tiers: quick, full, long": ["quick", "full", "long"]}
 
 
 def full(marked):

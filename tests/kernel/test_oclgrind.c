@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tiers: quick, full, long */
 /* Kernel tests and renders once more inside Oclgrind's simulator: out-of-bounds accesses, data races, uninitialised values, wrong
  * API calls. Runs itself inside it too, with a kernel that is wrong on purpose, to know that it would be told.
  *
@@ -51,22 +51,23 @@ static long simulate(const char *options, const char *command, bool show)
 
 /* Every stage and accelerator, on scenes that call for every effect: a few pixels each, since a sample takes a tenth of a second. */
 static const struct {
-    const char *ways, *options;
+    const char *tier, *ways, *options;
 } renders[] = {
-    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
-    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --integrator whitted"},
-    {"--data-races --uninitialized", "cornell-box/cornell-box.gltf --lanes 1 --size 4x4 --spp 2 --integrator raster"},
-    {"--data-races", "cornell-box/cornell-box.gltf --accel bvh2 --lanes 4 --size 8x8 --spp 36 --max-depth 1 --adaptive"},
-    {"--data-races", "lamps/lamps.gltf --env 0.1,0.2,0.3 --accel grid --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
-    {"--data-races", "lamps/lamps.gltf --accel bvh2 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
-    {"--data-races", "glass/glass.gltf --accel kdtree --lanes 4 --size 4x4 --spp 2 --max-depth 3"},
-    {"--data-races", "glass/glass.gltf --integrator whitted --accel bvh8 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
+    {"full", "--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
+    {"full", "--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --integrator whitted"},
+    {"full", "--data-races --uninitialized", "cornell-box/cornell-box.gltf --lanes 1 --size 4x4 --spp 2 --integrator raster"},
+    {"full", "--data-races", "cornell-box/cornell-box.gltf --accel bvh2 --lanes 4 --size 8x8 --spp 36 --max-depth 1 --adaptive"},
+    {"full", "--data-races", "lamps/lamps.gltf --env 0.1,0.2,0.3 --accel grid --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
+    {"long", "--data-races", "lamps/lamps.gltf --accel bvh2 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
+    {"full", "--data-races", "glass/glass.gltf --accel kdtree --lanes 4 --size 4x4 --spp 2 --max-depth 3"},
+    {"long", "--data-races", "glass/glass.gltf --integrator whitted --accel bvh8 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
 };
 
 static void check_renders(const char *folder)
 {
     char command[2400];
     for (size_t i = 0; i < sizeof renders / sizeof *renders; i++) {
+        if (!test_tier(renders[i].tier)) continue;
         snprintf(command, sizeof command, "'%s/../eclat' render '%s/scenes'/%s -q -o '%s/oclgrind.exr'", folder, ECLAT_SOURCE_DIR,
                  renders[i].options, ECLAT_TEST_OUT);
         CHECK_MSG(simulate(renders[i].ways, command, true) == 0, "%s: see above", renders[i].options);
@@ -96,7 +97,7 @@ int main(int argc, char **argv)
     if (test_tier("full")) {
         snprintf(command, sizeof command, "'%s' driver lanes math", driver);
         CHECK_MSG(simulate("--data-races", command, true) == 0, "driver, lanes, math: see above");
-        check_renders(folder);
     }
+    check_renders(folder);
     TEST_END();
 }
