@@ -10,6 +10,7 @@
 
 typedef struct ec_kernel_set {
     uint32_t lanes;
+    uint32_t wave;                            /* paths of the waves that it is launched over */
     uint64_t features;                        /* EC_FEATURE_* that are built in */
     uint32_t accels;                          /* 1 << accelerator: those that it goes through */
     cl_program programs[EC_LANES_MOST + 1];   /* by lane width */

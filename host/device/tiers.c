@@ -15,7 +15,7 @@ static bool compiles_late(const ec_pipeline *p)
 
 static ec_kernel_set fast_set(const ec_pipeline *p)
 {
-    ec_kernel_set set = {.lanes = p->lanes, .features = p->effects.built};
+    ec_kernel_set set = {.lanes = p->lanes, .wave = p->room, .features = p->effects.built};
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) set.accels |= (uint32_t)p->accels[a].in_use << a;
     return set;
 }
@@ -23,7 +23,7 @@ static ec_kernel_set fast_set(const ec_pipeline *p)
 /* One lane, and one accelerator: that whose kernels are the same for any width, if there is one. */
 static ec_kernel_set narrow_set(const ec_pipeline *p)
 {
-    ec_kernel_set set = {.lanes = 1, .features = p->effects.built};
+    ec_kernel_set set = {.lanes = 1, .wave = ec_pipeline_narrow_wave(p, p->effects.built), .features = p->effects.built};
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
         if (p->accels[a].in_use && (!set.accels || ec_accels[a].lanes)) set.accels = 1u << a;
     return set;
@@ -32,7 +32,8 @@ static ec_kernel_set narrow_set(const ec_pipeline *p)
 /* One lane, for any scene without instances: all effects, and the accelerators that are chosen by themselves. */
 static ec_kernel_set universal_set(const ec_pipeline *p)
 {
-    return (ec_kernel_set){.lanes = 1, .features = ec_universal_features(&p->effects), .accels = 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8")};
+    const uint64_t features = ec_universal_features(&p->effects);
+    return (ec_kernel_set){.lanes = 1, .wave = ec_pipeline_narrow_wave(p, features), .features = features, .accels = 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8")};
 }
 
 static bool is_beside(ec_compile compile)

@@ -123,11 +123,12 @@ class Compile(Case):
     def test_another_scene_finds_universal_kernels(self):
         self.skip_unless_late(self.render()[0])
         poll_until(self.hurry, pause=1)
-        report, said = self.render("--without", "back-face-culling")
+        other = ("--without", "back-face-culling", "--size", "320x240")  # waves of another size
+        report, said = self.render(*other)
         self.assertEqual(report["first_kernels"], "universal")
         self.assertNotIn(FIRST_LINE, said)
         self.end_children()
-        fast, _ = self.render("--without", "back-face-culling", "--compile", "first")
+        fast, _ = self.render(*other, "--compile", "first")
         self.assertEqual((fast["first_kernels"], fast["image_sha256"]), ("fast", report["image_sha256"]))
 
 
