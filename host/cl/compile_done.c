@@ -1,5 +1,5 @@
-/* What is known of the driver's own cache, which cannot be asked: for each job that was compiled into it a list of the files that the driver then
- * had loaded, with their hashes. Drivers load what they find, and a damaged file ends the process; so each is looked at before. */
+/* Keeps a list, for each job that was compiled, of the files in the driver's own cache and their hashes, since the cache cannot be asked.
+ * A driver loads whatever it finds, and a damaged file ends the process; so each file is checked first. */
 #include <sha2.h>
 #include <stdlib.h>
 #include <string.h>

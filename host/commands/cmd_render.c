@@ -32,7 +32,7 @@ static ec_result write_rendered(ec_call *call, ec_outputs *outputs, ec_error *er
     return ec_render_job_write(&call->render, outputs, &report, err);
 }
 
-/* What is asked for, and what it goes on from. */
+/* Reads the scene and options from the call, and the checkpoint to resume. */
 static ec_result take_request(ec_call *call, ec_render_request *request, ec_error *err)
 {
     if (!request->resume || call->input_count) EC_TRY(ec_call_scene(call, "render", &request->scene, err));

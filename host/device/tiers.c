@@ -56,31 +56,32 @@ static bool may_be_universal(const ec_pipeline *p)
     return p->integrator == EC_INTEGRATOR_PATH && (fast_set(p).accels & set.accels) && ec_pipeline_narrow_wave(p, set.features);
 }
 
-static bool is_compiled(ec_pipeline *p, const ec_kernel_set *set, ec_compile_job *job)
+/* Kernels that a render may go by, and what the driver's cache says of them, which is asked for once. */
+typedef struct candidate {
+    ec_kernel_set set;
+    ec_compile_job job;
+    bool is_asked, is_compiled;
+} candidate;
+
+static bool is_compiled(ec_pipeline *p, candidate *c)
 {
-    return ec_kernel_set_job(p, set, job, NULL) == EC_OK && ec_compile_job_is_done(p->cl, job);
+    if (!c->is_asked) c->is_compiled = ec_kernel_set_job(p, &c->set, &c->job, NULL) == EC_OK && ec_compile_job_is_done(p->cl, &c->job);
+    c->is_asked = true;
+    return c->is_compiled;
 }
 
 /* Chooses the set to begin with, and has the fast one compiled, and then the universal one for scenes to come. */
-static ec_kernel_set choose(ec_pipeline *p, const ec_cargo_head *head)
+static ec_begun choose(ec_pipeline *p, const ec_cargo_head *head, candidate *c)
 {
-    const ec_kernel_set fast = fast_set(p), narrow = narrow_set(p), universal = universal_set(p);
-    ec_compile_job jobs[3] = {{.program_count = 0}};
-    ec_kernel_set set = fast;
     p->waves_until_fast = head->waves_until_fast;
-    p->is_narrow = p->waves_until_fast && ec_pipeline_narrow_wave(p, narrow.features);
-    p->begun = p->is_narrow ? EC_BEGUN_NARROW : EC_BEGUN_FAST;
-    if (p->is_narrow) return narrow;
-    if (may_begin_narrow(p, head) && !is_compiled(p, &fast, &jobs[0])) {
-        const bool has_narrow = is_compiled(p, &narrow, &jobs[1]), has_universal = may_be_universal(p) && is_compiled(p, &universal, &jobs[2]);
-        const uint32_t after = may_be_universal(p) && !has_universal ? 1 : 0;
-        const ec_compile_job *wanted[2] = {&jobs[0], &jobs[2]};
-        p->is_narrow = ec_compiler_start(wanted, 1 + after, &p->compiler, NULL) == EC_OK;
-        if (p->is_narrow) p->begun = has_universal && !has_narrow ? EC_BEGUN_UNIVERSAL : EC_BEGUN_NARROW;
-        if (p->is_narrow) set = p->begun == EC_BEGUN_UNIVERSAL ? universal : narrow;
-    }
-    for (int i = 0; i < 3; i++) ec_compile_job_free(&jobs[i]);
-    return set;
+    p->is_narrow = p->waves_until_fast && c[EC_BEGUN_NARROW].set.wave;
+    if (p->is_narrow) return EC_BEGUN_NARROW;
+    if (!may_begin_narrow(p, head) || is_compiled(p, &c[EC_BEGUN_FAST])) return EC_BEGUN_FAST;
+    const bool may = may_be_universal(p), has_universal = may && is_compiled(p, &c[EC_BEGUN_UNIVERSAL]);
+    const ec_compile_job *wanted[2] = {&c[EC_BEGUN_FAST].job, &c[EC_BEGUN_UNIVERSAL].job};
+    p->is_narrow = ec_compiler_start(wanted, may && !has_universal ? 2 : 1, &p->compiler, NULL) == EC_OK;
+    if (!p->is_narrow) return EC_BEGUN_FAST;
+    return has_universal && !is_compiled(p, &c[EC_BEGUN_NARROW]) ? EC_BEGUN_UNIVERSAL : EC_BEGUN_NARROW;
 }
 
 /* Says how far compiling is, at most every so many seconds. */
@@ -100,42 +101,47 @@ static void tell(void *user, uint32_t done, uint32_t count)
 }
 
 /* Where the driver compiles at the first launch, all that there is to compile for is compiled here, and not in the first waves. */
-static ec_result build(ec_pipeline *p, ec_error *err)
+static ec_result build(ec_pipeline *p, candidate *c, ec_error *err)
 {
     teller t = {.log = p->cl->log, .begun = ec_now()};
-    ec_compile_job job = {.program_count = 0};
-    const bool is_late = compiles_late(p), is_done = !is_late || is_compiled(p, &p->kernels, &job);
+    const bool is_late = compiles_late(p), is_done = !is_late || is_compiled(p, c);
     if (!is_done) ec_say(t.log, "compiling kernels for what this scene calls for; the next render finds them");
     t.said = t.begun;
+    p->kernels = c->set;
     ec_result result = ec_kernel_set_build(p, &p->kernels, err);
     p->kernels.accels &= fast_set(p).accels; /* a universal set has others too */
     if (result == EC_OK && is_late) result = ec_kernel_set_warm(p, is_done ? NULL : tell, &t, err);
-    if (result == EC_OK && !is_done) ec_compile_job_done(p->cl, &job);
-    ec_compile_job_free(&job);
+    if (result == EC_OK && !is_done) ec_compile_job_done(p->cl, &c->job);
     return result;
 }
 
 ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *err)
 {
-    p->kernels = choose(p, head);
-    if (p->is_narrow) EC_TRY(ec_pipeline_use_wave(p, ec_pipeline_narrow_wave(p, p->kernels.features), err));
-    return build(p, err);
+    candidate candidates[] = {[EC_BEGUN_FAST] = {.set = fast_set(p)}, [EC_BEGUN_NARROW] = {.set = narrow_set(p)}, [EC_BEGUN_UNIVERSAL] = {.set = universal_set(p)}};
+    candidate *chosen = &candidates[p->begun = choose(p, head, candidates)];
+    ec_result result = p->is_narrow ? ec_pipeline_use_wave(p, chosen->set.wave, err) : EC_OK;
+    if (result == EC_OK) result = build(p, chosen, err);
+    for (int i = 0; i < 3; i++) ec_compile_job_free(&candidates[i].job);
+    return result;
 }
 
 static ec_result switch_to_fast(ec_pipeline *p, ec_error *err)
 {
+    candidate fast = {.set = fast_set(p)};
     ec_kernel_set_release(&p->kernels);
-    p->kernels = fast_set(p);
     p->is_narrow = false;
     p->fast_since = ec_now();
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) memset(p->accels[a].tuning, 0, sizeof p->accels[a].tuning);
-    EC_TRY(ec_pipeline_use_wave(p, p->room, err));
-    return build(p, err);
+    ec_result result = ec_pipeline_use_wave(p, p->room, err);
+    if (result == EC_OK) result = build(p, &fast, err);
+    ec_compile_job_free(&fast.job);
+    return result;
 }
 
+/* A wave of none is one for which memory became too short: the fast kernels' is larger. */
 ec_result ec_tiers_step(ec_pipeline *p, ec_error *err)
 {
     if (!p->is_narrow) return EC_OK;
     const bool is_due = p->waves_until_fast ? --p->waves_until_fast == 0 : ec_compiler_has_ended(&p->compiler);
-    return is_due ? switch_to_fast(p, err) : EC_OK;
+    return is_due || !p->wave ? switch_to_fast(p, err) : EC_OK;
 }

@@ -13,7 +13,7 @@
 _Static_assert((int)ECLAT_RASTER == EC_INTEGRATOR_RASTER && (int)ECLAT_INTEGRATOR_COUNT == EC_INTEGRATOR_COUNT, "one order of integrators");
 _Static_assert((int)ECLAT_TONEMAP_NONE == EC_TONEMAP_NONE, "one order of tone mappers");
 
-/* What is wished and known before there is a scene. */
+/* Fills in what the request says, before a scene is loaded. */
 static void start(ec_live *live)
 {
     ec_render_request *request = &live->request;

@@ -1,4 +1,4 @@
-/* What is under a pixel: the film's value, and the surface that its centre sees. */
+/* Reads a pixel of the film, and finds the surface that the pixel's centre sees. */
 #include <math.h>
 #include <stdio.h>
 

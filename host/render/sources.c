@@ -117,6 +117,7 @@ void ec_sources_close(ec_sources *s, ec_render_stats *stats)
         pthread_mutex_destroy(&s->lock);
     } else if (s->recruits && s->recruits->source.base.close) {
         s->recruits->source.base.close(&s->recruits->source.base);
+        s->devices->log = NULL;
     }
     for (uint32_t i = 0; i < s->count; i++) {
         stats->device_bytes += s->devices[i].peak_allocated_bytes;

@@ -58,14 +58,8 @@ ec_result ec_selftest_punctual(ec_selftest *t, ec_error *err)
  * groups (film/parts.h). */
 ec_result ec_selftest_sums(ec_selftest *t, ec_error *err)
 {
-    ec_model *m = ec_model_new();
     ec_scene *scene;
-    if (m) {
-        ec_material material = ec_material_lambert(0, 0.1);
-        ec_model_quad(m, ec_model_material(m, &material), (double[3]){-1, -1, 0}, (double[3]){2, 0, 0}, (double[3]){0, 2, 0});
-        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 1}, (double[3]){0, 0, 0}, 0.5);
-    }
-    EC_TRY(ec_model_scene(m, &scene, err));
+    EC_TRY(ec_shot_lamp(&scene, err));
     ec_render_options o = ec_shot_options(t, 4, 65536);
     o.max_depth = 1;
     return ec_shot_only_row(t, "65 536 samples a pixel", scene, &o, (double)0.1f, err);

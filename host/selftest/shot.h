@@ -30,5 +30,9 @@ ec_result ec_shot_only_row(ec_selftest *t, const char *what, ec_scene *scene, co
 
 /* A white floor, seen from above. */
 ec_result ec_shot_floor(ec_scene **scene, ec_error *err);
+/* A camera that sees nothing but a lamp of radiance 0.1. */
+ec_result ec_shot_lamp(ec_scene **scene, ec_error *err);
+/* A camera in a box of one emitting Lambert material sees the same everywhere: segment k adds albedo^(k - 1). */
+ec_result ec_shot_box(double albedo, ec_scene **scene, ec_error *err);
 
 #endif

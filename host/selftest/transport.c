@@ -6,25 +6,13 @@
 #include "report/names.h"
 #include "selftest/shot.h"
 
-/* A camera in a box of one emitting Lambert material sees the same everywhere: segment k adds albedo^(k - 1). */
-static ec_result closed_box(double albedo, ec_scene **scene, ec_error *err)
-{
-    ec_model *m = ec_model_new();
-    if (m) {
-        ec_material walls = ec_material_lambert(albedo, 1);
-        ec_model_box(m, ec_model_material(m, &walls), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1}, true);
-        ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0.3, 0.2, 0.1}, (double[3]){-1, -0.4, -0.7}, 0.9);
-    }
-    return ec_model_scene(m, scene, err);
-}
-
 ec_result ec_selftest_furnace(ec_selftest *t, ec_error *err)
 {
     static const double albedos[] = {0.5, 0.8};
     static const ec_sample samples[] = {EC_SAMPLE_MIS, EC_SAMPLE_BSDF, EC_SAMPLE_HEMISPHERE};
     for (int a = 0; a < 2; a++) {
         ec_scene *scene;
-        ec_result result = closed_box(albedos[a], &scene, err);
+        ec_result result = ec_shot_box(albedos[a], &scene, err);
         for (int s = 0; s < 3 && result == EC_OK; s++) {
             char what[64];
             ec_render_options o = ec_shot_options(t, 16, 256);

@@ -157,7 +157,7 @@ static void loop(ec_window *w)
     }
 }
 
-/* What is to be told of a window that was open. */
+/* Reports errors that were found while the window was open. */
 static eclat_result conclude(const ec_window *w, eclat_error *err)
 {
     const eclat_status *s = &w->status;

@@ -1,20 +1,13 @@
 /* tier: full */
 /* Sums of more samples than a float counts to. */
 #include "robust/cases.h"
-#include "gltf/model.h"
 #include "selftest/shot.h"
 
 /* A camera that sees nothing but a lamp: every sample is its radiance. */
 static ec_result lamp(ec_selftest *t, ec_error *err)
 {
-    ec_model *m = ec_model_new();
     ec_scene *scene;
-    if (m) {
-        ec_material material = ec_material_lambert(0, 0.1);
-        ec_model_quad(m, ec_model_material(m, &material), (double[3]){-1, -1, 0}, (double[3]){2, 0, 0}, (double[3]){0, 2, 0});
-        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 1}, (double[3]){0, 0, 0}, 0.5);
-    }
-    EC_TRY(ec_model_scene(m, &scene, err));
+    EC_TRY(ec_shot_lamp(&scene, err));
     ec_render_options o = ec_shot_options(t, 4, 1u << 23);
     o.max_depth = 1;
     return ec_shot_only_row(t, "2^23 samples a pixel, 2^27 in all", scene, &o, (double)0.1f, err);
@@ -23,14 +16,8 @@ static ec_result lamp(ec_selftest *t, ec_error *err)
 static ec_result many_samples_case(ec_selftest *t, ec_error *err)
 {
     EC_TRY(lamp(t, err));
-    ec_model *m = ec_model_new();
     ec_scene *scene;
-    if (m) {
-        ec_material walls = ec_material_lambert(0.5, 1);
-        ec_model_box(m, ec_model_material(m, &walls), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1}, true);
-        ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0.3, 0.2, 0.1}, (double[3]){-1, -0.4, -0.7}, 0.9);
-    }
-    EC_TRY(ec_model_scene(m, &scene, err));
+    EC_TRY(ec_shot_box(0.5, &scene, err));
     ec_render_options o = ec_shot_options(t, 2, 1u << 20);
     return ec_shot_only_row(t, "furnace of 2^20 samples a pixel", scene, &o, 2, err);
 }

@@ -7,24 +7,12 @@
 #include "robust/cases.h"
 #include "selftest/shot.h"
 
-/* A camera in a box of one emitting Lambert material sees the same everywhere: segment k adds albedo^(k - 1). */
-static ec_result closed_box(double albedo, ec_scene **scene, ec_error *err)
-{
-    ec_model *m = ec_model_new();
-    if (m) {
-        ec_material walls = ec_material_lambert(albedo, 1);
-        ec_model_box(m, ec_model_material(m, &walls), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1}, true);
-        ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0.3, 0.2, 0.1}, (double[3]){-1, -0.4, -0.7}, 0.9);
-    }
-    return ec_model_scene(m, scene, err);
-}
-
 /* Sampled by the BSDF and without roulette the sum is that of the series cut off, with no noise: what is off is rounding. */
 static ec_result deep_paths_case(ec_selftest *t, ec_error *err)
 {
     static const uint32_t depths[] = {2, 3, 40, 1000};
     ec_scene *scene;
-    ec_result result = closed_box(0.999, &scene, err);
+    ec_result result = ec_shot_box(0.999, &scene, err);
     for (int d = 0; d < 4 && result == EC_OK; d++) {
         char what[32];
         ec_render_options o = ec_shot_options(t, 4, 16);
@@ -48,7 +36,7 @@ static ec_result roulette_case(ec_selftest *t, ec_error *err)
 {
     static const double survivals[] = {0, 0.5, 0.8};
     ec_scene *scene;
-    ec_result result = closed_box(0.5, &scene, err);
+    ec_result result = ec_shot_box(0.5, &scene, err);
     for (int i = 0; i < 3 && result == EC_OK; i++) {
         char what[32] = "auto";
         ec_render_options o = ec_shot_options(t, 16, 512);

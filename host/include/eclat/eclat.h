@@ -339,7 +339,7 @@ typedef struct eclat_probe {
     double center[3], radius;        /* a sphere around the node's triangles; 0: it has none */
 } eclat_probe;
 
-/* What is wrong now: the last load of the files, the last set-up for a device, the camera that is looked through. */
+/* Which of these fails now: the last load of the files, the last set-up of a device, the current camera. */
 typedef enum eclat_trouble { ECLAT_TROUBLE_FILES, ECLAT_TROUBLE_SETUP, ECLAT_TROUBLE_CAMERA, ECLAT_TROUBLE_COUNT } eclat_trouble;
 
 typedef struct eclat_status {
