@@ -16,19 +16,13 @@ static const char *state_name(const ec_cost_study *study, ec_cost_state state)
 
 static void add_settings(cJSON *to, const ec_render_options *o)
 {
-    cJSON *settings = cJSON_AddObjectToObject(to, "settings");
-    ec_json_text(settings, "integrator", ec_integrator_names[o->integrator]);
-    ec_json_text(settings, "sample", ec_sample_names[o->sample]);
-    ec_json_text(settings, "sampler", ec_sampler_names[o->sampler]);
-    ec_json_text(settings, "rr", ec_roulette(o->survival).text);
-    ec_json_real(settings, "max_depth", o->max_depth ? o->max_depth : NAN);
-    ec_json_real(settings, "clamp", o->clamp > 0 ? o->clamp : NAN);
-    ec_json_text(settings, "scattering", ec_scattering_names[o->scattering]);
-    ec_json_text(settings, "accel", o->accel ? o->accel : "auto");
-    if (o->lanes)
-        ec_json_whole(settings, "lanes", o->lanes);
-    else
-        ec_json_text(settings, "lanes", "auto");
+    cJSON *settings = ec_json_object(to, "settings");
+    EC_JSON(settings, EC_STRING("integrator", ec_integrator_names[o->integrator]), EC_STRING("sample", ec_sample_names[o->sample]),
+            EC_STRING("sampler", ec_sampler_names[o->sampler]), EC_STRING("rr", ec_roulette(o->survival).text),
+            EC_REAL("max_depth", o->max_depth ? o->max_depth : NAN), EC_REAL("clamp", o->clamp > 0 ? o->clamp : NAN),
+            EC_STRING("scattering", ec_scattering_names[o->scattering]), EC_STRING("accel", o->accel ? o->accel : "auto"));
+    if (o->lanes) ec_json_whole(settings, "lanes", o->lanes);
+    else ec_json_text(settings, "lanes", "auto");
     ec_json_text(settings, "arithmetic", o->fast_math ? "fast" : "exact");
 }
 
@@ -37,87 +31,53 @@ static void add_points(cJSON *to, const ec_cost_row *row)
     cJSON *points = cJSON_AddArrayToObject(to, "curve");
     for (uint32_t i = 0; i < row->point_count; i++) {
         const ec_cost_point *p = &row->points[i];
-        cJSON *point = cJSON_CreateObject();
-        ec_json_whole(point, "samples_per_pixel", p->samples);
-        ec_json_whole(point, "pictures", p->batches);
-        ec_json_real(point, "seconds", p->seconds);
-        ec_json_real(point, "error", p->mse > 0 ? sqrt(p->mse) : NAN);
-        ec_json_real(point, "error_se", p->mse > 0 ? 0.5 * p->mse_se / sqrt(p->mse) : NAN);
-        ec_json_real(point, "mse", p->mse);
-        ec_json_real(point, "mse_se", p->mse_se);
-        ec_json_real(point, "relmse", p->relmse);
-        ec_json_real(point, "relmse_se", p->relmse_se);
-        cJSON_AddItemToArray(points, point);
+        EC_JSON(ec_json_object(points, NULL), EC_WHOLE("samples_per_pixel", p->samples), EC_WHOLE("pictures", p->batches), EC_REAL("seconds", p->seconds),
+                EC_REAL("error", p->mse > 0 ? sqrt(p->mse) : NAN), EC_REAL("error_se", p->mse > 0 ? 0.5 * p->mse_se / sqrt(p->mse) : NAN),
+                EC_REAL("mse", p->mse), EC_REAL("mse_se", p->mse_se), EC_REAL("relmse", p->relmse), EC_REAL("relmse_se", p->relmse_se));
     }
 }
 
 static void add_targets(cJSON *to, const ec_cost_row *row)
 {
     cJSON *targets = cJSON_AddArrayToObject(to, "time_to");
-    for (int i = 0; i < EC_COST_TARGETS; i++) {
-        cJSON *target = cJSON_CreateObject();
-        ec_json_real(target, "error", ec_cost_targets[i]);
-        ec_json_real(target, "seconds", row->seconds_to[i]);
-        cJSON_AddBoolToObject(target, "never", isinf(row->seconds_to[i]));
-        cJSON_AddBoolToObject(target, "extrapolated", row->extrapolated[i]);
-        cJSON_AddItemToArray(targets, target);
-    }
+    for (int i = 0; i < EC_COST_TARGETS; i++)
+        EC_JSON(ec_json_object(targets, NULL), EC_REAL("error", ec_cost_targets[i]), EC_REAL("seconds", row->seconds_to[i]),
+                EC_FLAG("never", isinf(row->seconds_to[i]) != 0), EC_FLAG("extrapolated", row->extrapolated[i]));
 }
 
 static void add_errors(cJSON *to, const ec_cost_row *row)
 {
-    ec_json_whole(to, "unit_samples_per_pixel", row->unit);
-    ec_json_real(to, "variance", row->variance);
-    ec_json_real(to, "bias_squared", row->bias2);
-    ec_json_real(to, "bias_squared_se", row->bias2_se);
-    cJSON_AddBoolToObject(to, "unbiased_by_design", row->rung.unbiased);
-    cJSON_AddBoolToObject(to, "biased", row->biased);
-    cJSON_AddBoolToObject(to, "light_not_met", row->unmet);
-    ec_json_real(to, "error_floor", row->biased ? sqrt(row->bias2) : NAN);
-    ec_json_real(to, "slope", row->fit.slope);
-    ec_json_real(to, "slope_se", row->fit.se);
-    ec_json_real(to, "efficiency", row->efficiency);
-    ec_json_real(to, "efficiency_relmse", row->relative_efficiency);
+    EC_JSON(to, EC_WHOLE("unit_samples_per_pixel", row->unit), EC_REAL("variance", row->variance), EC_REAL("bias_squared", row->bias2),
+            EC_REAL("bias_squared_se", row->bias2_se), EC_FLAG("unbiased_by_design", row->rung.unbiased), EC_FLAG("biased", row->biased),
+            EC_FLAG("light_not_met", row->unmet), EC_REAL("error_floor", row->biased ? sqrt(row->bias2) : NAN), EC_REAL("slope", row->fit.slope),
+            EC_REAL("slope_se", row->fit.se), EC_REAL("efficiency", row->efficiency), EC_REAL("efficiency_relmse", row->relative_efficiency));
     add_targets(to, row);
     add_points(to, row);
 }
 
-static cJSON *rung_json(const ec_cost_study *study, const ec_cost_row *row)
+static void add_rung(cJSON *rungs, const ec_cost_study *study, const ec_cost_row *row)
 {
-    cJSON *to = cJSON_CreateObject();
-    ec_json_text(to, "id", row->rung.id);
-    ec_json_text(to, "group", row->rung.group);
-    ec_json_text(to, "group_title", row->rung.title);
-    ec_json_text(to, "name", row->rung.name);
+    cJSON *to = ec_json_object(rungs, NULL);
+    EC_JSON(to, EC_STRING("id", row->rung.id), EC_STRING("group", row->rung.group), EC_STRING("group_title", row->rung.title),
+            EC_STRING("name", row->rung.name));
     add_settings(to, &row->rung.options);
-    cJSON_AddBoolToObject(to, "scene_changed", row->rung.options.without != 0);
-    ec_json_text(to, "state", state_name(study, row->state));
-    ec_json_text(to, "note", *row->note ? row->note : NULL);
-    if (row->state != EC_COST_MEASURED) return to;
-    ec_json_real(to, "setup_seconds", row->setup_seconds);
-    ec_json_real(to, "seconds_per_sample", row->seconds_per_sample);
-    ec_json_real(to, "relative_time", row->relative_time);
-    ec_json_real(to, "relative_time_se", row->relative_time_se);
-    ec_json_whole(to, "samples_per_pixel", row->samples_per_pixel);
-    ec_json_whole(to, "device_bytes", row->device_bytes);
-    ec_json_whole(to, "invalid_values", row->invalid);
-    if (row->rung.speed_only)
-        cJSON_AddBoolToObject(to, "same_bits", row->same_bits);
-    else
-        add_errors(to, row);
-    return to;
+    EC_JSON(to, EC_FLAG("scene_changed", row->rung.options.without != 0), EC_STRING("state", state_name(study, row->state)),
+            EC_STRING("note", *row->note ? row->note : NULL));
+    if (row->state != EC_COST_MEASURED) return;
+    EC_JSON(to, EC_REAL("setup_seconds", row->setup_seconds), EC_REAL("seconds_per_sample", row->seconds_per_sample),
+            EC_REAL("relative_time", row->relative_time), EC_REAL("relative_time_se", row->relative_time_se),
+            EC_WHOLE("samples_per_pixel", row->samples_per_pixel), EC_WHOLE("device_bytes", row->device_bytes),
+            EC_WHOLE("invalid_values", row->invalid));
+    if (row->rung.speed_only) cJSON_AddBoolToObject(to, "same_bits", row->same_bits);
+    else add_errors(to, row);
 }
 
-static void add_reference(cJSON *to, const ec_cost_report *report)
+static void add_reference(cJSON *root, const ec_cost_reference *r)
 {
-    const ec_cost_reference *r = &report->study->reference;
-    cJSON *reference = cJSON_AddObjectToObject(to, "reference");
-    ec_json_text(reference, "file", r->source);
-    ec_json_real(reference, "samples_per_pixel", r->samples_per_pixel ? (double)r->samples_per_pixel : NAN);
-    ec_json_real(reference, "error", r->has_variance ? sqrt(r->noise) : NAN);
-    ec_json_real(reference, "mean_luminance", r->mean_luminance);
-    ec_json_real(reference, "seconds", r->seconds);
-    ec_json_real(reference, "setup_seconds", r->setup_seconds);
+    EC_JSON(ec_json_object(root, "reference"), EC_STRING("file", r->source),
+            EC_REAL("samples_per_pixel", r->samples_per_pixel ? (double)r->samples_per_pixel : NAN),
+            EC_REAL("error", r->has_variance ? sqrt(r->noise) : NAN), EC_REAL("mean_luminance", r->mean_luminance),
+            EC_REAL("seconds", r->seconds), EC_REAL("setup_seconds", r->setup_seconds));
 }
 
 static void add_pareto(cJSON *to, const ec_cost_study *study)
@@ -128,12 +88,8 @@ static void add_pareto(cJSON *to, const ec_cost_study *study)
     for (uint32_t i = 0; i < count; i++) {
         const ec_cost_row *row = &study->rows[places[i].row];
         const ec_cost_point *p = &row->points[places[i].point];
-        cJSON *place = cJSON_CreateObject();
-        ec_json_text(place, "id", row->rung.id);
-        ec_json_whole(place, "samples_per_pixel", p->samples);
-        ec_json_real(place, "seconds", p->seconds);
-        ec_json_real(place, "error", sqrt(p->mse));
-        cJSON_AddItemToArray(front, place);
+        EC_JSON(ec_json_object(front, NULL), EC_STRING("id", row->rung.id), EC_WHOLE("samples_per_pixel", p->samples),
+                EC_REAL("seconds", p->seconds), EC_REAL("error", sqrt(p->mse)));
     }
 }
 
@@ -141,26 +97,17 @@ cJSON *ec_cost_json(const ec_cost_report *report)
 {
     const ec_cost_study *study = report->study;
     cJSON *root = cJSON_CreateObject();
-    ec_json_text(root, "version", ECLAT_VERSION);
-    ec_json_text(root, "command", report->command);
-    ec_json_text(root, "scene", report->scene);
-    ec_json_text(root, "camera", report->camera);
-    ec_json_text(root, "environment", report->environment);
-    ec_json_whole(root, "width", study->options.width);
-    ec_json_whole(root, "height", study->options.height);
-    ec_json_whole(root, "seed", study->options.seed);
-    ec_json_real(root, "budget_seconds", study->budget);
-    ec_json_real(root, "total_seconds", study->seconds);
-    cJSON_AddBoolToObject(root, "interrupted", study->interrupted);
+    EC_JSON(root, EC_STRING("version", ECLAT_VERSION), EC_STRING("command", report->command), EC_STRING("scene", report->scene),
+            EC_STRING("camera", report->camera), EC_STRING("environment", report->environment), EC_WHOLE("width", study->options.width),
+            EC_WHOLE("height", study->options.height), EC_WHOLE("seed", study->options.seed), EC_REAL("budget_seconds", study->budget),
+            EC_REAL("total_seconds", study->seconds), EC_FLAG("interrupted", study->interrupted));
     cJSON *device = ec_device_json(report->device, report->device_index);
     ec_json_text(device, "why", report->device_why);
     cJSON_AddItemToObject(root, "device", device);
-    if (study->reference.mean_luminance > 0)
-        add_reference(root, report);
-    else
-        cJSON_AddNullToObject(root, "reference");
+    if (study->reference.mean_luminance > 0) add_reference(root, &study->reference);
+    else cJSON_AddNullToObject(root, "reference");
     cJSON *rungs = cJSON_AddArrayToObject(root, "rungs");
-    for (uint32_t i = 0; i < study->row_count; i++) cJSON_AddItemToArray(rungs, rung_json(study, &study->rows[i]));
+    for (uint32_t i = 0; i < study->row_count; i++) add_rung(rungs, study, &study->rows[i]);
     add_pareto(root, study);
     return root;
 }

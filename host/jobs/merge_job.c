@@ -16,47 +16,33 @@ static ec_result take_slices(char **paths, int count, bool is_partial, ec_merge 
     return EC_OK;
 }
 
-/* --clamp, as the slices had it; 0: they had none. */
 double ec_merged_clamp(const ec_merged *m)
 {
     const char *value = ec_identity_value(&m->slices.all.job.identity, "--clamp");
     return m->slices.all.film.limit > 0 && value ? strtod(value, NULL) : 0;
 }
 
-uint32_t ec_merged_attributes(const ec_merged *m, ec_attribute list[EC_MERGED_ATTRIBUTES])
+void ec_merged_attributes(const ec_merged *m, ec_report_attributes *to)
 {
     const ec_film *film = &m->slices.all.film;
-    const ec_attribute attributes[EC_MERGED_ATTRIBUTES] = {
-        {.name = "eclat.command", .type = EC_ATTR_STRING, .string = m->command},
-        {.name = "eclat.version", .type = EC_ATTR_STRING, .string = ECLAT_VERSION},
-        {.name = "eclat.replicates", .type = EC_ATTR_INT, .number = ec_film_replicates(film)},
-        {.name = "eclat.samplesPerPixel", .type = EC_ATTR_INT, .number = (double)m->samples_per_pixel},
-        {.name = "eclat.error", .type = EC_ATTR_DOUBLE, .number = m->error.error},
-        m->error.is_open ? (ec_attribute){.name = "eclat.errorBoundWhy", .type = EC_ATTR_STRING, .string = m->why}
-                         : (ec_attribute){.name = "eclat.errorBound", .type = EC_ATTR_DOUBLE, .number = m->error.error_bound},
-        {.name = "eclat.relMSE", .type = EC_ATTR_DOUBLE, .number = m->error.relmse},
-        {.name = "eclat.device", .type = EC_ATTR_STRING, .string = m->slices.all.job.device},
-        {.name = "eclat.imageSha256", .type = EC_ATTR_STRING, .string = m->sha256},
-        {.name = "eclat.clamp.limit", .type = EC_ATTR_DOUBLE, .number = ec_merged_clamp(m)}, /* from here on without a clamp left out */
-        {.name = "eclat.clamp.luminance", .type = EC_ATTR_DOUBLE, .number = (double)film->limit},
-        {.name = "eclat.clamp.missing", .type = EC_ATTR_DOUBLE, .number = m->clamp.missing},
-        {.name = "eclat.clamp.missingStderr", .type = EC_ATTR_DOUBLE, .number = m->clamp.missing_stderr},
-        {.name = "eclat.clamp.noise", .type = EC_ATTR_DOUBLE, .number = m->clamp.noise},
-        {.name = "eclat.clamp.bias", .type = EC_ATTR_DOUBLE, .number = m->clamp.bias},
-        {.name = "eclat.clamp.error", .type = EC_ATTR_DOUBLE, .number = m->clamp.error},
-    };
-    enum { OF_CLAMP = 7 };
-    memcpy(list, attributes, sizeof attributes);
-    return EC_MERGED_ATTRIBUTES - (film->limit > 0 ? 0 : OF_CLAMP);
+    EC_ATTRIBUTES(to, EC_STRING("eclat.command", m->command), EC_STRING("eclat.version", ECLAT_VERSION),
+                  EC_WHOLE("eclat.replicates", ec_film_replicates(film)), EC_WHOLE("eclat.samplesPerPixel", m->samples_per_pixel),
+                  EC_REAL("eclat.error", m->error.error));
+    if (m->error.is_open) EC_ATTRIBUTES(to, EC_STRING("eclat.errorBoundWhy", m->why));
+    else EC_ATTRIBUTES(to, EC_REAL("eclat.errorBound", m->error.error_bound));
+    EC_ATTRIBUTES(to, EC_REAL("eclat.relMSE", m->error.relmse), EC_STRING("eclat.device", m->slices.all.job.device),
+                  EC_STRING("eclat.imageSha256", m->sha256));
+    if (film->limit > 0) ec_clamp_attributes(to, ec_merged_clamp(m), (double)film->limit, &m->clamp);
 }
 
 ec_result ec_merged_write(const ec_merged *m, ec_outputs *outputs, double exposure, ec_tonemap tonemap, ec_error *err)
 {
-    ec_attribute attributes[EC_MERGED_ATTRIBUTES];
+    ec_report_attributes attributes = {.count = 0};
+    ec_merged_attributes(m, &attributes);
     const ec_picture_style style = {.exposure = (float)exposure,
                                     .tonemap = tonemap,
-                                    .attributes = attributes,
-                                    .attribute_count = ec_merged_attributes(m, attributes),
+                                    .attributes = attributes.list,
+                                    .attribute_count = attributes.count,
                                     .job = &m->slices.all.job,
                                     .film = &m->slices.all.film,
                                     .past = &m->slices.all.past};

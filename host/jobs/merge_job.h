@@ -24,9 +24,8 @@ ec_result ec_merged_make(char **paths, int count, bool is_partial, const char *c
 /* --clamp, as the slices had it; 0: they had none. */
 double ec_merged_clamp(const ec_merged *merged);
 
-/* What goes into its file; texts are its own. How many there are. */
-enum { EC_MERGED_ATTRIBUTES = 16 };
-uint32_t ec_merged_attributes(const ec_merged *merged, ec_attribute list[EC_MERGED_ATTRIBUTES]);
+/* Adds the attributes of its file; their texts are its own. */
+void ec_merged_attributes(const ec_merged *merged, ec_report_attributes *attributes);
 
 ec_result ec_merged_write(const ec_merged *merged, ec_outputs *outputs, double exposure, ec_tonemap tonemap, ec_error *err);
 void ec_merged_free(ec_merged *merged); /* zero-initialised is fine */

@@ -29,7 +29,7 @@ static ec_result take_render(eclat_picture *p, ec_error *err)
 static void take_merged(eclat_picture *p)
 {
     const ec_merged *m = &p->call.merged;
-    p->attributes.count = ec_merged_attributes(m, p->attributes.list);
+    ec_merged_attributes(m, &p->attributes);
     p->error = m->error;
     p->samples_per_pixel = (double)m->samples_per_pixel;
     p->replicates = ec_film_replicates(&m->slices.all.film);

@@ -54,28 +54,16 @@ void ec_device_report_text(const ec_device_report *report, FILE *to)
 cJSON *ec_device_json(const ec_device_info *device, uint32_t index)
 {
     cJSON *object = cJSON_CreateObject();
-    ec_json_whole(object, "index", index);
-    ec_json_text(object, "name", device->name);
-    ec_json_text(object, "type", ec_device_type_name(device->type));
-    ec_json_text(object, "vendor", device->vendor);
-    ec_json_text(object, "version", device->version);
-    ec_json_text(object, "c_version", device->c_version);
-    ec_json_text(object, "driver", device->driver);
-    ec_json_text(object, "platform", device->platform_name);
-    ec_json_text(object, "platform_version", device->platform_version);
-    ec_json_whole(object, "compute_units", device->compute_units);
-    ec_json_whole(object, "native_float_width", device->native_float_width);
-    ec_json_whole(object, "memory_bytes", device->memory_bytes);
-    ec_json_whole(object, "max_allocation_bytes", device->max_allocation_bytes);
-    ec_json_whole(object, "cache_bytes", device->cache_bytes);
-    ec_json_whole(object, "local_bytes", device->local_bytes);
-    ec_json_whole(object, "max_work_group_size", device->max_work_group_size);
-    cJSON_AddBoolToObject(object, "correctly_rounded_divide_sqrt", device->correctly_rounded_divide_sqrt);
-    cJSON_AddBoolToObject(object, "denormals", device->denormals);
-    cJSON_AddBoolToObject(object, "fma", device->fma);
-    cJSON_AddBoolToObject(object, "inf_nan", device->inf_nan);
-    cJSON_AddBoolToObject(object, "available", device->available);
-    cJSON_AddBoolToObject(object, "compiler_available", device->compiler_available);
+    EC_JSON(object, EC_WHOLE("index", index), EC_STRING("name", device->name), EC_STRING("type", ec_device_type_name(device->type)),
+            EC_STRING("vendor", device->vendor), EC_STRING("version", device->version), EC_STRING("c_version", device->c_version),
+            EC_STRING("driver", device->driver), EC_STRING("platform", device->platform_name), EC_STRING("platform_version", device->platform_version),
+            EC_WHOLE("compute_units", device->compute_units), EC_WHOLE("native_float_width", device->native_float_width),
+            EC_WHOLE("memory_bytes", device->memory_bytes), EC_WHOLE("max_allocation_bytes", device->max_allocation_bytes),
+            EC_WHOLE("cache_bytes", device->cache_bytes), EC_WHOLE("local_bytes", device->local_bytes),
+            EC_WHOLE("max_work_group_size", device->max_work_group_size),
+            EC_FLAG("correctly_rounded_divide_sqrt", device->correctly_rounded_divide_sqrt), EC_FLAG("denormals", device->denormals),
+            EC_FLAG("fma", device->fma), EC_FLAG("inf_nan", device->inf_nan), EC_FLAG("available", device->available),
+            EC_FLAG("compiler_available", device->compiler_available));
     return object;
 }
 

@@ -12,12 +12,9 @@ void ec_effects_json(cJSON *root, const ec_render_effects *effects)
     cJSON *list = cJSON_AddArrayToObject(root, "effect_list");
     for (uint32_t i = 0; i < ec_feature_count; i++) {
         ec_effect_row row = ec_effect_describe(effects, i);
-        cJSON *object = cJSON_CreateObject();
-        cJSON_AddItemToArray(list, object);
-        ec_json_text(object, "name", row.name);
-        cJSON_AddBoolToObject(object, "called_for", row.called);
-        cJSON_AddBoolToObject(object, "left_out", row.left_out);
-        ec_json_text(object, "why", row.called ? row.why : NULL);
+        cJSON *object = ec_json_object(list, NULL);
+        EC_JSON(object, EC_STRING("name", row.name), EC_FLAG("called_for", row.called), EC_FLAG("left_out", row.left_out),
+                EC_STRING("why", row.called ? row.why : NULL));
         ec_json_words(object, "kernels", row.kernels, ',');
         ec_json_words(object, "buffers", row.buffers, ',');
         ec_json_whole(object, "buffer_bytes", row.bytes);

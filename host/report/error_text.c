@@ -4,7 +4,6 @@
 #include <stdio.h>
 
 #include "report/format.h"
-#include "report/json.h"
 
 const char *ec_error_grade(const ec_film_error *e)
 {
@@ -55,10 +54,8 @@ void ec_error_json(cJSON *root, const ec_film_error *e)
 {
     char why[EC_ERROR_TEXT];
     ec_error_why(e, why, sizeof why);
-    ec_json_text(root, "error_bound_why", *why ? why : NULL);
-    ec_json_text(root, "quality", ec_error_grade(e));
-    ec_json_real(root, "error_unmet", e->unmet);
-    ec_json_real(root, "tail_share", e->tail_share);
+    EC_JSON(root, EC_STRING("error_bound_why", *why ? why : NULL), EC_STRING("quality", ec_error_grade(e)), EC_REAL("error_unmet", e->unmet),
+            EC_REAL("tail_share", e->tail_share));
 }
 
 void ec_clamp_text(const ec_clamp_error *c, bool is_open, char *text, size_t size)
@@ -78,12 +75,13 @@ void ec_clamp_json(cJSON *root, double limit, double luminance, const ec_clamp_e
         cJSON_AddNullToObject(root, "clamp");
         return;
     }
-    cJSON *clamp = cJSON_AddObjectToObject(root, "clamp");
-    ec_json_real(clamp, "limit", limit);
-    ec_json_real(clamp, "luminance", luminance);
-    ec_json_real(clamp, "missing", c->missing);
-    ec_json_real(clamp, "missing_stderr", c->missing_stderr);
-    ec_json_real(clamp, "noise", c->noise);
-    ec_json_real(clamp, "bias", c->bias);
-    ec_json_real(clamp, "error", c->error);
+    EC_JSON(ec_json_object(root, "clamp"), EC_REAL("limit", limit), EC_REAL("luminance", luminance), EC_REAL("missing", c->missing),
+            EC_REAL("missing_stderr", c->missing_stderr), EC_REAL("noise", c->noise), EC_REAL("bias", c->bias), EC_REAL("error", c->error));
+}
+
+void ec_clamp_attributes(ec_report_attributes *to, double limit, double luminance, const ec_clamp_error *c)
+{
+    EC_ATTRIBUTES(to, EC_REAL("eclat.clamp.limit", limit), EC_REAL("eclat.clamp.luminance", luminance), EC_REAL("eclat.clamp.missing", c->missing),
+                  EC_REAL("eclat.clamp.missingStderr", c->missing_stderr), EC_REAL("eclat.clamp.noise", c->noise),
+                  EC_REAL("eclat.clamp.bias", c->bias), EC_REAL("eclat.clamp.error", c->error));
 }

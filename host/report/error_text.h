@@ -2,10 +2,8 @@
 #ifndef EC_REPORT_ERROR_TEXT_H
 #define EC_REPORT_ERROR_TEXT_H
 
-#include <cjson/cJSON.h>
-#include <stddef.h>
-
 #include "film/clamp.h"
+#include "report/attributes.h"
 
 enum { EC_ERROR_TEXT = 512 };
 
@@ -30,5 +28,6 @@ void ec_clamp_text(const ec_clamp_error *clamp, bool is_open, char *text, size_t
 
 /* limit: as the option has it, in mean luminances; luminance: the limit itself. */
 void ec_clamp_json(cJSON *root, double limit, double luminance, const ec_clamp_error *clamp);
+void ec_clamp_attributes(ec_report_attributes *attributes, double limit, double luminance, const ec_clamp_error *clamp);
 
 #endif

@@ -48,6 +48,26 @@ void ec_json_text(cJSON *object, const char *key, const char *value)
     else cJSON_AddItemToObject(object, key, text);
 }
 
+void ec_json_add(cJSON *object, const ec_field *f)
+{
+    for (; f->key; f++) {
+        switch (f->kind) {
+        case EC_FIELD_REAL: ec_json_real(object, f->key, f->real); break;
+        case EC_FIELD_WHOLE: ec_json_whole(object, f->key, f->whole); break;
+        case EC_FIELD_TEXT: ec_json_text(object, f->key, f->text); break;
+        case EC_FIELD_FLAG: cJSON_AddBoolToObject(object, f->key, f->whole != 0); break;
+        }
+    }
+}
+
+cJSON *ec_json_object(cJSON *in, const char *key)
+{
+    cJSON *object = cJSON_CreateObject();
+    if (cJSON_IsArray(in)) cJSON_AddItemToArray(in, object);
+    else cJSON_AddItemToObject(in, key, object);
+    return object;
+}
+
 void ec_json_words(cJSON *object, const char *key, const char *words, char end)
 {
     cJSON *array = cJSON_AddArrayToObject(object, key);

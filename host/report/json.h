@@ -8,6 +8,24 @@
 
 #include "base/error.h"
 
+/* Fields of an object, of which any number is added in one go: EC_JSON(object, EC_REAL("seconds", s), EC_FLAG("failed", f)). */
+typedef struct ec_field {
+    const char *key;
+    enum { EC_FIELD_REAL, EC_FIELD_WHOLE, EC_FIELD_TEXT, EC_FIELD_FLAG } kind;
+    double real;      /* infinite or NaN: null */
+    uint64_t whole;   /* of a flag: 0 or 1 */
+    const char *text; /* NULL: null */
+} ec_field;
+#define EC_REAL(name, value) {.key = name, .kind = EC_FIELD_REAL, .real = (double)(value)}
+#define EC_WHOLE(name, value) {.key = name, .kind = EC_FIELD_WHOLE, .whole = value}
+#define EC_STRING(name, value) {.key = name, .kind = EC_FIELD_TEXT, .text = value}
+#define EC_FLAG(name, value) {.key = name, .kind = EC_FIELD_FLAG, .whole = value}
+#define EC_JSON(object, ...) ec_json_add(object, (const ec_field[]){__VA_ARGS__, {0}})
+void ec_json_add(cJSON *object, const ec_field *fields); /* a key of NULL ends them */
+
+/* A new object under a key of an object, or at the end of an array (key: NULL). */
+cJSON *ec_json_object(cJSON *in, const char *key);
+
 void ec_json_real(cJSON *object, const char *key, double value);
 void ec_json_whole(cJSON *object, const char *key, uint64_t value);
 void ec_json_text(cJSON *object, const char *key, const char *value); /* NULL: null; bytes that are not UTF-8 become ? */

@@ -1,4 +1,4 @@
-/* Everything a finished render can tell, and its three tellings: text, JSON, EXR attributes. */
+/* Everything that a finished render reports, as text, as JSON and as EXR attributes. */
 #ifndef EC_REPORT_RENDER_REPORT_H
 #define EC_REPORT_RENDER_REPORT_H
 
@@ -7,8 +7,8 @@
 
 #include "cl/cl.h"
 #include "film/clamp.h"
-#include "image/image.h"
 #include "render/render.h"
+#include "report/attributes.h"
 
 /* A frame of a sequence. */
 typedef struct ec_frame_facts {
@@ -53,14 +53,6 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
 void ec_render_report_summary(const ec_render_report *report, char *text, size_t size);
 
 /* EXR attributes: all that is needed to render the picture again, and what came of it. */
-enum { EC_REPORT_ATTRIBUTES_MAX = 80 };
-typedef struct ec_report_attributes {
-    ec_attribute list[EC_REPORT_ATTRIBUTES_MAX];
-    uint32_t count;
-    char text[32768]; /* strings made for the occasion; list points into it */
-    size_t text_used;
-} ec_report_attributes;
-/* `attributes` must not be moved or copied afterwards. */
 void ec_render_report_attributes(const ec_render_report *report, ec_report_attributes *attributes);
 
 #endif

@@ -5,31 +5,20 @@
 
 static void add_geometry(cJSON *root, const ec_scene *scene)
 {
-    ec_json_whole(root, "meshes", scene->mesh_count);
-    ec_json_whole(root, "instances", scene->instance_count);
-    ec_json_whole(root, "nodes", scene->node_count);
-    ec_json_whole(root, "triangles", ec_scene_met_count(scene));
-    ec_json_whole(root, "stored_triangles", scene->triangle_count);
-    ec_json_whole(root, "kept_meshes", scene->shape_count);
-    ec_json_whole(root, "kept_instances", scene->placed_count);
-    ec_json_whole(root, "vertices", scene->vertex_count);
-    ec_json_whole(root, "dropped_degenerate", scene->dropped_degenerate);
-    ec_json_whole(root, "dropped_nonfinite", scene->dropped_nonfinite);
-    ec_json_whole(root, "skipped_primitives", scene->skipped_primitives);
-    ec_json_whole(root, "materials", scene->material_count);
-    ec_json_whole(root, "textures", scene->texture_count);
-    ec_json_whole(root, "images", scene->image_count);
+    EC_JSON(root, EC_WHOLE("meshes", scene->mesh_count), EC_WHOLE("instances", scene->instance_count), EC_WHOLE("nodes", scene->node_count),
+            EC_WHOLE("triangles", ec_scene_met_count(scene)), EC_WHOLE("stored_triangles", scene->triangle_count),
+            EC_WHOLE("kept_meshes", scene->shape_count), EC_WHOLE("kept_instances", scene->placed_count), EC_WHOLE("vertices", scene->vertex_count),
+            EC_WHOLE("dropped_degenerate", scene->dropped_degenerate), EC_WHOLE("dropped_nonfinite", scene->dropped_nonfinite),
+            EC_WHOLE("skipped_primitives", scene->skipped_primitives), EC_WHOLE("materials", scene->material_count),
+            EC_WHOLE("textures", scene->texture_count), EC_WHOLE("images", scene->image_count));
 }
 
 static void add_lights(cJSON *root, const ec_scene_report *report)
 {
-    cJSON *lights = cJSON_AddObjectToObject(root, "lights");
-    ec_json_whole(lights, "emissive_triangles", report->emissive_triangles);
-    ec_json_whole(lights, "point", report->light_types[EC_LIGHT_POINT]);
-    ec_json_whole(lights, "spot", report->light_types[EC_LIGHT_SPOT]);
-    ec_json_whole(lights, "directional", report->light_types[EC_LIGHT_DIRECTIONAL]);
-    cJSON_AddBoolToObject(lights, "environment", report->scene->has_environment);
-    cJSON_AddBoolToObject(lights, "any", report->has_light);
+    EC_JSON(ec_json_object(root, "lights"), EC_WHOLE("emissive_triangles", report->emissive_triangles),
+            EC_WHOLE("point", report->light_types[EC_LIGHT_POINT]), EC_WHOLE("spot", report->light_types[EC_LIGHT_SPOT]),
+            EC_WHOLE("directional", report->light_types[EC_LIGHT_DIRECTIONAL]), EC_FLAG("environment", report->scene->has_environment),
+            EC_FLAG("any", report->has_light));
 }
 
 /* Camera to world as a node's matrix has it, by columns: right, up, back, position. */
@@ -50,19 +39,13 @@ static void add_cameras(cJSON *root, const ec_scene *scene)
     cJSON *cameras = cJSON_AddArrayToObject(root, "cameras");
     for (uint32_t i = 0; i < scene->camera_count; i++) {
         const ec_camera *camera = &scene->cameras[i];
-        cJSON *object = cJSON_CreateObject();
+        cJSON *object = ec_json_object(cameras, NULL);
         bool perspective = camera->type == EC_CAMERA_PERSPECTIVE;
-        ec_json_whole(object, "index", i);
-        ec_json_text(object, "name", camera->name);
-        ec_json_text(object, "type", perspective ? "perspective" : "orthographic");
+        EC_JSON(object, EC_WHOLE("index", i), EC_STRING("name", camera->name), EC_STRING("type", perspective ? "perspective" : "orthographic"));
         if (perspective) ec_json_real(object, "yfov", camera->yfov);
-        else {
-            ec_json_real(object, "xmag", camera->xmag);
-            ec_json_real(object, "ymag", camera->ymag);
-        }
+        else EC_JSON(object, EC_REAL("xmag", camera->xmag), EC_REAL("ymag", camera->ymag));
         ec_json_real(object, "aspect", camera->aspect > 0 ? camera->aspect : INFINITY); /* null: the image's */
         cJSON_AddItemToObject(object, "matrix", camera_matrix(scene, camera));
-        cJSON_AddItemToArray(cameras, object);
     }
     ec_json_whole(root, "default_camera", scene->default_camera);
 }
@@ -78,24 +61,15 @@ static void add_contents(cJSON *root, const ec_scene_contents *contents)
     ec_json_whole(root, "scene_shown", contents->scene);
     add_names(root, "variants", &contents->variants);
     cJSON *animations = cJSON_AddArrayToObject(root, "animations");
-    for (uint32_t i = 0; i < contents->animations.count; i++) {
-        cJSON *object = cJSON_CreateObject();
-        ec_json_text(object, "name", contents->animations.names[i]);
-        ec_json_real(object, "seconds", contents->seconds[i]); /* null: the file does not say */
-        cJSON_AddItemToArray(animations, object);
-    }
+    for (uint32_t i = 0; i < contents->animations.count; i++) /* seconds null: the file does not say */
+        EC_JSON(ec_json_object(animations, NULL), EC_STRING("name", contents->animations.names[i]), EC_REAL("seconds", contents->seconds[i]));
 }
 
 static void add_bvh(cJSON *root, const ec_bvh_stats *stats)
 {
-    cJSON *bvh = cJSON_AddObjectToObject(root, "bvh");
-    ec_json_whole(bvh, "references", stats->ref_count);
-    ec_json_whole(bvh, "nodes", stats->node_count);
-    ec_json_whole(bvh, "leaves", stats->leaf_count);
-    ec_json_whole(bvh, "max_depth", stats->max_depth);
-    ec_json_real(bvh, "sah_cost", stats->sah_cost);
-    ec_json_real(bvh, "leaf_fill", stats->leaf_fill);
-    ec_json_real(bvh, "build_seconds", stats->build_seconds);
+    EC_JSON(ec_json_object(root, "bvh"), EC_WHOLE("references", stats->ref_count), EC_WHOLE("nodes", stats->node_count),
+            EC_WHOLE("leaves", stats->leaf_count), EC_WHOLE("max_depth", stats->max_depth), EC_REAL("sah_cost", stats->sah_cost),
+            EC_REAL("leaf_fill", stats->leaf_fill), EC_REAL("build_seconds", stats->build_seconds));
 }
 
 static void add_accels(cJSON *root, const ec_scene_report *report)
@@ -106,22 +80,15 @@ static void add_accels(cJSON *root, const ec_scene_report *report)
     for (uint32_t i = 0; i < report->accel_count; i++) {
         const ec_accel_report *a = &report->accels[i];
         const ec_accel_stats *b = &a->probe.build;
-        cJSON *object = cJSON_CreateObject();
-        cJSON_AddItemToArray(array, object);
+        cJSON *object = ec_json_object(array, NULL);
         ec_json_text(object, "name", a->name);
-        if (*a->refused) {
-            ec_json_text(object, "refused", a->refused);
-            continue;
-        }
-        ec_json_real(object, "build_seconds", b->build_seconds);
-        ec_json_whole(object, "bytes", b->bytes);
-        ec_json_whole(object, "nodes", b->nodes);
-        ec_json_whole(object, "leaves", b->leaves);
-        ec_json_whole(object, "references", b->references);
-        ec_json_real(object, "sah_cost", b->sah_cost > 0 ? b->sah_cost : INFINITY); /* null: means nothing */
-        ec_json_real(object, "nodes_per_ray", a->probe.nodes);
-        ec_json_real(object, "triangles_per_ray", a->probe.triangles);
-        ec_json_real(object, "rays_per_second", a->probe.rays_per_second);
+        if (*a->refused) ec_json_text(object, "refused", a->refused);
+        else
+            EC_JSON(object, EC_REAL("build_seconds", b->build_seconds), EC_WHOLE("bytes", b->bytes), EC_WHOLE("nodes", b->nodes),
+                    EC_WHOLE("leaves", b->leaves), EC_WHOLE("references", b->references),
+                    EC_REAL("sah_cost", b->sah_cost > 0 ? b->sah_cost : INFINITY), /* null: means nothing */
+                    EC_REAL("nodes_per_ray", a->probe.nodes), EC_REAL("triangles_per_ray", a->probe.triangles),
+                    EC_REAL("rays_per_second", a->probe.rays_per_second));
     }
 }
 
