@@ -1,29 +1,18 @@
 /* eclat compare A.exr B.exr */
 #include <string.h>
-#include <strings.h>
 
 #include "commands/command.h"
 #include "jobs/compare_job.h"
 #include "jobs/outputs.h"
-#include "jobs/setters.h"
 
 typedef struct compare_request {
     const char *a, *b, *diff;
 } compare_request;
 
-#define REQUEST ((compare_request *)target)
-
-SETTER(diff)
-{
-    size_t size = strlen(value);
-    if (size <= 4 || value[size - 5] == '/' || strcasecmp(value + size - 4, ".png"))
-        return ec_usage(err, "--%s: '%s' must be named NAME.png", option, value);
-    REQUEST->diff = value;
-    return EC_OK;
-}
+#define REQUEST compare_request
 
 static const ec_option options[] = {
-    {.name = "diff", .metavar = "FILE", .set = set_diff,
+    {.name = "diff", .metavar = "FILE", EC_STORED(FILE, diff), .ending = ".png",
      .help = "write a map of the error relative to B, a .png: black is 0.1 % or less, pale yellow 100 % or more"},
     {.name = "json", .help = "print one JSON object instead of text"},
     {.name = "quiet", .letter = 'q', .help = "print nothing; only the exit code tells"},

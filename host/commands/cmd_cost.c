@@ -9,8 +9,6 @@
 #include "commands/command.h"
 #include "cost/report.h"
 #include "image/image.h"
-#include "jobs/render_setters.h"
-#include "jobs/setters.h"
 #include "report/json.h"
 
 #define COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */
@@ -22,37 +20,32 @@ typedef struct cost_request {
     const char *reference;     /* file, or NULL */
 } cost_request;
 
-#define REQUEST ((cost_request *)target)
+#define REQUEST cost_request
 
-TEXT_SETTER(json, json)
-TEXT_SETTER(reference, reference)
-PARSED_SETTER(budget, ec_parse_seconds, budget)
-RANGE_SETTER(seed, ec_parse_whole, 0, UINT64_MAX, render.options.seed)
-
-SETTER(output)
+static ec_result set_output(void *target, const char *option, const char *value, ec_error *err)
 {
     const char *dot = strrchr(value, '.');
     if (!dot || (strcasecmp(dot, ".html") && strcasecmp(dot, ".htm")))
         return ec_usage(err, "-o: '%s' must be named NAME.html; the figures go to a file by --json", value);
     (void)option;
-    REQUEST->html = value;
+    ((cost_request *)target)->html = value;
     return EC_OK;
 }
 
 static const ec_option own[] = {
-    {.name = "budget", .metavar = "S", .set = set_budget, .group = EC_GROUP_STUDY,
+    {.name = "budget", .metavar = "S", EC_STORED(SECONDS, budget), .group = EC_GROUP_STUDY,
      .help = "time for the whole study, the reference included; 40s, 2m and 1h are understood too. A kernel that is being compiled when the time is up is "
              "finished. Compiled kernels are kept for the next study",
      .otherwise = "2m"},
-    {.name = "json", .metavar = "FILE", .set = set_json, .group = EC_GROUP_RESULTS, .help = "write every figure to FILE; - prints them instead of the table"},
+    {.name = "json", .metavar = "FILE", EC_STORED(TEXT, json), .group = EC_GROUP_RESULTS, .help = "write every figure to FILE; - prints them instead of the table"},
     {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output, .group = EC_GROUP_RESULTS,
      .help = "write FILE.html, one page with charts, tables and pictures that opens without a network"},
-    {.name = "quiet", .letter = 'q', .set = ec_set_quiet, .group = EC_GROUP_MESSAGES, .help = "print only warnings and errors"},
-    {.name = "reference", .metavar = "FILE", .set = set_reference, .group = EC_GROUP_STUDY,
+    {.name = "quiet", .letter = 'q', EC_STORED(FLAG, render.quiet), .group = EC_GROUP_MESSAGES, .help = "print only warnings and errors"},
+    {.name = "reference", .metavar = "FILE", EC_STORED(TEXT, reference), .group = EC_GROUP_STUDY,
      .help = "compare with this .exr; its standard errors, if it has any, count as its uncertainty",
      .otherwise = "a picture rendered first, for a third of the budget"},
-    {.name = "seed", .metavar = "N", .set = set_seed, .group = EC_GROUP_STUDY, .help = "another N gives another, independent study", .otherwise = "0"},
-    {.name = "size", .metavar = "WxH", .set = ec_set_size, .group = EC_GROUP_PICTURE, .help = "width and height in pixels",
+    {.name = "seed", .metavar = "N", EC_STORED(U64, render.options.seed), .group = EC_GROUP_STUDY, .help = "another N gives another, independent study", .otherwise = "0"},
+    {.name = "size", .metavar = "WxH", EC_STORED(SIZE, render.options.width), EC_TOLD(render.has_size), .group = EC_GROUP_PICTURE, .help = "width and height in pixels",
      .otherwise = "the reference's; else " EC_TEXT(EC_COST_HEIGHT) " high, and as wide as the camera's aspect ratio requires"},
 };
 

@@ -7,7 +7,6 @@
 #include "device/estimate.h"
 #include "gltf/reader.h"
 #include "jobs/combinations.h"
-#include "jobs/setters.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
@@ -16,27 +15,17 @@ typedef struct info_request {
     double grid_density;      /* 0: the default */
 } info_request;
 
-#define REQUEST ((info_request *)target)
-
-RANGE_SETTER(grid_density, ec_parse_real, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, grid_density)
+#define REQUEST info_request
 
 #define NAME(name, lanes, summary) #name,
 static const char *const accel_choices[] = {"all", EC_ACCELS(NAME) NULL};
 
-SETTER(accel)
-{
-    uint32_t index = 0;
-    EC_TRY(ec_parse_choice(option, value, accel_choices, &index, err));
-    REQUEST->accel = accel_choices[index];
-    return EC_OK;
-}
-
-/* What these do here is not what they do in `render`. */
+/* These mean something else here than in `render`. */
 static const ec_option own[] = {
-    {.name = "accel", .set = set_accel,
+    {.name = "accel", EC_STORED(WORD, accel), .choices = accel_choices,
      .help = "also build this acceleration structure (bvh2, bvh8, grid, kdtree, none, twolevel, or all), trace rays through it, and report what both cost"},
     {.name = "device", .help = "OpenCL device that traces the rays", .otherwise = "as for eclat render"},
-    {.name = "grid-density", .set = set_grid_density, .help = "cells per reference with --accel grid or all, as for eclat render", .otherwise = "27"},
+    {.name = "grid-density", EC_RANGED(REAL, grid_density, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST), .help = "cells per reference with --accel grid or all, as for eclat render", .otherwise = "27"},
     {.name = "json", .help = "print one JSON object instead of text"},
     {.name = "quiet", .help = "print no notes, only the result, warnings and errors"},
 };
@@ -47,8 +36,13 @@ static void make_own(ec_option *row, const ec_option *mine)
     row->uses &= ~(uint32_t)EC_OPTION_BORROWED;
     row->help = mine->help;
     row->otherwise = mine->otherwise;
-    if (mine->set) row->set = mine->set;
-    if (mine->set == set_accel) row->choices = accel_choices;
+    if (!mine->kind) return;
+    row->set = NULL;
+    row->kind = mine->kind;
+    row->at = mine->at;
+    row->least = mine->least;
+    row->most = mine->most;
+    row->choices = mine->choices;
 }
 
 static int list_rows(ec_option rows[EC_OPTIONS_MAX])

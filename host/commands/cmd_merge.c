@@ -3,7 +3,6 @@
 
 #include "commands/command.h"
 #include "jobs/outputs.h"
-#include "jobs/setters.h"
 #include "report/merge_report.h"
 #include "report/names.h"
 
@@ -14,26 +13,16 @@ typedef struct merge_request {
     bool partial;
 } merge_request;
 
-#define REQUEST ((merge_request *)target)
-
-FLAG_SETTER(partial, partial)
-RANGE_SETTER(exposure, ec_parse_real, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST, exposure)
-CHOICE_SETTER(tonemap, tonemap, ec_tonemap, ec_tonemap_names)
-
-SETTER(output)
-{
-    (void)option;
-    return ec_outputs_add(&REQUEST->outputs, value, err);
-}
+#define REQUEST merge_request
 
 static const ec_option options[] = {
-    {.name = "exposure", .metavar = "EV", .set = set_exposure, .help = "brighten the PNG by this many stops", .otherwise = "0"},
+    {.name = "exposure", .metavar = "EV", EC_RANGED(REAL, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST), .help = "brighten the PNG by this many stops", .otherwise = "0"},
     {.name = "json", .help = "print one JSON object instead of text"},
-    {.name = "output", .letter = 'o', .metavar = "FILE", .set = set_output, .uses = EC_OPTION_REPEATS,
+    {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .uses = EC_OPTION_REPEATS,
      .help = "write FILE, an .exr (all data, sums included, so that it can be merged again) or a .png; may be repeated"},
-    {.name = "partial", .set = set_partial, .help = "write the picture even if samples are missing"},
+    {.name = "partial", EC_STORED(FLAG, partial), .help = "write the picture even if samples are missing"},
     {.name = "quiet", .letter = 'q', .help = "print only warnings and errors"},
-    {.name = "tonemap", .metavar = "CURVE", .set = set_tonemap, .choices = ec_tonemap_names,
+    {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(tonemap, ec_tonemap_names),
      .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
 };
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "commands/command.h"
-#include "jobs/setters.h"
+#include "jobs/numbers.h"
 #include "selftest/report_print.h"
 
 typedef struct request {
@@ -10,24 +10,21 @@ typedef struct request {
     ec_selftest_options options;
 } request;
 
-#define REQUEST ((request *)target)
+#define REQUEST request
 
-FLAG_SETTER(full, options.full)
-TEXT_SETTER(device, device)
-PARSED_SETTER(lanes, ec_parse_lanes, options.lanes)
-
-SETTER(only)
+/* An empty one chooses all. */
+static ec_result set_only(void *target, const char *option, const char *value, ec_error *err)
 {
     (void)option, (void)err;
-    REQUEST->options.only = value;
+    ((request *)target)->options.only = value;
     return EC_OK;
 }
 
 static const ec_option options[] = {
-    {.name = "device", .metavar = "ID", .set = set_device, .help = "OpenCL device, as for eclat render"},
-    {.name = "full", .set = set_full, .help = "run more rays and samples, every lane width and every structure; this takes some minutes on a processor"},
+    {.name = "device", .metavar = "ID", EC_STORED(TEXT, device), .help = "OpenCL device, as for eclat render"},
+    {.name = "full", EC_STORED(FLAG, options.full), .help = "run more rays and samples, every lane width and every structure; this takes some minutes on a processor"},
     {.name = "json", .help = "print one JSON object instead of a table"},
-    {.name = "lanes", .metavar = "N", .set = set_lanes, .choices = ec_lanes_names, .help = "paths per work-item: 1, 4, 8, 16 or auto", .otherwise = "auto"},
+    {.name = "lanes", .metavar = "N", EC_STORED(LANES, options.lanes), .choices = ec_lanes_names, .help = "paths per work-item: 1, 4, 8, 16 or auto", .otherwise = "auto"},
     {.name = "only", .metavar = "NAME", .set = set_only, .help = "run only the cases whose name contains NAME"},
     {.name = "quiet", .letter = 'q', .help = "print only the rows that failed, and nothing if none did"},
 };

@@ -3,20 +3,16 @@
 
 #include "commands/command.h"
 #include "commands/view_request.h"
-#include "jobs/setters.h"
 
-#define REQUEST ((ec_view_options *)target)
-TEXT_SETTER(against, against)
-TEXT_SETTER(script, script)
-FLAG_SETTER(stats, stats)
+#define REQUEST ec_view_options
 
 static const ec_option own[] = {
-    {.name = "against", .metavar = "FILE.exr", .set = set_against, .help = "picture to compare with the rendered one (V and Tab)"},
-    {.name = "script", .metavar = "FILE", .set = set_script,
+    {.name = "against", .metavar = "FILE.exr", EC_STORED(TEXT, against), .help = "picture to compare with the rendered one (V and Tab)"},
+    {.name = "script", .metavar = "FILE", EC_STORED(TEXT, script),
      .help = "move the camera and press keys as a script says, then close; the script orbit turns once around. Lines: turn YAW PITCH SECONDS (degrees), "
              "pan RIGHT UP SECONDS (picture heights), dolly FACTOR SECONDS, wait SECONDS, settle (until the limit is met), key NAME (e, E, 1, Tab, Save, ...; "
              "after X digits switch effects), quit. 0 SECONDS means at once"},
-    {.name = "stats", .set = set_stats, .help = "report at the end when there was first light, and how long frames took while the camera moved"},
+    {.name = "stats", EC_STORED(FLAG, stats), .help = "report at the end when there was first light, and how long frames took while the camera moved"},
 };
 
 static int list_rows(ec_option rows[EC_OPTIONS_MAX])

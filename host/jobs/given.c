@@ -54,7 +54,7 @@ ec_result ec_given_apply(const ec_given_options *given, const ec_option *rows, i
 {
     for (int i = 0; i < given->count; i++) {
         const ec_option *row = ec_options_find(rows, row_count, given->list[i].option);
-        if (row->set) EC_TRY(row->set(target, row->name, given->list[i].value, err));
+        EC_TRY(ec_option_store(row, target, given->list[i].value, err));
         if (is_given) is_given[row - rows] = true;
     }
     return EC_OK;

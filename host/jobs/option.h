@@ -3,12 +3,30 @@
 #define EC_JOBS_OPTION_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/error.h"
 
-/* Stores one option's value; `option` is its name, value NULL for a flag. */
-typedef ec_result (*ec_option_set)(void *target, const char *option, const char *value, ec_error *err);
+/* How a value is read, and the type of the field that keeps it. */
+typedef enum ec_option_kind {
+    EC_AS_NOTHING, /* who asks looks whether it was given */
+    EC_AS_FLAG,    /* bool */
+    EC_AS_TEXT,    /* const char *, not empty */
+    EC_AS_WORD,    /* const char *, one of choices */
+    EC_AS_CHOICE,  /* an enum in the order of choices */
+    EC_AS_U32, EC_AS_REAL,                     /* from least to most; a double */
+    EC_AS_U64,                                 /* any */
+    EC_AS_SECONDS, EC_AS_PERCENT, EC_AS_BYTES, /* a double, a double, a uint64_t */
+    EC_AS_TRIPLE,                              /* three doubles */
+    EC_AS_SIZE,                                /* width and height, a uint32_t each */
+    EC_AS_LANES,                               /* a uint32_t */
+    EC_AS_FILE,                                /* const char *, named NAME.ending */
+    EC_AS_OUTPUT,                              /* ec_outputs, one more of them */
+} ec_option_kind;
+
+/* Stores one option's value in a way of its own; `option` is its name, value NULL for a flag. */
+typedef ec_result ec_option_setter(void *target, const char *option, const char *value, ec_error *err);
 
 enum { EC_VALUE_OPTIONAL = 2 };
 
@@ -50,7 +68,11 @@ typedef struct ec_option {
     char letter;                  /* short form; 0 = none */
     const char *metavar;          /* what help calls its value; NULL: a flag */
     bool value_optional;          /* then after "=" alone, and NULL without */
-    ec_option_set set;            /* NULL: who asks looks whether it was given */
+    ec_option_kind kind;
+    size_t at, told;              /* where the field is in the target; and a bool that becomes true, 0: none */
+    double least, most;
+    const char *ending;           /* ".exr" */
+    ec_option_setter *set;        /* in place of kind; NULL: none */
     ec_option_group group;
     const char *help;             /* without line breaks */
     const char *otherwise;        /* the default; NULL: none, or help says it */
@@ -65,6 +87,15 @@ int ec_option_takes_value(const ec_option *option);
 
 /* NULL: none of them has this name. */
 const ec_option *ec_options_find(const ec_option *options, int count, const char *name);
+
+/* Stores a value as the row says. */
+ec_result ec_option_store(const ec_option *option, void *target, const char *value, ec_error *err);
+
+/* How a row stores its value in a field of REQUEST, a type that the file defines. */
+#define EC_STORED(as, field) .kind = EC_AS_##as, .at = offsetof(REQUEST, field)
+#define EC_RANGED(as, field, from, to) EC_STORED(as, field), .least = from, .most = to
+#define EC_CHOSEN(field, names) EC_STORED(CHOICE, field), .choices = names
+#define EC_TOLD(field) .told = offsetof(REQUEST, field)
 
 enum { EC_OPTIONS_MAX = 64 };
 

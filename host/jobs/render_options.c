@@ -8,6 +8,9 @@
 #include "jobs/usage.h"
 #include "report/names.h"
 
+#define REQUEST ec_render_request
+_Static_assert(sizeof(ec_integrator) == sizeof(uint32_t) && sizeof(ec_tonemap) == sizeof(uint32_t), "ec_option_store");
+
 #define OF(integrator) (1u << EC_INTEGRATOR_##integrator)
 #define PATHS OF(PATH)
 #define TRACERS (OF(PATH) | OF(WHITTED))
@@ -18,59 +21,67 @@
 
 const ec_option ec_render_rows[] = {
     /* Scene */
-    {.name = "animation", .metavar = "NAME|INDEX", .set = ec_set_animation, .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
+    {.name = "animation", .metavar = "NAME|INDEX", EC_STORED(TEXT, choice.animation), EC_TOLD(choice.animated), .group = EC_GROUP_SCENE,
+     .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "animation to play, or all, which plays all of them at once", .otherwise = "the first"},
     {.name = "at", .metavar = "SECONDS", .set = ec_set_at, .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "show the animation at this time; before its first keyframe and after its last one the scene stands still",
      .otherwise = "the scene as stored"},
-    {.name = "scene", .metavar = "NAME|INDEX", .set = ec_set_scene, .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
+    {.name = "scene", .metavar = "NAME|INDEX", EC_STORED(TEXT, choice.scene), .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "scene of the file to render", .otherwise = "the one the file names as its default"},
     {.name = "shutter", .metavar = "A:B", .set = ec_set_shutter, .group = EC_GROUP_SCENE, .integrators = PATHS, .uses = EC_OPTION_INFO,
      .help = "keep the shutter open from A to B seconds, for motion blur; --integrator path only"},
-    {.name = "variant", .metavar = "NAME|INDEX", .set = ec_set_variant, .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
+    {.name = "variant", .metavar = "NAME|INDEX", EC_STORED(TEXT, choice.variant), .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "material variant to use (KHR_materials_variants)"},
 
     /* Picture */
-    {.name = "camera", .metavar = "NAME|INDEX", .set = ec_set_camera, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA | EC_OPTION_COST,
+    {.name = "camera", .metavar = "NAME|INDEX", EC_STORED(TEXT, camera), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA | EC_OPTION_COST,
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
-    {.name = "env", .metavar = "FILE|R,G,B", .set = ec_set_env, .group = EC_GROUP_PICTURE,
+    {.name = "env", .metavar = "FILE|R,G,B", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
      .help = "environment light: an equirectangular .hdr or .exr map, or a constant radiance", .otherwise = "none; 1,1,1 if the scene has no light at all"},
-    {.name = "env-rotate", .metavar = "DEG", .set = ec_set_env_rotate, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_INFO | EC_OPTION_WINDOW,
+    {.name = "env-rotate", .metavar = "DEG", EC_RANGED(REAL, env_degrees, -36000, 36000), EC_TOLD(adjusts_env), .group = EC_GROUP_PICTURE,
+     .uses = EC_OPTION_INFO | EC_OPTION_WINDOW,
      .help = "turn the environment by this many degrees, counter-clockwise as seen from above", .otherwise = "0"},
-    {.name = "env-strength", .metavar = "S", .set = ec_set_env_strength, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_INFO,
+    {.name = "env-strength", .metavar = "S", EC_RANGED(REAL, env_strength, 0, 1e30), EC_TOLD(adjusts_env), .group = EC_GROUP_PICTURE,
+     .uses = EC_OPTION_INFO,
      .help = "multiply the environment's radiance by S", .otherwise = "1"},
-    {.name = "exposure", .metavar = "EV", .set = ec_set_exposure, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
+    {.name = "exposure", .metavar = "EV", EC_RANGED(REAL, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST), .group = EC_GROUP_PICTURE,
+     .uses = EC_OPTION_WINDOW,
      .help = "brighten the PNG by this many stops", .otherwise = "0"},
-    {.name = "eye", .metavar = "X,Y,Z", .set = ec_set_eye, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
+    {.name = "eye", .metavar = "X,Y,Z", EC_STORED(TRIPLE, look.to.eye), EC_TOLD(look.has_eye), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "position of the camera, in the file's coordinates", .otherwise = "the camera's own"},
-    {.name = "filter", .metavar = "NAME", .set = ec_set_filter, .group = EC_GROUP_PICTURE, .choices = ec_filter_names, .integrators = TRACERS,
+    {.name = "filter", .metavar = "NAME", EC_CHOSEN(options.filter, ec_filter_names), .group = EC_GROUP_PICTURE, .integrators = TRACERS,
      .uses = EC_OPTION_INFO,
      .help = "pixel filter: box weights all samples within a pixel equally; blackman-harris is a smooth bell that reaches into neighbouring pixels, "
              "importance sampled",
      .otherwise = "box"},
-    {.name = "filter-width", .metavar = "W", .set = ec_set_filter_width, .group = EC_GROUP_PICTURE, .integrators = TRACERS, .uses = EC_OPTION_INFO,
+    {.name = "filter-width", .metavar = "W", EC_RANGED(REAL, options.filter_width, EC_FILTER_WIDTH_LEAST, EC_FILTER_WIDTH_MOST), .group = EC_GROUP_PICTURE,
+     .integrators = TRACERS, .uses = EC_OPTION_INFO,
      .help = "radius of the blackman-harris filter in pixels, " EC_TEXT(EC_FILTER_WIDTH_LEAST) " to " EC_TEXT(EC_FILTER_WIDTH_MOST),
      .otherwise = "1.5"},
-    {.name = "focus", .metavar = "D", .set = ec_set_focus, .group = EC_GROUP_PICTURE, .integrators = TRACERS, .uses = EC_OPTION_INFO,
+    {.name = "focus", .metavar = "D", EC_RANGED(REAL, options.focus, EC_FOCUS_LEAST, EC_FOCUS_MOST), .group = EC_GROUP_PICTURE, .integrators = TRACERS,
+     .uses = EC_OPTION_INFO,
      .help = "focus distance of the lens in metres, along the camera's axis; requires --fstop"},
     {.name = "fov", .metavar = "DEG", .set = ec_set_fov, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "vertical field of view in degrees", .otherwise = "the camera's own"},
-    {.name = "fstop", .metavar = "N", .set = ec_set_fstop, .group = EC_GROUP_PICTURE, .integrators = TRACERS, .uses = EC_OPTION_INFO,
+    {.name = "fstop", .metavar = "N", EC_RANGED(REAL, options.fstop, EC_FSTOP_LEAST, EC_FSTOP_MOST), .group = EC_GROUP_PICTURE, .integrators = TRACERS,
+     .uses = EC_OPTION_INFO,
      .help = "render with a thin lens instead of a pinhole; the diameter of its aperture is its focal length divided by N, for a sensor 24 mm high and the "
              "camera's field of view; requires --focus",
      .otherwise = "a pinhole"},
-    {.name = "look-at", .metavar = "X,Y,Z", .set = ec_set_look_at, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
+    {.name = "look-at", .metavar = "X,Y,Z", EC_STORED(TRIPLE, look.to.target), EC_TOLD(look.has_target), .group = EC_GROUP_PICTURE,
+     .uses = EC_OPTION_CAMERA,
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
-    {.name = "output", .letter = 'o', .metavar = "FILE", .set = ec_set_output, .group = EC_GROUP_PICTURE,
+    {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
      .help = "write FILE, an .exr (all data) or a .png; may be repeated",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
-    {.name = "size", .metavar = "WxH", .set = ec_set_size, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
+    {.name = "size", .metavar = "WxH", EC_STORED(SIZE, options.width), EC_TOLD(has_size), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
      .help = "width and height in pixels", .otherwise = EC_TEXT(EC_DEFAULT_HEIGHT) " high, and as wide as the camera's aspect ratio requires; square without one"},
-    {.name = "tonemap", .metavar = "CURVE", .set = ec_set_tonemap, .group = EC_GROUP_PICTURE, .choices = ec_tonemap_names, .uses = EC_OPTION_WINDOW,
+    {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(tonemap, ec_tonemap_names), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
      .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
     {.name = "up", .metavar = "X,Y,Z", .set = ec_set_up, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "up direction of the camera", .otherwise = "0,1,0 with --eye or --look-at, else the camera's own"},
@@ -80,16 +91,16 @@ const ec_option ec_render_rows[] = {
      .help = "take more samples where the first ones show more noise; the N of --spp is then the mean over all pixels. auto does so with --error where it "
              "saves at least 5 %; on, like --adaptive alone, always does; off never",
      .otherwise = "auto", .not_in_window = "a window takes as many samples in every pixel"},
-    {.name = "error", .metavar = "PCT", .set = ec_set_error, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
+    {.name = "error", .metavar = "PCT", EC_STORED(PERCENT, options.error_target), .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
      .help = "stop when the 95 % bound of the image's error is below PCT per cent, as in 2 or 2%; the bound is checked after 32, 64, 80, 96, 112, 128, 160 "
              "samples per pixel and so on, four times per octave"},
-    {.name = "spp", .metavar = "N", .set = ec_set_spp, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
+    {.name = "spp", .metavar = "N", EC_RANGED(U32, options.spp, 1, EC_MAX_SPP), .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
      .help = "stop after N samples per pixel; without this option, --time and --error give up after " EC_TEXT(EC_SAFETY_SPP)},
-    {.name = "time", .metavar = "S", .set = ec_set_time, .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
+    {.name = "time", .metavar = "S", EC_STORED(SECONDS, options.time_limit), .group = EC_GROUP_LIMITS, .uses = EC_OPTION_WINDOW | EC_OPTION_LIMIT,
      .help = "stop before S seconds of rendering have passed; 30s, 2m and 1h are understood too"},
 
     /* Animation */
-    {.name = "fps", .metavar = "N", .set = ec_set_fps, .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY,
+    {.name = "fps", .metavar = "N", EC_RANGED(REAL, frames.fps, EC_FPS_LEAST, EC_FPS_MOST), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY,
      .help = "frames per second: frame F shows the animation at F / N seconds, and --shutter counts from there", .otherwise = EC_TEXT(EC_DEFAULT_FPS),
      .not_in_window = MOVING},
     {.name = "frames", .metavar = "A:B[:STEP]", .set = ec_set_frames, .group = EC_GROUP_ANIMATION,
@@ -97,19 +108,19 @@ const ec_option ec_render_rows[] = {
      .help = "render frames A to B, B included, or every STEP-th of them; A alone renders one. -o then contains %d, or %04d for four digits, in place of the "
              "frame number (default: NAME.%04d.exr and .png). Frames of the same job that already exist are skipped",
      .not_in_window = MOVING},
-    {.name = "overwrite", .set = ec_set_overwrite, .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
+    {.name = "overwrite", EC_STORED(FLAG, overwrite), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "replace existing frames of a different job; without this option they are an error", .not_in_window = MOVING},
 
     /* Resume and distribute */
-    {.name = "checkpoint", .metavar = "FILE", .set = ec_set_checkpoint, .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
+    {.name = "checkpoint", .metavar = "FILE", EC_STORED(FILE, checkpoint), .ending = ".exr", .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
      .help = "write FILE, an .exr, at intervals, atomically; it is a picture and holds all that --resume needs", .not_in_window = LASTING},
-    {.name = "every", .metavar = "S", .set = ec_set_every, .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
+    {.name = "every", .metavar = "S", EC_STORED(SECONDS, every), .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
      .help = "seconds between checkpoints; there is one at the end too, also after Ctrl-C", .otherwise = EC_TEXT(EC_DEFAULT_EVERY), .not_in_window = LASTING},
     {.name = "plan", .metavar = "RANKS", .set = ec_set_plan, .group = EC_GROUP_RESUME,
      .help = "measure a few batches, predict how long 1 to RANKS processes of an MPI job would take, and print why; renders no picture. RANKS,GBIT,US "
              "assumes GBIT Gbit/s between two machines and US microseconds per message (default: 10,50)",
      .not_in_window = "a window is one process"},
-    {.name = "resume", .metavar = "FILE", .set = ec_set_resume, .group = EC_GROUP_RESUME, .uses = EC_OPTION_PART | EC_OPTION_KEEPING,
+    {.name = "resume", .metavar = "FILE", EC_STORED(TEXT, resume), .group = EC_GROUP_RESUME, .uses = EC_OPTION_PART | EC_OPTION_KEEPING,
      .help = "continue from a checkpoint as if the render had never stopped. Scene, options and limits come from the checkpoint; only --spp, --time, "
              "--error (each for the whole render) and -o may be given anew. SCENE may be left out",
      .not_in_window = LASTING},
@@ -119,18 +130,18 @@ const ec_option ec_render_rows[] = {
      .not_in_window = LASTING},
 
     /* Light transport */
-    {.name = "clamp", .metavar = "N", .set = ec_set_clamp, .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
+    {.name = "clamp", .metavar = "N", EC_RANGED(REAL, options.clamp, EC_CLAMP_LEAST, EC_CLAMP_MOST), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
      .help = "limit the indirect light of a sample (paths of three or more segments) to N times the picture's mean luminance. This removes fireflies, and "
              "light with them; the report states how much is missing, in all and per pixel",
      .otherwise = "off"},
-    {.name = "cutoff", .metavar = "W", .set = ec_set_cutoff, .group = EC_GROUP_TRANSPORT, .integrators = OF(WHITTED),
+    {.name = "cutoff", .metavar = "W", EC_RANGED(REAL, options.cutoff, 0, 1), .group = EC_GROUP_TRANSPORT, .integrators = OF(WHITTED),
      .help = "whitted only: drop branches whose weight is below W, 0 to 1; 0 follows all", .otherwise = EC_TEXT(EC_DEFAULT_CUTOFF)},
-    {.name = "integrator", .metavar = "NAME", .set = ec_set_integrator, .group = EC_GROUP_TRANSPORT, .choices = ec_integrator_names,
+    {.name = "integrator", .metavar = "NAME", EC_CHOSEN(options.integrator, ec_integrator_names), .group = EC_GROUP_TRANSPORT,
      .uses = EC_OPTION_INFO | EC_OPTION_WINDOW,
      .help = "path is the path tracer. For comparison, whitted traces mirrored and refracted rays, with hard shadows from the centres of lights; raster "
              "draws direct light from these centres without shadows",
      .otherwise = "path"},
-    {.name = "light-choice", .metavar = "NAME", .set = ec_set_light_choice, .group = EC_GROUP_TRANSPORT, .choices = ec_light_choice_names,
+    {.name = "light-choice", .metavar = "NAME", EC_CHOSEN(options.light_choice, ec_light_choice_names), .group = EC_GROUP_TRANSPORT,
      .integrators = PATHS, .uses = EC_OPTION_INFO,
      .help = "how a surface picks a light to sample: power prefers bright lights; tree also those that are near and face it; auto takes tree where lights are "
              "apart. The image is the same",
@@ -141,39 +152,39 @@ const ec_option ec_render_rows[] = {
      .help = "Russian roulette: a survival probability at every surface, as in 0.8; auto, by throughput from the fifth segment on; or off, which requires "
              "--max-depth N",
      .otherwise = "auto"},
-    {.name = "sample", .metavar = "NAME", .set = ec_set_sample, .group = EC_GROUP_TRANSPORT, .choices = ec_sample_names, .integrators = PATHS,
+    {.name = "sample", .metavar = "NAME", EC_CHOSEN(options.sample, ec_sample_names), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
      .uses = EC_OPTION_INFO,
      .help = "how directions are sampled: hemisphere (uniformly), bsdf, light, or mis, which combines bsdf and light. The image is the same, its noise is not",
      .otherwise = "mis"},
-    {.name = "sampler", .metavar = "NAME", .set = ec_set_sampler, .group = EC_GROUP_TRANSPORT, .choices = ec_sampler_names, .uses = EC_OPTION_INFO,
+    {.name = "sampler", .metavar = "NAME", EC_CHOSEN(options.sampler, ec_sampler_names), .group = EC_GROUP_TRANSPORT, .uses = EC_OPTION_INFO,
      .help = "random numbers: sobol (Owen-scrambled) or independent", .otherwise = "sobol"},
-    {.name = "scattering", .metavar = "NAME", .set = ec_set_scattering, .group = EC_GROUP_TRANSPORT, .choices = ec_scattering_names, .integrators = PATHS,
+    {.name = "scattering", .metavar = "NAME", EC_CHOSEN(options.scattering, ec_scattering_names), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
      .uses = EC_OPTION_INFO,
      .help = "rough metal and glass: single scattering, as glTF defines it, loses light; multiple adds the light that facets reflect or transmit to one another",
      .otherwise = "single"},
     {.name = "seed", .metavar = "N", .set = ec_set_seed, .group = EC_GROUP_TRANSPORT,
      .help = "seed of the random numbers; another N gives another, independent image. With --frames, frame takes the frame number", .otherwise = "0"},
-    {.name = "terminator", .metavar = "NAME", .set = ec_set_terminator, .group = EC_GROUP_TRANSPORT, .choices = ec_terminator_names, .integrators = PATHS,
+    {.name = "terminator", .metavar = "NAME", EC_CHOSEN(options.terminator, ec_terminator_names), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
      .uses = EC_OPTION_INFO,
      .help = "shadows where light grazes facets with vertex normals: geometric lets facets shadow themselves; smooth starts rays on the smooth surface that "
              "the normals describe",
      .otherwise = "geometric"},
 
     /* Device */
-    {.name = "device", .metavar = "ID", .set = ec_set_device, .group = EC_GROUP_DEVICE, .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
+    {.name = "device", .metavar = "ID", EC_STORED(TEXT, device), .group = EC_GROUP_DEVICE, .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
      .help = "OpenCL device: its number in eclat devices, or part of its name; for several, a list such as 0,2, or all",
      .otherwise = "$ECLAT_DEVICE, else the first GPU, else the first CPU"},
-    {.name = "compile", .metavar = "WHEN", .set = ec_set_compile, .group = EC_GROUP_DEVICE, .choices = ec_compile_names, .uses = EC_OPTION_NO_IDENTITY,
+    {.name = "compile", .metavar = "WHEN", EC_CHOSEN(options.compile, ec_compile_names), .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
      .help = "when to compile kernels that the driver does not have yet: beside (a render begins with kernels that compile sooner) or first; the image is the same",
      .otherwise = "auto: $ECLAT_COMPILE, else beside"},
-    {.name = "lanes", .metavar = "N", .set = ec_set_lanes, .group = EC_GROUP_DEVICE, .choices = ec_lanes_names, .uses = EC_OPTION_NO_IDENTITY,
+    {.name = "lanes", .metavar = "N", EC_STORED(LANES, options.lanes), .choices = ec_lanes_names, .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
      .help = "paths per work-item: 1, 4, 8, 16 or auto; the image is the same", .otherwise = "auto"},
-    {.name = "memory", .metavar = "SIZE", .set = ec_set_memory, .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
+    {.name = "memory", .metavar = "SIZE", EC_STORED(BYTES, options.memory), .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
      .help = "memory limit, as in 4G or 512M. A picture that does not fit is rendered in strips, one after the other, to the same image; requires --spp as the only limit",
      .otherwise = "what is free", .not_in_window = "a window's picture is held whole"},
 
     /* Reproduce and measure */
-    {.name = "accel", .metavar = "NAME", .set = ec_set_accel, .group = EC_GROUP_MEASURE, .choices = ec_accel_names, .integrators = TRACERS,
+    {.name = "accel", .metavar = "NAME", EC_STORED(WORD, options.accel), .choices = ec_accel_names, .group = EC_GROUP_MEASURE, .integrators = TRACERS,
      .uses = EC_OPTION_INFO | EC_OPTION_NO_IDENTITY,
      .help = "acceleration structure: auto, bvh8, bvh2, grid, kdtree, none or twolevel; the image is the same. auto takes the faster of the BVHs, or "
              "twolevel where meshes are kept once, which the others expand",
@@ -188,15 +199,15 @@ const ec_option ec_render_rows[] = {
      .help = "cells per reference (a triangle, or part of one) in --accel grid, " EC_TEXT(EC_GRID_DENSITY_LEAST) " to " EC_TEXT(EC_GRID_DENSITY_MOST)
              "; there are fewer where that makes more than 2^28 cells, or more than 64 entries per reference. The image is the same",
      .otherwise = "27"},
-    {.name = "instancing", .metavar = "WHEN", .set = ec_set_instancing, .group = EC_GROUP_MEASURE, .choices = ec_instancing_names, .uses = EC_OPTION_INFO,
+    {.name = "instancing", .metavar = "WHEN", EC_CHOSEN(choice.instancing, ec_instancing_names), .group = EC_GROUP_MEASURE, .uses = EC_OPTION_INFO,
      .help = "keep meshes that appear in several places only once: auto does so where it saves a million triangles and half of all; on, for each mesh that "
              "appears twice; off, never",
      .otherwise = "auto"},
-    {.name = "replicates", .metavar = "N", .set = ec_set_replicates, .group = EC_GROUP_MEASURE, .uses = EC_OPTION_WINDOW,
+    {.name = "replicates", .metavar = "N", EC_RANGED(U32, options.replicates, 1, EC_REPLICATES_MOST), .group = EC_GROUP_MEASURE, .uses = EC_OPTION_WINDOW,
      .help = "independent copies of the sample sequence, 1 to " EC_TEXT(EC_REPLICATES_MOST) ". Their spread gives the error: fewer make less noise, but a less "
              "certain error; a single one gives none",
      .otherwise = EC_TEXT(EC_REPLICATES)},
-    {.name = "wave", .metavar = "N", .set = ec_set_wave, .group = EC_GROUP_MEASURE, .uses = EC_OPTION_NO_IDENTITY,
+    {.name = "wave", .metavar = "N", EC_RANGED(U32, options.wave, 1, 1u << 28), .group = EC_GROUP_MEASURE, .uses = EC_OPTION_NO_IDENTITY,
      .help = "paths in flight; the image is the same", .otherwise = "fitted to the device"},
     {.name = "without", .metavar = "EFFECT", .set = ec_set_without, .group = EC_GROUP_MEASURE,
      .uses = EC_OPTION_INFO | EC_OPTION_WINDOW | EC_OPTION_REPEATS,
@@ -204,13 +215,13 @@ const ec_option ec_render_rows[] = {
              "may be repeated"},
 
     /* Messages */
-    {.name = "json", .set = ec_set_json, .group = EC_GROUP_MESSAGES,
+    {.name = "json", EC_STORED(FLAG, json), .group = EC_GROUP_MESSAGES,
      .uses = EC_OPTION_INFO | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "print one JSON object with everything measured instead of text", .not_in_window = TALKING},
-    {.name = "quiet", .letter = 'q', .set = ec_set_quiet, .group = EC_GROUP_MESSAGES,
+    {.name = "quiet", .letter = 'q', EC_STORED(FLAG, quiet), .group = EC_GROUP_MESSAGES,
      .uses = EC_OPTION_INFO | EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "print only warnings and errors, and what --json prints"},
-    {.name = "verbose", .letter = 'v', .set = ec_set_verbose, .group = EC_GROUP_MESSAGES,
+    {.name = "verbose", .letter = 'v', EC_STORED(FLAG, verbose), .group = EC_GROUP_MESSAGES,
      .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "also print what calls for each effect, and the kernels and buffers it causes", .not_in_window = TALKING},
 };

@@ -64,8 +64,7 @@ static ec_result set(eclat_job *job, const char *name, const char *value, ec_err
     if (row->metavar && !row->value_optional && !value) return ec_usage(err, "option %s needs a value", name);
     if (!row->metavar && value) return ec_usage(err, "option %s takes no value", name);
     EC_TRY(ec_given_add(&job->given, row->name, value, err));
-    if (!row->set) return EC_OK;
-    ec_result result = row->set(job->checked, row->name, job->given.list[job->given.count - 1].value, err);
+    ec_result result = ec_option_store(row, job->checked, job->given.list[job->given.count - 1].value, err);
     if (result != EC_OK) ec_given_drop_last(&job->given);
     return result;
 }

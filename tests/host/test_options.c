@@ -31,14 +31,14 @@ static void check_choices(const ec_option *o)
     ec_error err;
     for (const char *const *word = o->choices; word && *word; word++) {
         CHECK_MSG(is_among(*word, o->help) || is_among(*word, o->otherwise), "--%s: help does not know %s", o->name, *word);
-        CHECK_MSG(o->set(&request, o->name, *word, &err) == EC_OK, "--%s does not take %s", o->name, *word);
+        CHECK_MSG(ec_option_store(o, &request, *word, &err) == EC_OK, "--%s does not take %s", o->name, *word);
     }
-    if (o->choices) CHECK_MSG(o->set(&request, o->name, "no-such-choice", &err) == EC_USAGE, "--%s takes anything", o->name);
+    if (o->choices) CHECK_MSG(ec_option_store(o, &request, "no-such-choice", &err) == EC_USAGE, "--%s takes anything", o->name);
 }
 
 static void check_row(const ec_option *o)
 {
-    CHECK_MSG(o->set && o->help, "--%s", o->name);
+    CHECK_MSG((o->set || o->kind) && o->help, "--%s", o->name);
     CHECK_MSG(o->group > EC_GROUP_OPTIONS && o->group < EC_GROUP_COUNT, "--%s is in no group", o->name);
     CHECK_MSG(o->metavar || (!o->choices && !o->value_optional && !o->otherwise), "--%s: values of a flag", o->name);
     CHECK_MSG(!o->metavar || isupper((unsigned char)*o->metavar) || *o->metavar == 'W', "--%s %s", o->name, o->metavar);
@@ -73,7 +73,7 @@ static bool changes_options(const ec_option *o)
         ec_error err;
         memset(&before, 0, sizeof before);
         after = before;
-        if (o->set(&after, o->name, value, &err) == EC_OK && memcmp(&before.options, &after.options, sizeof before.options)) return true;
+        if (ec_option_store(o, &after, value, &err) == EC_OK && memcmp(&before.options, &after.options, sizeof before.options)) return true;
     }
     return false;
 }

@@ -1,0 +1,147 @@
+#include "jobs/render_setters.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "jobs/defaults.h"
+#include "jobs/numbers.h"
+#include "jobs/render_request.h"
+#include "jobs/usage.h"
+#include "pack/scene_view.h"
+#include "ranks/plan.h"
+
+#define SETTER(name) ec_result ec_set_##name(void *target, const char *option, const char *value, ec_error *err)
+#define REQUEST ((ec_render_request *)target)
+#define MOMENT_MOST 1e9 /* seconds */
+
+const char *const ec_adaptive_names[] = {[EC_ADAPTIVE_AUTO] = "auto", [EC_ADAPTIVE_ON] = "on", [EC_ADAPTIVE_OFF] = "off", NULL};
+const char *const ec_effects_names[] = {"needed", "all", NULL};
+
+SETTER(at)
+{
+    REQUEST->choice.animated = REQUEST->choice.at_given = true;
+    return ec_parse_real(option, value, 0, MOMENT_MOST, &REQUEST->choice.at, err);
+}
+
+SETTER(shutter)
+{
+    REQUEST->choice.shutter = true;
+    return ec_parse_span(option, value, MOMENT_MOST, &REQUEST->choice.opens, &REQUEST->choice.closes, err);
+}
+
+SETTER(up)
+{
+    const double *up = REQUEST->look.to.up;
+    REQUEST->look.has_up = true;
+    EC_TRY(ec_parse_triple(option, value, REQUEST->look.to.up, err));
+    if (up[0] == 0 && up[1] == 0 && up[2] == 0) return ec_usage(err, "--%s: '%s' is no direction", option, value);
+    return EC_OK;
+}
+
+SETTER(fov)
+{
+    REQUEST->look.has_lens = true;
+    REQUEST->look.to.tall = 0;
+    return ec_parse_real(option, value, EC_FOV_LEAST, EC_FOV_MOST, &REQUEST->look.to.fov, err);
+}
+
+SETTER(parallel)
+{
+    REQUEST->look.has_lens = true;
+    REQUEST->look.to.fov = 0;
+    return ec_parse_real(option, value, EC_FOCUS_LEAST, EC_FOCUS_MOST, &REQUEST->look.to.tall, err);
+}
+
+/* --adaptive without a value means on. */
+SETTER(adaptive)
+{
+    uint32_t index = EC_ADAPTIVE_ON;
+    if (value) EC_TRY(ec_parse_choice(option, value, ec_adaptive_names, &index, err));
+    REQUEST->adaptive = (ec_adaptive)index;
+    return EC_OK;
+}
+
+SETTER(frames) { return ec_frame_range_parse(option, value, &REQUEST->frames, err); }
+
+/* RANKS[,GBIT[,MICROSECONDS]] */
+SETTER(plan)
+{
+    char text[64], *rest = text;
+    REQUEST->plan_gbit = EC_PLAN_GBIT;
+    REQUEST->plan_microseconds = EC_PLAN_MICROSECONDS;
+    if (snprintf(text, sizeof text, "%s", value) >= (int)sizeof text) return ec_usage(err, "--%s: '%s' is too long", option, value);
+    EC_TRY(ec_parse_u32(option, strsep(&rest, ","), 1, EC_PLAN_RANKS_MOST, &REQUEST->plan_ranks, err));
+    if (rest) EC_TRY(ec_parse_real(option, strsep(&rest, ","), 0.001, 1e6, &REQUEST->plan_gbit, err));
+    if (rest) EC_TRY(ec_parse_real(option, rest, 0, 1e6, &REQUEST->plan_microseconds, err));
+    return EC_OK;
+}
+
+SETTER(samples)
+{
+    char first[24];
+    const char *colon = strchr(value, ':');
+    REQUEST->has_slice = true;
+    if (!colon || colon == value || (size_t)(colon - value) >= sizeof first || !colon[1])
+        return ec_usage(err, "--%s: '%s' is not A:B, two numbers of samples a pixel as in 128:256", option, value);
+    snprintf(first, sizeof first, "%.*s", (int)(colon - value), value);
+    EC_TRY(ec_parse_u32(option, first, 0, EC_MAX_SPP, &REQUEST->slice_first, err));
+    EC_TRY(ec_parse_u32(option, colon + 1, 1, EC_MAX_SPP, &REQUEST->slice_end, err));
+    if (REQUEST->slice_first < REQUEST->slice_end) return EC_OK;
+    return ec_usage(err, "--%s: %s holds no samples; the second number must be the larger", option, value);
+}
+
+SETTER(grid_density)
+{
+    double density = 0;
+    EC_TRY(ec_parse_real(option, value, EC_GRID_DENSITY_LEAST, EC_GRID_DENSITY_MOST, &density, err));
+    REQUEST->options.grid_density = (float)density;
+    return EC_OK;
+}
+
+SETTER(max_depth)
+{
+    if (!strcmp(value, "inf")) {
+        REQUEST->options.max_depth = 0;
+        REQUEST->endless = true;
+        return EC_OK;
+    }
+    if (ec_parse_u32(option, value, 1, EC_MAX_DEPTH, &REQUEST->options.max_depth, err) == EC_OK) return EC_OK;
+    return ec_usage(err, "--%s: '%s' is neither a whole number from 1 to %d nor inf", option, value, EC_MAX_DEPTH);
+}
+
+SETTER(rr)
+{
+    double survival = !strcmp(value, "off");
+    if (survival == 0 && strcmp(value, "auto") &&
+        (ec_parse_real(option, value, 0, 1, &survival, err) != EC_OK || survival == 0))
+        return ec_usage(err, "--%s: '%s' is neither a probability over 0 and up to 1 nor auto nor off", option, value);
+    REQUEST->options.survival = survival;
+    return EC_OK;
+}
+
+SETTER(seed)
+{
+    REQUEST->seed_is_frame = !strcmp(value, "frame");
+    return REQUEST->seed_is_frame ? EC_OK : ec_parse_whole(option, value, 0, UINT64_MAX, &REQUEST->options.seed, err);
+}
+
+SETTER(effects)
+{
+    uint32_t index = 0;
+    EC_TRY(ec_parse_choice(option, value, ec_effects_names, &index, err));
+    REQUEST->options.all_effects = index == 1;
+    return EC_OK;
+}
+
+/* May be repeated. */
+SETTER(without)
+{
+    char names[EC_EFFECT_NAMES];
+    for (uint32_t i = 0; i < ec_feature_count; i++) {
+        if (!(ec_effects_optional & ec_features[i].bit) || strcmp(value, ec_features[i].name)) continue;
+        REQUEST->options.without |= ec_features[i].bit;
+        return EC_OK;
+    }
+    ec_feature_names(ec_effects_optional, names, sizeof names);
+    return ec_usage(err, "--%s: '%s' is not one of the effects that can be left out: %s", option, value, names);
+}
