@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "commands/command.h"
-#include "commands/view_request.h"
 
 #define REQUEST ec_view_options
 

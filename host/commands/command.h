@@ -10,7 +10,7 @@
 #include "jobs/listener.h"
 #include "jobs/merge_job.h"
 #include "jobs/render_job.h"
-#include "jobs/usage.h"
+#include "jobs/option.h"
 
 /* A command that runs. */
 typedef struct ec_call {
@@ -44,6 +44,13 @@ typedef struct ec_command {
     bool is_shared;             /* by all ranks, where there are any */
     bool is_interactive;        /* it waits for a descriptor */
 } ec_command;
+
+/* The request of `view`. */
+typedef struct ec_view_options {
+    ec_render_request render; /* first: its options are stored in it, to refuse values at once */
+    const char *against, *script;
+    bool stats;
+} ec_view_options;
 
 extern const ec_command ec_cmd_compare, ec_cmd_cost, ec_cmd_devices, ec_cmd_info, ec_cmd_merge, ec_cmd_render, ec_cmd_selftest, ec_cmd_view;
 extern const ec_command *const ec_commands[]; /* by name; NULL ends them */

@@ -2,6 +2,8 @@
 #ifndef EC_COST_COST_INTERNAL_H
 #define EC_COST_COST_INTERNAL_H
 
+#include <cjson/cJSON.h>
+
 #include "cost/cost.h"
 #include "render/session.h"
 
@@ -67,7 +69,10 @@ typedef struct ec_cost_base {
 } ec_cost_base;
 ec_result ec_cost_measure(ec_cost_study *study, ec_cost_base *base, ec_cost_row *row, double share, double latest, ec_error *err);
 
-/* study.c: false when the user wants to stop */
+/* pictures.c: {"reference": uri, id of each rung: [picture, error map]}, as data URIs of small PNG files. */
+ec_result ec_cost_pictures(const ec_cost_study *study, cJSON **images, ec_error *err);
+
+/* runner.c: false when the user wants to stop */
 bool ec_cost_go_on(void *study);
 
 #endif

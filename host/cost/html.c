@@ -1,34 +1,35 @@
 /* One page with everything inside. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/atomic_file.h"
 #include "cost/page.h"
-#include "cost/pictures.h"
+#include "cost/cost_internal.h"
 #include "cost/report.h"
+
+/* With these characters written otherwise. */
+typedef struct replaced {
+    char character;
+    const char *by;
+} replaced;
+
+static void put(FILE *to, const char *text, const replaced *replaced)
+{
+    for (; *text; text++) {
+        int i = 0;
+        while (replaced[i].by && replaced[i].character != *text) i++;
+        if (replaced[i].by) fputs(replaced[i].by, to);
+        else fputc(*text, to);
+    }
+}
 
 /* Within a script element only < could end it. */
 static void put_json(FILE *to, cJSON *object)
 {
     char *text = cJSON_PrintUnformatted(object);
-    for (const char *c = text ? text : "null"; *c; c++) {
-        if (*c == '<')
-            fputs("\\u003c", to);
-        else
-            fputc(*c, to);
-    }
+    put(to, text ? text : "null", (const replaced[]){{'<', "\\u003c"}, {0, NULL}});
     cJSON_free(text);
-}
-
-static void put_escaped(FILE *to, const char *text, size_t size)
-{
-    for (size_t i = 0; i < size; i++) {
-        if (text[i] == '<')
-            fputs("&lt;", to);
-        else if (text[i] == '&')
-            fputs("&amp;", to);
-        else
-            fputc(text[i], to);
-    }
 }
 
 static void put_table(FILE *to, const ec_cost_report *report)
@@ -39,7 +40,7 @@ static void put_table(FILE *to, const ec_cost_report *report)
     if (!memory) return;
     ec_cost_table(report, false, memory);
     fclose(memory);
-    put_escaped(to, text, size);
+    put(to, text, (const replaced[]){{'<', "&lt;"}, {'&', "&amp;"}, {0, NULL}});
     free(text);
 }
 
@@ -70,6 +71,19 @@ static void put_page(FILE *to, const void *parts)
         c = end + 1;
     }
     fputs(c, to);
+}
+
+ec_result ec_cost_write(const char *path, ec_cost_put *put, const void *what, ec_error *err)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    if (to) put(to, what);
+    bool good = to && !ferror(to);
+    if (to) good = fclose(to) == 0 && good;
+    ec_result result = good ? ec_atomic_write(path, text, size, err) : ec_fail(err, "out of memory for '%s'", path);
+    free(text);
+    return result;
 }
 
 ec_result ec_cost_write_html(const ec_cost_report *report, const char *path, ec_error *err)

@@ -23,9 +23,8 @@ static double median(double *values, uint32_t count)
     return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
-/* The standard error of a median: 1.2533 sigma / sqrt(n) for normal values; sigma by the median absolute deviation,
-since one of a few turns may be an
- * outlier. */
+/* The standard error of a median: 1.2533 sigma / sqrt(n) for normal values; sigma by the median absolute deviation, since one of a few turns may
+ * be an outlier. */
 static double median_se(const double *values, uint32_t count, double middle)
 {
     double deviation[PAIRS_MOST];

@@ -1,5 +1,5 @@
 /* Thumbnails, and those of a study as data URIs. */
-#include "cost/pictures.h"
+#include "cost/cost_internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -14,8 +14,6 @@
 
 #include "cost/cost_internal.h"
 
-
-
 ec_result ec_cost_tally_create(const ec_cost_reference *reference, uint64_t pixels, ec_cost_tally *t, ec_error *err)
 {
     *t = (ec_cost_tally){.pixels = pixels, .reference = reference};

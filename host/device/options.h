@@ -18,7 +18,7 @@ typedef enum ec_terminator { EC_TERMINATOR_GEOMETRIC, EC_TERMINATOR_SMOOTH } ec_
 typedef enum ec_light_choice { EC_LIGHTS_AUTO, EC_LIGHTS_BY_POWER, EC_LIGHTS_BY_TREE } ec_light_choice;
 
 /* What makes the picture; the words are in report/names.c, the functions in wave.c, the options of each in
- * jobs/combinations.c. */
+ * jobs/render_settle.c. */
 typedef enum ec_integrator {
     EC_INTEGRATOR_PATH,   /* global illumination */
     EC_INTEGRATOR_WHITTED, /* a tree of mirrored and refracted rays, direct light from the lights' centres */

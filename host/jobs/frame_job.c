@@ -8,7 +8,7 @@
 
 #include <sha2.h>
 
-#include "jobs/command_line.h"
+#include "jobs/given.h"
 #include "image/exr_header.h"
 #include "image/seal.h"
 #include "device/content.h"

@@ -34,6 +34,9 @@ ec_result ec_words_make(ec_words *words, const char *command, char *const *input
                         const ec_option *rows, int row_count, ec_error *err);
 void ec_words_free(ec_words *words);
 
+/* A command line as one text that a shell would read back as it was; malloc'ed, NULL when out of memory. */
+char *ec_command_line(int argc, char **argv);
+
 /* Reads options back from a command's name and what follows it, and its last operand, which is one of the words. */
 ec_result ec_given_read(ec_given_options *given, const char **operand, int argc, char *const *argv, const ec_option *rows, int row_count,
                         ec_error *err);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "jobs/usage.h"
+#include "jobs/option.h"
 
 /* A day is long, but a week is thinkable. */
 #define EC_MAX_SECONDS 1e7

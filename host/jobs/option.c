@@ -5,7 +5,6 @@
 
 #include "jobs/numbers.h"
 #include "jobs/outputs.h"
-#include "jobs/usage.h"
 
 int ec_option_takes_value(const ec_option *option)
 {

@@ -8,6 +8,9 @@
 
 #include "base/error.h"
 
+/* Like ec_fail, but returns EC_USAGE: the command line is wrong. */
+#define ec_usage(...) (ec_fail(__VA_ARGS__), EC_USAGE)
+
 /* How a value is read, and the type of the field that keeps it. */
 typedef enum ec_option_kind {
     EC_AS_NOTHING, /* who asks looks whether it was given */

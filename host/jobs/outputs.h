@@ -1,4 +1,4 @@
-/* The files a render writes: which, of what kind, and may they be written? */
+/* The files that a command reads and writes: which, of what kind, and may they be written? */
 #ifndef EC_JOBS_OUTPUTS_H
 #define EC_JOBS_OUTPUTS_H
 
@@ -7,7 +7,19 @@
 #include <stdint.h>
 
 #include "base/error.h"
-#include "jobs/inputs.h"
+#include "gltf/reader.h"
+
+/* The files that a command reads: none of them may be what it writes. */
+typedef struct ec_inputs {
+    const char *scene;        /* and all files that it names; NULL: none */
+    const char *const *files; /* beside it; may hold NULLs */
+    int file_count;
+    ec_scene_files of_scene;  /* owned; empty until a file is found that might be one of them */
+} ec_inputs;
+
+/* Is the file at this path one of them? */
+bool ec_inputs_have(ec_inputs *inputs, const char *path);
+void ec_inputs_free(ec_inputs *inputs);
 
 typedef enum ec_output_kind { EC_OUTPUT_EXR, EC_OUTPUT_PNG } ec_output_kind;
 
@@ -41,7 +53,8 @@ ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_erro
 /* Warns where a disk has less room than the files may need; no more, since nobody knows how well they will compress. */
 void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log);
 
-/* Do two paths lead to one file that exists (ec_same_file), or that both would make? */
+/* Do two paths lead to one file that exists? Or to one that both would make? */
+bool ec_same_file(const char *a, const char *b);
 bool ec_same_target(const char *a, const char *b);
 
 #endif

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cl/workarounds.h"
-#include "jobs/command_line.h"
+#include "jobs/given.h"
 #include "jobs/defaults.h"
 #include "jobs/render_job.h"
 #include "jobs/write_report.h"

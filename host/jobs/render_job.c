@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "jobs/defaults.h"
 #include "jobs/numbers.h"
-#include "jobs/usage.h"
+#include "jobs/option.h"
 #include "render/strips.h"
 #include "report/scene_report.h"
 #include "gltf/reader.h"
@@ -119,12 +119,36 @@ static void choose_size(ec_render_options *options, uint32_t height, const ec_ca
     options->width = (uint32_t)fmin(fmax(round(options->height * aspect), 1), EC_SIZE_MAX_SIDE);
 }
 
+/* Changes that camera of the scene; without an option to do so: not at all. What is not given stays, but for what the help says. *v: where it stands
+ * then, in the very numbers that were given. */
+static ec_result change_camera(const ec_camera_change *change, ec_scene *s, uint32_t index, ec_viewpoint *v, ec_error *err)
+{
+    ec_camera *camera = &s->cameras[index], changed;
+    bool moves = change->has_eye || change->has_target;
+    ec_camera_viewpoint(camera, s->center, ec_camera_reach(s, camera), v);
+    if (!moves && !change->has_up && !change->has_lens) return EC_OK;
+    for (int k = 0; k < 3; k++) {
+        if (change->has_eye) v->target[k] = 0.5 * ((double)s->bounds_min[k] + s->bounds_max[k]) + s->center[k];
+        if (change->has_eye) v->eye[k] = change->to.eye[k];
+        if (change->has_target) v->target[k] = change->to.target[k];
+        if (moves) v->up[k] = k == 1;
+        if (change->has_up) v->up[k] = change->to.up[k];
+    }
+    if (change->has_lens) v->fov = change->to.fov, v->tall = change->to.tall;
+    EC_TRY(ec_camera_look(v, s->center, &changed, err));
+    changed.aspect = camera->aspect;
+    free(camera->name);
+    *camera = changed;
+    camera->name = strdup("command line");
+    return EC_OK;
+}
+
 static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 {
     ec_render_options *options = &job->request->options;
     options->camera = job->scene->default_camera;
     if (job->request->camera) EC_TRY(ec_scene_find_camera(job->scene, job->request->camera, &options->camera, err));
-    EC_TRY(ec_camera_change_apply(&job->request->look, job->scene, options->camera, &job->viewpoint, err));
+    EC_TRY(change_camera(&job->request->look, job->scene, options->camera, &job->viewpoint, err));
     if (!job->request->has_size) choose_size(options, job->request->default_height, &job->scene->cameras[options->camera]);
     ec_camera_describe(job->scene, options->camera, job->camera_text, sizeof job->camera_text);
     return EC_OK;

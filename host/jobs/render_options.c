@@ -5,7 +5,7 @@
 #include "jobs/numbers.h"
 #include "jobs/render_request.h"
 #include "jobs/render_setters.h"
-#include "jobs/usage.h"
+#include "jobs/option.h"
 #include "report/names.h"
 
 #define REQUEST ec_render_request

@@ -5,13 +5,19 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "jobs/camera_change.h"
-#include "jobs/frame_range.h"
+#include "jobs/frames.h"
 #include "jobs/given.h"
 #include "jobs/outputs.h"
 #include "image/image.h"
 #include "render/render.h"
+#include "scene/scene.h"
 #include "store/store.h"
+
+/* --eye, --look-at, --up, --fov, --parallel: a camera of the command line, or one of the scene's with something changed. */
+typedef struct ec_camera_change {
+    bool has_eye, has_target, has_up, has_lens; /* lens: fov or tall */
+    ec_viewpoint to;                            /* what was given */
+} ec_camera_change;
 
 /* auto: where an error is asked for. */
 typedef enum ec_adaptive { EC_ADAPTIVE_AUTO, EC_ADAPTIVE_ON, EC_ADAPTIVE_OFF } ec_adaptive;
@@ -60,6 +66,12 @@ int ec_render_rows_for(uint32_t use, ec_option *rows); /* copies those with that
 void ec_render_request_start(void *request);
 ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
                                    ec_error *err);
+
+/* Does an option of `render` mean anything to that integrator? */
+bool ec_combinations_belongs(const char *option, ec_integrator integrator);
+
+/* Checks a grid's density (0: not given) and the acceleration structure asked for, which may be NULL. takes_all: "all" is one. */
+ec_result ec_combinations_check_grid(double density, const char *accel, bool takes_all, ec_error *err);
 
 /* Does anything end it: samples, time or an error? */
 bool ec_render_has_limit(const ec_render_options *options);

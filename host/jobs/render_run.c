@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cl/workarounds.h"
-#include "jobs/command_line.h"
+#include "jobs/given.h"
 #include "jobs/render_job.h"
 
 /* Samples a pixel that a checkpoint has; 0: there is none. */

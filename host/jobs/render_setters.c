@@ -6,7 +6,7 @@
 #include "jobs/defaults.h"
 #include "jobs/numbers.h"
 #include "jobs/render_request.h"
-#include "jobs/usage.h"
+#include "jobs/option.h"
 #include "pack/scene_view.h"
 #include "ranks/plan.h"
 

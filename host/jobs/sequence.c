@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "jobs/frame_job.h"
-#include "jobs/frame_names.h"
+#include "jobs/frames.h"
 #include "jobs/render_job.h"
 #include "report/json.h"
 #include "store/identity_text.h"

@@ -3,7 +3,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include "jobs/command_line.h"
+#include "jobs/given.h"
 #include "lib/internal.h"
 
 ec_result ec_lib_add_text(char ***list, int *count, const char *text, ec_error *err)

@@ -2,7 +2,6 @@
 #include <stdio.h>
 
 #include "lib/internal.h"
-#include "report/forecast_text.h"
 #include "report/progress_text.h"
 
 /* FNV-1a. Where more is said than is remembered, it is said again. */

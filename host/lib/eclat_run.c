@@ -3,7 +3,7 @@
 #include <string.h>
 #include <sys/eventfd.h>
 
-#include "jobs/command_line.h"
+#include "jobs/given.h"
 #include "lib/internal.h"
 
 /* All of the job that a picture keeps. */

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "base/module.h"
-#include "commands/view_request.h"
+#include "commands/command.h"
 #include "lib/internal.h"
 #include "view/view.h"
 

@@ -1,4 +1,4 @@
-#include "live/live_film.h"
+#include "live/renderer.h"
 
 #include <math.h>
 #include <stdlib.h>

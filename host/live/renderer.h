@@ -1,10 +1,48 @@
-/* What the renderer's thread works at, and the parts of its work: pixel_probe.c, work.c, save.c. */
+/* The state of the renderer's thread, and the parts of its work: live_film.c, second.c, pixel_probe.c, work.c, save.c. */
 #ifndef EC_LIVE_RENDERER_H
 #define EC_LIVE_RENDERER_H
 
-#include "live/live_film.h"
-#include "live/second.h"
 #include "live/shared.h"
+#include "render/goal.h"
+
+/* The film of the camera that rests: batches as `eclat render` takes them, until a limit is met. */
+typedef struct ec_live_film {
+    ec_film film;             /* batch_count 0: nothing yet; width 0: not begun */
+    ec_render_options limits; /* spp, error_target, time_limit */
+    ec_goal goal;
+    ec_film_error error;
+    double seconds;           /* of batches */
+    uint64_t invalid;
+    float *room;              /* for a batch */
+    const char *stopped_by;   /* NULL: goes on */
+} ec_live_film;
+
+ec_result ec_live_film_start(ec_live_film *film, const ec_render_options *options, uint32_t more, uint32_t width, uint32_t height, ec_error *err);
+void ec_live_film_stop(ec_live_film *film); /* zero-initialised is fine */
+
+/* The limits as they are after `more` wishes for more; goes on if they are not met. */
+void ec_live_film_limit(ec_live_film *film, const ec_render_options *options, uint32_t more);
+
+/* One more batch, if go_on lets it: *complete. */
+ec_result ec_live_film_take(ec_live_film *film, ec_session *session, bool (*go_on)(void *user), void *user, bool *complete, ec_error *err);
+
+/* The picture that can stand beside it: its error, its samples, another integrator's picture, or a file. */
+typedef struct ec_live_second {
+    float *other;                /* 3 a pixel, of the other integrator; NULL: not rendered of this camera */
+    float *fitted;               /* the file, as large as the picture; NULL: not yet shown */
+    uint32_t fitted_width, fitted_height;
+} ec_live_second;
+
+void ec_live_second_close(ec_live_second *second);
+void ec_live_second_forget(ec_live_second *second); /* the camera has moved */
+
+/* The other integrator's, from its session, which looks where the picture does; goes on being NULL where go_on said no. */
+ec_result ec_live_second_render(ec_live_second *second, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user), void *user,
+                                ec_error *err);
+
+/* Shows that which is wished, if there is one: *is_there. mean: the film's. */
+ec_result ec_live_second_show(ec_live_second *second, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, bool *is_there,
+                              ec_error *err);
 
 typedef struct ec_renderer {
     ec_live *live;

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "jobs/combinations.h"
-#include "jobs/command_line.h"
+#include "jobs/render_request.h"
+#include "jobs/given.h"
 #include "live/shared.h"
 #include "report/names.h"
 

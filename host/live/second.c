@@ -1,4 +1,4 @@
-#include "live/second.h"
+#include "live/renderer.h"
 
 #include <math.h>
 #include <stdlib.h>

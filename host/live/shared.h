@@ -101,7 +101,7 @@ void *ec_live_loader(void *live);
 void *ec_live_renderer(void *live);
 void *ec_live_watcher(void *live);
 
-/* show.c: memory for the next picture, 3 bytes a pixel; and to the caller with it. Both, of 3 floats a pixel through the program's tone mapper. */
+/* Memory for the next picture, 3 bytes a pixel; and to the caller with it. Both, of 3 floats a pixel through the program's tone mapper. */
 ec_result ec_live_canvas(ec_live *live, eclat_shown which, uint32_t width, uint32_t height, uint8_t **rgb, ec_error *err);
 void ec_live_hand_out(ec_live *live, eclat_shown which);
 ec_result ec_live_show(ec_live *live, const eclat_wish *wish, eclat_shown which, const float *rgb, uint32_t width, uint32_t height, ec_error *err);

@@ -1,6 +1,9 @@
+/* Pictures and messages for the caller. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "live/shared.h"
 
 void ec_live_post(ec_live *live)
@@ -24,4 +27,43 @@ void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text, b
     snprintf(said, sizeof live->status.trouble[whose], "%s", text);
     if (is_other || is_final) ec_live_tell(live);
     pthread_mutex_unlock(&live->lock);
+}
+
+ec_result ec_live_canvas(ec_live *live, eclat_shown which, uint32_t width, uint32_t height, uint8_t **rgb, ec_error *err)
+{
+    ec_live_image *image = &live->shown[which].written;
+    const uint64_t bytes = (uint64_t)width * height * 3;
+    if (image->room < bytes) {
+        free(image->rgb);
+        *image = (ec_live_image){.rgb = malloc(bytes)};
+        if (!image->rgb) return ec_fail(err, "out of memory for a picture of %ux%u pixels", width, height);
+        image->room = bytes;
+    }
+    image->width = width;
+    image->height = height;
+    *rgb = image->rgb;
+    return EC_OK;
+}
+
+void ec_live_hand_out(ec_live *live, eclat_shown which)
+{
+    ec_live_shown *shown = &live->shown[which];
+    pthread_mutex_lock(&live->lock);
+    const ec_live_image ready = shown->written;
+    shown->written = shown->ready;
+    shown->ready = ready;
+    shown->is_new = true;
+    live->status.pictures += which == ECLAT_PICTURE;
+    if (live->status.first_light == 0) live->status.first_light = ec_now() - live->start;
+    ec_live_tell(live);
+    pthread_mutex_unlock(&live->lock);
+}
+
+ec_result ec_live_show(ec_live *live, const eclat_wish *wish, eclat_shown which, const float *rgb, uint32_t width, uint32_t height, ec_error *err)
+{
+    uint8_t *bytes;
+    EC_TRY(ec_live_canvas(live, which, width, height, &bytes, err));
+    ec_tonemap_rgb(rgb, bytes, (uint64_t)width * height, (float)wish->exposure, (ec_tonemap)wish->tonemap);
+    ec_live_hand_out(live, which);
+    return EC_OK;
 }

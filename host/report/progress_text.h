@@ -1,4 +1,4 @@
-/* How far a render is, in words. */
+/* How far a render is, and what its pilot foretells, in words. */
 #ifndef EC_REPORT_PROGRESS_TEXT_H
 #define EC_REPORT_PROGRESS_TEXT_H
 
@@ -6,5 +6,8 @@
 
 /* "37 %  0:12 left  96 spp  5.42 M samples/s  error 2.31 % (bound 2.40 %)" */
 void ec_progress_text(const ec_progress *progress, char *text, size_t size);
+
+/* "2 % needs about 230 samples a pixel, 41 s (95 %: 36 s to 52 s)" */
+void ec_forecast_text(const ec_forecast *forecast, const ec_render_options *options, char *text, size_t size);
 
 #endif

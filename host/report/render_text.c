@@ -4,7 +4,7 @@
 
 #include "report/effects_report.h"
 #include "report/error_text.h"
-#include "report/forecast_text.h"
+#include "report/progress_text.h"
 #include "report/format.h"
 #include "report/names.h"
 #include "report/render_report.h"

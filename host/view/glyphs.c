@@ -12,7 +12,7 @@
 #include <stb_truetype.h>
 #pragma GCC diagnostic pop
 
-#include "view/fail.h"
+#include "view/view.h"
 
 extern const unsigned char ec_bytes_font[]; /* tools/embed_bytes.py */
 

@@ -1,4 +1,4 @@
-#include "view/overlay.h"
+#include "view/window.h"
 
 #include <inttypes.h>
 #include <math.h>

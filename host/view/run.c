@@ -2,13 +2,14 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "view/fail.h"
+#include "view/view.h"
 #include "view/window.h"
 
 #define TOLD_FOR 6        /* seconds that the message of a save is shown */
@@ -18,6 +19,15 @@
 
 /* The process's, as GLFW is. */
 static atomic_bool is_open, is_stopped;
+
+eclat_result ec_view_fail(eclat_error *err, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    if (err) vsnprintf(err->text, sizeof err->text, format, args);
+    va_end(args);
+    return ECLAT_FAILED;
+}
 
 static void wake(void *user)
 {

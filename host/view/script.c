@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/fail.h"
+#include "view/view.h"
 
 static const struct {
     const char *verb;

@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#include "view/fail.h"
+#include "view/view.h"
 
 eclat_result ec_view_textures_make(ec_view_textures *t, eclat_error *err)
 {

@@ -6,6 +6,9 @@
 #include <eclat/eclat.h>
 #include <stdbool.h>
 
+/* Returns ECLAT_FAILED, and tells why in err, which may be NULL. */
+eclat_result ec_view_fail(eclat_error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 typedef struct ec_view_request {
     const eclat_job *job;
     const char *against;             /* .exr beside the picture, or NULL */

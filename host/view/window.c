@@ -7,9 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/fail.h"
+#include "view/view.h"
 #include "view/lists.h"
-#include "view/overlay.h"
 
 #define TEXT_SIZE 15     /* pixels, where the monitor's scale is 1 */
 #define TEXT_LEAST 11

@@ -64,6 +64,8 @@ void ec_window_rescale(ec_window *window, double scale);                  /* the
 void ec_window_fullscreen(ec_window *window, bool on);                    /* input.fullscreen says what came of it */
 void ec_window_follow_monitors(ec_window *window);                        /* where one has come or gone since the last time */
 
+void ec_view_overlay_draw(const ec_window *window, double width, double height); /* the lines over the picture */
+
 /* controls.c: GLFW's callbacks */
 void ec_window_listen(ec_window *window);
 void ec_window_point(ec_window *window); /* what is under the cursor, wherever a picture is shown now */
