@@ -51,8 +51,8 @@ static ec_result run(ec_call *call, ec_error *err)
     EC_TRY(ec_device_find(r->device, &device, &index, NULL, err));
     r->options.go_on = show;
     r->options.user = (void *)(uintptr_t)listener;
-    listener->begin(listener->user, NULL, true);
     EC_TRY_CLEANUP(ec_cl_open(&device, &cl, err));
+    listener->begin(listener->user, NULL, true);
     cl.keeps_programs = true;
     ec_say(&listener->log, "testing %s, %s", device.name, device.driver);
     result = ec_selftest_run(&cl, &r->options, &report, err);

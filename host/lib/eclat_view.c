@@ -2,6 +2,7 @@
 #include <poll.h>
 #include <pthread.h>
 #include <string.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include "base/module.h"
@@ -38,18 +39,18 @@ static eclat_result make_job(const eclat_job *view, const char *scene, eclat_job
     return result;
 }
 
-/* Closes the window when the job is to stop. */
+/* Wakes the window when the job is to stop. */
 typedef struct stopper {
     const ec_view_module *window;
-    int stop, end[2]; /* descriptors: of the job; a pipe, closed when there is nothing left to stop */
+    int stop, end; /* descriptors: of the job; readable when there is nothing left to stop */
 } stopper;
 
 static void *wait_for_stop(void *user)
 {
     const stopper *s = user;
-    struct pollfd files[2] = {{.fd = s->stop, .events = POLLIN}, {.fd = s->end[0], .events = POLLIN}};
+    struct pollfd files[2] = {{.fd = s->stop, .events = POLLIN}, {.fd = s->end, .events = POLLIN}};
     while (poll(files, 2, -1) < 0) {}
-    if (files[0].revents) s->window->stop();
+    if (files[0].revents) s->window->wake();
     return NULL;
 }
 
@@ -60,26 +61,36 @@ static void report(void *user, const char *text)
     listener->report(listener->user, NULL);
 }
 
+static bool should_stop(void *user)
+{
+    const ec_listener *listener = user;
+    return listener->should_stop(listener->user);
+}
+
 ec_result ec_lib_view(eclat_job *job, const ec_call *call, ec_error *err)
 {
     const ec_view_options *options = call->request;
-    stopper s = {.stop = call->stop, .end = {-1, -1}};
+    stopper s = {.stop = call->stop, .end = eventfd(0, EFD_CLOEXEC)};
     const char *scene;
     eclat_job *shown = NULL;
     eclat_error why = {0};
     pthread_t thread;
-    EC_TRY(ec_call_scene(call, "view", &scene, err));
-    EC_TRY(load(&s.window, err));
+    ec_result result;
+    EC_TRY_CLEANUP(ec_call_scene(call, "view", &scene, err));
+    EC_TRY_CLEANUP(load(&s.window, err));
     call->listener->begin(call->listener->user, NULL, false);
-    const bool may_stop = pipe(s.end) == 0 && pthread_create(&thread, NULL, wait_for_stop, &s) == 0;
-    eclat_result result = make_job(job, scene, &shown, &why);
+    const bool may_stop = s.end >= 0 && pthread_create(&thread, NULL, wait_for_stop, &s) == 0;
+    result = (ec_result)make_job(job, scene, &shown, &why);
     const ec_view_request request = {.job = shown, .against = options->against, .script = options->script, .stats = options->stats,
-                                     .user = (void *)(uintptr_t)call->listener, .report = report};
-    if (result == ECLAT_OK) result = s.window->run(&request, &why);
-    if (s.end[1] >= 0) close(s.end[1]);
-    if (may_stop) pthread_join(thread, NULL);
-    if (s.end[0] >= 0) close(s.end[0]);
+                                     .user = (void *)(uintptr_t)call->listener, .report = report, .should_stop = should_stop};
+    if (result == EC_OK) result = (ec_result)s.window->run(&request, &why);
+    if (may_stop) {
+        eventfd_write(s.end, 1);
+        pthread_join(thread, NULL);
+    }
     eclat_job_free(shown);
-    if (result != ECLAT_OK) ec_fail(err, "%s", why.text);
-    return (ec_result)result;
+    if (result != EC_OK) ec_fail(err, "%s", why.text);
+cleanup:
+    if (s.end >= 0) close(s.end);
+    return result;
 }

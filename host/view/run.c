@@ -18,7 +18,7 @@
 #define PATIENCE 0.35     /* seconds that the window waits for the scene, whose camera says how wide it is */
 
 /* The process's, as GLFW is. */
-static atomic_bool is_open, is_stopped;
+static atomic_bool is_open;
 
 eclat_result ec_view_fail(eclat_error *err, const char *format, ...)
 {
@@ -29,17 +29,12 @@ eclat_result ec_view_fail(eclat_error *err, const char *format, ...)
     return ECLAT_FAILED;
 }
 
-static void wake(void *user)
+static void wake(void)
 {
-    (void)user;
     if (atomic_load(&is_open)) glfwPostEmptyEvent();
 }
 
-static void stop(void)
-{
-    atomic_store(&is_stopped, true);
-    wake(NULL);
-}
+static void on_news(void *user) { (void)user, wake(); }
 
 static void report_command(void *user, const char *command)
 {
@@ -132,7 +127,7 @@ static bool is_over(const ec_window *w)
 {
     const char *stuck = why_stuck(&w->status);
     bool is_saving = w->input.saves != w->status.saves && !w->iconified && !stuck;
-    return (w->input.quit && !is_saving) || atomic_load(&is_stopped) || w->status.has_failed || (w->request->script && stuck);
+    return (w->input.quit && !is_saving) || w->request->should_stop(w->request->user) || w->status.has_failed || (w->request->script && stuck);
 }
 
 static void loop(ec_window *w)
@@ -181,9 +176,8 @@ static eclat_result conclude(const ec_window *w, eclat_error *err)
 
 static eclat_result run(const ec_view_request *request, eclat_error *err)
 {
-    const eclat_live_listener listener = {(void *)(uintptr_t)request, wake, report_command};
+    const eclat_live_listener listener = {(void *)(uintptr_t)request, on_news, report_command};
     ec_window w = {.request = request};
-    atomic_store(&is_stopped, false);
     eclat_result result = eclat_live_open(request->job, request->against, &listener, &w.live, err);
     if (result != ECLAT_OK) return result;
     w.input = (ec_view_input){.live = w.live, .first = eclat_live_wished(w.live), .second = ECLAT_SECOND_ERROR, .has_file = request->against != NULL,
@@ -203,4 +197,4 @@ static eclat_result run(const ec_view_request *request, eclat_error *err)
     return result;
 }
 
-const ec_view_module ec_module = {run, stop, key_at};
+const ec_view_module ec_module = {run, wake, key_at};

@@ -16,13 +16,14 @@ typedef struct ec_view_request {
     bool stats;                      /* reports first light and frame times at the end */
     void *user;
     void (*report)(void *user, const char *text); /* results, whole lines; from any thread, one at a time */
+    bool (*should_stop)(void *user); /* asked when the window wakes, and before it sleeps for the first time: true closes it */
 } ec_view_request;
 
 /* What the module has for the program, which looks it up by this name. */
 typedef struct ec_view_module {
     eclat_result (*run)(const ec_view_request *request, eclat_error *err); /* until the window is closed. Fails where there can be no window, no
                                                                             * picture, or where the last save failed */
-    void (*stop)(void);              /* closes it, from any thread */
+    void (*wake)(void);              /* lets it ask whether it should stop, from any thread; nothing where no window is open yet */
     bool (*key_at)(size_t i, const char **shown, const char **help); /* what the i-th key is called and does; false behind the last */
 } ec_view_module;
 __attribute__((visibility("default"))) extern const ec_view_module ec_module;

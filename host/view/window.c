@@ -5,7 +5,6 @@
 #include <GLFW/glfw3.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "view/view.h"
 #include "view/lists.h"

@@ -10,6 +10,8 @@ static void print(void *user, const char *text)
     fputs(text, stdout);
 }
 
+static bool is_true(void *user) { return *(bool *)user; }
+
 int main(int argc, char **argv)
 {
     eclat_error err = {0};
@@ -18,9 +20,14 @@ int main(int argc, char **argv)
     const char *const options[][2] = {{"size", "64x48"}, {"spp", "4"}, {"replicates", "2"}, {"lanes", "4"}, {"output", argv[3]}};
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
         if (eclat_job_set(job, options[i][0], options[i][1], &err)) return fprintf(stderr, "%s\n", err.text), 1;
-    const ec_view_request request = {.job = job, .script = argv[2], .report = print};
+    bool stops = false;
+    ec_view_request request = {.job = job, .script = argv[2], .report = print, .user = &stops, .should_stop = is_true};
     for (int i = 0; i < 10; i++)
         if (ec_module.run(&request, &err)) return fprintf(stderr, "window %d: %s\n", i, err.text), 1;
+    /* Without a script it would stay open: whoever asked it to stop before it opened did not ask in vain. */
+    stops = true;
+    request.script = NULL;
+    if (ec_module.run(&request, &err)) return fprintf(stderr, "a window that is to stop: %s\n", err.text), 1;
     eclat_job_free(job);
     puts("ten windows");
     return 0;
