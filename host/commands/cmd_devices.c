@@ -1,6 +1,5 @@
 /* eclat devices */
 #include <stdlib.h>
-#include <string.h>
 
 #include "cl/cl.h"
 #include "commands/command.h"

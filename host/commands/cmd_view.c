@@ -1,5 +1,4 @@
 /* eclat view SCENE: a window that shows the render; what it saves is what `eclat render` would have written. */
-#include <string.h>
 
 #include "commands/command.h"
 

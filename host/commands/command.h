@@ -3,6 +3,7 @@
 #define EC_COMMANDS_COMMAND_H
 
 #include <limits.h>
+#include <string.h>
 
 #include "eclat/eclat.h"
 #include "jobs/defaults.h"

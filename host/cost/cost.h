@@ -114,12 +114,7 @@ typedef struct ec_cost_study {
 ec_result ec_cost_run(ec_cost_study *study, ec_error *err);
 void ec_cost_free(ec_cost_study *study);
 
-/* pictures.c: every step-th pixel as it is: means of several would hide the noise that is to be seen. */
-typedef struct ec_cost_thumbnail {
-    uint32_t width, height, step;
-} ec_cost_thumbnail;
-ec_cost_thumbnail ec_cost_thumbnail_of(const ec_render_options *options);
-/* 3 a pixel, malloc'ed; NULL when out of memory */
+/* pictures.c: a thumbnail, 3 floats a pixel; malloc'ed, NULL when out of memory. */
 float *ec_cost_shrink(const ec_render_options *options, const float *rgb);
 
 /* rungs.c: the rungs that this scene has, most telling first; malloc'ed. */

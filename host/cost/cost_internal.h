@@ -32,9 +32,7 @@ void ec_cost_tally_add(ec_cost_tally *tally, const float *rgb);
 void ec_cost_tally_end(ec_cost_tally *tally, ec_cost_row *row);
 void ec_cost_tally_bias(const ec_cost_tally *tally, ec_cost_row *row);
 
-/* fit.c */
-ec_cost_fit ec_cost_fit_slope(const ec_cost_point *points, uint32_t count);
-/* efficiency, seconds_to and the slope of a row whose points are there */
+/* fit.c: efficiency, seconds_to and the slope of a row whose points are there */
 void ec_cost_conclude(ec_cost_row *row);
 
 /* reference.c */

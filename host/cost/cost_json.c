@@ -1,5 +1,4 @@
 #include <math.h>
-#include <string.h>
 
 #include "cost/report.h"
 #include "report/device_report.h"

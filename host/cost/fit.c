@@ -8,7 +8,7 @@ static bool is_known(const ec_cost_point *p) { return p->mse > 0 && p->mse > 2 *
 
 /* Weighted least squares of log error over log samples; points are of different pictures, so independent but for the reference. No
  * point counts as known to better than 1 %: the reference's error is common to all. */
-ec_cost_fit ec_cost_fit_slope(const ec_cost_point *points, uint32_t count)
+static ec_cost_fit fit_slope(const ec_cost_point *points, uint32_t count)
 {
     double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0;
     uint32_t used = 0;
@@ -58,7 +58,7 @@ static double samples_to(const ec_cost_row *row, double target, bool *extrapolat
 void ec_cost_conclude(ec_cost_row *row)
 {
     const ec_cost_point *last = row->point_count ? &row->points[row->point_count - 1] : NULL;
-    row->fit = ec_cost_fit_slope(row->points, row->point_count);
+    row->fit = fit_slope(row->points, row->point_count);
     row->efficiency = row->relative_efficiency = NAN;
     for (uint32_t i = 0; i < row->point_count; i++) {
         const ec_cost_point *p = &row->points[i];

@@ -10,15 +10,20 @@
 
 enum { WIDTH_MOST = 192 }; /* of a thumbnail */
 
-ec_cost_thumbnail ec_cost_thumbnail_of(const ec_render_options *o)
+/* Every step-th pixel as it is: means of several would hide the noise that is to be seen. */
+typedef struct thumbnail {
+    uint32_t width, height, step;
+} thumbnail;
+
+static thumbnail thumbnail_of(const ec_render_options *o)
 {
     uint32_t step = (o->width + WIDTH_MOST - 1) / WIDTH_MOST;
-    return (ec_cost_thumbnail){(o->width + step - 1) / step, (o->height + step - 1) / step, step};
+    return (thumbnail){(o->width + step - 1) / step, (o->height + step - 1) / step, step};
 }
 
 float *ec_cost_shrink(const ec_render_options *o, const float *rgb)
 {
-    ec_cost_thumbnail t = ec_cost_thumbnail_of(o);
+    thumbnail t = thumbnail_of(o);
     float *small = malloc(3 * sizeof *small * t.width * t.height);
     for (uint32_t y = 0; small && y < t.height; y++)
         for (uint32_t x = 0; x < t.width; x++)
@@ -42,7 +47,7 @@ static char *data_uri(const uint8_t *bytes, size_t size)
     return text;
 }
 
-static ec_result encode(const ec_cost_thumbnail *t, const uint8_t *rgb, cJSON **text, ec_error *err)
+static ec_result encode(const thumbnail *t, const uint8_t *rgb, cJSON **text, ec_error *err)
 {
     uint8_t *png = NULL;
     size_t size = 0;
@@ -55,7 +60,7 @@ static ec_result encode(const ec_cost_thumbnail *t, const uint8_t *rgb, cJSON **
 }
 
 /* to: an object or an array; key: NULL for an array */
-static ec_result add(cJSON *to, const char *key, const ec_cost_thumbnail *t, const uint8_t *rgb, ec_error *err)
+static ec_result add(cJSON *to, const char *key, const thumbnail *t, const uint8_t *rgb, ec_error *err)
 {
     cJSON *text = NULL;
     EC_TRY(encode(t, rgb, &text, err));
@@ -66,7 +71,7 @@ static ec_result add(cJSON *to, const char *key, const ec_cost_thumbnail *t, con
     return EC_OK;
 }
 
-static ec_result add_all(const ec_cost_study *study, const ec_cost_thumbnail *t, const float *reference, uint8_t *bytes,
+static ec_result add_all(const ec_cost_study *study, const thumbnail *t, const float *reference, uint8_t *bytes,
                          cJSON *to, ec_error *err)
 {
     uint64_t pixels = (uint64_t)t->width * t->height;
@@ -88,7 +93,7 @@ ec_result ec_cost_pictures(const ec_cost_study *study, cJSON **images, ec_error 
 {
     *images = cJSON_CreateObject();
     if (!study->reference.rgb) return EC_OK;
-    ec_cost_thumbnail t = ec_cost_thumbnail_of(&study->options);
+    thumbnail t = thumbnail_of(&study->options);
     float *reference = ec_cost_shrink(&study->options, study->reference.rgb);
     uint8_t *bytes = malloc(3 * (size_t)t.width * t.height);
     ec_result result = reference && bytes ? add_all(study, &t, reference, bytes, *images, err)

@@ -1,7 +1,6 @@
 /* What every rung is compared with: the whole scene, by the best that eclat has, or a file. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "cost/cost_internal.h"

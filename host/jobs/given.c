@@ -60,33 +60,38 @@ ec_result ec_given_apply(const ec_given_options *given, const ec_option *rows, i
     return EC_OK;
 }
 
-__attribute__((format(printf, 2, 3))) static bool add_word(ec_words *words, const char *format, ...)
+void ec_words_add(ec_words *words, const char *format, ...)
 {
+    char **longer = words->is_short ? NULL : realloc(words->list, ((size_t)words->count + 2) * sizeof *longer);
     va_list args;
+    words->is_short = !longer;
+    if (!longer) return;
+    words->list = longer;
     va_start(args, format);
-    const bool fits = vasprintf(&words->list[words->count], format, args) >= 0;
+    words->is_short = vasprintf(&longer[words->count], format, args) < 0;
     va_end(args);
-    words->count += fits;
-    return fits;
+    words->count += !words->is_short;
+    longer[words->count] = NULL;
 }
 
-static bool add_option(ec_words *words, const ec_option *row, const char *value)
+void ec_words_add_file(ec_words *words, const char *path) { ec_words_add(words, *path == '-' ? "./%s" : "%s", path); }
+
+static void add_option(ec_words *words, const ec_option *row, const char *value)
 {
     const bool is_apart = value && !row->value_optional;
-    bool fits = row->letter ? add_word(words, "-%c", row->letter) : add_word(words, value && !is_apart ? "--%s=%s" : "--%s", row->name, value);
-    if (is_apart) fits &= add_word(words, "%s", value);
-    return fits;
+    if (row->letter) ec_words_add(words, "-%c", row->letter);
+    else ec_words_add(words, value && !is_apart ? "--%s=%s" : "--%s", row->name, value);
+    if (is_apart) ec_words_add(words, "%s", value);
 }
 
 ec_result ec_words_make(ec_words *words, const char *command, char *const *inputs, int input_count, const ec_given_options *given,
                         const ec_option *rows, int row_count, ec_error *err)
 {
-    words->list = calloc((size_t)(input_count + 2 * given->count) + 3, sizeof *words->list);
-    bool fits = words->list && add_word(words, "eclat") && add_word(words, "%s", command);
-    for (int i = 0; fits && i < input_count; i++) fits = add_word(words, *inputs[i] == '-' ? "./%s" : "%s", inputs[i]);
-    for (int i = 0; fits && i < given->count; i++)
-        fits = add_option(words, ec_options_find(rows, row_count, given->list[i].option), given->list[i].value);
-    return fits ? EC_OK : ec_fail(err, "out of memory for a command line");
+    ec_words_add(words, "eclat");
+    ec_words_add(words, "%s", command);
+    for (int i = 0; i < input_count; i++) ec_words_add_file(words, inputs[i]);
+    for (int i = 0; i < given->count; i++) add_option(words, ec_options_find(rows, row_count, given->list[i].option), given->list[i].value);
+    return words->is_short ? ec_fail(err, "out of memory for a command line") : EC_OK;
 }
 
 void ec_words_free(ec_words *words)

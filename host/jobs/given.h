@@ -23,11 +23,15 @@ void ec_given_free(ec_given_options *given);
 /* Sets them in target, whose texts point into the list then; is_given, if not NULL, has a place for each row: was it there? */
 ec_result ec_given_apply(const ec_given_options *given, const ec_option *rows, int row_count, void *target, bool *is_given, ec_error *err);
 
-/* A command as words; owned. */
+/* A command as words. Zero-initialised: none. */
 typedef struct ec_words {
-    char **list;
+    char **list;   /* owned; NULL behind the last */
     int count;
+    bool is_short; /* memory ran out: some are missing */
 } ec_words;
+
+__attribute__((format(printf, 2, 3))) void ec_words_add(ec_words *words, const char *format, ...);
+void ec_words_add_file(ec_words *words, const char *path); /* so that it is taken for no option */
 
 /* "eclat", the command's name, inputs, options. To be freed on failure too. */
 ec_result ec_words_make(ec_words *words, const char *command, char *const *inputs, int input_count, const ec_given_options *given,

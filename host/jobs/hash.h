@@ -3,7 +3,6 @@
 #define EC_JOBS_HASH_H
 
 #include <stdint.h>
-#include <sys/types.h>
 
 #include <sha2.h>
 

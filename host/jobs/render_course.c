@@ -1,7 +1,5 @@
 /* What a render takes up and what it leaves behind: checkpoints and slices. */
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cl/workarounds.h"

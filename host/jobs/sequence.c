@@ -1,6 +1,5 @@
 #include "jobs/sequence.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -77,9 +76,8 @@ static ec_result tell_frame(const sequence *s, uint32_t frame, const char *failu
 {
     if (!s->request->json) return EC_OK;
     cJSON *object = cJSON_CreateObject();
-    ec_json_whole(object, "frame", frame);
-    ec_json_real(object, "frame_seconds", ec_frame_seconds(&s->request->frames, frame));
-    ec_json_text(object, "state", failure ? "failed" : "skipped");
+    EC_JSON(object, EC_WHOLE("frame", frame), EC_REAL("frame_seconds", ec_frame_seconds(&s->request->frames, frame)),
+            EC_STRING("state", failure ? "failed" : "skipped"));
     if (failure) ec_json_text(object, "error", failure);
     cJSON *names = cJSON_AddArrayToObject(object, "outputs");
     for (int i = 0; i < outputs->count; i++) ec_json_text(names, NULL, outputs->file[i].path);
@@ -138,11 +136,8 @@ static ec_result tell_all(const sequence *s, double seconds, ec_error *err)
 {
     if (!s->request->json) return EC_OK;
     cJSON *object = cJSON_CreateObject();
-    ec_json_whole(object, "frames", s->count);
-    ec_json_whole(object, "rendered", s->rendered);
-    ec_json_whole(object, "skipped", s->skipped);
-    ec_json_whole(object, "failed", s->failed);
-    ec_json_real(object, "total_seconds", seconds);
+    EC_JSON(object, EC_WHOLE("frames", s->count), EC_WHOLE("rendered", s->rendered), EC_WHOLE("skipped", s->skipped), EC_WHOLE("failed", s->failed),
+            EC_REAL("total_seconds", seconds));
     return tell_json(s->listener, object, err);
 }
 

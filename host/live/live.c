@@ -1,7 +1,6 @@
 /* A session begins and ends. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/eventfd.h>
 #include <sys/inotify.h>
 #include <unistd.h>

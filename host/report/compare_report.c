@@ -1,7 +1,6 @@
 #include "report/compare_report.h"
 
 #include <inttypes.h>
-#include <string.h>
 
 #include "report/format.h"
 #include "report/json.h"

@@ -7,7 +7,7 @@
 #include "report/format.h"
 #include "report/json.h"
 
-const char *ec_device_type_name(cl_device_type type)
+static const char *type_name(cl_device_type type)
 {
     if (type & CL_DEVICE_TYPE_GPU) return "GPU";
     if (type & CL_DEVICE_TYPE_CPU) return "CPU";
@@ -30,7 +30,7 @@ static void print_row(const ec_device_report *report, uint32_t i, int name_width
     char version[16];
     short_version(device->version, version, sizeof version);
     fprintf(to, "%c %2u  %-*s  %-5s  %-6s  %5u  %5u  %10s  %10s  %-9s  %-9s  %s%s\n",
-            report->chosen == (int64_t)i ? '*' : ' ', i, name_width, device->name, ec_device_type_name(device->type),
+            report->chosen == (int64_t)i ? '*' : ' ', i, name_width, device->name, type_name(device->type),
             version, device->compute_units, device->native_float_width, ec_bytes(device->memory_bytes).text,
             ec_bytes(device->max_allocation_bytes).text,
             yes(device->correctly_rounded_divide_sqrt), yes(device->denormals), yes(device->fma),
@@ -54,7 +54,7 @@ void ec_device_report_text(const ec_device_report *report, FILE *to)
 cJSON *ec_device_json(const ec_device_info *device, uint32_t index)
 {
     cJSON *object = cJSON_CreateObject();
-    EC_JSON(object, EC_WHOLE("index", index), EC_STRING("name", device->name), EC_STRING("type", ec_device_type_name(device->type)),
+    EC_JSON(object, EC_WHOLE("index", index), EC_STRING("name", device->name), EC_STRING("type", type_name(device->type)),
             EC_STRING("vendor", device->vendor), EC_STRING("version", device->version), EC_STRING("c_version", device->c_version),
             EC_STRING("driver", device->driver), EC_STRING("platform", device->platform_name), EC_STRING("platform_version", device->platform_version),
             EC_WHOLE("compute_units", device->compute_units), EC_WHOLE("native_float_width", device->native_float_width),

@@ -19,6 +19,5 @@ void ec_device_report_text(const ec_device_report *report, FILE *to);
 ec_result ec_device_report_json(const ec_device_report *report, FILE *to, ec_error *err);
 
 cJSON *ec_device_json(const ec_device_info *device, uint32_t index); /* NULL when out of memory */
-const char *ec_device_type_name(cl_device_type type);
 
 #endif

@@ -1,5 +1,3 @@
-#include <math.h>
-#include <string.h>
 
 #include "base/text.h"
 #include "report/effects_report.h"
