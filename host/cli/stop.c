@@ -12,9 +12,9 @@
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of the job, so that it is not freed meanwhile */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of job and hint, so that neither goes meanwhile */
 static eclat_job *running;
-static const char *_Atomic hint;
+static const char *hint;
 
 static void end(int signal_number)
 {
@@ -39,8 +39,8 @@ static void *watch(void *signals)
         atomic_store(&requested, true);
         pthread_mutex_lock(&lock);
         if (running) eclat_job_stop(running);
+        if (hint) fprintf(stderr, "eclat: %s\n", hint);
         pthread_mutex_unlock(&lock);
-        if (atomic_load(&hint)) fprintf(stderr, "eclat: %s\n", atomic_load(&hint));
         if (atomic_load(&manner) == TELLS)
             fputs("\neclat: stopping as soon as the device answers; once more quits at once\n", stderr);
     }
@@ -79,5 +79,7 @@ void ec_stop_job(eclat_job *job)
 
 void ec_stop_hint(const char *line)
 {
-    atomic_store(&hint, line);
+    pthread_mutex_lock(&lock);
+    hint = line;
+    pthread_mutex_unlock(&lock);
 }

@@ -25,6 +25,7 @@ typedef struct loader {
     ec_watch watch;
     uint32_t loads, reloads, file_events;
     made_for made[ECLAT_SHOWN_COUNT];
+    bool has_failed[ECLAT_SHOWN_COUNT];
 } loader;
 
 static void say_loading(ec_live *live, const char *what)
@@ -132,11 +133,12 @@ static bool set_up(loader *l, eclat_shown which, eclat_integrator integrator, ui
     ec_error err = {0};
     bool is_first = l->made[which].serial == 0 && which == ECLAT_PICTURE;
     l->made[which] = (made_for){live->facts.serial, integrator, without};
-    if (ec_live_setup_make(live, live->scene, (ec_integrator)integrator, without, &setup, &err) != EC_OK) {
+    l->has_failed[which] = ec_live_setup_make(live, live->scene, (ec_integrator)integrator, without, &setup, &err) != EC_OK;
+    if (l->has_failed[which]) {
         ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, err.text, is_first);
         return false;
     }
-    ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, "", false);
+    if (!l->has_failed[!which]) ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, "", false); /* the other picture's stays */
     hand_over(live, which, setup);
     return true;
 }
