@@ -1,5 +1,6 @@
 #include "jobs/outputs.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,37 +64,26 @@ ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
     return EC_OK;
 }
 
-/* The scene's base name, with this behind it. */
-static ec_result add_named(ec_outputs *outputs, const char *scene, const char *ending, ec_error *err)
+ec_result ec_outputs_add_named(ec_outputs *outputs, const char *scene, ec_error *err, const char *ending, ...)
 {
     char path[PATH_MAX];
     const char *name = name_of(scene), *dot = strrchr(name, '.');
-    int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
-    int size = snprintf(path, sizeof path, "%.*s%s", stem, name, ending);
-    if (stem == 0 || size >= (int)sizeof path) return ec_usage(err, "'%s' gives the picture no name: add -o FILE", scene);
+    int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name), size = stem;
+    if (stem && stem < PATH_MAX) {
+        va_list args;
+        memcpy(path, name, (size_t)stem);
+        va_start(args, ending);
+        size += vsnprintf(path + stem, PATH_MAX - (size_t)stem, ending, args);
+        va_end(args);
+    }
+    if (stem == 0 || size >= PATH_MAX) return ec_usage(err, "'%s' gives the picture no name: add -o FILE", scene);
     return ec_outputs_add(outputs, path, err);
 }
 
 ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err)
 {
-    EC_TRY(add_named(outputs, scene, ".exr", err));
-    return add_named(outputs, scene, ".png", err);
-}
-
-ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t first, uint32_t end, ec_error *err)
-{
-    char ending[40];
-    snprintf(ending, sizeof ending, ".%u-%u.exr", first, end);
-    return add_named(outputs, scene, ending, err);
-}
-
-ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err)
-{
-    char ending[40];
-    snprintf(ending, sizeof ending, ".%04u.exr", frame);
-    EC_TRY(add_named(outputs, scene, ending, err));
-    snprintf(ending, sizeof ending, ".%04u.png", frame);
-    return add_named(outputs, scene, ending, err);
+    EC_TRY(ec_outputs_add_named(outputs, scene, err, ".exr"));
+    return ec_outputs_add_named(outputs, scene, err, ".png");
 }
 
 static void folder_of(const char *path, char folder[PATH_MAX])

@@ -41,11 +41,8 @@ ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err);
 /* Without -o: the scene's base name with .exr and .png, in the current directory. */
 ec_result ec_outputs_add_default(ec_outputs *outputs, const char *scene, ec_error *err);
 
-/* Adds the default for a slice of samples first to end: NAME.first-end.exr. */
-ec_result ec_outputs_add_slice(ec_outputs *outputs, const char *scene, uint32_t first, uint32_t end, ec_error *err);
-
-/* Adds the default for a frame: NAME.0007.exr and .png. */
-ec_result ec_outputs_add_frame(ec_outputs *outputs, const char *scene, uint32_t frame, ec_error *err);
+/* Adds the scene's base name with this ending, as in ".%u-%u.exr", in the current directory. */
+__attribute__((format(printf, 4, 5))) ec_result ec_outputs_add_named(ec_outputs *outputs, const char *scene, ec_error *err, const char *ending, ...);
 
 /* Before any work: can all be written, and would none overwrite another or an input? */
 ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_error *err);

@@ -51,7 +51,7 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
     ec_outputs *outputs = &request->outputs;
     request->default_outputs = outputs->count == 0;
     if (request->default_outputs && request->has_slice)
-        EC_TRY(ec_outputs_add_slice(outputs, request->scene, request->slice_first, request->slice_end, err));
+        EC_TRY(ec_outputs_add_named(outputs, request->scene, err, ".%u-%u.exr", request->slice_first, request->slice_end));
     else if (request->default_outputs)
         EC_TRY(ec_outputs_add_default(outputs, request->scene, err));
     EC_TRY(check_slice_output(request, err));

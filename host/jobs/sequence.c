@@ -26,8 +26,9 @@ static ec_result outputs_of(const sequence *s, uint32_t frame, ec_outputs *outpu
 {
     const ec_render_request *r = s->request;
     outputs->count = 0;
-    if (r->outputs.count == 0) return ec_outputs_add_frame(outputs, r->scene, frame, err);
-    return ec_frame_outputs(&r->outputs, frame, s->count > 1, outputs, err);
+    if (r->outputs.count) return ec_frame_outputs(&r->outputs, frame, s->count > 1, outputs, err);
+    EC_TRY(ec_outputs_add_named(outputs, r->scene, err, ".%04u.exr", frame));
+    return ec_outputs_add_named(outputs, r->scene, err, ".%04u.png", frame);
 }
 
 static ec_scene_choice choice_of(const sequence *s, uint32_t frame)
