@@ -12,7 +12,7 @@ typedef enum ec_asked { EC_ASKED_RUN, EC_ASKED_HELP, EC_ASKED_VERSION } ec_asked
 /* Takes an option's value, NULL for one without. */
 typedef eclat_result ec_take(void *user, const char *option, const char *value, eclat_error *err);
 
-/* Every table gets --help (-h) and --version too. What is left in argv are operands, and *first is the index of the first of them. */
+/* Every table gets --help (-h) and --version too. The operands are left in argv, and *first is the index of the first of them. */
 eclat_result ec_arguments_read(const eclat_option *options, int count, int argc, char **argv, ec_take *take, void *user, int *first, ec_asked *asked,
                                eclat_error *err);
 

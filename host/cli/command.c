@@ -148,7 +148,7 @@ static eclat_result flush_results(eclat_error *err)
     return ECLAT_FAILED;
 }
 
-/* What a process does that is alone, or the first of several. */
+/* A process that is alone, or the first of several, runs the command. */
 static int lead(eclat_ranks *ranks, int argc, char **argv)
 {
     cli cli = {.console = {.terminal = isatty(STDERR_FILENO) == 1}, .argc = argc, .argv = argv, .ranks = ranks};

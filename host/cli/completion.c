@@ -4,7 +4,7 @@
 
 #include "cli/help.h"
 
-/* Do files complete it? Other values are for the user to know, but those of a list. */
+/* Values are completed by files, or by the words of a list; others are for the user to know. */
 static bool is_file(const eclat_option *option) { return option->metavar && !strncmp(option->metavar, "FILE", 4); }
 
 static void put_words(FILE *to, const char *const *words)
@@ -26,7 +26,7 @@ static bool put_operands(FILE *to, const eclat_command *page, const char *before
 
 static bool has_files(const eclat_command *page) { return *page->operands != '['; }
 
-/* What follows an option, by its name or letter: `files` for a file, `words` for one of a list, else nothing. */
+/* Values that follow an option: `files` for a file, `words` for one of a list, else nothing. */
 static void bash_values(const eclat_option *rows, int count, FILE *to)
 {
     for (int i = 0; i < count; i++) {

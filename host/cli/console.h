@@ -16,7 +16,7 @@ void ec_console_say(ec_console *console, eclat_severity severity, const char *te
 /* Draws over the progress line, cut to the terminal's width; nothing where progress is not wanted. */
 void ec_console_draw(ec_console *console, const char *line);
 void ec_console_erase(ec_console *console);
-/* What fits on a line of the terminal without wrapping. */
+/* Columns of the terminal that can be used without wrapping. */
 int ec_console_columns(const ec_console *console);
 bool ec_console_wants_progress(const ec_console *console);
 

@@ -67,7 +67,7 @@ static int by_name(const void *a, const void *b) { return strcmp(((const eclat_o
 /* In a list of names alone. */
 static bool is_brief(const eclat_command *page, const eclat_option *row) { return (page->borrows || page->lacks) && row->is_borrowed; }
 
-/* What all commands have comes last. */
+/* --help and --version, which all commands have, come last. */
 int ec_help_rows(const eclat_command *page, eclat_option rows[EC_OPTIONS_MOST])
 {
     int all = ec_page_options(page, rows), count = 0;

@@ -1,4 +1,4 @@
-/* What help, the man page and completion say of each command. */
+/* Help, man page and completion, made from the tables of commands and options. */
 #ifndef EC_CLI_HELP_H
 #define EC_CLI_HELP_H
 

@@ -1,4 +1,4 @@
-/* What the program shows of a job that runs: messages and the progress line on standard error, reports on standard output. */
+/* Shows a job that runs: messages and the progress line on standard error, reports on standard output. */
 #ifndef EC_CLI_PROGRESS_H
 #define EC_CLI_PROGRESS_H
 

@@ -1,4 +1,4 @@
-/* What the program measures time by. */
+/* The clock of the program. */
 #ifndef EC_CLI_SECONDS_H
 #define EC_CLI_SECONDS_H
 

@@ -28,7 +28,7 @@ typedef struct ec_call {
     ec_ranks *ranks;            /* the other processes of an MPI job; NULL: there are none */
     bool wants_picture;         /* in memory: files are for the asking */
     int stop;                   /* a descriptor, readable once the command is to end; -1: none */
-    /* What it leaves: the first three where a picture is wanted, and there is one. Owned. */
+    /* Left by the command, the first three if a picture is wanted and there is one. Owned. */
     ec_render_job render;       /* its film */
     ec_merged merged;           /* or its picture */
     ec_result (*write)(struct ec_call *call, ec_outputs *outputs, ec_error *err);

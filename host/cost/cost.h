@@ -1,4 +1,4 @@
-/* What buys accuracy cheapest on a scene: `eclat cost`. Every rung (a way to render the scene) is rendered in independent pictures of
+/* Measures what buys accuracy cheapest on a scene: `eclat cost`. Every rung (a way to render the scene) is rendered in independent pictures of
  * 1, 2, 4, … samples a pixel, each in replicates as `eclat render` takes them (film/schedule.h), and compared with a reference of the whole
  * scene, within a budget of time.
  *

@@ -1,4 +1,4 @@
-/* What every rung is compared with: the whole scene, by the best that eclat has, or a file. */
+/* The reference that every rung is compared with: the whole scene, by the best that eclat has, or a file. */
 #include <math.h>
 #include <stdlib.h>
 

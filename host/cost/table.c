@@ -19,8 +19,7 @@ typedef struct table {
     FILE *to;
 } table;
 
-/* What a column is best in: the smallest value. NaN: cannot be the best. Only what converges to the picture competes with what
- * does. */
+/* The value by which a row is the best of a column: the smallest wins, NaN never does. Rungs that do not converge to the picture do not compete. */
 static double merit(const ec_cost_row *row, int column)
 {
     bool ranked = row->state == EC_COST_MEASURED && !row->rung.is_effect && !row->unmet;

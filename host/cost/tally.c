@@ -49,7 +49,7 @@ static void add(ec_cost_sum *s, double d)
     s->square += d * d;
 }
 
-/* What a pixel's difference counts in relmse, where it counts 1 in mse. */
+/* The weight of a pixel's difference in relmse, where it is 1 in mse. */
 static double own_weight(double reference)
 {
     double floored = reference + EC_RELMSE_FLOOR;

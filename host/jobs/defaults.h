@@ -1,4 +1,4 @@
-/* What a render does when it is not told, and the limits that the help states. */
+/* Defaults of options, and the limits that the help states. */
 #ifndef EC_JOBS_DEFAULTS_H
 #define EC_JOBS_DEFAULTS_H
 

@@ -1,4 +1,4 @@
-/* What a frame of a sequence is of, in words that its files keep: so that a later run knows whether it is done. */
+/* The identity of a sequence's frame, which its files keep, so that a later run knows whether it is done. */
 #ifndef EC_JOBS_FRAME_JOB_H
 #define EC_JOBS_FRAME_JOB_H
 
@@ -6,7 +6,7 @@
 #include "jobs/outputs.h"
 #include "jobs/render_request.h"
 
-/* What all frames are of: version, kernels, the bytes of the scene's files (their digest) and of the environment's, and every option that a
+/* The identity of all frames: version, kernels, the bytes of the scene's files (their digest) and of the environment's, and every option that a
  * picture may depend on, as it was given. */
 ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files,
                              ec_identity *all, ec_error *err);

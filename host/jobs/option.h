@@ -58,7 +58,7 @@ enum {
     EC_OPTION_WINDOW = 1 << 3,       /* eclat view writes it anew in the command that repeats a picture, or leaves it out there */
     EC_OPTION_NO_IDENTITY = 1 << 4,  /* no frame depends on it, or its identity says it in other words */
     EC_OPTION_SEQUENCE = 1 << 5,     /* belongs to a sequence as a whole: a frame's own command has none, or another */
-    EC_OPTION_KEEPING = 1 << 6,      /* of checkpoints: not in the command of a job that is gone on with */
+    EC_OPTION_KEEPING = 1 << 6,      /* of checkpoints: not in the command of a job that is resumed */
     EC_OPTION_PART = 1 << 7,         /* renders something other than one whole picture: does not go with --plan */
     EC_OPTION_REPEATS = 1 << 8,      /* every value counts, not the last one alone */
     EC_OPTION_BORROWED = 1 << 9,     /* a copy of render's in another command: help lists it briefly */

@@ -1,4 +1,4 @@
-/* What a render takes up and what it leaves behind: checkpoints and slices. */
+/* Checkpoints and slices: where a render starts, and what it keeps on the way. */
 #include <stdint.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "jobs/render_job.h"
 #include "jobs/write_report.h"
 
-/* What a command lacks that has other limits than the one which chose where samples go; NULL: nothing. */
+/* The value of --adaptive that a command with other limits needs to allot samples as before; NULL: none. */
 static const char *adaptive_word(const ec_render_options *o, const ec_given_options *given)
 {
     bool is_told = o->adaptive == (o->error_target > 0);
@@ -60,7 +60,7 @@ ec_result ec_render_job_take_up(ec_render_job *job, const ec_given_options *now,
     return EC_OK;
 }
 
-/* A render that is begun anew by mistake, where it was to be gone on with, would write over hours of samples: others' files are replaced like
+/* A render that is begun anew by mistake, instead of being resumed, would write over hours of samples: others' files are replaced like
  * any output. */
 static void warn_of_older(const ec_render_job *job, const ec_log *log)
 {
@@ -75,7 +75,7 @@ static void warn_of_older(const ec_render_job *job, const ec_log *log)
     ec_stored_free(&old);
 }
 
-/* What is rendered is known: is it what was rendered before? */
+/* Checks, once it is known what is rendered, that it is what the checkpoint holds. */
 static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
 {
     ec_render_job *job = user;

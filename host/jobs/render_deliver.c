@@ -6,7 +6,7 @@
 #include "jobs/write_report.h"
 #include "report/error_text.h"
 
-/* What a slice says of itself, beside its sums. */
+/* Statistics that a slice keeps beside its sums. */
 static ec_past past_of(const ec_render_job *job)
 {
     const ec_render_stats *s = &job->stats;

@@ -34,7 +34,7 @@ static ec_result check_checkpoint(const ec_render_request *request, ec_inputs *i
     return ec_image_check_writable(path, err);
 }
 
-/* What is gone on from may be the next checkpoint, but no picture. */
+/* The checkpoint that is resumed may be the next checkpoint too, but no picture. */
 ec_result ec_render_check_files(const ec_render_request *request, ec_error *err)
 {
     const char *const files[] = {request->environment, request->resume};
@@ -119,7 +119,7 @@ static void choose_size(ec_render_options *options, uint32_t height, const ec_ca
     options->width = (uint32_t)fmin(fmax(round(options->height * aspect), 1), EC_SIZE_MAX_SIDE);
 }
 
-/* Changes that camera of the scene; without an option to do so: not at all. What is not given stays, but for what the help says. *v: where it stands
+/* Changes that camera of the scene if an option asks for it. Options that are not given keep its values, but for what the help says. *v: where it stands
  * then, in the very numbers that were given. */
 static ec_result change_camera(const ec_camera_change *change, ec_scene *s, uint32_t index, ec_viewpoint *v, ec_error *err)
 {
@@ -154,8 +154,8 @@ static ec_result prepare_camera(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. What is told here early is looked
- * at again when the scene is on the device. */
+/* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. Checked here early, and
+ * again when the scene is on the device. */
 static ec_result check_memory(const ec_render_job *job, ec_error *err)
 {
     const ec_render_options *options = &job->request->options;

@@ -13,7 +13,7 @@
 #include "ranks/ranks.h"
 #include "report/render_report.h"
 
-/* What the frames of a sequence share. */
+/* Data that the frames of a sequence share. */
 typedef struct ec_frame_share {
     ec_animation *animation;
     ec_device_info devices[EC_DEVICES_MOST];
@@ -53,10 +53,10 @@ typedef struct ec_render_job {
     char environment_text[256];
     char image_sha256[EC_HASH_SIZE];
     ec_job job;                  /* what goes into checkpoints and slices; the texts are the caller's */
-    ec_stored stored;            /* what is gone on from. Owned */
-    ec_given_options before;     /* that began what is gone on with */
+    ec_stored stored;            /* the checkpoint that is resumed. Owned */
+    ec_given_options before;     /* that began the job that is resumed */
     char device_text[1024];      /* their drivers: cl/workarounds.h */
-    char *whole_command;         /* of a job that is gone on with: what would render it without a break. Owned */
+    char *whole_command;         /* of a job that is resumed: what would render it without a break. Owned */
     bool has_kept;               /* a checkpoint */
     ec_error keep_error;         /* why the last one is not there; empty: it is, or none was wanted */
 } ec_render_job;
@@ -96,7 +96,7 @@ ec_result ec_render_job_tell(const ec_render_job *job, const ec_render_report *r
 
 /* All of a prepared job: runs and delivers it. Where the device fails, the picture so far is written, and the job fails all the same. */
 ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err);
-/* What is known of the job by now, in figures; outputs: room for the paths. Texts are the job's. */
+/* A report of the job so far; outputs: room for the paths. Texts are the job's. */
 ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
 
 void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */

@@ -1,4 +1,4 @@
-/* What `eclat render` was asked for. */
+/* The request that the options of `eclat render` make. */
 #ifndef EC_JOBS_RENDER_REQUEST_H
 #define EC_JOBS_RENDER_REQUEST_H
 
@@ -49,7 +49,7 @@ typedef struct ec_render_request {
     ec_adaptive adaptive;
     const char *checkpoint;    /* NULL: none */
     double every;              /* seconds between two of them */
-    const char *resume;        /* a checkpoint to go on from; NULL: from the start */
+    const char *resume;        /* a checkpoint to resume; NULL: none */
     ec_tonemap tonemap;
     uint32_t plan_ranks;       /* say what up to so many ranks would buy, and render no picture; 0: render */
     double plan_gbit, plan_microseconds; /* what is assumed for that */

@@ -26,7 +26,7 @@ static bool is_complete(const ec_render_job *job)
     return asked && samples_there(job) >= asked;
 }
 
-/* What goes on from the checkpoint, to be typed as it is: malloc'ed. Said before there is one: a SIGKILL leaves no time for words. */
+/* The command that resumes from the checkpoint; malloc'ed. It is printed before there is a checkpoint, since a SIGKILL leaves no time for words. */
 static char *say_how_to_go_on(const ec_render_job *job)
 {
     char *words[] = {(char *)job->program, (char[]){"render"}, (char[]){"--resume"}, (char *)job->request->checkpoint};

@@ -1,5 +1,4 @@
-/* What follows from a render's options once all are read. Whatever does not go together is refused here, so that no option is ever silently
- * without effect. */
+/* Completes a render's options once all are read, and refuses those that do not go together, so that no option is ever silently without effect. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -163,7 +162,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     return EC_OK;
 }
 
-/* What cannot be had strip by strip. */
+/* Names the option that cannot be had strip by strip. */
 const char *ec_render_whole_for(const ec_render_request *r)
 {
     if (r->adaptive == EC_ADAPTIVE_ON) return "--adaptive"; /* the allotment looks at all pixels */

@@ -1,4 +1,4 @@
-/* What the functions of eclat.h share. */
+/* Types and functions that the functions of eclat.h share. */
 #ifndef EC_LIB_INTERNAL_H
 #define EC_LIB_INTERNAL_H
 

@@ -13,7 +13,7 @@
 #define SETTLES 0.3  /* seconds that files must stay as they are before they are read */
 #define DEAF_LOOKS 1 /* seconds between looks where nobody tells of changes */
 
-/* What a session was made for, the picture's or the second one's. */
+/* The wish that a session was made for, the picture's or the second one's. */
 typedef struct made_for {
     uint32_t serial;   /* of the scene; 0: never */
     eclat_integrator integrator;

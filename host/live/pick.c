@@ -1,4 +1,4 @@
-/* What lies under a pixel. One ray against all triangles: some milliseconds a million, and no structure to keep. */
+/* Finds the surface under a pixel by testing one ray against all triangles: some milliseconds a million, and no structure to keep. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -18,7 +18,7 @@ void ec_live_scene_release(ec_live *live, ec_live_scene *scene)
     free(scene);
 }
 
-/* What belongs to another integrator is as that command line has it which does not name it. */
+/* Resets options that do not belong to the integrator, as if they had not been given. */
 static void drop_foreign(ec_render_options *o)
 {
     if (o->integrator != EC_INTEGRATOR_PATH) {

@@ -14,7 +14,7 @@
 
 #define EC_LIVE_SLICE 0.02 /* seconds of a wave: the longest wait for an answer to a wish */
 
-/* What callers ask for. */
+/* Wishes of the caller. */
 typedef struct ec_live_asked {
     eclat_wish wish, saved;       /* saved: of the last save */
     uint32_t serial;              /* counts wishes */
@@ -81,7 +81,7 @@ typedef struct ec_live {
     ec_live_shown shown[ECLAT_SHOWN_COUNT];
 } ec_live;
 
-/* live.c. request, given, listener and hears are the caller's to fill in, all else is 0. What fails to open is closed. */
+/* live.c. request, given, listener and hears are the caller's to fill in, all else is 0. A session that fails to open is closed. */
 ec_result ec_live_open(ec_live *live, const char *against, ec_error *err);
 void ec_live_close(ec_live *live);
 

@@ -23,7 +23,7 @@ static uint64_t state_of(const char *path)
     return (h * 31 + (uint64_t)s.st_size) * 31 + (uint64_t)s.st_ino;
 }
 
-/* What another machine does to its files, its kernel tells nobody here. */
+/* A kernel does not hear of what other machines do to files that they share. */
 static bool is_told_of(const char *folder)
 {
     static const unsigned long remote[] = {NFS_SUPER_MAGIC, SMB_SUPER_MAGIC, SMB2_SUPER_MAGIC, CIFS_SUPER_MAGIC, AFS_SUPER_MAGIC,

@@ -1,4 +1,4 @@
-/* What a comparison of two pictures found, as text and as JSON. */
+/* The result of comparing two pictures, as text and as JSON. */
 #ifndef EC_REPORT_COMPARE_REPORT_H
 #define EC_REPORT_COMPARE_REPORT_H
 

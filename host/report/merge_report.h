@@ -1,4 +1,4 @@
-/* What came of merging slices. */
+/* The result of merging slices. */
 #ifndef EC_REPORT_MERGE_REPORT_H
 #define EC_REPORT_MERGE_REPORT_H
 

@@ -79,7 +79,7 @@ static void print_effects(const ec_render_effects *effects, FILE *to)
     fprintf(to, "effects  %s\n", line);
 }
 
-/* What came before the first ray. Some drivers keep kernels of earlier runs themselves, for others eclat does and counts them. */
+/* Set-up before the first ray. Some drivers keep kernels of earlier runs themselves, for others eclat does and counts them. */
 static void print_setup(const ec_render_stats *stats, FILE *to)
 {
     char counted[64] = "", then[64] = "";

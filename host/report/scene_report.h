@@ -1,4 +1,4 @@
-/* What a scene holds and what rendering it takes, in text and in JSON. */
+/* Contents of a scene and the cost of rendering it, as text and as JSON. */
 #ifndef EC_REPORT_SCENE_REPORT_H
 #define EC_REPORT_SCENE_REPORT_H
 

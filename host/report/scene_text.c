@@ -75,7 +75,7 @@ static void print_names(const char *title, const ec_scene_names *list, const dou
     if (list->count) fputc('\n', to);
 }
 
-/* What there is to choose among, where there is. */
+/* Scenes, variants and animations of the file to choose from. */
 static void print_contents(const ec_scene_contents *contents, FILE *to)
 {
     if (contents->scenes.count > 1) {

@@ -1,4 +1,4 @@
-/* What keys, mouse and scripts do to the wish. Knows no window. */
+/* Changes of the wish by keys, mouse and scripts. Knows no window. */
 #ifndef EC_VIEW_INPUT_H
 #define EC_VIEW_INPUT_H
 

@@ -13,7 +13,7 @@ void ec_view_help_draw(const ec_view_text *text, double width, double height);
 /* Nine at a time. page: any number. */
 void ec_view_effects_draw(const eclat_facts *facts, uint32_t page, uint64_t without, const ec_view_text *text, double width, double height);
 
-/* What a digit from 1 on means there; NULL: nothing. */
+/* The effect of a digit from 1 on; NULL: none. */
 const eclat_effect *ec_view_effect_of_digit(const eclat_facts *facts, uint32_t page, int digit);
 
 #endif

@@ -13,7 +13,7 @@ static void cross(const double a[3], const double b[3], double out[3])
     for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* What has no length stays as it is. */
+/* A vector without length stays as it is. */
 static void normalize(double v[3])
 {
     double length = sqrt(dot(v, v));

@@ -89,7 +89,7 @@ static void format_settings(const ec_window *w, char *text, size_t size)
              used ? "  without" : "", without);
 }
 
-/* Under the top of the window, and above the foot: what needs to be read now. */
+/* Draws messages that need to be read now, between the top of the window and the foot. */
 static void draw_messages(const ec_window *w, const ec_view_text *text, double width, double height, double foot)
 {
     const eclat_status *s = &w->status;
@@ -102,8 +102,8 @@ static void draw_messages(const ec_window *w, const ec_view_text *text, double w
     ec_block_draw(&b, 0, height, width);
 }
 
-/* At the foot; no more than half of the window. What is under the cursor comes and goes above the rest, which stays in its place.
- * Its height. */
+/* Draws the lines at the foot, over at most half of the window, and returns their height. The line of the pixel under the cursor comes and goes above
+ * the others, which stay in their place. */
 static double draw_foot(const ec_window *w, const ec_view_text *text, double width, double height)
 {
     char state[400], settings[1000], effects[1200], probe[400];
@@ -126,7 +126,7 @@ static double draw_foot(const ec_window *w, const ec_view_text *text, double wid
     return ec_block_height(&b);
 }
 
-/* What the second picture is, in its upper right corner. */
+/* Draws the name of the second picture in its upper right corner. */
 static void draw_label(const ec_window *w, const ec_view_text *text, double width, double height)
 {
     const eclat_wish *wish = &w->input.wish;

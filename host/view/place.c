@@ -30,7 +30,7 @@ static place whole_of(GLFWmonitor *monitor)
     return p;
 }
 
-/* What panels and the window's own frame leave of it. */
+/* The part of it that panels and the window's own frame leave free. */
 static place room_of(GLFWmonitor *monitor, GLFWwindow *glfw)
 {
     int left = 0, top = 0, right = 0, bottom = 0;

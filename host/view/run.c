@@ -1,4 +1,4 @@
-/* What the window does: events in, wishes out, frames on the screen. It sleeps in glfwWaitEvents unless something moves. */
+/* The window's loop: events in, wishes out, frames on the screen. It sleeps in glfwWaitEvents unless something moves. */
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <math.h>

@@ -19,7 +19,7 @@ typedef struct ec_view_request {
     bool (*should_stop)(void *user); /* asked when the window wakes, and before it sleeps for the first time: true closes it */
 } ec_view_request;
 
-/* What the module has for the program, which looks it up by this name. */
+/* The module's functions; the library looks them up by the name of the variable. */
 typedef struct ec_view_module {
     eclat_result (*run)(const ec_view_request *request, eclat_error *err); /* until the window is closed. Fails where there can be no window, no
                                                                             * picture, or where the last save failed */
