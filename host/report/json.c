@@ -52,6 +52,7 @@ void ec_json_add(cJSON *object, const ec_field *f)
 {
     for (; f->key; f++) {
         switch (f->kind) {
+        case EC_FIELD_NONE: cJSON_AddNullToObject(object, f->key); break;
         case EC_FIELD_REAL: ec_json_real(object, f->key, f->real); break;
         case EC_FIELD_WHOLE: ec_json_whole(object, f->key, f->whole); break;
         case EC_FIELD_TEXT: ec_json_text(object, f->key, f->text); break;

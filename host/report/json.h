@@ -11,7 +11,7 @@
 /* Fields of an object, of which any number is added in one go: EC_JSON(object, EC_REAL("seconds", s), EC_FLAG("failed", f)). */
 typedef struct ec_field {
     const char *key;
-    enum { EC_FIELD_REAL, EC_FIELD_WHOLE, EC_FIELD_TEXT, EC_FIELD_FLAG } kind;
+    enum { EC_FIELD_NONE, EC_FIELD_REAL, EC_FIELD_WHOLE, EC_FIELD_TEXT, EC_FIELD_FLAG } kind; /* none: null */
     double real;      /* infinite or NaN: null */
     uint64_t whole;   /* of a flag: 0 or 1 */
     const char *text; /* NULL: null */

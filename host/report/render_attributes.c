@@ -24,11 +24,11 @@ static void add_option(ec_report_attributes *attributes, const ec_setting *setti
 {
     ec_setting_value value;
     ec_setting_get(setting, options, &value);
+    const ec_field *f = &value.field;
     if (!setting->exr || value.is_unsaid) return;
-    if (value.kind == EC_SETTING_REAL) EC_ATTRIBUTES(attributes, EC_REAL(setting->exr, value.real));
-    else if (value.kind == EC_SETTING_WHOLE) ec_attributes_made(attributes, setting->exr, "%" PRIu64, value.whole);
-    else if (value.kind == EC_SETTING_SWITCH) EC_ATTRIBUTES(attributes, EC_STRING(setting->exr, value.on ? "yes" : "no"));
-    else ec_attributes_made(attributes, setting->exr, "%s", value.text);
+    if (f->kind == EC_FIELD_REAL) EC_ATTRIBUTES(attributes, EC_REAL(setting->exr, f->real));
+    else if (f->kind == EC_FIELD_WHOLE) ec_attributes_made(attributes, setting->exr, "%" PRIu64, f->whole);
+    else ec_attributes_made(attributes, setting->exr, "%s", f->kind == EC_FIELD_FLAG ? f->whole ? "yes" : "no" : f->text);
 }
 
 static void add_setting(ec_report_attributes *attributes, const ec_render_report *report)

@@ -24,14 +24,8 @@ static void add_option(cJSON *root, const ec_setting *setting, const ec_render_o
 {
     ec_setting_value value;
     ec_setting_get(setting, options, &value);
-    if (!setting->json || value.is_unsaid) return;
-    switch (value.kind) {
-    case EC_SETTING_TEXT: ec_json_text(root, setting->json, value.text); break;
-    case EC_SETTING_WHOLE: ec_json_whole(root, setting->json, value.whole); break;
-    case EC_SETTING_REAL: ec_json_real(root, setting->json, value.real); break;
-    case EC_SETTING_SWITCH: cJSON_AddBoolToObject(root, setting->json, value.on); break;
-    case EC_SETTING_NONE: cJSON_AddNullToObject(root, setting->json); break;
-    }
+    value.field.key = setting->json;
+    if (setting->json && !value.is_unsaid) ec_json_add(root, (const ec_field[]){value.field, {0}});
 }
 
 static void add_setting(cJSON *root, const ec_render_report *report)

@@ -6,98 +6,55 @@
 #include "report/format.h"
 #include "report/names.h"
 
-static void put_text(ec_setting_value *value, const char *text) { value->text = text; }
+#define GET(name, ...) static void get_##name(const ec_render_options *o, ec_setting_value *v) { *v = (ec_setting_value){__VA_ARGS__}; }
+#define TEXT(value) .field = EC_STRING(NULL, value)
+#define WHOLE(value) .field = EC_WHOLE(NULL, value)
+#define REAL(value) .field = EC_REAL(NULL, value)
+#define NONE(value) .field = {.kind = EC_FIELD_NONE, .text = value} /* no number, as an endless depth: text says it, and JSON has null */
 
-static void put_whole(ec_setting_value *value, uint64_t whole)
+GET(adaptive, .field = EC_FLAG(NULL, o->adaptive))
+GET(filter_width, REAL(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH), .is_unsaid = !(o->filter_width > 0))
+GET(fstop, REAL(o->fstop), .is_unsaid = !(o->fstop > 0))
+GET(focus, REAL(o->focus), .is_unsaid = !(o->fstop > 0))
+GET(cutoff, REAL(o->cutoff), .is_idle = o->integrator != EC_INTEGRATOR_WHITTED)
+GET(replicates, WHOLE(ec_render_replicates(o)))
+GET(seed, WHOLE(o->seed))
+GET(integrator, TEXT(ec_integrator_names[o->integrator]))
+GET(sampler, TEXT(ec_sampler_names[o->sampler]))
+GET(sample, TEXT(ec_sample_names[o->sample]))
+GET(terminator, TEXT(ec_terminator_names[o->terminator]))
+GET(scattering, TEXT(ec_scattering_names[o->scattering]))
+GET(light_choice, TEXT(ec_light_choice_names[o->light_choice]))
+GET(filter, TEXT(ec_filter_names[o->filter]))
+GET(accel, TEXT(o->accel ? o->accel : "auto"))
+
+static void get_size(const ec_render_options *o, ec_setting_value *v)
 {
-    value->kind = EC_SETTING_WHOLE;
-    value->whole = whole;
+    snprintf(v->made, sizeof v->made, "%ux%u", o->width, o->height);
+    v->field.text = v->made;
 }
 
-static void put_real(ec_setting_value *value, double real)
+static void get_max_depth(const ec_render_options *o, ec_setting_value *v)
 {
-    value->kind = EC_SETTING_REAL;
-    value->real = real;
+    *v = o->max_depth ? (ec_setting_value){WHOLE(o->max_depth)} : (ec_setting_value){NONE("inf")};
 }
 
-static void put_none(ec_setting_value *value, const char *text)
+static void get_rr(const ec_render_options *o, ec_setting_value *v)
 {
-    value->kind = EC_SETTING_NONE;
-    value->text = text;
+    snprintf(v->made, sizeof v->made, "%s", ec_roulette(o->survival).text);
+    v->field.text = v->made;
 }
 
-#define GET(name) static void get_##name(const ec_render_options *o, ec_setting_value *value)
-
-GET(size)
+static void get_clamp(const ec_render_options *o, ec_setting_value *v)
 {
-    snprintf(value->made, sizeof value->made, "%ux%u", o->width, o->height);
-    put_text(value, value->made);
+    *v = o->clamp > 0 ? (ec_setting_value){REAL(o->clamp)} : (ec_setting_value){NONE("off")};
 }
 
-GET(adaptive)
+static void get_without(const ec_render_options *o, ec_setting_value *v)
 {
-    value->kind = EC_SETTING_SWITCH;
-    value->on = o->adaptive;
+    ec_feature_names(o->without, v->made, sizeof v->made);
+    v->field.text = *v->made ? v->made : "nothing";
 }
-
-GET(max_depth)
-{
-    if (o->max_depth) put_whole(value, o->max_depth);
-    else put_none(value, "inf");
-}
-
-GET(rr)
-{
-    snprintf(value->made, sizeof value->made, "%s", ec_roulette(o->survival).text);
-    put_text(value, value->made);
-}
-
-GET(clamp)
-{
-    if (o->clamp > 0) put_real(value, o->clamp);
-    else put_none(value, "off");
-}
-
-GET(filter_width)
-{
-    value->is_unsaid = !(o->filter_width > 0);
-    put_real(value, value->is_unsaid ? EC_FILTER_WIDTH : o->filter_width);
-}
-
-GET(fstop)
-{
-    value->is_unsaid = !(o->fstop > 0);
-    put_real(value, o->fstop);
-}
-
-GET(focus)
-{
-    value->is_unsaid = !(o->fstop > 0);
-    put_real(value, o->focus);
-}
-
-GET(cutoff)
-{
-    value->is_idle = o->integrator != EC_INTEGRATOR_WHITTED;
-    put_real(value, o->cutoff);
-}
-
-GET(without)
-{
-    ec_feature_names(o->without, value->made, sizeof value->made);
-    put_text(value, *value->made ? value->made : "nothing");
-}
-
-GET(replicates) { put_whole(value, ec_render_replicates(o)); }
-GET(seed) { put_whole(value, o->seed); }
-GET(integrator) { put_text(value, ec_integrator_names[o->integrator]); }
-GET(sampler) { put_text(value, ec_sampler_names[o->sampler]); }
-GET(sample) { put_text(value, ec_sample_names[o->sample]); }
-GET(terminator) { put_text(value, ec_terminator_names[o->terminator]); }
-GET(scattering) { put_text(value, ec_scattering_names[o->scattering]); }
-GET(light_choice) { put_text(value, ec_light_choice_names[o->light_choice]); }
-GET(filter) { put_text(value, ec_filter_names[o->filter]); }
-GET(accel) { put_text(value, o->accel ? o->accel : "auto"); }
 
 const ec_setting ec_settings[] = {
     {"size", NULL, NULL, EC_IDENTITY_BY_VALUE, get_size},
@@ -125,7 +82,7 @@ const int ec_setting_count = sizeof ec_settings / sizeof ec_settings[0];
 
 void ec_setting_get(const ec_setting *setting, const ec_render_options *options, ec_setting_value *value)
 {
-    *value = (ec_setting_value){.kind = EC_SETTING_TEXT};
+    *value = (ec_setting_value){TEXT(NULL)};
     setting->get(options, value);
 }
 
@@ -133,11 +90,9 @@ void ec_setting_trait(const ec_setting *setting, const ec_render_options *option
 {
     ec_setting_value value;
     ec_setting_get(setting, options, &value);
-    switch (value.kind) {
-    case EC_SETTING_TEXT:
-    case EC_SETTING_NONE: snprintf(text, size, "%s", value.text); break;
-    case EC_SETTING_WHOLE: snprintf(text, size, "%" PRIu64, value.whole); break;
-    case EC_SETTING_REAL: snprintf(text, size, "%.17g", value.is_idle ? 0 : value.real); break;
-    case EC_SETTING_SWITCH: snprintf(text, size, "%s", value.on ? "on" : "off"); break;
-    }
+    const ec_field *f = &value.field;
+    if (f->kind == EC_FIELD_WHOLE) snprintf(text, size, "%" PRIu64, f->whole);
+    else if (f->kind == EC_FIELD_REAL) snprintf(text, size, "%.17g", value.is_idle ? 0 : f->real);
+    else if (f->kind == EC_FIELD_FLAG) snprintf(text, size, "%s", f->whole ? "on" : "off");
+    else snprintf(text, size, "%s", f->text);
 }

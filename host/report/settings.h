@@ -2,23 +2,12 @@
 #ifndef EC_REPORT_SETTINGS_H
 #define EC_REPORT_SETTINGS_H
 
-#include "pack/called_effects.h"
 #include "device/options.h"
-
-typedef enum ec_setting_kind {
-    EC_SETTING_TEXT,
-    EC_SETTING_WHOLE,
-    EC_SETTING_REAL,
-    EC_SETTING_SWITCH,
-    EC_SETTING_NONE, /* no number, as an endless depth: text says it, and JSON has null */
-} ec_setting_kind;
+#include "pack/called_effects.h"
+#include "report/json.h"
 
 typedef struct ec_setting_value {
-    ec_setting_kind kind;
-    const char *text;           /* may be `made` */
-    uint64_t whole;
-    double real;
-    bool on;
+    ec_field field;             /* without a key; its text may be `made` */
     bool is_unsaid;             /* not asked for: reports leave it out, the identity has the default */
     bool is_idle;               /* without effect on this render: the identity has 0 */
     char made[EC_EFFECT_NAMES];
