@@ -20,7 +20,7 @@ const ec_option *ec_options_find(const ec_option *options, int count, const char
 
 static ec_result store_choice(const ec_option *o, void *field, const char *value, ec_error *err)
 {
-    uint32_t index = 0; /* enums are as large: jobs/render_options.c */
+    uint32_t index = 0; /* EC_TYPE_CHOICE is as large */
     EC_TRY(ec_parse_choice(o->name, value, o->choices, &index, err));
     if (o->kind == EC_AS_WORD) *(const char **)field = o->choices[index];
     else memcpy(field, &index, sizeof index);

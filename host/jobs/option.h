@@ -94,8 +94,26 @@ const ec_option *ec_options_find(const ec_option *options, int count, const char
 /* Stores a value as the row says. */
 ec_result ec_option_store(const ec_option *option, void *target, const char *value, ec_error *err);
 
+/* The type of each kind's field; another does not compile. GCC and Clang take enums for unsigned ints. */
+#define EC_TYPE_FLAG bool
+#define EC_TYPE_TEXT const char *
+#define EC_TYPE_WORD const char *
+#define EC_TYPE_FILE const char *
+#define EC_TYPE_CHOICE unsigned
+#define EC_TYPE_U32 uint32_t
+#define EC_TYPE_SIZE uint32_t
+#define EC_TYPE_LANES uint32_t
+#define EC_TYPE_U64 uint64_t
+#define EC_TYPE_BYTES uint64_t
+#define EC_TYPE_REAL double
+#define EC_TYPE_SECONDS double
+#define EC_TYPE_PERCENT double
+#define EC_TYPE_TRIPLE double *
+#define EC_TYPE_OUTPUT ec_outputs
+#define EC_HAS_TYPE(field, type) sizeof(char[_Generic((field), type: 1, default: -1)])
+
 /* How a row stores its value in a field of REQUEST, a type that the file defines. */
-#define EC_STORED(as, field) .kind = EC_AS_##as, .at = offsetof(REQUEST, field)
+#define EC_STORED(as, field) .kind = EC_AS_##as, .at = offsetof(REQUEST, field) + 0 * EC_HAS_TYPE(((REQUEST *)0)->field, EC_TYPE_##as)
 #define EC_RANGED(as, field, from, to) EC_STORED(as, field), .least = from, .most = to
 #define EC_CHOSEN(field, names) EC_STORED(CHOICE, field), .choices = names
 #define EC_TOLD(field) .told = offsetof(REQUEST, field)

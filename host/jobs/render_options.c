@@ -9,7 +9,6 @@
 #include "report/names.h"
 
 #define REQUEST ec_render_request
-_Static_assert(sizeof(ec_integrator) == sizeof(uint32_t) && sizeof(ec_tonemap) == sizeof(uint32_t), "ec_option_store");
 
 #define OF(integrator) (1u << EC_INTEGRATOR_##integrator)
 #define PATHS OF(PATH)
