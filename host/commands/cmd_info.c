@@ -7,7 +7,6 @@
 #include "device/estimate.h"
 #include "gltf/reader.h"
 #include "jobs/render_request.h"
-#include "pack/pack.h"
 #include "report/scene_report.h"
 
 typedef struct info_request {
@@ -60,11 +59,7 @@ static ec_result measure(const ec_render_request *request, ec_scene_report *repo
 {
     const ec_scene *scene = report->scene;
     ec_bvh bvh = {0};
-    ec_scene_light light;
-    EC_TRY(ec_scene_find_light(scene, &light, err));
-    report->has_light = light.any;
-    report->emissive_triangles = light.triangles;
-    for (uint32_t i = 0; i < scene->light_count; i++) report->light_types[scene->lights[i].type]++;
+    EC_TRY(ec_scene_report_count(report, err));
     EC_TRY(ec_bvh_build(scene->positions, scene->indices, ec_scene_flat_count(scene), 0, &bvh, &report->bvh, err));
     ec_bvh_free(&bvh);
     ec_scene lit = *scene;

@@ -32,6 +32,9 @@ typedef struct ec_scene_report {
     uint32_t accel_count;        /* 0: none was asked for */
 } ec_scene_report;
 
+/* Fills what can be counted in the scene. */
+ec_result ec_scene_report_count(ec_scene_report *report, ec_error *err);
+
 void ec_scene_report_text(const ec_scene_report *report, FILE *to);
 ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error *err);
 

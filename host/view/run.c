@@ -2,7 +2,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,15 +18,6 @@
 
 /* The process's, as GLFW is. */
 static atomic_bool is_open;
-
-eclat_result ec_view_fail(eclat_error *err, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    if (err) vsnprintf(err->text, sizeof err->text, format, args);
-    va_end(args);
-    return ECLAT_FAILED;
-}
 
 static void wake(void)
 {
