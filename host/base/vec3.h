@@ -12,6 +12,14 @@ static inline void ec_cross(const double a[3], const double b[3], double out[3])
     for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
+/* The normal of the triangle a, b, c, twice its area long. */
+static inline void ec_triangle_normal(const float a[3], const float b[3], const float c[3], double out[3])
+{
+    double u[3], v[3];
+    for (int k = 0; k < 3; k++) u[k] = (double)b[k] - a[k], v[k] = (double)c[k] - a[k];
+    ec_cross(u, v, out);
+}
+
 /* False, and v as it was, where it has no length or no finite one. */
 static inline bool ec_normalize(double v[3])
 {

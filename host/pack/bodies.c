@@ -1,8 +1,10 @@
 #include "pack/bodies.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/freed.h"
+#include "base/vec3.h"
 
 typedef struct box {
     float low[3], high[3];
@@ -33,7 +35,7 @@ static const float *corner(const ec_scene *scene, uint32_t triangle, int k)
 ec_result ec_bodies_find(const ec_scene *scene, const bool *is_body, ec_bodies *bodies, ec_error *err)
 {
     *bodies = (ec_bodies){0};
-    box *boxes = malloc(scene->material_count * sizeof *boxes);
+    EC_FREED box *boxes = malloc(scene->material_count * sizeof *boxes);
     if (!boxes) return ec_fail(err, "out of memory for %u materials", scene->material_count);
     for (uint32_t m = 0; m < scene->material_count; m++) boxes[m] = nothing;
     for (uint32_t t = 0; t < scene->triangle_count; t++)
@@ -47,7 +49,6 @@ ec_result ec_bodies_find(const ec_scene *scene, const bool *is_body, ec_bodies *
         if (count < EC_BODIES_MOST) bodies->material[count] = m;
         count++;
     }
-    free(boxes);
     if (count > EC_BODIES_MOST) bodies->too_many = count;
     else bodies->count = nested ? count : 0;
     return EC_OK;
@@ -87,15 +88,14 @@ static uint32_t root_of(uint32_t *parent, uint32_t i)
 
 static void add_triangle(const ec_scene *scene, uint32_t triangle, part *to)
 {
-    const float *a = corner(scene, triangle, 0), *b = corner(scene, triangle, 1), *c = corner(scene, triangle, 2);
-    double u[3], v[3], n[3];
-    for (int k = 0; k < 3; k++) u[k] = (double)b[k] - a[k], v[k] = (double)c[k] - a[k];
-    for (int k = 0; k < 3; k++) n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    const float *a = corner(scene, triangle, 0);
+    double n[3];
+    ec_triangle_normal(a, corner(scene, triangle, 1), corner(scene, triangle, 2), n);
     for (int k = 0; k < 3; k++) {
         to->normal[k] += n[k];
         to->volume += a[k] * n[k] / 6;
     }
-    to->area += sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    to->area += sqrt(ec_dot(n, n));
 }
 
 /* Volume of the largest part; infinite where one is open, so that its area vectors do not add up to nothing: all that is in water
@@ -120,7 +120,7 @@ static double largest_part(const ec_scene *scene, uint32_t material, desk *d)
     for (uint32_t i = 0; i < count; i++) add_triangle(scene, d->triangles[i], &d->parts[root_of(d->parent, 3 * i)]);
     for (uint32_t i = 0; i < corners; i++) {
         const part *p = &d->parts[i];
-        double open = sqrt(p->normal[0] * p->normal[0] + p->normal[1] * p->normal[1] + p->normal[2] * p->normal[2]);
+        double open = sqrt(ec_dot(p->normal, p->normal));
         most = fmax(most, open > 1e-3 * p->area ? INFINITY : fabs(p->volume));
     }
     return most;
@@ -143,10 +143,13 @@ ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err
     double volume[EC_BODIES_MOST];
     size_t n = most_triangles(scene, bodies);
     if (!bodies->count) return EC_OK;
-    desk d = {malloc(n * sizeof *d.triangles), malloc(3 * n * sizeof *d.parent), malloc(3 * n * sizeof *d.places),
-              malloc(3 * n * sizeof *d.parts)};
-    bool complete = d.triangles && d.parent && d.places && d.parts;
-    for (uint32_t i = 0; complete && i < bodies->count; i++) {
+    EC_FREED uint32_t *triangles = malloc(n * sizeof *triangles);
+    EC_FREED uint32_t *parent = malloc(3 * n * sizeof *parent);
+    EC_FREED place *places = malloc(3 * n * sizeof *places);
+    EC_FREED part *parts = malloc(3 * n * sizeof *parts);
+    if (!triangles || !parent || !places || !parts) return ec_fail(err, "out of memory for bodies of %zu triangles", n);
+    desk d = {triangles, parent, places, parts};
+    for (uint32_t i = 0; i < bodies->count; i++) {
         uint32_t material = bodies->material[i], at = i;
         double size = largest_part(scene, material, &d);
         for (; at > 0 && volume[at - 1] > size; at--) { /* of equal ones the first material stays first */
@@ -156,11 +159,7 @@ ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err
         volume[at] = size;
         bodies->material[at] = material;
     }
-    free(d.triangles);
-    free(d.parent);
-    free(d.places);
-    free(d.parts);
-    return complete ? EC_OK : ec_fail(err, "out of memory for bodies of %zu triangles", n);
+    return EC_OK;
 }
 
 /* Solid angles of its triangles, signed (van Oosterom and Strackee 1983), over 4 pi. */
@@ -172,12 +171,9 @@ bool ec_bodies_contain(const ec_scene *scene, uint32_t material, const float poi
         double v[3][3], length[3], dot[3];
         for (int k = 0; k < 3; k++) {
             for (int c = 0; c < 3; c++) v[k][c] = (double)corner(scene, t, k)[c] - point[c];
-            length[k] = sqrt(v[k][0] * v[k][0] + v[k][1] * v[k][1] + v[k][2] * v[k][2]);
+            length[k] = sqrt(ec_dot(v[k], v[k]));
         }
-        for (int k = 0; k < 3; k++) {
-            const double *a = v[k], *b = v[(k + 1) % 3];
-            dot[k] = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        }
+        for (int k = 0; k < 3; k++) dot[k] = ec_dot(v[k], v[(k + 1) % 3]);
         double volume = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) + v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) +
                         v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
         double below = length[0] * length[1] * length[2] + dot[0] * length[2] + dot[1] * length[0] + dot[2] * length[1];

@@ -1,8 +1,9 @@
 /* One look-up a triangle in a table of those met so far. */
 #include "pack/coincident.h"
 
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/freed.h"
 
 typedef struct corners {
     float v[3][3];
@@ -79,13 +80,11 @@ ec_result ec_coincident_find(const ec_scene *scene, const ec_pack *pack, const b
     const uint32_t moving = scene->motion.segments ? scene->motion.triangle_count : 0;
     for (uint32_t p = 0; p < pack->prim_count; p++) count += emits[pack->prims[p].material];
     while (size < 2 * count) size *= 2;
-    uint32_t *table = calloc(size, sizeof *table);
+    EC_FREED uint32_t *table = calloc(size, sizeof *table);
     *first = malloc(((size_t)pack->prim_count + 1) * sizeof **first);
-    ec_result result =
-        table && *first ? EC_OK : ec_fail(err, "out of memory for %llu emitting triangles", (unsigned long long)count);
-    for (uint32_t p = 0; result == EC_OK && p < pack->prim_count; p++)
+    if (!table || !*first) return ec_fail(err, "out of memory for %llu emitting triangles", (unsigned long long)count);
+    for (uint32_t p = 0; p < pack->prim_count; p++)
         if (p < moving) (*first)[p] = p; /* what moves parts */
         else if (emits[pack->prims[p].material]) (*first)[p] = find_or_add(scene, pack, table, size - 1, p);
-    free(table);
-    return result;
+    return EC_OK;
 }

@@ -2,9 +2,9 @@
  * likely as its light, luminance times solid angle. */
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "base/luminance.h"
 #include "pack/distribution.h"
 #include "pack/pack.h"
@@ -146,16 +146,16 @@ ec_result ec_pack_map(const ec_environment *e, ec_packed_map *map, ec_error *err
     const size_t row_count = (size_t)e->height + 1, count = e->width * row_count;
     if (count > 1u << 26)
         return ec_fail(err, "the environment map has %u x %u pixels; at most 2^26 are handled: shrink it", e->width, e->height);
-    double *weights = malloc(count * sizeof *weights), *rows = malloc(2 * row_count * sizeof *rows);
+    EC_FREED double *weights = malloc(count * sizeof *weights);
+    EC_FREED double *rows = malloc(2 * row_count * sizeof *rows);
     map->texels = malloc(4 * count * sizeof(float));
     map->table = malloc((count + row_count) * sizeof *map->table);
-    ec_result result = EC_OK;
-    if (weights && rows && map->texels && map->table) fill_map(e, weights, rows, rows + row_count, map);
-    else result = ec_fail(err, "out of memory for an environment map of %u x %u", e->width, e->height);
-    free(weights);
-    free(rows);
-    if (result != EC_OK) ec_packed_map_free(map);
-    return result;
+    if (!weights || !rows || !map->texels || !map->table) {
+        ec_packed_map_free(map);
+        return ec_fail(err, "out of memory for an environment map of %u x %u", e->width, e->height);
+    }
+    fill_map(e, weights, rows, rows + row_count, map);
+    return EC_OK;
 }
 
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err)

@@ -2,9 +2,10 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
+#include "base/freed.h"
 #include "base/text.h"
+#include "base/vec3.h"
 #include "pack/pack.h"
 #include "scene/material_fields.h"
 #include "scene/texture_range.h"
@@ -41,12 +42,11 @@ ec_result ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies, ec_error
 {
     *bodies = (ec_bodies){0};
     if (plain->bodies_apart) return EC_OK;
-    bool *is_body = calloc(plain->material_count, sizeof *is_body), any = false;
+    EC_FREED bool *is_body = calloc(plain->material_count, sizeof *is_body);
+    bool any = false;
     if (!is_body) return ec_fail(err, "out of memory for %u materials", plain->material_count);
     for (uint32_t m = 0; m < plain->material_count; m++) any |= is_body[m] = ec_pack_is_body(&plain->materials[m]);
-    ec_result result = any ? ec_bodies_find(plain, is_body, bodies, err) : EC_OK;
-    free(is_body);
-    return result;
+    return any ? ec_bodies_find(plain, is_body, bodies, err) : EC_OK;
 }
 
 /* A material, and what it calls for. */
@@ -180,12 +180,11 @@ static void look_at_material(const ec_scene *scene, uint32_t m, scan_fn *look, e
 /* Looks at materials that show. */
 static ec_result scan_materials(const ec_scene *scene, scan_fn *look, ec_effects *effects, ec_error *err)
 {
-    bool *used = calloc(scene->material_count, sizeof *used);
+    EC_FREED bool *used = calloc(scene->material_count, sizeof *used);
     if (!used) return ec_fail(err, "out of memory for %u materials", scene->material_count);
     for (uint32_t t = 0; t < scene->triangle_count; t++) used[scene->triangle_material[t]] = true;
     for (uint32_t m = 0; m < scene->material_count; m++)
         if (used[m]) look_at_material(scene, m, look, effects);
-    free(used);
     return EC_OK;
 }
 
@@ -197,13 +196,9 @@ static void scan_normals(const ec_scene *scene, ec_effects *effects)
         const uint32_t *i = scene->indices + 3 * (size_t)t;
         const float *a = scene->positions + 3 * (size_t)i[0], *b = scene->positions + 3 * (size_t)i[1],
                     *c = scene->positions + 3 * (size_t)i[2];
-        double e[3], f[3];
-        for (int k = 0; k < 3; k++) {
-            e[k] = (double)b[k] - a[k];
-            f[k] = (double)c[k] - a[k];
-        }
-        double n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
-        double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        double n[3];
+        ec_triangle_normal(a, b, c, n);
+        double length = sqrt(ec_dot(n, n));
         for (int v = 0; v < 3; v++) {
             const float *m = scene->normals + 3 * (size_t)i[v];
             if (m[0] == 0.0f && m[1] == 0.0f && m[2] == 0.0f) continue;

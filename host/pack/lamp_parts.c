@@ -2,8 +2,9 @@
 #include "pack/lamp_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
+#include "base/freed.h"
+#include "base/vec3.h"
 #include "pack/brightness.h"
 
 #define PI 3.14159265358979323846
@@ -180,10 +181,11 @@ static bool is_worth_it(const part *p)
 
 static ec_result write_nodes(const cutter *c, ec_pack *pack, ec_light_data *lights, double *power, ec_error *err)
 {
-    uint32_t *node_of = malloc(c->count * sizeof *node_of), *queue = malloc(c->count * sizeof *queue);
+    EC_FREED uint32_t *node_of = malloc(c->count * sizeof *node_of);
+    EC_FREED uint32_t *queue = malloc(c->count * sizeof *queue);
     pack->lamp_nodes = malloc((c->count / 4 + (size_t)2) * sizeof *pack->lamp_nodes);
-    ec_result result = node_of && queue && pack->lamp_nodes ? EC_OK : ec_fail(err, "out of memory for %u parts of lamps", c->count);
-    for (uint32_t i = 0; result == EC_OK && i < c->lamps; i++) {
+    if (!node_of || !queue || !pack->lamp_nodes) return ec_fail(err, "out of memory for %u parts of lamps", c->count);
+    for (uint32_t i = 0; i < c->lamps; i++) {
         const part *p = &c->parts[i];
         if (!is_worth_it(p)) continue;
         if (!pack->lamp_node_count) pack->lamp_nodes[pack->lamp_node_count++] = (ec_lamp_node){.link = 0};
@@ -195,17 +197,14 @@ static ec_result write_nodes(const cutter *c, ec_pack *pack, ec_light_data *ligh
         power[p->lamp] = p->weight * (double)p->bright.mean;
     }
     if (!pack->lamp_node_count) free(pack->lamp_nodes), pack->lamp_nodes = NULL;
-    free(node_of);
-    free(queue);
-    return result;
+    return EC_OK;
 }
 
 static double area(const ec_light_data *l)
 {
-    double e[3], f[3], square = 0;
-    for (int k = 0; k < 3; k++) e[k] = (double)l->b[k] - (double)l->a[k], f[k] = (double)l->c[k] - (double)l->a[k];
-    for (int k = 0; k < 3; k++) square += pow(e[k] * f[(k + 1) % 3] - e[(k + 1) % 3] * f[k], 2);
-    return 0.5 * sqrt(square);
+    double n[3];
+    ec_triangle_normal(l->a, l->b, l->c, n);
+    return 0.5 * sqrt(n[2] * n[2] + n[0] * n[0] + n[1] * n[1]); /* in this order: its last bit chooses which lamp is cut first */
 }
 
 static bool is_textured(const ec_light_data *l) { return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && (l->kind & EC_LIGHT_TEXTURED); }

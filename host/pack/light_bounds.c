@@ -31,11 +31,11 @@ ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power)
     set_axis(&b, (double[3]){0, 0, 1}, -1);
     if (kind == EC_KIND_SPOT) set_axis(&b, (double[3]){light->b[0], light->b[1], light->b[2]}, light->c[1]); /* outer cone */
     if (kind != EC_KIND_TRIANGLE) return b;
-    double e[3], f[3];
+    double normal[3];
     take_point(&b, light->b);
     take_point(&b, light->c);
-    for (int k = 0; k < 3; k++) e[k] = (double)light->b[k] - light->a[k], f[k] = (double)light->c[k] - light->a[k];
-    set_axis(&b, (double[3]){e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]}, 1);
+    ec_triangle_normal(light->a, light->b, light->c, normal);
+    set_axis(&b, normal, 1);
     b.two_sided = light->kind & EC_LIGHT_TWO_SIDED;
     return b;
 }

@@ -2,9 +2,10 @@
  * one from one centre; where they make a small curved body, all of it shines as one point: seen from anywhere its projected area is
  * a quarter of its surface on average (Cauchy). In an order of their own, so that no picture depends on that of the triangles. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
+#include "base/vec3.h"
 #include "pack/pack.h"
 #include "pack/texture_mean.h"
 
@@ -47,10 +48,9 @@ static lamp lamp_of(const ec_scene *scene, const ec_light_data *l, uint32_t inde
 {
     lamp r = {.flat = index, .body = index, .count = 1};
     if (!is_triangle(l)) return r;
-    double e[3], f[3], n[3], mean[3] = {1, 1, 1};
-    for (int k = 0; k < 3; k++) e[k] = (double)l->b[k] - l->a[k], f[k] = (double)l->c[k] - l->a[k];
-    for (int k = 0; k < 3; k++) n[k] = e[(k + 1) % 3] * f[(k + 2) % 3] - e[(k + 2) % 3] * f[(k + 1) % 3];
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double n[3], mean[3] = {1, 1, 1};
+    ec_triangle_normal(l->a, l->b, l->c, n);
+    double length = sqrt(ec_dot(n, n));
     const ec_material *m = &scene->materials[scene->triangle_material[l->prim]];
     if (l->kind & EC_LIGHT_TEXTURED) ec_texture_triangle_mean(scene, &m->textures[EC_SLOT_EMISSION], l->prim, mean);
     r.area = 0.5 * length;
@@ -86,9 +86,7 @@ static void join(const ec_scene *scene, const ec_light_data *lights, lamp *lamps
     uint32_t a = body_root(lamps, i), b = body_root(lamps, j);
     lamps[a < b ? b : a].body = a < b ? a : b;
     a = flat_root(lamps, i), b = flat_root(lamps, j);
-    double cosine = 0;
-    for (int k = 0; k < 3; k++) cosine += lamps[a].normal[k] * lamps[b].normal[k];
-    if (a == b || !(cosine > 1 - 1e-6)) return;
+    if (a == b || !(ec_dot(lamps[a].normal, lamps[b].normal) > 1 - 1e-6)) return;
     uint32_t keep = a < b ? a : b, drop = a < b ? b : a;
     lamps[drop].flat = keep;
     lamps[keep].count += lamps[drop].count;
@@ -122,7 +120,7 @@ static void write_flat(const lamp *l, ec_light_data *out)
         if (fabs(l->normal[k]) < least) least = fabs(l->normal[k]), axis = k;
     double length = sqrt(1 - least * least);
     for (int k = 0; k < 3; k++) s[k] = ((k == axis) - l->normal[axis] * l->normal[k]) / length;
-    for (int k = 0; k < 3; k++) t[k] = l->normal[(k + 1) % 3] * s[(k + 2) % 3] - l->normal[(k + 2) % 3] * s[(k + 1) % 3];
+    ec_cross(l->normal, s, t);
     float *v[3] = {out->a, out->b, out->c};
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 3 && l->count > 1; i++)
@@ -173,13 +171,10 @@ ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *
     ec_light_data *lights = pack->lights;
     if (!count) return EC_OK;
     qsort(lights, count, sizeof *lights, compare_lights);
-    lamp *lamps = malloc(count * sizeof *lamps), *bodies = calloc(count, sizeof *bodies);
-    edge *edges = malloc(3 * (size_t)count * sizeof *edges);
-    ec_result result = EC_OK;
-    if (!lamps || !bodies || !edges) {
-        result = ec_fail(err, "out of memory for the centres of %u lights", count);
-        goto cleanup;
-    }
+    EC_FREED lamp *lamps = malloc(count * sizeof *lamps);
+    EC_FREED lamp *bodies = calloc(count, sizeof *bodies);
+    EC_FREED edge *edges = malloc(3 * (size_t)count * sizeof *edges);
+    if (!lamps || !bodies || !edges) return ec_fail(err, "out of memory for the centres of %u lights", count);
 #pragma omp parallel for schedule(dynamic, 64) if (count > 256)
     for (uint32_t i = 0; i < count; i++) lamps[i] = lamp_of(scene, &lights[i], i);
     uint32_t edge_count = list_edges(lights, count, edges);
@@ -199,9 +194,5 @@ ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *
         if (sent[0] > 0 || sent[1] > 0 || sent[2] > 0) kept++; /* where a texture is black: it would be summed over for nothing */
     }
     pack->light_count = kept;
-cleanup:
-    free(lamps);
-    free(bodies);
-    free(edges);
-    return result;
+    return EC_OK;
 }

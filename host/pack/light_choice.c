@@ -1,8 +1,8 @@
 /* What the light tree needs beside the table of lights. Lamps are triangles, points and spots: what is infinitely far away keeps its
  * probability, and what the lamps have together goes to the tree. */
 #include <math.h>
-#include <stdlib.h>
 
+#include "base/freed.h"
 #include "pack/distribution.h"
 #include "pack/light_bounds.h"
 #include "pack/light_order.h"
@@ -80,32 +80,25 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
 {
     uint32_t lamps = lamp_count(pack), n = 0;
     if (lamps < 2) return EC_OK;
-    ec_light_bounds *bounds = malloc(lamps * sizeof *bounds);
-    uint32_t *ids = malloc(lamps * sizeof *ids), *trails = malloc(lamps * sizeof *trails);
-    uint32_t *trail_of = calloc(pack->light_count, sizeof *trail_of);
+    EC_FREED ec_light_bounds *bounds = malloc(lamps * sizeof *bounds);
+    EC_FREED uint32_t *ids = malloc(lamps * sizeof *ids);
+    EC_FREED uint32_t *trails = malloc(lamps * sizeof *trails);
+    EC_FREED uint32_t *trail_of = calloc(pack->light_count, sizeof *trail_of);
     pack->light_tree = malloc((2 * (size_t)lamps - 1) * sizeof *pack->light_tree);
-    ec_result result = bounds && ids && trails && trail_of && pack->light_tree
-                           ? EC_OK
-                           : ec_fail(err, "out of memory for a tree of %u lamps", lamps);
-    for (uint32_t i = 0; result == EC_OK && i < pack->light_count; i++) {
+    if (!bounds || !ids || !trails || !trail_of || !pack->light_tree) return ec_fail(err, "out of memory for a tree of %u lamps", lamps);
+    for (uint32_t i = 0; i < pack->light_count; i++) {
         if (ec_light_is_far(&pack->lights[i])) continue;
         bounds[n] = ec_light_bounds_of(&pack->lights[i], pack->lights[i].pmf);
         ids[n++] = i;
     }
-    if (result == EC_OK) result = ec_light_tree_build(bounds, ids, lamps, pack->light_tree, trails, err);
-    if (result == EC_OK) {
-        share_out(pack);
-        pack->light_node_count = 2 * lamps - 1;
-        for (uint32_t i = 0; i < lamps; i++) trail_of[ids[i]] = trails[i];
-        for (uint32_t p = 0; p < pack->prim_count; p++) {
-            uint32_t light = pack->light_of_prim[p];
-            pack->light_of_prim[p] = light == EC_NO_ID ? 0 : trail_of[light];
-            if (light != EC_NO_ID) pack->prims[p].light_pdf_a = pack->lights[light].pdf_a;
-        }
+    EC_TRY(ec_light_tree_build(bounds, ids, lamps, pack->light_tree, trails, err));
+    share_out(pack);
+    pack->light_node_count = 2 * lamps - 1;
+    for (uint32_t i = 0; i < lamps; i++) trail_of[ids[i]] = trails[i];
+    for (uint32_t p = 0; p < pack->prim_count; p++) {
+        uint32_t light = pack->light_of_prim[p];
+        pack->light_of_prim[p] = light == EC_NO_ID ? 0 : trail_of[light];
+        if (light != EC_NO_ID) pack->prims[p].light_pdf_a = pack->lights[light].pdf_a;
     }
-    free(bounds);
-    free(ids);
-    free(trails);
-    free(trail_of);
-    return result;
+    return EC_OK;
 }

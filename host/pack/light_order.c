@@ -2,8 +2,9 @@
 #include "pack/light_order.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/freed.h"
 
 #define MORTON_BITS 20 /* an axis */
 
@@ -58,22 +59,17 @@ static void find_keys(const ec_light_data *lights, uint32_t count, place *places
 
 ec_result ec_light_order(ec_light_data *lights, double *power, uint32_t count, ec_error *err)
 {
-    place *places = malloc((count + 1) * sizeof *places);
-    ec_light_data *sorted = malloc((count + 1) * sizeof *sorted);
-    double *sorted_power = malloc((count + 1) * sizeof *sorted_power);
-    ec_result result = places && sorted && sorted_power ? EC_OK : ec_fail(err, "out of memory for %u lights", count);
-    if (result == EC_OK) {
-        find_keys(lights, count, places);
-        qsort(places, count, sizeof *places, compare);
-        for (uint32_t i = 0; i < count; i++) {
-            sorted[i] = lights[places[i].light];
-            sorted_power[i] = power[places[i].light];
-        }
-        memcpy(lights, sorted, count * sizeof *lights);
-        memcpy(power, sorted_power, count * sizeof *power);
+    EC_FREED place *places = malloc((count + 1) * sizeof *places);
+    EC_FREED ec_light_data *sorted = malloc((count + 1) * sizeof *sorted);
+    EC_FREED double *sorted_power = malloc((count + 1) * sizeof *sorted_power);
+    if (!places || !sorted || !sorted_power) return ec_fail(err, "out of memory for %u lights", count);
+    find_keys(lights, count, places);
+    qsort(places, count, sizeof *places, compare);
+    for (uint32_t i = 0; i < count; i++) {
+        sorted[i] = lights[places[i].light];
+        sorted_power[i] = power[places[i].light];
     }
-    free(places);
-    free(sorted);
-    free(sorted_power);
-    return result;
+    memcpy(lights, sorted, count * sizeof *lights);
+    memcpy(power, sorted_power, count * sizeof *power);
+    return EC_OK;
 }

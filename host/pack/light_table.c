@@ -1,10 +1,11 @@
 /* The table of everything that can be sampled as light. Half of the samples go to lights at infinity, half to those in the
  * scene, and within each half by power (radiant flux, luminance-weighted). In the order of light_order.h: one number chooses and goes on. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "base/luminance.h"
+#include "base/vec3.h"
 #include "pack/coincident.h"
 #include "pack/distribution.h"
 #include "pack/lamp_parts.h"
@@ -39,13 +40,9 @@ static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec
     const ec_material *m = &scene->materials[p->material];
     double mean[3];
     textured_mean(scene, &whole[p->material], m, prim, mean);
-    double e[3], f[3];
-    for (int k = 0; k < 3; k++) {
-        e[k] = (double)p->v1[k] - p->v0[k];
-        f[k] = (double)p->v2[k] - p->v0[k];
-    }
-    double n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
-    double area = 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double n[3];
+    ec_triangle_normal(p->v0, p->v1, p->v2, n);
+    double area = 0.5 * sqrt(ec_dot(n, n));
     double radiance[3] = {m->emission[0] * mean[0], m->emission[1] * mean[1], m->emission[2] * mean[2]};
     memset(l, 0, sizeof *l);
     memcpy(l->a, p->v0, sizeof l->a);
@@ -63,14 +60,12 @@ static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec
 /* Those that lie on others are not cut: only one of them is sampled. */
 static ec_result cut_lamps(const ec_scene *scene, ec_pack *pack, const bool *emits, const uint32_t *first, light_list *list, ec_error *err)
 {
-    bool *may_cut = malloc((pack->prim_count + (size_t)1) * sizeof *may_cut);
+    EC_FREED bool *may_cut = malloc((pack->prim_count + (size_t)1) * sizeof *may_cut);
     if (!may_cut) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
     for (uint32_t p = 0; p < pack->prim_count; p++) may_cut[p] = true;
     for (uint32_t p = 0; p < pack->prim_count; p++)
         if (emits[pack->prims[p].material] && first[p] != p) may_cut[first[p]] = false;
-    ec_result result = ec_lamp_parts_find(scene, pack, list->lights, list->power, list->count, may_cut, err);
-    free(may_cut);
-    return result;
+    return ec_lamp_parts_find(scene, pack, list->lights, list->power, list->count, may_cut, err);
 }
 
 /* Each of those that lie in one place once. whole: by material. */
@@ -91,8 +86,7 @@ static void add_triangles(const ec_scene *scene, const ec_pack *pack, const bool
 
 double ec_pack_punctual_power(const ec_light *in, double scene_radius)
 {
-    double intensity[3] = {in->intensity[0], in->intensity[1], in->intensity[2]};
-    double power = ec_luminance(intensity);
+    double power = ec_luminance_of_floats(in->intensity);
     if (in->type == EC_LIGHT_POINT) power *= 4.0 * PI;
     if (in->type == EC_LIGHT_SPOT) power *= 2.0 * PI * (1.0 - 0.5 * (in->cos_inner + in->cos_outer));
     if (in->type == EC_LIGHT_DIRECTIONAL) power *= PI * scene_radius * scene_radius;
@@ -134,11 +128,11 @@ static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
 {
     EC_TRY(ec_light_order(list->lights, list->power, list->count, err));
     balance(list, pack);
-    double *pmf = malloc((list->count + 1) * sizeof *pmf);
+    EC_FREED double *pmf = malloc((list->count + 1) * sizeof *pmf);
     pack->light_shares = malloc((list->count + 1) * sizeof *pack->light_shares);
-    ec_result result = pmf && pack->light_shares ? EC_OK : ec_fail(err, "out of memory for %u lights", list->count);
-    if (result == EC_OK && list->count) ec_distribution_build(list->power, list->count, pack->light_shares, pmf);
-    for (uint32_t i = 0; result == EC_OK && i < list->count; i++) {
+    if (!pmf || !pack->light_shares) return ec_fail(err, "out of memory for %u lights", list->count);
+    if (list->count) ec_distribution_build(list->power, list->count, pack->light_shares, pmf);
+    for (uint32_t i = 0; i < list->count; i++) {
         ec_light_data *l = &list->lights[i];
         l->pmf = (float)pmf[i];
         l->pdf_a *= l->pmf;
@@ -149,8 +143,7 @@ static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
         if ((l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE) pack->prims[l->prim].light_pdf_a = l->pdf_a;
     }
     pack->light_choices = list->count;
-    free(pmf);
-    return result;
+    return EC_OK;
 }
 
 /* The area of a triangle that moves goes with the time: its density lacks it. */
@@ -180,51 +173,45 @@ static ec_result note_prims(ec_pack *pack, const light_list *list, const bool *e
     return EC_OK;
 }
 
+static ec_result fill_table(const ec_scene *scene, ec_pack *pack, const bool *emits, const ec_texture_mean *whole, double environment_luminance,
+                            light_list *list, ec_error *err)
+{
+    EC_FREED uint32_t *first = NULL;
+    EC_TRY(ec_coincident_find(scene, pack, emits, &first, err));
+    add_triangles(scene, pack, emits, first, whole, list);
+    EC_TRY(cut_lamps(scene, pack, emits, first, list, err));
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        add_punctual(&scene->lights[i], scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius, list);
+    if (environment_luminance > 0.0) {
+        double r = pack->scene_radius;
+        list->lights[list->count] = (ec_light_data){.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID};
+        list->power[list->count++] = 4.0 * PI * PI * r * r * environment_luminance;
+    }
+    EC_TRY(finish_table(pack, list, err));
+    mark_moving(scene, pack, list);
+    for (uint32_t p = 0; p < pack->prim_count; p++)
+        if (emits[pack->prims[p].material]) pack->prims[p].light_pdf_a = pack->prims[first[p]].light_pdf_a;
+    return note_prims(pack, list, emits, first, err);
+}
+
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     double environment_luminance;
     EC_TRY(ec_pack_environment(scene, pack, &environment_luminance, err));
-    ec_texture_mean *mean = malloc(scene->material_count * sizeof *mean);
-    bool *emits = calloc(scene->material_count, sizeof *emits);
-    if (!mean || !emits) {
-        free(mean);
-        free(emits);
-        return ec_fail(err, "out of memory for %u materials", scene->material_count);
-    }
+    EC_FREED ec_texture_mean *mean = malloc(scene->material_count * sizeof *mean);
+    EC_FREED bool *emits = calloc(scene->material_count, sizeof *emits);
+    if (!mean || !emits) return ec_fail(err, "out of memory for %u materials", scene->material_count);
     for (uint32_t m = 0; m < scene->material_count; m++) {
         const ec_material *material = &scene->materials[m];
-        double e[3] = {material->emission[0], material->emission[1], material->emission[2]};
-        emits[m] = ec_luminance(e) > 0.0 && !material->unlit;
+        emits[m] = ec_luminance_of_floats(material->emission) > 0.0 && !material->unlit;
         if (emits[m]) mean[m] = ec_texture_whole_mean(scene, &material->textures[EC_SLOT_EMISSION]);
     }
-    uint32_t most = scene->light_count + 1, *first = NULL;
+    uint32_t most = scene->light_count + 1;
     for (uint32_t p = 0; p < pack->prim_count; p++) most += emits[pack->prims[p].material];
-
-    light_list list = {malloc(most * sizeof *list.lights), malloc(most * sizeof *list.power), 0};
-    ec_result result = list.lights && list.power ? EC_OK : ec_fail(err, "out of memory for %u lights", most);
-    if (result == EC_OK) result = ec_coincident_find(scene, pack, emits, &first, err);
-    if (result == EC_OK) {
-        add_triangles(scene, pack, emits, first, mean, &list);
-        result = cut_lamps(scene, pack, emits, first, &list, err);
-        for (uint32_t i = 0; i < scene->light_count; i++)
-            add_punctual(&scene->lights[i], scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius,
-                         &list);
-        if (environment_luminance > 0.0) {
-            double r = pack->scene_radius;
-            list.lights[list.count] = (ec_light_data){.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID};
-            list.power[list.count++] = 4.0 * PI * PI * r * r * environment_luminance;
-        }
-        if (result == EC_OK) result = finish_table(pack, &list, err);
-        if (result == EC_OK) mark_moving(scene, pack, &list);
-        for (uint32_t p = 0; p < pack->prim_count; p++)
-            if (emits[pack->prims[p].material]) pack->prims[p].light_pdf_a = pack->prims[first[p]].light_pdf_a;
-        if (result == EC_OK) result = note_prims(pack, &list, emits, first, err);
-    }
-    free(first);
-    free(mean);
-    free(emits);
-    free(list.power);
-    pack->lights = list.lights;
+    EC_FREED double *power = malloc(most * sizeof *power);
+    light_list list = {pack->lights = malloc(most * sizeof *list.lights), power, 0};
+    if (!list.lights || !power) return ec_fail(err, "out of memory for %u lights", most);
+    ec_result result = fill_table(scene, pack, emits, mean, environment_luminance, &list, err);
     pack->light_count = list.count;
     return result;
 }

@@ -1,20 +1,17 @@
 #include "pack/pack.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "scene/material_fields.h"
 
 static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     pack->prim_count = scene->triangle_count;
     pack->prims = calloc((size_t)pack->prim_count + 1, sizeof *pack->prims);
-    bool *is_pane = calloc(scene->material_count, sizeof *is_pane);
-    if (!pack->prims || !is_pane) {
-        free(is_pane);
-        return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
-    }
+    EC_FREED bool *is_pane = calloc(scene->material_count, sizeof *is_pane);
+    if (!pack->prims || !is_pane) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
     for (uint32_t m = 0; m < scene->material_count; m++) is_pane[m] = ec_pack_is_pane(scene, &scene->materials[m]);
     for (uint32_t t = 0; t < pack->prim_count; t++) {
         const uint32_t *i = scene->indices + 3 * (size_t)t;
@@ -28,7 +25,6 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
         p->flags = (m->double_sided || ec_refracts(m) || ec_bounds(m) ? 0 : EC_PRIM_SINGLE_SIDED) |
                    (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_PRIM_ALPHA : 0) | (is_pane[p->material] ? EC_PRIM_PANE : 0);
     }
-    free(is_pane);
     for (int k = 0; k < 3; k++) {
         float extent = fmaxf(fabsf(scene->bounds_min[k]), fabsf(scene->bounds_max[k]));
         pack->scene_max = fmaxf(pack->scene_max, extent);

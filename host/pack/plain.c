@@ -1,8 +1,8 @@
 /* What changes nothing is taken out before the scan looks, so that a specialised build and a full one read the same numbers. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "pack/texture_fold.h"
 #include "pack/pack.h"
 #include "scene/material_fields.h"
@@ -156,22 +156,19 @@ static void plain_environment(ec_scene *scene)
 
 ec_result ec_scene_view_plain(const ec_scene *scene, ec_scene_view *view, ec_error *err)
 {
-    shown *list = calloc(scene->material_count + 1, sizeof *list);
+    EC_FREED shown *list = calloc(scene->material_count + 1, sizeof *list);
     if (!list) return ec_fail(err, "out of memory for %u materials", scene->material_count);
-    ec_result result = ec_scene_view_make(scene, view, err);
-    if (result == EC_OK) {
-        look_at_triangles(scene, list);
-        for (uint32_t m = 0; m < scene->material_count; m++) {
-            if (list[m].any) {
-                plain_material(scene, &view->scene.materials[m], &list[m]);
-                continue;
-            }
-            plain_unseen(&view->scene.materials[m]); /* nothing shows it */
-            drop(&view->scene.materials[m], EC_SLOT_BASE_COLOR);
+    EC_TRY(ec_scene_view_make(scene, view, err));
+    look_at_triangles(scene, list);
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        if (list[m].any) {
+            plain_material(scene, &view->scene.materials[m], &list[m]);
+            continue;
         }
-        plain_lights(&view->scene);
-        plain_environment(&view->scene);
+        plain_unseen(&view->scene.materials[m]); /* nothing shows it */
+        drop(&view->scene.materials[m], EC_SLOT_BASE_COLOR);
     }
-    free(list);
-    return result;
+    plain_lights(&view->scene);
+    plain_environment(&view->scene);
+    return EC_OK;
 }

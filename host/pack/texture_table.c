@@ -1,8 +1,8 @@
 /* All images in one buffer of texels: bytes as they are (one word a texel, decoded in the kernel), deeper images as linear
  * floats (four words). A texture has one entry for each encoding it is read in: 2 * texture + is_srgb. */
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "image/image.h"
 #include "pack/pack.h"
 
@@ -58,14 +58,10 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
     for (int i = 0; i < 256; i++) pack->srgb[i] = (float)ec_srgb_bytes()[i];
     pack->texture_count = 2 * scene->texture_count;
     pack->textures = calloc(pack->texture_count ? pack->texture_count : 1, sizeof *pack->textures);
-    size_t *offset = calloc(scene->image_count ? scene->image_count : 1, sizeof *offset);
-    bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used), has_deep = false;
-    float *linear = NULL;
-    ec_result result = EC_OK;
-    if (!pack->textures || !offset || !used) {
-        result = ec_fail(err, "out of memory for %u textures", scene->texture_count);
-        goto cleanup;
-    }
+    EC_FREED size_t *offset = calloc(scene->image_count ? scene->image_count : 1, sizeof *offset);
+    EC_FREED bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used);
+    bool has_deep = false;
+    if (!pack->textures || !offset || !used) return ec_fail(err, "out of memory for %u textures", scene->texture_count);
     find_used(scene, used);
     for (uint32_t i = 0; i < scene->image_count; i++) {
         offset[i] = pack->texel_words;
@@ -74,17 +70,12 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
         has_deep |= scene->images[i].rgba16 != NULL;
         pack->texel_words += image_texels(&scene->images[i]) * (scene->images[i].rgba16 ? 8 : 1);
     }
-    if (pack->texel_words > UINT32_MAX) {
-        result = ec_fail(err, "the scene's images take %.1f GiB as texels; at most 16 GiB can be addressed: shrink them",
-                         (double)pack->texel_words * 4 / (1 << 30));
-        goto cleanup;
-    }
+    if (pack->texel_words > UINT32_MAX)
+        return ec_fail(err, "the scene's images take %.1f GiB as texels; at most 16 GiB can be addressed: shrink them",
+                       (double)pack->texel_words * 4 / (1 << 30));
     pack->texels = malloc((pack->texel_words ? pack->texel_words : 1) * sizeof *pack->texels);
-    if (has_deep) linear = deep_to_linear();
-    if (!pack->texels || (has_deep && !linear)) {
-        result = ec_fail(err, "out of memory for %zu MB of texels", pack->texel_words * 4 / 1000000);
-        goto cleanup;
-    }
+    EC_FREED float *linear = has_deep ? deep_to_linear() : NULL;
+    if (!pack->texels || (has_deep && !linear)) return ec_fail(err, "out of memory for %zu MB of texels", pack->texel_words * 4 / 1000000);
 #pragma omp parallel for schedule(dynamic, 1)
     for (uint32_t i = 0; i < scene->image_count; i++)
         if (used[i]) write_image(&scene->images[i], linear, pack->texels + offset[i]);
@@ -97,9 +88,5 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
             (uint32_t)texture->wrap_s << EC_TEXTURE_WRAP_S | (uint32_t)texture->wrap_t << EC_TEXTURE_WRAP_T |
                 (texture->nearest ? EC_TEXTURE_NEAREST : 0) | (image->rgba16 ? EC_TEXTURE_FLOAT : 0)};
     }
-cleanup:
-    free(offset);
-    free(used);
-    free(linear);
-    return result;
+    return EC_OK;
 }

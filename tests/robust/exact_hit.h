@@ -21,7 +21,7 @@ typedef struct exact_hit {
 static inline exact_hit exact_meet(const float o[3], const float d[3], const float v[9])
 {
     double e1[3], e2[3], normal[3], s[3], p[3], q[3], way[3];
-    ec_triangle_normal(v, normal);
+    ec_triangle_normal(v, v + 3, v + 6, normal);
     for (int k = 0; k < 3; k++) {
         e1[k] = (double)v[3 + k] - v[k], e2[k] = (double)v[6 + k] - v[k];
         s[k] = (double)o[k] - v[k], way[k] = d[k];

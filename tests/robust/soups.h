@@ -8,19 +8,6 @@
 #include "base/vec3.h"
 #include "selftest/soup.h"
 
-static inline void edges_of(const float v[9], double e1[3], double e2[3])
-{
-    for (int k = 0; k < 3; k++) e1[k] = (double)v[3 + k] - v[k], e2[k] = (double)v[6 + k] - v[k];
-}
-
-/* Twice its area, along its normal. */
-static inline void ec_triangle_normal(const float v[9], double normal[3])
-{
-    double e1[3], e2[3];
-    edges_of(v, e1, e2);
-    ec_cross(e1, e2, normal);
-}
-
 /* Uniform. */
 static inline void ec_direction(uint64_t *random, double d[3])
 {
@@ -42,7 +29,7 @@ static inline ec_result ec_soup_random(uint64_t *random, uint32_t count, double 
         double at[3], normal[3];
         for (int k = 0; k < 3; k++) at[k] = centre[k] + ec_random_between(random, -spread, spread);
         for (int k = 0; k < 9; k++) v[k] = (float)(at[k % 3] + ec_random_between(random, -edge, edge));
-        ec_triangle_normal(v, normal);
+        ec_triangle_normal(v, v + 3, v + 6, normal);
         kept += ec_dot(normal, normal) > 0;
     }
     soup->count = kept;

@@ -16,7 +16,7 @@ static void put_ray_at(ec_tracer *r, uint64_t *random, uint32_t i, double cosine
     double normal[3], d[3], to[3], from[3], b1 = ec_random_unit(random), b2 = ec_random_unit(random) * (1 - b1), along;
     const double nowhere[3] = {0, 0, 0};
     float o[3], way[3];
-    ec_triangle_normal(v, normal);
+    ec_triangle_normal(v, v + 3, v + 6, normal);
     double area = sqrt(ec_dot(normal, normal)), length = 0;
     ec_direction(random, d);
     along = ec_dot(d, normal) / area;
@@ -101,7 +101,7 @@ static void put_sliver(uint64_t *random, double aspect, float v[9])
 static double off_plane(uint32_t i, const float v[9])
 {
     double normal[3], allowed = 0, off = 0;
-    ec_triangle_normal(v, normal);
+    ec_triangle_normal(v, v + 3, v + 6, normal);
     for (int k = 0; k < 3; k++) {
         off += normal[k] * ((double)left(EC_LEAVE_P + k, i) - v[k]);
         allowed += fabs(normal[k]) * left(EC_LEAVE_ERROR + k, i);
