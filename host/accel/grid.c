@@ -1,12 +1,11 @@
 /* The uniform grid: cells about as many as `density` times the references, near cubes; which references each cell holds, in two
  * parallel passes, one that counts and one that fills. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "accel/accel_internal.h"
 #include "accel/build_internal.h"
 #include "accel/leaf.h"
+#include "base/freed.h"
 
 #define CELLS_AXIS_MOST 2048u /* a multiple of 4 */
 #define CELLS_MOST (1u << 28) /* counting what each holds takes 4 bytes on the host */
@@ -210,12 +209,13 @@ static ec_grid *make_header(grid *g, double density, uint64_t *entries, uint64_t
 ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
 {
     grid g = {0};
-    ec_ref *refs;
+    EC_FREED ec_ref *refs = NULL;
     EC_TRY(ec_accel_refs(in, &refs, &g.ref_count, &g.bounds, err));
     g.refs = refs;
     g.threads = (uint32_t)ec_accel_threads(in, g.ref_count);
     uint64_t entry_count = 0, header_bytes = 0;
-    uint32_t used = 0, *counts = NULL, *starts = NULL;
+    EC_FREED uint32_t *counts = NULL;
+    uint32_t used = 0, *starts = NULL;
     ec_grid_block *blocks = NULL;
     ec_tri *triangles = NULL;
     ec_box *boxes = NULL;
@@ -237,8 +237,6 @@ ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
         fill_cells(&g, counts, blocks, starts, used, (uint32_t)entry_count);
         fill_triangles(&g, in, triangles, boxes);
     }
-    free(refs);
-    free(counts);
     accel->buffers[0] = (ec_accel_buffer){"planes", header, header_bytes};
     accel->buffers[1] = (ec_accel_buffer){"cells", blocks, header ? cell_count(&g) / 64 * sizeof *blocks : 0};
     accel->buffers[2] = (ec_accel_buffer){"entries", starts, (used + 1 + entry_count) * sizeof *starts};

@@ -17,6 +17,7 @@
 #include "accel/build_internal.h"
 #include "accel/kd_internal.h"
 #include "accel/leaf.h"
+#include "base/freed.h"
 
 #define SUBTREE 4096u     /* items; not tied to the number of threads, since the numbering follows from it */
 #define REFUSALS 3        /* splits in a row that do not pay by themselves: better ones may lie below */
@@ -57,11 +58,12 @@ static void fail(builder *b)
 /* The items of each side, cut to it. False: out of memory. */
 static int divide(const range *r, const ec_kd_split *s, range children[2])
 {
+    const double whole = ec_box_half_area(r->cell.lo, r->cell.hi);
     for (int side = 0; side < 2; side++) {
         range *c = &children[side];
         *c = (range){.depth = r->depth + 1, .refusals = r->refusals, .cell = r->cell};
         (side ? c->cell.lo : c->cell.hi)[s->axis] = s->plane;
-        c->area = ec_box_half_area(r->cell.lo, r->cell.hi) > 0.0 ? r->area * ec_box_half_area(c->cell.lo, c->cell.hi) / ec_box_half_area(r->cell.lo, r->cell.hi) : 0.0;
+        c->area = whole > 0.0 ? r->area * ec_box_half_area(c->cell.lo, c->cell.hi) / whole : 0.0;
         for (uint32_t i = 0; i < r->count; i++) c->count += ec_kd_sides(&r->items[i], s) >> side & 1;
         c->items = malloc((c->count + (size_t)1) * sizeof *c->items);
         if (!c->items) return 0;
@@ -252,7 +254,7 @@ static range root_of(const ec_ref *refs, uint32_t count, const ec_box *bounds)
 
 ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
 {
-    ec_ref *refs;
+    EC_FREED ec_ref *refs = NULL;
     ec_box bounds;
     uint32_t count;
     EC_TRY(ec_accel_refs(in, &refs, &count, &bounds, err));
@@ -291,7 +293,6 @@ ec_result ec_kdtree_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     free_piece(tree);
     free(j.nodes);
     free(j.ids);
-    free(refs);
     accel->buffers[0] = (ec_accel_buffer){"bounds", header, sizeof *header};
     accel->buffers[1] = (ec_accel_buffer){"nodes", nodes, (uint64_t)node_count * sizeof *nodes};
     accel->buffers[2] = (ec_accel_buffer){"triangle blocks", blocks, (uint64_t)j.block_count * sizeof *blocks};

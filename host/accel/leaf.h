@@ -32,6 +32,16 @@ static inline const float *ec_corner(const float *positions, const uint32_t *ind
     return positions + 3 * (size_t)indices[3 * (size_t)triangle + corner];
 }
 
+static inline ec_box ec_triangle_box(const float *positions, const uint32_t *indices, uint32_t triangle)
+{
+    ec_box box = EC_NO_BOX;
+    for (size_t corner = 0; corner < 3; corner++) {
+        const float *v = ec_corner(positions, indices, triangle, corner);
+        ec_box_grow(&box, v, v);
+    }
+    return box;
+}
+
 /* For the binary layout, whose leaves test triangles one by one. */
 static inline ec_tri ec_tri_of(const float *positions, const uint32_t *indices, uint32_t triangle)
 {

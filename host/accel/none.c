@@ -1,8 +1,7 @@
 /* No structure: the triangles in blocks of eight. */
-#include <stdlib.h>
-
 #include "accel/accel_internal.h"
 #include "accel/build_internal.h"
+#include "base/freed.h"
 
 #define NONE_MOST 20000u /* triangles: a ray through so many takes about 30 us, and a small picture minutes */
 
@@ -11,7 +10,7 @@ ec_result ec_none_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     if (in->triangle_count > NONE_MOST)
         return ec_fail(err, "without an acceleration structure at most %u triangles are traced, and the scene has %u: "
                        "take another --accel than none", NONE_MOST, in->triangle_count);
-    ec_ref *refs;
+    EC_FREED ec_ref *refs = NULL;
     ec_box bounds;
     uint32_t ref_count;
     EC_TRY(ec_accel_refs(in, &refs, &ref_count, &bounds, err));
@@ -25,7 +24,6 @@ ec_result ec_none_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
         for (uint32_t k = 0; k < 8; k++) which[k] = first + k;
         ec_accel_block(in, refs, which, left < 8 ? left : 8, &blocks[i], boxes ? &boxes[i] : NULL);
     }
-    free(refs);
     if (header) *header = count;
     accel->buffers[0] = (ec_accel_buffer){"count", header, sizeof *header};
     accel->buffers[1] = (ec_accel_buffer){"triangle blocks", blocks, (uint64_t)count * sizeof *blocks};

@@ -1,9 +1,8 @@
 /* Which child a shadow ray should enter first: the one with the best chance of a hit for what it costs. What is below is
  * unknown but for boxes, and these suffice: with true chances in the leaves the order hardly differs. In the spirit of Nah
  * and Manocha 2014, "SATO: surface area traversal order for shadow ray tracing". */
-#include <stdlib.h>
-
 #include "accel/layout_internal.h"
+#include "base/freed.h"
 
 #define LEAF_CHANCE 0.5f
 #define NODE_COST 0.4f /* in leaves */
@@ -35,18 +34,13 @@ static outlook look_into(const ec_bvh *bvh, const outlook *below, const ec_bvh_b
 
 float *ec_bvh_promises(const ec_bvh *bvh)
 {
-    outlook *below = malloc(bvh->node_count * sizeof *below);
+    EC_FREED outlook *below = malloc(bvh->node_count * sizeof *below);
     float *promises = malloc(bvh->node_count * sizeof *promises);
-    if (!below || !promises) {
-        free(below);
-        free(promises);
-        return NULL;
-    }
-    for (uint32_t i = bvh->node_count; i-- > 0;) { /* children lie behind their parents */
+    for (uint32_t i = below && promises ? bvh->node_count : 0; i-- > 0;) { /* children lie behind their parents */
         const ec_bvh_build_node *node = &bvh->nodes[i];
         below[i] = node->left ? look_into(bvh, below, node) : (outlook){LEAF_CHANCE, 1.0f};
         promises[i] = below[i].chance / below[i].cost;
     }
-    free(below);
-    return promises;
+    if (!below) free(promises);
+    return below ? promises : NULL;
 }

@@ -64,12 +64,9 @@ static ec_box node_box(const tree *t, uint64_t node)
 /* As the builder bounds it: what it sweeps, where it moves while the shutter is open. No -0. */
 static ec_box box_of(const ec_accel_input *in, uint32_t id)
 {
-    ec_box b = EC_NO_BOX;
-    if (id < in->swept_count) ec_box_grow(&b, in->swept + 6 * (size_t)id, in->swept + 6 * (size_t)id + 3);
-    for (size_t c = 0; c < 3 && id >= in->swept_count; c++) {
-        const float *v = ec_corner(in->positions, in->indices, id, c);
-        ec_box_grow(&b, v, v);
-    }
+    ec_box b;
+    if (id < in->swept_count) memcpy(&b, in->swept + 6 * (size_t)id, sizeof b);
+    else b = ec_triangle_box(in->positions, in->indices, id);
     for (int k = 0; k < 3; k++) b.lo[k] += 0.0f, b.hi[k] += 0.0f;
     return b;
 }

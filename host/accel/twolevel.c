@@ -2,13 +2,12 @@
  * them in one buffer each. Memory goes by the meshes, not by how often they stand somewhere. */
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "accel/accel_internal.h"
 #include "accel/build_internal.h"
 #include "accel/leaf.h"
 #include "accel/shape_trees.h"
+#include "base/freed.h"
 
 #define OFF_BOUND 40.0 /* u |M^-1| (|o| + reach): derived in kernels/lib/traverse_twolevel.h */
 #define UNIT 0x1p-24
@@ -28,15 +27,6 @@ typedef struct twolevel {
     uint32_t node_room, block_room;
     shape_facts *shapes;
 } twolevel;
-
-static void free_all(twolevel *t)
-{
-    free(t->all.nodes);
-    free(t->all.blocks);
-    free(t->all.boxes);
-    free(t->instances);
-    free(t->shapes);
-}
 
 /* Appends a tree; its references to itself move with it. */
 static ec_result append(twolevel *t, const ec_bvh8 *tree, ec_error *err)
@@ -62,17 +52,13 @@ static ec_result append(twolevel *t, const ec_bvh8 *tree, ec_error *err)
 
 static void measure(const ec_accel_input *in, const ec_shape *shape, shape_facts *f)
 {
-    for (uint32_t i = 0; i < shape->count; i++)
+    for (uint32_t i = 0; i < shape->count; i++) {
+        const ec_box box = ec_triangle_box(in->positions, in->indices, shape->first + i);
         for (int k = 0; k < 3; k++) {
-            float lo = FLT_MAX, hi = -FLT_MAX;
-            for (size_t c = 0; c < 3; c++) {
-                float x = ec_corner(in->positions, in->indices, shape->first + i, c)[k];
-                lo = fminf(lo, x);
-                hi = fmaxf(hi, x);
-            }
-            f->half[k] = fmax(f->half[k], fmax(fabs(lo), fabs(hi)));
-            f->edge[k] = fmax(f->edge[k], (double)hi - lo);
+            f->half[k] = fmax(f->half[k], fmax(fabs(box.lo[k]), fabs(box.hi[k])));
+            f->edge[k] = fmax(f->edge[k], (double)box.hi[k] - box.lo[k]);
         }
+    }
 }
 
 static ec_result build_shape(const ec_accel_input *in, const ec_shape *shape, ec_bvh8 *tree, ec_error *err)
@@ -195,7 +181,7 @@ static ec_result add_instances(const ec_accel_input *in, twolevel *t, ec_error *
         for (int row = 0; row < 3; row++) reach = fmax(reach, reach_of(&in->placed[i], &t->shapes[in->placed[i].shape], row));
     const uint32_t root = t->all.node_count;
     ec_bvh8 top = {0};
-    ec_box *boxes = malloc(in->placed_count * sizeof *boxes);
+    EC_FREED ec_box *boxes = malloc(in->placed_count * sizeof *boxes);
     t->instances = ec_allocate_lines(in->placed_count + (size_t)1, sizeof *t->instances);
     ec_result result = boxes && t->instances ? EC_OK : ec_fail(err, "out of memory for %u instances", in->placed_count);
     for (uint32_t i = 0; result == EC_OK && i < in->placed_count; i++) {
@@ -205,17 +191,18 @@ static ec_result add_instances(const ec_accel_input *in, twolevel *t, ec_error *
     if (result == EC_OK) result = ec_bvh8_of_boxes(boxes, in->placed_count, in->threads, &top, err);
     if (result == EC_OK) result = append(t, &top, err);
     if (result == EC_OK) t->instances[0] = (ec_instance){.root = root};
-    free(boxes);
     free(top.nodes);
     return result;
 }
 
 ec_result ec_twolevel_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
 {
-    twolevel t = {.shapes = calloc(in->shape_count + (size_t)1, sizeof *t.shapes)};
+    EC_FREED shape_facts *shapes = calloc(in->shape_count + (size_t)1, sizeof *shapes);
+    twolevel t = {.shapes = shapes};
+    if (!shapes) return ec_fail(err, "out of memory for %u meshes", in->shape_count);
     EC_TRY(ec_accel_bvh(in, err));
-    ec_result result = t.shapes ? EC_OK : ec_fail(err, "out of memory for %u meshes", in->shape_count);
-    if (result == EC_OK) result = ec_bvh8_layout(&in->bvh, in->positions, in->indices, &t.all, err);
+    EC_TRY(ec_bvh8_layout(&in->bvh, in->positions, in->indices, &t.all, err));
+    ec_result result = EC_OK;
     const uint64_t box_bytes = t.all.boxes ? t.all.block_count * (uint64_t)sizeof *t.all.boxes : 0; /* where triangles were cut: there are no instances then */
     uint64_t references = in->bvh.ref_count;
     t.node_room = t.all.node_count;
@@ -225,16 +212,11 @@ ec_result ec_twolevel_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
         references += in->shapes[i].count;
     }
     if (result == EC_OK && in->placed_count) result = add_instances(in, &t, err);
-    if (result != EC_OK) {
-        free_all(&t);
-        return result;
-    }
-    free(t.shapes);
     accel->buffers[0] = (ec_accel_buffer){"nodes", t.all.nodes, (uint64_t)t.all.node_count * sizeof *t.all.nodes};
     accel->buffers[1] = (ec_accel_buffer){"triangle blocks", t.all.blocks, (uint64_t)t.all.block_count * sizeof *t.all.blocks};
     if (t.all.boxes) accel->buffers[2] = (ec_accel_buffer){"boxes", t.all.boxes, box_bytes};
     if (t.instances) accel->buffers[3] = (ec_accel_buffer){"instances", t.instances, (in->placed_count + (uint64_t)1) * sizeof *t.instances};
     accel->stats = (ec_accel_stats){.nodes = t.all.node_count, .leaves = t.all.block_count, .references = references,
                                     .sah_cost = in->placed_count ? 0.0 : in->bvh_stats.sah_cost};
-    return EC_OK;
+    return result;
 }
