@@ -17,9 +17,12 @@ ec_result ec_post_open(ec_post **post, ec_error *err)
     pthread_mutex_init(&p->lock, NULL);
     pthread_cond_init(&p->call, NULL);
     pthread_cond_init(&p->news, NULL);
+    if (pthread_create(&p->thread, NULL, ec_post_run, p) != 0) {
+        free(p);
+        *post = NULL; /* there is no thread to close it with */
+        return ec_fail(err, "cannot start a thread for MPI");
+    }
     pthread_mutex_lock(&p->lock);
-    if (pthread_create(&p->thread, NULL, ec_post_run, p) != 0)
-        p->closed = true, ec_fail(&p->error, "cannot start a thread for MPI");
     while (!p->open && !*p->error.text) pthread_cond_wait(&p->news, &p->lock);
     pthread_mutex_unlock(&p->lock);
     return p->open ? EC_OK : ec_fail(err, "%s", p->error.text);

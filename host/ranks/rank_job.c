@@ -1,9 +1,8 @@
-
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/freed.h"
 #include "cl/workarounds.h"
 #include "ranks/ranks_internal.h"
 
@@ -30,16 +29,15 @@ static uint64_t program_hash(void)
 
 static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, ec_error *err)
 {
-    sheet *s = calloc(1, sizeof *s);
+    EC_FREED sheet *s = calloc(1, sizeof *s);
     if (!s) return ec_fail(err, "out of memory");
     s->head = cargo->head;
     s->seed = seed;
     memcpy(s->buffers, cargo->buffers, sizeof s->buffers);
-    ec_result result = ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err);
-    for (uint32_t i = 0; result == EC_OK && i < cargo->head.buffer_count; i++)
-        result = ec_post_spread(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, EC_BOX_SCENE, err); /* from here: only read */
-    free(s);
-    return result;
+    EC_TRY(ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err));
+    for (uint32_t i = 0; i < cargo->head.buffer_count; i++)
+        EC_TRY(ec_post_spread(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, EC_BOX_SCENE, err)); /* from here: only read */
+    return EC_OK;
 }
 
 #define OTHER_PROGRAM "runs another version of eclat: its samples would differ; install the same one everywhere"
@@ -114,19 +112,21 @@ ec_result ec_job_send(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, const e
 
 static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_error *err)
 {
-    sheet *s = malloc(sizeof *s);
-    ec_result result = s ? ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err) : ec_fail(err, "out of memory");
-    if (result == EC_OK) cargo->head = s->head, *seed = s->seed, cargo->head.buffer_count = 0;
-    for (uint32_t i = 0; result == EC_OK && i < s->head.buffer_count; i++) {
+    EC_FREED sheet *s = malloc(sizeof *s);
+    if (!s) return ec_fail(err, "out of memory");
+    EC_TRY(ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err));
+    cargo->head = s->head;
+    cargo->head.buffer_count = 0;
+    *seed = s->seed;
+    for (uint32_t i = 0; i < s->head.buffer_count; i++) {
         ec_cargo_buffer *b = &cargo->buffers[i];
         *b = s->buffers[i];
         b->data = b->owned = malloc(b->bytes + 1);
-        cargo->head.buffer_count += b->owned != NULL;
-        result = b->owned ? ec_post_spread(r->post, b->owned, b->bytes, EC_BOX_SCENE, err)
-                          : ec_fail(err, "out of memory for %llu bytes of the scene's %s", (unsigned long long)b->bytes, b->label);
+        if (!b->owned) return ec_fail(err, "out of memory for %llu bytes of the scene's %s", (unsigned long long)b->bytes, b->label);
+        cargo->head.buffer_count++;
+        EC_TRY(ec_post_spread(r->post, b->owned, b->bytes, EC_BOX_SCENE, err));
     }
-    free(s);
-    return result;
+    return EC_OK;
 }
 
 /* What this rank itself has to say: "host: text", and where it cannot take part a line more for the root. */

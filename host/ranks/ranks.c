@@ -21,6 +21,7 @@ static ec_result join(ec_ranks **ranks, ec_error *err)
 {
     ec_ranks *r = *ranks = calloc(1, sizeof *r);
     if (!r) return ec_fail(err, "out of memory");
+    pthread_mutex_init(&r->lock, NULL);
     EC_TRY(ec_post_open(&r->post, err));
     r->place = ec_post_place(r->post);
     r->head.number = r->place->rank;
@@ -29,7 +30,6 @@ static ec_result join(ec_ranks **ranks, ec_error *err)
     r->remote_count = (uint32_t)r->place->children;
     if (r->place->size != ec_ranks_launched()) return fail_of_launcher(r->place->size, err);
     r->remotes = calloc(r->remote_count + 1, sizeof *r->remotes);
-    pthread_mutex_init(&r->lock, NULL);
     return r->remotes ? EC_OK : ec_fail(err, "out of memory for %u ranks", r->remote_count);
 }
 

@@ -1,7 +1,7 @@
 /* Ranks other than 0: one job after the other, until they are sent home. A rank's devices and its children are a team. */
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "render/sources.h"
 #include "ranks/ranks_internal.h"
 
@@ -45,8 +45,9 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     const uint32_t positions = (uint32_t)letter->numbers[EC_ORDER_TO] - from, first = letter->body ? 0 : from;
     const uint64_t features = letter->numbers[EC_ORDER_FEATURES] ? EC_AOV_FIELDS : 0;
     const uint64_t bytes = (batches > 1 ? ec_sums_bytes(s->replicates) : 4 * (EC_BATCH_FIELDS + features)) * positions;
-    float *aov = features ? malloc(4 * features * s->pixels) : NULL, *body = malloc(bytes);
-    ec_result result = body && (aov || !features) ? EC_OK : ec_fail(err, "out of memory for a batch of %u pixels", positions);
+    EC_FREED float *aov = features ? malloc(4 * features * s->pixels) : NULL;
+    EC_FREED float *body = malloc(bytes);
+    if (!body || (features && !aov)) return ec_fail(err, "out of memory for a batch of %u pixels", positions);
     float limit;
     memcpy(&limit, &letter->numbers[EC_ORDER_LIMIT], sizeof limit);
     const ec_batch_order order = {.index = index, .end = index + batches, .batches = batches, .cut = (uint32_t)letter->numbers[EC_ORDER_CUT],
@@ -56,19 +57,16 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     uint32_t invalid[EC_STAGE_COUNT];
     bool complete = false;
     memcpy(invalid, source->invalid, sizeof invalid);
-    if (result == EC_OK) result = source->take(source, &order, &complete, err);
+    EC_TRY(source->take(source, &order, &complete, err));
     answer->numbers[EC_RESULT_RAYS] = source->rays - rays;
     answer->numbers[EC_RESULT_LEAST] = source->least;
     for (int i = 0; i < EC_STAGE_COUNT; i++) answer->numbers[EC_RESULT_INVALID + i] = source->invalid[i] - invalid[i];
-    if (complete && result == EC_OK) {
-        write_body(s, &order, aov, body);
-        answer->body = body;
-        answer->bytes = bytes;
-        body = NULL;
-    }
-    free(body);
-    free(aov);
-    return result;
+    if (!complete) return EC_OK;
+    write_body(s, &order, aov, body);
+    answer->body = body;
+    answer->bytes = bytes;
+    body = NULL;
+    return EC_OK;
 }
 
 /* The failure of a part is the parent's to judge. False: there is nothing to say. */
