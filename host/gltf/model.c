@@ -15,10 +15,12 @@ struct ec_model {
 
 static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
+static ec_model exhausted = {.failed = true}; /* stands for a model that there is no memory for */
+
 ec_model *ec_model_new(void)
 {
     ec_model *m = calloc(1, sizeof *m);
-    if (!m) return NULL;
+    if (!m) return &exhausted;
     m->gltf = calloc(1, sizeof *m->gltf);
     m->failed = !m->gltf;
     ec_model_place(m, NULL);
@@ -28,7 +30,7 @@ ec_model *ec_model_new(void)
 
 void ec_model_free(ec_model *m)
 {
-    if (!m) return;
+    if (!m || m == &exhausted) return;
     ec_gltf_free(m->gltf);
     free(m);
 }
@@ -79,7 +81,7 @@ ec_material ec_material_glass(double ior, double roughness, double absorption)
 
 void ec_model_place(ec_model *m, const double matrix[16])
 {
-    memcpy(m->place, matrix ? matrix : identity, sizeof m->place);
+    if (m != &exhausted) memcpy(m->place, matrix ? matrix : identity, sizeof m->place);
 }
 
 /* A node with `local` (NULL: none of its own) below the place of now. */

@@ -9,7 +9,7 @@
 
 typedef struct ec_model ec_model;
 
-ec_model *ec_model_new(void);
+ec_model *ec_model_new(void); /* never NULL */
 void ec_model_free(ec_model *model); /* NULL is fine */
 
 /* Pure Lambert that emits from its front. */

@@ -23,11 +23,9 @@ static ec_result slab(ec_selftest *t, const char *what, ec_material material, bo
 {
     ec_model *m = ec_model_new();
     ec_scene *scene;
-    if (m) {
-        ec_model_box(m, ec_model_material(m, &material), (double[3]){-90, -90, -0.4}, (double[3]){90, 90, 0}, false);
-        sheet(m, -1, lamp);
-        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 20}, (double[3]){0, 0, 0}, 1e-5);
-    }
+    ec_model_box(m, ec_model_material(m, &material), (double[3]){-90, -90, -0.4}, (double[3]){90, 90, 0}, false);
+    sheet(m, -1, lamp);
+    ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 20}, (double[3]){0, 0, 0}, 1e-5);
     EC_TRY(ec_model_scene(m, &scene, err));
     if (!lamp) shine_from_everywhere(scene);
     ec_render_options o = ec_shot_options(t, 16, 256);
@@ -52,12 +50,10 @@ ec_result ec_selftest_nested_glass(ec_selftest *t, ec_error *err)
 {
     ec_model *m = ec_model_new();
     ec_scene *scene;
-    if (m) {
-        ec_material outer = ec_material_glass(1.5, 0, 0), inner = ec_material_glass(2.4, 0, 0);
-        ec_model_sphere(m, ec_model_material(m, &outer), (double[3]){0}, 1, 3, false);
-        ec_model_sphere(m, ec_model_material(m, &inner), (double[3]){0}, 0.6, 3, false);
-        ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.3);
-    }
+    ec_material outer = ec_material_glass(1.5, 0, 0), inner = ec_material_glass(2.4, 0, 0);
+    ec_model_sphere(m, ec_model_material(m, &outer), (double[3]){0}, 1, 3, false);
+    ec_model_sphere(m, ec_model_material(m, &inner), (double[3]){0}, 0.6, 3, false);
+    ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.3);
     EC_TRY(ec_model_scene(m, &scene, err));
     shine_from_everywhere(scene);
     ec_render_options o = ec_shot_options(t, 16, 64);

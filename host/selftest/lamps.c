@@ -8,7 +8,6 @@
 static ec_model *floor_model(double half, double size)
 {
     ec_model *m = ec_model_new();
-    if (!m) return NULL;
     ec_material white = ec_material_lambert(1, 0);
     ec_model_quad(m, ec_model_material(m, &white), (double[3]){-half, 0, half}, (double[3]){2 * half, 0, 0}, (double[3]){0, 0, -2 * half});
     ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0.5, 0}, (double[3]){0, 0, 0}, size);
@@ -20,10 +19,8 @@ ec_result ec_selftest_facing_squares(ec_selftest *t, ec_error *err)
 {
     ec_model *m = floor_model(0.5, 0.5);
     ec_scene *scene;
-    if (m) {
-        ec_material lamp = ec_material_lambert(0, 1);
-        ec_model_quad(m, ec_model_material(m, &lamp), (double[3]){-0.5, 1, -0.5}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1});
-    }
+    ec_material lamp = ec_material_lambert(0, 1);
+    ec_model_quad(m, ec_model_material(m, &lamp), (double[3]){-0.5, 1, -0.5}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1});
     EC_TRY(ec_model_scene(m, &scene, err));
     ec_render_options o = ec_shot_options(t, 16, 256);
     o.max_depth = 2;
@@ -38,7 +35,7 @@ ec_result ec_selftest_punctual(ec_selftest *t, ec_error *err)
         ec_light light = {.type = (ec_light_type)i, .intensity = {3, 3, 3}, .cos_inner = 0.9f, .cos_outer = 0.8f};
         ec_model *m = floor_model(1, 1e-6);
         ec_scene *scene;
-        if (m) ec_model_light(m, &light, (double[3]){1.2, 1.6, 0}, (double[3]){0, 0, 0});
+        ec_model_light(m, &light, (double[3]){1.2, 1.6, 0}, (double[3]){0, 0, 0});
         EC_TRY(ec_model_scene(m, &scene, err));
         ec_render_options o = ec_shot_options(t, 4, 16);
         ec_shot shot;

@@ -17,21 +17,19 @@ static ec_result balls(ec_scene **scene, ec_error *err)
                                          {0.3, 0.2, 0, 0, -0.1, 0.4, 0, 0, 0, 0.3, 0.2, 0, 0, 0.4, 0.9, 1},
                                          {0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.7, 0.6, 0.3, 1}};
     ec_model *m = ec_model_new();
-    if (m) {
-        ec_material white = ec_material_lambert(0.7, 0), glow = ec_material_lambert(0, 5), metal = ec_material_default();
-        metal.roughness = 0.4f;
-        ec_model_instancing(m, EC_INSTANCING_ON);
-        ec_model_quad(m, ec_model_material(m, &white), (double[3]){-2, 0, 2}, (double[3]){4, 0, 0}, (double[3]){0, 0, -4});
-        ec_model_quad(m, ec_model_material(m, &glow), (double[3]){-1, 2, -1}, (double[3]){2, 0, 0}, (double[3]){0, 0, 2});
-        int32_t material = ec_model_material(m, &metal);
-        for (int i = 0; i < 4; i++) {
-            ec_model_place(m, places[i]);
-            if (i) ec_model_repeat(m);
-            else ec_model_sphere(m, material, (double[3]){0, 0, 0}, 1, 2, true);
-        }
-        ec_model_place(m, NULL);
-        ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0, 1.6, 3}, (double[3]){0, 0.4, 0}, 0.8);
+    ec_material white = ec_material_lambert(0.7, 0), glow = ec_material_lambert(0, 5), metal = ec_material_default();
+    metal.roughness = 0.4f;
+    ec_model_instancing(m, EC_INSTANCING_ON);
+    ec_model_quad(m, ec_model_material(m, &white), (double[3]){-2, 0, 2}, (double[3]){4, 0, 0}, (double[3]){0, 0, -4});
+    ec_model_quad(m, ec_model_material(m, &glow), (double[3]){-1, 2, -1}, (double[3]){2, 0, 0}, (double[3]){0, 0, 2});
+    int32_t material = ec_model_material(m, &metal);
+    for (int i = 0; i < 4; i++) {
+        ec_model_place(m, places[i]);
+        if (i) ec_model_repeat(m);
+        else ec_model_sphere(m, material, (double[3]){0, 0, 0}, 1, 2, true);
     }
+    ec_model_place(m, NULL);
+    ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0, 1.6, 3}, (double[3]){0, 0.4, 0}, 0.8);
     return ec_model_scene(m, scene, err);
 }
 

@@ -77,32 +77,26 @@ ec_result ec_shot_only_row(ec_selftest *t, const char *what, ec_scene *scene, co
 ec_result ec_shot_floor(ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
-    if (m) {
-        ec_material white = ec_material_lambert(1, 0);
-        ec_model_quad(m, ec_model_material(m, &white), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
-        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 1, 0}, (double[3]){0, 0, 0}, 0.5);
-    }
+    ec_material white = ec_material_lambert(1, 0);
+    ec_model_quad(m, ec_model_material(m, &white), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
+    ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 1, 0}, (double[3]){0, 0, 0}, 0.5);
     return ec_model_scene(m, scene, err);
 }
 
 ec_result ec_shot_lamp(ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
-    if (m) {
-        ec_material material = ec_material_lambert(0, 0.1);
-        ec_model_quad(m, ec_model_material(m, &material), (double[3]){-1, -1, 0}, (double[3]){2, 0, 0}, (double[3]){0, 2, 0});
-        ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 1}, (double[3]){0, 0, 0}, 0.5);
-    }
+    ec_material material = ec_material_lambert(0, 0.1);
+    ec_model_quad(m, ec_model_material(m, &material), (double[3]){-1, -1, 0}, (double[3]){2, 0, 0}, (double[3]){0, 2, 0});
+    ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, 0, 1}, (double[3]){0, 0, 0}, 0.5);
     return ec_model_scene(m, scene, err);
 }
 
 ec_result ec_shot_box(double albedo, ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
-    if (m) {
-        ec_material walls = ec_material_lambert(albedo, 1);
-        ec_model_box(m, ec_model_material(m, &walls), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1}, true);
-        ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0.3, 0.2, 0.1}, (double[3]){-1, -0.4, -0.7}, 0.9);
-    }
+    ec_material walls = ec_material_lambert(albedo, 1);
+    ec_model_box(m, ec_model_material(m, &walls), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1}, true);
+    ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){0.3, 0.2, 0.1}, (double[3]){-1, -0.4, -0.7}, 0.9);
     return ec_model_scene(m, scene, err);
 }

@@ -37,7 +37,7 @@ ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const 
     ec_model *m = ec_model_new();
     ec_scene *scene;
     ec_material material = ec_material_default();
-    if (m) ec_model_sphere(m, ec_model_material(m, &material), (double[3]){0, 0, 0}, 1, levels, false);
+    ec_model_sphere(m, ec_model_material(m, &material), (double[3]){0, 0, 0}, 1, levels, false);
     EC_TRY(ec_model_scene(m, &scene, err));
     ec_result result = ec_soup_from_scene(scene, soup, err);
     ec_scene_free(scene);

@@ -34,15 +34,13 @@ ec_result ec_selftest_metal(ec_selftest *t, ec_error *err)
     for (int a = 0; a < 3; a++) {
         ec_model *m = ec_model_new();
         ec_scene *scene;
-        if (m) {
-            ec_material metal = ec_material_default();
-            metal.roughness = (float)sqrt(alphas[a]);
-            ec_model_quad(m, ec_model_material(m, &metal), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
-            for (int c = 0; c < 3; c++)
-                ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC,
-                                (double[3]){sqrt(1 - cosines[c] * cosines[c]), cosines[c], 0}, (double[3]){0, 0, 0},
-                                1e-2);
-        }
+        ec_material metal = ec_material_default();
+        metal.roughness = (float)sqrt(alphas[a]);
+        ec_model_quad(m, ec_model_material(m, &metal), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
+        for (int c = 0; c < 3; c++)
+            ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC,
+                            (double[3]){sqrt(1 - cosines[c] * cosines[c]), cosines[c], 0}, (double[3]){0, 0, 0},
+                            1e-2);
         EC_TRY(ec_model_scene(m, &scene, err));
         for (int k = 0; k < 3; k++) scene->environment.constant[k] = 1;
         scene->has_environment = true;
