@@ -37,15 +37,7 @@ static ec_result check_memory(const ec_flattener *f, const char *path)
 /* First pass: where it is. Vertices of triangles that will be dropped must not move the centre. */
 static ec_result measure_draw(ec_flattener *f, const ec_draw *d)
 {
-    for (uint64_t t = 0; t < d->p->triangle_count; t++) {
-        uint32_t v[3];
-        double world[3][3];
-        if (!ec_draw_corners(d, t, v, world)) continue;
-        for (int i = 0; i < 9; i++) {
-            f->low[i % 3] = fmin(f->low[i % 3], world[i / 3][i % 3]);
-            f->high[i % 3] = fmax(f->high[i % 3], world[i / 3][i % 3]);
-        }
-    }
+    ec_draw_span(d, f->low, f->high);
     return EC_OK;
 }
 

@@ -57,14 +57,17 @@ ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
     return EC_OK;
 }
 
-static void cross_edges(const float *a, const float *b, const float *c, double out[3])
+void ec_draw_span(const ec_draw *d, double low[3], double high[3])
 {
-    double u[3], v[3];
-    for (int i = 0; i < 3; i++) {
-        u[i] = (double)b[i] - a[i];
-        v[i] = (double)c[i] - a[i];
+    for (uint64_t t = 0; t < d->p->triangle_count; t++) {
+        uint32_t v[3];
+        double world[3][3];
+        if (!ec_draw_corners(d, t, v, world)) continue;
+        for (int i = 0; i < 9; i++) {
+            low[i % 3] = fmin(low[i % 3], world[i / 3][i % 3]);
+            high[i % 3] = fmax(high[i % 3], world[i / 3][i % 3]);
+        }
     }
-    ec_cross(u, v, out);
 }
 
 static double largest_component(const double v[3])
@@ -78,7 +81,7 @@ static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
     float local[3][3];
     double normal[3];
     for (int i = 0; i < 3; i++) ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.of[EC_POSITION]], v[i], 3, local[i]);
-    cross_edges(local[0], local[1], local[2], normal);
+    ec_triangle_normal(local[0], local[1], local[2], normal);
     return largest_component(normal) == 0;
 }
 
@@ -86,7 +89,7 @@ static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
 static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], float position[3][3])
 {
     double normal[3];
-    cross_edges(position[0], position[1], position[2], normal);
+    ec_triangle_normal(position[0], position[1], position[2], normal);
     double size = largest_component(normal);
     bool finite = isfinite((float)size);
     for (int i = 0; i < 9; i++) finite = finite && fabs((double)position[i / 3][i % 3]) < EC_MAX_COORDINATE;

@@ -56,6 +56,9 @@ void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3]);
 /* A triangle's corners; false: not all at places that a scene can hold. */
 bool ec_draw_corners(const ec_draw *d, uint64_t triangle, uint32_t vertices[3], double world[3][3]);
 
+/* Grows a box by the triangles of a primitive whose corners are all at such places. */
+void ec_draw_span(const ec_draw *d, double low[3], double high[3]);
+
 /* Appends a vertex with all of its streams; `position` is the recentred one. Returns its index. */
 uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t vertex, const float position[3]);
 

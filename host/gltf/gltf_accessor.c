@@ -157,14 +157,12 @@ ec_result ec_gltf_accessor_open(ec_gltf *g, int32_t accessor, const char *what, 
     return EC_OK;
 }
 
+/* Of any type but float. */
 static float load_component(const uint8_t *p, uint32_t type, bool normalized)
 {
-    uint32_t word = load_index(p, type == EC_GLTF_FLOAT || type == EC_GLTF_UINT ? EC_GLTF_UINT
-                                  : component_size(type) == 2                  ? EC_GLTF_USHORT
-                                                                               : EC_GLTF_UBYTE);
+    const uint32_t size = component_size(type), word = load_index(p, size == 4 ? EC_GLTF_UINT : size == 2 ? EC_GLTF_USHORT : EC_GLTF_UBYTE);
     float value;
     switch (type) {
-    case EC_GLTF_FLOAT: memcpy(&value, &word, sizeof value); return value;
     case EC_GLTF_BYTE:
         value = (float)(int8_t)word;
         return !normalized ? value : value < -127.0f ? -1.0f : value / 127.0f;

@@ -52,15 +52,15 @@ static const json *element(const json &array, const std::string &name)
 
 static const field *find_field(const schema &shape, const std::string &name)
 {
-    for (size_t i = 0; i < shape.count; i++)
-        if (!name.empty() && name == shape.fields[i].name) return &shape.fields[i];
+    for (const field &f : shape)
+        if (!name.empty() && name == f.name) return &f;
     return nullptr;
 }
 
 /* Does a member's path lead through that object? */
 static bool has_within(const schema &shape, const std::string &object)
 {
-    return std::any_of(shape.fields, shape.fields + shape.count,
+    return std::any_of(shape.begin(), shape.end(),
                        [&](const field &f) { return std::strncmp(f.name, object.c_str(), object.size()) == 0; });
 }
 
@@ -69,7 +69,7 @@ static bool has_within(const schema &shape, const std::string &object)
 static bool has_defaults(const path &to, size_t i, const schema &shape)
 {
     if (to[i] == "extensions" || to[i - 1] == "extensions") return false;
-    return std::none_of(shape.fields, shape.fields + shape.count, [](const field &f) { return f.required; });
+    return std::none_of(shape.begin(), shape.end(), [](const field &f) { return f.required; });
 }
 
 /* What the pointer leads to, if that can be written; else nothing. */
@@ -95,8 +95,8 @@ static const field *find_target(const json &root, const path &to)
         }
         bool object = f->type == kind::object;
         if (last || !(object || f->type == kind::objects)) return nullptr;
-        if (object ? !at && !has_defaults(to, i, *f->members) : !at || !(at = element(*at, to[++i]))) return nullptr;
-        shape = f->members;
+        if (object ? !at && !has_defaults(to, i, f->members) : !at || !(at = element(*at, to[++i]))) return nullptr;
+        shape = &f->members;
         inner.clear();
     }
     return nullptr;

@@ -20,8 +20,7 @@ class checker {
     void check_object(json &value, const schema &shape, const std::string &where)
     {
         if (!value.is_object()) fail(where, "must be an object");
-        for (size_t i = 0; i < shape.count; i++) {
-            const field &f = shape.fields[i];
+        for (const field &f : shape) {
             if (f.type == kind::dictionary) {
                 for (auto &item : value.items()) check_index(item.value(), f.detail, join(where, item.key()));
                 continue;
@@ -47,9 +46,11 @@ class checker {
     /* A member of a member, by its path. */
     void check_inside(json &value, const field &f, const std::string &outer, const char *rest, const std::string &where)
     {
-        const field inner[] = {{rest, f.type, f.required, f.detail, f.members, f.low, f.high}};
         auto found = value.find(outer);
-        if (found != value.end()) check_object(*found, schema(inner), join(where, outer));
+        if (found == value.end()) return;
+        field inner = f;
+        inner.name = rest;
+        check_object(*found, {inner}, join(where, outer));
     }
 
     [[noreturn]] static void fail(const std::string &where, const std::string &what)
@@ -77,7 +78,7 @@ class checker {
         case kind::accessor_type: /* an unknown one is wrong only where it is read, as a matrix would be */
             if (!is_among(value, f.detail)) value = "MAT2";
             break;
-        case kind::object: check_object(value, *f.members, where); break;
+        case kind::object: check_object(value, f.members, where); break;
         default: check_array(value, f, where);
         }
         return true;
@@ -85,10 +86,10 @@ class checker {
 
     void check_array(json &value, const field &f, const std::string &where)
     {
-        field row = f; /* what each array in an array is to be */
-        row.type = f.type == kind::index_rows ? kind::indices : kind::numbers;
+        const bool of_rows = f.type == kind::index_rows || f.type == kind::number_rows;
+        const field row = {f.name, f.type == kind::index_rows ? kind::indices : kind::numbers, false, f.detail, f.low};
         if (!value.is_array()) fail(where, "must be an array");
-        if (f.type == kind::index_rows || f.type == kind::number_rows) check_row_count(value, f, where);
+        if (of_rows) check_row_count(value, f, where);
         else if (f.low > 0 && double(value.size()) != f.low)
             fail(where, "must have " + std::to_string(int(f.low)) + (f.type == kind::indices ? " indices" : " numbers") + ", not " +
                             std::to_string(value.size()));
@@ -100,7 +101,7 @@ class checker {
             case kind::texts: check_text(value[i], item(where, i)); break;
             case kind::index_rows:
             case kind::number_rows: check_array(value[i], row, item(where, i)); break;
-            default: check_object(value[i], *f.members, item(where, i));
+            default: check_object(value[i], f.members, item(where, i));
             }
         }
     }

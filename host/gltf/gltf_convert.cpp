@@ -10,13 +10,11 @@ using nlohmann::json;
 
 void convert_images(const json &list, ec_gltf *gltf)
 {
-    gltf->images = make_array<ec_gltf_image>(list.size());
-    for (const json &in : list) {
-        ec_gltf_image &out = gltf->images[gltf->image_count++];
+    convert_list(list, gltf->images, gltf->image_count, [](const json &in, ec_gltf_image &out) {
         out.name = copy_string(in.value("name", ""));
         out.view = in.value("bufferView", -1);
         if (in.contains("uri")) out.uri = copy_bytes(in["uri"]);
-    }
+    });
 }
 
 void convert_image_light(const json &root, ec_gltf *gltf, const ec_log *log)
@@ -55,9 +53,7 @@ static void set_lens(const json &in, ec_camera &out)
 
 void convert_cameras(const json &list, ec_gltf *gltf, const ec_log *log)
 {
-    gltf->cameras = make_array<ec_camera>(list.size());
-    for (const json &in : list) {
-        ec_camera &out = gltf->cameras[gltf->camera_count++];
+    convert_list(list, gltf->cameras, gltf->camera_count, [&](const json &in, ec_camera &out) {
         std::string where = "cameras[" + std::to_string(gltf->camera_count - 1) + "]";
         set_lens(in, out);
         out.name = copy_string(in.value("name", ""));
@@ -71,7 +67,7 @@ void convert_cameras(const json &list, ec_gltf *gltf, const ec_log *log)
             throw bad_file(where + ": aspectRatio must be positive, not " + std::to_string(out.aspect));
         if (out.type == EC_CAMERA_ORTHOGRAPHIC && !(out.xmag > 0 && out.ymag > 0))
             throw bad_file(where + ": xmag and ymag must not be zero");
-    }
+    });
 }
 
 static const double half_pi = 1.57079632679489662, quarter_pi = 0.7853981634; /* rounded as tinygltf has it: pictures stay what they are */
@@ -103,16 +99,14 @@ void convert_lights(const json &root, ec_gltf *gltf, const ec_log *log)
 {
     const json *extension = find_extension(root, "KHR_lights_punctual");
     if (!extension) return;
-    const json &list = (*extension)["lights"];
-    gltf->lights = make_array<ec_light>(list.size());
-    for (const json &in : list) {
+    convert_list((*extension)["lights"], gltf->lights, gltf->light_count, [&](const json &in, ec_light &out) {
         bool odd;
-        uint32_t index = gltf->light_count++;
-        set_light(in, gltf->lights[index], odd);
+        const uint32_t index = gltf->light_count - 1;
+        set_light(in, out, odd);
         if (odd) ec_warn(log, "%s: light %u has values out of KHR_lights_punctual's range; they are clamped", gltf->path, index);
         if (in.value("range", 1.0) == 0)
             ec_warn(log, "%s: light %u has range 0, which KHR_lights_punctual does not allow; it is taken as endless", gltf->path, index);
-    }
+    });
 }
 
 } // namespace eclat

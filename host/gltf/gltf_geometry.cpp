@@ -41,15 +41,13 @@ static ec_gltf_meshopt convert_meshopt(const json &in)
 
 void convert_views(const json &list, ec_gltf *gltf)
 {
-    gltf->views = make_array<ec_gltf_view>(list.size());
-    for (const json &in : list) {
-        ec_gltf_view &out = gltf->views[gltf->view_count++];
+    convert_list(list, gltf->views, gltf->view_count, [](const json &in, ec_gltf_view &out) {
         out.buffer = in["buffer"];
         out.offset = in.value("byteOffset", uint64_t(0));
         out.length = in["byteLength"];
         out.stride = in.value("byteStride", 0u);
         if (const json *packed = find_extension(in, "EXT_meshopt_compression")) out.packed = convert_meshopt(*packed);
-    }
+    });
 }
 
 /* Components of an element; 0: a matrix that nothing here reads. */
@@ -60,20 +58,18 @@ static uint32_t component_count(const std::string &type)
 
 void convert_accessors(const json &list, ec_gltf *gltf)
 {
-    gltf->accessors = make_array<ec_gltf_accessor>(list.size());
-    for (const json &in : list) {
-        ec_gltf_accessor &out = gltf->accessors[gltf->accessor_count++];
+    convert_list(list, gltf->accessors, gltf->accessor_count, [](const json &in, ec_gltf_accessor &out) {
         out.view = in.value("bufferView", -1);
         out.offset = in.value("byteOffset", uint64_t(0));
         out.count = in["count"];
         out.component_type = in["componentType"];
         out.components = component_count(in["type"]);
         out.normalized = in.value("normalized", false);
-        if (!in.contains("sparse")) continue;
+        if (!in.contains("sparse")) return;
         const json &sparse = in["sparse"], &indices = sparse["indices"], &values = sparse["values"];
         out.sparse = {sparse["count"], indices["bufferView"], values["bufferView"], indices.value("byteOffset", uint64_t(0)),
                       values.value("byteOffset", uint64_t(0)), indices["componentType"]};
-    }
+    });
 }
 
 static ec_gltf_streams convert_streams(const json &attributes)
@@ -121,27 +117,22 @@ static void convert_primitive(const json &in, ec_gltf_primitive &out)
     out.streams = convert_streams(in["attributes"]);
     convert_influences(in["attributes"], out);
     convert_draco(in, out);
-    const json &targets = list_of(in, "targets");
-    out.targets = make_array<ec_gltf_streams>(targets.size());
-    for (const json &target : targets) out.targets[out.target_count++] = convert_streams(target);
+    convert_list(list_of(in, "targets"), out.targets, out.target_count,
+                 [](const json &target, ec_gltf_streams &streams) { streams = convert_streams(target); });
 }
 
 template <typename T> static void copy_list(const json &list, T *&numbers, uint32_t &count)
 {
-    numbers = make_array<T>(list.size());
-    for (const json &number : list) numbers[count++] = number;
+    convert_list(list, numbers, count, [](const json &in, T &number) { number = in; });
 }
 
 void convert_meshes(const json &list, ec_gltf *gltf)
 {
-    gltf->meshes = make_array<ec_gltf_mesh>(list.size());
-    for (const json &in : list) {
-        ec_gltf_mesh &out = gltf->meshes[gltf->mesh_count++];
+    convert_list(list, gltf->meshes, gltf->mesh_count, [](const json &in, ec_gltf_mesh &out) {
         out.name = copy_string(in.value("name", ""));
         copy_list(list_of(in, "weights"), out.weights, out.weight_count);
-        out.primitives = make_array<ec_gltf_primitive>(in["primitives"].size());
-        for (const json &primitive : in["primitives"]) convert_primitive(primitive, out.primitives[out.primitive_count++]);
-    }
+        convert_list(in["primitives"], out.primitives, out.primitive_count, convert_primitive);
+    });
 }
 
 void convert_weights(const json &list, ec_gltf *gltf)
@@ -157,12 +148,10 @@ void convert_weights(const json &list, ec_gltf *gltf)
 
 void convert_skins(const json &list, ec_gltf *gltf)
 {
-    gltf->skins = make_array<ec_gltf_skin>(list.size());
-    for (const json &in : list) {
-        ec_gltf_skin &out = gltf->skins[gltf->skin_count++];
+    convert_list(list, gltf->skins, gltf->skin_count, [](const json &in, ec_gltf_skin &out) {
         out.inverse_bind = in.value("inverseBindMatrices", -1);
         copy_list(in["joints"], out.joints, out.joint_count);
-    }
+    });
 }
 
 double element(const json &object, const char *key, size_t i, double fallback)
@@ -185,9 +174,7 @@ static void compose_local(double m[16], const json &node)
 
 void convert_nodes(const json &list, ec_gltf *gltf)
 {
-    gltf->nodes = make_array<ec_gltf_node>(list.size());
-    for (const json &in : list) {
-        ec_gltf_node &out = gltf->nodes[gltf->node_count++];
+    convert_list(list, gltf->nodes, gltf->node_count, [](const json &in, ec_gltf_node &out) {
         out.name = copy_string(in.value("name", ""));
         out.mesh = in.value("mesh", -1);
         out.skin = in.value("skin", -1);
@@ -206,7 +193,7 @@ void convert_nodes(const json &list, ec_gltf *gltf)
         else
             compose_local(out.local, in);
         copy_list(list_of(in, "children"), out.children, out.child_count);
-    }
+    });
 }
 
 /* The nodes of the scene to show; where the file has no scenes, all that are nobody's child. */

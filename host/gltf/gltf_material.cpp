@@ -13,12 +13,6 @@ namespace eclat {
 
 using nlohmann::json;
 
-static double get_number(const json &object, const char *key, double fallback)
-{
-    auto found = object.find(key);
-    return found == object.end() ? fallback : found->get<double>();
-}
-
 /* NULL: the file does not say. */
 static const json *find_path(const json &material, const char *path)
 {
@@ -38,11 +32,11 @@ static const ec_texture_use no_texture = {-1, 0, {1, 0, 0, 0, 1, 0}};
 /* KHR_texture_transform: T x R x S, the rotation being counter-clockwise as seen with v pointing down. */
 static void set_transform(ec_texture_use &use, int64_t &uv_set, const json &t)
 {
-    double angle = get_number(t, "rotation", 0), c = std::cos(angle), s = std::sin(angle);
+    double angle = t.value("rotation", 0.0), c = std::cos(angle), s = std::sin(angle);
     double sx = element(t, "scale", 0, 1), sy = element(t, "scale", 1, 1);
     double matrix[6] = {c * sx, s * sy, element(t, "offset", 0, 0), -s * sx, c * sy, element(t, "offset", 1, 0)};
     for (int i = 0; i < 6; i++) use.transform[i] = float(matrix[i]);
-    uv_set = int64_t(get_number(t, "texCoord", double(uv_set)));
+    uv_set = t.value("texCoord", uv_set);
 }
 
 static ec_texture_use make_use(const json &material, const char *path, const std::string &where, const ec_gltf *gltf, const ec_log *log)
@@ -50,7 +44,7 @@ static ec_texture_use make_use(const json &material, const char *path, const std
     ec_texture_use use = no_texture;
     const json *info = find_path(material, path);
     if (!info) return use;
-    int64_t uv_set = int64_t(get_number(*info, "texCoord", 0));
+    int64_t uv_set = info->value("texCoord", int64_t(0));
     const json *transform = find_extension(*info, "KHR_texture_transform");
     if (transform) set_transform(use, uv_set, *transform);
     if (uv_set < 0 || uv_set > 1) {
@@ -59,7 +53,7 @@ static ec_texture_use make_use(const json &material, const char *path, const std
                 slash ? slash + 1 : path, (long long)uv_set);
         return no_texture;
     }
-    use.texture = int32_t(get_number(*info, "index", -1));
+    use.texture = info->value("index", -1);
     use.uv_set = uint32_t(uv_set);
     return use;
 }
@@ -75,7 +69,7 @@ static void set_field(ec_material &out, const ec_material_field &field, const js
  * thickness only tells bodies from thin walls: rays find the way through by themselves. */
 static void set_volume(ec_material &out, const json &v, const std::string &where, const ec_gltf *gltf, const ec_log *log)
 {
-    double thickness = get_number(v, "thicknessFactor", 0), distance = get_number(v, "attenuationDistance", INFINITY);
+    double thickness = v.value("thicknessFactor", 0.0), distance = v.value("attenuationDistance", double(INFINITY));
     bool odd = thickness < 0 || distance <= 0;
     out.volume = thickness > 0;
     for (size_t i = 0; i < 3; i++) {
@@ -105,7 +99,7 @@ static void set_specular_glossiness(ec_material &out, const json &in, const std:
 {
     const json *s = find_extension(in, "KHR_materials_pbrSpecularGlossiness");
     if (!s || find_extension(in, "KHR_materials_specular")) return; /* a file that has both says it better there */
-    double glossiness = get_number(*s, "glossinessFactor", 1);
+    double glossiness = s->value("glossinessFactor", 1.0);
     for (size_t i = 0; i < 4; i++) out.base_color[i] = float(element(*s, "diffuseFactor", i, 1));
     for (size_t i = 0; i < 3; i++) out.specular_color[i] = float(element(*s, "specularFactor", i, 1));
     out.ior = out.metallic = 0;
@@ -130,9 +124,9 @@ static void set_material(ec_material &out, const json &in, const std::string &wh
     out.unlit = find_extension(in, "KHR_materials_unlit") != nullptr;
     if (const json *strength = find_extension(in, "KHR_materials_emissive_strength"))
         for (size_t i = 0; i < 3; i++)
-            out.emission[i] = float(element(in, "emissiveFactor", i, 0) * get_number(*strength, "emissiveStrength", 1));
+            out.emission[i] = float(element(in, "emissiveFactor", i, 0) * strength->value("emissiveStrength", 1.0));
     if (const json *anisotropy = find_extension(in, "KHR_materials_anisotropy"))
-        out.anisotropy_rotation = float(std::remainder(get_number(*anisotropy, "anisotropyRotation", 0), 6.283185307179586));
+        out.anisotropy_rotation = float(std::remainder(anisotropy->value("anisotropyRotation", 0.0), 6.283185307179586));
     const json *volume = find_extension(in, "KHR_materials_volume");
     for (float &absorption : out.absorption) absorption = 0; /* the file has a colour there */
     bool passes = find_extension(in, "KHR_materials_transmission") || find_extension(in, "KHR_materials_diffuse_transmission");
@@ -160,18 +154,16 @@ static ec_wrap convert_wrap(int wrap)
 
 void convert_textures(const json &root, ec_gltf *gltf)
 {
-    const json &list = list_of(root, "textures"), &samplers = list_of(root, "samplers");
-    gltf->textures = make_array<ec_gltf_texture>(list.size());
-    for (const json &in : list) {
-        ec_gltf_texture &out = gltf->textures[gltf->texture_count++];
+    const json &samplers = list_of(root, "samplers");
+    convert_list(list_of(root, "textures"), gltf->textures, gltf->texture_count, [&](const json &in, ec_gltf_texture &out) {
         const json *webp = ec_has_webp ? find_extension(in, "EXT_texture_webp") : nullptr;
         out = {(webp ? *webp : in).value("source", -1), EC_WRAP_REPEAT, EC_WRAP_REPEAT, false, false, 0};
-        if (!in.contains("sampler")) continue;
+        if (!in.contains("sampler")) return;
         const json &sampler = samplers[in["sampler"].get<size_t>()];
         out.wrap_s = convert_wrap(sampler.value("wrapS", TINYGLTF_TEXTURE_WRAP_REPEAT));
         out.wrap_t = convert_wrap(sampler.value("wrapT", TINYGLTF_TEXTURE_WRAP_REPEAT));
         out.nearest = sampler.value("magFilter", TINYGLTF_TEXTURE_FILTER_LINEAR) == TINYGLTF_TEXTURE_FILTER_NEAREST;
-    }
+    });
 }
 
 } // namespace eclat

@@ -1,8 +1,8 @@
-/* The language in which gltf_schema.cpp says what a glTF document looks like, and gltf_check.cpp reads it. */
+/* Describes the members of a JSON object: gltf_schema.cpp does so for glTF, gltf_check.cpp compares documents with it. */
 #ifndef EC_GLTF_GLTF_SCHEMA_H
 #define EC_GLTF_GLTF_SCHEMA_H
 
-#include <cstddef>
+#include <vector>
 
 namespace eclat {
 
@@ -24,20 +24,15 @@ enum class kind {
     dictionary
 };
 
-struct schema;
 struct field {
-    const char *name;      /* or a path: "outer/inner" */
+    const char *name;           /* or a path: "outer/inner" */
     kind type;
-    bool required;
-    const char *detail;    /* index: the array pointed into (rows: each element); choice: what is allowed */
-    const schema *members; /* object(s) */
-    double low, high;      /* count; numbers: how many (0 or less: any); rows: how long each is, how many (0: some) */
+    bool required = false;
+    const char *detail = nullptr; /* index: the array pointed into (rows: each element); choice: what is allowed */
+    double low = 0, high = 0;   /* count; numbers: how many (0 or less: any); rows: how long each is, how many (0: some) */
+    std::vector<field> members = {}; /* object(s) */
 };
-struct schema {
-    const field *fields;
-    size_t count;
-    template <size_t n> constexpr schema(const field (&list)[n]) : fields(list), count(n) {}
-};
+using schema = std::vector<field>;
 
 constexpr double int_count = 2147483647; /* indices and some offsets are kept in an int */
 

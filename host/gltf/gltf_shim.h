@@ -82,6 +82,12 @@ template <typename T> T *make_array(size_t count)
     if (!array) throw std::bad_alloc();
     return array;
 }
+/* A list of the document as an array: one(in, out) fills each. The count grows with them, so that ec_gltf_free sees those that are begun. */
+template <typename T, typename F> void convert_list(const nlohmann::json &list, T *&array, uint32_t &count, F &&one)
+{
+    array = make_array<T>(list.size());
+    for (const nlohmann::json &in : list) one(in, array[count++]);
+}
 inline char *copy_bytes(const std::string &text)
 {
     char *copy = strdup(text.c_str());

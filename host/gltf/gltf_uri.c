@@ -12,27 +12,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static int hex_value(char c)
-{
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
 /* In place; returns the new length. A '%' that starts no escape stays. */
 static size_t percent_decode(char *text, size_t length)
 {
     size_t out = 0;
     for (size_t i = 0; i < length; i++) {
-        int high = i + 2 < length ? hex_value(text[i + 1]) : -1;
-        int low = i + 2 < length ? hex_value(text[i + 2]) : -1;
-        if (text[i] == '%' && high >= 0 && low >= 0) {
-            text[out++] = (char)(high * 16 + low);
-            i += 2;
-        } else {
-            text[out++] = text[i];
-        }
+        text[out++] = text[i];
+        if (text[i] != '%' || i + 2 >= length || !isxdigit((unsigned char)text[i + 1]) || !isxdigit((unsigned char)text[i + 2])) continue;
+        const char digits[3] = {text[i + 1], text[i + 2]};
+        text[out - 1] = (char)strtol(digits, NULL, 16);
+        i += 2;
     }
     text[out] = 0;
     return out;

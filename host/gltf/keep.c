@@ -35,15 +35,7 @@ static void span_mesh(const ec_gltf *g, ec_kept_mesh *m)
         d.p = &g->meshes[m->mesh].primitives[i];
         if (!d.p->drawn) continue;
         m->triangles += d.p->triangle_count;
-        for (uint64_t t = 0; t < d.p->triangle_count; t++) {
-            uint32_t v[3];
-            double corner[3][3];
-            if (!ec_draw_corners(&d, t, v, corner)) continue;
-            for (int c = 0; c < 9; c++) {
-                m->low[c % 3] = fmin(m->low[c % 3], corner[c / 3][c % 3]);
-                m->high[c % 3] = fmax(m->high[c % 3], corner[c / 3][c % 3]);
-            }
-        }
+        ec_draw_span(&d, m->low, m->high);
     }
 }
 

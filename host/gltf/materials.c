@@ -1,12 +1,9 @@
 /* The scene's materials: the file's, glTF's default where something needs it, and variants for meshes that lack a
  * texture coordinate set. */
+#include "base/freed.h"
 #include "base/text.h"
 #include "gltf/flatten.h"
 #include "scene/material_fields.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static ec_result append(ec_scene *s, ec_material material, ec_error *err)
 {
@@ -66,17 +63,13 @@ ec_result ec_gltf_materials_assign(ec_gltf *g, ec_scene *s, const ec_log *log, e
     s->materials = g->materials; /* moved */
     s->material_count = g->material_count;
     g->materials = NULL;
-    uint32_t *variants = calloc(4 * ((size_t)s->material_count + 1), sizeof *variants);
+    EC_FREED uint32_t *variants = calloc(4 * ((size_t)s->material_count + 1), sizeof *variants);
     if (!variants) return ec_fail(err, "out of memory for materials");
     for (uint32_t i = 0; i < s->material_count; i++) variants[4 * i] = i + 1;
-    ec_result result = EC_OK;
-    for (uint32_t i = 0; i < g->mesh_count && result == EC_OK; i++) {
-        for (uint32_t k = 0; k < g->meshes[i].primitive_count && result == EC_OK; k++) {
+    for (uint32_t i = 0; i < g->mesh_count; i++)
+        for (uint32_t k = 0; k < g->meshes[i].primitive_count; k++) {
             ec_gltf_primitive *p = &g->meshes[i].primitives[k];
-            if (p->drawn) result = assign(g, s, p, i, variants, log, err);
+            if (p->drawn) EC_TRY(assign(g, s, p, i, variants, log, err));
         }
-    }
-    free(variants);
-    if (result == EC_OK && !s->material_count) result = append(s, ec_material_default(), err);
-    return result;
+    return s->material_count ? EC_OK : append(s, ec_material_default(), err);
 }
