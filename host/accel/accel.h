@@ -9,7 +9,7 @@
 #include "accel/bvh.h"
 #include "scene/placed.h"
 
-/* What is built from. positions: 3 floats a vertex; indices: 3 a triangle; both the caller's. */
+/* The triangles to build from. positions: 3 floats a vertex; indices: 3 a triangle; both the caller's. */
 typedef struct ec_accel_input {
     const float *positions;
     const uint32_t *indices;

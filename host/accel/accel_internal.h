@@ -8,7 +8,7 @@
     ec_result ec_##name##_accel(ec_accel_input *input, ec_accel *accel, ec_error *err);
 EC_ACCELS(EC_ACCEL_DECLARE)
 
-/* What grids and kd-trees hold: a triangle, or a part of one, in a box of its own. A hit's t is clamped to the near side of
+/* An entry of a grid or kd-tree: a triangle, or a part of one, in a box of its own. A hit's t is clamped to the near side of
  * this very box (kernels/lib/ray.h), so whoever puts a reference into every cell that the box overlaps, and leaves no cell
  * out that the ray enters before t, cannot lose a hit. Cutting triangles to their cells would be tighter, but a triangle seen
  * edge-on has a t of any error, and would be missed where its box has no part. */

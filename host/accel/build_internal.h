@@ -1,4 +1,4 @@
-/* What the steps of the builder pass to each other. Private to host/accel. */
+/* Types that the steps of the builder pass to each other. Private to host/accel. */
 #ifndef EC_ACCEL_BUILD_INTERNAL_H
 #define EC_ACCEL_BUILD_INTERNAL_H
 

@@ -33,7 +33,7 @@ typedef struct ec_followed {
 
 /* Brings the structures `wanted` (1 << which) to the input's triangles. On failure none is left. */
 ec_result ec_accels_follow(ec_followed *followed, ec_accel_input *input, uint32_t wanted, ec_error *err);
-/* What tracing rays took with them, clocked: a refit that would make that longer by more than a build takes is given up. */
+/* Reports how long tracing took with these structures: a refit that would lengthen it by more than a build takes is given up. */
 void ec_followed_tell(ec_followed *followed, double trace_seconds);
 void ec_followed_free(ec_followed *followed);
 

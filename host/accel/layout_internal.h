@@ -1,4 +1,4 @@
-/* What the two layouts share. Private to host/accel. */
+/* Shared by the two layouts. Private to host/accel. */
 #ifndef EC_ACCEL_LAYOUT_INTERNAL_H
 #define EC_ACCEL_LAYOUT_INTERNAL_H
 
@@ -6,7 +6,7 @@
 
 #include "accel/build_internal.h"
 
-/* What a node does not say about the subtree below it. */
+/* Facts about the subtree below a node that the node itself does not hold. */
 typedef struct ec_subtree {
     uint32_t count;  /* references: order[node.first .. node.first + count) */
     uint32_t height; /* edges down to the deepest leaf */

@@ -1,4 +1,4 @@
-/* What leaves hold, as the kernels read it: triangles, blocks of eight, their boxes. Private to host/accel. */
+/* The contents of leaves as the kernels read them: triangles, blocks of eight, their boxes. Private to host/accel. */
 #ifndef EC_ACCEL_LEAF_H
 #define EC_ACCEL_LEAF_H
 
@@ -60,8 +60,8 @@ static inline void ec_block_clear(ec_tri8 *block, ec_box8 *boxes)
     for (uint32_t slot = 0; slot < 8; slot++) block->id[slot] = EC_NO_ID;
 }
 
-static inline void ec_block_put(const float *positions, const uint32_t *indices, uint32_t triangle, const float lo[3], const float hi[3], uint32_t slot, ec_tri8 *block,
-                  ec_box8 *boxes)
+static inline void ec_block_put(const float *positions, const uint32_t *indices, uint32_t triangle, const float lo[3], const float hi[3],
+                                uint32_t slot, ec_tri8 *block, ec_box8 *boxes)
 {
     block->id[slot] = triangle;
     for (size_t corner = 0; corner < 3; corner++) {

@@ -13,7 +13,7 @@ bool ec_accel_can_refit(uint32_t which);
  * with what ec_accel_expense says. */
 void ec_accel_refit(uint32_t which, const ec_accel_input *input, ec_accel *accel);
 
-/* What a ray is expected to cost (MacDonald and Booth 1990), in units that compare trees of one kind only; 0: nothing is known. */
+/* The expected cost of a ray (MacDonald and Booth 1990), in units that compare trees of one kind only; 0: nothing is known. */
 double ec_accel_expense(uint32_t which, const ec_accel *accel);
 
 #endif

@@ -8,7 +8,7 @@ typedef enum ec_result {
     EC_USAGE = 2   /* the command line is wrong: exit code 2 */
 } ec_result;
 
-/* What a caller may want to act on: less memory may do; what was computed before may be worth keeping. */
+/* The kinds of error that a caller may act on: by using less memory, or by keeping what was computed before. */
 typedef enum ec_error_kind { EC_ERROR_OTHER, EC_ERROR_HOST_MEMORY, EC_ERROR_DEVICE_MEMORY, EC_ERROR_DEVICE } ec_error_kind;
 
 /* One line: what went wrong, where, and how to mend it. No trailing newline. */

@@ -63,7 +63,7 @@ static const group_files versions[] = {
     {"/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", {"total_inactive_file ", "total_active_file "}},
     {"/sys/fs/cgroup", "memory.max", "memory.current", {"inactive_file ", "active_file "}}};
 
-/* What the page cache holds of a group's memory, which is taken back before anybody is ended for it. */
+/* The page cache's share of a group's memory, which the kernel takes back before it ends a process. */
 static uint64_t cached_in(const char *folder, const group_files *files)
 {
     char path[4400], line[128];

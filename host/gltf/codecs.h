@@ -1,5 +1,5 @@
 /* Readers that a build may lack: each is a file in codecs/, or, where its library was not found, one that says so. Inside
- * host/scene/ only. */
+ * host/gltf/ only. */
 #ifndef EC_GLTF_CODECS_H
 #define EC_GLTF_CODECS_H
 

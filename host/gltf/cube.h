@@ -18,7 +18,7 @@ void ec_cube_free(ec_cube *cube);
  * samples x samples points of it, each interpolated bilinearly, also across the cube's edges. Any number of threads, the same bits. */
 void ec_cube_unroll(const ec_cube *cube, uint32_t width, uint32_t height, uint32_t samples, float *rgb);
 
-/* What it makes of empty surroundings: a constant where all pixels are alike, else a map, owned by *e, as many pixels around as four faces
+/* Makes an environment of the cube: a constant where all pixels are alike, else a map, owned by *e, as many pixels around as four faces
  * have (those are as dense as the cube's in the middle of a face), 4096 at most, turned by a unit quaternion (x, y, z, w). */
 ec_result ec_cube_environment(const ec_cube *cube, const double rotation[4], ec_environment *e, ec_error *err);
 

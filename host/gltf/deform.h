@@ -1,4 +1,4 @@
-/* What the halves of deformation share: deform.c says what is to be moved, deform_vertex.c moves it, skin.c knows the joints. */
+/* Shared by the parts of deformation: deform.c chooses the meshes, deform_vertex.c moves their vertices, skin.c finds the joints. */
 #ifndef EC_GLTF_DEFORM_H
 #define EC_GLTF_DEFORM_H
 
@@ -17,7 +17,7 @@ typedef struct ec_pose {
 ec_result ec_pose_skin(ec_gltf *gltf, int32_t skin, const ec_placement_list *placements, const int32_t *placement_of, ec_pose *pose,
                        ec_error *err);
 
-/* What a vertex' influences make of the joints. Fails where a joint is not in the skin. */
+/* Blends the joints by a vertex' weights. Fails where a joint is not in the skin. */
 ec_result ec_pose_blend(const ec_gltf *gltf, const ec_gltf_primitive *primitive, const ec_pose *pose, uint32_t vertex,
                         ec_placement *blend, const char *where, ec_error *err);
 

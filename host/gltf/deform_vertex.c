@@ -11,7 +11,7 @@ typedef struct moved {
     uint32_t components;
 } moved;
 
-/* What is stored plus the weighted differences. */
+/* Adds the weighted differences of the targets to the stored value. */
 static void morph(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *pose, int stream, const moved *m, uint32_t vertex, double out[4])
 {
     float value[4] = {0};

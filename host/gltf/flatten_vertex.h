@@ -1,4 +1,4 @@
-/* What the parts of flattening share: flatten*.c, keep*.c, empty.c and motion*.c. */
+/* Shared by the parts of flattening: flatten*.c, keep*.c, empty.c and motion*.c. */
 #ifndef EC_GLTF_FLATTEN_VERTEX_H
 #define EC_GLTF_FLATTEN_VERTEX_H
 
@@ -48,7 +48,7 @@ bool ec_is_placeable(const double world[3][3]);
 
 /* A vertex' normal (3 floats) and tangent (4) in the world, each NULL where it is not asked for; what the mesh has none of stays. */
 void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tangent);
-/* What stands at a place; its primitive is still to be said. */
+/* Prepares to draw at a place; the caller sets the primitive. */
 ec_draw ec_draw_of(const ec_gltf *g, const ec_placement *at, const double *center);
 
 /* Where a vertex lies in the world. */

@@ -1,4 +1,4 @@
-/* A glTF file as plain C data: what the shim read, with every index already known to be in range. Inside host/scene/
+/* A glTF file as plain C data: what the shim read, with every index already known to be in range. Inside host/gltf/
  * only; the rest of the program sees ec_scene. Indices are int32_t, -1 where the file names none. */
 #ifndef EC_GLTF_GLTF_H
 #define EC_GLTF_GLTF_H

@@ -157,7 +157,7 @@ ec_result ec_gltf_accessor_open(ec_gltf *g, int32_t accessor, const char *what, 
     return EC_OK;
 }
 
-/* Of any type but float. */
+/* Any type but float, which has a quicker way below. */
 static float load_component(const uint8_t *p, uint32_t type, bool normalized)
 {
     const uint32_t size = component_size(type), word = load_index(p, size == 4 ? EC_GLTF_UINT : size == 2 ? EC_GLTF_USHORT : EC_GLTF_UBYTE);

@@ -72,7 +72,7 @@ static bool has_defaults(const path &to, size_t i, const schema &shape)
     return std::none_of(shape.begin(), shape.end(), [](const field &f) { return f.required; });
 }
 
-/* What the pointer leads to, if that can be written; else nothing. */
+/* Finds the field that a pointer leads to; nullptr where there is none that may be written. */
 static const field *find_target(const json &root, const path &to)
 {
     if (!may_move(to)) return nullptr;

@@ -1,4 +1,4 @@
-/* What a document is made of, byte for byte: two documents of one digest give the same scenes. */
+/* Hashes every file of a document: two documents with the same digest give the same scenes. */
 #include <sys/types.h>
 
 #include <sha2.h>

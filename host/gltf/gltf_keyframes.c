@@ -1,4 +1,4 @@
-/* What an animation's sampler says at one moment: glTF 2.0, appendix C. */
+/* Evaluates an animation's sampler at one moment: glTF 2.0, appendix C. */
 #include "gltf/gltf_keyframes.h"
 
 #include <math.h>

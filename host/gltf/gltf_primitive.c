@@ -32,7 +32,7 @@ static const stream_rule rules[EC_STREAMS] = {
     {"TEXCOORD_1", {2, 2}, FLOAT | UNSIGNED_NORM, SIGNED | UNSIGNED | SIGNED_NORM},
 };
 
-/* What morph targets add. */
+/* Morph targets hold differences of these attributes. */
 static const stream_rule target_rules[EC_STREAMS] = {
     {"POSITION", {3, 3}, FLOAT, SIGNED | SIGNED_NORM},
     {"NORMAL", {3, 3}, FLOAT, SIGNED_NORM},

@@ -30,7 +30,7 @@ static const char *const supported_extensions[] = {
     "KHR_node_visibility",
     "KHR_texture_transform"};
 
-/* Those that take a library which this build may lack. */
+/* Extensions that need a library which this build may lack. */
 static const struct {
     const char *name, *package;
     const bool &built;
@@ -165,7 +165,7 @@ static void check_views(const ec_gltf *gltf)
     if (ec_gltf_check_views(gltf, &err) != EC_OK) throw bad_file(err.text);
 }
 
-/* What is told by name or factor: textures, materials, cameras, lights. */
+/* Textures, materials, cameras and lights, which an animation may change. */
 static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
 {
     convert_cameras(list_of(root, "cameras"), gltf, log);
@@ -224,7 +224,7 @@ static void pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const
     convert_looks(tree.root, gltf, log);
 }
 
-/* What goes wrong becomes one line. */
+/* Turns every exception into a message of one line. */
 template <typename work> static ec_result guarded(const char *path, ec_error *err, work &&job)
 {
     try {

@@ -58,7 +58,7 @@ std::vector<uint32_t> choose_animations(const nlohmann::json &root, const ec_sce
 bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice,
                   ec_gltf *gltf, const ec_log *log);
 
-/* What another moment is written into. */
+/* The document of an animation, into which another moment is written. */
 struct posable {
     nlohmann::json root;
     std::vector<uint32_t> animations;
@@ -95,7 +95,7 @@ inline char *copy_bytes(const std::string &text)
     return copy;
 }
 
-/* What a file says about itself ends up in messages: no line breaks and no terminal escapes. */
+/* Makes text from a file safe for messages: no line breaks and no terminal escapes. */
 inline std::string printable(std::string text)
 {
     for (char &c : text)

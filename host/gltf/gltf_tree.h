@@ -32,7 +32,7 @@ ec_result ec_gltf_place_instances(ec_gltf *gltf, ec_placement_list *placements, 
 ec_result ec_gltf_node_above(const ec_gltf *gltf, int32_t node, bool (*is)(const ec_gltf_node *), int32_t *found,
                              ec_error *err);
 
-/* What stands at `local` (column major, as in the file) in the frame of `parent`; NULL: in the world. The rest of *out stays. */
+/* Sets linear and origin of *out to `local` (column major, as in the file) in the frame of `parent`; NULL: in the world. */
 void ec_placement_compose(const ec_placement *parent, const double local[16], ec_placement *out);
 
 /* One more at the end. Items may move. */

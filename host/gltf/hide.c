@@ -25,7 +25,7 @@ static void look(hiding *h, bool hide)
     }
 }
 
-/* Nothing has them now; nor need there be coordinates for their textures. */
+/* Drops the textures of a material that nothing shows, so that no texture coordinates are needed. */
 static void strip(ec_material *m)
 {
     for (int slot = 0; slot < EC_SLOT_COUNT; slot++) m->textures[slot].texture = -1;

@@ -16,7 +16,7 @@ bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_
 bool ec_image_decode_png(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err);
 bool ec_image_decode_jpeg(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err);
 
-/* image_check.c. Is the size sane, also for this many encoded bytes? NULL: yes; otherwise why not. */
+/* Is the size sane, also for this many encoded bytes? NULL: yes; otherwise why not. */
 const char *ec_image_check_size(uint64_t width, uint64_t height, size_t length, uint64_t pixels_per_byte);
 
 /* false, with the text in err, control characters replaced. */

@@ -1,4 +1,4 @@
-/* What models are mostly made of. */
+/* Quads, boxes and spheres. */
 #include <math.h>
 #include <stdlib.h>
 

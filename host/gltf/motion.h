@@ -1,4 +1,4 @@
-/* What the parts of motion share: motion.c reads the moments, motion_deviation.c says how many keys they need, motion_keys.c makes these.
+/* Shared by the parts of motion: motion.c reads the moments, motion_deviation.c decides how many keys they need, motion_keys.c makes these.
  * Inside host/gltf/ only. */
 #ifndef EC_GLTF_MOTION_H
 #define EC_GLTF_MOTION_H
@@ -21,6 +21,19 @@ typedef struct ec_tracks {
     uint32_t step, segments;
     double deviation;
 } ec_tracks;
+
+/* The numbers of one thing at a moment, so many of them. */
+typedef const float *numbers_at(const ec_tracks *t, uint32_t moment, uint32_t thing);
+
+static inline const float *vertex_at(const ec_tracks *t, uint32_t moment, uint32_t i)
+{
+    return t->values[moment] + (size_t)i * t->words;
+}
+/* Position, right, up, forward. */
+static inline const float *camera_place(const ec_tracks *t, uint32_t moment, uint32_t i) { return t->cameras[moment][i].position; }
+static inline const float *camera_view(const ec_tracks *t, uint32_t moment, uint32_t i) { return &t->cameras[moment][i].yfov; }
+/* Position, direction. */
+static inline const float *light_place(const ec_tracks *t, uint32_t moment, uint32_t i) { return t->lights[moment][i].position; }
 
 /* Largest distance of `segments` straight lines from the moments looked at, over the box that a mesh sweeps; of directions over 1. */
 double ec_tracks_deviation(const ec_tracks *tracks);

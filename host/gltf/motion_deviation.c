@@ -2,7 +2,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "gltf/motion_numbers.h"
+#include "gltf/motion.h"
 
 /* How far `count` numbers from `first` on are off at all moments, from what the nearest keys on both sides say. Not a number counts as none. */
 static double distance_of(const ec_tracks *t, numbers_at *at, uint32_t thing, int first, int count)

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/freed.h"
-#include "gltf/motion_numbers.h"
+#include "gltf/motion.h"
 
 static bool differs(const ec_tracks *t, numbers_at *at, uint32_t thing, size_t first, size_t count)
 {
@@ -12,7 +12,7 @@ static bool differs(const ec_tracks *t, numbers_at *at, uint32_t thing, size_t f
     return false;
 }
 
-/* What becomes of the scene's flat vertices and triangles. */
+/* Decides which of the scene's flat vertices and triangles stay, move or go. */
 typedef struct sorting {
     const ec_tracks *t;
     ec_scene *s;

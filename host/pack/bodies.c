@@ -68,7 +68,7 @@ static int compare_places(const void *a, const void *b)
     return 0;
 }
 
-/* What hangs together: sums over its triangles. */
+/* A connected part of a body: sums over its triangles. */
 typedef struct part {
     double volume, area, normal[3];
 } part;

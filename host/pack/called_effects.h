@@ -23,7 +23,7 @@ typedef struct ec_effects {
 
 /* One bit; the first reason stays. */
 void ec_effects_call(ec_effects *effects, uint64_t feature, const char *why, ...) __attribute__((format(printf, 3, 4)));
-/* What one more caller calls for. */
+/* Adds the effects that one more caller needs. */
 void ec_effects_add(ec_effects *effects, const ec_effects *one);
 /* "material 2 "Light" emits, and 3 others"; empty where nobody calls for it. */
 void ec_effects_why(const ec_effects *effects, uint64_t feature, char *text, size_t size);

@@ -105,7 +105,7 @@ static void scan_specular(scan *s)
     if (has_texture(s, EC_SLOT_ANISOTROPY)) call(s, EC_FEATURE_ANISOTROPY_TEXTURE, "has an anisotropy texture");
 }
 
-/* What shared/material_fields.h says of it. */
+/* Calls for the effects of shared/material_fields.h that the material uses. */
 static void scan_rows(scan *s)
 {
     for (int i = 0; i < ec_material_field_count; i++) {

@@ -111,7 +111,7 @@ static void cut_all(cutter *c)
     }
 }
 
-/* What a part is as the sum of its own; those that gain nothing are joined again. Children stand behind their parents. */
+/* Sums up the children of each part; children that gain nothing are joined again. Children stand behind their parents. */
 static void sum_up(cutter *c)
 {
     for (uint32_t i = c->count; i-- > 0;) {

@@ -5,7 +5,7 @@
 
 #include "pack/pack.h"
 
-/* What uneven light costs: a triangle sampled evenly has the noise of one that is its root mean square bright. */
+/* Uneven light costs noise: a triangle sampled evenly has the noise of one as bright as its root mean square. */
 #define EC_LAMP_UNEVEN 1.25   /* over its mean, from which on a lamp is cut … */
 #define EC_LAMP_EVEN 1.02     /* … and up to which a part of it is not */
 #define EC_LAMP_EXCESS 0.01   /* of all textured lamps' light: what is left of those differences when enough is cut */

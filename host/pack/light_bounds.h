@@ -18,7 +18,7 @@ typedef struct ec_light_bounds {
 
 ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power); /* a triangle, point or spot */
 void ec_light_bounds_add(ec_light_bounds *to, const ec_light_bounds *other);
-/* What the lamps are likely to cost apart from others: power, size and spread (Conty Estevez and Kulla 2018, equation 1). */
+/* The likely cost of the lamps as a node of their own: power, size and spread (Conty Estevez and Kulla 2018, equation 1). */
 double ec_light_bounds_cost(const ec_light_bounds *bounds);
 /* Everything but the link; never smaller than the bounds, in float. */
 ec_light_node ec_light_bounds_node(const ec_light_bounds *bounds, double most_power);

@@ -1,4 +1,4 @@
-/* What the light tree needs beside the table of lights. Lamps are triangles, points and spots: what is infinitely far away keeps its
+/* Fits the light tree into the table of lights. Lamps are triangles, points and spots: what is infinitely far away keeps its
  * probability, and what the lamps have together goes to the tree. */
 #include <math.h>
 

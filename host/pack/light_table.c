@@ -57,7 +57,7 @@ static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec
     return PI * area * ec_luminance(radiance) * (m->double_sided ? 2.0 : 1.0);
 }
 
-/* Those that lie on others are not cut: only one of them is sampled. */
+/* Cuts textured lamps into parts, but for triangles that lie on one another: only one of those is sampled. */
 static ec_result cut_lamps(const ec_scene *scene, ec_pack *pack, const bool *emits, const uint32_t *first, light_list *list, ec_error *err)
 {
     EC_FREED bool *may_cut = malloc((pack->prim_count + (size_t)1) * sizeof *may_cut);

@@ -62,7 +62,7 @@ void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 /* Bodies that may lie in one another, in no order. */
 ec_result ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies, ec_error *err);
 ec_result ec_pack_effects(const ec_scene *plain, const ec_bodies *bodies, ec_effects *effects, ec_error *err);
-/* What multiple scattering calls for, if a caller wants it: rough metal and glass that shows. */
+/* Adds the effects that multiple scattering needs where rough metal or glass shows. */
 void ec_pack_rough(const ec_scene *plain, ec_effects *effects);
 /* The scans alone. */
 ec_result ec_scene_calls(const ec_scene *scene, ec_effects *effects, ec_error *err);

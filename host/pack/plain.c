@@ -1,4 +1,4 @@
-/* What changes nothing is taken out before the scan looks, so that a specialised build and a full one read the same numbers. */
+/* Removes whatever has no effect on the picture before the scan, so that a specialised build and a full one read the same numbers. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "scene/material_fields.h"
 #include "scene/texture_range.h"
 
-/* What the triangles of a material have. */
+/* Facts about the triangles of a material. */
 typedef struct shown {
     bool any;
     float least_alpha, most_alpha; /* of vertex colours; 1 without */

@@ -1,4 +1,4 @@
-/* What more ranks would buy: a model of a render on 1 to any number of them, from what was measured on one. */
+/* Predicts the time of a render on any number of ranks from measurements on one. */
 #ifndef EC_RANKS_PLAN_H
 #define EC_RANKS_PLAN_H
 

@@ -1,4 +1,4 @@
-/* What is asked of the post. */
+/* The calls of those who send and receive letters. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>

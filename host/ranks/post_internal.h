@@ -1,4 +1,4 @@
-/* What the halves of the post share: post.c is called by those who write and read letters, post_thread.c owns MPI. Inside these two only. */
+/* Shared by the halves of the post: post.c is called by those who send and receive letters, post_thread.c owns MPI. Inside these two only. */
 #ifndef EC_RANKS_POST_INTERNAL_H
 #define EC_RANKS_POST_INTERNAL_H
 

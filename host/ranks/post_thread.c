@@ -25,7 +25,7 @@ static bool is_peer(const ec_post *p, int rank)
     return rank == place->parent || (rank >= place->first_child && rank < place->first_child + place->children);
 }
 
-/* What the environment says, if it is above 0. */
+/* The value of an environment variable, if it is above 0. */
 static double setting(const char *name, double otherwise)
 {
     const char *given = getenv(name);
@@ -146,7 +146,7 @@ static bool receive_from(ec_post *p, int rank, bool *moved)
     return true;
 }
 
-/* It has nothing left to say, then: one of this host need not be waited for. */
+/* Has the process of a rank on this host ended? Such a rank need not be waited for. */
 static bool has_ended(const peer *from) { return from->process && kill(from->process, 0) != 0 && errno == ESRCH; }
 
 /* Returns whether there was anything. With the lock. */

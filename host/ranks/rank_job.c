@@ -42,11 +42,11 @@ static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, e
 
 #define OTHER_PROGRAM "runs another version of eclat: its samples would differ; install the same one everywhere"
 
-/* What a rank says to the word: EC_READY_*, a number, and a text. */
+/* A rank's answer to the word: EC_READY_*, a number, and a text. */
 enum { EC_READY_RANKS };
 enum { EC_READY = EC_WORD_OVER + 1, EC_READY_WITHOUT_DEVICE, EC_READY_OTHER_PROGRAM };
 
-/* What comes up: of this rank and all below it. */
+/* The answer of this rank and all below it. */
 typedef struct readiness {
     uint32_t ranks;   /* that have a device */
     uint32_t kind;    /* EC_READY if any of them has a device, EC_READY_OTHER_PROGRAM if any runs another */
@@ -129,7 +129,7 @@ static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_
     return EC_OK;
 }
 
-/* What this rank itself has to say: "host: text", and where it cannot take part a line more for the root. */
+/* Fills in the answer of this rank alone: "host: text", and where it cannot take part a line more for the root. */
 static void describe(const ec_ranks *r, uint32_t kind, const char *text, readiness *own)
 {
     char host[256] = "", line[2000];

@@ -66,8 +66,8 @@ static bool say_end(ec_ranks *r, int to, uint32_t kind, bool lost)
     return ec_post_send(r->post, to, &letter, NULL) != EC_OK;
 }
 
-/* What a rank sent last may still be on its way, and MPI does not end before it is taken: so they say farewell, behind all else. And it does not
- * end at all where one is lost, of whom only some know: so the farewells say that, and the root tells all. */
+/* The last letters of a rank may still be on their way, and MPI does not end before they are taken: so ranks exchange farewells behind all
+ * else. MPI does not end at all where a rank is lost, which only some ranks know: so the farewells say that, and the root tells all. */
 static void leave(ec_ranks *r)
 {
     if (!r) return;

@@ -1,4 +1,4 @@
-/* What ranks say to one another. Internal to ranks/. */
+/* The messages between ranks. Internal to ranks/. */
 #ifndef EC_RANKS_RANKS_INTERNAL_H
 #define EC_RANKS_RANKS_INTERNAL_H
 

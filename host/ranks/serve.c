@@ -22,7 +22,7 @@ static bool goes_on(void *user, uint32_t done)
     return !ec_post_has(s->ranks->post, s->ranks->place->parent, EC_BOX_ORDERS);
 }
 
-/* What an order asks for, of the positions from `first` on, as it is sent. */
+/* Writes the results of an order, from position `first` on, as they are sent. */
 static void write_body(const server *s, const ec_batch_order *order, const float *aov, void *body)
 {
     const ec_batch_source *source = s->source;
@@ -100,7 +100,7 @@ static void pass_on(void *user, ec_severity severity, const char *text)
     if (severity == EC_WARNING) ec_warn(s->log, "told by rank %d: %s", s->ranks->place->rank, text);
 }
 
-/* Those that open; none: fails with the last one's reason, unless there are others below. */
+/* Opens the devices that can be opened. Where none can, fails with the last one's reason, unless there are ranks below. */
 static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_cl *devices, bool is_inner,
                               const ec_log *log, ec_error *err)
 {

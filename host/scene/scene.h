@@ -127,7 +127,7 @@ typedef struct ec_environment {
     float turn[9];
 } ec_environment;
 
-/* What a file names, among it what it lets one choose. All owned; a name may be NULL. */
+/* The names in a file, some of which can be chosen from. All owned; a name may be NULL. */
 typedef struct ec_scene_names {
     char **names;
     uint32_t count;
@@ -188,7 +188,7 @@ typedef struct ec_scene {
     bool solid_shadows, bodies_apart;
     double center[3];             /* what was subtracted from world coordinates */
     float bounds_min[3], bounds_max[3]; /* recentred */
-    /* What `eclat info` tells. */
+    /* Shown by `eclat info`. */
     uint32_t mesh_count, node_count, instance_count;
     uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */
     uint32_t skipped_primitives;                     /* points, lines and meshes without POSITION */
@@ -196,7 +196,7 @@ typedef struct ec_scene {
     ec_scene_contents contents;
 } ec_scene;
 
-/* What of a file is wanted, where there is a choice. Names or indices; NULL and false: what the file shows by default. */
+/* Selects what to show of a file, by name or index; NULL and false: the default of the file. */
 typedef struct ec_scene_choice {
     const char *scene, *variant;
     const char *animation;     /* also "all"; NULL: the first */

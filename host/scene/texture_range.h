@@ -13,7 +13,7 @@ void ec_image_range(const ec_image *image, int channel, uint32_t *least, uint32_
 /* Least and largest value of a channel as it is stored, 0 to 1; 1 without a texture. */
 void ec_texture_range(const ec_scene *scene, const ec_texture_use *use, int channel, float *least, float *most);
 
-/* What a bilinear look-up and a product may be off by, relatively. */
+/* The largest relative rounding error of a bilinear look-up and a product. */
 #define EC_TEXTURE_SLACK 4e-7f
 
 /* Does alpha hide all of a material, whose vertex colours have an alpha of most_alpha or less? varies: not the same everywhere. */

@@ -1,4 +1,4 @@
-/* What every loaded scene promises to the steps after it. Inside host/scene/ and the tests. */
+/* The guarantees that every loaded scene gives to the steps after it. Inside host/scene/ and the tests. */
 #ifndef EC_SCENE_VALIDATE_H
 #define EC_SCENE_VALIDATE_H
 

@@ -61,7 +61,7 @@ ec_result ec_scene_write_out(const ec_scene *s, ec_scene *w, ec_error *err)
     w->shapes = NULL;
     w->placed = NULL;
     w->shape_count = w->placed_count = 0;
-    /* What an accelerator adds is more than the soup itself: 200 bytes a triangle are little. */
+    /* An accelerator takes more than the triangles themselves: 200 bytes a triangle are a low estimate. */
     uint64_t memory = ec_memory_of_machine(), needed = triangles * 200;
     bool fits = triangles <= INT32_MAX && vertices <= INT32_MAX && needed <= memory;
     if (!allocate(s, fits ? vertices + 1 : 0, fits ? triangles + 1 : 0, w) || !fits) {

@@ -1,4 +1,4 @@
-/* What cases are made of, in host/selftest and in those tests that are written as cases. */
+/* The building blocks of cases, for host/selftest and for tests written as cases. */
 #ifndef EC_SELFTEST_CASES_H
 #define EC_SELFTEST_CASES_H
 

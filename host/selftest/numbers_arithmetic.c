@@ -1,4 +1,4 @@
-/* What the renderer takes for granted of a device's floats. */
+/* Properties of a device's float arithmetic that the renderer relies on. */
 #include <math.h>
 
 #include "selftest/numbers_run.h"
@@ -49,7 +49,7 @@ ec_result ec_selftest_arithmetic(ec_selftest *t, ec_error *err)
     return result;
 }
 
-/* What is not finite is told by its bits, and no comparison holds with NaN but !=: a compiler that takes finiteness for granted drops
+/* NaN and infinity are recognised by their bits, and no comparison holds with NaN but !=: a compiler that takes finiteness for granted drops
  * both. Denormals may count as zero, and as nothing else. */
 ec_result ec_selftest_not_finite(ec_selftest *t, ec_error *err)
 {

@@ -1,4 +1,4 @@
-/* What a self-test found, as a table and as JSON. */
+/* Prints the report of a self-test as a table or as JSON. */
 #ifndef EC_SELFTEST_REPORT_PRINT_H
 #define EC_SELFTEST_REPORT_PRINT_H
 

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "cl/cl.h"
 
-/* What a float can hold: -log10(2^-24). No row shows more. */
+/* The precision of a float: -log10(2^-24). No row shows more. */
 #define EC_SELFTEST_DIGITS 7.22
 
 typedef struct ec_selftest_row {
@@ -42,8 +42,8 @@ typedef struct ec_selftest_options {
     void *user;
 } ec_selftest_options;
 
-/* Set cl->keeps_programs, since most cases share theirs. A case that cannot be run at all (kernels do not build, out of memory) is a failed row. err: where no case fits `only`, or
- * memory ends. */
+/* Set cl->keeps_programs, since most cases share theirs. A case that cannot be run at all (kernels do not build, out of memory) is a failed
+ * row. Fails where no case fits `only`, or memory ends. */
 ec_result ec_selftest_run(ec_cl *cl, const ec_selftest_options *options, ec_selftest_report *report, ec_error *err);
 
 #endif

@@ -1,13 +1,13 @@
 #include "selftest/shot.h"
 
 #include <math.h>
-#include <stdlib.h>
 
+#include "base/freed.h"
 #include "film/resolve.h"
 #include "gltf/model.h"
 #include "shared/features.h"
 
-/* What most cases call for. Textures, coverage and further lobes are left out: kernels with all effects take PoCL 20 s to build. */
+/* The effects that most cases need. Textures, coverage and further lobes are left out: kernels with all effects take PoCL 20 s to build. */
 #define EC_SHOT_EFFECTS                                                                                                          \
     (EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | \
      EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION |      \
@@ -28,19 +28,15 @@ ec_render_options ec_shot_options(const ec_selftest *t, uint32_t size, uint32_t 
 static ec_result measure(ec_shot *s, ec_error *err)
 {
     uint64_t pixels = (uint64_t)s->film.width * s->film.height;
-    float *se = malloc(3 * pixels * sizeof *se);
+    EC_FREED float *se = malloc(3 * pixels * sizeof *se);
     s->rgb = malloc(3 * pixels * sizeof *s->rgb);
-    if (!se || !s->rgb) {
-        free(se);
-        return ec_fail(err, "out of memory for a picture");
-    }
+    if (!se || !s->rgb) return ec_fail(err, "out of memory for a picture");
     ec_film_resolve(&s->film, s->rgb, se);
     double sum = 0, variance = 0;
     for (uint64_t i = 0; i < pixels; i++) {
         sum += s->rgb[3 * i + 1];
         variance += (double)se[3 * i + 1] * se[3 * i + 1];
     }
-    free(se);
     s->mean = s->stats.invalid_samples || s->film.invalid_count ? NAN : sum / (double)pixels;
     s->noise = sqrt(variance) / (double)pixels;
     return EC_OK;

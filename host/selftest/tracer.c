@@ -2,9 +2,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "base/vec3.h"
 #include "shared/params.h"
 
@@ -70,15 +70,15 @@ ec_result ec_tracer_build(ec_tracer *r, const ec_soup *soup, ec_error *err)
     memset(r->hits, 0, (size_t)EC_HIT_PROBE_FIELDS * EC_TRACER_RAYS * sizeof *r->hits); /* no triangle of another soup stays */
     r->soup = soup;
     r->largest = ec_soup_largest(soup);
-    uint32_t *indices = malloc((3 * (size_t)soup->count + 1) * sizeof *indices);
-    ec_result result = indices ? EC_OK : ec_fail(err, "out of memory for %u triangles", soup->count);
-    for (uint32_t i = 0; i < 3 * soup->count && result == EC_OK; i++) indices[i] = i;
+    EC_FREED uint32_t *indices = malloc((3 * (size_t)soup->count + 1) * sizeof *indices);
+    if (!indices) return ec_fail(err, "out of memory for %u triangles", soup->count);
+    for (uint32_t i = 0; i < 3 * soup->count; i++) indices[i] = i;
+    ec_result result = EC_OK;
     ec_accel_input input = {.positions = soup->vertices, .indices = indices, .triangle_count = soup->count};
     for (uint32_t a = 0; a < EC_ACCEL_COUNT && result == EC_OK; a++)
         if (r->used >> a & 1 && (strcmp(ec_accels[a].name, "none") || soup->count <= BRUTE_FORCE_MOST))
             result = ec_accel_build(a, &input, &r->accels[a], err);
     ec_accel_input_free(&input);
-    free(indices);
     return result;
 }
 
