@@ -275,6 +275,19 @@ static void test_brute_force_is_refused(void)
     mesh_free(&m);
 }
 
+/* More triangles than any structure can number, which is found before one is looked at: all of them fail, and leave nothing behind. */
+static void test_too_many(void)
+{
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
+        ec_error err;
+        ec_accel accel;
+        ec_accel_input input = {.triangle_count = 1u << 31};
+        CHECK_MSG(ec_accel_build(a, &input, &accel, &err) == EC_FAILED, "%s", ec_accels[a].name);
+        CHECK_MSG(!accel.buffers[0].data && !input.bvh.nodes, "%s", ec_accels[a].name);
+        ec_accel_input_free(&input);
+    }
+}
+
 int main(void)
 {
     static const float densities[] = {0.0f, 0.01f, 10000.0f}; /* the default, and the ends of what --grid-density takes */
@@ -290,6 +303,7 @@ int main(void)
         mesh_free(&m);
     }
     if (test_tier("quick")) {
+        test_too_many();
         test_not_numbers();
         test_density();
         test_table();
