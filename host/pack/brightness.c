@@ -5,16 +5,11 @@
 #include <string.h>
 
 #include "base/luminance.h"
-#include "image/image.h"
+#include "pack/texture_mean.h"
 
 #define SIDE 4.0 /* squares that a triangle reaches across, about, where it is large */
 #define SMALL 1.0 /* texels: under that it is looked at point by point */
 enum { POINTS = 4 }; /* an edge is cut in so many */
-
-static double texel(const ec_image *image, const double *bytes, size_t index, int channel)
-{
-    return image->rgba8 ? bytes[image->rgba8[4 * index + channel]] : ec_srgb_to_linear(image->rgba16[4 * index + channel] / 65535.0);
-}
 
 static uint32_t wrapped(int64_t i, uint32_t size, ec_wrap wrap)
 {
@@ -60,9 +55,11 @@ static void fill_texels(const ec_scene *scene, const ec_material *m, ec_brightne
     const double *bytes = ec_srgb_bytes();
 #pragma omp parallel for
     for (uint32_t y = 0; y < b->height; y++)
-        for (size_t i = (size_t)y * b->width; i < (y + (size_t)1) * b->width; i++)
-            b->texels[i] = (float)ec_luminance((double[3]){m->emission[0] * texel(image, bytes, i, 0), m->emission[1] * texel(image, bytes, i, 1),
-                                                          m->emission[2] * texel(image, bytes, i, 2)});
+        for (size_t i = (size_t)y * b->width; i < (y + (size_t)1) * b->width; i++) {
+            double rgb[3];
+            for (int k = 0; k < 3; k++) rgb[k] = m->emission[k] * ec_texel_linear(image, bytes, i, k);
+            b->texels[i] = (float)ec_luminance(rgb);
+        }
 }
 
 static ec_result add_level(ec_brightness *b, uint32_t level, ec_error *err)

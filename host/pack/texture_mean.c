@@ -3,14 +3,7 @@
 #include <math.h>
 #include <pthread.h>
 
-#include "image/image.h"
 #include "pack/pack.h"
-
-static double texel(const ec_image *image, const double *bytes, size_t index, int channel)
-{
-    return image->rgba8 ? bytes[image->rgba8[4 * index + channel]]
-                        : ec_srgb_to_linear(image->rgba16[4 * index + channel] / 65535.0);
-}
 
 ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_use *use)
 {
@@ -22,8 +15,8 @@ ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_us
     mean = (ec_texture_mean){{0.0, 0.0, 0.0}};
     for (int k = 0; k < 3; k++) {
         double most = 0.0;
-        for (size_t i = 0; i < count; i += step) mean.rgb[k] += texel(image, bytes, i, k);
-        for (size_t i = 0; i < count && mean.rgb[k] == 0.0 && most == 0.0; i++) most = texel(image, bytes, i, k);
+        for (size_t i = 0; i < count; i += step) mean.rgb[k] += ec_texel_linear(image, bytes, i, k);
+        for (size_t i = 0; i < count && mean.rgb[k] == 0.0 && most == 0.0; i++) most = ec_texel_linear(image, bytes, i, k);
         mean.rgb[k] = (mean.rgb[k] + most) / (double)((count + step - 1) / step); /* 0 only where every texel is */
     }
     return mean;
@@ -70,6 +63,6 @@ void ec_texture_triangle_mean(const ec_scene *scene, const ec_texture_use *use, 
             p[k] = b0 * uv[2 * (size_t)i[0] + k] + b1 * uv[2 * (size_t)i[1] + k] + b2 * uv[2 * (size_t)i[2] + k];
         uint32_t x = wrap(m[0] * p[0] + m[1] * p[1] + m[2], image->width, texture->wrap_s);
         uint32_t y = wrap(m[3] * p[0] + m[4] * p[1] + m[5], image->height, texture->wrap_t);
-        for (int k = 0; k < 3; k++) rgb[k] += texel(image, bytes, (size_t)y * image->width + x, k) / POINTS;
+        for (int k = 0; k < 3; k++) rgb[k] += ec_texel_linear(image, bytes, (size_t)y * image->width + x, k) / POINTS;
     }
 }
