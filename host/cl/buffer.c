@@ -105,3 +105,21 @@ ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t byt
     const cl_uint zero = 0;
     return ec_buffer_fill(cl, buffer, offset, bytes, &zero, err);
 }
+
+ec_result ec_buffer_map(ec_cl *cl, cl_mem buffer, uint64_t bytes, bool writes, float **at, ec_error *err)
+{
+    cl_int code;
+    *at = clEnqueueMapBuffer(cl->queue, buffer, CL_TRUE, CL_MAP_READ | (writes ? CL_MAP_WRITE : 0), 0, bytes, 0, NULL, NULL, &code);
+    EC_TRY(ec_cl_check(code, "clEnqueueMapBuffer", NULL, err));
+    return ec_cl_landed(cl, err);
+}
+
+ec_result ec_buffer_unmap(ec_cl *cl, cl_mem buffer, float **at, ec_error *err)
+{
+    if (!*at) return EC_OK;
+    cl_event event;
+    cl_int code = clEnqueueUnmapMemObject(cl->queue, buffer, *at, 0, NULL, &event);
+    *at = NULL;
+    EC_TRY(ec_cl_check(code, "clEnqueueUnmapMemObject", NULL, err));
+    return ec_cl_launched(cl, event, "unmapping a buffer", err);
+}

@@ -116,6 +116,10 @@ ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t byt
 ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err);
 /* With the same four bytes, or zeros, over and over: multiples of 4 bytes; enqueued. */
 ec_result ec_buffer_fill(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *word, ec_error *err);
+/* The first `bytes` of a buffer in the host's memory until it is unmapped, for which no kernel may run that has it: a processor's own, no copy.
+ * Waits. writes: what is changed there is the buffer's afterwards. Unmapping sets *at to NULL; NULL is fine. */
+ec_result ec_buffer_map(ec_cl *cl, cl_mem buffer, uint64_t bytes, bool writes, float **at, ec_error *err);
+ec_result ec_buffer_unmap(ec_cl *cl, cl_mem buffer, float **at, ec_error *err);
 ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err);
 
 ec_result ec_kernel_create(cl_program program, const char *name, cl_kernel *kernel, ec_error *err);

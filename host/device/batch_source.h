@@ -40,28 +40,34 @@ typedef struct ec_batch_order {
     float limit;                      /* ec_params.limit: the same for all samples of a picture */
     uint32_t count, done;
     const float *before;              /* what the done ones came to, EC_BATCH_FIELDS a position; NULL: somebody else has that */
-    float *into;                      /* room for EC_BATCH_FIELDS of each position from `done` on; NULL: the source's own */
+    float *into;                      /* room for EC_BATCH_FIELDS of each position from `done` on; NULL: where `mean` is, the source's own */
     const ec_sums *sums;              /* the same for a block; NULL: the source's own */
-    float *aov;                       /* first-hit features too: ec_film's, of the same positions; NULL: not wanted */
+    bool with_features;               /* first-hit features too, ec_film's, of the same positions … */
+    float *aov;                       /* … and room for all of them; NULL: where `features` is. Of a device alone */
     /* Asked between waves, with the positions that are done, the first time when the device has done them; false gives the batch up. */
     bool (*go_on)(void *user, uint32_t done);
     void *user;
 } ec_batch_order;
 
-/* What mean[EC_BATCH_FIELDS i] holds of a pixel that a first batch which was given up has not reached: radiance is never negative. */
+/* What mean[EC_BATCH_FIELDS i] holds of a pixel that a batch with features which was given up has not reached: radiance is never negative. */
 #define EC_NOT_REACHED (-1.0f)
 
 typedef struct ec_batch_source ec_batch_source;
 struct ec_batch_source {
-    /* *complete: false where go_on said no; positions not reached then hold what was there before, in a first batch EC_NOT_REACHED. */
+    /* *complete: false where go_on said no; positions not reached then hold anything, where features were wanted
+     * EC_NOT_REACHED if they are before `reached`. */
     ec_result (*take)(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err);
     /* From go_on alone: mean becomes what the batch under way has come to so far, and features, rays and invalid too. */
     ec_result (*look)(ec_batch_source *source, const ec_batch_order *order, ec_error *err);
     /* Which rows of the picture the next orders are of; positions count from the first of them. NULL: all, always. */
     ec_result (*turn_to)(ec_batch_source *source, uint32_t first_row, uint32_t rows, ec_error *err);
+    /* No order until the next turn_to wants features: gives their memory back. NULL: it has none of its own. */
+    ec_result (*end_features)(ec_batch_source *source, ec_error *err);
     void (*close)(ec_batch_source *source); /* the figures stay */
     uint32_t batches;                 /* that the order under way, or the last one, is for: as go_on is called it is known */
-    float *mean;                      /* EC_BATCH_FIELDS a position: of the batch taken last, until the next one is */
+    float *mean;                      /* EC_BATCH_FIELDS a position: of the batch taken last, until the next one is. Of one given up it may be written */
+    uint32_t reached;                 /* places from here on hold nothing of a batch with features that was given up */
+    float *features;                  /* of that batch likewise, EC_AOV_FIELDS a pixel, where they were wanted and had no room */
     ec_sums sums;                     /* of the block taken last, from order->done on; owned, until somebody else takes it (and sets zeros) */
     uint64_t rays;                    /* traced so far */
     double clocked_seconds, clocked_rays; /* those of launches that were clocked, if any were */

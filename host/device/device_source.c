@@ -1,9 +1,7 @@
 #include "device/device_source.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/random.h"
+#include "device/adaptive.h"
 #include "device/fold.h"
 #include "device/tiers.h"
 
@@ -17,17 +15,34 @@ static uint64_t pixels_of(const ec_device_source *s) { return (uint64_t)s->pipel
 
 static uint64_t positions_of(const ec_device_source *s) { return ec_order_positions(pixels_of(s), s->replicates); }
 
+/* Nobody looks at the films any more, and kernels may write them. */
+static ec_result take_back(ec_device_source *s, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    EC_TRY(ec_buffer_unmap(p->cl, p->buffers[EC_ARG_BATCH_FILM], &s->base.mean, err));
+    return ec_buffer_unmap(p->cl, p->buffers[EC_ARG_FEATURE_FILM], &s->base.features, err);
+}
+
 static ec_result turn_to(ec_batch_source *source, uint32_t first_row, uint32_t rows, ec_error *err)
 {
     ec_device_source *s = (ec_device_source *)source;
     ec_pipeline *p = &s->pipeline;
-    const float not_reached = EC_NOT_REACHED;
-    if (rows != s->rows) free(s->own), s->own = NULL;
     s->rows = rows;
+    EC_TRY(take_back(s, err));
     EC_TRY(ec_pipeline_fit_films(p, pixels_of(s), positions_of(s), err));
     p->params.film_row = first_row;
-    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err));
-    return ec_buffer_fill(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, pixels_of(s) * BATCH_BYTES, &not_reached, err);
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
+}
+
+static ec_result end_features(ec_batch_source *source, ec_error *err)
+{
+    ec_pipeline *p = &((ec_device_source *)source)->pipeline;
+    cl_mem *film = &p->buffers[EC_ARG_FEATURE_FILM];
+    if (!*film) return EC_OK;
+    EC_TRY(ec_buffer_unmap(p->cl, *film, &source->features, err));
+    EC_TRY(ec_cl_finish(p->cl, err));
+    ec_buffer_release(p->cl, film);
+    return EC_OK;
 }
 
 static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, ec_error *err)
@@ -44,38 +59,54 @@ static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, e
     return ec_buffer_write(p->cl, *list, entry * order->done, entry * (order->count - order->done), order->list + EC_LIST_WORDS * order->done, err);
 }
 
-/* Where positions from `first` on go on the host: what an order brings is room for its own. */
-static float *place_of(const ec_device_source *s, const ec_batch_order *order, uint64_t first)
-{
-    return order->into ? order->into + EC_BATCH_FIELDS * (first - order->done) : s->own + EC_BATCH_FIELDS * first;
-}
-
-/* Where the batch goes on the host, and what of it is there. */
+/* What of the batch is there already. */
 static ec_result prepare(ec_device_source *s, const ec_batch_order *order, ec_error *err)
 {
-    if (!order->into && !s->own) s->own = malloc(positions_of(s) * BATCH_BYTES);
-    s->base.mean = s->own;
-    if (!order->into && !s->own) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels_of(s));
-    if (order->before) memcpy(s->base.mean, order->before, BATCH_BYTES * order->count);
+    ec_pipeline *p = &s->pipeline;
+    EC_TRY(take_back(s, err));
+    return order->before ? ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, BATCH_BYTES * order->done, order->before, err) : EC_OK;
+}
+
+/* Where the order has no room for it the batch stays where it is: a processor's films are the host's memory. */
+static ec_result show(ec_device_source *s, const ec_batch_order *order, bool writes, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    const cl_mem batch = p->buffers[EC_ARG_BATCH_FILM], features = p->buffers[EC_ARG_FEATURE_FILM];
+    const uint64_t first = order->done, count = order->count - first;
+    EC_TRY(take_back(s, err));
+    if (order->into) EC_TRY(ec_buffer_read(p->cl, batch, BATCH_BYTES * first, BATCH_BYTES * count, order->into, err));
+    else EC_TRY(ec_buffer_map(p->cl, batch, BATCH_BYTES * order->count, writes, &s->base.mean, err));
+    if (!order->with_features) return EC_OK;
+    if (order->aov) return ec_buffer_read(p->cl, features, FEATURE_BYTES * first, FEATURE_BYTES * count, order->aov + EC_AOV_FIELDS * first, err);
+    return ec_buffer_map(p->cl, features, FEATURE_BYTES * order->count, writes, &s->base.features, err);
+}
+
+static ec_result tell(ec_device_source *s, const ec_batch_order *order, bool writes, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    EC_TRY(show(s, order, writes, err));
+    s->base.rays = p->rays;
+    s->base.clocked_seconds = p->clocked_seconds;
+    s->base.clocked_rays = p->clocked_rays;
+    EC_TRY(ec_pipeline_read_invalid(p, s->base.invalid, err));
+    s->base.invalid[EC_STAGE_ACCUMULATE] += s->unfit;
     return EC_OK;
 }
 
 static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_error *err)
 {
-    ec_device_source *s = (ec_device_source *)source;
-    ec_pipeline *p = &s->pipeline;
-    const uint64_t first = order->done;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_BATCH_FILM], BATCH_BYTES * first, BATCH_BYTES * (order->count - first),
-                          place_of(s, order, first), err));
-    s->base.rays = p->rays;
-    s->base.clocked_seconds = p->clocked_seconds;
-    s->base.clocked_rays = p->clocked_rays;
-    if (order->aov)
-        EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], FEATURE_BYTES * first, FEATURE_BYTES * (order->count - first),
-                              order->aov + EC_AOV_FIELDS * first, err));
-    EC_TRY(ec_pipeline_read_invalid(p, s->base.invalid, err));
-    s->base.invalid[EC_STAGE_ACCUMULATE] += s->unfit;
-    return EC_OK;
+    return tell((ec_device_source *)source, order, false, err);
+}
+
+/* A batch was given up before it reached a pixel number: marks what is not there of the rows of tiles that are begun. */
+static void mark_unreached(ec_device_source *s, const ec_batch_order *order, uint32_t number)
+{
+    const ec_params *params = &s->pipeline.params;
+    const uint32_t row = EC_TILE_ROWS * params->width, before = params->film_row * params->width;
+    const uint64_t begun = ((uint64_t)number + row - 1) / row * row;
+    s->base.reached = begun < order->count ? (uint32_t)begun : order->count;
+    for (; number < s->base.reached; number++)
+        s->base.mean[(uint64_t)EC_BATCH_FIELDS * (ec_pixel_place(params, before + number) - before)] = EC_NOT_REACHED;
 }
 
 /* Which samples the kernels take; and the numbers that pixels of the replicate have beyond those of the picture (kernels/lib/film.h). */
@@ -105,16 +136,21 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     EC_TRY(choose_samples(s, order, &before, err));
     EC_TRY(upload_list(s, order, err));
     EC_TRY(prepare(s, order, err));
-    for (uint32_t first = order->done, count; first < order->count && *complete; first += count) {
+    uint32_t reached = order->done;
+    while (reached < order->count && *complete) {
+        EC_TRY(take_back(s, err));
         EC_TRY(ec_tiers_step(p, err));
-        count = p->wave / p->params.batch;
-        if (count > order->count - first) count = order->count - first;
-        EC_TRY(ec_pipeline_run_wave(p, seed, before + first, count, order->aov != NULL, err));
+        uint32_t count = p->wave / p->params.batch;
+        if (count > order->count - reached) count = order->count - reached;
+        EC_TRY(ec_pipeline_run_wave(p, seed, before + reached, count, order->with_features, err));
         if (!s->has_begun) EC_TRY(ec_cl_finish(p->cl, err));
         s->has_begun = true;
-        *complete = order->go_on(order->user, first + count) || first + count >= order->count;
+        reached += count;
+        *complete = order->go_on(order->user, reached) || reached == order->count;
     }
-    return look(source, order, err);
+    EC_TRY(tell(s, order, !*complete, err));
+    if (!*complete && order->with_features && !order->into) mark_unreached(s, order, reached);
+    return EC_OK;
 }
 
 static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
@@ -131,16 +167,16 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
 static void close_device(ec_batch_source *source)
 {
     ec_device_source *s = (ec_device_source *)source;
+    if (s->pipeline.cl) (void)take_back(s, NULL);
+    s->base.mean = s->base.features = NULL;
     ec_pipeline_destroy(&s->pipeline);
     ec_sums_destroy(&s->base.sums);
-    free(s->own);
-    s->own = s->base.mean = NULL;
 }
 
 ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *s,
                                 ec_render_stats *stats, ec_error *err)
 {
-    *s = (ec_device_source){.base = {.take = take, .look = look, .turn_to = turn_to, .close = close_device},
+    *s = (ec_device_source){.base = {.take = take, .look = look, .turn_to = turn_to, .end_features = end_features, .close = close_device},
                             .seed = seed,
                             .replicates = cargo->head.replicates};
     return ec_pipeline_create(cl, cargo, spent, &s->pipeline, stats, err);

@@ -10,7 +10,6 @@ typedef struct ec_device_source {
     ec_pipeline pipeline;
     uint64_t seed;
     uint32_t replicates;
-    float *own;                       /* room for a batch, where orders bring none */
     uint32_t rows;                    /* that it renders: from params.film_row on */
     uint32_t unfit;                   /* values of batches in blocks that were not finite */
     bool has_begun;

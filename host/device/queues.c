@@ -139,7 +139,7 @@ static ec_result halve_wave(ec_pipeline *p, ec_error *err)
 ec_result ec_pipeline_fit_films(ec_pipeline *p, uint64_t pixels, uint64_t positions, ec_error *err)
 {
     ec_error why = {0};
-    if (pixels <= p->film_pixels) return EC_OK;
+    if (pixels <= p->film_pixels && p->buffers[EC_ARG_FEATURE_FILM]) return EC_OK;
     p->film_pixels = 0;
     for (uint32_t refused = 0; create_films(p, pixels, positions, &why) != EC_OK;) {
         bool is_last = p->wave_is_given || p->room <= EC_SMALLEST_WAVE || p->room == refused;

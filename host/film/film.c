@@ -89,17 +89,16 @@ ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *pl
     return EC_OK;
 }
 
-void ec_film_add_features(ec_film *film, float **features)
+ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, ec_error *err)
 {
-    const uint64_t values = pixels_of(film) * EC_FILM_FEATURES;
+    const uint64_t values = pixels * EC_FILM_FEATURES;
+    if (!film->aov) film->aov = calloc(pixels_of(film), EC_FILM_FEATURES * sizeof *film->aov);
+    if (!film->aov) return ec_fail(err, "out of memory for the first-hit features");
     const double share = 1.0 / ++film->aov_batches;
-    if (!film->aov) {
-        film->aov = *features;
-        *features = NULL;
-        return;
-    }
-#pragma omp parallel for if (pixels_of(film) > EC_FILM_MANY)
-    for (uint64_t i = 0; i < values; i++) film->aov[i] = (float)(film->aov[i] + ((double)(*features)[i] - film->aov[i]) * share);
+    const bool is_first = film->aov_batches == 1;
+#pragma omp parallel for if (pixels > EC_FILM_MANY)
+    for (uint64_t i = 0; i < values; i++) film->aov[i] = is_first ? features[i] : (float)(film->aov[i] + ((double)features[i] - film->aov[i]) * share);
+    return EC_OK;
 }
 
 ec_result ec_film_create_like(ec_film *film, const ec_film *like, uint32_t rows, ec_error *err)

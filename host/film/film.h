@@ -51,8 +51,11 @@ ec_result ec_film_add_cut(ec_film *film, uint32_t index, uint32_t cut, const flo
 /* Says of a film whose parts are all there that its last batch is so many samples short. */
 void ec_film_set_cut(ec_film *film, uint32_t cut);
 
-/* First-hit features of batch `aov_batches`, EC_FILM_FEATURES floats a pixel, malloc'ed. The first ones become the film's, and *features NULL. */
-void ec_film_add_features(ec_film *film, float **features);
+/* First-hit features of batch `aov_batches`, EC_FILM_FEATURES floats a pixel, of the first `pixels` of them; 0 elsewhere. */
+ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, ec_error *err);
+
+/* The first batch of a picture that was stopped within it: the first `pixels` of it may have a sample. */
+ec_result ec_film_add_begun(ec_film *film, const float *batch, uint64_t pixels, ec_error *err);
 
 /* Adds a part, whose memory the film takes on success. */
 ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err);

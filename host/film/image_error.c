@@ -38,14 +38,16 @@ static double squared_variance(double n, double m2, double m4)
     return isfinite(value) ? value : k2 * k2; /* m4 left the range of double (deviations beyond 1e77): the wider choice */
 }
 
+static double not_below(double least, double x) { return x > least ? x : least; } /* fmax is a call, for the sake of NaN */
+
 static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
 {
     const double n = p->n, s2 = ec_pixel_se2(p, 3), s4 = s2 * s2;
     const double v2 = n >= 4 ? squared_variance(n, p->m2[3], p->m4) / (n * n) : s4;
-    const double y = ec_luminance(p->mean), excess = fmax(p->tail[0] - (1 + 1e-6) * y, 0); /* the largest is a float: steady pixels have none */
+    const double y = ec_luminance(p->mean), excess = not_below(0, p->tail[0] - (1 + 1e-6) * y); /* the largest is a float: steady pixels have none */
     sums->luminance += y;
     sums->samples += p->samples;
-    ec_tail_add(&sums->tail, excess / fmax(p->samples, 1));
+    ec_tail_add(&sums->tail, excess / not_below(1, p->samples));
     sums->s2 += s2;
     sums->s4 += s4;
     sums->v4 += v2;
@@ -59,6 +61,7 @@ static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
 static void sum_row(const ec_film *film, uint32_t row, ec_error_sums *sums)
 {
     ec_pixel piece[EC_PIXELS];
+    if (film->unsampled && !memchr(film->unsampled + (uint64_t)row * film->width, 0, film->width)) return; /* black, in a film of one replicate */
     for (uint64_t x = 0; x < film->width; x += EC_PIXELS) {
         const uint64_t count = film->width - x < EC_PIXELS ? film->width - x : EC_PIXELS;
         ec_film_look(film, (uint64_t)row * film->width + x, count, piece);

@@ -171,7 +171,8 @@ static float *kept(const float *batch, uint64_t pixels, uint64_t *invalid)
     return own;
 }
 
-static ec_result insert_batch(ec_film *film, ec_film_part *part, const float *batch, ec_error *err)
+/* The first `there` pixels of the batch are looked at; where that is not all, it is the first one. */
+static ec_result insert_batch(ec_film *film, ec_film_part *part, const float *batch, uint64_t there, ec_error *err)
 {
     uint64_t pixels = pixels_of(film), invalid = 0;
     bool made = true;
@@ -180,7 +181,7 @@ static ec_result insert_batch(ec_film *film, ec_film_part *part, const float *ba
     if (!made)
         return ec_fail(err, "out of memory for a film of %u x %u pixels (%.1f MB); ask for a smaller one", film->width, film->height,
                        (double)pixels * (double)ec_sums_bytes(film->replicates) / 1e6);
-    if (!part->batch) invalid = ec_sums_add(&part->sums, batch, part->first % film->replicates, 1, pixels);
+    if (!part->batch) invalid = ec_sums_add(&part->sums, batch, part->first % film->replicates, 1, there);
     ec_result result = insert(film, part, err);
     if (result == EC_OK) film->invalid_count += invalid;
     else ec_film_part_free(part);
@@ -195,7 +196,7 @@ static ec_result add(ec_film *film, uint32_t index, uint32_t cut, const float *b
     count_samples(film, &part);
     part.samples[replicate] -= cut;
     ec_film_part *left = neighbour_of(film, &part);
-    if (!left) return insert_batch(film, &part, batch, err);
+    if (!left) return insert_batch(film, &part, batch, pixels_of(film), err);
     const double share = part.samples[replicate] / (left->samples[replicate] + part.samples[replicate]);
     film->invalid_count += ec_sums_add(&left->sums, batch, replicate, share, pixels_of(film));
     left->samples[replicate] += part.samples[replicate];
@@ -205,6 +206,14 @@ static ec_result add(ec_film *film, uint32_t index, uint32_t cut, const float *b
 }
 
 ec_result ec_film_add(ec_film *film, uint32_t index, const float *batch, ec_error *err) { return add(film, index, 0, batch, err); }
+
+ec_result ec_film_add_begun(ec_film *film, const float *batch, uint64_t pixels, ec_error *err)
+{
+    ec_film_part part = {.count = 1};
+    EC_TRY(check_free(film, 0, 1, 0, err));
+    count_samples(film, &part);
+    return insert_batch(film, &part, batch, pixels, err);
+}
 
 ec_result ec_film_add_cut(ec_film *film, uint32_t index, uint32_t cut, const float *batch, ec_error *err)
 {

@@ -3,27 +3,46 @@
 #include <math.h>
 #include <string.h>
 
-static void move(double mean[3], const float to[3], double share)
+enum { PIECE = 32 }; /* pixels whose means by replicate stay in the first cache */
+
+/* A replicate that has samples, as it is the same for all pixels. */
+typedef struct replicate {
+    uint32_t number;
+    double share;  /* of the samples of all up to it */
+    double weight; /* of its deviation */
+} replicate;
+
+static uint32_t list_replicates(const ec_film *film, replicate list[EC_REPLICATES_MOST])
 {
-    for (int c = 0; c < 3; c++) mean[c] += (to[c] - mean[c]) * share;
+    const double all = ec_film_samples_of_all(film), n = ec_film_replicates(film);
+    double samples = 0;
+    uint32_t count = 0;
+    for (uint32_t r = 0; r < film->replicates; r++) {
+        if (!(film->samples[r] > 0)) continue;
+        samples += film->samples[r];
+        list[count++] = (replicate){r, film->samples[r] / samples, sqrt(n * film->samples[r] / all)};
+    }
+    return count;
 }
 
-/* The part's mean of a replicate that has samples in it. */
-static const float *part_mean(const ec_film_part *part, uint64_t p, uint32_t r)
+/* Parts from left to right. An average that moves by differences leaves values that are all alike as they are. */
+static void take_part(const ec_film_part *part, uint64_t first, uint64_t count, uint32_t r, double share, double *mean)
 {
-    return part->batch ? part->batch + EC_BATCH_FIELDS * p : ec_sums_mean(&part->sums, r, p);
+    const float *to = part->batch ? part->batch + EC_BATCH_FIELDS * first : ec_sums_mean(&part->sums, r, first);
+    for (uint64_t i = 0; part->batch && i < count; i++)
+        for (uint64_t c = 0; c < 3; c++) mean[3 * i + c] += (to[EC_BATCH_FIELDS * i + c] - mean[3 * i + c]) * share;
+    for (uint64_t i = 0; !part->batch && i < 3 * count; i++) mean[i] += (to[i] - mean[i]) * share;
 }
 
-/* From left to right. An average that moves by differences leaves values that are all alike as they are. */
-static void replicate_mean(const ec_film *film, uint64_t p, uint32_t r, double mean[3])
+static void replicate_mean(const ec_film *film, uint64_t first, uint64_t count, uint32_t r, double *mean)
 {
     double samples = 0;
-    memset(mean, 0, 3 * sizeof *mean);
+    memset(mean, 0, 3 * count * sizeof *mean);
     for (uint32_t i = 0; i < film->part_count; i++) {
-        const ec_film_part *part = &film->parts[i];
-        if (!(part->samples[r] > 0)) continue;
-        samples += part->samples[r];
-        move(mean, part_mean(part, p, r), part->samples[r] / samples);
+        const double own = film->parts[i].samples[r];
+        if (!(own > 0)) continue;
+        samples += own;
+        take_part(&film->parts[i], first, count, r, own / samples, mean);
     }
 }
 
@@ -35,36 +54,52 @@ void ec_film_tail(const ec_film *film, uint64_t p, float tail[3])
     }
 }
 
-static void add_deviation(ec_pixel *out, const double mean[3], double weight)
+/* What a piece of pixels comes to, field by field, so that compilers take several pixels at once. */
+typedef struct piece {
+    double by_replicate[EC_REPLICATES_MOST][3 * PIECE], mean[3 * PIECE], m2[3 * PIECE], y2[PIECE], y3[PIECE], y4[PIECE];
+} piece;
+
+static void add_mean(const double *by_replicate, double share, uint64_t values, double *mean)
 {
-    const double d[3] = {weight * (mean[0] - out->mean[0]), weight * (mean[1] - out->mean[1]), weight * (mean[2] - out->mean[2])};
-    const double y = ec_luminance(d), y2 = y * y;
-    for (int c = 0; c < 3; c++) out->m2[c] += d[c] * d[c];
-    out->m2[3] += y2;
-    out->m3 += y2 * y;
-    out->m4 += y2 * y2;
+    for (uint64_t i = 0; i < values; i++) mean[i] += (by_replicate[i] - mean[i]) * share;
 }
 
-static void look_at(const ec_film *film, uint64_t p, ec_pixel *out)
+static void add_deviations(const double *by_replicate, double weight, uint64_t count, piece *p)
 {
-    const uint32_t replicates = film->replicates;
-    double mean[EC_REPLICATES_MOST][3], samples = 0, all = 0;
-    *out = (ec_pixel){0};
-    for (uint32_t r = 0; r < replicates; r++) all += film->samples[r];
-    for (uint32_t r = 0; r < replicates; r++) {
-        if (!(film->samples[r] > 0)) continue;
-        out->n++;
-        samples += film->samples[r];
-        replicate_mean(film, p, r, mean[r]);
-        for (int c = 0; c < 3; c++) out->mean[c] += (mean[r][c] - out->mean[c]) * (film->samples[r] / samples);
+    double d[3 * PIECE];
+    for (uint64_t i = 0; i < 3 * count; i++) {
+        d[i] = weight * (by_replicate[i] - p->mean[i]);
+        p->m2[i] += d[i] * d[i];
     }
-    for (uint32_t r = 0; r < replicates; r++)
-        if (film->samples[r] > 0) add_deviation(out, mean[r], sqrt(out->n * film->samples[r] / all));
-    ec_film_tail(film, p, out->tail);
-    out->samples = ec_film_samples(film, p);
+    for (uint64_t i = 0; i < count; i++) {
+        const double y = ec_luminance(d + 3 * i), y2 = y * y;
+        p->y2[i] += y2;
+        p->y3[i] += y2 * y;
+        p->y4[i] += y2 * y2;
+    }
+}
+
+static void look_at(const ec_film *film, const replicate *list, uint32_t n, uint64_t first, uint64_t count, ec_pixel *out)
+{
+    piece p;
+    const double samples = ec_film_samples_of_all(film);
+    memset(p.mean, 0, sizeof p - sizeof p.by_replicate);
+    for (uint32_t k = 0; k < n; k++) {
+        replicate_mean(film, first, count, list[k].number, p.by_replicate[k]);
+        add_mean(p.by_replicate[k], list[k].share, 3 * count, p.mean);
+    }
+    for (uint32_t k = 0; k < n; k++) add_deviations(p.by_replicate[k], list[k].weight, count, &p);
+    for (uint64_t i = 0; i < count; i++) {
+        const double *mean = p.mean + 3 * i, *m2 = p.m2 + 3 * i;
+        out[i] = (ec_pixel){.mean = {mean[0], mean[1], mean[2]}, .m2 = {m2[0], m2[1], m2[2], p.y2[i]}, .m3 = p.y3[i], .m4 = p.y4[i], .n = n,
+                            .samples = film->counts ? ec_film_samples(film, first + i) : samples};
+        ec_film_tail(film, first + i, out[i].tail);
+    }
 }
 
 void ec_film_look(const ec_film *film, uint64_t first, uint64_t count, ec_pixel *pixels)
 {
-    for (uint64_t i = 0; i < count; i++) look_at(film, first + i, pixels + i);
+    replicate list[EC_REPLICATES_MOST];
+    const uint32_t n = list_replicates(film, list);
+    for (uint64_t i = 0; i < count; i += PIECE) look_at(film, list, n, first + i, count - i < PIECE ? count - i : PIECE, pixels + i);
 }

@@ -26,10 +26,9 @@ ec_sums ec_sums_in(void *memory, uint32_t replicates, uint64_t pixels)
     return (ec_sums){replicates, pixels, mean, mean + 3ull * replicates * pixels};
 }
 
-void ec_sums_add_tail(float into[3], const float next[3])
+void ec_sums_join_tails(float into[3], const float next[3])
 {
     const float largest = into[0] < next[0] ? next[0] : into[0];
-    if (!(next[0] > 0)) return;
     const double a = into[0] / (double)largest, b = next[0] / (double)largest, a2 = a * a, b2 = b * b;
     into[0] = largest;
     into[1] = (float)(a2 * into[1] + b2 * next[1]);

@@ -50,8 +50,16 @@ uint32_t ec_sums_add_pixel(const ec_sums *sums, const float *batch, uint32_t rep
 /* `into` takes `next` in; share: of each replicate's samples, the part that is `next`'s. */
 void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, uint64_t pixels);
 
-/* One pixel's tail takes another of the same pixel in. */
-void ec_sums_add_tail(float into[3], const float next[3]);
+/* One pixel's tail takes another of the same pixel in: two that have light. */
+void ec_sums_join_tails(float into[3], const float next[3]);
+
+/* Any two. */
+static inline void ec_sums_add_tail(float into[3], const float next[3])
+{
+    if (!(next[0] > 0)) return;
+    if (into[0] > 0) ec_sums_join_tails(into, next);
+    else for (int i = 0; i < 3; i++) into[i] = next[i];
+}
 
 void ec_sums_copy(const ec_sums *to, const ec_sums *from, uint64_t pixels);
 

@@ -45,7 +45,7 @@ typedef struct ec_course {
 } ec_course;
 
 /* ec_render by a course, on all of these devices at once (1 to EC_DEVICES_MOST). One that fails is left out with a warning; only when there is
- * none left does the render fail. Host memory beside the film: a batch of 24 bytes a pixel with one device, else ec_team_bytes
+ * none left does the render fail. Host memory beside the film: a batch and its first-hit features, 56 bytes a pixel, with one device, else also ec_team_bytes
  * (team.h). film must be zero-initialised, or with a past hold what was done, at options' size. */
 ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene *scene,
                            const ec_render_options *options, const ec_course *course, ec_progress_fn progress,

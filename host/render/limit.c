@@ -86,7 +86,7 @@ static ec_result take_pilot(ec_render_state *r, uint64_t room, double *mean, ec_
     return result;
 }
 
-ec_result ec_render_find_limit(ec_render_state *r, uint32_t first_row, uint32_t rows, const ec_log *log, ec_error *err)
+ec_result ec_render_find_limit(ec_render_state *r, uint32_t rows, const ec_log *log, ec_error *err)
 {
     const ec_render_options *o = r->options;
     const uint64_t positions = ec_order_positions((uint64_t)o->width * rows, r->replicates);
@@ -97,7 +97,6 @@ ec_result ec_render_find_limit(ec_render_state *r, uint32_t first_row, uint32_t 
         forget_pilot(r);
         if (mean > 0) r->limit = (float)(o->clamp * rounded(mean));
         else ec_note(log, "--clamp: the picture's pilot is black, so that there is no mean luminance to go by and nothing is limited");
-        if (r->source->turn_to) EC_TRY(r->source->turn_to(r->source, first_row, rows, err)); /* its films are as good as new */
     }
     r->stats->clamp_luminance = (double)r->limit;
     return EC_OK;

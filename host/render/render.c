@@ -133,7 +133,7 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);
     EC_TRY(choose_film(r, log, err));
     if (past) r->limit = r->film->limit;
-    return r->strip_rows ? EC_OK : ec_render_find_limit(r, 0, r->options->height, log, err);
+    return r->strip_rows ? EC_OK : ec_render_find_limit(r, r->options->height, log, err);
 }
 
 static void tell_kernels(ec_render_state *r)

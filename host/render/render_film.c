@@ -1,6 +1,7 @@
 /* Batches until a limit is met. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "device/adaptive.h"
@@ -52,6 +53,19 @@ static uint64_t order_samples(const ec_render_state *r)
     return ec_schedule_samples(r->replicates, r->order.index + batches) - ec_schedule_samples(r->replicates, r->order.index) - r->order.cut;
 }
 
+/* Of a pixel that goes into the film as the first batch is given up; of one whose error is looked at, until that is known. */
+#define BEGUN_SECONDS 30e-9
+#define LOOK_SECONDS 30e-9
+
+/* Seconds from a stop to the end of the render: a first batch goes into the film as far as it is there, others are given up; and then the film's
+ * error is looked at, if it has changed since. */
+static double closing_seconds(const ec_render_state *r, uint32_t done)
+{
+    if (r->past.next == 0) return BEGUN_SECONDS * done;
+    if (r->is_looked_at) return 0.0;
+    return r->look_seconds > 0 ? r->look_seconds : LOOK_SECONDS * ec_render_film_pixels(r);
+}
+
 /* Between waves: goes on unless a limit or the caller ends the batch early. */
 static bool goes_on(void *user, uint32_t done)
 {
@@ -64,7 +78,7 @@ static bool goes_on(void *user, uint32_t done)
     if (r->look_failed) return false;
     if (is_due) keep(r, done);
     double now = ec_now(), share = (double)r->under_way / ec_render_film_pixels(r);
-    bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start > r->options->time_limit;
+    bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start + closing_seconds(r, done) > r->options->time_limit;
     bool go_on = now - r->last_report < 0.1 || ec_render_tell(r, r->samples_before_it + share);
     if (!out_of_time && go_on) return true;
     r->stopped_by = go_on ? "time" : "user";
@@ -85,11 +99,12 @@ static uint32_t known_end(const ec_render_state *r)
     return end;
 }
 
-static ec_result take_features(ec_render_state *r, ec_error *err)
+static ec_result make_room_for_features(ec_render_state *r, ec_error *err)
 {
-    if (!wants_features(r)) free(r->aov), r->aov = NULL;
+    const bool wants_room = wants_features(r) && !ec_sources_alone(&r->sources);
+    if (!wants_room) free(r->aov), r->aov = NULL;
     else if (!r->aov) r->aov = malloc((uint64_t)r->film->width * r->film->height * EC_AOV_FIELDS * sizeof *r->aov);
-    return r->aov || !wants_features(r) ? EC_OK : ec_fail(err, "out of memory for the first-hit features");
+    return r->aov || !wants_room ? EC_OK : ec_fail(err, "out of memory for the first-hit features");
 }
 
 /* How many pixels a batch that was under way goes on from: whole rows of tiles (batch_source.h), since a wave may have ended within one. */
@@ -116,8 +131,9 @@ static double samples_left(const ec_render_state *r)
 static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
 {
     ec_allotment *a = &r->past.allotment;
-    EC_TRY(take_features(r, err));
-    r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r), .aov = r->aov,
+    EC_TRY(make_room_for_features(r, err));
+    r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r),
+                                .with_features = wants_features(r), .aov = r->aov,
                                 .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
                                 .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY,
                                 .go_on = goes_on, .user = r};
@@ -137,21 +153,41 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     return EC_FAILED;
 }
 
-static ec_result mark_unsampled(ec_render_state *r, ec_error *err)
+static float *batch_features(const ec_render_state *r) { return r->aov ? r->aov : r->source->features; }
+
+/* Of the pixels that the batch may have reached; the others hold nothing. */
+static uint64_t clear_unreached(float *mean, float *features, uint64_t pixels, uint8_t *unsampled)
 {
-    uint64_t pixels = (uint64_t)r->film->width * r->film->height;
-    float *mean = r->source->mean;
-    r->film->unsampled = calloc(pixels, 1);
-    if (!r->film->unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
-    r->under_way = pixels * order_samples(r);
-    for (uint64_t i = 0; i < pixels; i++, mean += EC_BATCH_FIELDS) {
-        if (*mean != EC_NOT_REACHED) continue;
-        r->film->unsampled[i] = 1;
-        r->under_way -= order_samples(r);
-        for (int k = 0; k < EC_BATCH_FIELDS; k++) mean[k] = 0.0f;
-        for (int k = 0; r->aov && k < EC_AOV_FIELDS; k++) r->aov[EC_AOV_FIELDS * i + (uint64_t)k] = 0.0f;
+    uint64_t missing = 0;
+#pragma omp parallel for reduction(+ : missing) if (pixels > EC_FILM_MANY)
+    for (uint64_t i = 0; i < pixels; i++) {
+        unsampled[i] = mean[EC_BATCH_FIELDS * i] == EC_NOT_REACHED;
+        if (!unsampled[i]) continue;
+        missing++;
+        memset(mean + EC_BATCH_FIELDS * i, 0, EC_BATCH_FIELDS * sizeof *mean);
+        memset(features + EC_AOV_FIELDS * i, 0, EC_AOV_FIELDS * sizeof *features);
     }
-    return EC_OK;
+    return missing;
+}
+
+/* A first batch that was given up is the picture, since there is no other. */
+static ec_result add_begun(ec_render_state *r, ec_error *err)
+{
+    const uint64_t pixels = (uint64_t)r->film->width * r->film->height, reached = r->source->reached;
+    uint8_t *unsampled = r->film->unsampled = malloc(pixels);
+    if (!unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
+    memset(unsampled + reached, 1, pixels - reached);
+    const uint64_t missing = clear_unreached(r->source->mean, batch_features(r), reached, unsampled);
+    r->under_way = (reached - missing) * order_samples(r);
+    EC_TRY(ec_film_add_features(r->film, batch_features(r), reached, err));
+    return ec_film_add_begun(r->film, r->source->mean, reached, err);
+}
+
+/* The last ones make room for the batch, before that goes into the film. */
+static ec_result add_features(ec_render_state *r, ec_error *err)
+{
+    EC_TRY(ec_film_add_features(r->film, batch_features(r), r->order.count, err));
+    return r->source->end_features && r->past.next + 1 == r->replicates ? r->source->end_features(r->source, err) : EC_OK;
 }
 
 static ec_result add_block(ec_render_state *r, ec_error *err)
@@ -163,21 +199,36 @@ static ec_result add_block(ec_render_state *r, ec_error *err)
 }
 
 /* Or the block. */
+static ec_result add_whole(ec_render_state *r, ec_error *err)
+{
+    const float *mean = r->source->mean;
+    if (r->order.with_features) EC_TRY(add_features(r, err));
+    if (r->order.cut) keep(r, 0);
+    if (r->order.list) return ec_film_add_some(r->film, mean, r->past.allotment.places, r->order.count, r->order.samples, err);
+    if (r->source->batches > 1) return add_block(r, err);
+    if (r->order.cut) return ec_film_add_cut(r->film, r->past.next, r->order.cut, mean, err);
+    return ec_film_add(r->film, r->past.next, mean, err);
+}
+
 static ec_result add_batch(ec_render_state *r, bool complete, ec_error *err)
 {
     for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
-    if (!complete) EC_TRY(mark_unsampled(r, err));
-    if (r->aov) ec_film_add_features(r->film, &r->aov);
-    if (r->order.cut) keep(r, 0);
-    const float *mean = r->source->mean;
-    if (r->order.list) EC_TRY(ec_film_add_some(r->film, mean, r->past.allotment.places, r->order.count, r->order.samples, err));
-    else if (r->source->batches > 1) EC_TRY(add_block(r, err));
-    else if (r->order.cut) EC_TRY(ec_film_add_cut(r->film, r->past.next, r->order.cut, mean, err));
-    else EC_TRY(ec_film_add(r->film, r->past.next, mean, err));
+    EC_TRY(complete ? add_whole(r, err) : add_begun(r, err));
     r->past.samples += r->under_way;
     r->past.rays = r->rays_before + r->source->rays;
     r->past.next += r->source->batches;
+    r->is_looked_at = false;
     return EC_OK;
+}
+
+/* Once for each state of the film. */
+static void look_at_error(ec_render_state *r)
+{
+    const double start = ec_now();
+    if (r->is_looked_at) return;
+    r->error = ec_film_estimate_error(r->film);
+    r->look_seconds = ec_now() - start;
+    r->is_looked_at = true;
 }
 
 /* Have all pixels what they are due, by the schedule or by the allotment's level? Limits of error are looked at then. */
@@ -229,7 +280,7 @@ static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
     if (is_narrow || r->was_narrow) ec_goal_restart_pace(&r->goal);
     r->was_narrow = is_narrow;
     if (at_round) {
-        r->error = ec_film_estimate_error(r->film);
+        look_at_error(r);
         ec_goal_round(&r->goal, &r->error, at);
         if (has_pilot(r)) note_withheld(r, log);
         EC_TRY(allot(r, err));
@@ -264,7 +315,7 @@ static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err
 static ec_result take_up_goal(ec_render_state *r, ec_error *err)
 {
     const ec_mark at = ec_render_mark(r);
-    r->error = ec_film_estimate_error(r->film);
+    look_at_error(r);
     r->goal.slope = r->past.slope;
     r->goal.now = r->error;
     ec_goal_batch(&r->goal, at.samples, at.seconds, 0);
@@ -277,12 +328,13 @@ ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     ec_result result = EC_OK;
     r->film->limit = r->limit;
+    r->is_looked_at = false;
     r->last_report = r->kept_at = ec_now();
     r->render_start = ec_now() - r->past.seconds;
     r->batch_end = r->past.seconds;
     if (r->past.samples) result = take_up_goal(r, err);
     while (result == EC_OK && !r->stopped_by) result = take_batch(r, log, err);
-    if (r->film->batch_count) r->error = ec_film_estimate_error(r->film);
+    if (r->film->batch_count) look_at_error(r);
     keep(r, 0);
     return result;
 }

@@ -24,6 +24,8 @@ typedef struct ec_render_state {
     uint32_t end;              /* whole batches end before this one; UINT32_MAX where no number of samples ends them */
     uint32_t cut;              /* samples that batch `end` lacks, where it is wanted: else 0 */
     ec_film_error error;
+    bool is_looked_at;         /* error is the film's as it is now */
+    double look_seconds;       /* that this took; 0: not known */
     bool is_withheld_noted;
     bool was_narrow;           /* the last batch ended with the kernels of the beginning (device/tiers.h) */
     ec_rare rare;              /* foretold before the first sample */
@@ -54,8 +56,8 @@ ec_mark ec_render_mark(const ec_render_state *r);
 /* render_film.c: until a limit is met; what is there before stays in the film. */
 ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
 
-/* limit.c: once, before the first sample of a render that has a clamp; the source has been turned to these rows, and is so again. */
-ec_result ec_render_find_limit(ec_render_state *r, uint32_t first_row, uint32_t rows, const ec_log *log, ec_error *err);
+/* limit.c: once, before the first sample of a render that has a clamp; the source has been turned to these rows. */
+ec_result ec_render_find_limit(ec_render_state *r, uint32_t rows, const ec_log *log, ec_error *err);
 
 /* render_strips.c: all rows, or as many as there is memory for, into r->strip_rows. Small pictures do not ask. */
 ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error *err);

@@ -17,7 +17,7 @@ ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error 
     const ec_pipeline *p = ec_sources_alone(&r->sources);
     const ec_device_info *device = &p->cl->info;
     const bool shared = device->type & CL_DEVICE_TYPE_CPU, can = r->course->strip != NULL;
-    const uint64_t whole = ec_strip_whole(o, shared), left = device->memory_bytes - p->cl->allocated_bytes;
+    const uint64_t whole = ec_strip_whole(o), left = device->memory_bytes - p->cl->allocated_bytes;
     if (!o->memory && (whole < EC_STRIP_NEVER || !can)) return EC_OK;
     const int64_t budget = ec_strip_budget(o, driver_bytes(p->cl) + (shared ? p->wave_bytes : 0));
     const uint32_t rows = ec_strip_rows(o, shared, budget, left, device->max_allocation_bytes);
@@ -25,8 +25,8 @@ ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error 
     if (rows == o->height || (!rows && !o->memory)) return EC_OK;
     if (!rows)
         return ec_fail(err, "--memory: %.0f MB are not enough for scene and program, and for %u rows of this picture, %.1f MB; give %.0fM or more, "
-                            "or a picture less wide", (double)o->memory / 1e6, EC_STRIP_STEP, (double)ec_strip_least(o, shared) / 1e6,
-                       ceil((double)((int64_t)(o->memory + ec_strip_least(o, shared)) - budget) / 1e6));
+                            "or a picture less wide", (double)o->memory / 1e6, EC_STRIP_STEP, (double)ec_strip_least(o) / 1e6,
+                       ceil((double)((int64_t)(o->memory + ec_strip_least(o)) - budget) / 1e6));
     if (!can) return ec_strip_refuse(o, whole, budget, r->course->whole_for, "leave it out", err);
     r->strip_rows = rows;
     ec_note(log, "not all %u rows fit into %s memory at a time: the picture is rendered in %u strips of %u", o->height, o->memory ? "that" : "free",
@@ -43,7 +43,7 @@ static ec_result render_strip(ec_render_state *r, uint32_t first_row, uint32_t r
     EC_TRY(ec_film_create(r->film, r->options->width, rows, r->replicates, err));
     EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
     EC_TRY(r->source->turn_to(r->source, first_row, rows, err));
-    EC_TRY(ec_render_find_limit(r, first_row, rows, log, err));
+    EC_TRY(ec_render_find_limit(r, rows, log, err));
     EC_TRY(ec_render_film(r, log, err));
     if (strcmp(r->stopped_by, "spp")) return EC_OK;
     r->samples_before += r->past.samples;

@@ -14,23 +14,24 @@ ec_strip_need ec_strip_needs(const ec_render_options *o)
     const uint64_t threads = (uint64_t)omp_get_max_threads(), rows = 20 + 20; /* that wait: write_rows.c; a band, and what is being resolved and compressed of it: */
     const uint64_t planes = threads * 2 * 16 * (64 + 3), coded = threads * 3 * 16 * 25 * 4, room = threads * 20 * sizeof(ec_pixel);
     const uint64_t film = o->slice_end ? ec_film_bytes(replicates, o->slice_first, o->slice_end) : ec_film_bytes(replicates, 0, batches);
-    const uint64_t batch = 4 * EC_BATCH_FIELDS, features = 2 * 32; /* a batch's features and the film's */
-    return (ec_strip_need){.host = film + batch + features, .device = batch + 32,
+    const uint64_t batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES;
+    return (ec_strip_need){.host = film + features + batch + features, .device = batch + features,
                            .column = rows * (film + 32) + room + planes + coded};
 }
 
-uint64_t ec_strip_whole(const ec_render_options *o, bool shared)
+uint64_t ec_strip_whole(const ec_render_options *o)
 {
     const ec_strip_need n = ec_strip_needs(o);
-    return (uint64_t)o->width * o->height * (n.host + (shared ? n.device : 0)) + o->width * n.column;
+    return (uint64_t)o->width * o->height * n.host + o->width * n.column;
 }
 
 uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *devices, uint32_t count, uint32_t peers)
 {
     const uint64_t pixels = (uint64_t)o->width * o->height;
-    uint64_t bytes = ec_strip_whole(o, false);
+    uint64_t bytes = ec_strip_whole(o);
+    if (count + peers == 1) return bytes;
     for (uint32_t i = 0; i < count; i++) bytes += devices[i].type & CL_DEVICE_TYPE_CPU ? pixels * ec_strip_needs(o).device : 0;
-    return count + peers > 1 ? bytes + ec_team_bytes(count + peers, pixels, ec_render_replicates(o), peers > 0) : bytes;
+    return bytes + ec_team_bytes(count + peers, pixels, ec_render_replicates(o), peers > 0);
 }
 
 static uint64_t rows_in(uint64_t bytes, uint64_t width, uint64_t per_pixel) { return bytes / (width * per_pixel); }
@@ -39,7 +40,7 @@ uint32_t ec_strip_rows(const ec_render_options *o, bool shared, int64_t host, ui
 {
     const ec_strip_need n = ec_strip_needs(o);
     const uint64_t aside = o->width * n.column, left = host > (int64_t)aside ? (uint64_t)host - aside : 0;
-    uint64_t rows = rows_in(left, o->width, n.host + (shared ? n.device : 0)), other = shared ? rows : rows_in(device, o->width, n.device);
+    uint64_t rows = rows_in(left, o->width, n.host), other = shared ? rows : rows_in(device, o->width, n.device);
     if (other < rows) rows = other;
     other = rows_in(largest, o->width, 32); /* first-hit features, on the device */
     if (other < rows) rows = other;
@@ -53,11 +54,11 @@ int64_t ec_strip_budget(const ec_render_options *o, uint64_t coming)
     return unused >= INT64_MAX ? INT64_MAX : (int64_t)unused - (int64_t)coming;
 }
 
-uint64_t ec_strip_least(const ec_render_options *o, bool shared)
+uint64_t ec_strip_least(const ec_render_options *o)
 {
     ec_render_options one = *o;
     one.height = o->height < EC_STRIP_STEP ? o->height : EC_STRIP_STEP;
-    return ec_strip_whole(&one, shared);
+    return ec_strip_whole(&one);
 }
 
 ec_result ec_strip_refuse(const ec_render_options *o, uint64_t whole, int64_t budget, const char *whole_for,

@@ -10,13 +10,14 @@
 
 /* Bytes of memory that grow with pixels, beside the scene. */
 typedef struct ec_strip_need {
-    uint64_t host, device;  /* a pixel: sums of batches, a batch and first-hit features; a batch and features again. On a processor all is the host's */
+    uint64_t host, device;  /* a pixel: sums of batches and first-hit features; of the batch under way both again, which the host looks at where they
+                               are: the device's too where that has memory of its own, and else only the host's */
     uint64_t column;        /* of the host for each pixel of the picture's width: bands on their way to the files */
 } ec_strip_need;
 ec_strip_need ec_strip_needs(const ec_render_options *options);
 
-/* All that a picture takes where the device has memory of its own, or (shared) where that is the host's. */
-uint64_t ec_strip_whole(const ec_render_options *options, bool shared);
+/* All that a picture takes of the host with one device. */
+uint64_t ec_strip_whole(const ec_render_options *options);
 
 /* Bytes with these devices together, and so many peers. */
 uint64_t ec_strip_whole_for(const ec_render_options *options, const ec_device_info *devices, uint32_t count, uint32_t peers);
@@ -25,7 +26,7 @@ uint64_t ec_strip_whole_for(const ec_render_options *options, const ec_device_in
 #define EC_STRIP_NEVER (64ull << 20)
 
 /* Bytes of the lowest strip. */
-uint64_t ec_strip_least(const ec_render_options *options, bool shared);
+uint64_t ec_strip_least(const ec_render_options *options);
 
 /* Fails with one line: a picture that is to be whole does not fit. whole_for: why it is; instead: what lets it be rendered in strips. */
 ec_result ec_strip_refuse(const ec_render_options *options, uint64_t whole, int64_t budget, const char *whole_for,

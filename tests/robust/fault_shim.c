@@ -34,7 +34,7 @@
     X(clGetPlatformIDs) X(clGetPlatformInfo) X(clGetDeviceIDs) X(clGetDeviceInfo) X(clCreateContext) X(clCreateCommandQueue)       \
     X(clCreateBuffer) X(clCreateProgramWithSource) X(clCreateProgramWithBinary) X(clBuildProgram) X(clGetProgramBuildInfo)         \
     X(clGetProgramInfo) X(clCreateKernel) X(clSetKernelArg) X(clEnqueueNDRangeKernel) X(clEnqueueReadBuffer)                       \
-    X(clEnqueueWriteBuffer) X(clEnqueueFillBuffer) X(clFinish) X(clWaitForEvents) X(clGetEventInfo)                                \
+    X(clEnqueueWriteBuffer) X(clEnqueueFillBuffer) X(clEnqueueMapBuffer) X(clEnqueueUnmapMemObject) X(clFinish) X(clWaitForEvents) X(clGetEventInfo)                                \
     X(write) X(pwrite) X(fsync) X(linkat) X(rename) X(open) X(close)                                                               \
     X(malloc) /* and its like */
 enum call {
@@ -145,6 +145,7 @@ ANSWERS_ON(on_queue(q), clEnqueueNDRangeKernel, (cl_command_queue q, cl_kernel k
 ANSWERS_ON(on_queue(q), clEnqueueReadBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
 ANSWERS_ON(on_queue(q), clEnqueueWriteBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, const void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
 ANSWERS_ON(on_queue(q), clEnqueueFillBuffer, (cl_command_queue q, cl_mem m, const void *v, size_t vs, size_t o, size_t s, cl_uint n, const cl_event *w, cl_event *e), (q, m, v, vs, o, s, n, w, e))
+ANSWERS_ON(on_queue(q), clEnqueueUnmapMemObject, (cl_command_queue q, cl_mem m, void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, v, n, w, e))
 ANSWERS_ON(on_queue(q), clFinish, (cl_command_queue q), (q))
 ANSWERS(clWaitForEvents, (cl_uint n, const cl_event *e), (n, e))
 
@@ -160,6 +161,7 @@ ANSWERS(clWaitForEvents, (cl_uint n, const cl_event *e), (n, e))
 MAKES(on_context(c), cl_command_queue, clCreateCommandQueue, (cl_context c, cl_device_id d, cl_command_queue_properties p, cl_int *error), (c, d, p, error))
 MAKES(on_context(c), cl_program, clCreateProgramWithSource, (cl_context c, cl_uint n, const char **s, const size_t *l, cl_int *error), (c, n, s, l, error))
 MAKES(on_context(c), cl_program, clCreateProgramWithBinary, (cl_context c, cl_uint n, const cl_device_id *d, const size_t *l, const unsigned char **b, cl_int *s, cl_int *error), (c, n, d, l, b, s, error))
+MAKES(on_queue(q), void *, clEnqueueMapBuffer, (cl_command_queue q, cl_mem m, cl_bool b, cl_map_flags f, size_t o, size_t s, cl_uint n, const cl_event *w, cl_event *e, cl_int *error), (q, m, b, f, o, s, n, w, e, error))
 MAKES((void)0, cl_kernel, clCreateKernel, (cl_program p, const char *n, cl_int *error), (p, n, error))
 
 cl_context clCreateContext(const cl_context_properties *p, cl_uint n, const cl_device_id *d, void(CL_CALLBACK *f)(const char *, const void *, size_t, void *), void *u, cl_int *error)

@@ -94,7 +94,7 @@ static int check_marked(const ec_team_recruit *recruits)
     bool complete;
     if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK) return 1;
     ec_batch_source *source = ec_team_source(team);
-    const ec_batch_order order = {.index = 0, .end = 9, .count = PIXELS, .aov = aov, .go_on = stop_early, .user = &asked};
+    const ec_batch_order order = {.index = 0, .end = 9, .count = PIXELS, .with_features = true, .aov = aov, .go_on = stop_early, .user = &asked};
     if (source->take(source, &order, &complete, &err) != EC_OK || complete) return 1;
     for (uint32_t i = 0; i < PIXELS; i++) {
         const bool is_right = is_filled(source->mean + FIELDS * i, 0, i);

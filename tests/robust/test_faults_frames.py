@@ -10,7 +10,7 @@ from support import eclat, read_exr
 from test_motion import GLOW, GREY, Builder
 
 FRAMES = 4
-CALLS = ["clEnqueueNDRangeKernel", "clCreateBuffer", "clEnqueueReadBuffer", "clEnqueueWriteBuffer", "clCreateKernel", "clFinish"]
+CALLS = ["clEnqueueNDRangeKernel", "clCreateBuffer", "clEnqueueReadBuffer", "clEnqueueMapBuffer", "clEnqueueWriteBuffer", "clCreateKernel", "clFinish"]
 
 
 class Frames(FaultCase):

@@ -42,12 +42,8 @@ static inline ec_result films_add(ec_film *film, uint32_t index, const float *rg
 /* A batch's first-hit features, EC_FILM_FEATURES a pixel. */
 static inline void films_add_features(ec_film *film, const float *features)
 {
-    const size_t bytes = (size_t)film->width * film->height * EC_FILM_FEATURES * sizeof *features;
-    float *own = malloc(bytes);
-    if (!own) exit(1);
-    memcpy(own, features, bytes);
-    ec_film_add_features(film, &own);
-    free(own);
+    ec_error err;
+    if (ec_film_add_features(film, features, (uint64_t)film->width * film->height, &err) != EC_OK) exit(1);
 }
 
 static inline ec_pixel films_pixel(const ec_film *film, uint64_t p)
