@@ -12,11 +12,19 @@ TIME, BUDGET = 5.0, 30.0  # seconds
 OVER = 1.1                # and no further
 
 
-def render_seconds(eclat, folder):
-    report = common.run_eclat(eclat, [common.cornell_box(), "--size", "64x64", "--time", str(TIME), "-o", os.path.join(folder, "a.exr")])
+def render_seconds(eclat, folder, size="64x64"):
+    report = common.run_eclat(eclat, [common.cornell_box(), "--size", size, "--time", str(TIME), "-o", os.path.join(folder, "a.png")])
     if report["stopped_by"] != "time":
         common.fail(f"the render was stopped by {report['stopped_by']}, not by time")
     return report["seconds"]
+
+
+def large_seconds(eclat, folder):
+    return render_seconds(eclat, folder, "4096x4096")
+
+
+def larger_seconds(eclat, folder):
+    return render_seconds(eclat, folder, "8192x4096")
 
 
 def study_seconds(eclat, folder):
@@ -34,8 +42,10 @@ def main():
     eclat = common.eclat_path(options.eclat)
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for name, measure, limit in (("render --time", render_seconds, TIME), ("cost --budget", study_seconds, BUDGET)):
-            measure(eclat, folder)  # compiles
+        for name, measure, limit in (("render --time", render_seconds, TIME), ("render --size 4096x4096 --time", large_seconds, TIME),
+                                     ("render --size 8192x4096 --time", larger_seconds, TIME), ("cost --budget", study_seconds, BUDGET)):
+            if measure in (render_seconds, study_seconds):
+                measure(eclat, folder)  # compiles
             took = measure(eclat, folder)
             rows.append(common.row(f"{name} {limit:g}, Cornell box", f"{took:.2f} s", f"<= {OVER * limit:.1f} s", took <= OVER * limit))
     common.print_rows(rows)
