@@ -7,7 +7,7 @@
 #include "pack/pack.h"
 #include "shared/params.h"
 
-enum { EC_RARE_LAMPS = 32, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_EDGES = 1 << 13 };
+enum { EC_RARE_LAMPS = 32, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_AIMS = 4, EC_RARE_EDGES = 1 << 13, EC_RARE_LAMP_EDGES = 1 << 11 };
 
 /* A lamp's triangle, which stands for `weight` of its group. */
 typedef struct ec_rare_lamp {
@@ -28,12 +28,14 @@ typedef struct ec_rare_light {
     uint32_t lamp_count;
 } ec_rare_light;
 
-/* What shines from one direction, or nearly so: a directional light, or a small part of an environment. */
+/* What shines from one direction, or nearly so: a directional light, or a small part of an environment; or from a lamp's middle. */
 typedef struct ec_rare_sun {
     char name[EC_RARE_NAME];
-    float direction[3]; /* towards it, unit; on the map if it is on one */
-    bool is_on_map;
-    double irradiance;  /* luminance, of a surface that faces it */
+    float direction[3]; /* towards it, unit; on the map if it is on one. A lamp's normal */
+    float middle[3];    /* of a lamp */
+    bool is_on_map, is_lamp, two_sided;
+    uint32_t material;  /* of a lamp */
+    double irradiance;  /* luminance, of a surface that faces it; a lamp's at a distance of 1, where both face each other */
 } ec_rare_sun;
 
 typedef struct ec_rare_lights {
@@ -48,9 +50,9 @@ typedef struct ec_rare_lights {
     ec_shape *shapes;
     ec_placed *placed;
     uint32_t placed_count;
-    ec_rare_sun suns[EC_RARE_SUNS];  /* the strongest */
+    ec_rare_sun suns[EC_RARE_SUNS + EC_RARE_AIMS]; /* the strongest, and then some of the strongest lamps */
     uint32_t sun_count;
-    float (*edges)[3];               /* points just beside edges of triangles, outside of those; NULL where there is no sun */
+    float (*edges)[3];               /* points just beside edges of triangles, outside of those; in no order */
     uint32_t edge_count, flat_count; /* flat_count: triangles that stand where they were made, which come first */
 } ec_rare_lights;
 

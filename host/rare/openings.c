@@ -19,10 +19,10 @@ enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one befo
 #define FLAT 0.05     /* … that lie no further from its plane, over their distance */
 #define COMMON 0.02   /* chance beyond which every picture meets its light, as in paths.c */
 
-/* Where sunlight falls. */
+/* Where sunlight falls, or a lamp's. */
 typedef struct patch {
     float point[3], normal[3]; /* towards the sun's side */
-    double cosine, area;
+    double irradiance, area;
     const ec_rare_sun *sun;
 } patch;
 
@@ -41,6 +41,31 @@ static double square_between(const float *a, const float *b)
     double sum = 0;
     for (int k = 0; k < 3; k++) sum += ((double)a[k] - b[k]) * ((double)a[k] - b[k]);
     return sum;
+}
+
+/* From a point towards a sun. */
+static void aim(const finder *f, const ec_rare_sun *sun, const float point[3], float towards[3])
+{
+    double length = 0;
+    ec_rare_sun_direction(sun, &f->p->params, towards);
+    if (!sun->is_lamp) return;
+    for (int k = 0; k < 3; k++) towards[k] = sun->middle[k] - point[k], length += (double)towards[k] * towards[k];
+    for (int k = 0; k < 3; k++) towards[k] = (float)(towards[k] / fmax(sqrt(length), 1e-30));
+}
+
+/* Has a ray towards the sun met it? */
+static bool meets(const finder *f, const ec_rare_sun *sun, const ec_chain *ray)
+{
+    if (!sun->is_lamp || ray->hit == EC_NO_ID) return !sun->is_lamp && ray->hit == EC_NO_ID;
+    return ec_rare_material_of(f->all, ray->hit) == sun->material;
+}
+
+/* Of a surface that faces the sun, whose light goes along a direction. */
+static double irradiance_at(const ec_rare_sun *sun, const float point[3], const float along[3])
+{
+    const double cosine = dot(sun->direction, along);
+    if (!sun->is_lamp) return sun->irradiance;
+    return sun->irradiance * fmax(sun->two_sided ? fabs(cosine) : cosine, 0) / fmax(square_between(sun->middle, point), 1e-30);
 }
 
 /* From a point moved `back` against a direction, along it. */
@@ -71,42 +96,47 @@ static ec_result land(const finder *f, const ec_chain *ray, const ec_rare_sun *s
     for (int k = 0; k < 3; k++) n[k] = e[(k + 1) % 3] * g[(k + 2) % 3] - e[(k + 2) % 3] * g[(k + 1) % 3];
     const double length = sqrt(dot(n, n)), along = dot(n, ray->direction) / length, t = dot(n, way) / dot(n, ray->direction);
     *is_there = fabs(along) > GRAZING && t > 0 && isfinite(t);
-    *at = (patch){.cosine = fabs(along), .sun = sun};
+    *at = (patch){.sun = sun};
     for (int k = 0; k < 3; k++) {
         at->point[k] = (float)(ray->origin[k] + t * ray->direction[k]);
         at->normal[k] = (float)(along > 0 ? -n[k] / length : n[k] / length);
     }
+    at->irradiance = fabs(along) * irradiance_at(sun, at->point, ray->direction);
+    *is_there = *is_there && at->irradiance > 0;
     return EC_OK;
 }
 
-/* Moves the rays past edges that get by and land to the front. */
-static ec_result pass_edges(finder *f, const float towards[3], uint32_t *landed, ec_error *err)
+/* Moves the rays past edges that get by and land to the front. Lamps are many: past some of the edges. */
+static ec_result pass_edges(finder *f, const ec_rare_sun *sun, uint32_t *landed, ec_error *err)
 {
-    const uint32_t count = f->all->edge_count;
+    const uint32_t most = sun->is_lamp ? EC_RARE_LAMP_EDGES : EC_RARE_EDGES, count = f->all->edge_count < most ? f->all->edge_count : most;
     const double back = BESIDE * f->all->radius;
+    float towards[3];
     uint32_t passed = 0;
-    uint32_t *which = malloc(count * sizeof *which);
-    if (!which) return ec_fail(err, "out of memory for %u rays", count);
-    for (uint32_t i = 0; i < count; i++) set_ray(&f->rays[i], f->all->edges[i], towards, 1, back);
+    for (uint32_t i = 0; i < count; i++) {
+        aim(f, sun, f->all->edges[i], towards);
+        set_ray(&f->rays[i], f->all->edges[i], towards, 1, back);
+    }
     ec_result result = ec_chains_meet(f->p, f->rays, count, err);
-    for (uint32_t i = 0; i < count; i++)
-        if (f->rays[i].hit == EC_NO_ID) which[passed++] = i;
-    for (uint32_t i = 0; i < passed; i++) set_ray(&f->rays[i], f->all->edges[which[i]], towards, -1, back);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!meets(f, sun, &f->rays[i])) continue;
+        aim(f, sun, f->all->edges[i], towards);
+        set_ray(&f->rays[passed++], f->all->edges[i], towards, -1, back);
+    }
     if (result == EC_OK && passed) result = ec_chains_meet(f->p, f->rays, passed, err);
     *landed = 0;
     for (uint32_t i = 0; i < passed; i++)
         if (f->rays[i].hit < f->all->flat_count) f->rays[(*landed)++] = f->rays[i];
-    free(which);
     return result;
 }
 
 /* Adds up rings around a patch's point, from the smallest on, up to where nothing is lit. */
-static double lit_area(const finder *f, const ec_chain *rays)
+static double lit_area(const finder *f, const ec_rare_sun *sun, const ec_chain *rays)
 {
     double area = 0, outer = LARGEST * f->all->radius * ldexp(1, 1 - RINGS), inner = 0;
     for (int ring = RINGS - 1; ring >= 0; ring--, inner = outer, outer *= 2) {
         int lit = 0;
-        for (int k = 0; k < AROUND; k++) lit += rays[ring * AROUND + k].hit == EC_NO_ID;
+        for (int k = 0; k < AROUND; k++) lit += meets(f, sun, &rays[ring * AROUND + k]);
         if (!lit && ring < RINGS - 1) break;
         area += PI * (outer * outer - inner * inner) * lit / AROUND;
     }
@@ -114,7 +144,7 @@ static double lit_area(const finder *f, const ec_chain *rays)
 }
 
 /* Rays from around it towards the sun: in each ring evenly. */
-static void feel_around(const finder *f, const patch *at, const float towards[3], uint64_t *random, ec_chain *rays)
+static void feel_around(const finder *f, const patch *at, uint64_t *random, ec_chain *rays)
 {
     const int axis = fabsf(at->normal[0]) < 0.6f ? 0 : 1;
     const float *n = at->normal;
@@ -126,8 +156,9 @@ static void feel_around(const finder *f, const patch *at, const float towards[3]
         const double outer = LARGEST * f->all->radius * ldexp(1, -(i / AROUND)), inner = i / AROUND < RINGS - 1 ? outer / 2 : 0;
         const double r = sqrt(ec_random_between(random, inner * inner, outer * outer)), above = ABOVE * f->all->radius;
         const double angle = 2 * PI * (i % AROUND + ec_random_unit(random)) / AROUND;
-        float point[3];
+        float point[3], towards[3];
         for (int k = 0; k < 3; k++) point[k] = (float)(at->point[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]) + above * n[k]);
+        aim(f, at->sun, point, towards);
         set_ray(&rays[i], point, towards, 1, 0);
     }
 }
@@ -141,22 +172,20 @@ static bool is_known(const finder *f, const patch *at)
 
 static ec_result find_patches(finder *f, const ec_rare_sun *sun, ec_error *err)
 {
-    float towards[3];
     uint32_t landed = 0, count = 0;
     uint64_t random = 11;
     patch found[LANDED];
-    ec_rare_sun_direction(sun, &f->p->params, towards);
-    EC_TRY(pass_edges(f, towards, &landed, err));
+    EC_TRY(pass_edges(f, sun, &landed, err));
     for (uint32_t k = 0; k < landed && k < LANDED; k++) { /* some of them, evenly */
         bool is_there;
         EC_TRY(land(f, &f->rays[landed > LANDED ? (uint64_t)k * landed / LANDED : k], sun, &found[count], &is_there, err));
         count += is_there;
     }
-    for (uint32_t k = 0; k < count; k++) feel_around(f, &found[k], towards, &random, f->rays + (size_t)k * RINGS * AROUND);
+    for (uint32_t k = 0; k < count; k++) feel_around(f, &found[k], &random, f->rays + (size_t)k * RINGS * AROUND);
     if (count) EC_TRY(ec_chains_meet(f->p, f->rays, count * RINGS * AROUND, err));
     const double most = SMALL * PI * f->all->radius * f->all->radius;
     for (uint32_t k = 0; k < count; k++) {
-        found[k].area = lit_area(f, f->rays + (size_t)k * RINGS * AROUND);
+        found[k].area = lit_area(f, sun, f->rays + (size_t)k * RINGS * AROUND);
         if (found[k].area > 0 && found[k].area < most && !is_known(f, &found[k])) f->patches[f->count++] = found[k];
     }
     return EC_OK;
@@ -207,14 +236,15 @@ static void add_kind(const finder *f, const ec_chains *paths, const patch *at, b
         beta += (double)near[i].from->beta / count;
         tiles[ec_rare_tile(rare, near[i].from->place % rare->width, near[i].from->place / rare->width)]++;
     }
-    const double luminance = chance * beta * at->sun->irradiance * at->cosine / PI;
+    const double luminance = chance * beta * at->irradiance / PI;
     const double spread = seen ? sqrt(fmin(1 / chance, pixels)) : gathered(tiles, count);
     ec_rare_kind *kind = luminance > 0 && chance < COMMON ? ec_rare_make_room(rare, luminance * spread) : NULL;
     if (!kind) return;
-    *kind = (ec_rare_kind){.chance = chance, .luminance = luminance, .clamped = seen ? 0 : 1, .gathered = spread, .peak = seen ? EC_RARE_SHARES : 1};
-    if (!seen) memset(kind->share, 255, sizeof kind->share);
+    *kind = (ec_rare_kind){.chance = chance, .luminance = luminance, .clamped = seen ? 0 : 1, .gathered = spread};
+    uint32_t lit = 0;
     for (int i = 0; i < EC_RARE_SHARES; i++)
-        if (seen && tiles[i]) kind->share[i] = 255;
+        if (!seen || tiles[i]) kind->share[i] = 255, lit++;
+    kind->peak = (double)EC_RARE_SHARES / lit;
     snprintf(kind->light, sizeof kind->light, "a small patch lit by %.*s", EC_RARE_NAME - 24, at->sun->name);
 }
 

@@ -50,6 +50,25 @@ static void add_from_map(ec_rare_lights *all)
     }
 }
 
+/* Two triangles each of the lamps that come first: they are in order of power. */
+static void add_lamps(ec_rare_lights *all)
+{
+    uint32_t aims = 0;
+    for (uint32_t i = 0; i < all->count && aims < EC_RARE_AIMS; i++) {
+        const ec_rare_light *l = &all->lights[i];
+        const uint32_t parts = l->lamp_count < 2 ? l->lamp_count : 2;
+        for (uint32_t k = 0; k < parts && aims < EC_RARE_AIMS; k++, aims++) {
+            const ec_rare_lamp *lamp = &l->lamps[k * (l->lamp_count / 2)];
+            ec_rare_sun *sun = &all->suns[all->sun_count++];
+            *sun = (ec_rare_sun){.is_lamp = true, .two_sided = lamp->two_sided, .material = l->material};
+            sun->irradiance = l->radiance * lamp->area * lamp->weight * l->lamp_count / parts;
+            memcpy(sun->middle, lamp->middle, sizeof sun->middle);
+            memcpy(sun->direction, lamp->normal, sizeof sun->direction);
+            snprintf(sun->name, sizeof sun->name, "%.*s", EC_CUT(l->name, EC_RARE_NAME - 1));
+        }
+    }
+}
+
 /* Beside the middle of a triangle's edge, in its plane, on the side where it is not. */
 static void set_beside(const ec_prim *p, int edge, double distance, float point[3])
 {
@@ -60,18 +79,54 @@ static void set_beside(const ec_prim *p, int edge, double distance, float point[
     for (int k = 0; k < 3; k++) point[k] = (float)(0.5 * ((double)a[k] + b[k]) + distance * out[k] / fmax(sqrt(length), 1e-300));
 }
 
-/* All edges, or some of them where there are many. */
+static double length_of(const ec_prim *p)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += pow((double)p->v1[k] - p->v0[k], 2) + pow((double)p->v2[k] - p->v0[k], 2);
+    return sqrt(sum);
+}
+
+/* So many triangles, each as often as it is long: around holes walls are cut in long ones, and what is finely meshed is mostly no wall. */
+static void choose_by_length(const ec_pack *pack, uint32_t triangles, uint32_t count, uint64_t *random, uint32_t *chosen)
+{
+    double all = 0, sum = 0;
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < triangles; i++) all += length_of(&pack->prims[i]);
+    const double first = ec_random_unit(random);
+    for (uint32_t i = 0; i < triangles; i++) {
+        sum += length_of(&pack->prims[i]);
+        while (next < count && sum >= all * (next + first) / count) chosen[next++] = i;
+    }
+    while (next < count) chosen[next++] = triangles - 1;
+}
+
+/* All edges; or some of them where there are many, half of them by the triangles' lengths and half evenly, in any order. */
 static ec_result find_edges(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
 {
     const uint64_t edges = 3ull * all->flat_count;
+    const double beside = BESIDE * (double)all->radius;
     uint64_t random = 5;
     all->edge_count = edges < EC_RARE_EDGES ? (uint32_t)edges : EC_RARE_EDGES;
     if (!all->edge_count) return EC_OK;
+    uint32_t *by_length = malloc(all->edge_count * sizeof *by_length);
     all->edges = malloc(all->edge_count * sizeof *all->edges);
-    if (!all->edges) return ec_fail(err, "out of memory for %u edges", all->edge_count);
+    if (!all->edges || !by_length) {
+        free(by_length);
+        return ec_fail(err, "out of memory for %u edges", all->edge_count);
+    }
+    if (edges > all->edge_count) choose_by_length(pack, all->flat_count, all->edge_count / 2, &random, by_length);
     for (uint32_t i = 0; i < all->edge_count; i++) {
-        const uint64_t edge = edges > all->edge_count ? ec_random_bits(&random) % edges : i;
-        set_beside(&pack->prims[edge / 3], (int)(edge % 3), BESIDE * (double)all->radius, all->edges[i]);
+        const bool some = edges > all->edge_count;
+        const uint64_t edge = !some ? i : i % 2 ? 3ull * by_length[i / 2] + ec_random_bits(&random) % 3 : ec_random_bits(&random) % edges;
+        set_beside(&pack->prims[edge / 3], (int)(edge % 3), beside, all->edges[i]);
+    }
+    free(by_length);
+    for (uint32_t i = all->edge_count; i-- > 1;) { /* Fisher and Yates */
+        const uint32_t k = (uint32_t)(ec_random_bits(&random) % (i + 1ull));
+        float kept[3];
+        memcpy(kept, all->edges[i], sizeof kept);
+        memcpy(all->edges[i], all->edges[k], sizeof kept);
+        memcpy(all->edges[k], kept, sizeof kept);
     }
     return EC_OK;
 }
@@ -80,6 +135,7 @@ ec_result ec_rare_suns_find(const ec_pack *pack, ec_rare_lights *all, ec_error *
 {
     add_directional(&pack->plain.scene, all);
     add_from_map(all);
+    add_lamps(all);
     all->flat_count = ec_scene_flat_count(&pack->plain.scene);
     return all->sun_count ? find_edges(pack, all, err) : EC_OK;
 }

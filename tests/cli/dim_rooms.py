@@ -68,6 +68,15 @@ class Room:
             if x0 < x1 and z0 < z1:
                 self.quad(self.white, (x0, 3, z0), (x1 - x0, 0, 0), (0, 0, z1 - z0))
 
+    def rug(self, side):
+        """side x side small squares on the floor, each of its own height."""
+        material, points = self.material(0.5), []
+        for i in range(side * side):
+            x, z, y = -1.5 + i % side / side, -1.5 + i // side / side, 0.01 + 0.001 * (i * 7 % 11)
+            points += [c for a, b in SIDES for c in (x + b * 0.9 / side, y, z + a * 0.9 / side)]
+        self.json["meshes"].append({"primitives": [{"attributes": {"POSITION": self.floats(3, points)}, "material": material}]})
+        self.node(mesh=len(self.json["meshes"]) - 1)
+
     def sun(self, irradiance):
         length = math.sqrt(sum(c * c for c in SUN))
         x, y, z = (c / length for c in SUN)
@@ -95,9 +104,9 @@ def texel_room(path):
     return room.write(path)
 
 
-def sun_room(path, kind):
+def sun_room(path, kind, rug=0):
     """A dim lamp of 5 W, and outside a sun of 10^5 W/m^2. Through a "hole" of 5 mm it lights a patch of the floor; the room is "sealed"; or, in
-    place of both, the "patch" shines as what is reflected there."""
+    place of both, the "patch" shines as what is reflected there. rug: squares along each side of one on the floor, 0: none."""
     room, irradiance = Room(0.7), 1e5
     x, z = 0.5, 0.3
     room.quad(room.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
@@ -108,4 +117,16 @@ def sun_room(path, kind):
         room.quad(lit, (x - 3 * SUN[0] / SUN[1], 1e-5, z - 3 * SUN[2] / SUN[1]), (0, 0, HOLE), (HOLE, 0, 0))
     else:
         room.sun(irradiance)
+    if rug:
+        room.rug(rug)
+    return room.write(path)
+
+
+def lamp_room(path, kind):
+    """A dim lamp of 5 W, and a metre above the ceiling one of 125 kW, 2 mm across. Through a "hole" of 5 mm it lights a patch of the floor; or the
+    room is "sealed"."""
+    room, x, z, side = Room(0.7), 0.5, 0.3, 0.002
+    room.quad(room.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
+    room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
+    room.quad(room.material(0, 1e10), (x - side / 2, 4, z - side / 2), (side, 0, 0), (0, 0, side))
     return room.write(path)
