@@ -63,21 +63,21 @@ static uint32_t list_entries(const ec_pipeline *p, ec_kernel_set *set, entry ent
 }
 
 /* One program for all kernels of a lane width: each parse of the shared headers costs as much as compiling a stage. The source is the caller's to free. */
-static ec_result describe_width(const ec_pipeline *p, uint64_t built, const entry *entries, uint32_t count, uint32_t lanes, ec_compile_program *program, ec_error *err)
+static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, const entry *entries, uint32_t count, uint32_t lanes, ec_compile_program *program, ec_error *err)
 {
     const char *names[ENTRIES + 1] = {NULL}, *traversal = "";
     uint64_t features = 0;
     uint32_t used = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (entries[i].lanes != lanes) continue;
-        features |= ec_stage_features(&ec_stages[entries[i].stage], built);
+        features |= ec_stage_features(&ec_stages[entries[i].stage], set->features);
         if (entries[i].accel == EC_ACCEL_COUNT || entries[i].stage == EC_INTERSECT) names[used++] = entries[i].source; /* a source has both traversals */
         if (entries[i].accel == EC_ACCEL_COUNT) continue;
-        const char *own = ec_traversal_options(&p->cl->info, entries[i].accel, accel_bytes(p, entries[i].accel), built);
+        const char *own = ec_traversal_options(&p->cl->info, entries[i].accel, accel_bytes(p, entries[i].accel), set->features);
         if (*own) traversal = own;
     }
-    snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s", lanes, features, traversal,
-             p->fast_math ? " " EC_FAST_MATH : "");
+    snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s", lanes, features, traversal,
+             set->calls && lanes == 1 ? " -DCALLS" : "", p->fast_math ? " " EC_FAST_MATH : "");
     snprintf(program->label, sizeof program->label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     return ec_kernel_sources_join(names, &program->source, err);
 }
@@ -89,7 +89,7 @@ ec_result ec_kernel_set_build(ec_pipeline *p, ec_kernel_set *set, ec_error *err)
     for (uint32_t i = 0; i < count; i++) {
         cl_program *program = &set->programs[entries[i].lanes];
         ec_compile_program described = {.source = NULL};
-        if (!*program) EC_TRY(describe_width(p, set->features, entries, count, entries[i].lanes, &described, err));
+        if (!*program) EC_TRY(describe_width(p, set, entries, count, entries[i].lanes, &described, err));
         ec_result result = *program ? EC_OK : ec_program_build(p->cl, described.label, described.source, described.options, program, err);
         free(described.source);
         if (result == EC_OK) result = ec_kernel_create(*program, entries[i].name, entries[i].kernel, err);
@@ -144,7 +144,7 @@ ec_result ec_kernel_set_job(ec_pipeline *p, const ec_kernel_set *set, ec_compile
         uint32_t *program = &programs[entries[i].lanes];
         if (*program == UINT32_MAX) {
             if (job->program_count == EC_COMPILE_PROGRAMS) return ec_fail(err, "internal error: too many programs");
-            EC_TRY(describe_width(p, set->features, entries, count, entries[i].lanes, &job->programs[job->program_count], err));
+            EC_TRY(describe_width(p, set, entries, count, entries[i].lanes, &job->programs[job->program_count], err));
             *program = job->program_count++;
         }
         EC_TRY(add_kernel(p, set, &entries[i], *program, job, err));

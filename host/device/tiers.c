@@ -20,12 +20,12 @@ static ec_kernel_set fast_set(const ec_pipeline *p)
     return set;
 }
 
-/* One lane, and one accelerator: that whose kernels are the same for any width, if there is one. */
+/* One lane, and one accelerator: one whose kernels have one lane too, if there is one, for they compile twice as fast. */
 static ec_kernel_set narrow_set(const ec_pipeline *p)
 {
-    ec_kernel_set set = {.lanes = 1, .wave = ec_pipeline_narrow_wave(p, p->effects.built), .features = p->effects.built};
+    ec_kernel_set set = {.lanes = 1, .wave = ec_pipeline_narrow_wave(p, p->effects.built), .features = p->effects.built, .calls = true};
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
-        if (p->accels[a].in_use && (!set.accels || ec_accels[a].lanes)) set.accels = 1u << a;
+        if (p->accels[a].in_use && (!set.accels || !ec_accels[a].lanes)) set.accels = 1u << a;
     return set;
 }
 
@@ -33,7 +33,7 @@ static ec_kernel_set narrow_set(const ec_pipeline *p)
 static ec_kernel_set universal_set(const ec_pipeline *p)
 {
     const uint64_t features = ec_universal_features(&p->effects);
-    return (ec_kernel_set){.lanes = 1, .wave = ec_pipeline_narrow_wave(p, features), .features = features, .accels = 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8")};
+    return (ec_kernel_set){.lanes = 1, .wave = ec_pipeline_narrow_wave(p, features), .features = features, .calls = true, .accels = 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8")};
 }
 
 static bool is_beside(ec_compile compile)

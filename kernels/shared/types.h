@@ -4,8 +4,11 @@
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 #define EC_DEVICE_CODE
-/* Lane-wide values are too large to travel through calls. */
+#ifdef CALLS /* functions that compile once each, where compiling soon matters more than running fast */
+#define EC_FN static
+#else /* lane-wide values are too large to travel through calls */
 #define EC_FN static inline __attribute__((always_inline))
+#endif
 typedef int ec_int;
 typedef uint ec_uint;
 typedef ulong ec_ulong;
