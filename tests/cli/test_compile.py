@@ -3,9 +3,11 @@
 import glob
 import json
 import os
+import random
 import shutil
 import signal
 import threading
+import time
 import unittest
 
 from polling import poll_until
@@ -88,12 +90,19 @@ class Compile(Case):
         self.assertEqual(report["image_sha256"], self.render("--compile", "first", spp=40000)[0]["image_sha256"])
 
     def test_a_killed_compiler_leaves_the_cache_whole(self):
-        killer = threading.Thread(target=lambda: (poll_until(lambda: children(self.cache)), self.end_children()), daemon=True)
-        killer.start()
-        report, _ = self.render(spp=4000)
-        self.skip_unless_late(report)
-        killer.join()
-        self.assertEqual(self.render(spp=4000)[0]["image_sha256"], report["image_sha256"])
+        moments = random.Random(7)
+        for number in range(3):
+            self.cache = self.path(f"cache{number}")
+            os.mkdir(self.cache)
+            moment = moments.uniform(0, 3)  # seconds that it has compiled for
+            with self.subTest(moment=moment):
+                killer = threading.Thread(target=lambda: (poll_until(lambda: children(self.cache)), time.sleep(moment), self.end_children()), daemon=True)
+                killer.start()
+                report, _ = self.render(spp=4000)
+                self.skip_unless_late(report)
+                killer.join()
+                self.assertEqual(self.render(spp=4000)[0]["image_sha256"], report["image_sha256"])
+                self.end_children()
         self.assertEqual(self.render("--compile", "first", spp=4000)[0]["image_sha256"], report["image_sha256"])
 
     def test_without_the_compiler_the_fast_ones_come_first(self):

@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tiers: quick, full, long */
 /* Kernels change while a picture is rendered, at any wave, and no bit of it changes. */
 #include "base/random.h"
 #include "pack/scene_view.h"
@@ -15,11 +15,12 @@ static ec_render_options options(void)
     return o;
 }
 
+/* One of scenes/ by its name, any other by its path. */
 static ec_scene *load(const char *name)
 {
     char path[512];
     snprintf(path, sizeof path, "%s/scenes/%s/%s.gltf", ECLAT_SOURCE_DIR, name, name);
-    return case_load(path, NULL);
+    return case_load(*name == '/' ? name : path, NULL);
 }
 
 /* more: effects that are built in though the scene may not call for them, so that scenes share kernels. */
@@ -55,13 +56,21 @@ static uint64_t effects_of(const char *const names[SCENES])
     return all;
 }
 
+static void check_scenes(const char *const names[SCENES], int first, int moments, uint64_t *random)
+{
+    const uint64_t all = effects_of(names);
+    for (int i = first; i < SCENES; i++) check_scene(names[i], all, moments, random);
+}
+
 int main(void)
 {
     static const char *const scenes[SCENES] = {"cornell-box", "showcase", "lamps", "drink", "toy", "soap-film", "velvet", "spheres", "prism", "brushed-metal"};
+    static const char *const others[SCENES] = {"car-paint", "curl", "glass", "ladder", "six-lamps", "vase", "veach-plates", "terminator",
+                                               SHARED("assets/gltf/DamagedHelmet/glTF-Binary/DamagedHelmet.glb"),
+                                               SHARED("assets/gltf/Suzanne/glTF/Suzanne.gltf")};
     uint64_t random = 23;
     if (test_tier("quick")) check_scene(scenes[0], 0, 4, &random);
-    if (!test_tier("full")) TEST_END();
-    const uint64_t all = effects_of(scenes);
-    for (int i = 1; i < SCENES; i++) check_scene(scenes[i], all, 6, &random);
+    if (test_tier("full")) check_scenes(scenes, 1, 6, &random);
+    if (test_tier("long")) check_scenes(others, 0, 4, &random);
     TEST_END();
 }
