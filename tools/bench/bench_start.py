@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Time to the first pixel: with empty caches, after a render of another scene, and with full caches; and memory on a million triangles. See README.md."""
+"""Time to the first pixel: with empty caches, after a render of another scene, and with full caches; time to a small error with empty caches; and
+memory on a million triangles. See README.md."""
 import argparse
 import glob
 import os
@@ -12,6 +13,7 @@ import bench_common as common
 # Seconds to the first pixel: at the very first use, by scene; after any earlier render; and with all kernels there.
 FIRST = {"cornell-box": 1.8, "showcase": 3.0, "lamps": 4.0, "DamagedHelmet": 3.0}
 AFTER, WARM = 1.0, 0.3
+ERROR, SOONER = "5%", 0.5  # of time to this error where nothing is rendered before the fast kernels are compiled
 MEMORY = 600.0         # MB
 
 
@@ -92,6 +94,19 @@ def measure_start(eclat, runs, folder):
     return times
 
 
+def measure_error(eclat, runs, folder):
+    """Seconds to a picture of a small error with empty caches: as renders begin by themselves, and with the fast kernels from the first wave."""
+    caches = Caches(os.path.join(folder, "error"))
+    times = {name: {"beside": [], "first": []} for name in ("showcase", "lamps")}
+    for name, found in times.items():
+        for compiled in list(found) * runs:
+            caches.wait()
+            caches.empty()
+            report = common.run_eclat(eclat, [scenes()[name], "--size", "256x256", "--error", ERROR, "--compile", compiled, "-o", os.path.join(folder, "error.exr")], caches.environment)
+            found[compiled].append(report["wall_seconds"] - report["write_seconds"])
+    return times
+
+
 def measure_memory(eclat, folder):
     scene = common.shared("assets", "gltf", "MetalRoughSpheresNoTextures", "glTF-Binary", "MetalRoughSpheresNoTextures.glb")
     scene = scene or common.shared("assets", "gltf", "MetalRoughSpheresNoTextures", "glTF", "MetalRoughSpheresNoTextures.gltf")
@@ -110,19 +125,24 @@ def main():
     eclat = common.eclat_path(options.eclat)
     with tempfile.TemporaryDirectory() as folder:
         starts = measure_start(eclat, options.runs, folder)
+        errors = measure_error(eclat, options.runs, folder)
         memory = measure_memory(eclat, folder)
     rows = []
     for scene, times in starts.items():
         for name, what, target in (("first", "first use", FIRST[scene]), ("after", "after another scene", AFTER), ("warm", "warm", WARM)):
             value = common.median(times[name])
             rows.append(common.row(f"first pixel, {what}, {scene}", f"{value:.2f} s", f"<= {target:.1f} s", value <= target, f"+- {common.spread(times[name]):.0%}"))
+    for scene, times in errors.items():
+        beside, first = common.median(times["beside"]), common.median(times["first"])
+        rows.append(common.row(f"time to {ERROR} from empty caches, {scene}", f"{beside:.1f} s, {beside / first:.2f} of {first:.1f} s", f"<= {SOONER}", beside <= SOONER * first,
+                               f"+- {common.spread(times['beside']):.0%}"))
     if memory is None:
         rows.append(common.row("peak memory, MetalRoughSpheresNoTextures", "skipped", f"<= {MEMORY:.0f} MB", None, "../shared/assets is not here"))
     else:
         rows.append(common.row("peak memory, MetalRoughSpheresNoTextures", f"{memory:.0f} MB", f"<= {MEMORY:.0f} MB", memory <= MEMORY))
     common.print_rows(rows)
     if options.json:
-        common.write_json(options.json, {"starts": starts, "peak_memory_mb": memory, "rows": rows})
+        common.write_json(options.json, {"starts": starts, "errors": errors, "peak_memory_mb": memory, "rows": rows})
 
 
 if __name__ == "__main__":
