@@ -97,7 +97,7 @@ class Strips(FaultCase):
 
     def test_a_device_that_fails_leaves_what_is_complete(self):
         counts = self.count_in_strips()
-        run, folder = self.in_strips("device", call="clEnqueueReadBuffer", at=counts["clEnqueueReadBuffer"] * 2 // 3, code=-5)
+        run, folder = self.in_strips("device", call="clEnqueueMapBuffer", at=counts["clEnqueueMapBuffer"] * 2 // 3, code=-5)
         self.assertEqual(run.returncode, 1)
         self.assertRegex(run.stderr, r"\Aeclat: warning: the strips from row \d+ on are not complete.*\n"
                          r"eclat: error: the render failed after \d+ of 256 rows: .*; the picture so far is written\n\Z")
