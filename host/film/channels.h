@@ -2,6 +2,7 @@
 #ifndef EC_FILM_CHANNELS_H
 #define EC_FILM_CHANNELS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Arrays of floats that a picture has for each pixel. */
@@ -11,10 +12,20 @@ typedef enum ec_plane {
 } ec_plane;
 enum { EC_PLACE_ALPHA = 7, EC_FEATURE_CHANNELS }; /* in that plane: the last one, and how many */
 
+/* How a file keeps the values of an array. */
+typedef enum ec_channel_type {
+    EC_CHANNEL_FLOAT, /* 32-bit floats, as they are */
+    EC_CHANNEL_HALF,  /* floats in 16 bits: 11 significant ones */
+    EC_CHANNEL_UINT,  /* floats that are whole numbers, in 32 bits */
+    EC_CHANNEL_WORDS  /* 32-bit unsigned integers, as they are */
+} ec_channel_type;
+
 typedef struct ec_channel_row {
     const char *name;
     ec_plane plane;
-    uint32_t place; /* in the plane's floats of a pixel */
+    uint32_t place;       /* in the plane's floats of a pixel */
+    ec_channel_type type; /* in the EXR of a picture; its sums (store/layout.h) come with 32-bit floats of all */
+    bool is_default;      /* else written on request alone */
 } ec_channel_row;
 
 enum { EC_CHANNEL_ROWS = 25 };

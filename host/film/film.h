@@ -126,6 +126,7 @@ typedef struct ec_error_sums {
     double luminance, s2, s4; /* s2: s^2 / n, the variance of a pixel's mean */
     double relative;          /* of SE^2 / (x + 0.01)^2, all channels */
     double samples;
+    double largest;           /* variance of a pixel's mean, R, G or B */
     ec_tail tail;             /* by how much the largest sample of each pixel moved its mean */
     double v4, v8;            /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
 } ec_error_sums;

@@ -55,6 +55,7 @@ static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
     for (int c = 0; c < 3; c++) {
         double x = fabs(p->mean[c]) + EC_RELMSE_FLOOR;
         sums->relative += ec_pixel_se2(p, c) / (x * x);
+        sums->largest = fmax(sums->largest, ec_pixel_se2(p, c));
     }
 }
 
@@ -78,6 +79,7 @@ static void add_row(const ec_error_sums *row, ec_error_sums *sums)
     sums->v4 += row->v4;
     sums->v8 += row->v8;
     sums->samples += row->samples;
+    sums->largest = fmax(sums->largest, row->largest);
     ec_tail_join(&sums->tail, &row->tail);
 }
 

@@ -117,7 +117,7 @@ ec_result ec_exr_read(const char *path, ec_exr *exr, ec_error *err) { return ec_
 ec_result ec_exr_read_some(const char *path, const char *const *wanted, ec_exr *exr, ec_error *err)
 {
     ec_exr_input in;
-    exr_attr_v2i_t origin;
+    exr_attr_v2i_t origin = {0};
     *exr = (ec_exr){0};
     EC_TRY(ec_image_check_regular(path, err));
     exr_result_t code = ec_exr_input_open(&in, path);

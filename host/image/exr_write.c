@@ -1,4 +1,4 @@
-/* OpenEXR out: scan lines, ZIP (16 lines a block) or plain, 32-bit values; one part, or several and a seal; rows as they come. */
+/* OpenEXR out: scan lines, ZIP (16 lines a block) or plain; one part, or several and a seal; rows as they come. */
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,6 +87,9 @@ static int has_long_name(const ec_exr_part *parts, uint32_t part_count)
     return 0;
 }
 
+static const exr_pixel_type_t pixel_types[] = {[EC_CHANNEL_FLOAT] = EXR_PIXEL_FLOAT, [EC_CHANNEL_HALF] = EXR_PIXEL_HALF,
+                                               [EC_CHANNEL_UINT] = EXR_PIXEL_UINT, [EC_CHANNEL_WORDS] = EXR_PIXEL_UINT};
+
 static exr_result_t add_part(exr_context_t context, const ec_exr_rows *rows, const ec_exr_part *part)
 {
     int index = 0;
@@ -96,8 +99,7 @@ static exr_result_t add_part(exr_context_t context, const ec_exr_rows *rows, con
                                                    part->is_plain ? EXR_COMPRESSION_NONE : EXR_COMPRESSION_ZIP);
     for (uint32_t i = 0; code == EXR_ERR_SUCCESS && i < part->channel_count; i++)
         code = exr_add_channel(context, index, part->channels[i].name,
-                               part->channels[i].is_words ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT,
-                               EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+                               pixel_types[part->channels[i].type], EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     for (uint32_t i = 0; code == EXR_ERR_SUCCESS && i < part->attribute_count; i++)
         code = set_attribute(context, index, &part->attributes[i]);
     return code;
@@ -185,7 +187,6 @@ ec_result ec_exr_rows_put(ec_exr_rows *rows, const ec_exr_part *part, uint32_t c
     if (code != EXR_ERR_SUCCESS) return failed(rows, code, err);
     rows->y += count;
     if (rows->y < rows->height) return EC_OK;
-    ec_exr_blocks_reset(&rows->blocks, rows->context);
     rows->part++;
     rows->y = 0;
     return EC_OK;
@@ -219,7 +220,6 @@ static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, 
 
 ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err)
 {
-    ec_exr_blocks_reset(&rows->blocks, rows->context);
     exr_result_t code = exr_finish(&rows->context); /* writes the table of blocks */
     ec_result result = code == EXR_ERR_SUCCESS ? EC_OK : failed(rows, code, err);
     if (result == EC_OK && attributes) {
@@ -239,7 +239,7 @@ ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uin
 void ec_exr_rows_abort(ec_exr_rows *rows)
 {
     if (!rows) return;
-    ec_exr_blocks_free(&rows->blocks, rows->context);
+    ec_exr_blocks_free(&rows->blocks);
     if (rows->context) exr_finish(&rows->context);
     ec_atomic_abort(&rows->file);
     free(rows);

@@ -7,13 +7,14 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "film/channels.h"
 
-/* One EXR channel, 32-bit float; counts under 2^24 are exact in it. */
+/* One EXR channel. */
 typedef struct ec_channel {
-    const char *name;   /* e.g. "R", "stderr.R", "depth.Z" */
-    const float *data;  /* first value; pixel (x, y) is data[stride * (y * width + x)] */
-    uint32_t stride;    /* in floats */
-    bool is_words;      /* 32-bit unsigned integers, and so in the file */
+    const char *name;     /* e.g. "R", "stderr.R", "depth.Z" */
+    const float *data;    /* first value; pixel (x, y) is data[stride * (y * width + x)] */
+    uint32_t stride;      /* in floats */
+    ec_channel_type type; /* of the data, and in the file */
 } ec_channel;
 
 typedef enum ec_attribute_type { EC_ATTR_STRING, EC_ATTR_INT, EC_ATTR_DOUBLE } ec_attribute_type;
@@ -24,7 +25,7 @@ typedef struct ec_attribute {
     double number;
 } ec_attribute;
 
-/* Single-part scan-line EXR, ZIP compressed, 32-bit float channels (any order here; sorted in the file). */
+/* Single-part scan-line EXR, ZIP compressed (channels in any order here; sorted in the file). */
 ec_result ec_exr_write(const char *path, uint32_t width, uint32_t height, const ec_channel *channels,
                        uint32_t channel_count, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err);
 

@@ -29,7 +29,8 @@ static ec_result missing(const char *path, const ec_exr *exr, const char *name, 
         size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s%.*s", i ? ", " : "", EC_CUT(exr->names[i], 32));
     }
-    return ec_fail(err, "cannot compare '%s': it has no channel '%s' (but %s); save it with R, G and B", path, name, list);
+    return ec_fail(err, "cannot compare '%s': it has no channel '%s' (but %s); %s", path, name, list,
+                   strncmp(name, "stderr.", 7) ? "save it with R, G and B" : "render it with --channels stderr");
 }
 
 /* Woven together: `count` planes to as many floats a pixel. */

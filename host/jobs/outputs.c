@@ -129,9 +129,9 @@ static uint64_t room_for(const char *path)
     return statvfs(folder, &disk) == 0 ? (uint64_t)disk.f_bavail * disk.f_frsize : UINT64_MAX;
 }
 
-void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log)
+void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, ec_channel_set channels, const ec_log *log)
 {
-    const uint64_t bytes_per_pixel[] = {[EC_OUTPUT_EXR] = 25 * 4, [EC_OUTPUT_PNG] = 3}; /* uncompressed */
+    const uint64_t bytes_per_pixel[] = {[EC_OUTPUT_EXR] = ec_channels_bytes(channels), [EC_OUTPUT_PNG] = 3}; /* uncompressed */
     for (int i = 0; i < outputs->count; i++) {
         const ec_output *output = &outputs->file[i];
         uint64_t needed = pixel_count * bytes_per_pixel[output->kind], room = room_for(output->path);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "gltf/reader.h"
+#include "jobs/channel_list.h"
 
 /* The files that a command reads: none of them may be what it writes. */
 typedef struct ec_inputs {
@@ -48,7 +49,7 @@ __attribute__((format(printf, 4, 5))) ec_result ec_outputs_add_named(ec_outputs 
 ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_error *err);
 
 /* Warns where a disk has less room than the files may need; no more, since nobody knows how well they will compress. */
-void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, const ec_log *log);
+void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, ec_channel_set channels, const ec_log *log);
 
 /* Do two paths lead to one file that exists? Or to one that both would make? */
 bool ec_same_file(const char *a, const char *b);

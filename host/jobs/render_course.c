@@ -129,7 +129,8 @@ static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row,
         ec_render_report report = ec_render_job_report(job, outputs);
         report.stats = stats;
         report.replicates = ec_film_replicates(film);
-        EC_TRY(ec_report_rows_open(&job->rows, &job->request->outputs, film, job->request->options.height, &report, ROOM, err));
+        return ec_report_rows_open(&job->rows, &job->request->outputs, ec_render_channels(job->request), film, job->request->options.height, &report,
+                                   ROOM, err);
     }
     ec_result result = ec_row_writer_put(job->rows, film, err);
     if (result == EC_OK) return EC_OK;

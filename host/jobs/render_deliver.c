@@ -26,7 +26,7 @@ ec_result ec_render_job_write(ec_render_job *job, ec_outputs *outputs, ec_render
 {
     const ec_past past = past_of(job);
     const ec_slice slice = {&job->job, &past};
-    return ec_write_report(outputs, &job->film, job->request->has_slice ? &slice : NULL, report,
+    return ec_write_report(outputs, ec_render_channels(job->request), &job->film, job->request->has_slice ? &slice : NULL, report,
                            job->image_sha256, err);
 }
 

@@ -176,7 +176,8 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_error *err)
     const ec_render_options *options = &job->request->options;
     EC_TRY(prepare_outputs(job->request, err));
     EC_TRY(ec_render_job_load(job, err));
-    ec_outputs_check_room(&job->request->outputs, (uint64_t)options->width * options->height, &job->listener->log);
+    ec_outputs_check_room(&job->request->outputs, (uint64_t)options->width * options->height, ec_render_channels(job->request),
+                          &job->listener->log);
     return EC_OK;
 }
 

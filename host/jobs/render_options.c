@@ -36,6 +36,10 @@ const ec_option ec_render_rows[] = {
     /* Picture */
     {.name = "camera", .metavar = "NAME|INDEX", EC_STORED(TEXT, camera), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA | EC_OPTION_COST,
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
+    {.name = "channels", .metavar = "LIST", .set = ec_set_channels, .group = EC_GROUP_PICTURE,
+     .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
+             "pixel), heavy, clamped, albedo, normal, depth, or one of a layer as in stderr.Y. Slices hold all of them",
+     .otherwise = "A, samples, stderr, heavy and, with --clamp, clamped"},
     {.name = "env", .metavar = "FILE|R,G,B", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
      .help = "environment light: an equirectangular .hdr or .exr map, or a constant radiance", .otherwise = "none; 1,1,1 if the scene has no light at all"},
@@ -74,7 +78,7 @@ const ec_option ec_render_rows[] = {
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
-     .help = "write FILE, an .exr (all data) or a .png; may be repeated",
+     .help = "write FILE, an .exr (linear, with errors: --channels) or a .png; may be repeated",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},

@@ -9,6 +9,11 @@ void ec_render_request_start(void *request)
     *(ec_render_request *)request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF};
 }
 
+ec_channel_set ec_render_channels(const ec_render_request *r)
+{
+    return r->has_slice ? ec_channels_all() : r->channels ? r->channels : ec_channels_default();
+}
+
 ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *now, ec_render_request *request, ec_given_options *before,
                                    ec_error *err)
 {

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "jobs/channel_list.h"
 #include "jobs/frames.h"
 #include "jobs/given.h"
 #include "jobs/outputs.h"
@@ -26,6 +27,7 @@ typedef struct ec_render_request {
     const char *scene;
     ec_scene_choice choice;
     ec_outputs outputs;
+    ec_channel_set channels;   /* of EXRs; 0: the default ones */
     bool default_outputs;      /* no -o was given */
     ec_render_options options; /* complete but for the camera and, without --size, the size */
     bool has_size;
@@ -72,6 +74,9 @@ bool ec_combinations_belongs(const char *option, ec_integrator integrator);
 
 /* Checks a grid's density (0: not given) and the acceleration structure asked for, which may be NULL. takes_all: "all" is one. */
 ec_result ec_combinations_check_grid(double density, const char *accel, bool takes_all, ec_error *err);
+
+/* Of its EXRs. */
+ec_channel_set ec_render_channels(const ec_render_request *request);
 
 /* Does anything end it: samples, time or an error? */
 bool ec_render_has_limit(const ec_render_options *options);

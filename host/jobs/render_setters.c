@@ -23,6 +23,8 @@ SETTER(at)
     return ec_parse_real(option, value, 0, MOMENT_MOST, &REQUEST->choice.at, err);
 }
 
+SETTER(channels) { return ec_parse_channels(option, value, &REQUEST->channels, err); }
+
 SETTER(shutter)
 {
     REQUEST->choice.shutter = true;

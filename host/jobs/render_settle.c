@@ -141,6 +141,16 @@ static ec_result settle_frames(ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
+/* No option is without effect. */
+static ec_result settle_channels(const ec_render_request *request, ec_error *err)
+{
+    bool any_exr = request->outputs.count == 0;
+    if (!request->channels) return EC_OK;
+    if (request->has_slice) return ec_usage(err, "--samples and --channels: a slice holds all of them; leave --channels out");
+    for (int i = 0; i < request->outputs.count; i++) any_exr |= request->outputs.file[i].kind == EC_OUTPUT_EXR;
+    return any_exr ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
+}
+
 bool ec_render_has_limit(const ec_render_options *o) { return o->spp || o->time_limit > 0 || o->error_target > 0; }
 
 ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
@@ -156,6 +166,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;
     EC_TRY(settle_frames(request, err));
     EC_TRY(settle_slice(request, err));
+    EC_TRY(settle_channels(request, err));
     EC_TRY(settle_adaptive(request, err));
     request->capped = limits->spp == 0 && ec_render_has_limit(limits);
     if (!ec_render_has_limit(limits)) limits->spp = EC_DEFAULT_SPP;

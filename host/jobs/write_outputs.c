@@ -5,15 +5,16 @@
 #include <string.h>
 
 
-ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_cut, ec_error *err)
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, ec_error *err)
 {
     const size_t pixel_count = (size_t)width * rows;
     *picture = (ec_picture){.width = width, .height = rows};
-    float **const planes[] = {&picture->rgb, &picture->constants, &picture->stderr_rgb, &picture->stderr_y,
-                              &picture->low, &picture->high,      &picture->heavy};
-    static const size_t values[] = {3, 2, 3, 1, 3, 3, 1};
+    float **const planes[] = {&picture->rgb,   &picture->constants, &picture->stderr_rgb, &picture->stderr_y,
+                              &picture->heavy, &picture->low,       &picture->high};
+    static const size_t values[] = {3, 2, 3, 1, 1, 3, 3};
     bool made = (picture->room = malloc(ec_resolve_room(width, rows) * sizeof *picture->room)) != NULL;
-    for (int i = 0; made && i < (with_error ? 7 : 2); i++) made = (*planes[i] = malloc(pixel_count * values[i] * sizeof(float))) != NULL;
+    const int count = with_error && with_intervals ? 7 : with_error ? 5 : 2;
+    for (int i = 0; made && i < count; i++) made = (*planes[i] = malloc(pixel_count * values[i] * sizeof(float))) != NULL;
     if (made && with_cut) made = (picture->clamped = malloc(pixel_count * 2 * sizeof(float))) != NULL;
     if (made) return EC_OK;
     ec_picture_free(picture);
@@ -41,15 +42,15 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
     if (!picture->heavy) return here;
     here.stderr_rgb = picture->stderr_rgb + 3 * before;
     here.stderr_y = picture->stderr_y + before;
-    here.low = picture->low + 3 * before;
-    here.high = picture->high + 3 * before;
+    here.low = picture->low ? picture->low + 3 * before : NULL;
+    here.high = picture->high ? picture->high + 3 * before : NULL;
     here.heavy = picture->heavy + before;
     return here;
 }
 
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err)
 {
-    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && ec_film_replicates(film) >= 2,
+    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && ec_film_replicates(film) >= 2, true,
                              with_error && film->limit > 0, err));
     ec_picture_fill(picture, film, 0, film->height);
     return EC_OK;
@@ -91,6 +92,26 @@ void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
         const float *data = plane_of(picture, is_constant ? EC_PLANE_SAMPLES : row->plane, &stride);
         if (data) channels->list[channels->count++] = (ec_channel){.name = row->name, .data = data + (is_constant ? 1 : row->place), .stride = stride};
     }
+}
+
+static const ec_channel_row *row_of(const char *name)
+{
+    for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++)
+        if (!strcmp(ec_channel_rows[i].name, name)) return &ec_channel_rows[i];
+    return NULL;
+}
+
+void ec_channels_choose(ec_channel_list *channels, ec_channel_set set, bool wide_errors)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < channels->count; i++) {
+        const ec_channel_row *row = row_of(channels->list[i].name);
+        const bool is_error = row->plane == EC_PLANE_STDERR || row->plane == EC_PLANE_STDERR_Y;
+        if (!(set >> (row - ec_channel_rows) & 1)) continue;
+        channels->list[count] = channels->list[i];
+        channels->list[count++].type = is_error && wide_errors ? EC_CHANNEL_FLOAT : row->type;
+    }
+    channels->count = count;
 }
 
 ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)

@@ -3,6 +3,7 @@
 #define EC_JOBS_WRITE_OUTPUTS_H
 
 #include "film/channels.h"
+#include "jobs/channel_list.h"
 #include "jobs/outputs.h"
 #include "film/resolve.h"
 #include "image/image.h"
@@ -15,7 +16,7 @@ typedef struct ec_picture {
     /* The error of each pixel; all NULL with fewer than two replicates. Owned. */
     float *stderr_rgb; /* 3 per pixel */
     float *stderr_y;   /* 1 per pixel: of luminance */
-    float *low, *high; /* 3 per pixel: 95 % interval */
+    float *low, *high; /* 3 per pixel: 95 % interval, where it is wanted */
     float *heavy;      /* 1 per pixel: see film/interval.h */
     uint64_t heavy_count;
     float *clamped;    /* 2 per pixel: luminance that a clamp took away, and its standard error; NULL: there is none. Owned */
@@ -28,24 +29,28 @@ typedef struct ec_picture {
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
 
 /* A picture in pieces: create makes room for `rows` rows, fill writes rows [first, first + rows) of the film there. */
-ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_cut, ec_error *err);
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, ec_error *err);
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
 
 /* A part of it, which owns nothing: to be filled by itself. */
 ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t rows);
 
-/* What of it goes into an EXR. No error and no first hit: no such channels. */
+/* Its channels. No error and no first hit: no such channels. */
 typedef struct ec_channel_list {
     ec_channel list[EC_CHANNEL_ROWS];
     uint32_t count;
 } ec_channel_list;
-void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels);
+void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels); /* all, 32-bit floats */
+
+/* Those of a list that are in the set, of the types that a picture's file has; with wide_errors standard errors are 32-bit floats. */
+void ec_channels_choose(ec_channel_list *channels, ec_channel_set set, bool wide_errors);
 
 void ec_picture_free(ec_picture *picture); /* zero-initialised ones are fine */
 
 typedef struct ec_picture_style {
     float exposure; /* EV, PNG only */
     ec_tonemap tonemap;
+    ec_channel_set channels; /* EXR, by ec_row_writer */
     const ec_attribute *attributes; /* EXR only */
     uint32_t attribute_count;
     ec_png_text text; /* PNG: kept in it by ec_row_writer */

@@ -31,7 +31,7 @@ cleanup:
     return result;
 }
 
-ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height,
+ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, ec_channel_set channels, const ec_film *film, uint32_t height,
                               ec_render_report *report, uint32_t room, ec_error *err)
 {
     char no_hash[EC_HASH_SIZE] = "";
@@ -41,6 +41,7 @@ ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, const
     ec_render_report_attributes(report, &attributes);
     const ec_picture_style style = {.exposure = (float)report->exposure,
                                     .tonemap = report->tonemap,
+                                    .channels = channels,
                                     .attributes = attributes.list,
                                     .attribute_count = attributes.count,
                                     .text = {EC_FRAME_ATTRIBUTE, report->frame ? report->frame->job : NULL},
@@ -60,15 +61,14 @@ ec_result ec_report_rows_close(ec_row_writer *writer, ec_render_report *report, 
     return ec_row_writer_close(writer, attributes.list, attributes.count, err);
 }
 
-ec_result ec_write_report(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report,
+ec_result ec_write_report(ec_outputs *outputs, ec_channel_set channels, const ec_film *film, const ec_slice *slice, ec_render_report *report,
                           char sha256[EC_HASH_SIZE], ec_error *err)
 {
     ec_row_writer *writer;
     ec_rows_told told;
     if (slice) return write_slice(outputs, film, slice, report, sha256, err);
-    EC_TRY(ec_report_rows_open(&writer, outputs, film, film->height, report, 0, err));
-    ec_result result = ec_row_writer_put(writer, film, err);
-    if (result == EC_OK) result = ec_row_writer_finish(writer, &told, err);
+    EC_TRY(ec_report_rows_open(&writer, outputs, channels, film, film->height, report, 0, err));
+    ec_result result = ec_row_writer_finish(writer, &told, err);
     if (result != EC_OK) {
         ec_row_writer_abort(writer);
         return result;

@@ -11,7 +11,7 @@
 
 #include "film/interval.h"
 
-enum { CHUNKS_A_THREAD = 2, SEAM = EC_EXR_ROWS, REACH = EC_INTERVAL_REACH, WAITING = SEAM + REACH, AROUND = SEAM + 2 * REACH };
+enum { CHUNKS_A_THREAD = 4, SEAM = EC_EXR_ROWS, REACH = EC_INTERVAL_REACH, WAITING = SEAM + REACH, AROUND = SEAM + 2 * REACH };
 
 struct ec_row_writer {
     ec_outputs *outputs;
@@ -27,6 +27,8 @@ struct ec_row_writer {
     ec_picture band;
     ec_pixel *rooms;                  /* for ec_film_resolve_rows, of each thread */
     ec_channel_list channels;         /* of the EXRs' header */
+    ec_channel_set wanted;
+    bool wide_errors;                 /* half floats do not hold standard errors like these */
     ec_exr_part part;
     uint8_t *bytes;                   /* the band as a PNG has it */
     float exposure;
@@ -60,56 +62,32 @@ static ec_result fail_without_files(const ec_row_writer *w, ec_error *err)
     return EC_FAILED;
 }
 
+/* Halves have 11 significant bits from 2^-14 on, and steps of 2^-24 below: 11 bits of what is typical. The rows that are known have to decide. */
+static bool are_errors_wide(const ec_error_sums *sums, uint64_t pixels)
+{
+    const double most = 65504, typical = sqrt(sums->s2 / (double)pixels);
+    return sums->largest > most * most || (typical > 0 && typical < 0x1p-14);
+}
+
+static void list_channels(const ec_row_writer *w, ec_channel_list *channels)
+{
+    ec_picture_channels(&w->band, channels);
+    ec_channels_choose(channels, w->wanted, w->wide_errors);
+}
+
 static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
 {
     const uint32_t rows = w->height < w->band_rows ? w->height : w->band_rows;
-    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, film->limit > 0, err));
+    const bool with_intervals = w->wanted & ec_channels_of(EC_PLANE_LOW) || w->wanted & ec_channels_of(EC_PLANE_HIGH);
+    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, with_intervals, film->limit > 0, err));
     w->rooms = malloc((size_t)omp_get_max_threads() * ec_resolve_room(w->width, SEAM) * sizeof *w->rooms);
     if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
     w->band.aov = film->aov;
-    ec_picture_channels(&w->band, &w->channels);
+    ec_film_sum_errors(film, &w->sums);
+    w->wide_errors = are_errors_wide(&w->sums, (uint64_t)film->width * film->height);
+    list_channels(w, &w->channels);
     w->bytes = malloc((size_t)w->width * rows * 3);
     return w->bytes ? EC_OK : ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
-}
-
-ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec_film *film, uint32_t height,
-                             const ec_picture_style *style, uint32_t room, ec_error *err)
-{
-    ec_row_writer *w = calloc(1, sizeof *w);
-    *made = NULL;
-    if (!w) return ec_fail(err, "out of memory for the picture");
-    w->outputs = outputs;
-    w->width = film->width;
-    w->height = height;
-    w->band_rows = SEAM * CHUNKS_A_THREAD * (uint32_t)omp_get_max_threads();
-    w->replicates = ec_film_replicates(film);
-    if (film->rare) w->rare = *film->rare;
-    w->limit = film->limit;
-    w->exposure = style->exposure;
-    w->tonemap = style->tonemap;
-    ec_hash_begin(&w->hash);
-    if (create(w, film, err) != EC_OK) {
-        ec_row_writer_abort(w);
-        return EC_FAILED;
-    }
-    w->part = (ec_exr_part){.name = "", .channels = w->channels.list, .channel_count = w->channels.count, .attributes = style->attributes,
-                            .attribute_count = style->attribute_count, .is_sealed = style->is_sealed};
-    for (int i = 0; i < outputs->count; i++) {
-        ec_error why = {0};
-        const char *path = outputs->file[i].path;
-        ec_result begun = outputs->file[i].kind == EC_OUTPUT_EXR
-                              ? ec_exr_rows_begin(&w->exr[i], path, w->width, height, &w->part, 1, room, &why)
-                              : ec_png_rows_begin(&w->png[i], path, w->width, height, &style->text, &why);
-        if (begun != EC_OK) fail_file(w, i, &why);
-    }
-    w->part.attributes = NULL; /* those of the end are given then */
-    w->part.attribute_count = 0;
-    if (fail_without_files(w, err) != EC_OK) {
-        ec_row_writer_abort(w);
-        return EC_FAILED;
-    }
-    *made = w;
-    return EC_OK;
 }
 
 /* SEAM rows by each thread in turn: the film is only looked at. */
@@ -149,7 +127,7 @@ static void write_band(ec_row_writer *w)
     const uint32_t rows = w->band.height;
     const uint64_t pixels = (uint64_t)w->width * rows;
     ec_channel_list channels;
-    ec_picture_channels(&w->band, &channels);
+    list_channels(w, &channels);
     const ec_exr_part part = {.channels = channels.list, .channel_count = channels.count};
     bool is_toned = false;
     hash_task task = {&w->hash, w->band.rgb, pixels};
@@ -225,15 +203,62 @@ static ec_result keep_waiting(ec_row_writer *w, const ec_film *film, ec_error *e
     return EC_OK;
 }
 
-ec_result ec_row_writer_put(ec_row_writer *w, const ec_film *film, ec_error *err)
+/* Rows whose errors are summed up. */
+static ec_result take(ec_row_writer *w, const ec_film *film, ec_error *err)
 {
     const uint32_t all = w->come + film->height;
-    ec_film_sum_errors(film, &w->sums);
     ec_film_sum_cut(film, &w->cut);
     write_up_to(w, film, all == w->height ? all : all - SEAM);
     if (all < w->height) EC_TRY(keep_waiting(w, film, err));
     w->come = all;
     return fail_without_files(w, err);
+}
+
+ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec_film *film, uint32_t height,
+                             const ec_picture_style *style, uint32_t room, ec_error *err)
+{
+    ec_row_writer *w = calloc(1, sizeof *w);
+    *made = NULL;
+    if (!w) return ec_fail(err, "out of memory for the picture");
+    w->outputs = outputs;
+    w->width = film->width;
+    w->height = height;
+    w->band_rows = SEAM * CHUNKS_A_THREAD * (uint32_t)omp_get_max_threads();
+    w->replicates = ec_film_replicates(film);
+    if (film->rare) w->rare = *film->rare;
+    w->limit = film->limit;
+    w->wanted = style->channels;
+    w->exposure = style->exposure;
+    w->tonemap = style->tonemap;
+    ec_hash_begin(&w->hash);
+    if (create(w, film, err) != EC_OK) {
+        ec_row_writer_abort(w);
+        return EC_FAILED;
+    }
+    w->part = (ec_exr_part){.name = "", .channels = w->channels.list, .channel_count = w->channels.count, .attributes = style->attributes,
+                            .attribute_count = style->attribute_count, .is_sealed = style->is_sealed};
+    for (int i = 0; i < outputs->count; i++) {
+        ec_error why = {0};
+        const char *path = outputs->file[i].path;
+        ec_result begun = outputs->file[i].kind == EC_OUTPUT_EXR
+                              ? ec_exr_rows_begin(&w->exr[i], path, w->width, height, &w->part, 1, room, &why)
+                              : ec_png_rows_begin(&w->png[i], path, w->width, height, &style->text, &why);
+        if (begun != EC_OK) fail_file(w, i, &why);
+    }
+    w->part.attributes = NULL; /* those of the end are given then */
+    w->part.attribute_count = 0;
+    if (fail_without_files(w, err) != EC_OK || take(w, film, err) != EC_OK) {
+        ec_row_writer_abort(w);
+        return EC_FAILED;
+    }
+    *made = w;
+    return EC_OK;
+}
+
+ec_result ec_row_writer_put(ec_row_writer *w, const ec_film *film, ec_error *err)
+{
+    ec_film_sum_errors(film, &w->sums);
+    return take(w, film, err);
 }
 
 uint32_t ec_row_writer_rows(const ec_row_writer *w) { return w->come; }
@@ -251,8 +276,8 @@ static void blank_band(ec_row_writer *w, uint32_t rows, const float *no_features
     if (!b->heavy) return;
     memset(b->stderr_rgb, 0, pixels * 12);
     memset(b->stderr_y, 0, pixels * 4);
-    memset(b->low, 0, pixels * 12);
-    for (size_t i = 0; i < 3 * pixels; i++) b->high[i] = FLT_MAX;
+    if (b->low) memset(b->low, 0, pixels * 12);
+    for (size_t i = 0; b->high && i < 3 * pixels; i++) b->high[i] = FLT_MAX;
     for (size_t i = 0; i < pixels; i++) b->heavy[i] = 1;
     b->heavy_count = pixels;
 }

@@ -32,7 +32,7 @@ static void print_figures(const ec_compare_report *report, FILE *to)
 static void print_noise_of(char name, const ec_measured *image, FILE *to)
 {
     if (!image->se)
-        fprintf(to, "%c has no standard errors and counts as exact", name);
+        fprintf(to, "%c has no standard errors (--channels stderr) and counts as exact", name);
     else if (isfinite(image->replicates))
         fprintf(to, "standard errors of %c from %.0f replicates", name, image->replicates);
     else
@@ -47,7 +47,7 @@ static void print_noise(const ec_compare_report *report, FILE *to)
         fputs("; ", to);
         print_noise_of('B', report->b, to);
     } else {
-        fputs("unknown: neither has standard errors (channels stderr.R, .G and .B, from two replicates or more)", to);
+        fputs("unknown: neither has standard errors (channels stderr.R, .G and .B: --channels stderr and two replicates or more)", to);
     }
     fputc('\n', to);
 }

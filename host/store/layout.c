@@ -9,16 +9,16 @@ uint32_t ec_sum_channels(const ec_sums *sums, const uint32_t *counts, ec_channel
     uint32_t n = 0;
     for (; n < 3 * sums->replicates; n++) {
         snprintf(names[n].text, sizeof names[n].text, "replicate %02u.%s", n / 3, fields[n % 3]);
-        channels[n] = (ec_channel){names[n].text, ec_sums_mean(sums, n / 3, 0) + n % 3, 3, false};
+        channels[n] = (ec_channel){names[n].text, ec_sums_mean(sums, n / 3, 0) + n % 3, 3, EC_CHANNEL_FLOAT};
     }
-    for (uint32_t i = 0; i < 3; i++, n++) channels[n] = (ec_channel){fields[3 + i], sums->tail + i, 3, false};
-    if (counts) channels[n++] = (ec_channel){"count", (const float *)counts, 1, true};
+    for (uint32_t i = 0; i < 3; i++, n++) channels[n] = (ec_channel){fields[3 + i], sums->tail + i, 3, EC_CHANNEL_FLOAT};
+    if (counts) channels[n++] = (ec_channel){"count", (const float *)counts, 1, EC_CHANNEL_WORDS};
     return n;
 }
 
 uint32_t ec_batch_channels(const float *batch, ec_channel channels[EC_BATCH_FIELDS])
 {
-    for (int c = 0; c < EC_BATCH_FIELDS; c++) channels[c] = (ec_channel){fields[c], batch + c, EC_BATCH_FIELDS, false};
+    for (int c = 0; c < EC_BATCH_FIELDS; c++) channels[c] = (ec_channel){fields[c], batch + c, EC_BATCH_FIELDS, EC_CHANNEL_FLOAT};
     return EC_BATCH_FIELDS;
 }
 

@@ -23,7 +23,7 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
                          const ec_exr_part *picture, ec_error *err)
 {
     uint32_t sums = film->part_count, count = 1 + sums;
-    const ec_channel weight = {"weight", past->allotment.weight, 1, false};
+    const ec_channel weight = {"weight", past->allotment.weight, 1, EC_CHANNEL_FLOAT};
     ec_channel batch[EC_BATCH_FIELDS];
     ec_exr_part *parts = calloc(sums + 3, sizeof *parts);
     sum_part *rooms = calloc(sums + 1, sizeof *rooms);

@@ -110,7 +110,7 @@ def write_glb(path, scene, buffer):
 # EXR ----------------------------------------------------------------------------------------------------------------
 
 def read_exr(path):
-    """(attributes, {channel: list of float}) of a scan-line file with 32-bit channels, ZIP or ZIPS; of several parts the first."""
+    """(attributes, {channel: list of float}) of a scan-line file, ZIP or ZIPS; of several parts the first."""
     with open(path, "rb") as file:
         data = file.read()
     assert data[:4] == b"\x76\x2f\x31\x01", "not an EXR file"
@@ -155,6 +155,10 @@ def decode(kind, value):
     return numbers if kind == "box2i" else numbers[0]
 
 
+UINT, HALF, FLOAT = range(3)  # types of channels
+VALUE = {UINT: ("I", 4), HALF: ("e", 2), FLOAT: ("f", 4)}
+
+
 def read_chunks(data, at, width, height, y0, attributes, skip):
     """skip: bytes before each block, the number of its part."""
     compression = attributes["compression"][0]
@@ -167,15 +171,31 @@ def read_chunks(data, at, width, height, y0, attributes, skip):
         lines = min(rows, height - (y - y0))
         block = data[offset + 8:offset + 8 + size]
         assert len(block) == size, "a block ends behind the file's end"
-        if size < lines * width * 4 * len(planes):
+        if size < lines * width * sum(VALUE[kind][1] for _, kind in attributes["channels"]):
             block = unzip(block)
+        start = 0
         for line in range(lines):
-            for index, (name, kind) in enumerate(attributes["channels"]):
-                start = (line * len(planes) + index) * width * 4
+            for name, kind in attributes["channels"]:
+                code, bytes_ = VALUE[kind]
                 first = (y - y0 + line) * width
-                values = struct.unpack_from(f"<{width}{'f' if kind == 2 else 'I'}", block, start)
-                planes[name][first:first + width] = values
+                planes[name][first:first + width] = struct.unpack_from(f"<{width}{code}", block, start)
+                start += width * bytes_
     return planes
+
+
+def read_alike(a, b):
+    """The planes of two files. What one of them has as halves the other has too: a picture, and a checkpoint, slice or merged file."""
+    (left, mine), (right, theirs) = read_exr(a), read_exr(b)
+    for attributes, planes in (right, mine), (left, theirs):
+        for name, kind in attributes["channels"]:
+            if kind == HALF and name in planes:
+                planes[name] = [to_half(value) for value in planes[name]]
+    return mine, theirs
+
+
+def to_half(value):
+    """The nearest half that is not 0 for what is not, and finite for what is."""
+    return 2.0 ** -24 if 0 < value < 2.0 ** -24 else struct.unpack("<e", struct.pack("<e", min(value, 65504.0)))[0]
 
 
 def unzip(block):

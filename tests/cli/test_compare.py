@@ -165,7 +165,7 @@ class Noise(Compare):
         self.compare(exact, a)
         self.compare(self.noisy("bright.exr", 1.02, seed=3), exact, code=1)
         run = eclat("compare", a, exact)
-        self.assertRegex(run.stdout, r"(?m)^noise +standard errors of A from 8 replicates; B has no standard errors and counts as exact$")
+        self.assertRegex(run.stdout, r"(?m)^noise +standard errors of A from 8 replicates; B has no standard errors \(--channels stderr\) and counts as exact$")
         self.assertEqual(eclat("compare", a, b).returncode in (0, 1), True)
 
     def test_unknown_replicates_are_said(self):
@@ -196,7 +196,7 @@ class Unusable(Compare):
         grey = self.exr("grey.exr", {"Y": [0.5] * (W * H), "Z": [1.0] * (W * H)})
         self.refused(a, grey, says=["'R' (but Y, Z)", "save it with R, G and B"])
         part = self.exr("part.exr", flat(**{"stderr.R": [0.1] * (W * H)}))
-        self.refused(part, a, says="no channel 'stderr.G'")
+        self.refused(part, a, says="no channel 'stderr.G' (but B, G, R, stderr.R); render it with --channels stderr")
 
     def test_values_that_are_not_finite(self):
         a, planes = self.exr("a.exr", flat()), flat()

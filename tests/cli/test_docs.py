@@ -124,7 +124,7 @@ class Facts(Case):
     def test_json_keys_and_channels(self):
         page = read(os.path.join(ROOT, "docs", "scripting.md"))
         keys, channels = (re.findall(r"^\| (`.*?) \|", page.split(head)[1].split("\n\n")[0], re.M) for head in ("| key of a render |", "| channel |"))
-        run = self.assert_ok(eclat("render", CORNELL, "--lanes", "4", "--size", "8x8", "--spp", "8", "--clamp", "10", "--json", "-q", "-o", "a.exr", cwd=self.folder))
+        run = self.assert_ok(eclat("render", CORNELL, "--lanes", "4", "--size", "8x8", "--spp", "8", "--clamp", "10", "--channels", "all", "--json", "-q", "-o", "a.exr", cwd=self.folder))
         report, planes = json.loads(run.stdout), read_exr(self.path("a.exr"))[1]
         self.assertEqual(set(re.findall(r"`(\w+)`", " ".join(keys))) - set(report), set())
         listed, stem = set(), ""

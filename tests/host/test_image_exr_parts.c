@@ -23,9 +23,10 @@ static void fill(void)
 static void write_file(void)
 {
     ec_error err;
-    const ec_channel picture[] = {{"R", floats, 1, false}, {"G", floats, 1, false}, {"B", floats, 1, false}};
+    const ec_channel picture[] = {{"R", floats, 1, EC_CHANNEL_FLOAT}, {"G", floats, 1, EC_CHANNEL_FLOAT}, {"B", floats, 1, EC_CHANNEL_FLOAT}};
     const float *words = (const float *)doubles;
-    const ec_channel sums[] = {{"b.low", words + 2, 4, true}, {"a.low", words, 4, true}, {"a.high", words + 1, 4, true}, {"b.high", words + 3, 4, true}};
+    const ec_channel sums[] = {{"b.low", words + 2, 4, EC_CHANNEL_WORDS}, {"a.low", words, 4, EC_CHANNEL_WORDS}, {"a.high", words + 1, 4, EC_CHANNEL_WORDS},
+                               {"b.high", words + 3, 4, EC_CHANNEL_WORDS}};
     const ec_attribute text = {.name = "eclat.state", .type = EC_ATTR_STRING, .string = "{\"a\": 1}"};
     const ec_exr_part parts[] = {{"picture", picture, 3, &text, 1, false}, {"sums", sums, 4, NULL, 0, true}, {"more", picture, 2, NULL, 0, false}};
     CHECK_OK(ec_exr_write_parts(PATH, W, H, parts, 3, &err), err);

@@ -12,7 +12,7 @@ from tiers import full
 
 ENOSPC, SIGINT, SIGKILL = 28, int(signal.SIGINT), int(signal.SIGKILL)
 SIDE = 256
-TALL = ["--size", f"{SIDE}x{SIDE}"]
+TALL = ["--channels", "all", "--size", f"{SIDE}x{SIDE}"]
 
 
 class Strips(FaultCase):

@@ -1,0 +1,65 @@
+#include "jobs/channel_list.h"
+
+#include <string.h>
+
+#include "base/text.h"
+#include "image/exr_pack.h"
+#include "jobs/option.h"
+
+_Static_assert(EC_CHANNEL_ROWS <= 32, "a bit each");
+
+ec_channel_set ec_channels_all(void) { return (ec_channel_set)((1ull << EC_CHANNEL_ROWS) - 1); }
+
+ec_channel_set ec_channels_default(void)
+{
+    ec_channel_set set = 0;
+    for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++)
+        if (ec_channel_rows[i].is_default) set |= 1u << i;
+    return set;
+}
+
+ec_channel_set ec_channels_of(ec_plane plane)
+{
+    ec_channel_set set = 0;
+    for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++)
+        if (ec_channel_rows[i].plane == plane) set |= 1u << i;
+    return set;
+}
+
+static bool is_word(const char *word, size_t size, const char *name) { return strlen(name) == size && !strncmp(word, name, size); }
+
+/* Of this name, or of this layer; none: there is no such channel. */
+static ec_channel_set named(const char *word, size_t size)
+{
+    ec_channel_set set = 0;
+    if (is_word(word, size, "all")) return ec_channels_all();
+    if (is_word(word, size, "default")) return ec_channels_default();
+    for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++) {
+        const char *name = ec_channel_rows[i].name;
+        if (is_word(word, size, name) || (size > 0 && !strncmp(name, word, size) && name[size] == '.')) set |= 1u << i;
+    }
+    return set;
+}
+
+ec_result ec_parse_channels(const char *option, const char *text, ec_channel_set *set, ec_error *err)
+{
+    *set = ec_channels_of(EC_PLANE_RGB);
+    for (const char *word = text;; word++) {
+        const size_t size = strcspn(word, ",");
+        const ec_channel_set found = named(word, size);
+        if (!found)
+            return ec_usage(err, "--%s: '%.*s' is no channel; give all, default, A, samples, stderr, low95, high95, heavy, clamped, albedo, normal, depth or one of "
+                                 "a layer, as stderr.Y, with commas between them", option, EC_CUT(word, size < 80 ? (int)size : 80));
+        *set |= found;
+        word += size;
+        if (!*word) return EC_OK;
+    }
+}
+
+uint32_t ec_channels_bytes(ec_channel_set set)
+{
+    uint32_t bytes = 0;
+    for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++)
+        if (set >> i & 1) bytes += ec_channel_bytes(ec_channel_rows[i].type);
+    return bytes;
+}
