@@ -124,7 +124,7 @@ class HardCase(Case):
     def render(self, scene, *options, invalid=0, size="16x16", spp="16", kernels=("--effects", "all", "--lanes", "4")):
         path = scene if isinstance(scene, str) else scene.write(self.path("scene.gltf"))
         picture = self.path("picture.exr")
-        run = self.assert_ok(eclat("render", path, *kernels, "--size", size, "--spp", spp, "--json", "-o", picture, *options, timeout=900))
+        run = self.assert_ok(eclat("render", path, *kernels, "--size", size, "--spp", spp, "--channels", "all", "--json", "-o", picture, *options, timeout=900))
         stats = json.loads(run.stdout)
         channels = read_exr(picture)[1]
         os.remove(picture)

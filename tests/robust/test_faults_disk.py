@@ -74,7 +74,7 @@ class Disks(FaultCase):
             shutil.rmtree(folder, ignore_errors=True)
             os.mkdir(folder)
         script = f'in=$1; out=$2; shift 2; {{ {mount}; }} || exit 77; "$@"; code=$?; cp -a "$in/." "$out"; exit $code'
-        command = [ECLAT, "render", CORNELL, "--size", "64x64", "--spp", "4", "--quiet", "-o", inside + "/a.exr", "-o", inside + "/a.png"]
+        command = [ECLAT, "render", CORNELL, "--size", "64x64", "--spp", "4", "--channels", "all", "--quiet", "-o", inside + "/a.exr", "-o", inside + "/a.png"]
         run = subprocess.run(["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script, "sh", inside, outside, *command, *options],
                              env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE, encoding="utf-8", timeout=600)
         if run.returncode == 77 or "unshare:" in run.stderr:
