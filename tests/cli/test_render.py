@@ -163,7 +163,7 @@ class Files(Render):
                          report["image_sha256"])
 
     def test_the_middle_of_the_quad_shines_and_the_rest_is_empty(self):
-        self.render(*SMALL, "-o", "a.exr")
+        self.render(*SMALL, "--channels", "all", "-o", "a.exr")
         _, planes = read_exr(self.path("a.exr"))
         middle, corner = 8 * 24 + 12, 0
         self.assertAlmostEqual(planes["R"][middle], 1, places=5)
