@@ -59,8 +59,8 @@ class Bounds(Case):
 
     def unmet(self, scene):
         """Light that 16 samples a pixel may miss, relative to the picture's."""
-        run = eclat("render", "-q", "--lanes", "4", "--size", f"{SIZE}x{SIZE}", "--spp", "16", "--max-depth", "5", "--json", "-o", self.path("out.exr"), scene)
-        return json.loads(self.assert_ok(run).stdout)["error_unmet"]
+        return json.loads(self.assert_ok(eclat("render", "-q", "--lanes", "4", "--size", f"{SIZE}x{SIZE}", "--spp", "16", "--max-depth", "5", "--json",
+                                               "-o", self.path("out.exr"), scene)).stdout)["error_unmet"]
 
     def assert_bounds_hold(self, reference, scene, *options):
         for seed in SEEDS:

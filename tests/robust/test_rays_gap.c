@@ -5,8 +5,20 @@
 
 #include "robust/cases.h"
 #include "gltf/model.h"
-#include "robust/tilt.h"
 #include "selftest/shot.h"
+
+/* A tenth of a turn about a skew axis: no coordinate of what is in it stays round. */
+static void tilt(double m[16])
+{
+    const double axis[3] = {0.36, 0.48, 0.8}, c = cos(0.6), s = sin(0.6);
+    for (int k = 0; k < 16; k++) m[k] = k == 15;
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++) m[4 * column + row] = axis[row] * axis[column] * (1 - c) + (row == column ? c : 0);
+    for (int k = 0; k < 3; k++) {
+        m[4 * k + (k + 1) % 3] += s * axis[(k + 2) % 3];
+        m[4 * ((k + 1) % 3) + k] -= s * axis[(k + 2) % 3];
+    }
+}
 
 /* Two plates, a lamp behind the upper one, a camera between them. The largest coordinate is 2, and under 4 where it is tilted: the same
  * ulp, 2^-22. */
