@@ -6,7 +6,8 @@
 
 #include "film/film.h"
 
-/* The squared error falls as samples^-slope: 1 for independent samples, more where their order tells. */
+/* The squared error falls as samples^-slope: 1 for independent samples, more where their order tells. What exceeds 1 fades with more samples,
+ * since edges and rare paths are left (forecast.c). */
 typedef struct ec_film_outlook {
     double square, samples;  /* error^2 with so many samples a pixel */
     double slope;
@@ -40,7 +41,7 @@ typedef struct ec_forecast {
     double samples, samples_low, samples_high; /* a pixel, in all */
     double seconds, seconds_low, seconds_high; /* of rendering, in all */
     double error_bound;                 /* of the image then; infinite where it is not known */
-    double slope;                       /* error^2 falls as samples^-slope: 1 for independent samples */
+    double slope;                       /* error^2 falls as samples^-slope at first: 1 for independent samples */
     bool is_open;                       /* rare bright paths decide (film/rare.h): no error can be foretold */
     double spread;                      /* relative uncertainty of error^2: over 0.3 a few pixels hold most of it */
 } ec_forecast;

@@ -7,7 +7,6 @@ import random
 import shutil
 import signal
 import threading
-import time
 import unittest
 
 from polling import poll_until
@@ -89,14 +88,23 @@ class Compile(Case):
         self.assertGreater(report["fast_kernels_after_seconds"], 0)
         self.assertEqual(report["image_sha256"], self.render("--compile", "first", spp=40000)[0]["image_sha256"])
 
+    def end_children_after(self, files):
+        """Once a compiler has begun, and so many more files are in the cache, or none compiles any more."""
+        def count():
+            return sum(len(names) for _, _, names in os.walk(self.cache))
+        poll_until(lambda: children(self.cache))
+        begun = count()
+        poll_until(lambda: count() >= begun + files or not children(self.cache))
+        self.end_children()
+
     def test_a_killed_compiler_leaves_the_cache_whole(self):
         moments = random.Random(7)
         for number in range(3):
             self.cache = self.path(f"cache{number}")
             os.mkdir(self.cache)
-            moment = moments.uniform(0, 3)  # seconds that it has compiled for
-            with self.subTest(moment=moment):
-                killer = threading.Thread(target=lambda: (poll_until(lambda: children(self.cache)), time.sleep(moment), self.end_children()), daemon=True)
+            files = moments.randrange(20)
+            with self.subTest(files=files):
+                killer = threading.Thread(target=self.end_children_after, args=(files,), daemon=True)
                 killer.start()
                 report, _ = self.render(spp=4000)
                 self.skip_unless_late(report)

@@ -21,11 +21,18 @@ static double few(uint32_t p) { return p % 256 ? 1 : -2 * log(uniform()) - 1; }
 /* What the samples of each replicate of each pixel came to before the next batch, where they depend on each other. */
 static double sums[PIXELS][REPLICATES];
 
-/* A replicate's mean of n samples is 1 with a standard deviation of n^-0.8. */
+/* A replicate's mean of n samples is 1 with a variance of n^-1.6 in the pilot; what the exponent has over 1 falls by e in e^4 times the samples
+ * from there on, as it does in pictures. */
+static double variance(double samples)
+{
+    const double beyond = fmax(log(samples / EC_PILOT_SAMPLES), 0), fades = 4;
+    return pow(fmin(samples, EC_PILOT_SAMPLES), -1.6) * exp(-beyond - 0.6 * fades * (1 - exp(-beyond / fades)));
+}
+
 static double ordered(uint32_t p, ec_batch_range range)
 {
     const double end = (double)(range.first + range.samples), before = range.first ? sums[p][range.replicate] : 0;
-    sums[p][range.replicate] = end * (1 + pow(end, -0.8) * test_normal(&state));
+    sums[p][range.replicate] = end * (1 + sqrt(variance(end)) * test_normal(&state));
     return (sums[p][range.replicate] - before) / range.samples;
 }
 
@@ -74,7 +81,7 @@ static ec_film empty(void)
 typedef struct workload {
     const char *name;
     double (*sample)(uint32_t);
-    double target, slope, least_inside, most_off;
+    double target, slope, late_slope, least_inside, most_off;
 } workload;
 
 static void check(const workload *w)
@@ -106,7 +113,7 @@ static void check(const workload *w)
            100.0 * inside / REPEATS, 100 * off, spread, slope, late_slope);
     CHECK_MSG(inside >= w->least_inside * REPEATS, "%s: inside in %d of %d", w->name, inside, REPEATS);
     CHECK_MSG(fabs(off) <= w->most_off, "%s: off by %g", w->name, off);
-    CHECK_MSG(fabs(slope - w->slope) < 0.1 && fabs(late_slope - w->slope) < 0.1, "%s: slope %g, at the end %g", w->name, slope, late_slope);
+    CHECK_MSG(fabs(slope - w->slope) < 0.1 && fabs(late_slope - w->late_slope) < 0.1, "%s: slope %g, at the end %g", w->name, slope, late_slope);
     CHECK_MSG((w->sample == few) == (spread > 0.15), "%s: spread %g", w->name, spread);
 }
 
@@ -181,10 +188,10 @@ static void slow_kernels_are_forgotten(void)
 int main(void)
 {
     static const workload workloads[] = {
-        {"exponential", exponential, 0.064, 1, 0.9, 0.05},
-        {"fireflies", fireflies, 0.3, 1, 0.9, 0.1},
-        {"noise in six pixels", few, 0.01, 1, 0.8, 0.5},
-        {"error^2 as n^-1.6", NULL, 0.02, 1.6, 0.9, 0.1},
+        {"exponential", exponential, 0.064, 1, 1, 0.9, 0.05},
+        {"fireflies", fireflies, 0.3, 1, 1, 0.9, 0.1},
+        {"noise in six pixels", few, 0.01, 1, 1, 0.8, 0.5},
+        {"error^2 as n^-1.6 at first", NULL, 0.02, 1.6, 1.4, 0.9, 0.1},
     };
     for (size_t i = 0; i < sizeof workloads / sizeof *workloads; i++) check(&workloads[i]);
     other_limits();
