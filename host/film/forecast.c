@@ -11,10 +11,15 @@
 #define FADES 4.0
 static double excess(const ec_film_outlook *o, double samples) { return (o->slope - 1) * exp(-fmax(log(samples / o->samples), 0) / FADES); }
 
+double ec_outlook_fall(const ec_film_outlook *o, double samples)
+{
+    const double times = samples / o->samples, slope = o->slope - 1;
+    return times * (times > 1 ? exp(FADES * (slope - excess(o, samples))) : pow(times, slope));
+}
+
 double ec_outlook_bound(const ec_film_outlook *o, double samples)
 {
-    const double slope = o->slope - 1, fall = samples > o->samples ? FADES * (slope - excess(o, samples)) : slope * log(samples / o->samples);
-    return ec_film_error_bound(o->square * o->samples / samples * exp(-fall), o->noisy_pixels, o->pixels, o->replicates);
+    return ec_film_error_bound(o->square / ec_outlook_fall(o, samples), o->noisy_pixels, o->pixels, o->replicates);
 }
 
 double ec_outlook_samples(const ec_film_outlook *o, double target)

@@ -14,6 +14,9 @@ typedef struct ec_film_outlook {
     double noisy_pixels, pixels, replicates;
 } ec_film_outlook;
 
+/* How many times smaller error^2 is after so many samples a pixel. */
+double ec_outlook_fall(const ec_film_outlook *outlook, double samples);
+
 /* The bound after so many samples a pixel. */
 double ec_outlook_bound(const ec_film_outlook *outlook, double samples);
 
