@@ -177,7 +177,7 @@ EC_FN quad texture_entry(const geometry *g, const hit_point *h, lane_i m, lane_i
 }
 
 /* A material's texture at the hit; white where it has none. */
-EC_FN rgba material_texture(const geometry *g, const hit_point *h, lane_i m, uint slot, bool is_srgb)
+EC_CALLED rgba material_texture(const geometry *g, const hit_point *h, lane_i m, uint slot, bool is_srgb)
 {
     quad head = material_quad(g, h, EC_WORD_slots + slot * 8u);
     lane_i id = uint_to_lane_i(as_lane_u(head.a));

@@ -104,23 +104,23 @@ EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const
     }
     v3 a = ray_vertex(r, splat_point(tri->v0)), b = ray_vertex(r, splat_point(tri->v1)), c = ray_vertex(r, splat_point(tri->v2));
     edges e = edges_make(a, b, c);
-    lane_i m = edges_inside(&e), none = !TRUE_MASK;
-    if (!tri->has_pair) {
-        if (any_lane(m)) packet_take(r, filter, tri, box, none, &e, m, skip0, skip1, h);
-        return 1;
+    lane_i m = edges_inside(&e), n = !TRUE_MASK;
+    bool has_pair = tri->has_pair;
+    edges f = e;
+    if (has_pair) {
+        v3 d = ray_vertex(r, splat_point(tri[1].v2));
+        f.u = ray_edge(d, c), f.v = ray_edge(a, d), f.w = -e.v, f.z1 = c.z, f.z2 = d.z;
+        n = edges_inside(&f);
     }
-    v3 d = ray_vertex(r, splat_point(tri[1].v2));
-    edges f = {ray_edge(d, c), ray_edge(a, d), -e.v, F(0.0f), a.z, c.z, d.z};
-    lane_i n = edges_inside(&f);
-    if (!any_lane(m | n)) return 2;
-    /* A lane is inside one of the two; inside both only on the diagonal, or where the quad is folded. */
-    if (any_lane(m & n)) {
-        packet_take(r, filter, tri, box, none, &e, m, skip0, skip1, h);
+    /* A lane is inside one of the two; inside both only on the diagonal, or where the quad is folded: then it takes the first one first. */
+    for (bool again = any_lane(m | n); again;) {
+        again = any_lane(m & n);
+        lane_i second = again ? !TRUE_MASK : n;
+        edges met = edges_select(second, f, e);
+        packet_take(r, filter, tri, box, second, &met, again ? m : m | n, skip0, skip1, h);
         m = m & !n;
     }
-    e = edges_select(n, f, e);
-    packet_take(r, filter, tri, box, n, &e, m | n, skip0, skip1, h);
-    return 2;
+    return 1 + has_pair;
 }
 
 /* h->t holds t_max on entry (negative: lane off), h->prim EC_NO_ID. any_hit: a lane is done at its first hit, whose t

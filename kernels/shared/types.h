@@ -9,6 +9,7 @@
 #else /* lane-wide values are too large to travel through calls */
 #define EC_FN static inline __attribute__((always_inline))
 #endif
+#define EC_CALLED static __attribute__((noinline)) /* compiled once a kernel: many places call it, and a call costs it little */
 typedef int ec_int;
 typedef uint ec_uint;
 typedef ulong ec_ulong;
