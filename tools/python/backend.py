@@ -17,8 +17,8 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 BUILD = Path(os.environ.get("ECLAT_BUILD", ROOT / "build"))
-# The linker finds all of them in one folder.
-FILES = {"libeclat.so.0": "libeclat.so.0", "eclat": "eclat", "eclat-compile": "eclat-compile"}
+# What the package has of what `cmake --install` puts down; the linker finds all of it in one folder.
+PARTS = ["bin/eclat", "**/eclat-compile", "**/libeclat.so.0"]
 # Debian packages of which something is compiled in and whose licence asks to be passed on, beside the libraries that are linked.
 COMPILED_IN = ["libjs-chart.js", "libtinygltf-dev", "nlohmann-json3-dev"]
 
@@ -38,9 +38,9 @@ class BuiltParts(BuildHookInterface):  # type: ignore[type-arg]
         self.prefix = prefix
         run(ROOT / "tools" / "build", "eclat", "libeclat")
         run("cmake", "--install", BUILD, "--prefix", prefix)
-        for name, target in FILES.items():
-            found = [path for path in prefix.rglob(name) if path.is_file()]
-            build_data["force_include"][str(found[0].resolve())] = f"eclat/{target}"
+        for part in PARTS:
+            path, = prefix.glob(part)
+            build_data["force_include"][str(path.resolve())] = f"eclat/{path.name}"
         build_data["pure_python"] = False
         build_data["tag"] = "py3-none-linux_x86_64"
 

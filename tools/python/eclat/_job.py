@@ -1,0 +1,152 @@
+"""Runs a job of the library in a thread of its own, so that Ctrl-C and callbacks come to the thread that waits."""
+from __future__ import annotations
+
+import ctypes as c
+import logging
+import math
+import queue
+import threading
+import warnings
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, Optional, Union
+
+from . import _library as lib
+from ._error import Warning, check
+from ._library import library
+
+log = logging.getLogger("eclat")
+
+
+class Progress(NamedTuple):
+    """How far a job is; about twice a second."""
+    fraction: float                # 0 to 1, of the first limit that will end it
+    seconds: float
+    seconds_left: Optional[float]  # None: not known
+    samples: float                 # a pixel
+    error: Optional[float]         # as a picture has them; None: not known
+    bound: Optional[float]
+    text: str                      # the same in words
+
+
+Callback = Callable[[Progress], Any]
+
+
+class PictureHandle:
+    """A picture of the library, freed with the last that refers to it."""
+
+    def __init__(self, address: int) -> None:
+        self.address = c.c_void_p(address)
+
+    def __del__(self) -> None:
+        library().eclat_picture_free(self.address)
+
+
+class Result(NamedTuple):
+    picture: Optional[PictureHandle]
+    reports: list[str]  # one, or one a frame
+    says_no: bool
+
+
+def known(value: float) -> Optional[float]:
+    return value if math.isfinite(value) else None
+
+
+class Job:
+    def __init__(self, command: str, inputs: Iterable[str], options: Iterable[tuple[str, Optional[str]]]) -> None:
+        self.job, self.err = c.c_void_p(), lib.eclat_error()
+        self.events: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self.reports: list[str] = []
+        self.has_ended = False
+        check(library().eclat_job_new(command.encode(), self.job, self.err), self.err)
+        for name in inputs:
+            check(library().eclat_job_add(self.job, name.encode(errors="surrogateescape"), self.err), self.err)
+        for option, value in options:
+            text = None if value is None else value.encode(errors="surrogateescape")
+            check(library().eclat_job_set(self.job, option.encode(), text, self.err), self.err)
+
+    def __del__(self) -> None:
+        library().eclat_job_free(self.job)
+
+    def message(self, user: Any, severity: int, text: bytes) -> None:
+        self.events.put((severity, text.decode(errors="replace")))
+
+    def progress(self, user: Any, told: Any) -> int:
+        p = told.contents
+        self.events.put(Progress(p.fraction, p.seconds, p.seconds_left if p.seconds_left >= 0 else None, p.samples_per_pixel,
+                                 known(p.error), known(p.error_bound), p.text.decode()))
+        return 1
+
+    def report(self, user: Any, text: Any, size: int) -> None:
+        self.reports.append(c.string_at(text, size).decode(errors="replace"))
+
+    def work(self, wants_picture: bool) -> None:
+        """The thread of the job; None is its last event. It keeps the job alive, should nobody wait for it any more."""
+        picture = c.c_void_p()
+        listener = lib.eclat_listener(message=lib.MESSAGE(self.message), progress=lib.PROGRESS(self.progress), report=lib.REPORT(self.report))
+        library().eclat_job_listen(self.job, listener)
+        self.code = library().eclat_job_run(self.job, picture if wants_picture else None, self.err)
+        library().eclat_job_listen(self.job, None)
+        self.picture = PictureHandle(picture.value) if picture.value else None
+        self.events.put(None)
+
+    def attend(self, callback: Optional[Callback], depth: int) -> None:
+        while (event := self.events.get()) is not None:
+            if isinstance(event, Progress):
+                if callback and callback(event) is False:
+                    library().eclat_job_stop(self.job)
+            elif event[0] == lib.WARNING:
+                warnings.warn(event[1], Warning, stacklevel=depth)
+            else:
+                log.log(logging.ERROR if event[0] == lib.FAILURE else logging.INFO, "%s", event[1])
+
+    def run(self, wants_picture: bool = False, callback: Optional[Callback] = None, depth: int = 5) -> Result:
+        """depth: of stack frames up to the caller of the package, to whom warnings are told."""
+        thread = threading.Thread(target=self.work, args=(wants_picture,), name="eclat", daemon=True)
+        thread.start()
+        try:
+            self.attend(callback, depth)
+        except BaseException:  # Ctrl-C, or what a callback or a warning has raised
+            library().eclat_job_stop(self.job)
+            thread.join()  # a wave of samples; a second Ctrl-C leaves it alone
+            raise
+        thread.join()
+        check(self.code, self.err)
+        return Result(self.picture, self.reports, bool(library().eclat_job_says_no(self.job)))
+
+
+class Bar:
+    """progress=True: a bar by tqdm, or, where that is not installed, a line on standard error."""
+
+    def __init__(self) -> None:
+        try:
+            from tqdm.auto import tqdm
+            self.bar: Any = tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {postfix}")
+        except ImportError:
+            self.bar = None
+
+    def __call__(self, progress: Progress) -> None:
+        if self.bar is None:
+            import sys
+            print("\r" + progress.text, end="\x1b[K", file=sys.stderr, flush=True)
+            return
+        self.bar.n = round(100 * progress.fraction)
+        self.bar.set_postfix_str(progress.text)
+
+    def close(self) -> None:
+        if self.bar is not None:
+            self.bar.close()
+        else:
+            import sys
+            print(file=sys.stderr)
+
+
+def run(command: str, inputs: Iterable[str], options: Iterable[tuple[str, Optional[str]]], progress: Union[bool, Callback, None] = None,
+        wants_picture: bool = False) -> Result:
+    job = Job(command, inputs, options)
+    if progress is not True:
+        return job.run(wants_picture, progress or None)
+    bar = Bar()
+    try:
+        return job.run(wants_picture, bar)
+    finally:
+        bar.close()

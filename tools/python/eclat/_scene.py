@@ -1,0 +1,111 @@
+"""Scenes and what is done with them."""
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+
+from ._error import Error
+from ._job import Callback, run
+from ._library import library
+from ._options import texts
+from ._picture import Picture
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._option_types import CostOptions, InfoOptions, RenderOptions
+
+Path = Union[str, "os.PathLike[str]"]
+Seconds = Union[float, str]
+
+
+def version() -> str:
+    return str(library().eclat_version().decode())
+
+
+def info(path: Path, **options: Unpack[InfoOptions]) -> dict[str, Any]:
+    """What a scene contains and what rendering it takes: the figures of `eclat info --json`."""
+    found: dict[str, Any] = json.loads(run("info", [os.fspath(path)], [("json", None), *texts("info", dict(options))]).reports[-1])
+    return found
+
+
+class Scene:
+    """A glTF file that was read once to see that it can be rendered; each render reads it again. `info` is what eclat.info tells of it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = os.fspath(path)
+        self.info = info(path)
+
+    def __repr__(self) -> str:
+        return f"<eclat.Scene {self.path}, {self.info['triangles']} triangles, {len(self.info['cameras'])} cameras>"
+
+    def render(self, *, error: Union[float, str, None] = None, spp: Optional[int] = None, size: Union[tuple[int, int], str, None] = None,
+               time: Optional[Seconds] = None, progress: Union[bool, Callback, None] = None, **options: Unpack[RenderOptions]) -> Picture:
+        """Renders until the first limit is met; without one, 256 samples a pixel.
+
+        error: the bound of the picture's error, 0.02 for 2 %. spp: samples a pixel. time: seconds, or "10m". size: (width, height).
+        progress: True for a bar, or a function of a Progress, called about twice a second by this thread; where it returns False, the render ends
+        with the picture so far.
+        Other options are those of `eclat render`. Ctrl-C ends the render, and KeyboardInterrupt is raised.
+        """
+        named = {"error": error, "spp": spp, "size": size, "time": time, **options}
+        made = run("render", [self.path], texts("render", named), progress, wants_picture=True).picture
+        if made is None:
+            raise Error("the picture does not fit into memory as a whole: the command `eclat render` writes such pictures in strips", "host memory")
+        return Picture(made)
+
+    def render_frames(self, frames: Union[tuple[int, ...], str], output: Path, *, progress: Union[bool, Callback, None] = None,
+                      **options: Unpack[RenderOptions]) -> list[dict[str, Any]]:
+        """Renders an animation to files, one a frame. frames: (first, last), (first, last, step), or as the command line has it.
+        output: a name with %d or %04d, and .exr or .png at its end. Returns what `eclat render --json` tells, frame by frame and at the end."""
+        named = {"frames": frames, "output": output, **options}
+        reports = run("render", [self.path], [("json", None), *texts("render", named, ("frames", "fps", "overwrite"))], progress).reports
+        return [json.loads(line) for report in reports for line in report.splitlines()]
+
+    def cost(self, *, budget: Optional[Seconds] = None, html: Optional[Path] = None, progress: Union[bool, Callback, None] = None,
+             **options: Unpack[CostOptions]) -> dict[str, Any]:
+        """Which technique buys accuracy cheapest: the figures of `eclat cost --json`. budget: of time, 120 seconds by default. html: a page to be
+        written, with charts and pictures."""
+        named = texts("cost", {"budget": budget, "output": html, **options})
+        found: dict[str, Any] = json.loads(run("cost", [self.path], [("json", "-"), *named], progress).reports[-1])
+        return found
+
+
+def load(path: Path) -> Scene:
+    """A glTF 2.0 scene, .gltf or .glb."""
+    return Scene(path)
+
+
+def cost(scene: Union[Scene, Path], **options: Any) -> dict[str, Any]:
+    """Scene.cost, also of a path."""
+    return (scene if isinstance(scene, Scene) else Scene(scene)).cost(**options)
+
+
+def merge(files: Iterable[Path], **options: Any) -> Picture:
+    """One picture of slices that Scene.render(samples=(a, b)) has made and save() has written, or of checkpoints."""
+    made = run("merge", [os.fspath(file) for file in files], texts("merge", options), wants_picture=True).picture
+    assert made is not None
+    return Picture(made)
+
+
+class Device(NamedTuple):
+    """An OpenCL device; its index or a part of its name is what the option `device` takes."""
+    index: int
+    name: str
+    type: str            # "CPU", "GPU", ...
+    vendor: str
+    driver: str
+    platform: str
+    compute_units: int
+    memory_bytes: int
+    is_usable: bool      # available, and with a compiler
+    is_default: bool
+
+
+def devices() -> list[Device]:
+    """Every OpenCL device that eclat finds."""
+    report = json.loads(run("devices", [], [("json", None)]).reports[-1])
+    return [Device(*(device[name] for name in Device._fields[:8]), is_usable=device["available"] and device["compiler_available"],
+                   is_default=device["index"] == report["default"]) for device in report["devices"]]
