@@ -11,6 +11,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import option_types
 from hatchling import build as hatchling
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
@@ -41,6 +42,9 @@ class BuiltParts(BuildHookInterface):  # type: ignore[type-arg]
         for part in PARTS:
             path, = prefix.glob(part)
             build_data["force_include"][str(path.resolve())] = f"eclat/{path.name}"
+        hints = prefix / "option_types.py"
+        hints.write_text(option_types.write(HERE / "eclat", next(prefix.glob("**/libeclat.so.0"))), encoding="utf-8")
+        build_data["force_include"][str(hints)] = "eclat/_option_types.py"
         build_data["pure_python"] = False
         build_data["tag"] = "py3-none-linux_x86_64"
 

@@ -15,6 +15,8 @@ from ._job import Progress
 from ._picture import Intervals, Picture
 from ._scene import Device, Scene, cost, devices, info, load, merge, version
 
+for _public in (Comparison, Device, Error, Intervals, Picture, Progress, Scene, Warning):
+    _public.__module__ = "eclat"  # as messages and help name them
 __version__ = version()
 __all__ = ["Comparison", "Device", "Error", "Intervals", "Picture", "Progress", "Scene", "Warning",
            "compare", "cost", "devices", "info", "load", "merge", "version"]

@@ -26,7 +26,7 @@ class Comparison:
     psnr: Optional[float]            # in dB; None: the pictures are equal
     p: Optional[float]               # that noise alone makes so large a difference; None: neither picture has standard errors
     differ: bool                     # by more than noise, or, without standard errors, by more than rounding
-    report: dict[str, Any] = field(repr=False)  # everything that `eclat compare --json` tells
+    report: dict[str, Any] = field(repr=False, compare=False)  # everything that `eclat compare --json` tells
 
     def __str__(self) -> str:
         verdict = "more than noise explains" if self.differ and self.p is not None else "different" if self.differ else \

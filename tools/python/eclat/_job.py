@@ -5,6 +5,7 @@ import ctypes as c
 import logging
 import math
 import queue
+import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterable
@@ -45,6 +46,14 @@ class Result(NamedTuple):
     picture: Optional[PictureHandle]
     reports: list[str]  # one, or one a frame
     says_no: bool
+
+
+def frames_to_caller() -> int:
+    """From the function that asks to the first outside of the package, as warnings.warn counts them: who is warned."""
+    frame, count = sys._getframe(1), 1
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        frame, count = frame.f_back, count + 1
+    return count
 
 
 def known(value: float) -> Optional[float]:
@@ -89,22 +98,21 @@ class Job:
         self.picture = PictureHandle(picture.value) if picture.value else None
         self.events.put(None)
 
-    def attend(self, callback: Optional[Callback], depth: int) -> None:
+    def attend(self, callback: Optional[Callback]) -> None:
         while (event := self.events.get()) is not None:
             if isinstance(event, Progress):
                 if callback and callback(event) is False:
                     library().eclat_job_stop(self.job)
             elif event[0] == lib.WARNING:
-                warnings.warn(event[1], Warning, stacklevel=depth)
+                warnings.warn(event[1], Warning, stacklevel=frames_to_caller())
             else:
                 log.log(logging.ERROR if event[0] == lib.FAILURE else logging.INFO, "%s", event[1])
 
-    def run(self, wants_picture: bool = False, callback: Optional[Callback] = None, depth: int = 5) -> Result:
-        """depth: of stack frames up to the caller of the package, to whom warnings are told."""
+    def run(self, wants_picture: bool = False, callback: Optional[Callback] = None) -> Result:
         thread = threading.Thread(target=self.work, args=(wants_picture,), name="eclat", daemon=True)
         thread.start()
         try:
-            self.attend(callback, depth)
+            self.attend(callback)
         except BaseException:  # Ctrl-C, or what a callback or a warning has raised
             library().eclat_job_stop(self.job)
             thread.join()  # a wave of samples; a second Ctrl-C leaves it alone
@@ -119,24 +127,22 @@ class Bar:
 
     def __init__(self) -> None:
         try:
-            from tqdm.auto import tqdm
-            self.bar: Any = tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {postfix}")
+            from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
+            self.bar: Any = tqdm(total=100, bar_format="{bar:20} {desc}")
         except ImportError:
             self.bar = None
 
     def __call__(self, progress: Progress) -> None:
         if self.bar is None:
-            import sys
             print("\r" + progress.text, end="\x1b[K", file=sys.stderr, flush=True)
             return
         self.bar.n = round(100 * progress.fraction)
-        self.bar.set_postfix_str(progress.text)
+        self.bar.set_description_str(progress.text)
 
     def close(self) -> None:
         if self.bar is not None:
             self.bar.close()
         else:
-            import sys
             print(file=sys.stderr)
 
 

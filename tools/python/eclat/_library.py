@@ -7,6 +7,7 @@ from pathlib import Path
 
 from . import _drivers
 
+LIBRARY = Path(__file__).with_name("libeclat.so.0")
 OK, FAILED, USAGE = 0, 1, 2
 STATUS, NOTE, WARNING, FAILURE = range(4)
 ERROR_KINDS = ("other", "host memory", "device memory", "device")
@@ -78,7 +79,7 @@ _FUNCTIONS = {
 def library() -> c.CDLL:
     """Loaded when it is used first, once the drivers are known."""
     _drivers.announce()
-    loaded = c.CDLL(str(Path(__file__).with_name("libeclat.so.0")))
+    loaded = c.CDLL(str(LIBRARY))
     for name, (result, *arguments) in _FUNCTIONS.items():
         function = getattr(loaded, name)
         function.restype, function.argtypes = result, arguments

@@ -24,6 +24,7 @@ class Option(NamedTuple):
 
 # What only a terminal has a use for, or what has a function of its own.
 NOT_HERE = {
+    "output": "Picture.save and the parameter html write files",
     "json": "results are Python objects",
     "quiet": "messages go to the logger 'eclat'",
     "verbose": "eclat.info says what calls for each effect",
@@ -38,17 +39,17 @@ NOT_HERE = {
 def options_of(command: str) -> dict[str, Option]:
     found: dict[str, Option] = {}
     while (row := library().eclat_option_at(command.encode(), len(found))).name:
-        choices = []
+        choices: list[str] = []
         while row.choices and row.choices[len(choices)]:
             choices.append(row.choices[len(choices)].decode())
         found[row.name.decode()] = Option(row.name.decode(), (row.metavar or b"").decode(), bool(row.repeats), tuple(choices))
     return found
 
 
-def find_option(command: str, name: str, refused: Iterable[str]) -> Option:
+def find_option(command: str, name: str, allowed: Iterable[str]) -> Option:
     known = options_of(command)
     option = known.get(name.replace("_", "-"))
-    if option is not None and option.name not in refused:
+    if option is not None and (option.name in allowed or option.name not in NOT_HERE):
         return option
     if option is not None:
         raise TypeError(f"{command} has no option {name} in Python: {NOT_HERE[option.name]}")
@@ -84,10 +85,11 @@ def text_of(option: Option, value: Any) -> Optional[str]:
 
 
 def texts(command: str, options: dict[str, Any], allowed: Iterable[str] = ()) -> list[tuple[str, Optional[str]]]:
-    """(name, value) of each that is to be set; None and a switch that is off are left out. allowed: what is not refused though NOT_HERE has it."""
+    """(name, value) of each that is to be set; None and a switch that is off are left out. allowed: those of NOT_HERE that the caller
+    sees to."""
     found: list[tuple[str, Optional[str]]] = []
     for name, value in options.items():
-        option = find_option(command, name, NOT_HERE.keys() - set(allowed))
+        option = find_option(command, name, allowed)
         if value is None or (value is False and "off" not in option.choices):
             continue
         many = option.repeats and not isinstance(value, (str, os.PathLike))

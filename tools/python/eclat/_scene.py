@@ -4,10 +4,11 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 from ._error import Error
-from ._job import Callback, run
+from ._job import Callback, PictureHandle, run
 from ._library import library
 from ._options import texts
 from ._picture import Picture
@@ -15,10 +16,16 @@ from ._picture import Picture
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._option_types import CostOptions, InfoOptions, RenderOptions
+    from ._option_types import CostOptions, FrameOptions, InfoOptions, RenderOptions
 
 Path = Union[str, "os.PathLike[str]"]
 Seconds = Union[float, str]
+
+
+def some(made: Optional[PictureHandle]) -> PictureHandle:
+    if made is None:
+        raise Error("the picture does not fit into memory as a whole; the command `eclat render` writes such pictures in strips", "host memory")
+    return made
 
 
 def version() -> str:
@@ -52,23 +59,21 @@ class Scene:
         """
         named = {"error": error, "spp": spp, "size": size, "time": time, **options}
         made = run("render", [self.path], texts("render", named), progress, wants_picture=True).picture
-        if made is None:
-            raise Error("the picture does not fit into memory as a whole: the command `eclat render` writes such pictures in strips", "host memory")
-        return Picture(made)
+        return Picture(some(made))
 
     def render_frames(self, frames: Union[tuple[int, ...], str], output: Path, *, progress: Union[bool, Callback, None] = None,
-                      **options: Unpack[RenderOptions]) -> list[dict[str, Any]]:
+                      **options: Unpack[FrameOptions]) -> list[dict[str, Any]]:
         """Renders an animation to files, one a frame. frames: (first, last), (first, last, step), or as the command line has it.
         output: a name with %d or %04d, and .exr or .png at its end. Returns what `eclat render --json` tells, frame by frame and at the end."""
         named = {"frames": frames, "output": output, **options}
-        reports = run("render", [self.path], [("json", None), *texts("render", named, ("frames", "fps", "overwrite"))], progress).reports
+        reports = run("render", [self.path], [("json", None), *texts("render", named, ("frames", "fps", "output", "overwrite"))], progress).reports
         return [json.loads(line) for report in reports for line in report.splitlines()]
 
     def cost(self, *, budget: Optional[Seconds] = None, html: Optional[Path] = None, progress: Union[bool, Callback, None] = None,
              **options: Unpack[CostOptions]) -> dict[str, Any]:
         """Which technique buys accuracy cheapest: the figures of `eclat cost --json`. budget: of time, 120 seconds by default. html: a page to be
         written, with charts and pictures."""
-        named = texts("cost", {"budget": budget, "output": html, **options})
+        named = texts("cost", {"budget": budget, "output": html, **options}, ("output",))
         found: dict[str, Any] = json.loads(run("cost", [self.path], [("json", "-"), *named], progress).reports[-1])
         return found
 
@@ -78,19 +83,21 @@ def load(path: Path) -> Scene:
     return Scene(path)
 
 
-def cost(scene: Union[Scene, Path], **options: Any) -> dict[str, Any]:
+def cost(scene: Union[Scene, Path], /, *, budget: Optional[Seconds] = None, html: Optional[Path] = None,
+         progress: Union[bool, Callback, None] = None, **options: Unpack[CostOptions]) -> dict[str, Any]:
     """Scene.cost, also of a path."""
-    return (scene if isinstance(scene, Scene) else Scene(scene)).cost(**options)
+    return (scene if isinstance(scene, Scene) else Scene(scene)).cost(budget=budget, html=html, progress=progress, **options)
 
 
-def merge(files: Iterable[Path], **options: Any) -> Picture:
-    """One picture of slices that Scene.render(samples=(a, b)) has made and save() has written, or of checkpoints."""
-    made = run("merge", [os.fspath(file) for file in files], texts("merge", options), wants_picture=True).picture
-    assert made is not None
-    return Picture(made)
+def merge(files: Iterable[Path], *, partial: bool = False, exposure: Optional[float] = None, tonemap: Optional[str] = None) -> Picture:
+    """One picture of slices, which Picture.save writes of Scene.render(samples=(a, b)), or of checkpoints. partial: even if samples are missing."""
+    named = texts("merge", {"partial": partial, "exposure": exposure, "tonemap": tonemap})
+    made = run("merge", [os.fspath(file) for file in files], named, wants_picture=True).picture
+    return Picture(some(made))
 
 
-class Device(NamedTuple):
+@dataclass(frozen=True)
+class Device:
     """An OpenCL device; its index or a part of its name is what the option `device` takes."""
     index: int
     name: str
@@ -107,5 +114,5 @@ class Device(NamedTuple):
 def devices() -> list[Device]:
     """Every OpenCL device that eclat finds."""
     report = json.loads(run("devices", [], [("json", None)]).reports[-1])
-    return [Device(*(device[name] for name in Device._fields[:8]), is_usable=device["available"] and device["compiler_available"],
-                   is_default=device["index"] == report["default"]) for device in report["devices"]]
+    return [Device(**{name: device[name] for name in Device.__annotations__.keys() & device.keys()}, is_default=device["index"] == report["default"],
+                   is_usable=device["available"] and device["compiler_available"]) for device in report["devices"]]

@@ -1,0 +1,124 @@
+# tier: full
+"""The wheel of tools/python as a stranger gets it: what is in it, what it loads, its command, its types, and by tests/python its functions."""
+import glob
+import json
+import os
+import re
+import subprocess
+import unittest
+import zipfile
+
+import support
+import wheel
+from support import CORNELL, SOURCE
+
+# What every Linux of the wheel's tag has: PEP 600, and auditwheel's list.
+EVERYWHERE = r"(ld-linux-x86-64|libc|libm|libdl|libpthread|librt|libgcc_s|libstdc\+\+|libz)\.so[.\d]*"
+
+TYPED = """import eclat
+from pathlib import Path
+
+def show(progress: eclat.Progress) -> None:
+    print(progress.samples + 1)
+
+scene = eclat.load(Path("a.gltf"))
+picture = scene.render(error=0.02, size=(4, 3), adaptive=True, eye=(1, 2, 3), lanes=4, without=["emission"], progress=show)
+picture.radiance.mean()
+print((picture.bound or 1) + eclat.compare(picture, "b.exr").error, eclat.cost("a.gltf", budget=3, scene=1)["rungs"])
+"""
+
+
+class Wheel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.venv = wheel.Environment(cls)
+        cls.wheel = wheel.make(cls.venv)
+        cls.venv.pip("install", "-q", cls.wheel, "mypy", "tqdm")
+        cls.package = os.path.join(cls.venv.packages(), "eclat")
+        with zipfile.ZipFile(cls.wheel) as archive:
+            cls.names = archive.namelist()
+
+    def run_here(self, *words, **env):
+        return wheel.run(*words, cwd=self.venv.folder, env=wheel.outside(**env))
+
+    def test_it_is_for_any_python_3_on_linux(self):
+        self.assertRegex(os.path.basename(self.wheel), r"^eclat-[\d.]+-py3-none-manylinux_2_\d+_x86_64\.whl$")
+        version = self.run_here(self.venv.program("eclat"), "--version").stdout.split()[1]
+        self.assertEqual(os.path.basename(self.wheel).split("-")[1], version)
+
+    def test_everything_is_inside(self):
+        """The linker finds what the programs and the library need in the environment, but for what every Linux has."""
+        for file in ("libeclat.so.0", "eclat", "eclat-compile"):
+            needs = self.run_here("ldd", os.path.join(self.package, file)).stdout
+            self.assertNotIn("not found", needs, file)
+            found = dict(re.findall(r"(\S+) => (/\S+)", needs))
+            self.assertGreater(len(found), 5)
+            for name, path in found.items():
+                if not re.fullmatch(EVERYWHERE, name):
+                    self.assertTrue(os.path.realpath(path).startswith(os.path.realpath(self.venv.folder)), f"{file} takes {path}")
+
+    def test_licences_go_along(self):
+        licences = {os.path.basename(name) for name in self.names if "/licenses/" in name}
+        for library in (name for name in self.names if name.startswith("eclat.libs/")):
+            stem = re.match(r"eclat\.libs/lib(\w+?)(16|Core)?(-3_1)?-[0-9a-f]{8}\.so", library)[1].lower()
+            stem = {"iex": "openexr", "ilmthread": "openexr", "opencl": "ocl-icd"}.get(stem, stem)
+            self.assertTrue([name for name in licences if stem in name], f"{library} has no licence among {licences}")
+        self.assertIn("LICENSE", licences)
+
+    def test_nothing_of_the_build_is_in_use(self):
+        code = f"import eclat; eclat.load({CORNELL!r}).render(spp=8, size=(8, 8)); print(open('/proc/self/maps').read())"
+        done = self.run_here(self.venv.python, "-c", code)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        files = {line.split(None, 5)[5] for line in done.stdout.splitlines() if line.count(" /")}
+        self.assertTrue([name for name in files if name.endswith("eclat/libeclat.so.0")])
+        kernels = support.ENVIRONMENT["XDG_CACHE_HOME"] # which PoCL maps
+        build = os.path.realpath(wheel.BUILD) + os.sep
+        self.assertEqual([name for name in files if name.startswith(build) and not name.startswith(os.path.realpath(kernels))], [])
+
+    def test_the_command_is_the_program(self):
+        for words in (["--help"], ["render", "--help"], ["help", "--man"], ["info", CORNELL, "--json"]):
+            mine, built = self.run_here(self.venv.program("eclat"), *words), support.eclat(*words)
+            strip = re.compile(r'"(?:load|build|total)\w*seconds":[\d.e-]+|"\w*seconds":[\d.e-]+|"\w*peak\w*":\d+')
+            self.assertEqual((mine.returncode, strip.sub("", mine.stdout)), (built.returncode, strip.sub("", built.stdout)), words)
+        refused = self.run_here(self.venv.program("eclat"), "render", "nothing.gltf")
+        self.assertEqual((refused.returncode, refused.stderr.count("\n")), (1, 1), refused.stderr)
+
+    def test_the_command_compiles_beside_as_well(self):
+        """eclat-compile lies where the library looks."""
+        self.assertTrue(os.access(os.path.join(self.package, "eclat-compile"), os.X_OK))
+        cache = os.path.join(self.venv.folder, "cache")
+        done = self.run_here(self.venv.program("eclat"), "render", CORNELL, "--size", "16x16", "--spp", "8", "--json", "-o", "a.exr", XDG_CACHE_HOME=cache,
+                             POCL_CACHE_DIR=os.path.join(cache, "pocl"), ECLAT_COMPILE="beside")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads(done.stdout)
+        if "Portable Computing Language" not in report["device"]["platform"]:
+            self.skipTest("this driver does not compile at the first launch")
+        self.assertEqual(report["first_kernels"], "narrow")
+
+    def test_types(self):
+        for name, code, wrong in (("good.py", TYPED, None), ("bad.py", TYPED.replace("adaptive", "adaptve"), "adaptve"),
+                                  ("worse.py", TYPED.replace("eye=(1, 2, 3)", "eye=object()"), "eye")):
+            with open(os.path.join(self.venv.folder, name), "w", encoding="utf-8") as file:
+                file.write(code)
+            done = self.run_here(self.venv.program("mypy"), "--strict", name)
+            self.assertEqual(done.returncode, 1 if wrong else 0, done.stdout)
+            self.assertIn(wrong or "Success", done.stdout)
+        package = self.run_here(self.venv.program("mypy"), "--strict", "-p", "eclat")
+        self.assertEqual(package.returncode, 0, package.stdout)
+
+    def test_public_names_are_documented(self):
+        code = ("import eclat, inspect\nfor name in eclat.__all__:\n    one = getattr(eclat, name)\n    assert inspect.getdoc(one) or name == 'version', name\n"
+                "    for part, member in vars(one).items() if inspect.isclass(one) else ():\n"
+                "        assert part.startswith('_') or not (callable(member) or isinstance(member, property)) or inspect.getdoc(member), (name, part)\n")
+        done = self.run_here(self.venv.python, "-c", code)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_pictures(self):
+        wheel.run_tests(self, self.venv, "pictures.py")
+
+    def test_jobs(self):
+        wheel.run_tests(self, self.venv, "jobs.py")
+
+
+if __name__ == "__main__":
+    unittest.main()
