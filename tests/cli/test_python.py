@@ -1,16 +1,14 @@
 # tier: full
 """The wheel of tools/python as a stranger gets it: what is in it, what it loads, its command, its types, and by tests/python its functions."""
-import glob
 import json
 import os
 import re
-import subprocess
 import unittest
 import zipfile
 
 import support
 import wheel
-from support import CORNELL, SOURCE
+from support import CORNELL
 
 # What every Linux of the wheel's tag has: PEP 600, and auditwheel's list.
 EVERYWHERE = r"(ld-linux-x86-64|libc|libm|libdl|libpthread|librt|libgcc_s|libstdc\+\+|libz)\.so[.\d]*"
@@ -52,7 +50,7 @@ class Wheel(unittest.TestCase):
             needs = self.run_here("ldd", os.path.join(self.package, file)).stdout
             self.assertNotIn("not found", needs, file)
             found = dict(re.findall(r"(\S+) => (/\S+)", needs))
-            self.assertGreater(len(found), 5)
+            self.assertIn("libc.so.6", found)
             for name, path in found.items():
                 if not re.fullmatch(EVERYWHERE, name):
                     self.assertTrue(os.path.realpath(path).startswith(os.path.realpath(self.venv.folder)), f"{file} takes {path}")
@@ -71,7 +69,7 @@ class Wheel(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         files = {line.split(None, 5)[5] for line in done.stdout.splitlines() if line.count(" /")}
         self.assertTrue([name for name in files if name.endswith("eclat/libeclat.so.0")])
-        kernels = support.ENVIRONMENT["XDG_CACHE_HOME"] # which PoCL maps
+        kernels = support.ENVIRONMENT["XDG_CACHE_HOME"]  # the driver maps them
         build = os.path.realpath(wheel.BUILD) + os.sep
         self.assertEqual([name for name in files if name.startswith(build) and not name.startswith(os.path.realpath(kernels))], [])
 
@@ -107,7 +105,7 @@ class Wheel(unittest.TestCase):
         self.assertEqual(package.returncode, 0, package.stdout)
 
     def test_public_names_are_documented(self):
-        code = ("import eclat, inspect\nfor name in eclat.__all__:\n    one = getattr(eclat, name)\n    assert inspect.getdoc(one) or name == 'version', name\n"
+        code = ("import eclat, inspect\nfor name in eclat.__all__:\n    one = getattr(eclat, name)\n    assert inspect.getdoc(one), name\n"
                 "    for part, member in vars(one).items() if inspect.isclass(one) else ():\n"
                 "        assert part.startswith('_') or not (callable(member) or isinstance(member, property)) or inspect.getdoc(member), (name, part)\n")
         done = self.run_here(self.venv.python, "-c", code)

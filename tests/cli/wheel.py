@@ -1,4 +1,7 @@
 """Makes eclat's wheel of this build, and virtual environments that have it and nothing of the build or the source."""
+import fcntl
+import glob
+import hashlib
 import os
 import shutil
 import subprocess
@@ -55,12 +58,33 @@ class Environment:
         return run(self.python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", env=outside()).stdout.strip()
 
 
+def inputs():
+    """Files of which the wheel is made."""
+    yield from (os.path.join(BUILD, name) for name in ("libeclat.so", "eclat", "eclat-compile"))
+    yield from (os.path.join(SOURCE, name) for name in ("CMakeLists.txt", "host/lib/install.cmake", "host/include/eclat/eclat.h"))
+    for folder, _, names in sorted(os.walk(PROJECT)):
+        yield from (os.path.join(folder, name) for name in sorted(names) if not name.endswith(".pyc"))
+
+
+def digest():
+    found = hashlib.sha256()
+    for path in inputs():
+        with open(path, "rb") as file:
+            found.update(file.read())
+    return found.hexdigest()[:16]
+
+
 def make(environment):
-    """The path of a new wheel."""
-    out = os.path.join(environment.folder, "wheels")
-    environment.pip("wheel", "-q", "--no-deps", "-w", out, PROJECT)
-    name, = os.listdir(out)
-    return os.path.join(out, name)
+    """The path of a wheel, which serves every test of this build."""
+    wheels = os.path.join(BUILD, "tests", "wheels")
+    os.makedirs(wheels, exist_ok=True)
+    with open(os.path.join(wheels, "lock"), "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        out = os.path.join(wheels, digest())
+        if not glob.glob(os.path.join(out, "*.whl")):
+            environment.pip("wheel", "-q", "--no-deps", "-w", out, PROJECT)
+        path, = glob.glob(os.path.join(out, "*.whl"))
+        return path
 
 
 def run_tests(case, environment, file, **env):

@@ -50,10 +50,12 @@ class Picture:
 
     @property
     def width(self) -> int:
+        """In pixels."""
         return int(library().eclat_picture_width(self._handle.address))
 
     @property
     def height(self) -> int:
+        """In pixels."""
         return int(library().eclat_picture_height(self._handle.address))
 
     @property
@@ -141,7 +143,7 @@ class Picture:
         if self.error is None:
             stated = "error not known"
         elif self.bound is None:
-            stated = f"error {100 * self.error:.3g} %, without a bound: {self.why}"
+            stated = f"error at least {100 * self.error:.3g} %, no bound: {self.why}"
         else:
             stated = f"error {100 * self.error:.3g} % (95 % bound {100 * self.bound:.3g} %)"
         return f"{stated}, {self.samples:.4g} samples a pixel"

@@ -29,6 +29,7 @@ def some(made: Optional[PictureHandle]) -> PictureHandle:
 
 
 def version() -> str:
+    """Of the library that is running, "0.1.0"."""
     return str(library().eclat_version().decode())
 
 
