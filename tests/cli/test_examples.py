@@ -53,6 +53,17 @@ class Examples(support.Case):
         # As far from the reference as both errors allow: the noise of 96 x 96 pixels is known to a few per cent.
         self.assertLess(answer["distance"], 1.2 * answer["distance of noise"])
 
+    def test_the_page(self):
+        """Every block of Python, as it stands."""
+        os.symlink(os.path.join(SOURCE, "scenes"), self.path("scenes"))
+        with open(os.path.join(SOURCE, "docs", "python.md"), encoding="utf-8") as page:
+            blocks = re.findall(r"```python\n(.*?)```", page.read(), re.DOTALL)
+        self.assertGreater(len(blocks), 2)
+        for block in blocks:
+            run = self.assert_ok(self.run_here(self.venv.python, "-c", block))
+        self.assertIn("96 spp", run.stdout)  # the last one stops where it says
+        self.assertTrue(os.path.exists(self.path("picture.exr")) and os.path.exists(self.path("picture.png")))
+
     def test_the_recipe(self):
         with open(self.path("my-renderer"), "w", encoding="utf-8") as file:
             file.write(RENDERER)

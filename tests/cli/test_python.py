@@ -1,14 +1,18 @@
 # tier: full
 """The wheel of tools/python as a stranger gets it: what is in it, what it loads, its command, its types, and by tests/python its functions."""
+import importlib.util
 import json
 import os
 import re
+import sys
+import types
 import unittest
 import zipfile
+from unittest import mock
 
 import support
 import wheel
-from support import CORNELL
+from support import CORNELL, SOURCE
 
 # What every Linux of the wheel's tag has: PEP 600, and auditwheel's list.
 EVERYWHERE = r"(ld-linux-x86-64|libc|libm|libdl|libpthread|librt|libgcc_s|libstdc\+\+|libz)\.so[.\d]*"
@@ -24,6 +28,55 @@ picture = scene.render(error=0.02, size=(4, 3), adaptive=True, eye=(1, 2, 3), la
 picture.radiance.mean()
 print((picture.bound or 1) + eclat.compare(picture, "b.exr").error, eclat.cost("a.gltf", budget=3, scene=1)["rungs"])
 """
+
+
+C_TYPES = {"double": "c_double", "int": "c_int", "uint32_t": "c_uint", "size_t": "c_ulong", "char": "c_char", "const char *": "c_char_p"}
+
+
+class Declarations(unittest.TestCase):
+    """What the package says of eclat.h to ctypes."""
+
+    @classmethod
+    def setUpClass(cls):
+        with open(os.path.join(SOURCE, "host", "include", "eclat", "eclat.h"), encoding="utf-8") as file:
+            cls.header = re.sub(r"/\*.*?\*/", "", file.read(), flags=re.DOTALL)
+        spec = importlib.util.spec_from_file_location("eclat._library", os.path.join(wheel.PROJECT, "eclat", "_library.py"))
+        stub = types.ModuleType("eclat")
+        stub.__path__ = [os.path.join(wheel.PROJECT, "eclat")]
+        with mock.patch.dict(sys.modules, {"eclat": stub}):
+            cls.library = importlib.util.module_from_spec(spec)
+            spec.loader.exec_module(cls.library)
+
+    def fields(self, struct):
+        """[(name, its type)] of the header's; other types by their last word."""
+        found = []
+        for declaration in re.search(rf"typedef struct {struct} {{(.*?)}} {struct};", self.header, re.DOTALL)[1].split(";"):
+            if pointer := re.search(r"\(\*(\w+)\)\(", declaration):
+                found.append((pointer[1], "function"))
+            elif words := re.match(r"\s*(const \w+ \*(?:const \*)?|\w+ \*?)\s*(.*)", declaration, re.DOTALL):
+                found += [(name.strip(" *\n").split("[")[0], words[1].strip()) for name in words[2].split(",")]
+        return found
+
+    def test_structures(self):
+        for name in ("eclat_error", "eclat_option", "eclat_progress", "eclat_listener", "eclat_picture_error", "eclat_channel", "eclat_attribute"):
+            mine, theirs = getattr(self.library, name)._fields_, self.fields(name)
+            self.assertEqual([field for field, _ in mine], [field for field, _ in theirs], name)
+            for (field, kind), (_, declared) in zip(mine, theirs):
+                if declared in C_TYPES and field != "text":
+                    self.assertEqual(kind.__name__, C_TYPES[declared], f"{name}.{field}")
+
+    def test_functions(self):
+        for name, (_, *arguments) in self.library._FUNCTIONS.items():
+            declared = re.search(rf"\b{name}\((.*?)\);", self.header, re.DOTALL)[1]
+            self.assertEqual(len(arguments), len(declared.split(",")), name)
+
+    def test_numbers(self):
+        for enum, names in (("eclat_result", ("OK", "FAILED", "USAGE")), ("eclat_severity", ("STATUS", "NOTE", "WARNING", "FAILURE"))):
+            declared = re.search(rf"typedef enum {enum} {{(.*?)}}", self.header, re.DOTALL)[1]
+            self.assertEqual([word.split("=")[0].strip() for word in declared.split(",")], ["ECLAT_" + name for name in names])
+            self.assertEqual([getattr(self.library, name) for name in names], list(range(len(names))))
+        kinds = re.search(r"typedef enum eclat_error_kind {(.*?)}", self.header, re.DOTALL)[1].split(",")
+        self.assertEqual([kind.strip()[12:].lower().replace("_", " ") for kind in kinds], list(self.library.ERROR_KINDS))
 
 
 class Wheel(unittest.TestCase):
@@ -110,6 +163,13 @@ class Wheel(unittest.TestCase):
                 "        assert part.startswith('_') or not (callable(member) or isinstance(member, property)) or inspect.getdoc(member), (name, part)\n")
         done = self.run_here(self.venv.python, "-c", code)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_importing_it_does_nothing_yet(self):
+        """No library, no driver, no variable, as in a program that only may render."""
+        code = "import eclat, os; print(eclat.__version__, 'libeclat' in open('/proc/self/maps').read(), os.environ.get('OCL_ICD_VENDORS')); eclat.devices(); " \
+               "print(os.environ.get('OCL_ICD_VENDORS'))"
+        version = re.search(r"eclat-([\d.]+)-", self.wheel)[1]
+        self.assertEqual(self.run_here(self.venv.python, "-c", code).stdout.split(), [version, "False", "None", "None"])
 
     def test_pictures(self):
         wheel.run_tests(self, self.venv, "pictures.py")

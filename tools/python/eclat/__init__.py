@@ -9,14 +9,16 @@ Options have the names of the command line with _ for -, as in render(max_depth=
 them all. Failures raise eclat.Error with one line that says what, where and how to mend it. Warnings are Python's, of the category eclat.Warning;
 other messages go to the logger "eclat".
 """
+from importlib import metadata
+
 from ._compare import Comparison, compare
 from ._error import Error, Warning
 from ._job import Progress
 from ._picture import Intervals, Picture
-from ._scene import Device, Scene, cost, devices, info, load, merge, version
+from ._scene import Device, Scene, cost, devices, info, load, merge
 
 for _public in (Comparison, Device, Error, Intervals, Picture, Progress, Scene, Warning):
     _public.__module__ = "eclat"  # as messages and help name them
-__version__ = version()
+__version__ = metadata.version("eclat")
 __all__ = ["Comparison", "Device", "Error", "Intervals", "Picture", "Progress", "Scene", "Warning",
-           "compare", "cost", "devices", "info", "load", "merge", "version"]
+           "compare", "cost", "devices", "info", "load", "merge"]

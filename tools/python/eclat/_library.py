@@ -53,7 +53,6 @@ class eclat_attribute(c.Structure):
 
 _JOB, _PICTURE, _ERROR = c.c_void_p, c.c_void_p, c.POINTER(eclat_error)
 _FUNCTIONS = {
-    "eclat_version": (c.c_char_p,),
     "eclat_option_at": (eclat_option, c.c_char_p, c.c_size_t),
     "eclat_job_new": (c.c_int, c.c_char_p, c.POINTER(_JOB), _ERROR),
     "eclat_job_free": (None, _JOB),

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 from ._error import Error
 from ._job import Callback, PictureHandle, run
-from ._library import library
 from ._options import texts
 from ._picture import Picture
 
@@ -26,11 +25,6 @@ def some(made: Optional[PictureHandle]) -> PictureHandle:
     if made is None:
         raise Error("the picture does not fit into memory as a whole; the command `eclat render` writes such pictures in strips", "host memory")
     return made
-
-
-def version() -> str:
-    """Of the library that is running, "0.1.0"."""
-    return str(library().eclat_version().decode())
 
 
 def info(path: Path, **options: Unpack[InfoOptions]) -> dict[str, Any]:
