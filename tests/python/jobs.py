@@ -14,6 +14,8 @@ from unittest import mock
 import eclat
 from stranger import CORNELL, SMALL, Case, support
 
+from polling import poll_until
+
 LONG = {"spp": 1000000, "size": (64, 64)}
 
 
@@ -98,6 +100,17 @@ class Progress(Case):
         self.assertLessEqual(16, picture.samples)
         self.assertLess(picture.samples, LONG["spp"])
         self.assertGreater(picture.error, 0)
+
+    def test_a_slow_callback_sees_the_latest(self):
+        """Reports come while it is away; afterwards it gets one, not all of them."""
+        counts, scene = [], eclat.load(CORNELL)
+
+        def look(progress):
+            counts.append(progress.samples)
+            if len(counts) == 1:
+                poll_until(lambda: len([thread for thread in threading.enumerate() if thread.name == "eclat"]) == 0)  # the render is over
+        scene.render(spp=64, size=(24, 16), progress=look)
+        self.assertLessEqual(len(counts), 2)
 
     def test_what_a_callback_raises_ends_the_render(self):
         def fail(progress):

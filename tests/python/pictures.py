@@ -3,7 +3,6 @@ import gc
 import os
 import struct
 import unittest
-import zlib
 
 import numpy as np
 

@@ -6,7 +6,7 @@ import os
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 from ._job import run
 from ._options import texts
@@ -19,12 +19,12 @@ Source = Union[str, "os.PathLike[str]", Picture]
 class Comparison:
     """Of a against the reference b."""
     error: float                     # root mean square difference of luminance, as a fraction of b's mean luminance
-    error_of_noise: Optional[float]  # what noise alone makes of it; None: a picture without standard errors
+    error_of_noise: float | None  # what noise alone makes of it; None: a picture without standard errors
     rmse: float
     relmse: float
     mape: float
-    psnr: Optional[float]            # in dB; None: the pictures are equal
-    p: Optional[float]               # that noise alone makes so large a difference; None: neither picture has standard errors
+    psnr: float | None            # in dB; None: the pictures are equal
+    p: float | None               # that noise alone makes so large a difference; None: neither picture has standard errors
     differ: bool                     # by more than noise, or, without standard errors, by more than rounding
     report: dict[str, Any] = field(repr=False, compare=False)  # everything that `eclat compare --json` tells
 
@@ -42,7 +42,7 @@ def file_of(picture: Source, folder: str, name: str) -> str:
     return str(path)
 
 
-def compare(a: Source, b: Source, *, diff: Union[str, os.PathLike[str], None] = None) -> Comparison:
+def compare(a: Source, b: Source, *, diff: str | os.PathLike[str] | None = None) -> Comparison:
     """Compares a with the reference b: pictures, or .exr files, those of other renderers too. diff: a .png to be written, a map of the error."""
     with tempfile.TemporaryDirectory(prefix="eclat-") as folder:
         result = run("compare", [file_of(a, folder, "a.exr"), file_of(b, folder, "b.exr")], [("json", None), *texts("compare", {"diff": diff})])

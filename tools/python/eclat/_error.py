@@ -13,7 +13,7 @@ class Error(Exception):
         self.kind = kind
 
 
-class Warning(UserWarning):  # noqa: A001: eclat.Warning
+class Warning(UserWarning):
     """What a picture lacks, or what was done in place of what was asked for."""
 
 

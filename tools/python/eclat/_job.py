@@ -9,27 +9,30 @@ import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterable
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, NamedTuple, Union
 
 from . import _library as lib
 from ._error import Warning, check
 from ._library import library
 
 log = logging.getLogger("eclat")
+# Events of a job beside its messages: there is progress, unless it was seen already; the job has ended.
+PROGRESS, END = object(), object()
 
 
 class Progress(NamedTuple):
     """How far a job is; about twice a second."""
-    fraction: float                # 0 to 1, of the first limit that will end it
+    fraction: float             # 0 to 1, of the first limit that will end it
     seconds: float
-    seconds_left: Optional[float]  # None: not known
-    samples: float                 # a pixel
-    error: Optional[float]         # as a picture has them; None: not known
-    bound: Optional[float]
-    text: str                      # the same in words
+    seconds_left: float | None  # None: not known
+    samples: float              # a pixel
+    error: float | None         # as a picture has them; None: not known
+    bound: float | None
+    text: str                   # the same in words
 
 
 Callback = Callable[[Progress], Any]
+Shown = Union[bool, Callback, None]  # True: a bar
 
 
 class PictureHandle:
@@ -43,7 +46,7 @@ class PictureHandle:
 
 
 class Result(NamedTuple):
-    picture: Optional[PictureHandle]
+    picture: PictureHandle | None
     reports: list[str]  # one, or one a frame
     says_no: bool
 
@@ -56,16 +59,18 @@ def frames_to_caller() -> int:
     return count
 
 
-def known(value: float) -> Optional[float]:
+def known(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
 class Job:
-    def __init__(self, command: str, inputs: Iterable[str], options: Iterable[tuple[str, Optional[str]]]) -> None:
+    def __init__(self, command: str, inputs: Iterable[str], options: Iterable[tuple[str, str | None]]) -> None:
         self.job, self.err = c.c_void_p(), lib.eclat_error()
         self.events: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self.reports: list[str] = []
-        self.has_ended = False
+        self.latest: Progress | None = None  # that nobody has seen yet
+        self.code = lib.FAILED
+        self.picture: PictureHandle | None = None
         check(library().eclat_job_new(command.encode(), self.job, self.err), self.err)
         for name in inputs:
             check(library().eclat_job_add(self.job, name.encode(errors="surrogateescape"), self.err), self.err)
@@ -80,35 +85,38 @@ class Job:
         self.events.put((severity, text.decode(errors="replace")))
 
     def progress(self, user: Any, told: Any) -> int:
+        """Who is slow to look sees the latest only."""
         p = told.contents
-        self.events.put(Progress(p.fraction, p.seconds, p.seconds_left if p.seconds_left >= 0 else None, p.samples_per_pixel,
-                                 known(p.error), known(p.error_bound), p.text.decode()))
+        self.latest = Progress(p.fraction, p.seconds, p.seconds_left if p.seconds_left >= 0 else None, p.samples_per_pixel,
+                               known(p.error), known(p.error_bound), p.text.decode())
+        self.events.put(PROGRESS)
         return 1
 
     def report(self, user: Any, text: Any, size: int) -> None:
         self.reports.append(c.string_at(text, size).decode(errors="replace"))
 
     def work(self, wants_picture: bool) -> None:
-        """The thread of the job; None is its last event. It keeps the job alive, should nobody wait for it any more."""
+        """The thread of the job. It keeps the job alive, should nobody wait for it any more."""
         picture = c.c_void_p()
         listener = lib.eclat_listener(message=lib.MESSAGE(self.message), progress=lib.PROGRESS(self.progress), report=lib.REPORT(self.report))
         library().eclat_job_listen(self.job, listener)
         self.code = library().eclat_job_run(self.job, picture if wants_picture else None, self.err)
         library().eclat_job_listen(self.job, None)
         self.picture = PictureHandle(picture.value) if picture.value else None
-        self.events.put(None)
+        self.events.put(END)
 
-    def attend(self, callback: Optional[Callback]) -> None:
-        while (event := self.events.get()) is not None:
-            if isinstance(event, Progress):
-                if callback and callback(event) is False:
+    def attend(self, callback: Callback | None) -> None:
+        while (event := self.events.get()) is not END:
+            if event is PROGRESS:
+                progress, self.latest = self.latest, None
+                if callback and progress and callback(progress) is False:
                     library().eclat_job_stop(self.job)
             elif event[0] == lib.WARNING:
                 warnings.warn(event[1], Warning, stacklevel=frames_to_caller())
             else:
                 log.log(logging.ERROR if event[0] == lib.FAILURE else logging.INFO, "%s", event[1])
 
-    def run(self, wants_picture: bool = False, callback: Optional[Callback] = None) -> Result:
+    def run(self, wants_picture: bool = False, callback: Callback | None = None) -> Result:
         thread = threading.Thread(target=self.work, args=(wants_picture,), name="eclat", daemon=True)
         thread.start()
         try:
@@ -139,20 +147,22 @@ class Bar:
         self.bar.n = round(100 * progress.fraction)
         self.bar.set_description_str(progress.text)
 
-    def close(self) -> None:
-        if self.bar is not None:
-            self.bar.close()
-        else:
+    def close(self, is_done: bool) -> None:
+        if self.bar is None:
             print(file=sys.stderr)
+            return
+        self.bar.n = 100 if is_done else self.bar.n
+        self.bar.close()
 
 
-def run(command: str, inputs: Iterable[str], options: Iterable[tuple[str, Optional[str]]], progress: Union[bool, Callback, None] = None,
+def run(command: str, inputs: Iterable[str], options: Iterable[tuple[str, str | None]], progress: Shown = None,
         wants_picture: bool = False) -> Result:
     job = Job(command, inputs, options)
     if progress is not True:
         return job.run(wants_picture, progress or None)
-    bar = Bar()
+    bar, result = Bar(), None
     try:
-        return job.run(wants_picture, bar)
+        result = job.run(wants_picture, bar)
     finally:
-        bar.close()
+        bar.close(result is not None)
+    return result

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import ctypes as c
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 
 from . import _drivers
@@ -74,7 +74,7 @@ _FUNCTIONS = {
 }
 
 
-@lru_cache(maxsize=None)
+@cache
 def library() -> c.CDLL:
     """Loaded when it is used first, once the drivers are known."""
     _drivers.announce()

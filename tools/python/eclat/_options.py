@@ -6,8 +6,8 @@ import numbers
 import os
 from collections.abc import Iterable
 from decimal import Decimal
-from functools import lru_cache
-from typing import Any, NamedTuple, Optional, Union
+from functools import cache
+from typing import Any, NamedTuple, Union
 
 from ._error import Error
 from ._library import library
@@ -35,7 +35,7 @@ NOT_HERE = {
 }
 
 
-@lru_cache(maxsize=None)
+@cache
 def options_of(command: str) -> dict[str, Option]:
     found: dict[str, Option] = {}
     while (row := library().eclat_option_at(command.encode(), len(found))).name:
@@ -64,7 +64,7 @@ def percent(name: str, value: numbers.Real) -> str:
     return format(Decimal(repr(float(value))) * 100, "f") + "%"
 
 
-def text_of(option: Option, value: Any) -> Optional[str]:
+def text_of(option: Option, value: Any) -> str | None:
     """What the command line would have; None: the option alone."""
     if value is True:
         return "on" if "on" in option.choices else None
@@ -84,10 +84,10 @@ def text_of(option: Option, value: Any) -> Optional[str]:
     raise TypeError(f"{option.name.replace('-', '_')} cannot be {value!r}")
 
 
-def texts(command: str, options: dict[str, Any], allowed: Iterable[str] = ()) -> list[tuple[str, Optional[str]]]:
+def texts(command: str, options: dict[str, Any], allowed: Iterable[str] = ()) -> list[tuple[str, str | None]]:
     """(name, value) of each that is to be set; None and a switch that is off are left out. allowed: those of NOT_HERE that the caller
     sees to."""
-    found: list[tuple[str, Optional[str]]] = []
+    found: list[tuple[str, str | None]] = []
     for name, value in options.items():
         option = find_option(command, name, allowed)
         if value is None or (value is False and "off" not in option.choices):

@@ -4,14 +4,13 @@ from __future__ import annotations
 import base64
 import ctypes as c
 import html
-import math
 import os
 import tempfile
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -59,17 +58,17 @@ class Picture:
         return int(library().eclat_picture_height(self._handle.address))
 
     @property
-    def error(self) -> Optional[float]:
+    def error(self) -> float | None:
         """Estimated distance from the converged picture: root mean square over the pixels, as a fraction of the mean luminance. None: not known."""
         return known(self._stated.error)
 
     @property
-    def bound(self) -> Optional[float]:
+    def bound(self) -> float | None:
         """The distance is below this in at least 95 of 100 renders. None: there is no bound, see `why`."""
         return known(self._stated.error_bound)
 
     @property
-    def why(self) -> Optional[str]:
+    def why(self) -> str | None:
         """Why there is no bound; None: there is one."""
         return self._stated.why.decode() if self._stated.why else None
 
@@ -86,7 +85,7 @@ class Picture:
         return MappingProxyType({channel.name.decode(): view(self._handle, channel, shape) for channel in found})
 
     @cached_property
-    def attributes(self) -> Mapping[str, Union[str, float]]:
+    def attributes(self) -> Mapping[str, str | float]:
         """What the picture tells of itself, as in an EXR: "eclat.command" makes it again, "eclat.seed", "eclat.imageSha256", ..."""
         of = library()
         found = (of.eclat_picture_attribute_at(self._handle.address, i) for i in range(of.eclat_picture_attribute_count(self._handle.address)))
@@ -116,16 +115,16 @@ class Picture:
         return self.channels["A"]
 
     @cached_property
-    def stderr(self) -> Optional[Array]:
+    def stderr(self) -> Array | None:
         """Standard errors of `radiance`, height x width x 3. None: not known, as by a single replicate."""
         return self.layer("stderr") if "stderr.R" in self.channels else None
 
     @cached_property
-    def intervals(self) -> Optional[Intervals]:
+    def intervals(self) -> Intervals | None:
         """95 % confidence intervals of `radiance`. None: not known."""
         return Intervals(self.layer("low95"), self.layer("high95")) if "low95.R" in self.channels else None
 
-    def save(self, path: Union[str, os.PathLike[str]]) -> None:
+    def save(self, path: str | os.PathLike[str]) -> None:
         """To an .exr, with the channels of the option `channels`, or a .png. The file has its name only once it is whole."""
         err = lib.eclat_error()
         check(library().eclat_picture_write(self._handle.address, os.fsencode(path), err), err)
@@ -160,6 +159,6 @@ class Picture:
         return (f'<figure style="margin: 0"><img src="data:image/png;base64,{source}" width="{self.width}" height="{self.height}" alt="{caption}">'
                 f"<figcaption>{caption}</figcaption></figure>")
 
-    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]:
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         """np.asarray(picture) is its radiance."""
         return np.array(self.radiance, dtype) if copy else np.asarray(self.radiance, dtype)

@@ -5,10 +5,10 @@ import json
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Union
 
 from ._error import Error
-from ._job import Callback, PictureHandle, run
+from ._job import PictureHandle, Shown, run
 from ._options import texts
 from ._picture import Picture
 
@@ -21,7 +21,7 @@ Path = Union[str, "os.PathLike[str]"]
 Seconds = Union[float, str]
 
 
-def some(made: Optional[PictureHandle]) -> PictureHandle:
+def some(made: PictureHandle | None) -> PictureHandle:
     if made is None:
         raise Error("the picture does not fit into memory as a whole; the command `eclat render` writes such pictures in strips", "host memory")
     return made
@@ -43,8 +43,8 @@ class Scene:
     def __repr__(self) -> str:
         return f"<eclat.Scene {self.path}, {self.info['triangles']} triangles, {len(self.info['cameras'])} cameras>"
 
-    def render(self, *, error: Union[float, str, None] = None, spp: Optional[int] = None, size: Union[tuple[int, int], str, None] = None,
-               time: Optional[Seconds] = None, progress: Union[bool, Callback, None] = None, **options: Unpack[RenderOptions]) -> Picture:
+    def render(self, *, error: float | str | None = None, spp: int | None = None, size: tuple[int, int] | str | None = None,
+               time: Seconds | None = None, progress: Shown = None, **options: Unpack[RenderOptions]) -> Picture:
         """Renders until the first limit is met; without one, 256 samples a pixel.
 
         error: the bound of the picture's error, 0.02 for 2 %. spp: samples a pixel. time: seconds, or "10m". size: (width, height).
@@ -56,7 +56,7 @@ class Scene:
         made = run("render", [self.path], texts("render", named), progress, wants_picture=True).picture
         return Picture(some(made))
 
-    def render_frames(self, frames: Union[tuple[int, ...], str], output: Path, *, progress: Union[bool, Callback, None] = None,
+    def render_frames(self, frames: tuple[int, ...] | str, output: Path, *, progress: Shown = None,
                       **options: Unpack[FrameOptions]) -> list[dict[str, Any]]:
         """Renders an animation to files, one a frame. frames: (first, last), (first, last, step), or as the command line has it.
         output: a name with %d or %04d, and .exr or .png at its end. Returns what `eclat render --json` tells, frame by frame and at the end."""
@@ -64,7 +64,7 @@ class Scene:
         reports = run("render", [self.path], [("json", None), *texts("render", named, ("frames", "fps", "output", "overwrite"))], progress).reports
         return [json.loads(line) for report in reports for line in report.splitlines()]
 
-    def cost(self, *, budget: Optional[Seconds] = None, html: Optional[Path] = None, progress: Union[bool, Callback, None] = None,
+    def cost(self, *, budget: Seconds | None = None, html: Path | None = None, progress: Shown = None,
              **options: Unpack[CostOptions]) -> dict[str, Any]:
         """Which technique buys accuracy cheapest: the figures of `eclat cost --json`. budget: of time, 120 seconds by default. html: a page to be
         written, with charts and pictures."""
@@ -78,13 +78,13 @@ def load(path: Path) -> Scene:
     return Scene(path)
 
 
-def cost(scene: Union[Scene, Path], /, *, budget: Optional[Seconds] = None, html: Optional[Path] = None,
-         progress: Union[bool, Callback, None] = None, **options: Unpack[CostOptions]) -> dict[str, Any]:
+def cost(scene: Scene | Path, /, *, budget: Seconds | None = None, html: Path | None = None,
+         progress: Shown = None, **options: Unpack[CostOptions]) -> dict[str, Any]:
     """Scene.cost, also of a path."""
     return (scene if isinstance(scene, Scene) else Scene(scene)).cost(budget=budget, html=html, progress=progress, **options)
 
 
-def merge(files: Iterable[Path], *, partial: bool = False, exposure: Optional[float] = None, tonemap: Optional[str] = None) -> Picture:
+def merge(files: Iterable[Path], *, partial: bool = False, exposure: float | None = None, tonemap: str | None = None) -> Picture:
     """One picture of slices, which Picture.save writes of Scene.render(samples=(a, b)), or of checkpoints. partial: even if samples are missing."""
     named = texts("merge", {"partial": partial, "exposure": exposure, "tonemap": tonemap})
     made = run("merge", [os.fspath(file) for file in files], named, wants_picture=True).picture
