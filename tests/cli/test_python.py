@@ -30,6 +30,15 @@ print((picture.bound or 1) + eclat.compare(picture, "b.exr").error, eclat.cost("
 """
 
 
+def debian():
+    """Its version, "12.5"; empty: another system."""
+    try:
+        with open("/etc/debian_version", encoding="utf-8") as file:
+            return file.read()
+    except OSError:
+        return ""
+
+
 C_TYPES = {"double": "c_double", "int": "c_int", "uint32_t": "c_uint", "size_t": "c_ulong", "char": "c_char", "const char *": "c_char_p"}
 
 
@@ -96,6 +105,10 @@ class Wheel(unittest.TestCase):
         self.assertRegex(os.path.basename(self.wheel), r"^eclat-[\d.]+-py3-none-manylinux_2_\d+_x86_64\.whl$")
         version = self.run_here(self.venv.program("eclat"), "--version").stdout.split()[1]
         self.assertEqual(os.path.basename(self.wheel).split("-")[1], version)
+
+    @unittest.skipUnless(debian().startswith("12."), "not built on Debian 12")
+    def test_it_asks_for_no_newer_glibc_than_it_has_to(self):
+        self.assertIn("manylinux_2_34_", self.wheel)  # the manual says so
 
     def test_everything_is_inside(self):
         """The linker finds what the programs and the library need in the environment, but for what every Linux has."""
@@ -166,8 +179,8 @@ class Wheel(unittest.TestCase):
 
     def test_importing_it_does_nothing_yet(self):
         """No library, no driver, no variable, as in a program that only may render."""
-        code = "import eclat, os; print(eclat.__version__, 'libeclat' in open('/proc/self/maps').read(), os.environ.get('OCL_ICD_VENDORS')); eclat.devices(); " \
-               "print(os.environ.get('OCL_ICD_VENDORS'))"
+        code = "import eclat, os\nprint(eclat.__version__, 'libeclat' in open('/proc/self/maps').read(), os.environ.get('OCL_ICD_VENDORS'))\n" \
+               "eclat.devices()\nprint(os.environ.get('OCL_ICD_VENDORS'))"
         version = re.search(r"eclat-([\d.]+)-", self.wheel)[1]
         self.assertEqual(self.run_here(self.venv.python, "-c", code).stdout.split(), [version, "False", "None", "None"])
 
