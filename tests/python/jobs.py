@@ -8,6 +8,7 @@ import struct
 import sys
 import threading
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import redirect_stderr
 from unittest import mock
 
@@ -140,6 +141,15 @@ class Progress(Case):
         end.set()
         thread.join()
         self.assertGreater(seen[-1], seen[0])
+
+
+class Threads(Case):
+    def test_renders_side_by_side(self):
+        scene = eclat.load(CORNELL)
+        alone = [scene.render(**SMALL, seed=seed).attributes["eclat.imageSha256"] for seed in range(3)]
+        with ThreadPoolExecutor() as pool:
+            together = pool.map(lambda seed: scene.render(**SMALL, seed=seed).attributes["eclat.imageSha256"], range(3))
+            self.assertEqual(list(together), alone)
 
 
 class Interruption(Case):

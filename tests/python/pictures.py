@@ -1,5 +1,6 @@
 """Pictures of the package: the bits of the program, arrays, errors, files, notebooks, comparisons."""
 import gc
+import html
 import os
 import struct
 import unittest
@@ -89,6 +90,15 @@ class Arrays(Case):
         self.assertEqual((single.error, single.bound, single.stderr, single.intervals), (None,) * 4)
         self.assertTrue(single.why)
         self.assertIn("not known", single.caption)
+
+    def test_no_bound_has_a_reason(self):
+        """A lamp that samples hardly meet: the scene's own README."""
+        path = os.path.join(os.path.dirname(os.path.dirname(CORNELL)), "pinlamp", "pinlamp.gltf")
+        picture = eclat.load(path).render(spp=32, size=(16, 12))
+        self.assertIsNone(picture.bound)
+        self.assertTrue(picture.why)
+        self.assertEqual(picture.caption, f"error at least {100 * picture.error:.3g} %, no bound: {picture.why}, 32 samples a pixel")
+        self.assertIn(html.escape(picture.why), picture._repr_html_())
 
     def test_arrays_outlive_the_picture(self):
         picture = eclat.load(CORNELL).render(**SMALL)
