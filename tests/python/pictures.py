@@ -172,6 +172,8 @@ class Compare(Case):
         picture = eclat.load(CORNELL).render(spp=1, size=(8, 8))
         self.assertIn("nothing.exr", self.error_of(eclat.compare, picture, self.folder / "nothing.exr"))
         self.error_of(eclat.compare, picture, eclat.load(CORNELL).render(spp=1, size=(9, 8)))
+        bare = eclat.load(CORNELL).render(**SMALL, channels=["normal"])
+        self.assertIn("stderr", self.error_of(eclat.compare, eclat.load(CORNELL).render(**SMALL), bare, kind="usage"))
 
 
 if __name__ == "__main__":

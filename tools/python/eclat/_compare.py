@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Union
 
+from ._error import Error
 from ._job import run
 from ._options import texts
 from ._picture import Picture
@@ -47,6 +48,9 @@ def compare(a: Source, b: Source, *, diff: str | os.PathLike[str] | None = None)
     with tempfile.TemporaryDirectory(prefix="eclat-") as folder:
         result = run("compare", [file_of(a, folder, "a.exr"), file_of(b, folder, "b.exr")], [("json", None), *texts("compare", {"diff": diff})])
     report = json.loads(result.reports[-1])
+    for picture, side in ((a, "a"), (b, "b")):
+        if isinstance(picture, Picture) and picture.stderr is not None and not report[side]["standard_errors"]:
+            raise Error(f"the option channels of picture {side} leaves out stderr, without which noise counts as a difference; add 'stderr' to it", "usage")
     test = report.get("noise_test") or {}
     return Comparison(report["error"], report.get("error_of_noise"), report["rmse"], report["relmse"], report["mape"], report["psnr"],
                       test.get("p"), bool(report["differ"]), report)
