@@ -40,10 +40,12 @@ class Bits(Case):
 
     def test_every_form_of_a_value(self):
         words = ["--size", "16x12", "--spp", "8", "--eye", "0.3,0.25,-0.7", "--look-at", "0.278,0.273,0.28", "--env", "1,0.5,0.25", "--without", "emission",
-                 "--without", "back-face-culling", "--max-depth", "inf", "--light-choice", "tree", "--clamp", "20", "--lanes", "4", "--adaptive=off"]
+                 "--without", "back-face-culling", "--max-depth", "5", "--light-choice", "tree", "--clamp", "20", "--lanes", "4", "--adaptive=off", "--rr", "off"]
         options = {"size": "16x12", "spp": 8, "eye": np.array([0.3, 0.25, -0.7]), "look_at": [0.278, 0.273, 0.28], "env": (1, 0.5, 0.25),
-                   "without": ["emission", "back-face-culling"], "max_depth": float("inf"), "light_choice": "tree", "clamp": 20.0, "lanes": 4,
-                   "adaptive": False, "shutter": None}
+                   "without": ["emission", "back-face-culling"], "max_depth": 5, "light_choice": "tree", "clamp": 20.0, "lanes": 4,
+                   "adaptive": False, "rr": False, "shutter": None}
+        self.check(words, **options)
+        words, options = ["--size", "16x12", "--spp", "8", "--max-depth", "inf", "--exposure", "0.5"], {"size": (16, 12), "spp": 8, "max_depth": float("inf"), "exposure": 0.5}
         self.check(words, **options)
 
     def test_an_error_is_a_fraction(self):

@@ -1,5 +1,5 @@
 """Makes the wheel: the Python package by hatchling, what the repository builds by tools/build, and by auditwheel the shared libraries that
-not every Linux has. $ECLAT_BUILD names the build folder, as for tools/build; what is built there is used again."""
+not every Linux has. $ECLAT_BUILD names the build folder, from the root of the repository; what is built there is used again."""
 from __future__ import annotations
 
 import os
@@ -17,7 +17,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-BUILD = Path(os.environ.get("ECLAT_BUILD", ROOT / "build"))
+BUILD = ROOT / os.environ.get("ECLAT_BUILD", "build")
 # What the package has of what `cmake --install` puts down; the linker finds all of it in one folder.
 PARTS = ["bin/eclat", "**/eclat-compile", "**/libeclat.so.0"]
 # Debian packages of which something is compiled in and whose licence asks to be passed on, beside the libraries that are linked.
@@ -35,9 +35,9 @@ class BuiltParts(BuildHookInterface):  # type: ignore[type-arg]
     """Puts the library and the programs into the package."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        prefix = Path(tempfile.mkdtemp(prefix="eclat-wheel-"))
-        self.prefix = prefix
-        run(ROOT / "tools" / "build", "eclat", "libeclat")
+        self.installed = tempfile.TemporaryDirectory(prefix="eclat-wheel-")
+        prefix = Path(self.installed.name)
+        run(ROOT / "tools" / "build", "eclat", "libeclat", env=dict(os.environ, ECLAT_BUILD=str(BUILD), ECLAT_TOOL="tools/python"))
         run("cmake", "--install", BUILD, "--prefix", prefix)
         for part in PARTS:
             path, = prefix.glob(part)
@@ -49,7 +49,7 @@ class BuiltParts(BuildHookInterface):  # type: ignore[type-arg]
         build_data["tag"] = "py3-none-linux_x86_64"
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
-        shutil.rmtree(self.prefix)
+        self.installed.cleanup()
 
 
 def package_of(library: str) -> str:

@@ -90,7 +90,7 @@ def texts(command: str, options: dict[str, Any], allowed: Iterable[str] = ()) ->
     found: list[tuple[str, str | None]] = []
     for name, value in options.items():
         option = find_option(command, name, allowed)
-        if value is None or (value is False and "off" not in option.choices):
+        if value is None or (value is False and not option.metavar):
             continue
         many = option.repeats and not isinstance(value, (str, os.PathLike))
         found += [(option.name, text_of(option, each)) for each in (value if many else [value])]
