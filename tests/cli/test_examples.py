@@ -61,7 +61,7 @@ class Examples(support.Case):
         self.assertGreater(len(blocks), 2)
         for block in blocks:
             run = self.assert_ok(self.run_here(self.venv.python, "-c", block))
-        self.assertIn("96 spp", run.stdout)  # the last one stops where it says
+        self.assertTrue(100 <= int(re.findall(r"(\d+) spp", run.stdout)[-1]) < 1000)  # the last one stops where it says
         self.assertTrue(os.path.exists(self.path("picture.exr")) and os.path.exists(self.path("picture.png")))
 
     def test_the_recipe(self):

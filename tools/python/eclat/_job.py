@@ -21,7 +21,7 @@ PROGRESS, END = object(), object()
 
 
 class Progress(NamedTuple):
-    """How far a job is; about twice a second."""
+    """How far a job is."""
     fraction: float             # 0 to 1, of the first limit that will end it
     seconds: float
     seconds_left: float | None  # None: not known

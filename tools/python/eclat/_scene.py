@@ -48,7 +48,7 @@ class Scene:
         """Renders until the first limit is met; without one, 256 samples a pixel.
 
         error: the bound of the picture's error, 0.02 for 2 %. spp: samples a pixel. time: seconds, or "10m". size: (width, height).
-        progress: True for a bar, or a function of a Progress, called about twice a second by this thread; where it returns False, the render ends
+        progress: True for a bar, or a function of a Progress, called by this thread as the render goes on; where it returns False, the render ends
         with the picture so far.
         Other options are those of `eclat render`. Ctrl-C ends the render, and KeyboardInterrupt is raised.
         """
