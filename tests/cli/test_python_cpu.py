@@ -2,11 +2,13 @@
 """eclat[cpu]: the wheel with Intel's runtime by pip, without root, without a variable and without another driver: the same bits."""
 import json
 import os
+import shlex
+import shutil
 import unittest
 
 import support
 import wheel
-from support import CORNELL
+from support import CORNELL, SOURCE
 
 SIZE = ("--size", "24x16", "--spp", "16")
 # Nothing but what pip has brought: as on a machine that has no driver.
@@ -39,6 +41,20 @@ class Processor(support.Case):
         mine = support.read_exr(self.path("c.exr"))
         self.assertIn("Intel", mine[0]["eclat.device.platform"])
         self.assertEqual(mine[1], planes)
+
+    def test_with_nothing_else_in_reach(self):
+        """In a namespace whose source, build and drivers are empty folders."""
+        folders = [path for path in (wheel.BUILD, os.path.abspath(SOURCE), "/etc/OpenCL/vendors") if os.path.isdir(path)]
+        hide = " && ".join(f"mount -t tmpfs none {shlex.quote(path)}" for path in folders)
+        if wheel.run("unshare", "-m", "sh", "-c", hide).returncode:
+            self.skipTest("only root may hide folders")
+        shutil.copytree(os.path.dirname(CORNELL), self.path("scene"))
+        shown = "import eclat; print([device.platform for device in eclat.devices()]); " \
+                "print(eclat.load('scene/cornell-box.gltf').render(spp=16, size=(24, 16)).attributes['eclat.imageSha256'])"
+        done = wheel.run("unshare", "-m", "sh", "-c", f"{hide} && exec {self.venv.python} -c {shlex.quote(shown)}", cwd=self.folder,
+                         env=wheel.outside(XDG_CACHE_HOME=self.path("cache")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.splitlines(), ["['Intel(R) OpenCL']", self.python(RENDER)[1]])
 
     def test_beside_those_of_the_system(self):
         built = [device["platform"] for device in json.loads(support.eclat("devices", "--json", env={"OCL_ICD_VENDORS": ""}).stdout)["devices"]]
