@@ -8,7 +8,7 @@
 #include "cl/cl.h"
 
 #define EC_PLATFORM_NOT_FOUND_KHR (-1001) /* what the ICD loader says when no driver is installed */
-#define EC_INSTALL_HINT "install a driver, for instance PoCL for the CPU: apt-get install pocl-opencl-icd"
+#define EC_INSTALL_HINT "install a driver, for instance for the CPU: apt-get install pocl-opencl-icd, or with Python and without root: pip install eclat[cpu]"
 
 /* Drivers pad names with spaces (Intel in front, NVIDIA behind). */
 static void trim(char *text)

@@ -1,0 +1,10 @@
+/* glibc 2.35 gave hypot a version of its own, with the same values. By the older one a library that is built with it runs with glibc 2.34 too, as on
+ * RHEL 9. The linker puts this function in the place of the other: --wrap in CMakeLists.txt. */
+#include <features.h>
+
+#if defined(__x86_64__) && defined(__GLIBC__)
+double ec_old_hypot(double a, double b);
+__asm__(".symver ec_old_hypot,hypot@GLIBC_2.2.5");
+double __wrap_hypot(double a, double b);
+double __wrap_hypot(double a, double b) { return ec_old_hypot(a, b); }
+#endif

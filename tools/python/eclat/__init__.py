@@ -1,0 +1,24 @@
+"""Renders glTF 2.0 scenes to physically based images with a stated error, on any OpenCL device.
+
+    picture = eclat.load("scene.glb").render(error=0.02)     # until the error is under 2 %
+    picture.error, picture.bound                             # how far it is from the converged picture, and at most
+    picture.radiance                                         # NumPy: height x width x 3, linear Rec. 709
+    picture.save("scene.exr")
+
+Options have the names of the command line with _ for -, as in render(max_depth=4, light_choice="tree"); the manual's page "Command line" has
+them all. Failures raise eclat.Error with one line that says what, where and how to mend it. Warnings are Python's, of the category eclat.Warning;
+other messages go to the logger "eclat".
+"""
+from importlib import metadata
+
+from ._compare import Comparison, compare
+from ._error import Error, Warning
+from ._job import Progress
+from ._picture import Intervals, Picture
+from ._scene import Device, Scene, cost, devices, info, load, merge
+
+for _public in (Comparison, Device, Error, Intervals, Picture, Progress, Scene, Warning):
+    _public.__module__ = "eclat"  # as messages and help name them
+__version__ = metadata.version("eclat")
+__all__ = ["Comparison", "Device", "Error", "Intervals", "Picture", "Progress", "Scene", "Warning",
+           "compare", "cost", "devices", "info", "load", "merge"]

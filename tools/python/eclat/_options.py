@@ -1,0 +1,97 @@
+"""Options as Python has them, turned into the texts of a command line. Which there are, the library says."""
+from __future__ import annotations
+
+import difflib
+import numbers
+import os
+from collections.abc import Iterable
+from decimal import Decimal
+from functools import cache
+from typing import Any, NamedTuple, Union
+
+from ._error import Error
+from ._library import library
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Option(NamedTuple):
+    name: str          # as on the command line
+    metavar: str       # what help calls the value; empty: it takes none
+    repeats: bool
+    choices: tuple[str, ...]
+
+
+# What only a terminal has a use for, or what has a function of its own.
+NOT_HERE = {
+    "output": "Picture.save and the parameter html write files",
+    "json": "results are Python objects",
+    "quiet": "messages go to the logger 'eclat'",
+    "verbose": "eclat.info says what calls for each effect",
+    "frames": "Scene.render_frames renders a sequence",
+    "fps": "Scene.render_frames renders a sequence",
+    "overwrite": "Scene.render_frames renders a sequence",
+    "plan": "it renders no picture; use the command `eclat render --plan`",
+}
+
+
+@cache
+def options_of(command: str) -> dict[str, Option]:
+    found: dict[str, Option] = {}
+    while (row := library().eclat_option_at(command.encode(), len(found))).name:
+        choices: list[str] = []
+        while row.choices and row.choices[len(choices)]:
+            choices.append(row.choices[len(choices)].decode())
+        found[row.name.decode()] = Option(row.name.decode(), (row.metavar or b"").decode(), bool(row.repeats), tuple(choices))
+    return found
+
+
+def find_option(command: str, name: str, allowed: Iterable[str]) -> Option:
+    known = options_of(command)
+    option = known.get(name.replace("_", "-"))
+    if option is not None and (option.name in allowed or option.name not in NOT_HERE):
+        return option
+    if option is not None:
+        raise TypeError(f"{command} has no option {name} in Python: {NOT_HERE[option.name]}")
+    close = difflib.get_close_matches(name, [other.replace("-", "_") for other in known], 1)
+    raise TypeError(f"{command} has no option {name}" + (f"; did you mean {close[0]}?" if close else ""))
+
+
+def percent(name: str, value: numbers.Real) -> str:
+    """A fraction in per cent, without the digits of binary arithmetic: 0.07 is 7%."""
+    if not 0 < float(value) < 1:
+        raise Error(f"{name}={value} is not a fraction between 0 and 1: 2 % is {name}=0.02, or {name}='2%'", "usage")
+    return format(Decimal(repr(float(value))) * 100, "f") + "%"
+
+
+def text_of(option: Option, value: Any) -> str | None:
+    """What the command line would have; None: the option alone."""
+    if value is True:
+        return "on" if "on" in option.choices else None
+    if value is False:
+        return "off"
+    if isinstance(value, numbers.Real) and option.metavar == "PCT":
+        return percent(option.name, value)
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if isinstance(value, Iterable):
+        between = "x" if option.metavar == "WxH" else ":" if ":" in option.metavar else ","
+        return between.join(text_of(option, part) or "" for part in value)
+    raise TypeError(f"{option.name.replace('-', '_')} cannot be {value!r}")
+
+
+def texts(command: str, options: dict[str, Any], allowed: Iterable[str] = ()) -> list[tuple[str, str | None]]:
+    """(name, value) of each that is to be set; None and a switch that is off are left out. allowed: those of NOT_HERE that the caller
+    sees to."""
+    found: list[tuple[str, str | None]] = []
+    for name, value in options.items():
+        option = find_option(command, name, allowed)
+        if value is None or (value is False and not option.metavar):
+            continue
+        many = option.repeats and not isinstance(value, (str, os.PathLike))
+        found += [(option.name, text_of(option, each)) for each in (value if many else [value])]
+    return found

@@ -1,0 +1,113 @@
+"""Scenes and what is done with them."""
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Union
+
+from ._error import Error
+from ._job import PictureHandle, Shown, run
+from ._options import texts
+from ._picture import Picture
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._option_types import CostOptions, FrameOptions, InfoOptions, RenderOptions
+
+Path = Union[str, "os.PathLike[str]"]
+Seconds = Union[float, str]
+
+
+def some(made: PictureHandle | None) -> PictureHandle:
+    if made is None:
+        raise Error("the picture does not fit into memory as a whole; the command `eclat render` writes such pictures in strips", "host memory")
+    return made
+
+
+def info(path: Path, **options: Unpack[InfoOptions]) -> dict[str, Any]:
+    """What a scene contains and what rendering it takes: the figures of `eclat info --json`."""
+    found: dict[str, Any] = json.loads(run("info", [os.fspath(path)], [("json", None), *texts("info", dict(options))]).reports[-1])
+    return found
+
+
+class Scene:
+    """A glTF file that was read once to see that it can be rendered; each render reads it again. `info` is what eclat.info tells of it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = os.fspath(path)
+        self.info = info(path)
+
+    def __repr__(self) -> str:
+        return f"<eclat.Scene {self.path}, {self.info['triangles']} triangles, {len(self.info['cameras'])} cameras>"
+
+    def render(self, *, error: float | str | None = None, spp: int | None = None, size: tuple[int, int] | str | None = None,
+               time: Seconds | None = None, progress: Shown = None, **options: Unpack[RenderOptions]) -> Picture:
+        """Renders until the first limit is met; without one, 256 samples a pixel.
+
+        error: the bound of the picture's error, 0.02 for 2 %. spp: samples a pixel. time: seconds, or "10m". size: (width, height).
+        progress: True for a bar, or a function of a Progress, called by this thread as the render goes on; where it returns False, the render ends
+        with the picture so far.
+        Other options are those of `eclat render`. Ctrl-C ends the render, and KeyboardInterrupt is raised.
+        """
+        named = {"error": error, "spp": spp, "size": size, "time": time, **options}
+        made = run("render", [self.path], texts("render", named), progress, wants_picture=True).picture
+        return Picture(some(made))
+
+    def render_frames(self, frames: tuple[int, ...] | str, output: Path, *, progress: Shown = None,
+                      **options: Unpack[FrameOptions]) -> list[dict[str, Any]]:
+        """Renders an animation to files, one a frame. frames: (first, last), (first, last, step), or as the command line has it.
+        output: a name with %d or %04d, and .exr or .png at its end. Returns what `eclat render --json` tells, frame by frame and at the end."""
+        named = {"frames": frames, "output": output, **options}
+        reports = run("render", [self.path], [("json", None), *texts("render", named, ("frames", "fps", "output", "overwrite"))], progress).reports
+        return [json.loads(line) for report in reports for line in report.splitlines()]
+
+    def cost(self, *, budget: Seconds | None = None, html: Path | None = None, progress: Shown = None,
+             **options: Unpack[CostOptions]) -> dict[str, Any]:
+        """Which technique buys accuracy cheapest: the figures of `eclat cost --json`. budget: of time, 120 seconds by default. html: a page to be
+        written, with charts and pictures."""
+        named = texts("cost", {"budget": budget, "output": html, **options}, ("output",))
+        found: dict[str, Any] = json.loads(run("cost", [self.path], [("json", "-"), *named], progress).reports[-1])
+        return found
+
+
+def load(path: Path) -> Scene:
+    """A glTF 2.0 scene, .gltf or .glb."""
+    return Scene(path)
+
+
+def cost(scene: Scene | Path, /, *, budget: Seconds | None = None, html: Path | None = None,
+         progress: Shown = None, **options: Unpack[CostOptions]) -> dict[str, Any]:
+    """Scene.cost, also of a path."""
+    return (scene if isinstance(scene, Scene) else Scene(scene)).cost(budget=budget, html=html, progress=progress, **options)
+
+
+def merge(files: Iterable[Path], *, partial: bool = False, exposure: float | None = None, tonemap: str | None = None) -> Picture:
+    """One picture of slices, which Picture.save writes of Scene.render(samples=(a, b)), or of checkpoints. partial: even if samples are missing."""
+    named = texts("merge", {"partial": partial, "exposure": exposure, "tonemap": tonemap})
+    made = run("merge", [os.fspath(file) for file in files], named, wants_picture=True).picture
+    return Picture(some(made))
+
+
+@dataclass(frozen=True)
+class Device:
+    """An OpenCL device; its index or a part of its name is what the option `device` takes."""
+    index: int
+    name: str
+    type: str            # "CPU", "GPU", ...
+    vendor: str
+    driver: str
+    platform: str
+    compute_units: int
+    memory_bytes: int
+    is_usable: bool      # available, and with a compiler
+    is_default: bool
+
+
+def devices() -> list[Device]:
+    """Every OpenCL device that eclat finds."""
+    report = json.loads(run("devices", [], [("json", None)]).reports[-1])
+    return [Device(**{name: device[name] for name in Device.__annotations__.keys() & device.keys()}, is_default=device["index"] == report["default"],
+                   is_usable=device["available"] and device["compiler_available"]) for device in report["devices"]]
