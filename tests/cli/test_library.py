@@ -129,7 +129,7 @@ class Installed(support.Case):
             os.rename(find(self.prefix, "eclat-view.so"), self.path("away.so"))
             run = subprocess.run([program, "view", support.CORNELL], capture_output=True, text=True)
             self.assertEqual(run.returncode, 1)
-            self.assertIn("built without its preview window", run.stderr)
+            self.assertIn("install the package eclat-view", run.stderr)
 
 
 if __name__ == "__main__":
