@@ -1,4 +1,4 @@
-# Before cpack packs what was installed: what Debian's policy asks of a package; and in the archive libraries that find one another, with their licences.
+# Before cpack packs what was installed: what Debian's policy asks of a package.
 
 # file(RPATH_REMOVE) is what `cmake --install` uses itself.
 function(forget_search_paths folder)
@@ -39,31 +39,8 @@ function(prepare_debian component)
   endif()
 endfunction()
 
-function(prepare_archive)
-  file(GLOB root ${CPACK_TEMPORARY_DIRECTORY}/*/${CPACK_PACKAGE_FILE_NAME} ${CPACK_TEMPORARY_DIRECTORY}/${CPACK_PACKAGE_FILE_NAME})
-  set(documents ${root}/share/doc/eclat)
-  file(GLOB libraries ${root}/lib/eclat/lib*.so*)
-  find_program(PATCHELF patchelf)
-  if(libraries AND NOT PATCHELF)
-    message(FATAL_ERROR "patchelf is missing: it tells the libraries of the archive to look for one another in their own folder; Debian: patchelf")
-  endif()
-  foreach(library ${libraries})
-    execute_process(COMMAND ${PATCHELF} --set-rpath $ORIGIN ${library} COMMAND_ERROR_IS_FATAL ANY)
-    cmake_path(GET library FILENAME name)
-    execute_process(COMMAND sh -c "dpkg-query -S '*/${name}' | sed 's/:.*//; q'" OUTPUT_VARIABLE package OUTPUT_STRIP_TRAILING_WHITESPACE)
-    if(EXISTS /usr/share/doc/${package}/copyright)
-      file(COPY_FILE /usr/share/doc/${package}/copyright ${documents}/licences/${package} ONLY_IF_DIFFERENT)
-    endif()
-  endforeach()
-  foreach(name LICENSE README.md CHANGELOG.md)
-    file(COPY_FILE ${CPACK_ECLAT_SOURCE}/${name} ${documents}/${name})
-  endforeach()
-endfunction()
-
 if(CPACK_GENERATOR STREQUAL DEB)
   foreach(component ${CPACK_COMPONENTS_ALL})
     prepare_debian(${component})
   endforeach()
-elseif(CPACK_GENERATOR STREQUAL TGZ)
-  prepare_archive()
 endif()
