@@ -26,6 +26,12 @@ def tool(name):
     return module
 
 
+def packages(suite):
+    """The folder with the packages for a suite; ECLAT_PACKAGES names one that has a folder for each, made before."""
+    made_before = os.environ.get("ECLAT_PACKAGES")
+    return os.path.join(made_before, suite) if made_before else tool("packages").packages(suite)
+
+
 class Case(unittest.TestCase):
     """A test on a Debian, which is skipped with the reason why there is none."""
 

@@ -16,7 +16,7 @@ class Packages(debian.Case):
         self.assertEqual(self.ok(chroot, "dpkg-query", "-W", "-f", "${db:Status-Abbrev}", name), "ii ")
 
     def on(self, suite):
-        folder = debian.tool("packages").packages(suite)
+        folder = debian.packages(suite)
         chroot = self.fresh(suite, "debs")
         self.install(chroot, made(folder, "eclat_*.deb"))
         self.assertIn("modules   none\n", self.ok(chroot, "eclat", "--version"))
@@ -29,16 +29,16 @@ class Packages(debian.Case):
         self.assert_renders(chroot)
         self.install(chroot, made(folder, "eclat-view_*.deb"))
         self.assertIn("modules   view\n", self.ok(chroot, "eclat", "--version"))
-        self.assertRegex(self.one_error(chroot, "eclat", "view", "/root/" + debian.CORNELL), "(?i)display|screen|window")
+        self.assertRegex(self.one_error(chroot, "env", "XDG_RUNTIME_DIR=/tmp", "eclat", "view", "/root/" + debian.CORNELL), "no preview window: cannot reach a display")
         self.install(chroot, made(folder, "eclat-mpi_*.deb"))
         self.assertIn("modules   mpi, view\n", self.ok(chroot, "eclat", "--version"))
         chroot.install("openmpi-bin")
         words = f"mpirun --allow-run-as-root --oversubscribe -n 2 eclat render /root/{debian.CORNELL} --size 16x16 --spp 8 -o /root/two.exr"
-        self.assertIn("2 ranks", self.ok(chroot, "sh", "-c", words + " 2>&1"))
+        self.assertIn("with 1 more process", self.ok(chroot, "sh", "-c", words + " 2>&1"))
         self.install(chroot, made(folder, "libeclat-dev_*.deb"))
         self.assertIn("-leclat", self.ok(chroot, "cat", "/usr/lib/pkgconfig/eclat.pc"))
         for file in ("bash-completion/completions/eclat", "fish/vendor_completions.d/eclat.fish", "zsh/vendor-completions/_eclat"):
-            self.assertIn("render", self.ok(chroot, "grep", "-c", "", "/usr/share/" + file) and self.ok(chroot, "head", "-c", "4000", "/usr/share/" + file))
+            self.ok(chroot, "grep", "-q", "integrator", "/usr/share/" + file)
         self.ok(chroot, "dpkg", "-P", "libeclat-dev", "eclat-mpi", "eclat-view", "eclat")
         self.assertEqual(self.ok(chroot, "sh", "-c", "ls -d /usr/lib/eclat /usr/lib/libeclat* /usr/bin/eclat 2>/dev/null || true"), "")
 
