@@ -107,6 +107,7 @@ class Chroot:
                     os.remove(os.path.join(folder, name))
         tar = subprocess.Popen(["tar", "-C", ROOT, "--null", "--no-recursion", "-T", "-", "-cf", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         unpack = subprocess.Popen(["tar", "-C", self.inside(to), "--no-same-owner", "-xf", "-"], stdin=tar.stdout)
+        tar.stdout.close()
         tar.stdin.write(b"\0".join(names))
         tar.stdin.close()
         if tar.wait() or unpack.wait():
