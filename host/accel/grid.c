@@ -236,6 +236,7 @@ ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     if (result == EC_OK) {
         fill_cells(&g, counts, blocks, starts, used, (uint32_t)entry_count);
         fill_triangles(&g, in, triangles, boxes);
+        if (!g.ref_count) triangles[0] = (ec_tri){0}; /* a buffer has at least one */
     }
     accel->buffers[0] = (ec_accel_buffer){"planes", header, header_bytes};
     accel->buffers[1] = (ec_accel_buffer){"cells", blocks, header ? cell_count(&g) / 64 * sizeof *blocks : 0};

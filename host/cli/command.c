@@ -3,7 +3,6 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/cli.h"
 #include "cli/help.h"
@@ -54,13 +53,13 @@ static eclat_result print_help(int argc, char **argv, bool man, eclat_error *err
 
 static eclat_result print_completion(int argc, char **argv, eclat_error *err)
 {
-    if (argc != 1) return ec_wrong(err, "completion takes the name of a shell, bash or zsh; see 'eclat completion --help'");
+    if (argc != 1) return ec_wrong(err, "completion takes the name of a shell, bash, fish or zsh; see 'eclat completion --help'");
     for (const char *const *shell = ec_shell_names; *shell; shell++) {
         if (strcmp(*shell, argv[0])) continue;
         ec_help_completion(*shell, stdout);
         return ECLAT_OK;
     }
-    return ec_wrong(err, "there is no completion for '%s'; give bash or zsh", argv[0]);
+    return ec_wrong(err, "there is no completion for '%s'; give bash, fish or zsh", argv[0]);
 }
 
 typedef struct setting {
@@ -117,7 +116,13 @@ static eclat_result take_own(cli *cli, const eclat_command *page, const eclat_op
     return print_help(argc - first, argv + first, man, err);
 }
 
-static void print_version(void) { puts("eclat " EC_VERSION); }
+/* Scripts read the first line. */
+static void print_version(void)
+{
+    eclat_note note;
+    puts("eclat " EC_VERSION);
+    for (size_t i = 0; (note = eclat_build_at(i)).term; i++) printf("%-9s %s\n", note.term, note.text);
+}
 
 static eclat_result run(cli *cli, eclat_error *err)
 {
@@ -151,7 +156,7 @@ static eclat_result flush_results(eclat_error *err)
 /* A process that is alone, or the first of several, runs the command. */
 static int lead(eclat_ranks *ranks, int argc, char **argv)
 {
-    cli cli = {.console = {.terminal = isatty(STDERR_FILENO) == 1}, .argc = argc, .argv = argv, .ranks = ranks};
+    cli cli = {.console = ec_console_of_process(), .argc = argc, .argv = argv, .ranks = ranks};
     if (argc < 2) {
         ec_help_short(stderr);
         return ECLAT_USAGE;
@@ -180,7 +185,7 @@ int ec_cli_main(int argc, char **argv)
 {
     eclat_ranks *ranks = NULL;
     eclat_error err;
-    ec_console console = {0};
+    ec_console console = ec_console_of_process();
     if (eclat_ranks_join(&ranks, &err) != ECLAT_OK) {
         if (eclat_ranks_number(NULL) == 0) ec_console_say(&console, ECLAT_FAILURE, err.text);
         eclat_ranks_leave(ranks);

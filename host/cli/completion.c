@@ -148,8 +148,60 @@ static void zsh(FILE *to)
           "_eclat \"$@\"\n", to);
 }
 
+/* Within '...': no quote or backslash but those of fish. */
+static void fish_text(FILE *to, const char *text)
+{
+    for (; *text; text++) {
+        if (strchr("'\\", *text)) fputc('\\', to);
+        fputc(*text, to);
+    }
+}
+
+/* -r: takes a value; -f: it is no file. Where a value may follow the sign = alone, fish offers it by the plain form. */
+static void fish_option(const eclat_command *page, const eclat_option *o, FILE *to)
+{
+    char text[1024];
+    ec_help_text(o, text, sizeof text);
+    fprintf(to, "complete -c eclat -n '__eclat_is %s' -l %s", page->name, o->name);
+    if (o->letter) fprintf(to, " -s %c", o->letter);
+    if (o->metavar) fputs(o->takes_value == 2 ? " -f" : is_file(o) ? " -r -F" : " -x", to);
+    if (o->choices) fputs(" -a '", to), put_words(to, o->choices), fputc('\'', to);
+    fputs(" -d '", to);
+    fish_text(to, text);
+    fputs("'\n", to);
+}
+
+static void fish(FILE *to)
+{
+    const eclat_command *pages[EC_PAGES_MOST];
+    const int page_count = ec_pages(pages);
+    fputs("# Completion of eclat for fish, as `eclat completion fish` prints it.\n"
+          "function __eclat_is_first\n"
+          "    test (count (commandline -opc)) -eq 1\n"
+          "end\n"
+          "function __eclat_is -a command\n"
+          "    set -l words (commandline -opc)\n"
+          "    test (count $words) -ge 2; and test $words[2] = $command\n"
+          "end\n"
+          "complete -c eclat -n __eclat_is_first -f -l help -s h -d 'show this'\n"
+          "complete -c eclat -n __eclat_is_first -f -l version -d 'print the version and how eclat was built'\n", to);
+    for (int i = 0; i < page_count; i++) {
+        eclat_option rows[EC_OPTIONS_MOST];
+        const int count = ec_help_rows(pages[i], rows);
+        char before[96];
+        fprintf(to, "complete -c eclat -n __eclat_is_first -f -a %s -d '", pages[i]->name);
+        fish_text(to, pages[i]->summary);
+        fputs("'\n", to);
+        snprintf(before, sizeof before, "complete -c eclat -n '__eclat_is %s' -f -a '", pages[i]->name);
+        if (!put_operands(to, pages[i], before, "'\n") && !has_files(pages[i]))
+            fprintf(to, "complete -c eclat -n '__eclat_is %s' -f\n", pages[i]->name);
+        for (int k = 0; k < count; k++) fish_option(pages[i], &rows[k], to);
+    }
+}
+
 void ec_help_completion(const char *shell, FILE *to)
 {
     if (!strcmp(shell, "zsh")) zsh(to);
+    else if (!strcmp(shell, "fish")) fish(to);
     else bash(to);
 }

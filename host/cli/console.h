@@ -8,8 +8,14 @@
 typedef struct ec_console {
     bool quiet;     /* no progress */
     bool terminal;  /* stderr is a terminal: progress may be drawn */
+    bool coloured;  /* it shows colours, and the user has not set NO_COLOR */
     int drawn;      /* columns that the progress line takes now */
 } ec_console;
+
+ec_console ec_console_of_process(void);
+
+/* stdout is a terminal that shows bold type. */
+bool ec_console_has_bold_results(void);
 
 void ec_console_say(ec_console *console, eclat_severity severity, const char *text);
 

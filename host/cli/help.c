@@ -77,7 +77,7 @@ int ec_help_rows(const eclat_command *page, eclat_option rows[EC_OPTIONS_MOST])
         if (!rows[i].refused) rows[count++] = rows[i];
     }
     rows[count++] = (eclat_option){.name = "help", .letter = 'h', .group = last.group, .group_title = last.group_title, .help = "show this"};
-    rows[count++] = (eclat_option){.name = "version", .group = last.group, .group_title = last.group_title, .help = "print the version"};
+    rows[count++] = (eclat_option){.name = "version", .group = last.group, .group_title = last.group_title, .help = "print the version and how eclat was built"};
     qsort(rows, (size_t)count, sizeof *rows, by_name);
     return count;
 }

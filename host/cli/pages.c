@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const ec_shell_names[] = {"bash", "zsh", NULL};
+const char *const ec_shell_names[] = {"bash", "fish", "zsh", NULL};
 
 static const eclat_note notes[] = {
     {"Exit code", "0", "success"},
@@ -11,6 +11,7 @@ static const eclat_note notes[] = {
     {"Exit code", "2", "the command line is wrong"},
     {"Environment", "ECLAT_DEVICE", "OpenCL device to use where --device is not given"},
     {"Environment", "ECLAT_COMPILE", "when to compile kernels where --compile is not given"},
+    {"Environment", "NO_COLOR", "anything: messages on a terminal are not coloured"},
     {"Environment", "XDG_CACHE_HOME", "compiled kernels are kept in eclat/kernels below this folder (default: ~/.cache)"},
     {0}};
 
@@ -20,9 +21,9 @@ const eclat_command ec_page_main = {
     .closing = "Results go to standard output; progress, warnings and errors go to standard error."};
 
 const eclat_command ec_page_completion = {
-    .name = "completion", .operands = "bash|zsh", .summary = "print a completion script for a shell",
+    .name = "completion", .operands = "bash|fish|zsh", .summary = "print a completion script for a shell",
     .intro = "Prints a script that completes commands, options and their values. Where eclat is installed by a package, the scripts are in place. For one bash "
-             "session: source <(eclat completion bash). For zsh: eclat completion zsh > _eclat, in a folder of $fpath."};
+             "session: source <(eclat completion bash). For one of fish: eclat completion fish | source. For zsh: eclat completion zsh > _eclat, in a folder of $fpath."};
 
 const eclat_command ec_page_help = {
     .name = "help", .operands = "[COMMAND]", .summary = "show the help of eclat or of a command; --man: the man page",

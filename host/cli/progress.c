@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/seconds.h"
 #include "cli/stop.h"
@@ -74,6 +73,6 @@ static void hint(void *user, const char *line)
 
 eclat_listener ec_progress_listener(ec_progress_view *view)
 {
-    return (eclat_listener){.user = view, .message = message, .progress = show, .report = report, .bold = isatty(STDOUT_FILENO) == 1, .begin = begin,
+    return (eclat_listener){.user = view, .message = message, .progress = show, .report = report, .bold = ec_console_has_bold_results(), .begin = begin,
                             .end = end, .hint = hint};
 }

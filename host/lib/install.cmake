@@ -1,18 +1,21 @@
 # What `cmake --install` puts down: the program (its modules install themselves), the library as .so and .a, its header, and how others find it, by
-# pkg-config and by find_package(eclat); and the man page and the shells' completion, which the program writes.
+# pkg-config and by find_package(eclat); and the man page and the shells' completion, which the program writes. tools/release/packages.cmake makes
+# packages of the components program, dev, mpi and view.
 include(CMakePackageConfigHelpers)
-install(TARGETS eclat)
-foreach(page "eclat.1 help --man" "eclat.bash completion bash" "_eclat completion zsh")
+install(TARGETS eclat RUNTIME_DEPENDENCY_SET program_needs COMPONENT program)
+foreach(page "eclat.1 help --man" "eclat.bash completion bash" "eclat.fish completion fish" "_eclat completion zsh")
   separate_arguments(page)
   list(POP_FRONT page file)
   add_custom_command(TARGET eclat POST_BUILD COMMAND eclat ${page} > ${CMAKE_BINARY_DIR}/${file} BYPRODUCTS ${CMAKE_BINARY_DIR}/${file})
 endforeach()
-install(FILES ${CMAKE_BINARY_DIR}/eclat.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES ${CMAKE_BINARY_DIR}/eclat.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME eclat)
-install(FILES ${CMAKE_BINARY_DIR}/_eclat DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-install(TARGETS libeclat_shared EXPORT eclat LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES $<TARGET_FILE:libeclat> DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY host/include/eclat DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${CMAKE_BINARY_DIR}/eclat.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${CMAKE_BINARY_DIR}/eclat.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME eclat COMPONENT program)
+install(FILES ${CMAKE_BINARY_DIR}/eclat.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+install(FILES ${CMAKE_BINARY_DIR}/_eclat DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+install(TARGETS libeclat_shared EXPORT eclat RUNTIME_DEPENDENCY_SET program_needs
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_COMPONENT dev)
+install(FILES $<TARGET_FILE:libeclat> DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+install(DIRECTORY host/include/eclat DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 
 # The archive's own needs are for `pkg-config --static`.
 set(private_libraries "")
@@ -35,11 +38,11 @@ list(REMOVE_DUPLICATES private_libraries)
 list(JOIN private_libraries " " private_libraries)
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(host/lib/eclat.pc.in eclat.pc @ONLY)
-install(FILES ${CMAKE_BINARY_DIR}/eclat.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${CMAKE_BINARY_DIR}/eclat.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/eclat)
 target_include_directories(libeclat_shared INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/host/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 set_target_properties(libeclat_shared PROPERTIES EXPORT_NAME eclat)
-install(EXPORT eclat NAMESPACE eclat:: DESTINATION ${package_folder} FILE eclat-config.cmake)
+install(EXPORT eclat NAMESPACE eclat:: DESTINATION ${package_folder} FILE eclat-config.cmake COMPONENT dev)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/eclat-config-version.cmake COMPATIBILITY SameMajorVersion)
-install(FILES ${CMAKE_BINARY_DIR}/eclat-config-version.cmake DESTINATION ${package_folder})
+install(FILES ${CMAKE_BINARY_DIR}/eclat-config-version.cmake DESTINATION ${package_folder} COMPONENT dev)

@@ -66,9 +66,13 @@ typedef struct box {
 } box;
 static const box empty = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
+/* Without fmin and fmax, over which GCC 12's vectorizer breaks down on AArch64. */
 static void grow(box *b, const float point[3])
 {
-    for (int k = 0; k < 3; k++) b->low[k] = fmin(b->low[k], (double)point[k]), b->high[k] = fmax(b->high[k], (double)point[k]);
+    for (int k = 0; k < 3; k++) {
+        if (point[k] < b->low[k]) b->low[k] = point[k];
+        if (point[k] > b->high[k]) b->high[k] = point[k];
+    }
 }
 
 /* No radius where the box has no points. */

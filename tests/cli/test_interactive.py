@@ -51,6 +51,37 @@ class Progress(Case):
         self.assertRegex(run.stderr, r"(?m)^eclat: rendering 32x32 pixels on .* until 1 s$")
 
 
+class Colour(Case):
+    """The words error, warning and note alone, and only where a terminal shows them."""
+
+    def on_terminal(self, *arguments, **env):
+        master, slave = pty.openpty()
+        environment = {name: value for name, value in ENVIRONMENT.items() if name not in ("NO_COLOR", "TERM")}
+        code = subprocess.run([ECLAT, *arguments], env=dict(environment, **env), stderr=slave, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL).returncode
+        os.close(slave)
+        shown = os.read(master, 65536).decode()
+        os.close(master)
+        return code, shown.replace("\r\n", "\n")
+
+    def test_an_error_is_red_on_a_terminal(self):
+        code, shown = self.on_terminal("rendr", TERM="xterm")
+        self.assertEqual(code, 2)
+        self.assertTrue(shown.startswith("eclat: \033[1;31merror: \033[0munknown command"), repr(shown))
+        self.assertEqual(shown.count("\033"), 2)
+
+    def test_none_where_it_is_refused_or_unknown(self):
+        plain = eclat("rendr").stderr
+        self.assertNotIn("\033", plain)
+        for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb"}):
+            self.assertEqual(self.on_terminal("rendr", **env), (2, plain), env)
+        self.assertNotEqual(self.on_terminal("rendr", TERM="xterm", NO_COLOR="")[1], plain)  # as no-color.org has it: set and not empty
+
+    def test_a_file_cannot_colour(self):
+        shown = self.on_terminal("info", self.path("\033[32mgreen.gltf"), TERM="xterm")[1]
+        self.assertIn("?[32mgreen", shown)
+        self.assertEqual(shown.count("\033"), 2)
+
+
 class Interrupt(Case):
     def start(self):
         """A render that would take a minute, under way."""

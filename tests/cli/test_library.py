@@ -116,6 +116,7 @@ class Installed(support.Case):
     def test_man_page_and_completion_are_those_of_the_program(self):
         program = os.path.join(self.prefix, "bin", "eclat")
         for place, words in {"man/man1/eclat.1": ["help", "--man"], "bash-completion/completions/eclat": ["completion", "bash"],
+                             "fish/vendor_completions.d/eclat.fish": ["completion", "fish"],
                              "zsh/site-functions/_eclat": ["completion", "zsh"]}.items():
             with open(os.path.join(self.prefix, "share", place), encoding="utf-8") as file:
                 self.assertEqual(file.read(), self.run_tool(program, *words), place)
@@ -129,7 +130,7 @@ class Installed(support.Case):
             os.rename(find(self.prefix, "eclat-view.so"), self.path("away.so"))
             run = subprocess.run([program, "view", support.CORNELL], capture_output=True, text=True)
             self.assertEqual(run.returncode, 1)
-            self.assertIn("built without its preview window", run.stderr)
+            self.assertIn("install the package eclat-view", run.stderr)
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ def without_mpi():
     """Why there is nothing to test; None: there is."""
     if not shutil.which("mpirun"):
         return "no mpirun here"
-    return "this eclat was built without MPI" if "built without MPI" in mpirun(2, "--version").stderr else None
+    return "this eclat has no MPI" if "has no MPI" in mpirun(2, "--version").stderr else None
 
 
 def own_lines(run):

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import Case, eclat
+from support import ECLAT, Case, eclat
 
 COMMANDS = ["render", "cost", "info", "compare", "merge", "devices", "view", "selftest", "completion"]
 
@@ -36,7 +36,19 @@ class Help(Case):
     def test_version_everywhere(self):
         for arguments in [["--version"], *([command, "--version"] for command in COMMANDS)]:
             run = self.assert_ok(eclat(*arguments))
-            self.assertRegex(run.stdout, r"\Aeclat \d+\.\d+\.\d+\n\Z")
+            self.assertRegex(run.stdout, r"\Aeclat \d+\.\d+\.\d+\n")
+
+    def test_version_says_how_eclat_was_built(self):
+        lines = dict(line.split(None, 1) for line in self.assert_ok(eclat("--version")).stdout.splitlines())
+        build = os.path.dirname(os.path.abspath(ECLAT))
+        with open(os.path.join(build, "CMakeCache.txt"), encoding="utf-8") as file:
+            cache = dict(re.findall(r"^(\w+):\w+=(.*)$", file.read(), re.M))
+        self.assertRegex(lines["compiler"], rf"^(GCC|Clang) \d+\.\d+.*, {cache['CMAKE_BUILD_TYPE'] or 'Release'} for \S")
+        self.assertEqual(lines["OpenCL"], "1.2")
+        found = [name for name in ("draco", "meshopt", "webp") if not cache[f"CODEC_{name}_LIBRARY"].endswith("NOTFOUND")]
+        self.assertEqual(lines["readers"], ", ".join(found) or "none")
+        there = [name for name in ("mpi", "view") if os.path.exists(os.path.join(build, f"eclat-{name}.so"))]
+        self.assertEqual(lines["modules"], ", ".join(there) or "none")
 
     def test_groups_are_alphabetical(self):
         groups = re.split(r"\n\n", self.assert_ok(eclat("render", "--help")).stdout)
@@ -97,9 +109,10 @@ class Shells(Case):
         for name in names:
             self.assertRegex(render, rf"\\fB--{name}(\[=WHEN\])?,?\\fR", name)
         self.assertEqual(sorted(word.rstrip("=") for word in self.complete("eclat", "render", "--")), sorted(f"--{name}" for name in names))
-        zsh = self.assert_ok(eclat("completion", "zsh")).stdout
+        zsh, fish = (self.assert_ok(eclat("completion", shell)).stdout for shell in ("zsh", "fish"))
         for name in names:
             self.assertRegex(zsh, rf"'\*?--{name}(=-?)?\[", name)
+            self.assertRegex(fish, rf"(?m)^complete -c eclat -n '__eclat_is render' -l {name} .*-d '.+'$")
 
     def test_bash_completes(self):
         subprocess.run(["bash", "-n", self.script("completion", "bash")], check=True)
@@ -118,6 +131,29 @@ class Shells(Case):
     def test_zsh_reads_its_script(self):
         subprocess.run(["zsh", "-n", self.script("completion", "zsh")], check=True)
 
+    @unittest.skipUnless(shutil.which("fish"), "fish is not there")
+    def test_fish_completes(self):
+        script = self.script("completion", "fish")
+        with open(self.path("room.gltf"), "w", encoding="utf-8"):
+            pass
+
+        def complete(line):
+            run = subprocess.run(["fish", "--no-config", "-c", f"source {script}; complete -C '{line}'"], capture_output=True, text=True, check=True,
+                                 cwd=self.folder, env=dict(os.environ, HOME=self.folder))
+            self.assertEqual(run.stderr, "")
+            return [choice.split("\t")[0] for choice in run.stdout.splitlines()]
+
+        self.assertEqual(complete("eclat ren"), ["render"])
+        self.assertEqual(complete("eclat render --integ"), ["--integrator"])
+        self.assertEqual(sorted(complete("eclat render --integrator ")), ["path", "raster", "whitted"])
+        self.assertEqual(complete("eclat render --integrator=w"), ["--integrator=whitted"])
+        self.assertEqual(sorted(complete("eclat render --adaptive=")), ["--adaptive=auto", "--adaptive=off", "--adaptive=on"])
+        self.assertEqual(complete("eclat render --spp "), [])
+        self.assertEqual(complete("eclat render ro"), ["room.gltf"])
+        self.assertEqual(complete("eclat view --js"), [])
+        self.assertEqual(sorted(complete("eclat completion ")), ["bash", "fish", "zsh"])
+        self.assertNotIn("--integrator", complete("eclat help render --"))
+
     @unittest.skipUnless(shutil.which("groff"), "groff is not there")
     def test_the_man_page_is_set_without_a_warning(self):
         run = subprocess.run(["groff", "-man", "-ww", "-Tutf8", self.script("help", "--man")], capture_output=True, text=True, check=True)
@@ -125,7 +161,7 @@ class Shells(Case):
         self.assertIn("--integrator", run.stdout.replace("\b", ""))
 
     def test_a_shell_without_completion_is_refused(self):
-        for arguments, says in [([], "bash or zsh"), (["fish"], "'fish'"), (["bash", "zsh"], "bash or zsh")]:
+        for arguments, says in [([], "bash, fish or zsh"), (["tcsh"], "'tcsh'"), (["bash", "zsh"], "bash, fish or zsh")]:
             self.assertIn(says, self.assert_one_error(eclat("completion", *arguments), 2))
 
 

@@ -36,6 +36,16 @@ extern "C" {
 /* EC_VERSION of the library that is running; its first number is that of the SONAME. */
 const char *eclat_version(void);
 
+/* A term and what it means. */
+typedef struct eclat_note {
+    const char *heading; /* the title of a group of options, or one of its own */
+    const char *term, *text;
+} eclat_note;
+
+/* How the library was built, and what it has: compiler, OpenCL version, readers of compressed scenes, modules that are installed. Term NULL behind the
+ * last. */
+eclat_note eclat_build_at(size_t i);
+
 typedef enum eclat_result {
     ECLAT_OK = 0,
     ECLAT_FAILED = 1, /* a file, a device, memory, or stopped before there was a picture */
@@ -63,12 +73,6 @@ eclat_result eclat_devices_list(eclat_device **devices, size_t *count, eclat_err
 void eclat_devices_free(eclat_device *devices);
 
 /* ---- Commands: what jobs there are, and which options they take ---- */
-
-/* A term and what it means. */
-typedef struct eclat_note {
-    const char *heading; /* the title of a group of options, or one of its own */
-    const char *term, *text;
-} eclat_note;
 
 typedef struct eclat_command {
     const char *name;                /* "render" */
