@@ -26,12 +26,12 @@ static ec_result set_lens(const ec_camera *c, const ec_render_options *o, ec_par
     return EC_OK;
 }
 
-ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)
+void ec_pipeline_set_view(const ec_camera *c, const ec_render_options *o, ec_params *params)
 {
-    double aspect = (double)o->width / o->height;
+    const double *window = o->screen_window, aspect = ec_has_screen_window(o) ? 1 : (double)o->width / o->height;
     bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
     double half_height = is_flat ? c->ymag : tan(0.5 * c->yfov);
-    double half_width = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f ? c->xmag : half_height * aspect;
+    double half_width = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f && !ec_has_screen_window(o) ? c->xmag : half_height * aspect;
     for (int k = 0; k < 3; k++) {
         params->camera_origin[k] = c->position[k];
         params->camera_right[k] = (float)(c->right[k] * half_width);
@@ -39,6 +39,14 @@ ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o,
         params->camera_forward[k] = c->forward[k];
     }
     params->orthographic = is_flat;
+    const float whole[] = {-1, 1, 2.0f / (float)o->width, -2.0f / (float)o->height};
+    const float part[] = {(float)window[0], (float)window[3], (float)((window[1] - window[0]) / o->width), (float)((window[2] - window[3]) / o->height)};
+    memcpy(params->screen, ec_has_screen_window(o) ? part : whole, sizeof whole);
+}
+
+ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)
+{
+    ec_pipeline_set_view(c, o, params);
     return set_lens(c, o, params, err);
 }
 

@@ -75,6 +75,7 @@ static void add_params(SHA2_CTX *digests, ec_params p)
     TAKE(EC_CONTENT_CAMERA, lens_up);
     TAKE(EC_CONTENT_CAMERA, lens_nearness);
     TAKE(EC_CONTENT_CAMERA, orthographic);
+    TAKE(EC_CONTENT_CAMERA, screen);
     TAKE(EC_CONTENT_CAMERA, camera_medium);
     TAKE(EC_CONTENT_ENVIRONMENT, environment);
     TAKE(EC_CONTENT_ENVIRONMENT, environment_mean);

@@ -39,6 +39,7 @@ typedef enum ec_compile { EC_COMPILE_AUTO /* $ECLAT_COMPILE, else beside */, EC_
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */
     uint32_t camera;            /* index into the scene's cameras */
+    double screen_window[4];    /* left, right, bottom, top of the picture in the image plane, in half heights of the camera's view; all 0: that view */
     ec_pixel_filter filter;
     double filter_width;        /* pixels from the centre to the edge, of other filters than the box; 0 = EC_FILTER_WIDTH */
     double fstop;               /* of a thin lens; 0 = a pinhole. The aperture's diameter is focal length / fstop */
@@ -76,6 +77,8 @@ typedef struct ec_render_options {
     bool identify;              /* say in the stats what is rendered: content */
     bool fast_math;             /* kernels by -cl-fast-relaxed-math: for `eclat cost` alone, to see what exact arithmetic costs */
 } ec_render_options;
+
+static inline bool ec_has_screen_window(const ec_render_options *o) { return o->screen_window[0] < o->screen_window[1]; }
 
 /* Replicates of the options. */
 static inline uint32_t ec_render_replicates(const ec_render_options *o) { return o->replicates ? o->replicates : EC_REPLICATES; }

@@ -77,7 +77,8 @@ static inline uint64_t ec_whitted_stack_words(uint32_t max_depth)
     return 1 + (uint64_t)((max_depth ? max_depth : EC_WHITTED_DEPTH) - 1) * EC_BRANCH_FIELDS;
 }
 
-/* camera.c */
+/* camera.c: without a lens, and with one */
+void ec_pipeline_set_view(const ec_camera *camera, const ec_render_options *options, ec_params *params);
 ec_result ec_pipeline_set_camera(const ec_camera *camera, const ec_render_options *options, ec_params *params, ec_error *err);
 /* upload.c; spent: as for ec_pipeline_create */
 ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_cargo *cargo, ec_cargo *spent, ec_error *err);

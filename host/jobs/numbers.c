@@ -178,13 +178,30 @@ ec_result ec_parse_span(const char *option, const char *text, double max, double
     return EC_OK;
 }
 
+static bool scan_list(const char *at, int count, double *values)
+{
+    for (int i = 0; i < count; i++) {
+        if (!scan_real(at, &values[i], &at) || *at != (i < count - 1 ? ',' : 0)) return false;
+        at += i < count - 1;
+    }
+    return true;
+}
+
 ec_result ec_parse_triple(const char *option, const char *text, double xyz[3], ec_error *err)
 {
-    const char *at = text;
-    for (int i = 0; i < 3; i++) {
-        if (!scan_real(at, &xyz[i], &at) || *at != (i < 2 ? ',' : 0))
-            return ec_usage(err, "--%s: '%s' is not three numbers with commas between them, as in 1,2.5,-3", option, text);
-        at += i < 2;
-    }
+    if (scan_list(text, 3, xyz)) return EC_OK;
+    return ec_usage(err, "--%s: '%s' is not three numbers with commas between them, as in 1,2.5,-3", option, text);
+}
+
+ec_result ec_parse_window(const char *option, const char *text, double most, double window[4], ec_error *err)
+{
+    double read[4];
+    if (!scan_list(text, 4, read)) return ec_usage(err, "--%s: '%s' is not four numbers with commas between them, as in -1,1,-0.5,1.5", option, text);
+    for (int i = 0; i < 4; i++)
+        if (!(fabs(read[i]) <= most)) return ec_usage(err, "--%s: '%s' reaches too far; give numbers from -%g to %g", option, text, most, most);
+    for (int i = 0; i < 4; i += 2)
+        if (!(read[i + 1] - read[i] >= 1 / most))
+            return ec_usage(err, "--%s: '%s' leaves nothing to see; the order is left, right, bottom, top", option, text);
+    memcpy(window, read, sizeof read);
     return EC_OK;
 }

@@ -23,6 +23,8 @@ ec_result ec_parse_size(const char *option, const char *text, uint32_t *width, u
 extern const char *const ec_lanes_names[]; /* auto, 1, 4, 8, 16 */
 ec_result ec_parse_lanes(const char *option, const char *text, uint32_t *lanes, ec_error *err); /* auto: 0 */
 ec_result ec_parse_triple(const char *option, const char *text, double xyz[3], ec_error *err); /* X,Y,Z: finite */
+/* Left, right, bottom, top, from -most to most, at least 1 / most apart. */
+ec_result ec_parse_window(const char *option, const char *text, double most, double window[4], ec_error *err);
 /* One of names (NULL-terminated); *index is its place. */
 ec_result ec_parse_choice(const char *option, const char *text, const char *const *names, uint32_t *index,
                           ec_error *err);

@@ -118,6 +118,6 @@ ec_result ec_option_store(const ec_option *option, void *target, const char *val
 #define EC_CHOSEN(field, names) EC_STORED(CHOICE, field), .choices = names
 #define EC_TOLD(field) .told = offsetof(REQUEST, field)
 
-enum { EC_OPTIONS_MAX = 64 };
+enum { EC_OPTIONS_MAX = 96 };
 
 #endif

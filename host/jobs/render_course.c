@@ -6,6 +6,7 @@
 #include "jobs/given.h"
 #include "jobs/defaults.h"
 #include "jobs/render_job.h"
+#include "jobs/snapshot.h"
 #include "jobs/write_report.h"
 
 /* The value of --adaptive that a command with other limits needs to allot samples as before; NULL: none. */
@@ -102,9 +103,8 @@ static void drop_scene(void *user)
     if (!job->share) ec_scene_drop_data(job->scene);
 }
 
-static bool keep(void *user, const ec_film *film, const ec_past *past)
+static bool keep_all(ec_render_job *job, const ec_film *film, const ec_past *past)
 {
-    ec_render_job *job = user;
     const ec_log *log = &job->listener->log;
     ec_picture picture = {0};
     const ec_attribute attributes[] = {{.name = "eclat.command", .type = EC_ATTR_STRING, .string = job->command},
@@ -117,6 +117,15 @@ static bool keep(void *user, const ec_film *film, const ec_past *past)
     job->has_kept |= result == EC_OK;
     if (result != EC_OK) ec_warn(log, "%s; the render goes on, and the checkpoint will be tried again", job->keep_error.text);
     return result == EC_OK;
+}
+
+static bool keep(void *user, const ec_film *film, const ec_past *past)
+{
+    ec_render_job *job = user;
+    ec_error unwritten;
+    if (job->request->snapshot && ec_snapshot_write(job, film, past, &unwritten) != EC_OK)
+        ec_warn(&job->listener->log, "%s; the render goes on, and the snapshot will be tried again", unwritten.text);
+    return !job->request->checkpoint || keep_all(job, film, past);
 }
 
 /* Strips go to the files as they come. */
@@ -159,7 +168,7 @@ ec_course ec_render_job_course(ec_render_job *job)
     const char *whole_for = job->in_memory ? "a picture without output files" : ec_render_whole_for(request);
     ec_course course = {.admit = request->options.identify ? admit : NULL,
                         .loaded = drop_scene,
-                        .keep = request->checkpoint ? keep : NULL,
+                        .keep = request->checkpoint || request->snapshot ? keep : NULL,
                         .strip = whole_for ? NULL : take_strip,
                         .whole_for = whole_for,
                         .every = request->every,

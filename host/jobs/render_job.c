@@ -22,15 +22,15 @@ static ec_result check_slice_output(const ec_render_request *request, ec_error *
     return has_exr ? EC_OK : ec_usage(err, "--samples: a slice is an .exr, which eclat merge adds to others; give -o NAME.exr");
 }
 
-static ec_result check_checkpoint(const ec_render_request *request, ec_inputs *inputs, ec_error *err)
+/* A file that is written on the way, by the option of that name. */
+static ec_result check_kept(const ec_render_request *request, const char *option, const char *path, ec_inputs *inputs, ec_error *err)
 {
-    const char *path = request->checkpoint;
     if (!path) return EC_OK;
     if (ec_inputs_have(inputs, path))
-        return ec_fail(err, "'%s' is an input of this render; give --checkpoint another name", path);
+        return ec_fail(err, "'%s' is an input of this render; give --%s another name", path, option);
     for (int i = 0; i < request->outputs.count; i++)
         if (ec_same_target(path, request->outputs.file[i].path))
-            return ec_usage(err, "'%s' is both the checkpoint and the picture; give one of them another name", path);
+            return ec_usage(err, "'%s' is both the %s and the picture; give one of them another name", path, option);
     return ec_image_check_writable(path, err);
 }
 
@@ -39,8 +39,11 @@ ec_result ec_render_check_files(const ec_render_request *request, ec_error *err)
 {
     const char *const files[] = {request->environment, request->resume};
     ec_inputs inputs = {.scene = request->scene, .files = files, .file_count = 1};
-    ec_result result = check_checkpoint(request, &inputs, err);
+    ec_result result = check_kept(request, "checkpoint", request->checkpoint, &inputs, err);
     inputs.file_count = 2;
+    if (result == EC_OK) result = check_kept(request, "snapshot", request->snapshot, &inputs, err);
+    if (result == EC_OK && request->snapshot && request->checkpoint && ec_same_target(request->snapshot, request->checkpoint))
+        result = ec_usage(err, "'%s' is both the snapshot and the checkpoint; give one of them another name", request->snapshot);
     if (result == EC_OK) result = ec_outputs_check(&request->outputs, &inputs, err);
     ec_inputs_free(&inputs);
     return result;
@@ -115,6 +118,8 @@ static void choose_size(ec_render_options *options, uint32_t height, const ec_ca
     if (!(aspect > 0) && camera->type == EC_CAMERA_ORTHOGRAPHIC && camera->ymag > 0)
         aspect = fabs((double)camera->xmag / camera->ymag);
     if (!(aspect > 0)) aspect = 1;
+    if (ec_has_screen_window(options))
+        aspect = (options->screen_window[1] - options->screen_window[0]) / (options->screen_window[3] - options->screen_window[2]);
     options->height = height ? height : EC_DEFAULT_HEIGHT;
     options->width = (uint32_t)fmin(fmax(round(options->height * aspect), 1), EC_SIZE_MAX_SIDE);
 }

@@ -57,6 +57,7 @@ typedef struct ec_render_job {
     ec_given_options before;     /* that began the job that is resumed */
     char device_text[1024];      /* their drivers: cl/workarounds.h */
     char *whole_command;         /* of a job that is resumed: what would render it without a break. Owned */
+    uint32_t shot_batches;       /* of the last snapshot */
     bool has_kept;               /* a checkpoint */
     ec_error keep_error;         /* why the last one is not there; empty: it is, or none was wanted */
 } ec_render_job;

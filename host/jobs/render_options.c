@@ -82,6 +82,10 @@ const ec_option ec_render_rows[] = {
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
+    {.name = "screen-window", .metavar = "L,R,B,T", .set = ec_set_screen_window, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_INFO,
+     .help = "show what lies between left, right, bottom and top in the camera's image plane: 0,0 is its axis, 1 half the height of its view. For lens "
+             "shift, crops, and pixels that are not square",
+     .otherwise = "-A,A,-1,1 for a picture A times as wide as high"},
     {.name = "size", .metavar = "WxH", EC_STORED(SIZE, options.width), EC_TOLD(has_size), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
      .help = "width and height in pixels", .otherwise = EC_TEXT(EC_DEFAULT_HEIGHT) " high, and as wide as the camera's aspect ratio requires; square without one"},
     {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(tonemap, ec_tonemap_names), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
@@ -118,7 +122,7 @@ const ec_option ec_render_rows[] = {
     {.name = "checkpoint", .metavar = "FILE", EC_STORED(FILE, checkpoint), .ending = ".exr", .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
      .help = "write FILE, an .exr, at intervals, atomically; it is a picture and holds all that --resume needs", .not_in_window = LASTING},
     {.name = "every", .metavar = "S", EC_STORED(SECONDS, every), .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
-     .help = "seconds between checkpoints; there is one at the end too, also after Ctrl-C", .otherwise = EC_TEXT(EC_DEFAULT_EVERY), .not_in_window = LASTING},
+     .help = "seconds between checkpoints, or snapshots; there is one at the end too, also after Ctrl-C", .otherwise = EC_TEXT(EC_DEFAULT_EVERY), .not_in_window = LASTING},
     {.name = "plan", .metavar = "RANKS", .set = ec_set_plan, .group = EC_GROUP_RESUME,
      .help = "measure a few batches, predict how long 1 to RANKS processes of an MPI job would take, and print why; renders no picture. RANKS,GBIT,US "
              "assumes GBIT Gbit/s between two machines and US microseconds per message (default: 10,50)",
@@ -131,6 +135,9 @@ const ec_option ec_render_rows[] = {
      .help = "render a slice for eclat merge: of the N samples per pixel of --spp, only those from A up to but not including B, into an .exr. A slice "
              "begins and ends with a batch, as multiples of 64 do, or ends with the job (default -o: NAME.A-B.exr)",
      .not_in_window = LASTING},
+    {.name = "snapshot", .metavar = "FILE", EC_STORED(FILE, snapshot), .ending = ".exr", .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
+     .help = "write the picture so far to FILE, an .exr, every --every seconds, atomically: to be looked at while the render goes on, with its error",
+     .not_in_window = "a window shows the picture while it renders"},
 
     /* Light transport */
     {.name = "clamp", .metavar = "N", EC_RANGED(REAL, options.clamp, EC_CLAMP_LEAST, EC_CLAMP_MOST), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,

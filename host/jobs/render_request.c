@@ -27,7 +27,7 @@ ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *no
         return ec_fail(err, "'%s' holds a command that this version does not understand; use the version that wrote it", asked.resume);
     ec_render_options *o = &request->options;
     request->quiet = request->verbose = request->json = false;
-    request->checkpoint = NULL;
+    request->checkpoint = request->snapshot = NULL;
     request->every = 0;
     if (asked.outputs.count) request->outputs.count = 0;
     o->spp = ec_render_has_limit(&asked.options) ? 0 : job->spp;

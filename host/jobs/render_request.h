@@ -50,7 +50,8 @@ typedef struct ec_render_request {
     bool slice_of_any;         /* of a job without an end: no --spp */
     ec_adaptive adaptive;
     const char *checkpoint;    /* NULL: none */
-    double every;              /* seconds between two of them */
+    const char *snapshot;      /* a picture on the way; NULL: none */
+    double every;              /* seconds between two of these */
     const char *resume;        /* a checkpoint to resume; NULL: none */
     ec_tonemap tonemap;
     uint32_t plan_ranks;       /* say what up to so many ranks would buy, and render no picture; 0: render */

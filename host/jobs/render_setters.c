@@ -13,6 +13,7 @@
 #define SETTER(name) ec_result ec_set_##name(void *target, const char *option, const char *value, ec_error *err)
 #define REQUEST ((ec_render_request *)target)
 #define MOMENT_MOST 1e9 /* seconds */
+#define SCREEN_MOST 1e4 /* half heights */
 
 const char *const ec_adaptive_names[] = {[EC_ADAPTIVE_AUTO] = "auto", [EC_ADAPTIVE_ON] = "on", [EC_ADAPTIVE_OFF] = "off", NULL};
 const char *const ec_effects_names[] = {"needed", "all", NULL};
@@ -53,6 +54,8 @@ SETTER(parallel)
     REQUEST->look.to.fov = 0;
     return ec_parse_real(option, value, EC_FOCUS_LEAST, EC_FOCUS_MOST, &REQUEST->look.to.tall, err);
 }
+
+SETTER(screen_window) { return ec_parse_window(option, value, SCREEN_MOST, REQUEST->options.screen_window, err); }
 
 /* --adaptive without a value means on. */
 SETTER(adaptive)

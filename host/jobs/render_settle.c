@@ -135,7 +135,7 @@ static ec_result settle_frames(ec_render_request *request, ec_error *err)
     if (!request->frames.given && request->seed_is_frame) return ec_usage(err, "--seed frame belongs to --frames; give a number");
     if (!request->frames.given) return EC_OK;
     if (request->choice.at_given) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
-    const char *other = request->resume ? "resume" : request->checkpoint ? "checkpoint" : request->has_slice ? "samples" : NULL;
+    const char *other = request->resume ? "resume" : request->checkpoint ? "checkpoint" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
     if (other) return ec_usage(err, "--frames and --%s: a sequence goes on with the frames that are not there yet; leave --%s out", other, other);
     if (request->frames.fps == 0) request->frames.fps = EC_DEFAULT_FPS;
     return EC_OK;
@@ -161,8 +161,8 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
         limits->max_depth = EC_WHITTED_DEPTH;
     EC_TRY(check_shutter(&request->choice, err));
     EC_TRY(check_combinations(options, count, given, limits, err));
-    if (request->every > 0 && !request->checkpoint)
-        return ec_usage(err, "--every belongs to --checkpoint; leave it out or give that too");
+    if (request->every > 0 && !request->checkpoint && !request->snapshot)
+        return ec_usage(err, "--every belongs to --checkpoint or --snapshot; leave it out or give one of them too");
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;
     EC_TRY(settle_frames(request, err));
     EC_TRY(settle_slice(request, err));
@@ -181,5 +181,6 @@ const char *ec_render_whole_for(const ec_render_request *r)
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
     if (r->checkpoint) return "--checkpoint";
+    if (r->snapshot) return "--snapshot";
     return r->has_slice ? "--samples" : NULL;
 }

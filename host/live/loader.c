@@ -46,7 +46,7 @@ static ec_result find_cameras(ec_live_scene *s, ec_error *err)
         const ec_camera *camera = &scene->cameras[i];
         double reach = ec_camera_reach(scene, camera);
         ec_viewpoint viewpoint;
-        if (i == s->request.options.camera) reach = fmin(reach, ec_live_pick(scene, camera, 1, 1, 0, 0).distance); /* what one looks at */
+        if (i == s->request.options.camera) reach = fmin(reach, ec_live_pick(scene, camera, &(ec_render_options){.width = 1, .height = 1}, 0, 0).distance); /* what one looks at */
         ec_camera_viewpoint(camera, scene->center, reach, &viewpoint);
         memcpy(&s->cameras[i], &viewpoint, sizeof viewpoint);
     }

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "device/pipeline.h"
 #include "live/shared.h"
 
 typedef struct ray {
@@ -9,17 +10,17 @@ typedef struct ray {
 } ray;
 
 /* Through the pixel's centre, as kernels/stages/generate.cl makes it. */
-static ray ray_of(const ec_camera *c, uint32_t width, uint32_t height, uint32_t x, uint32_t y)
+static ray ray_of(const ec_camera *c, const ec_render_options *o, uint32_t x, uint32_t y)
 {
-    bool flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
-    double half_height = flat ? c->ymag : tan(0.5 * c->yfov), half_width = half_height * width / height;
-    if (flat && c->aspect <= 0 && c->xmag > 0) half_width = c->xmag;
-    double sx = (2 * (x + 0.5) / width - 1) * half_width, sy = (1 - 2 * (y + 0.5) / height) * half_height, length = 0;
+    ec_params p;
+    ec_pipeline_set_view(c, o, &p);
+    const double sx = p.screen[0] + (x + 0.5) * p.screen[2], sy = p.screen[1] + (y + 0.5) * p.screen[3];
+    double length = 0;
     ray r;
     for (int k = 0; k < 3; k++) {
-        double aside = sx * c->right[k] + sy * c->up[k];
-        r.o[k] = c->position[k] + (flat ? aside : 0);
-        r.d[k] = c->forward[k] + (flat ? 0 : aside);
+        double aside = sx * p.camera_right[k] + sy * p.camera_up[k];
+        r.o[k] = p.camera_origin[k] + (p.orthographic ? aside : 0);
+        r.d[k] = p.camera_forward[k] + (p.orthographic ? 0 : aside);
         length += r.d[k] * r.d[k];
     }
     for (int k = 0; k < 3; k++) r.d[k] /= sqrt(length);
@@ -124,9 +125,9 @@ static void try_instances(const ec_scene *s, const ray *r, ec_live_hit *best)
     free(spheres);
 }
 
-ec_live_hit ec_live_pick(const ec_scene *s, const ec_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y)
+ec_live_hit ec_live_pick(const ec_scene *s, const ec_camera *camera, const ec_render_options *options, uint32_t x, uint32_t y)
 {
-    ray r = ray_of(camera, width, height, x, y);
+    ray r = ray_of(camera, options, x, y);
     ec_live_hit best = {INFINITY, 0, 0};
     try_triangles(s, &r, 0, ec_scene_flat_count(s), NULL, &best);
     if (s->placed_count) try_instances(s, &r, &best);

@@ -26,7 +26,9 @@ static eclat_probe look_at(const ec_renderer *r, uint32_t x, uint32_t y)
     const ec_scene *scene = r->setup[ECLAT_PICTURE]->scene->job.scene;
     eclat_probe probe = {.x = x, .y = y, .is_inside = x < r->wish.width && y < r->wish.height, .material = -1, .node = -1};
     if (!probe.is_inside) return probe;
-    ec_live_hit hit = ec_live_pick(scene, &r->camera, r->wish.width, r->wish.height, x, y);
+    ec_render_options options = r->setup[ECLAT_PICTURE]->options;
+    options.width = r->wish.width, options.height = r->wish.height;
+    ec_live_hit hit = ec_live_pick(scene, &r->camera, &options, x, y);
     probe.has_surface = isfinite(hit.distance);
     probe.depth = hit.distance;
     ec_renderer_read_pixel(&r->picture.film, &probe);

@@ -111,7 +111,7 @@ typedef struct ec_live_hit {
     double distance;              /* metres from the camera; infinite: none */
     uint32_t triangle, id;        /* place in the scene's arrays; id: another where its mesh is kept once */
 } ec_live_hit;
-ec_live_hit ec_live_pick(const ec_scene *scene, const ec_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y);
+ec_live_hit ec_live_pick(const ec_scene *scene, const ec_camera *camera, const ec_render_options *options, uint32_t x, uint32_t y);
 void ec_live_node_sphere(const ec_scene *scene, uint32_t node, double center[3], double *radius);
 
 /* wish.c: makes of it what can be had; and are two of one picture, but for its colours? */

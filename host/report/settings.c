@@ -34,6 +34,14 @@ static void get_size(const ec_render_options *o, ec_setting_value *v)
     v->field.text = v->made;
 }
 
+static void get_screen_window(const ec_render_options *o, ec_setting_value *v)
+{
+    const double *w = o->screen_window;
+    if (ec_has_screen_window(o)) snprintf(v->made, sizeof v->made, "%.9g,%.9g,%.9g,%.9g", w[0], w[1], w[2], w[3]);
+    else snprintf(v->made, sizeof v->made, "whole"), v->is_unsaid = true;
+    v->field.text = v->made;
+}
+
 static void get_max_depth(const ec_render_options *o, ec_setting_value *v)
 {
     *v = o->max_depth ? (ec_setting_value){WHOLE(o->max_depth)} : (ec_setting_value){NONE("inf")};
@@ -74,6 +82,7 @@ const ec_setting ec_settings[] = {
     {"filter-width", "filter_width", "eclat.filterWidth", EC_IDENTITY_BY_VALUE, get_filter_width},
     {"fstop", "fstop", "eclat.fstop", EC_IDENTITY_BY_VALUE, get_fstop},
     {"focus", "focus", "eclat.focus", EC_IDENTITY_BY_VALUE, get_focus},
+    {"screen-window", "screen_window", "eclat.screenWindow", EC_IDENTITY_BY_VALUE, get_screen_window},
     {"cutoff", "cutoff", "eclat.cutoff", EC_IDENTITY_BY_VALUE, get_cutoff},
     {"without", NULL, NULL, EC_IDENTITY_BY_VALUE, get_without}, /* reports: among the effects */
     {"accel", "accel", "eclat.accel", EC_NOT_IDENTITY, get_accel},

@@ -6,8 +6,8 @@
 #include "pixel_filter.h"
 #include "sampler.h"
 
-/* Pixel (x, y), counted from the top left, and the sample's place in the picture: sx, sy in [-1, 1], sy up; a filter wider
- * than a pixel reaches beyond the edges. filter: pixel_filter.h. */
+/* Pixel (x, y), counted from the top left, and the sample's place in the picture: sx, sy in [-1, 1], sy up, unless
+ * a screen window shows another part; a filter wider than a pixel reaches beyond the edges. filter: pixel_filter.h. */
 EC_FN sampler camera_sample(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
                             global const float *filter, lane_u slot, lane_u *x, lane_u *y, lane_f *sx, lane_f *sy)
 {
@@ -19,8 +19,8 @@ EC_FN sampler camera_sample(constant ec_params *params, uint seed, uint first_pi
     sample_pair(random, EC_PAIR_PIXEL, &jx, &jy);
     jx = pixel_filter_place(filter, jx);
     jy = pixel_filter_place(filter, jy);
-    *sx = fma(to_lane_f(*x) + jx, F(2.0f / (float)params->width), F(-1.0f));
-    *sy = fma(to_lane_f(*y) + jy, F(-2.0f / (float)params->height), F(1.0f));
+    *sx = fma(to_lane_f(*x) + jx, F(params->screen[2]), F(params->screen[0]));
+    *sy = fma(to_lane_f(*y) + jy, F(params->screen[3]), F(params->screen[1]));
     return random;
 }
 

@@ -47,8 +47,8 @@ EC_FN void raster_project(const view *c, constant ec_params *params, point3 v, f
     float w = c->is_flat ? 1.0f : point3_dot(v, c->forward);
     float sx = point3_dot(v, c->right) / point3_dot(c->right, c->right) / w;
     float sy = point3_dot(v, c->up) / point3_dot(c->up, c->up) / w;
-    *x = (0.5f + 0.5f * sx) * (float)params->width;
-    *y = (0.5f - 0.5f * sy) * (float)params->height;
+    *x = (sx - params->screen[0]) / params->screen[2];
+    *y = (sy - params->screen[1]) / params->screen[3];
 }
 
 /* The box of the part before the near plane, in pixels; false where there is none. */
@@ -84,8 +84,8 @@ EC_FN bool raster_box(const view *c, constant ec_params *params, const point3 *v
  * the slack covers the rounding of the sample's own place and of the function. */
 EC_FN bool raster_meets_tile(constant ec_params *params, global const ec_raster_tri *t, uint x, uint y)
 {
-    float sx = 2.0f * EC_TILE / (float)params->width, sy = -2.0f * EC_TILE / (float)params->height;
-    float x0 = (float)x * sx - 1.0f, y0 = (float)y * sy + 1.0f;
+    float sx = EC_TILE * params->screen[2], sy = EC_TILE * params->screen[3];
+    float x0 = (float)x * sx + params->screen[0], y0 = (float)y * sy + params->screen[1];
     for (uint k = 0; k < 3; k++) {
         float a = t->edge[k][0], b = t->edge[k][1], c = t->edge[k][2];
         float most = a * (a > 0.0f ? x0 + sx : x0) + b * (b > 0.0f ? y0 : y0 + sy) + c;

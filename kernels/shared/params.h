@@ -15,7 +15,7 @@ typedef enum ec_sample {
 
 typedef struct ec_params {
     /* Camera, recentred frame: d = forward + x * right + y * up with x, y in [-1, 1]; right and up hold the field of view.
-     * Orthographic: o = origin + x * right + y * up, d = forward. */
+     * Orthographic: o = origin + x * right + y * up, d = forward. A screen window (screen, below) reaches beyond [-1, 1] or not so far. */
     ec_float camera_origin[4];
     ec_float camera_right[4];
     ec_float camera_up[4];
@@ -54,8 +54,9 @@ typedef struct ec_params {
     ec_uint environment_stretch[2]; /* floor(2^64 / numbers that choose the environment), the high word first (lib/choice.h) */
     ec_uint apart;                /* do slots keep indirect light apart (radiance_of), so that it can be limited? */
     ec_float limit;               /* of the luminance of a sample's indirect light; 0: none */
+    ec_float screen[4];           /* x and y of the picture's top left corner; what they grow by from pixel to pixel */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 304);
+EC_ASSERT_SIZE(ec_params, 320);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u

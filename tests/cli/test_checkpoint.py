@@ -277,10 +277,36 @@ class Checkpoint(Case):
         run = eclat("render", "--resume", self.kept, "--spp", "32", "-q", cwd="/")
         self.assertRegex(self.assert_one_error(run, 1), rf"cornell-box.gltf.*; the job was begun in '{os.getcwd()}'$")
 
+    def test_snapshots(self):
+        """Pictures on the way, whole whenever they are read; the last one is the final one but for its attributes."""
+        shot, end = self.path("shot.exr"), self.path("a.exr")
+        process = self.start(CORNELL, "--lanes", "4", *SIZE, "--spp", "512", "--channels", "default,depth", "--snapshot", shot, "--every", "0.000001s", "-q", "-o", end)
+        samples = []
+
+        def more():
+            if os.path.exists(shot):
+                attributes, planes = read_exr(shot)
+                samples.append(attributes["eclat.samplesPerPixel"])
+                self.assertLessEqual({"A", "B", "G", "R", "samples"}, set(planes))
+            return False
+        poll_until(more, process)
+        self.assertEqual(process.wait(GUARD), 0)
+        self.assertEqual(samples, sorted(samples))
+        self.assertGreater(len(set(samples)), 2)
+        (mine, planes), (theirs, whole) = read_exr(shot), read_exr(end)
+        self.assertEqual(planes, whole)
+        for name in ("eclat.samplesPerPixel", "eclat.error", "eclat.errorBound"):
+            self.assertEqual(mine.get(name), theirs.get(name))
+        without = self.render(CORNELL, "--lanes", "4", *SIZE, "--spp", "512")
+        self.assertEqual(without["image_sha256"], theirs["eclat.imageSha256"])
+
     def test_the_command_line(self):
         def refuse(says, *options, code=2):
             self.assertIn(says, self.assert_one_error(eclat("render", *options), code))
-        refuse("--every belongs to --checkpoint", CORNELL, "--every", "5s")
+        refuse("--every belongs to --checkpoint or --snapshot", CORNELL, "--every", "5s")
+        refuse("is both the snapshot and the picture", CORNELL, "--snapshot", "a.exr", "-o", "a.exr")
+        refuse("is both the snapshot and the checkpoint", CORNELL, "--snapshot", "b.exr", "--checkpoint", "b.exr", "-o", "a.exr")
+        refuse("leave --snapshot out", CORNELL, "--snapshot", "b.exr", "--frames", "1:2")
         refuse("must be named NAME.exr", CORNELL, "--checkpoint", "kept")
         refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", "a.exr", "-o", "a.exr")
         for name in ["./a.exr", os.path.join(os.getcwd(), "a.exr")]:

@@ -199,7 +199,7 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "-z", says="unknown option '-z'")
 
     def test_ambiguous_missing_and_superfluous_values(self):
-        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --samples, --scattering, --scene, --seed, --shutter, --size, --spp")
+        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --samples, --scattering, --scene, --screen-window, --seed, --shutter, --size, --snapshot, --spp")
         self.usage("render", "s.gltf", "--spp", says="'--spp' needs a value")
         self.usage("render", "s.gltf", "-o", says="needs a value")
         self.usage("render", "s.gltf", "--quiet=yes", says="takes no value")
@@ -231,6 +231,7 @@ class WrongOptions(Case):
             "--filter": ["gaussian", ""],
             "--filter-width": ["0", "11", "nan", ""],
             "--fstop": ["0", "-2", "nan", "f/2", ""],
+            "--screen-window": ["1", "0,1,0", "1,0,0,1", "0,1,1,0", "0,0,0,1", "0,1e5,0,1", "nan,1,0,1", "0,1,0,1,", ""],
             "--focus": ["0", "-1", "nan", "inf", "2m", ""],
             "--clamp": ["0", "-1", "off", "nan", "inf", "1e7", "10x", ""],
             "--cutoff": ["-0.1", "1.5", "nan", "1%", ""],

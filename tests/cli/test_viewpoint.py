@@ -1,5 +1,5 @@
 # tier: quick
-"""--eye, --look-at, --up, --fov and --parallel: a camera from the command line."""
+"""--eye, --look-at, --up, --fov, --parallel and --screen-window: a camera from the command line."""
 import json
 import math
 import struct
@@ -76,6 +76,31 @@ class Viewpoint(Case):
             self.assertIn(says, self.assert_one_error(eclat("render", self.scene, *options), 2))
         run = eclat("render", self.scene, *SMALL, "--eye=1,2,3", "--look-at=1,2,3", cwd=self.folder)
         self.assertIn("apart", self.assert_one_error(run, 1))
+
+    def test_a_screen_window_shows_another_part(self):
+        """From 2 m at 90 degrees the image plane's unit, half a height, is 2 m. Every integrator: tiles, rays and the file's own camera."""
+        at = ["--eye", "10,20,32", "--look-at=10,20,30", "--fov", "90"]
+        for integrator in ("raster", "whitted", "path"):
+            with self.subTest(integrator):
+                view = [*at, "--integrator", integrator]
+                self.assertEqual(self.lit(*view, "--screen-window=-1.5,1.5,-1,1"), (12, 6, 24, 18))
+                self.assertEqual(self.lit(*view, "--screen-window=-1,2,-1.5,0.5"), (6, 0, 18, 12))  # the lens is shifted to the right, and down
+                self.assertEqual(self.lit(*view, "--screen-window=-0.5,1,-0.5,0.5"), (0, 0, 24, 24))  # a crop, twice as large
+                self.assertEqual(self.lit(*view, "--screen-window=-3,3,-1,1"), (15, 6, 21, 18))  # pixels twice as wide as high
+
+    def test_a_screen_window_of_parallel_rays_and_of_no_size(self):
+        """Here half a height is 2 m too. Without --size, pixels are square."""
+        view = ["--eye", "10,20,32", "--look-at=10,20,30", "--parallel", "4"]
+        self.assertEqual(self.lit(*view, "--screen-window=0,3,-1,1"), (0, 6, 6, 18))
+        out = self.path("out.exr")
+        self.assert_ok(eclat("render", self.scene, "--spp", "1", "--integrator", "raster", "-q", "-o", out, "--screen-window=0,3,-1,1"))
+        attributes = read_exr(out)[0]
+        self.assertEqual(attributes["dataWindow"], (0, 0, 767, 511))
+        self.assertEqual(attributes["eclat.screenWindow"], "0,3,-1,1")
+
+    def test_the_whole_view_as_a_window_has_the_same_bits(self):
+        whole, window = (self.render("--integrator", "path", *options)[1] for options in ([], ["--screen-window=-1.5,1.5,-1,1"]))
+        self.assertEqual(whole["R"], window["R"])
 
 
 if __name__ == "__main__":

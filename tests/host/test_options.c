@@ -60,7 +60,7 @@ static const ec_setting *find_setting(const char *option)
 /* Does some value of it change what a render is asked for? */
 static bool changes_options(const ec_option *o)
 {
-    static const char *const values[] = {NULL, "3", "0.5", "7x5", "1:2", "a.exr", "1,2,3", "on", "off", "lights", "punctual-lights"};
+    static const char *const values[] = {NULL, "3", "0.5", "7x5", "1:2", "a.exr", "1,2,3", "1,2,3,4", "on", "off", "lights", "punctual-lights"};
     for (size_t i = 0; i < sizeof values / sizeof values[0] + 16; i++) {
         const size_t fixed = sizeof values / sizeof values[0];
         const char *value = i < fixed ? values[i] : NULL;
@@ -123,6 +123,7 @@ int main(void)
     check_trait("filter-width", &o, "1.5");
     check_trait("fstop", &o, "0");
     check_trait("cutoff", &o, "0");
+    check_trait("screen-window", &o, "whole");
     check_trait("without", &o, "nothing");
     o.integrator = EC_INTEGRATOR_WHITTED;
     o.clamp = 0.1;

@@ -1,0 +1,52 @@
+"""The render engine."""
+import bpy
+
+from . import final, passes, properties, viewport
+from .trouble import Trouble
+
+
+class Engine(bpy.types.RenderEngine):
+    bl_idname, bl_label = "ECLAT", "eclat"
+    bl_use_preview = False
+    bl_use_eevee_viewport = True           # of material previews
+    bl_use_shading_nodes_custom = False
+    bl_use_postprocess = True
+    viewport = None
+
+    def update_render_passes(self, scene=None, renderlayer=None):
+        self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
+        for name in properties.passes_of(renderlayer):
+            count, channels, kind, _, _ = passes.TABLE[name]
+            self.register_pass(scene, renderlayer, name, count, channels, kind)
+
+    def render(self, depsgraph):
+        layer = depsgraph.view_layer
+        for name in properties.passes_of(layer):
+            self.add_pass(name, *passes.TABLE[name][:2], layer=layer.name)
+        try:
+            final.render(self, depsgraph)
+        except Trouble as why:
+            self.fail(str(why))
+        except OSError as why:
+            self.fail(f"{why.filename}: {why.strerror}" if why.filename else str(why))
+        except Exception as why:  # no traceback, whatever it is
+            self.fail(f"internal error: {type(why).__name__}: {why}")
+
+    def fail(self, line):
+        """Blender writes no picture then, and renders no further frame."""
+        self.report({"ERROR"}, line)
+
+    def view_update(self, context, depsgraph):
+        self.its_viewport().update(depsgraph)
+
+    def view_draw(self, context, depsgraph):
+        self.its_viewport().draw(self, context, depsgraph)
+
+    def its_viewport(self):
+        """Made when it is needed; it goes with the engine, of which Blender makes one for each viewport."""
+        if self.viewport is None:
+            self.viewport = viewport.Viewport()
+        return self.viewport
+
+
+CLASSES = (Engine,)

@@ -1,0 +1,22 @@
+"""Where the program is."""
+import bpy
+
+
+class Preferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
+
+    program: bpy.props.StringProperty(
+        name="Program", subtype="FILE_PATH",
+        description="The program eclat. Left empty: the environment variable ECLAT, an installed Python package eclat, or PATH")
+
+    def draw(self, context):
+        self.layout.prop(self, "program")
+
+
+def program():
+    """What is named there; nothing where the add-on was registered by a script."""
+    addon = bpy.context.preferences.addons.get(__package__)
+    return addon.preferences.program if addon and addon.preferences else ""
+
+
+CLASSES = (Preferences,)

@@ -1,0 +1,103 @@
+"""A running eclat: what it says, the pictures that it makes on the way, its end."""
+import os
+import signal
+import subprocess
+import tempfile
+from typing import NamedTuple, Optional
+
+from . import exr
+from .trouble import Trouble
+
+
+class Shot(NamedTuple):
+    """A picture, on the way or at the end."""
+    attributes: dict
+    planes: dict
+
+    @property
+    def samples(self):
+        return self.attributes.get("eclat.samplesPerPixel", 0)
+
+    def figures(self):
+        """"96 samples, error 2.31 %, 95 % bound 2.40 %"."""
+        error, bound = self.attributes.get("eclat.error"), self.attributes.get("eclat.errorBound")
+        parts = [f"{self.samples:.4g} samples"]
+        parts.append(f"error {100 * error:.3g} %" if is_known(error) else "error not known")
+        parts.append(f"95 % bound {100 * bound:.3g} %" if is_known(bound) else "no bound")
+        return ", ".join(parts)
+
+
+def is_known(value):
+    return value is not None and value < float("inf")
+
+
+class Process:
+    """command: program and words, without outputs. every: seconds between pictures on the way."""
+
+    def __init__(self, command, folder, every=1.0, environment=None):
+        self.final, self.way = os.path.join(folder, "picture.exr"), os.path.join(folder, "snapshot.exr")
+        self.messages = tempfile.TemporaryFile()
+        self.seen = None
+        self.told = 0
+        self.was_stopped = False
+        words = [*command, f"--output={self.final}", f"--snapshot={self.way}", f"--every={every:g}s"]
+        try:
+            self.process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self.messages, env=environment)
+        except OSError as why:
+            raise Trouble(f"'{command[0]}' cannot be started: {why.strerror}") from why
+
+    def is_running(self):
+        return self.process.poll() is None
+
+    def wait(self, seconds):
+        """Until it ends, but not longer than that."""
+        try:
+            self.process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            pass
+
+    def stop(self):
+        """Asks it to end with the picture so far."""
+        if not self.was_stopped and self.is_running():
+            self.process.send_signal(signal.SIGINT)
+        self.was_stopped = True
+
+    def kill(self):
+        if self.is_running():
+            self.process.kill()
+        self.process.wait()
+        self.messages.close()
+
+    def lines(self):
+        size = os.fstat(self.messages.fileno()).st_size
+        text = os.pread(self.messages.fileno(), size, 0).decode("utf-8", "replace")
+        return [line[len("eclat: "):] if line.startswith("eclat: ") else line for line in text.splitlines()]
+
+    def news(self):
+        """Lines that were not asked for before."""
+        found = self.lines()
+        new, self.told = found[self.told:], len(found)
+        return new
+
+    def look(self) -> Optional[Shot]:
+        """The latest picture on the way, if it was not seen before."""
+        try:
+            status = os.stat(self.way)
+            if (status.st_ino, status.st_mtime_ns) == self.seen:
+                return None
+            self.seen = status.st_ino, status.st_mtime_ns
+            return Shot(*exr.read(self.way))
+        except FileNotFoundError:
+            return None
+
+    def result(self) -> Optional[Shot]:
+        """Once it has ended: the picture; None where it was stopped before there was one."""
+        if os.path.exists(self.final):
+            return Shot(*exr.read(self.final))
+        if self.was_stopped:
+            return None
+        failures = [line[len("error: "):] for line in self.lines() if line.startswith("error: ")]
+        raise Trouble(failures[-1] if failures else f"eclat has ended with code {self.process.returncode} and without a word")
+
+    def warnings(self):
+        return [line[len("warning: "):] for line in self.lines() if line.startswith("warning: ")]

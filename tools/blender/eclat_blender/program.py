@@ -1,0 +1,34 @@
+"""Finds the program eclat."""
+import importlib.util
+import os
+import shutil
+
+from .trouble import Trouble
+
+LOOKED = "the add-on's preferences, the environment variable ECLAT, an installed Python package eclat, and PATH"
+
+
+def in_package():
+    """Of the Python package eclat, where that brings the program; looked for without importing it."""
+    found = importlib.util.find_spec("eclat")
+    for folder in (found.submodule_search_locations or []) if found else []:
+        for parts in (("eclat",), ("bin", "eclat"), ("_bin", "eclat")):
+            path = os.path.join(folder, *parts)
+            if os.path.isfile(path) and os.access(path, os.X_OK):
+                return path
+    return None
+
+
+def find(preferred="", environment=os.environ):
+    """The path of the program. What is named and does not work is an error, not passed over."""
+    for path, source in ((preferred, "the add-on's preferences"), (environment.get("ECLAT", ""), "the environment variable ECLAT")):
+        if not path:
+            continue
+        found = shutil.which(os.path.expanduser(path), path=environment.get("PATH"))
+        if not found:
+            raise Trouble(f"'{path}' is no program that can be run; it comes from {source}")
+        return found
+    found = in_package() or shutil.which("eclat", path=environment.get("PATH"))
+    if not found:
+        raise Trouble(f"the program eclat is not there; looked for in {LOOKED}: install it, or name it in the add-on's preferences")
+    return found

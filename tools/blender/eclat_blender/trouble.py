@@ -1,0 +1,5 @@
+"""What ends a render with one line for the user."""
+
+
+class Trouble(Exception):
+    pass

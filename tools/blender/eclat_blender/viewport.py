@@ -1,0 +1,108 @@
+"""The rendered view of a 3D viewport. Drawing never waits: scenes are exported between events, and a process renders them."""
+import hashlib
+import os
+import time
+import weakref
+
+import bpy
+
+from . import export, losses, options, preferences, program, properties, session, view, world
+from .trouble import Trouble
+
+PAUSE = 0.3 # seconds without a change after which a scene is exported again
+teller = losses.Teller()
+
+
+class Viewport:
+    def __init__(self):
+        self.session = self.scene_words = self.texture = self.place = None
+        self.changed_at, self.exported_at = time.monotonic(), None
+        self.trouble = ""
+        itself = weakref.ref(self)  # a timer must not keep it
+        bpy.app.timers.register(lambda: one.tick() if (one := itself()) else None, first_interval=0.01)
+
+    def update(self, depsgraph):
+        """Something of the scene has changed; that may be what an export itself has touched."""
+        self.place = depsgraph.scene.original, depsgraph.view_layer.name
+        if self.exported_at is None or time.monotonic() - self.exported_at > PAUSE:
+            self.changed_at = time.monotonic()
+
+    def tick(self):
+        """Between events. Returns the seconds until the next time."""
+        try:
+            if self.changed_at is not None and self.place and time.monotonic() - self.changed_at > PAUSE and bpy.context.mode == "OBJECT":
+                self.export()
+            if self.session:
+                self.take(self.session.poll())
+        except Trouble as why:
+            self.trouble = str(why)
+        if self.session and (self.session.is_busy or self.trouble):
+            redraw()
+        return 0.1
+
+    def export(self):
+        scene, layer = self.place
+        self.changed_at, self.trouble = None, ""
+        self.session = self.session or session.Session(program.find(preferences.program()))
+        folder = os.path.join(self.session.folder, "scene")
+        os.makedirs(folder, exist_ok=True)
+        try:
+            path, _, _, _, lost = export.scene_to_file(scene, layer, folder, for_render=False)
+        finally:
+            self.exported_at = time.monotonic()
+        kept = kept_as(path)
+        environment, of_world = world.words(scene.world, folder)
+        settings = {**properties.of_scene(scene.eclat), "error": 0, "time": 0, "spp": 0, "adaptive": "auto"}
+        self.scene_words = [kept, *environment, *options.words(settings)]
+        for line in teller.news([*losses.of_scene(scene, for_render=False), *lost, *of_world]):
+            print(f"eclat renders without: {line}")
+        redraw()
+
+    def take(self, shot):
+        if shot is None:
+            return
+        import gpu
+        import numpy
+        from . import passes
+        pixels = numpy.ascontiguousarray(passes.combined(shot.planes), numpy.float32)
+        height, width, _ = pixels.shape
+        self.texture = gpu.types.GPUTexture((width, height), format="RGBA16F", data=gpu.types.Buffer("FLOAT", width * height * 4, pixels.reshape(-1)))
+
+    def draw(self, engine, context, depsgraph):
+        import gpu
+        from gpu_extras.presets import draw_texture_2d
+        region, data, scene = context.region, context.region_data, depsgraph.scene
+        self.place = scene.original, depsgraph.view_layer.name
+        size = (region.width, region.height)
+        if self.session and self.scene_words:
+            words = view.words(data.view_matrix.inverted(), data.window_matrix, size)
+            self.session.show(self.scene_words, words[1:], size, scene.eclat.viewport_spp)
+        if self.texture:
+            gpu.state.blend_set("NONE")
+            engine.bind_display_space_shader(scene)
+            draw_texture_2d(self.texture, (0, 0), *size)
+            engine.unbind_display_space_shader()
+        engine.update_stats("", self.status())
+
+    def status(self):
+        return self.trouble or (self.session.status if self.session else "exporting")
+
+    def __del__(self):
+        if self.session:
+            self.session.close()
+
+
+def kept_as(path):
+    """The same scene under the same name, so that nothing begins afresh where an export brings nothing new."""
+    with open(path, "rb") as file:
+        name = f"{hashlib.sha256(file.read()).hexdigest()[:16]}.glb"
+    kept = os.path.join(os.path.dirname(path), name)
+    os.replace(path, kept)
+    return kept
+
+
+def redraw():
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
