@@ -103,8 +103,8 @@ static void look(tracer *t, uint32_t segment)
         if (entry != UINT32_MAX) end_chain(t, slot, entry);
         t->last[slot] = -1;
         if (entry == UINT32_MAX) continue;
-        if (t->found->vertices) note_vertex(t, slot, entry, segment);
-        else note_chain(t, slot, entry, segment);
+        if (t->found->vertices && segment < EC_CHAIN_VERTICES) note_vertex(t, slot, entry, segment);
+        note_chain(t, slot, entry, segment);
         const uint32_t hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
         if (hit != EC_NO_ID) t->found->visits[ec_rare_material_of(t->lights, hit)]++;
     }
@@ -145,10 +145,10 @@ static ec_result bounce(tracer *t, uint32_t *scalars, uint32_t number, ec_error 
 }
 
 /* Where nothing is more than diffuse only the camera's own directions are sharp. */
-static uint32_t bounces_of(const ec_pipeline *p)
+static uint32_t bounces_of(const ec_pipeline *p, bool has_vertices)
 {
     const bool all = (p->effects.called.bits & EC_FEATURE_SPECULAR) || p->params.sample == EC_SAMPLE_BSDF || p->params.sample == EC_SAMPLE_HEMISPHERE;
-    const uint32_t most = all ? EC_CHAIN_BOUNCES : 1;
+    const uint32_t most = all ? EC_CHAIN_BOUNCES : has_vertices ? EC_CHAIN_VERTICES : 1;
     return most < p->params.max_depth ? most : p->params.max_depth;
 }
 
@@ -163,8 +163,8 @@ static ec_result trace_wave(tracer *t, ec_error *err)
     ec_pipeline_swap_queues(p, 0);
     EC_TRY(ec_pipeline_launch(p, EC_GENERATE, scalars, err));
     ec_pipeline_fill_parts(p, t->count);
-    const uint32_t bounces = t->found->vertices ? EC_CHAIN_VERTICES : bounces_of(p);
-    for (uint32_t b = 0; b < bounces && b < p->params.max_depth && ec_pipeline_total(p->counters.rays[0]); b++)
+    const uint32_t bounces = bounces_of(p, t->found->vertices != NULL);
+    for (uint32_t b = 0; b < bounces && ec_pipeline_total(p->counters.rays[0]); b++)
         EC_TRY(bounce(t, scalars, b, err));
     return EC_OK;
 }
@@ -217,12 +217,13 @@ static void list_paths(const ec_params *params, uint32_t *list)
     }
 }
 
-static ec_result trace_into(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
+ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err)
 {
     const uint32_t wave = p->wave < EC_CHAIN_PATHS ? p->wave : EC_CHAIN_PATHS;
     tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * EC_CHAIN_PATHS};
-    chains->paths = EC_CHAIN_PATHS;
-    chains->visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits);
+    *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains),
+                          .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
+    if (has_vertices) chains->vertices = malloc(EC_CHAIN_VERTICES * EC_CHAIN_PATHS * sizeof *chains->vertices);
     t.list = malloc(4 * EC_LIST_WORDS * EC_CHAIN_PATHS);
     t.at = malloc(4ull * wave);
     t.last = malloc(8ull * wave);
@@ -230,7 +231,7 @@ static ec_result trace_into(ec_pipeline *p, const ec_rare_lights *lights, ec_cha
     t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
     t.hits = malloc(4ull * (wave + p->params.part));
     ec_result result = EC_OK;
-    if (!(chains->chains || chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
+    if (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
         result = ec_fail(err, "out of memory for %d paths", EC_CHAIN_PATHS);
     if (result == EC_OK) {
         list_paths(&p->params, t.list);
@@ -243,18 +244,6 @@ static ec_result trace_into(ec_pipeline *p, const ec_rare_lights *lights, ec_cha
     free(t.queue);
     free(t.hits);
     return result;
-}
-
-ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
-{
-    *chains = (ec_chains){.chains = malloc(8 * EC_CHAIN_PATHS * sizeof *chains->chains)};
-    return trace_into(p, lights, chains, err);
-}
-
-ec_result ec_chains_trace_vertices(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
-{
-    *chains = (ec_chains){.vertices = malloc(EC_CHAIN_VERTICES * EC_CHAIN_PATHS * sizeof *chains->vertices)};
-    return trace_into(p, lights, chains, err);
 }
 
 void ec_chains_free(ec_chains *chains)

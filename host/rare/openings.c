@@ -19,12 +19,7 @@ enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one befo
 #define FLAT 0.05     /* … that lie no further from its plane, over their distance */
 #define COMMON 0.02   /* chance beyond which every picture meets its light, as in paths.c */
 
-/* Where sunlight falls, or a lamp's. */
-typedef struct patch {
-    float point[3], normal[3]; /* towards the sun's side */
-    double irradiance, area;
-    const ec_rare_sun *sun;
-} patch;
+typedef ec_rare_patch patch;
 
 typedef struct finder {
     const ec_rare_lights *all;
@@ -198,14 +193,14 @@ typedef struct near_vertex {
 } near_vertex;
 
 /* Those of the patch's plane and side, the nearest first; seen: by the camera, or only on the way. */
-static uint32_t find_near(const finder *f, const ec_chains *paths, const patch *at, bool seen, near_vertex near[NEAREST])
+static uint32_t find_near(double radius, const ec_chains *paths, const patch *at, bool seen, near_vertex near[NEAREST])
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < paths->vertex_count; i++) {
         const ec_chain *c = &paths->vertices[i];
         const float way[3] = {c->origin[0] - at->point[0], c->origin[1] - at->point[1], c->origin[2] - at->point[2]};
         const double square = dot(way, way), height = dot(way, at->normal);
-        const bool is_there = dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BESIDE * f->all->radius;
+        const bool is_there = dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BESIDE * radius;
         if ((c->segment == 1) != seen || !is_there) continue;
         if (count == NEAREST && square >= near[NEAREST - 1].square) continue;
         uint32_t k = count < NEAREST ? count++ : NEAREST - 1;
@@ -223,11 +218,11 @@ static double gathered(const uint32_t *tiles, uint32_t count)
     return sqrt(fmax(1, count > 1 ? (double)EC_RARE_SHARES * pairs / count / (count - 1) : EC_RARE_SHARES));
 }
 
-static void add_kind(const finder *f, const ec_chains *paths, const patch *at, bool seen, ec_rare *rare)
+static void add_kind(double radius, const ec_chains *paths, const patch *at, bool seen, ec_rare *rare)
 {
     near_vertex near[NEAREST];
     uint32_t tiles[EC_RARE_SHARES] = {0};
-    const uint32_t count = find_near(f, paths, at, seen, near);
+    const uint32_t count = find_near(radius, paths, at, seen, near);
     double beta = 0;
     if (!count) return;
     const double chance = count * fmin(at->area / (PI * near[count - 1].square), 1) / paths->paths;
@@ -248,19 +243,27 @@ static void add_kind(const finder *f, const ec_chains *paths, const patch *at, b
     snprintf(kind->light, sizeof kind->light, "a small patch lit by %.*s", EC_RARE_NAME - 24, at->sun->name);
 }
 
-ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_rare *rare, ec_error *err)
+ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_rare_openings *openings, ec_error *err)
 {
     const size_t most = all->edge_count > LANDED * RINGS * AROUND ? all->edge_count : LANDED * RINGS * AROUND;
+    *openings = (ec_rare_openings){0};
     if (!all->sun_count || !all->edge_count) return EC_OK;
     finder f = {.all = all, .p = p, .rays = calloc(most, sizeof *f.rays), .patches = calloc((size_t)all->sun_count * LANDED, sizeof *f.patches)};
-    ec_chains paths = {0};
     ec_result result = f.rays && f.patches ? EC_OK : ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
     for (uint32_t i = 0; result == EC_OK && i < all->sun_count; i++) result = find_patches(&f, &all->suns[i], err);
-    if (result == EC_OK && f.count) result = ec_chains_trace_vertices(p, all, &paths, err);
-    for (uint32_t i = 0; result == EC_OK && i < f.count; i++)
-        for (int seen = 0; seen < 2; seen++) add_kind(&f, &paths, &f.patches[i], seen, rare);
-    ec_chains_free(&paths);
     free(f.rays);
-    free(f.patches);
+    *openings = (ec_rare_openings){f.count, f.patches};
     return result;
+}
+
+void ec_rare_openings_judge(const ec_rare_openings *openings, const ec_rare_lights *all, const ec_chains *paths, ec_rare *rare)
+{
+    for (uint32_t i = 0; i < openings->count; i++)
+        for (int seen = 0; seen < 2; seen++) add_kind((double)all->radius, paths, &openings->patches[i], seen, rare);
+}
+
+void ec_rare_openings_free(ec_rare_openings *openings)
+{
+    free(openings->patches);
+    *openings = (ec_rare_openings){0};
 }
