@@ -14,7 +14,8 @@ static double excess(const ec_film_outlook *o, double samples) { return (o->slop
 double ec_outlook_bound(const ec_film_outlook *o, double samples)
 {
     const double slope = o->slope - 1, fall = samples > o->samples ? FADES * (slope - excess(o, samples)) : slope * log(samples / o->samples);
-    return ec_film_error_bound(o->square * o->samples / samples * exp(-fall), o->noisy_pixels, o->pixels, o->replicates);
+    const double bright = o->bright_samples * samples / o->samples;
+    return ec_film_error_bound(o->square * o->samples / samples * exp(-fall), o->noisy_pixels, bright, o->pixels, o->replicates);
 }
 
 double ec_outlook_samples(const ec_film_outlook *o, double target)

@@ -11,7 +11,7 @@
 typedef struct ec_film_outlook {
     double square, samples;  /* error^2 with so many samples a pixel */
     double slope;
-    double noisy_pixels, pixels, replicates;
+    double noisy_pixels, bright_samples, pixels, replicates;
 } ec_film_outlook;
 
 /* The bound after so many samples a pixel. */

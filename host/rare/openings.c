@@ -11,8 +11,9 @@
 #define BESIDE 1e-4   /* of the scene's radius: so far from an edge rays go past it */
 #define ABOVE 1e-5    /* likewise, above what is lit */
 #define GRAZING 0.05  /* cosine under which light goes along what it falls on */
-enum { LANDED = 64 }; /* rays of a sun whose surroundings are felt for */
+enum { LANDED = 192, FELT = 32, PATCHES = 24 }; /* rays of a sun whose surroundings are looked at, and felt for; patches in all */
 enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one before */
+enum { SMALL_RING = 3, SMALL_LIT = 3 }; /* so many of this ring's rays that are lit make an area of more than SMALL */
 #define LARGEST 0.3   /* of the scene's radius: the first one */
 #define SMALL 3e-4    /* of the disk around the scene: what is lit more is met soon */
 #define NEAREST 12    /* vertices by which their density is told … */
@@ -60,7 +61,8 @@ static double irradiance_at(const ec_rare_sun *sun, const float point[3], const 
 {
     const double cosine = dot(sun->direction, along);
     if (!sun->is_lamp) return sun->irradiance;
-    return sun->irradiance * fmax(sun->two_sided ? fabs(cosine) : cosine, 0) / fmax(square_between(sun->middle, point), 1e-30);
+    const double far = sun->irradiance * fmax(sun->two_sided ? fabs(cosine) : cosine, 0) / fmax(square_between(sun->middle, point), 1e-30);
+    return fmin(far, PI * sun->radiance); /* no more than under a sky of such lamps */
 }
 
 /* From a point moved `back` against a direction, along it. */
@@ -125,21 +127,27 @@ static ec_result pass_edges(finder *f, const ec_rare_sun *sun, uint32_t *landed,
     return result;
 }
 
+static int count_lit(const finder *f, const ec_rare_sun *sun, const ec_chain *ring)
+{
+    int lit = 0;
+    for (int k = 0; k < AROUND; k++) lit += meets(f, sun, &ring[k]);
+    return lit;
+}
+
 /* Adds up rings around a patch's point, from the smallest on, up to where nothing is lit. */
 static double lit_area(const finder *f, const ec_rare_sun *sun, const ec_chain *rays)
 {
     double area = 0, outer = LARGEST * f->all->radius * ldexp(1, 1 - RINGS), inner = 0;
     for (int ring = RINGS - 1; ring >= 0; ring--, inner = outer, outer *= 2) {
-        int lit = 0;
-        for (int k = 0; k < AROUND; k++) lit += meets(f, sun, &rays[ring * AROUND + k]);
+        const int lit = count_lit(f, sun, rays + ring * AROUND);
         if (!lit && ring < RINGS - 1) break;
         area += PI * (outer * outer - inner * inner) * lit / AROUND;
     }
     return area;
 }
 
-/* Rays from around it towards the sun: in each ring evenly. */
-static void feel_around(const finder *f, const patch *at, uint64_t *random, ec_chain *rays)
+/* Rays from around it towards the sun: in a ring evenly. */
+static void feel_ring(const finder *f, const patch *at, int ring, uint64_t *random, ec_chain *rays)
 {
     const int axis = fabsf(at->normal[0]) < 0.6f ? 0 : 1;
     const float *n = at->normal;
@@ -147,10 +155,9 @@ static void feel_around(const finder *f, const patch *at, uint64_t *random, ec_c
     for (int k = 0; k < 3; k++) u[k] = (k == axis) - (double)n[axis] * n[k], length += u[k] * u[k];
     for (int k = 0; k < 3; k++) u[k] /= sqrt(length);
     for (int k = 0; k < 3; k++) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
-    for (int i = 0; i < RINGS * AROUND; i++) {
-        const double outer = LARGEST * f->all->radius * ldexp(1, -(i / AROUND)), inner = i / AROUND < RINGS - 1 ? outer / 2 : 0;
-        const double r = sqrt(ec_random_between(random, inner * inner, outer * outer)), above = ABOVE * f->all->radius;
-        const double angle = 2 * PI * (i % AROUND + ec_random_unit(random)) / AROUND;
+    const double outer = LARGEST * f->all->radius * ldexp(1, -ring), inner = ring < RINGS - 1 ? outer / 2 : 0, above = ABOVE * f->all->radius;
+    for (int i = 0; i < AROUND; i++) {
+        const double r = sqrt(ec_random_between(random, inner * inner, outer * outer)), angle = 2 * PI * (i + ec_random_unit(random)) / AROUND;
         float point[3], towards[3];
         for (int k = 0; k < 3; k++) point[k] = (float)(at->point[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]) + above * n[k]);
         aim(f, at->sun, point, towards);
@@ -165,6 +172,19 @@ static bool is_known(const finder *f, const patch *at)
     return false;
 }
 
+/* Leaves those alone around which not so much is lit that they are no small patches. */
+static ec_result drop_large(finder *f, const ec_rare_sun *sun, patch *found, uint32_t *count, uint64_t *random, ec_error *err)
+{
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < *count; k++) feel_ring(f, &found[k], SMALL_RING, random, f->rays + (size_t)k * AROUND);
+    if (*count) EC_TRY(ec_chains_meet(f->p, f->rays, *count * AROUND, err));
+    for (uint32_t k = 0; k < *count; k++)
+        if (count_lit(f, sun, f->rays + (size_t)k * AROUND) < SMALL_LIT) found[kept++] = found[k];
+    *count = kept < FELT ? kept : FELT;
+    for (uint32_t k = 0; k < *count; k++) found[k] = found[(uint64_t)k * kept / *count];
+    return EC_OK;
+}
+
 static ec_result find_patches(finder *f, const ec_rare_sun *sun, ec_error *err)
 {
     uint32_t landed = 0, count = 0;
@@ -176,10 +196,11 @@ static ec_result find_patches(finder *f, const ec_rare_sun *sun, ec_error *err)
         EC_TRY(land(f, &f->rays[landed > LANDED ? (uint64_t)k * landed / LANDED : k], sun, &found[count], &is_there, err));
         count += is_there;
     }
-    for (uint32_t k = 0; k < count; k++) feel_around(f, &found[k], &random, f->rays + (size_t)k * RINGS * AROUND);
+    EC_TRY(drop_large(f, sun, found, &count, &random, err));
+    for (uint32_t k = 0; k < count * RINGS; k++) feel_ring(f, &found[k / RINGS], (int)(k % RINGS), &random, f->rays + (size_t)k * AROUND);
     if (count) EC_TRY(ec_chains_meet(f->p, f->rays, count * RINGS * AROUND, err));
     const double most = SMALL * PI * f->all->radius * f->all->radius;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < count && f->count < PATCHES; k++) {
         found[k].area = lit_area(f, sun, f->rays + (size_t)k * RINGS * AROUND);
         if (found[k].area > 0 && found[k].area < most && !is_known(f, &found[k])) f->patches[f->count++] = found[k];
     }
@@ -245,10 +266,10 @@ static void add_kind(double radius, const ec_chains *paths, const patch *at, boo
 
 ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_rare_openings *openings, ec_error *err)
 {
-    const size_t most = all->edge_count > LANDED * RINGS * AROUND ? all->edge_count : LANDED * RINGS * AROUND;
+    const size_t most = all->edge_count > FELT * RINGS * AROUND ? all->edge_count : FELT * RINGS * AROUND;
     *openings = (ec_rare_openings){0};
     if (!all->sun_count || !all->edge_count) return EC_OK;
-    finder f = {.all = all, .p = p, .rays = calloc(most, sizeof *f.rays), .patches = calloc((size_t)all->sun_count * LANDED, sizeof *f.patches)};
+    finder f = {.all = all, .p = p, .rays = calloc(most, sizeof *f.rays), .patches = calloc(PATCHES, sizeof *f.patches)};
     ec_result result = f.rays && f.patches ? EC_OK : ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
     for (uint32_t i = 0; result == EC_OK && i < all->sun_count; i++) result = find_patches(&f, &all->suns[i], err);
     free(f.rays);

@@ -12,6 +12,7 @@
 #define BESIDE 1e-4   /* of the scene's radius, from the edge */
 #define NARROW 0.02   /* steradians: of what is wider one ray does not tell where its light falls */
 #define ONE_SUN 0.995 /* cosine between parts of a map that are one sun */
+#define WEAK 0.01     /* of the strongest sun's irradiance, or of all lamps' power */
 
 /* In place of the weakest where there is no room. */
 static void add_sun(const ec_rare_sun *sun, ec_rare_lights *all)
@@ -66,19 +67,32 @@ static void add_from_map(ec_rare_lights *all)
     }
 }
 
+static void drop_weak_suns(ec_rare_lights *all)
+{
+    double most = 0;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < all->sun_count; i++) most = fmax(most, all->suns[i].irradiance);
+    for (uint32_t i = 0; i < all->sun_count; i++)
+        if (all->suns[i].irradiance >= WEAK * most) all->suns[kept++] = all->suns[i];
+    all->sun_count = kept;
+}
+
 /* A triangle each of the lamps that come first, two where those are few: they are in order of power. */
 static void add_lamps(ec_rare_lights *all)
 {
     uint32_t aims = 0, lamps = 0;
-    for (uint32_t i = 0; i < all->count; i++) lamps += all->lights[i].lamp_count > 0;
+    double power = 0;
+    for (uint32_t i = 0; i < all->count; i++)
+        if (all->lights[i].lamp_count) power += all->lights[i].power, lamps++;
     const uint32_t each = 2 * lamps <= EC_RARE_AIMS ? 2 : 1;
     for (uint32_t i = 0; i < all->count && aims < EC_RARE_AIMS; i++) {
         const ec_rare_light *l = &all->lights[i];
+        if (l->power < WEAK * power) continue;
         const uint32_t parts = l->lamp_count < each ? l->lamp_count : each;
         for (uint32_t k = 0; k < parts && aims < EC_RARE_AIMS; k++, aims++) {
             const ec_rare_lamp *lamp = &l->lamps[k * (l->lamp_count / 2)];
             ec_rare_sun *sun = &all->suns[all->sun_count++];
-            *sun = (ec_rare_sun){.is_lamp = true, .two_sided = lamp->two_sided, .material = l->material};
+            *sun = (ec_rare_sun){.is_lamp = true, .two_sided = lamp->two_sided, .material = l->material, .radiance = l->radiance};
             sun->irradiance = l->radiance * lamp->area * lamp->weight * l->lamp_count / parts;
             memcpy(sun->middle, lamp->middle, sizeof sun->middle);
             memcpy(sun->direction, lamp->normal, sizeof sun->direction);
@@ -153,6 +167,7 @@ ec_result ec_rare_suns_find(const ec_pack *pack, ec_rare_lights *all, ec_error *
 {
     add_directional(&pack->plain.scene, all);
     add_from_map(all);
+    drop_weak_suns(all);
     add_lamps(all);
     all->flat_count = ec_scene_flat_count(&pack->plain.scene);
     return all->sun_count ? find_edges(pack, all, err) : EC_OK;
