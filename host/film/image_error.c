@@ -135,7 +135,7 @@ double ec_film_error_bound(double square, double noisy_pixels, double bright_sam
     return sqrt(square) * exp(0.5 * hypot(hypot(from_pixels, from_mean), from_samples));
 }
 
-/* No bound where light may be missing that would break it. Where some of it was met by chance, the picture is brighter and its error larger
+/* Light that may be missing widens the bound; there is none where that light may be more than the noise. Where some of it was met by chance, the picture is brighter and its error larger
  * for it; then a few samples hold most of the noise, and what is missing is looked at beside what the picture is without them. */
 static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare, double limit, ec_film_error *e)
 {
@@ -150,9 +150,9 @@ static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare,
     e->unmet_samples = kind ? EC_RARE_MET / kind->chance / pixels : 0;
     e->bound_if_met = e->error_bound;
     e->tail_share = sums->s2 > 0 ? fmin(few / sums->s2, 1) : 0;
-    e->is_open = hypot(e->error, EC_RARE_DOUBT * e->unmet) > e->error_bound || (sqrt(unmet) > EC_RARE_LEAST * rest && e->tail_share > EC_RARE_TAIL);
+    e->is_open = EC_RARE_DOUBT * e->unmet > e->error || (sqrt(unmet) > EC_RARE_LEAST * rest && e->tail_share > EC_RARE_TAIL);
     if (kind) memcpy(e->through, kind->through, sizeof e->through), memcpy(e->light, kind->light, sizeof e->light);
-    if (e->is_open) e->error_bound = INFINITY;
+    e->error_bound = e->is_open ? INFINITY : hypot(e->error_bound, EC_RARE_DOUBT * e->unmet);
 }
 
 ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare, double limit)
