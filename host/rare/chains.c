@@ -7,6 +7,7 @@
 #include "film/film.h"
 #include "device/adaptive.h"
 
+enum { LANES_MOST = 64 }; /* more than any work-item has */
 #define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
 
 /* The paths of a wave, as the host sees them between two kernels. */
@@ -254,23 +255,25 @@ void ec_chains_free(ec_chains *chains)
     *chains = (ec_chains){0};
 }
 
-/* A queue of rays alone, part after part as fill_parts has them. */
+/* A queue of rays alone, part after part as fill_parts has them. Lanes past the last ray look too: they have it again. */
 static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float *field, ec_error *err)
 {
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
+    const uint32_t padded = (count + LANES_MOST - 1) / LANES_MOST * LANES_MOST, entries = padded < p->wave ? padded : p->wave;
     ec_counters *counters = &p->counters;
     memset(counters, 0, sizeof *counters);
     ec_pipeline_fill_parts(p, count);
     ec_pipeline_swap_queues(p, 0);
     EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     for (uint32_t f = 0; f <= EC_PATH_PRIM; f++) {
-        for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t i = 0; i < entries; i++) {
             const uint32_t k = f < EC_PATH_DX ? f : f - EC_PATH_DX;
-            if (f < EC_PATH_DX) field[i] = rays[i].origin[k];
-            else if (f < EC_PATH_BR) field[i] = rays[i].direction[k];
-            else memcpy(&field[i], f == EC_PATH_PRIM ? &rays[i].prim : &i, sizeof i); /* slots, and what nobody looks at */
+            const ec_chain *ray = &rays[i < count ? i : count - 1];
+            if (f < EC_PATH_DX) field[i] = ray->origin[k];
+            else if (f < EC_PATH_BR) field[i] = ray->direction[k];
+            else memcpy(&field[i], f == EC_PATH_PRIM ? &ray->prim : &i, sizeof i); /* slots, and what nobody looks at */
         }
-        EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave * f, 4ull * count, field, err));
+        EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave * f, 4ull * entries, field, err));
     }
     EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], 4ull * p->wave * EC_HIT_PRIM, 4ull * count, field, err));
@@ -280,7 +283,7 @@ static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float
 
 ec_result ec_chains_meet(ec_pipeline *p, ec_chain *rays, uint32_t count, ec_error *err)
 {
-    float *field = malloc(4ull * count + 4);
+    float *field = malloc(4ull * (count + LANES_MOST));
     ec_result result = field ? EC_OK : ec_fail(err, "out of memory for %u rays", count);
     for (uint32_t first = 0, wave; result == EC_OK && first < count; first += wave) {
         wave = count - first < p->wave ? count - first : p->wave;
