@@ -7,7 +7,7 @@
 #include "pack/pack.h"
 #include "shared/params.h"
 
-enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_EDGES = 1 << 13, EC_RARE_LAMP_EDGES = 1 << 10 };
+enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_EDGES = 1 << 13, EC_RARE_LAMP_EDGES = 1 << 9 };
 
 /* A lamp's triangle or a part of one, which stands for `weight` of its group. */
 typedef struct ec_rare_lamp {

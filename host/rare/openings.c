@@ -11,7 +11,8 @@
 #define BESIDE 1e-4   /* of the scene's radius: so far from an edge rays go past it */
 #define ABOVE 1e-5    /* likewise, above what is lit */
 #define GRAZING 0.05  /* cosine under which light goes along what it falls on */
-enum { LANDED = 192, FELT = 32, PATCHES = 24 }; /* rays of a sun whose surroundings are looked at, and felt for; patches in all */
+enum { PASSED = 1 << 11 };                       /* rays past edges that are followed to where they land */
+enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a sun whose surroundings are looked at, and felt for; patches in all */
 enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one before */
 enum { SMALL_RING = 3, SMALL_LIT = 3 }; /* so many of this ring's rays that are lit make an area of more than SMALL */
 #define LARGEST 0.3   /* of the scene's radius: the first one */
@@ -120,6 +121,7 @@ static ec_result pass_edges(finder *f, const ec_rare_sun *sun, uint32_t *landed,
         aim(f, sun, f->all->edges[i], towards);
         set_ray(&f->rays[passed++], f->all->edges[i], towards, -1, back);
     }
+    passed = passed < PASSED ? passed : PASSED; /* edges are in no order */
     if (result == EC_OK && passed) result = ec_chains_meet(f->p, f->rays, passed, err);
     *landed = 0;
     for (uint32_t i = 0; i < passed; i++)
