@@ -19,18 +19,28 @@ double ec_outlook_fall(const ec_film_outlook *o, double samples)
 
 double ec_outlook_bound(const ec_film_outlook *o, double samples)
 {
-    return ec_film_error_bound(o->square / ec_outlook_fall(o, samples), o->noisy_pixels, o->pixels, o->replicates);
+    const double bright = o->bright_samples * samples / o->samples;
+    const double met = ec_film_error_bound(o->square / ec_outlook_fall(o, samples), o->noisy_pixels, bright, o->pixels, o->replicates);
+    return samples < o->unmet_samples ? hypot(met, o->unmet) : met;
 }
 
-double ec_outlook_samples(const ec_film_outlook *o, double target)
+/* As if no light were missing. */
+static double samples_if_met(const ec_film_outlook *o, double target)
 {
+    const ec_film_outlook met = {o->square, o->samples, o->slope, o->noisy_pixels, o->bright_samples, o->pixels, o->replicates, 0, 0};
     double samples = o->samples * pow(o->square / (target * target), 1 / o->slope);
     for (int i = 0; i < 20; i++) { /* Newton's method on logarithms, but for the bound's factor, which hardly depends on the number */
-        const double bound = ec_outlook_bound(o, samples), better = samples * pow(bound / target, 2 / (1 + excess(o, samples)));
+        const double bound = ec_outlook_bound(&met, samples), better = samples * pow(bound / target, 2 / (1 + excess(o, samples)));
         if (fabs(better - samples) < 1e-6 * samples) return better;
         samples = fmax(better, 1);
     }
     return samples;
+}
+
+double ec_outlook_samples(const ec_film_outlook *o, double target)
+{
+    const double before = target > o->unmet ? samples_if_met(o, sqrt(target * target - o->unmet * o->unmet)) : INFINITY;
+    return before < o->unmet_samples ? before : fmin(before, fmax(samples_if_met(o, target), o->unmet_samples));
 }
 
 /* Least squares of ln error^2 over ln samples, over at most two octaves. A round's error^2 strays by `spread`, mostly in common with

@@ -19,6 +19,10 @@
  * add in squares. In logarithms, since a mean that a few bright samples make is known by a factor: through a keyhole, where it came out
  * up to 4 times too high, bounds held in 90 of 100 renders otherwise.
  *
+ * Where a few bright samples make the noise, as those of a highlight within a pixel do, they come or they do not: their number is Poisson's.
+ * K equal ones would make as much of it (bright_samples), and their mean number stays under Poisson's upper limit for K: a third width of
+ * ln E^2. On a golden knot under a map with small lamps, bounds held in 17 of 20 renders otherwise.
+ *
  * Where it holds: tests/host/test_film_coverage.c prints the table. With n = 2 or 3 the spread of a sample variance cannot
  * be told from the pixel's own kurtosis; normal pixels are assumed, which is too wide for skewed ones and too narrow if
  * one or a few pixels hold nearly all the noise. Of light that no sample has met no estimate can know. */
@@ -27,6 +31,8 @@
 
 #include "film/pixel.h"
 #include "film/statistics.h"
+
+#define MANY 1e6 /* bright samples: of more the number is as good as known */
 
 /* An estimate of v^2 without bias for any distribution: with k-statistics (Fisher 1930; Kendall & Stuart ch. 12)
  * E[k2^2] = v^2 (n+1)/(n-1) + kappa4/n and E[k4] = kappa4. */
@@ -97,6 +103,14 @@ void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums)
     }
 }
 
+/* How many equal samples the few largest are of that make the noise: (sum v)^2 / sum x^4, x how far one moved its pixel's mean. */
+static double bright_samples(const ec_error_sums *sums)
+{
+    double fourth = 0;
+    for (uint32_t i = 0; i < sums->tail.count; i++) fourth += pow(sums->tail.largest[i], 4);
+    return fmax(sums->s2 * sums->s2 / fourth, 1); /* infinite where none stands out */
+}
+
 /* nu. G is taken one standard error high, since it comes out low just when a noisy pixel's variance does, and then both
  * would make the bound too small; with many pixels that margin vanishes. */
 static double effective_pixels(const ec_error_sums *sums, double n, double pixels)
@@ -113,14 +127,15 @@ static double effective_pixels(const ec_error_sums *sums, double n, double pixel
     return 1 + (s2_squared - sums->s4) / G;           /* for one noisy pixel exactly 1 */
 }
 
-double ec_film_error_bound(double square, double noisy_pixels, double pixels, double replicates)
+double ec_film_error_bound(double square, double noisy_pixels, double bright_samples, double pixels, double replicates)
 {
     double from_pixels = log(ec_f_quantile(EC_BOUND_CONFIDENCE, noisy_pixels, noisy_pixels * fmax(replicates - 1, 1)));
     double from_mean = 2 * ec_normal_upper_quantile(1 - EC_BOUND_CONFIDENCE) * sqrt(square / pixels);
-    return sqrt(square) * exp(0.5 * hypot(from_pixels, from_mean));
+    double from_samples = bright_samples < MANY ? log(ec_poisson_upper_mean(EC_BOUND_CONFIDENCE, bright_samples) / bright_samples) : 0;
+    return sqrt(square) * exp(0.5 * hypot(hypot(from_pixels, from_mean), from_samples));
 }
 
-/* No bound where light may be missing that would break it. Where some of it was met by chance, the picture is brighter and its error larger
+/* Light that may be missing widens the bound; there is none where that light may be more than the noise. Where some of it was met by chance, the picture is brighter and its error larger
  * for it; then a few samples hold most of the noise, and what is missing is looked at beside what the picture is without them. */
 static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare, double limit, ec_film_error *e)
 {
@@ -135,9 +150,9 @@ static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare,
     e->unmet_samples = kind ? EC_RARE_MET / kind->chance / pixels : 0;
     e->bound_if_met = e->error_bound;
     e->tail_share = sums->s2 > 0 ? fmin(few / sums->s2, 1) : 0;
-    e->is_open = hypot(e->error, EC_RARE_DOUBT * e->unmet) > e->error_bound || (sqrt(unmet) > EC_RARE_LEAST * rest && e->tail_share > EC_RARE_TAIL);
+    e->is_open = EC_RARE_DOUBT * e->unmet > e->error || (sqrt(unmet) > EC_RARE_LEAST * rest && e->tail_share > EC_RARE_TAIL);
     if (kind) memcpy(e->through, kind->through, sizeof e->through), memcpy(e->light, kind->light, sizeof e->light);
-    if (e->is_open) e->error_bound = INFINITY;
+    e->error_bound = e->is_open ? INFINITY : hypot(e->error_bound, EC_RARE_DOUBT * e->unmet);
 }
 
 ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare, double limit)
@@ -156,7 +171,8 @@ ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_
         /* Var(s^2) = E[s^4] - v^2; with n < 4 that of normal pixels. */
         double variance = n >= 4 ? fmax(sums->s4 - sums->v4, 0) : sums->s4 * 2 / (n + 1);
         result.spread = sqrt(variance) / sums->s2;
-        result.error_bound = ec_film_error_bound(square, result.noisy_pixels, pixels, n);
+        result.bright_samples = bright_samples(sums);
+        result.error_bound = ec_film_error_bound(square, result.noisy_pixels, result.bright_samples, pixels, n);
     }
     judge(sums, pixels, rare, limit, &result);
     return result;

@@ -45,6 +45,11 @@ double ec_f_quantile(double p, double d1, double d2)
     return guarded([=] { return quantile(fisher_f_distribution<double, quiet>(d1, d2), p); });
 }
 
+double ec_poisson_upper_mean(double p, double count)
+{
+    return guarded([=] { return gamma_p_inv(count + 1, p, quiet()); });
+}
+
 double ec_binomial_upper_tail(double k, double n, double p)
 {
     if (k <= 0) return 1;

@@ -21,6 +21,9 @@ double ec_student_t_quantile(double p, double nu);
 /* Fisher's F with d1 and d2 degrees of freedom (any positive reals): x with P(F <= x) = p. */
 double ec_f_quantile(double p, double d1, double d2);
 
+/* Poisson: the mean under which so few events as `count` (any real from 0 on), or fewer, come with probability 1 - p. */
+double ec_poisson_upper_mean(double p, double count);
+
 /* Binomial: P(K >= k) of n trials that succeed with probability p. */
 double ec_binomial_upper_tail(double k, double n, double p);
 

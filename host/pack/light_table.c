@@ -120,6 +120,7 @@ static void balance(light_list *list, ec_pack *pack)
     double sum[2] = {0.0, 0.0};
     for (uint32_t i = 0; i < list->count; i++) sum[ec_light_is_far(&list->lights[i])] += list->power[i];
     pack->lamp_share = (float)(sum[0] > 0.0 ? sum[0] / (sum[0] + sum[1]) : 0.0);
+    pack->lamp_power = sum[0];
     if (!(sum[0] > 0.0 && sum[1] > 0.0)) return;
     for (uint32_t i = 0; i < list->count; i++) list->power[i] /= sum[ec_light_is_far(&list->lights[i])];
 }

@@ -42,6 +42,7 @@ typedef struct ec_pack {
     uint32_t lamp_node_count;      /* 0: no lamp is in parts */
     ec_lamp_node *lamp_nodes;      /* of lamps whose texture varies (lamp_parts.h) */
     float lamp_share;              /* lamps' part of all lights' power */
+    double lamp_power;             /* W, of luminance: what is shared among lamps as their pmf has it */
     uint32_t light_tree_numbers;   /* of 2^31 numbers those by which light sampling goes to the tree */
     uint32_t environment_width, environment_height;
     float *environment_texels;     /* height + 1 rows, the first one twice: R, G, B and the scale of the patch right of and below the

@@ -7,6 +7,7 @@
 #include "film/film.h"
 #include "device/adaptive.h"
 
+enum { LANES_MOST = 64 }; /* more than any work-item has */
 #define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
 
 /* The paths of a wave, as the host sees them between two kernels. */
@@ -103,8 +104,8 @@ static void look(tracer *t, uint32_t segment)
         if (entry != UINT32_MAX) end_chain(t, slot, entry);
         t->last[slot] = -1;
         if (entry == UINT32_MAX) continue;
-        if (t->found->vertices) note_vertex(t, slot, entry, segment);
-        else note_chain(t, slot, entry, segment);
+        if (t->found->vertices && segment < EC_CHAIN_VERTICES) note_vertex(t, slot, entry, segment);
+        note_chain(t, slot, entry, segment);
         const uint32_t hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
         if (hit != EC_NO_ID) t->found->visits[ec_rare_material_of(t->lights, hit)]++;
     }
@@ -145,10 +146,10 @@ static ec_result bounce(tracer *t, uint32_t *scalars, uint32_t number, ec_error 
 }
 
 /* Where nothing is more than diffuse only the camera's own directions are sharp. */
-static uint32_t bounces_of(const ec_pipeline *p)
+static uint32_t bounces_of(const ec_pipeline *p, bool has_vertices)
 {
     const bool all = (p->effects.called.bits & EC_FEATURE_SPECULAR) || p->params.sample == EC_SAMPLE_BSDF || p->params.sample == EC_SAMPLE_HEMISPHERE;
-    const uint32_t most = all ? EC_CHAIN_BOUNCES : 1;
+    const uint32_t most = all ? EC_CHAIN_BOUNCES : has_vertices ? EC_CHAIN_VERTICES : 1;
     return most < p->params.max_depth ? most : p->params.max_depth;
 }
 
@@ -163,8 +164,8 @@ static ec_result trace_wave(tracer *t, ec_error *err)
     ec_pipeline_swap_queues(p, 0);
     EC_TRY(ec_pipeline_launch(p, EC_GENERATE, scalars, err));
     ec_pipeline_fill_parts(p, t->count);
-    const uint32_t bounces = t->found->vertices ? EC_CHAIN_VERTICES : bounces_of(p);
-    for (uint32_t b = 0; b < bounces && b < p->params.max_depth && ec_pipeline_total(p->counters.rays[0]); b++)
+    const uint32_t bounces = bounces_of(p, t->found->vertices != NULL);
+    for (uint32_t b = 0; b < bounces && ec_pipeline_total(p->counters.rays[0]); b++)
         EC_TRY(bounce(t, scalars, b, err));
     return EC_OK;
 }
@@ -217,12 +218,13 @@ static void list_paths(const ec_params *params, uint32_t *list)
     }
 }
 
-static ec_result trace_into(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
+ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err)
 {
     const uint32_t wave = p->wave < EC_CHAIN_PATHS ? p->wave : EC_CHAIN_PATHS;
     tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * EC_CHAIN_PATHS};
-    chains->paths = EC_CHAIN_PATHS;
-    chains->visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits);
+    *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains),
+                          .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
+    if (has_vertices) chains->vertices = malloc(EC_CHAIN_VERTICES * EC_CHAIN_PATHS * sizeof *chains->vertices);
     t.list = malloc(4 * EC_LIST_WORDS * EC_CHAIN_PATHS);
     t.at = malloc(4ull * wave);
     t.last = malloc(8ull * wave);
@@ -230,7 +232,7 @@ static ec_result trace_into(ec_pipeline *p, const ec_rare_lights *lights, ec_cha
     t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
     t.hits = malloc(4ull * (wave + p->params.part));
     ec_result result = EC_OK;
-    if (!(chains->chains || chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
+    if (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
         result = ec_fail(err, "out of memory for %d paths", EC_CHAIN_PATHS);
     if (result == EC_OK) {
         list_paths(&p->params, t.list);
@@ -245,18 +247,6 @@ static ec_result trace_into(ec_pipeline *p, const ec_rare_lights *lights, ec_cha
     return result;
 }
 
-ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
-{
-    *chains = (ec_chains){.chains = malloc(8 * EC_CHAIN_PATHS * sizeof *chains->chains)};
-    return trace_into(p, lights, chains, err);
-}
-
-ec_result ec_chains_trace_vertices(ec_pipeline *p, const ec_rare_lights *lights, ec_chains *chains, ec_error *err)
-{
-    *chains = (ec_chains){.vertices = malloc(EC_CHAIN_VERTICES * EC_CHAIN_PATHS * sizeof *chains->vertices)};
-    return trace_into(p, lights, chains, err);
-}
-
 void ec_chains_free(ec_chains *chains)
 {
     free(chains->chains);
@@ -265,23 +255,25 @@ void ec_chains_free(ec_chains *chains)
     *chains = (ec_chains){0};
 }
 
-/* A queue of rays alone, part after part as fill_parts has them. */
+/* A queue of rays alone, part after part as fill_parts has them. Lanes past the last ray look too: they have it again. */
 static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float *field, ec_error *err)
 {
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
+    const uint32_t padded = (count + LANES_MOST - 1) / LANES_MOST * LANES_MOST, entries = padded < p->wave ? padded : p->wave;
     ec_counters *counters = &p->counters;
     memset(counters, 0, sizeof *counters);
     ec_pipeline_fill_parts(p, count);
     ec_pipeline_swap_queues(p, 0);
     EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     for (uint32_t f = 0; f <= EC_PATH_PRIM; f++) {
-        for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t i = 0; i < entries; i++) {
             const uint32_t k = f < EC_PATH_DX ? f : f - EC_PATH_DX;
-            if (f < EC_PATH_DX) field[i] = rays[i].origin[k];
-            else if (f < EC_PATH_BR) field[i] = rays[i].direction[k];
-            else memcpy(&field[i], f == EC_PATH_PRIM ? &rays[i].prim : &i, sizeof i); /* slots, and what nobody looks at */
+            const ec_chain *ray = &rays[i < count ? i : count - 1];
+            if (f < EC_PATH_DX) field[i] = ray->origin[k];
+            else if (f < EC_PATH_BR) field[i] = ray->direction[k];
+            else memcpy(&field[i], f == EC_PATH_PRIM ? &ray->prim : &i, sizeof i); /* slots, and what nobody looks at */
         }
-        EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave * f, 4ull * count, field, err));
+        EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave * f, 4ull * entries, field, err));
     }
     EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], 4ull * p->wave * EC_HIT_PRIM, 4ull * count, field, err));
@@ -291,7 +283,7 @@ static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float
 
 ec_result ec_chains_meet(ec_pipeline *p, ec_chain *rays, uint32_t count, ec_error *err)
 {
-    float *field = malloc(4ull * count + 4);
+    float *field = malloc(4ull * (count + LANES_MOST));
     ec_result result = field ? EC_OK : ec_fail(err, "out of memory for %u rays", count);
     for (uint32_t first = 0, wave; result == EC_OK && first < count; first += wave) {
         wave = count - first < p->wave ? count - first : p->wave;

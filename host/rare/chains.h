@@ -5,7 +5,7 @@
 #include "device/pipeline.h"
 #include "rare/lights.h"
 
-enum { EC_CHAIN_PATHS = 1 << 14, EC_CHAIN_BOUNCES = 12, EC_CHAIN_VERTICES = 4 };
+enum { EC_CHAIN_PATHS = 1 << 13, EC_CHAIN_BOUNCES = 12, EC_CHAIN_VERTICES = 4 };
 #define EC_CHAIN_SHARP 32.0f /* 1/sr: directions of less density are no narrower than light sampling copes with */
 
 /* A path's segment. */
@@ -25,15 +25,13 @@ typedef struct ec_chains {
     uint32_t paths, count;
     ec_chain *chains;              /* bounce by bounce, by path; owned, as the next one */
     uint32_t *visits;              /* by material: how often a path met it */
-    ec_chain *vertices;            /* segments that left a surface whose light is sampled; owned, NULL unless they are asked for */
+    ec_chain *vertices;            /* of the first EC_CHAIN_VERTICES bounces, segments that left a surface whose light is sampled; owned */
     uint32_t vertex_count;
 } ec_chains;
 
 /* EC_CHAIN_PATHS paths, spread over the picture, with random numbers of their own: the same whatever the wave. Nothing else on the device
- * changes; no film is touched. */
-ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, ec_chains *chains, ec_error *err);
-/* The vertices alone, of the first EC_CHAIN_VERTICES bounces. */
-ec_result ec_chains_trace_vertices(ec_pipeline *pipeline, const ec_rare_lights *lights, ec_chains *chains, ec_error *err);
+ * changes; no film is touched. has_vertices: are they asked for? */
+ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err);
 void ec_chains_free(ec_chains *chains);
 
 /* Sets the hit of each ray, which has origin, direction and prim, to what it meets first. */

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "film/film.h"
+#include "pack/light_order.h"
 
 #define PI 3.14159265358979323846
 #define OCTAVES 24          /* of luminance below the map's brightest, each a light of its own */
@@ -97,68 +98,113 @@ static void lamp_of(const ec_light_data *l, ec_rare_lamp *lamp)
     lamp->two_sided = l->kind & EC_LIGHT_TWO_SIDED;
 }
 
-static bool is_lamp(const ec_rare_lights *all, const ec_light_data *l, uint32_t material)
-{
-    return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && l->prim < all->stored_count && all->triangle_material[l->prim] == material;
-}
+/* A lamp, or a part of one whose texture varies, of even radiance. */
+typedef struct piece {
+    ec_rare_lamp lamp;
+    uint32_t material;
+    double radiance, power;
+} piece;
 
-/* Up to EC_RARE_LAMPS of a material's lamps, evenly among them. */
-static void add_lamps(const ec_pack *pack, uint32_t material, uint32_t count, ec_rare_lights *all)
-{
-    const uint32_t stride = (count + EC_RARE_LAMPS - 1) / EC_RARE_LAMPS;
-    ec_rare_light *light = &all->lights[all->count++];
-    double bright = 0;
-    uint32_t seen = 0;
-    *light = (ec_rare_light){.material = material};
-    for (uint32_t i = 0; i < pack->light_count; i++) {
-        const ec_light_data *l = &pack->lights[i];
-        if (!is_lamp(all, l, material) || seen++ % stride) continue;
-        bright = fmax(bright, luminance(l->emission));
-        lamp_of(l, &light->lamps[light->lamp_count++]);
-    }
-    light->radiance = bright;
-    for (uint32_t i = 0; i < light->lamp_count; i++) {
-        ec_rare_lamp *lamp = &light->lamps[i];
-        lamp->weight = (float)count / (float)light->lamp_count;
-        light->power += PI * bright * lamp->area * lamp->weight * (lamp->two_sided ? 2 : 1);
-    }
-    all->power += light->power;
-    snprintf(light->name, sizeof light->name, "\"%.*s\"", EC_CUT(all->materials[material], EC_RARE_NAME - 3));
-}
-
-/* A material's lamps. */
+/* By material and octave of radiance, from that of the material's factor down. */
+enum { LAMP_OCTAVES = 12 };
 typedef struct lamp_group {
-    uint32_t count;
-    double power;
+    uint32_t count, seen, stride;
+    double power, area;   /* area: of all that shines, twice where two-sided */
+    ec_rare_light *light; /* NULL: not among those that are kept */
 } lamp_group;
 
-static void group_lamps(const ec_pack *pack, const ec_rare_lights *all, lamp_group *groups)
+typedef void take_piece(const piece *piece, lamp_group *group);
+
+static void give_piece(const piece *p, const ec_light_data *l, lamp_group *groups, take_piece *take)
 {
+    const int octave = ilogb(luminance(l->emission)) - ilogb(p->radiance);
+    if (p->radiance > 0) take(p, &groups[p->material * LAMP_OCTAVES + (uint32_t)(octave < 0 ? 0 : octave < LAMP_OCTAVES ? octave : LAMP_OCTAVES - 1)]);
+}
+
+/* Down to the leaves of what lib/lamp_parts.h descends in: numbers from `first` to `end` choose this node, whose edges are `size` of the lamp's. */
+static void give_parts(const ec_pack *pack, const ec_light_data *l, uint32_t node, const piece *whole, const double b[2], double size, uint32_t first,
+                       uint32_t end, lamp_group *groups, take_piece *take)
+{
+    const ec_lamp_node *n = &pack->lamp_nodes[node];
+    uint32_t next = n->link >> 4;
+    for (uint32_t child = 0; child < 4; child++) {
+        const uint32_t from = child ? n->first[child - 1] : first, to = child < 3 ? n->first[child] : end;
+        const double half = size / 2, own = child == 3 ? -half : half, at[2] = {b[0] + (child & 1 ? half : 0), b[1] + (child & 2 ? half : 0)};
+        if (n->link >> child & 1) {
+            give_parts(pack, l, next++, whole, at, own, from, to, groups, take);
+            continue;
+        }
+        piece part = *whole;
+        for (int c = 0; c < 3; c++) {
+            const float e = whole->lamp.edges[0][c], f = whole->lamp.edges[1][c];
+            part.lamp.corner[c] += (float)(at[0] * e + at[1] * f);
+            part.lamp.edges[0][c] = (float)(own * e), part.lamp.edges[1][c] = (float)(own * f);
+            part.lamp.middle[c] = part.lamp.corner[c] + (part.lamp.edges[0][c] + part.lamp.edges[1][c]) / 3;
+        }
+        part.lamp.area *= (float)(own * own);
+        part.power *= (double)(to - from) / EC_LAMP_PARTS_NUMBERS;
+        part.radiance *= (double)(to - from) / EC_LAMP_PARTS_NUMBERS / (own * own);
+        give_piece(&part, l, groups, take);
+    }
+}
+
+static void give_all(const ec_pack *pack, const ec_rare_lights *all, lamp_group *groups, take_piece *take)
+{
+    double shares = 0;
+    for (uint32_t i = 0; i < pack->light_count; i++) shares += ec_light_is_far(&pack->lights[i]) ? 0 : pack->lights[i].pmf;
     for (uint32_t i = 0; i < pack->light_count; i++) {
         const ec_light_data *l = &pack->lights[i];
         if ((l->kind & EC_LIGHT_KIND_MASK) != EC_KIND_TRIANGLE || l->prim >= all->stored_count) continue;
-        lamp_group *group = &groups[all->triangle_material[l->prim]];
-        ec_rare_lamp lamp;
-        lamp_of(l, &lamp);
-        group->count++;
-        group->power += lamp.area * luminance(l->emission);
+        piece whole = {.material = all->triangle_material[l->prim], .power = pack->lamp_power * l->pmf / shares};
+        lamp_of(l, &whole.lamp);
+        whole.radiance = whole.power / fmax(PI * whole.lamp.area * (whole.lamp.two_sided ? 2 : 1), 1e-300);
+        if (l->kind >> EC_LIGHT_PARTS) give_parts(pack, l, l->kind >> EC_LIGHT_PARTS, &whole, (double[2]){0, 0}, 1, 0, EC_LAMP_PARTS_NUMBERS, groups, take);
+        else give_piece(&whole, l, groups, take);
     }
 }
 
-/* Those of the materials with the most power, as far as there is room. */
+static void count_piece(const piece *p, lamp_group *group)
+{
+    group->count++;
+    group->power += p->power;
+    group->area += p->lamp.area * (p->lamp.two_sided ? 2 : 1);
+}
+
+/* Some of a group's pieces, evenly among them. */
+static void keep_piece(const piece *p, lamp_group *group)
+{
+    if (!group->light || group->seen++ % group->stride) return;
+    ec_rare_lamp *lamp = &group->light->lamps[group->light->lamp_count++];
+    *lamp = p->lamp;
+    lamp->weight = (float)group->count / (float)((group->count + group->stride - 1) / group->stride);
+}
+
+static void add_group(lamp_group *group, uint32_t material, ec_rare_lights *all)
+{
+    group->light = &all->lights[all->count++];
+    *group->light = (ec_rare_light){.material = material, .power = group->power, .radiance = group->power / (PI * group->area)};
+    snprintf(group->light->name, sizeof group->light->name, "\"%.*s\"", EC_CUT(all->materials[material], EC_RARE_NAME - 3));
+    all->power += group->power;
+}
+
+/* The groups with the most power, as far as there is room. */
 static ec_result find_lamps(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
 {
-    lamp_group *groups = calloc(all->material_count + (size_t)1, sizeof *groups);
+    const uint32_t count = all->material_count * LAMP_OCTAVES, before = all->count;
+    lamp_group *groups = calloc(count + (size_t)1, sizeof *groups);
     if (!groups) return ec_fail(err, "out of memory for %u materials", all->material_count);
-    group_lamps(pack, all, groups);
+    give_all(pack, all, groups, count_piece);
     while (all->count < EC_RARE_LIGHTS) {
-        uint32_t best = 0;
-        for (uint32_t m = 0; m < all->material_count; m++)
-            if (groups[m].count && (!groups[best].count || groups[m].power > groups[best].power)) best = m;
-        if (!groups[best].count) break;
-        add_lamps(pack, best, groups[best].count, all);
-        groups[best].count = 0;
+        uint32_t best = count; /* of no power */
+        for (uint32_t g = 0; g < count; g++)
+            if (!groups[g].light && groups[g].power > groups[best].power) best = g;
+        if (best == count) break;
+        add_group(&groups[best], best / LAMP_OCTAVES, all);
     }
+    uint32_t most = all->count > before ? EC_RARE_LAMPS_IN_ALL / (all->count - before) : 0;
+    most = most < EC_RARE_LAMPS ? most : EC_RARE_LAMPS;
+    for (uint32_t g = 0; g < count; g++) groups[g].stride = groups[g].light ? (groups[g].count + most - 1) / most : 1;
+    give_all(pack, all, groups, keep_piece);
     free(groups);
     return EC_OK;
 }

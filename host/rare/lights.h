@@ -1,5 +1,5 @@
-/* Lights that a direction which nobody aimed would hardly ever meet: groups of lamps of one material, and the brightest parts of an
- * environment map. Copied, so that what was packed may go. */
+/* Lights that a direction which nobody aimed would hardly ever meet: lamps of one material and about one radiance, where a texture varies
+ * parts of them; and the brightest parts of an environment map. Copied, so that what was packed may go. */
 #ifndef EC_RARE_LIGHTS_H
 #define EC_RARE_LIGHTS_H
 
@@ -7,9 +7,9 @@
 #include "pack/pack.h"
 #include "shared/params.h"
 
-enum { EC_RARE_LAMPS = 32, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_AIMS = 4, EC_RARE_EDGES = 1 << 13, EC_RARE_LAMP_EDGES = 1 << 11 };
+enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_EDGES = 1 << 13, EC_RARE_LAMP_EDGES = 1 << 9 };
 
-/* A lamp's triangle, which stands for `weight` of its group. */
+/* A lamp's triangle or a part of one, which stands for `weight` of its group. */
 typedef struct ec_rare_lamp {
     float corner[3], edges[2][3], middle[3], normal[3]; /* recentred frame; the normal is unit */
     uint32_t prim;
@@ -36,6 +36,7 @@ typedef struct ec_rare_sun {
     bool is_on_map, is_lamp, two_sided;
     uint32_t material;  /* of a lamp */
     double irradiance;  /* luminance, of a surface that faces it; a lamp's at a distance of 1, where both face each other */
+    double radiance;    /* of a lamp */
 } ec_rare_sun;
 
 typedef struct ec_rare_lights {

@@ -11,20 +11,17 @@
 #define BESIDE 1e-4   /* of the scene's radius: so far from an edge rays go past it */
 #define ABOVE 1e-5    /* likewise, above what is lit */
 #define GRAZING 0.05  /* cosine under which light goes along what it falls on */
-enum { LANDED = 64 }; /* rays of a sun whose surroundings are felt for */
+enum { PASSED = 1 << 11 };                       /* rays past edges that are followed to where they land */
+enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a sun whose surroundings are looked at, and felt for; patches in all */
 enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one before */
+enum { SMALL_RING = 3, SMALL_LIT = 3 }; /* so many of this ring's rays that are lit make an area of more than SMALL */
 #define LARGEST 0.3   /* of the scene's radius: the first one */
 #define SMALL 3e-4    /* of the disk around the scene: what is lit more is met soon */
 #define NEAREST 12    /* vertices by which their density is told … */
 #define FLAT 0.05     /* … that lie no further from its plane, over their distance */
 #define COMMON 0.02   /* chance beyond which every picture meets its light, as in paths.c */
 
-/* Where sunlight falls, or a lamp's. */
-typedef struct patch {
-    float point[3], normal[3]; /* towards the sun's side */
-    double irradiance, area;
-    const ec_rare_sun *sun;
-} patch;
+typedef ec_rare_patch patch;
 
 typedef struct finder {
     const ec_rare_lights *all;
@@ -65,7 +62,8 @@ static double irradiance_at(const ec_rare_sun *sun, const float point[3], const 
 {
     const double cosine = dot(sun->direction, along);
     if (!sun->is_lamp) return sun->irradiance;
-    return sun->irradiance * fmax(sun->two_sided ? fabs(cosine) : cosine, 0) / fmax(square_between(sun->middle, point), 1e-30);
+    const double far = sun->irradiance * fmax(sun->two_sided ? fabs(cosine) : cosine, 0) / fmax(square_between(sun->middle, point), 1e-30);
+    return fmin(far, PI * sun->radiance); /* no more than under a sky of such lamps */
 }
 
 /* From a point moved `back` against a direction, along it. */
@@ -123,6 +121,7 @@ static ec_result pass_edges(finder *f, const ec_rare_sun *sun, uint32_t *landed,
         aim(f, sun, f->all->edges[i], towards);
         set_ray(&f->rays[passed++], f->all->edges[i], towards, -1, back);
     }
+    passed = passed < PASSED ? passed : PASSED; /* edges are in no order */
     if (result == EC_OK && passed) result = ec_chains_meet(f->p, f->rays, passed, err);
     *landed = 0;
     for (uint32_t i = 0; i < passed; i++)
@@ -130,21 +129,27 @@ static ec_result pass_edges(finder *f, const ec_rare_sun *sun, uint32_t *landed,
     return result;
 }
 
+static int count_lit(const finder *f, const ec_rare_sun *sun, const ec_chain *ring)
+{
+    int lit = 0;
+    for (int k = 0; k < AROUND; k++) lit += meets(f, sun, &ring[k]);
+    return lit;
+}
+
 /* Adds up rings around a patch's point, from the smallest on, up to where nothing is lit. */
 static double lit_area(const finder *f, const ec_rare_sun *sun, const ec_chain *rays)
 {
     double area = 0, outer = LARGEST * f->all->radius * ldexp(1, 1 - RINGS), inner = 0;
     for (int ring = RINGS - 1; ring >= 0; ring--, inner = outer, outer *= 2) {
-        int lit = 0;
-        for (int k = 0; k < AROUND; k++) lit += meets(f, sun, &rays[ring * AROUND + k]);
+        const int lit = count_lit(f, sun, rays + ring * AROUND);
         if (!lit && ring < RINGS - 1) break;
         area += PI * (outer * outer - inner * inner) * lit / AROUND;
     }
     return area;
 }
 
-/* Rays from around it towards the sun: in each ring evenly. */
-static void feel_around(const finder *f, const patch *at, uint64_t *random, ec_chain *rays)
+/* Rays from around it towards the sun: in a ring evenly. */
+static void feel_ring(const finder *f, const patch *at, int ring, uint64_t *random, ec_chain *rays)
 {
     const int axis = fabsf(at->normal[0]) < 0.6f ? 0 : 1;
     const float *n = at->normal;
@@ -152,10 +157,9 @@ static void feel_around(const finder *f, const patch *at, uint64_t *random, ec_c
     for (int k = 0; k < 3; k++) u[k] = (k == axis) - (double)n[axis] * n[k], length += u[k] * u[k];
     for (int k = 0; k < 3; k++) u[k] /= sqrt(length);
     for (int k = 0; k < 3; k++) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
-    for (int i = 0; i < RINGS * AROUND; i++) {
-        const double outer = LARGEST * f->all->radius * ldexp(1, -(i / AROUND)), inner = i / AROUND < RINGS - 1 ? outer / 2 : 0;
-        const double r = sqrt(ec_random_between(random, inner * inner, outer * outer)), above = ABOVE * f->all->radius;
-        const double angle = 2 * PI * (i % AROUND + ec_random_unit(random)) / AROUND;
+    const double outer = LARGEST * f->all->radius * ldexp(1, -ring), inner = ring < RINGS - 1 ? outer / 2 : 0, above = ABOVE * f->all->radius;
+    for (int i = 0; i < AROUND; i++) {
+        const double r = sqrt(ec_random_between(random, inner * inner, outer * outer)), angle = 2 * PI * (i + ec_random_unit(random)) / AROUND;
         float point[3], towards[3];
         for (int k = 0; k < 3; k++) point[k] = (float)(at->point[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]) + above * n[k]);
         aim(f, at->sun, point, towards);
@@ -170,6 +174,19 @@ static bool is_known(const finder *f, const patch *at)
     return false;
 }
 
+/* Leaves those alone around which not so much is lit that they are no small patches. */
+static ec_result drop_large(finder *f, const ec_rare_sun *sun, patch *found, uint32_t *count, uint64_t *random, ec_error *err)
+{
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < *count; k++) feel_ring(f, &found[k], SMALL_RING, random, f->rays + (size_t)k * AROUND);
+    if (*count) EC_TRY(ec_chains_meet(f->p, f->rays, *count * AROUND, err));
+    for (uint32_t k = 0; k < *count; k++)
+        if (count_lit(f, sun, f->rays + (size_t)k * AROUND) < SMALL_LIT) found[kept++] = found[k];
+    *count = kept < FELT ? kept : FELT;
+    for (uint32_t k = 0; k < *count; k++) found[k] = found[(uint64_t)k * kept / *count];
+    return EC_OK;
+}
+
 static ec_result find_patches(finder *f, const ec_rare_sun *sun, ec_error *err)
 {
     uint32_t landed = 0, count = 0;
@@ -181,10 +198,11 @@ static ec_result find_patches(finder *f, const ec_rare_sun *sun, ec_error *err)
         EC_TRY(land(f, &f->rays[landed > LANDED ? (uint64_t)k * landed / LANDED : k], sun, &found[count], &is_there, err));
         count += is_there;
     }
-    for (uint32_t k = 0; k < count; k++) feel_around(f, &found[k], &random, f->rays + (size_t)k * RINGS * AROUND);
+    EC_TRY(drop_large(f, sun, found, &count, &random, err));
+    for (uint32_t k = 0; k < count * RINGS; k++) feel_ring(f, &found[k / RINGS], (int)(k % RINGS), &random, f->rays + (size_t)k * AROUND);
     if (count) EC_TRY(ec_chains_meet(f->p, f->rays, count * RINGS * AROUND, err));
     const double most = SMALL * PI * f->all->radius * f->all->radius;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < count && f->count < PATCHES; k++) {
         found[k].area = lit_area(f, sun, f->rays + (size_t)k * RINGS * AROUND);
         if (found[k].area > 0 && found[k].area < most && !is_known(f, &found[k])) f->patches[f->count++] = found[k];
     }
@@ -198,14 +216,14 @@ typedef struct near_vertex {
 } near_vertex;
 
 /* Those of the patch's plane and side, the nearest first; seen: by the camera, or only on the way. */
-static uint32_t find_near(const finder *f, const ec_chains *paths, const patch *at, bool seen, near_vertex near[NEAREST])
+static uint32_t find_near(double radius, const ec_chains *paths, const patch *at, bool seen, near_vertex near[NEAREST])
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < paths->vertex_count; i++) {
         const ec_chain *c = &paths->vertices[i];
         const float way[3] = {c->origin[0] - at->point[0], c->origin[1] - at->point[1], c->origin[2] - at->point[2]};
         const double square = dot(way, way), height = dot(way, at->normal);
-        const bool is_there = dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BESIDE * f->all->radius;
+        const bool is_there = dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BESIDE * radius;
         if ((c->segment == 1) != seen || !is_there) continue;
         if (count == NEAREST && square >= near[NEAREST - 1].square) continue;
         uint32_t k = count < NEAREST ? count++ : NEAREST - 1;
@@ -223,11 +241,11 @@ static double gathered(const uint32_t *tiles, uint32_t count)
     return sqrt(fmax(1, count > 1 ? (double)EC_RARE_SHARES * pairs / count / (count - 1) : EC_RARE_SHARES));
 }
 
-static void add_kind(const finder *f, const ec_chains *paths, const patch *at, bool seen, ec_rare *rare)
+static void add_kind(double radius, const ec_chains *paths, const patch *at, bool seen, ec_rare *rare)
 {
     near_vertex near[NEAREST];
     uint32_t tiles[EC_RARE_SHARES] = {0};
-    const uint32_t count = find_near(f, paths, at, seen, near);
+    const uint32_t count = find_near(radius, paths, at, seen, near);
     double beta = 0;
     if (!count) return;
     const double chance = count * fmin(at->area / (PI * near[count - 1].square), 1) / paths->paths;
@@ -248,19 +266,27 @@ static void add_kind(const finder *f, const ec_chains *paths, const patch *at, b
     snprintf(kind->light, sizeof kind->light, "a small patch lit by %.*s", EC_RARE_NAME - 24, at->sun->name);
 }
 
-ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_rare *rare, ec_error *err)
+ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_rare_openings *openings, ec_error *err)
 {
-    const size_t most = all->edge_count > LANDED * RINGS * AROUND ? all->edge_count : LANDED * RINGS * AROUND;
+    const size_t most = all->edge_count > FELT * RINGS * AROUND ? all->edge_count : FELT * RINGS * AROUND;
+    *openings = (ec_rare_openings){0};
     if (!all->sun_count || !all->edge_count) return EC_OK;
-    finder f = {.all = all, .p = p, .rays = calloc(most, sizeof *f.rays), .patches = calloc((size_t)all->sun_count * LANDED, sizeof *f.patches)};
-    ec_chains paths = {0};
+    finder f = {.all = all, .p = p, .rays = calloc(most, sizeof *f.rays), .patches = calloc(PATCHES, sizeof *f.patches)};
     ec_result result = f.rays && f.patches ? EC_OK : ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
     for (uint32_t i = 0; result == EC_OK && i < all->sun_count; i++) result = find_patches(&f, &all->suns[i], err);
-    if (result == EC_OK && f.count) result = ec_chains_trace_vertices(p, all, &paths, err);
-    for (uint32_t i = 0; result == EC_OK && i < f.count; i++)
-        for (int seen = 0; seen < 2; seen++) add_kind(&f, &paths, &f.patches[i], seen, rare);
-    ec_chains_free(&paths);
     free(f.rays);
-    free(f.patches);
+    *openings = (ec_rare_openings){f.count, f.patches};
     return result;
+}
+
+void ec_rare_openings_judge(const ec_rare_openings *openings, const ec_rare_lights *all, const ec_chains *paths, ec_rare *rare)
+{
+    for (uint32_t i = 0; i < openings->count; i++)
+        for (int seen = 0; seen < 2; seen++) add_kind((double)all->radius, paths, &openings->patches[i], seen, rare);
+}
+
+void ec_rare_openings_free(ec_rare_openings *openings)
+{
+    free(openings->patches);
+    *openings = (ec_rare_openings){0};
 }

@@ -11,7 +11,7 @@
 #include "rare/sight.h"
 
 #define PI 3.14159265358979323846
-#define COMPARED (1 << 19)  /* chains times lamps that are compared, about, of each kind */
+#define COMPARED (1 << 18)  /* chains times lamps that are compared, about, of each kind */
 #define LEAST 1024          /* chains of a kind that are looked at in any case */
 #define NEAREST 12
 #define FEW 16              /* fewer chains say nothing of where they go: anywhere */
@@ -258,13 +258,16 @@ ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, e
 ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, ec_rare *rare, ec_error *err)
 {
     ec_chains chains = {0};
+    ec_rare_openings openings = {0};
     *rare = (ec_rare){0};
     if (!lights->count && !lights->sun_count) return EC_OK;
     if (p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
-    ec_result result = ec_chains_trace(p, lights, &chains, err);
+    ec_result result = ec_rare_openings_find(lights, p, &openings, err);
+    if (result == EC_OK) result = ec_chains_trace(p, lights, openings.count > 0, &chains, err);
     if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, p, rare, err);
     if (result == EC_OK) result = ec_rare_blind_find(lights, &chains, p, rare, err);
-    if (result == EC_OK) result = ec_rare_openings_find(lights, p, rare, err);
+    if (result == EC_OK) ec_rare_openings_judge(&openings, lights, &chains, rare);
+    ec_rare_openings_free(&openings);
     ec_chains_free(&chains);
     return result;
 }

@@ -9,7 +9,10 @@
 #include "base/text.h"
 #include "film/film.h"
 
-#define BESIDE 1e-4 /* of the scene's radius, from the edge */
+#define BESIDE 1e-4   /* of the scene's radius, from the edge */
+#define NARROW 0.02   /* steradians: of what is wider one ray does not tell where its light falls */
+#define ONE_SUN 0.995 /* cosine between parts of a map that are one sun */
+#define WEAK 0.01     /* of the strongest sun's irradiance, or of all lamps' power */
 
 /* In place of the weakest where there is no room. */
 static void add_sun(const ec_rare_sun *sun, ec_rare_lights *all)
@@ -39,28 +42,57 @@ static void add_directional(const ec_scene *scene, ec_rare_lights *all)
     }
 }
 
+/* A disk's brightest octave comes first, and then what lies around it. */
+static bool join_sun(const ec_rare_sun *sun, ec_rare_lights *all)
+{
+    for (uint32_t i = 0; i < all->sun_count; i++) {
+        ec_rare_sun *one = &all->suns[i];
+        double cosine = 0;
+        for (int k = 0; k < 3; k++) cosine += (double)one->direction[k] * sun->direction[k];
+        if (!one->is_on_map || cosine < ONE_SUN) continue;
+        one->irradiance += sun->irradiance;
+        return true;
+    }
+    return false;
+}
+
 static void add_from_map(ec_rare_lights *all)
 {
     for (uint32_t i = 0; i < all->count; i++) {
         const ec_rare_light *l = &all->lights[i];
-        if (l->lamp_count || (l->direction[0] == 0 && l->direction[1] == 0 && l->direction[2] == 0)) continue;
+        if (l->lamp_count || l->solid_angle > NARROW || (l->direction[0] == 0 && l->direction[1] == 0 && l->direction[2] == 0)) continue;
         ec_rare_sun sun = {.is_on_map = true, .irradiance = l->radiance * l->solid_angle, .name = "the environment"};
         memcpy(sun.direction, l->direction, sizeof sun.direction);
-        add_sun(&sun, all);
+        if (!join_sun(&sun, all)) add_sun(&sun, all);
     }
 }
 
-/* Two triangles each of the lamps that come first: they are in order of power. */
+static void drop_weak_suns(ec_rare_lights *all)
+{
+    double most = 0;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < all->sun_count; i++) most = fmax(most, all->suns[i].irradiance);
+    for (uint32_t i = 0; i < all->sun_count; i++)
+        if (all->suns[i].irradiance >= WEAK * most) all->suns[kept++] = all->suns[i];
+    all->sun_count = kept;
+}
+
+/* A triangle each of the lamps that come first, two where those are few: they are in order of power. */
 static void add_lamps(ec_rare_lights *all)
 {
-    uint32_t aims = 0;
+    uint32_t aims = 0, lamps = 0;
+    double power = 0;
+    for (uint32_t i = 0; i < all->count; i++)
+        if (all->lights[i].lamp_count) power += all->lights[i].power, lamps++;
+    const uint32_t each = 2 * lamps <= EC_RARE_AIMS ? 2 : 1;
     for (uint32_t i = 0; i < all->count && aims < EC_RARE_AIMS; i++) {
         const ec_rare_light *l = &all->lights[i];
-        const uint32_t parts = l->lamp_count < 2 ? l->lamp_count : 2;
+        if (l->power < WEAK * power) continue;
+        const uint32_t parts = l->lamp_count < each ? l->lamp_count : each;
         for (uint32_t k = 0; k < parts && aims < EC_RARE_AIMS; k++, aims++) {
             const ec_rare_lamp *lamp = &l->lamps[k * (l->lamp_count / 2)];
             ec_rare_sun *sun = &all->suns[all->sun_count++];
-            *sun = (ec_rare_sun){.is_lamp = true, .two_sided = lamp->two_sided, .material = l->material};
+            *sun = (ec_rare_sun){.is_lamp = true, .two_sided = lamp->two_sided, .material = l->material, .radiance = l->radiance};
             sun->irradiance = l->radiance * lamp->area * lamp->weight * l->lamp_count / parts;
             memcpy(sun->middle, lamp->middle, sizeof sun->middle);
             memcpy(sun->direction, lamp->normal, sizeof sun->direction);
@@ -135,6 +167,7 @@ ec_result ec_rare_suns_find(const ec_pack *pack, ec_rare_lights *all, ec_error *
 {
     add_directional(&pack->plain.scene, all);
     add_from_map(all);
+    drop_weak_suns(all);
     add_lamps(all);
     all->flat_count = ec_scene_flat_count(&pack->plain.scene);
     return all->sun_count ? find_edges(pack, all, err) : EC_OK;

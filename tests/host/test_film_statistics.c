@@ -70,6 +70,9 @@ static void fisher(void)
     double t = ec_student_t_quantile(0.975, 12); /* F(1, nu) = t(nu)^2 */
     CHECK_RELATIVE(ec_f_quantile(0.95, 1, 12), t * t, 1e-12);
     CHECK_RELATIVE(ec_f_quantile(0.5, 2, 2), 1, 1e-12); /* P(F <= x) = x / (1 + x) */
+    CHECK_RELATIVE(ec_poisson_upper_mean(0.99, 0), log(100), 1e-12); /* none comes with probability exp(-mean) */
+    const double two = ec_poisson_upper_mean(0.95, 2);
+    CHECK_RELATIVE(exp(-two) * (1 + two + two * two / 2), 0.05, 1e-12);
 }
 
 /* SciPy 1.17. */
