@@ -135,8 +135,9 @@ double ec_film_error_bound(double square, double noisy_pixels, double bright_sam
     return sqrt(square) * exp(0.5 * hypot(hypot(from_pixels, from_mean), from_samples));
 }
 
-/* Light that may be missing widens the bound; there is none where that light may be more than the noise. Where some of it was met by chance, the picture is brighter and its error larger
- * for it; then a few samples hold most of the noise, and what is missing is looked at beside what the picture is without them. */
+/* Light that may be missing widens the bound; there is none where that light may be more than the noise. Where some of it was met by
+ * chance, the picture is brighter and its error larger for it; then a few samples hold most of the noise, and what is missing is looked at
+ * beside what the picture is without them. */
 static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare, double limit, ec_film_error *e)
 {
     const ec_rare_kind *kind;

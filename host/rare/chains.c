@@ -172,8 +172,8 @@ static ec_result trace_wave(tracer *t, ec_error *err)
 
 static ec_result trace_all(tracer *t, ec_error *err)
 {
-    for (t->first = 0; t->first < EC_CHAIN_PATHS; t->first += t->count) {
-        const uint32_t left = EC_CHAIN_PATHS - t->first;
+    for (t->first = 0; t->first < t->found->paths; t->first += t->count) {
+        const uint32_t left = t->found->paths - t->first;
         t->count = left < t->p->wave ? left : t->p->wave;
         t->stride = (t->count + t->p->params.part - 1) / t->p->params.part * t->p->params.part;
         EC_TRY(trace_wave(t, err));
@@ -188,7 +188,7 @@ static ec_result trace_apart(tracer *t, ec_error *err)
     const ec_params params = p->params;
     const cl_mem list = p->buffers[EC_ARG_PIXEL_LIST], aov = p->buffers[EC_ARG_AOV];
     uint32_t invalid[EC_STAGE_COUNT];
-    const uint64_t bytes = 4ull * EC_LIST_WORDS * EC_CHAIN_PATHS, slack = 64 * 4 * EC_LIST_WORDS; /* lanes past the last path look too */
+    const uint64_t bytes = 4ull * EC_LIST_WORDS * t->found->paths, slack = 64 * 4 * EC_LIST_WORDS; /* lanes past the last path look too */
     EC_TRY(ec_pipeline_read_invalid(p, invalid, err));
     EC_TRY(ec_buffer_create(p->cl, "pixel list", bytes + slack, NULL, &t->pixels, err));
     p->params.batch = 1;
@@ -209,23 +209,24 @@ static ec_result trace_apart(tracer *t, ec_error *err)
 }
 
 /* Evenly over the numbers of pixels, which lie tile by tile; the next round over them takes their next samples. */
-static void list_paths(const ec_params *params, uint32_t *list)
+static void list_paths(uint64_t pixels, uint64_t paths, uint32_t *list)
 {
-    const uint64_t pixels = (uint64_t)params->width * params->height;
-    for (uint64_t i = 0; i < EC_CHAIN_PATHS; i++) {
-        list[EC_LIST_WORDS * i] = (uint32_t)(pixels < EC_CHAIN_PATHS ? i % pixels : i * pixels / EC_CHAIN_PATHS);
-        list[EC_LIST_WORDS * i + 1] = (uint32_t)(pixels < EC_CHAIN_PATHS ? i / pixels : 0);
+    for (uint64_t i = 0; i < paths; i++) {
+        list[EC_LIST_WORDS * i] = (uint32_t)(pixels < paths ? i % pixels : i * pixels / paths);
+        list[EC_LIST_WORDS * i + 1] = (uint32_t)(pixels < paths ? i / pixels : 0);
     }
 }
 
 ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err)
 {
-    const uint32_t wave = p->wave < EC_CHAIN_PATHS ? p->wave : EC_CHAIN_PATHS;
-    tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * EC_CHAIN_PATHS};
-    *chains = (ec_chains){.paths = EC_CHAIN_PATHS, .chains = malloc(t.room * sizeof *chains->chains),
+    const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
+    const uint32_t paths = (uint32_t)(pixels * EC_CHAIN_PIXEL < EC_CHAIN_PATHS ? pixels * EC_CHAIN_PIXEL : EC_CHAIN_PATHS);
+    const uint32_t wave = p->wave < paths ? p->wave : paths;
+    tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * paths};
+    *chains = (ec_chains){.paths = paths, .chains = malloc(t.room * sizeof *chains->chains),
                           .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
-    if (has_vertices) chains->vertices = malloc(EC_CHAIN_VERTICES * EC_CHAIN_PATHS * sizeof *chains->vertices);
-    t.list = malloc(4 * EC_LIST_WORDS * EC_CHAIN_PATHS);
+    if (has_vertices) chains->vertices = malloc((size_t)EC_CHAIN_VERTICES * paths * sizeof *chains->vertices);
+    t.list = malloc(4ull * EC_LIST_WORDS * paths);
     t.at = malloc(4ull * wave);
     t.last = malloc(8ull * wave);
     t.wide = malloc(wave);
@@ -233,9 +234,9 @@ ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, bool has
     t.hits = malloc(4ull * (wave + p->params.part));
     ec_result result = EC_OK;
     if (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
-        result = ec_fail(err, "out of memory for %d paths", EC_CHAIN_PATHS);
+        result = ec_fail(err, "out of memory for %u paths", paths);
     if (result == EC_OK) {
-        list_paths(&p->params, t.list);
+        list_paths(pixels, paths, t.list);
         result = trace_apart(&t, err);
     }
     free(t.list);

@@ -5,7 +5,7 @@
 #include "device/pipeline.h"
 #include "rare/lights.h"
 
-enum { EC_CHAIN_PATHS = 1 << 13, EC_CHAIN_BOUNCES = 12, EC_CHAIN_VERTICES = 4 };
+enum { EC_CHAIN_PATHS = 1 << 13, EC_CHAIN_PIXEL = 64 /* paths of a pixel, in pictures of few */, EC_CHAIN_BOUNCES = 12, EC_CHAIN_VERTICES = 4 };
 #define EC_CHAIN_SHARP 32.0f /* 1/sr: directions of less density are no narrower than light sampling copes with */
 
 /* A path's segment. */
@@ -29,8 +29,8 @@ typedef struct ec_chains {
     uint32_t vertex_count;
 } ec_chains;
 
-/* EC_CHAIN_PATHS paths, spread over the picture, with random numbers of their own: the same whatever the wave. Nothing else on the device
- * changes; no film is touched. has_vertices: are they asked for? */
+/* EC_CHAIN_PATHS paths, or EC_CHAIN_PIXEL a pixel where that is less, spread over the picture, with random numbers of their own: the same
+ * whatever the wave. Nothing else on the device changes; no film is touched. has_vertices: are they asked for? */
 ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err);
 void ec_chains_free(ec_chains *chains);
 
