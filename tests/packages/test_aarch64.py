@@ -1,5 +1,5 @@
 # tier: long
-"""AArch64 by QEMU: all host tests, and the picture that this machine renders, bit for bit."""
+"""AArch64 by QEMU: the quick host tests, and the picture that this machine renders, bit for bit."""
 import os
 import shutil
 import unittest
