@@ -61,6 +61,7 @@ class Chroot:
         if not os.path.exists(self.path):
             os.makedirs(self.path)
             subprocess.run(["tar", "-C", self.path, "-xf", tar], check=True)
+        os.makedirs(self.inside("etc/apt/apt.conf.d"), exist_ok=True)
         with open(self.inside("etc/apt/apt.conf.d/90eclat"), "w", encoding="utf-8") as file:  # a mirror may be behind; signatures count all the same
             file.write('Acquire::Check-Valid-Until "false";\n')
         for name in ("resolv.conf", "hosts"):
