@@ -256,7 +256,7 @@ void ec_chains_free(ec_chains *chains)
     *chains = (ec_chains){0};
 }
 
-/* A queue of rays alone, part after part as fill_parts has them. Lanes past the last ray look too: they have it again. */
+/* A queue of rays alone, part after part as fill_parts has them, as the shutter opens. Lanes past the last ray look too: they have it again. */
 static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float *field, ec_error *err)
 {
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
@@ -276,6 +276,7 @@ static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float
         }
         EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave * f, 4ull * entries, field, err));
     }
+    if (p->buffers[EC_ARG_TIMES]) EC_TRY(ec_buffer_zero(p->cl, p->buffers[EC_ARG_TIMES], 0, 4ull * entries, err));
     EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], 4ull * p->wave * EC_HIT_PRIM, 4ull * count, field, err));
     for (uint32_t i = 0; i < count; i++) memcpy(&rays[i].hit, &field[i], sizeof rays[i].hit);

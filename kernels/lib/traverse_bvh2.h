@@ -44,24 +44,25 @@ EC_FN void packet_keep(const ray *r, const hit_filter *filter, v3 lo, v3 hi, lan
     h->b2 = m ? b2 : h->b2;
 }
 
-/* Lanes m pass inside the edges e of triangle tri, or of the one after it where `second`. skip0 and skip1 are triangles a lane ignores. */
+/* Lanes m pass inside the edges e of triangle tri, or of the other half of its quad where `second`, which is `other` triangles on: 0 where
+ * there is none. skip0 and skip1 are triangles a lane ignores. */
 EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
-                       lane_i second, const edges *e, lane_i m, lane_u skip0, lane_u skip1, hit *h)
+                       uint other, lane_i second, const edges *e, lane_i m, lane_u skip0, lane_u skip1, hit *h)
 {
-    lane_u id = second ? U(tri[1].id) : U(tri[0].id);
+    lane_u id = second ? U(tri[other].id) : U(tri[0].id);
     lane_i close;
     lane_f t, inverse;
     m = edges_distance(r, e, m & (skip0 != id) & (skip1 != id), h->t, &close, &inverse, &t);
     if (!any_lane(m)) return;
     if (any_lane(close)) {
-        v3 b = v3_select(second, splat_point(tri[1].v1), splat_point(tri->v1));
-        v3 c = v3_select(second, splat_point(tri[1].v2), splat_point(tri->v2));
+        v3 b = v3_select(second, splat_point(tri[other].v1), splat_point(tri->v1));
+        v3 c = v3_select(second, splat_point(tri[other].v2), splat_point(tri->v2));
         t = edges_settle(r, e, ray_vertex(r, splat_point(tri->v0)), ray_vertex(r, b), ray_vertex(r, c), close, inverse, t);
         m = m & (t > 0.0f);
     }
-    global const ec_box *next = box ? box + 1 : 0;
-    v3 lo = v3_select(second, box_low(tri + 1, next), box_low(tri, box));
-    v3 hi = v3_select(second, box_high(tri + 1, next), box_high(tri, box));
+    global const ec_box *next = box ? box + other : 0;
+    v3 lo = v3_select(second, box_low(tri + other, next), box_low(tri, box));
+    v3 hi = v3_select(second, box_high(tri + other, next), box_high(tri, box));
     packet_keep(r, filter, lo, hi, id, e, m, t, inverse, h);
 }
 
@@ -105,7 +106,7 @@ EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const
     v3 a = ray_vertex(r, splat_point(tri->v0)), b = ray_vertex(r, splat_point(tri->v1)), c = ray_vertex(r, splat_point(tri->v2));
     edges e = edges_make(a, b, c);
     lane_i m = edges_inside(&e), n = !TRUE_MASK;
-    bool has_pair = tri->has_pair;
+    uint has_pair = tri->has_pair;
     edges f = e;
     if (has_pair) {
         v3 d = ray_vertex(r, splat_point(tri[1].v2));
@@ -117,7 +118,7 @@ EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const
         again = any_lane(m & n);
         lane_i second = again ? !TRUE_MASK : n;
         edges met = edges_select(second, f, e);
-        packet_take(r, filter, tri, box, second, &met, again ? m : m | n, skip0, skip1, h);
+        packet_take(r, filter, tri, box, has_pair, second, &met, again ? m : m | n, skip0, skip1, h);
         m = m & !n;
     }
     return 1 + has_pair;
