@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""usage: tools/blender/make_zip.py [FILE.zip]
-Packs the add-on as Blender installs it (default: eclat_blender.zip in the build folder)."""
+"""Packs the add-on as Blender installs it."""
+import argparse
 import os
-import sys
 import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -10,9 +9,11 @@ SOURCE = os.path.join(HERE, "eclat_blender")
 LICENSE = os.path.join(HERE, "..", "..", "LICENSE")
 
 
-def main(arguments):
+def main():
     build = os.environ.get("ECLAT_BUILD", os.path.join(HERE, "..", "..", "build"))
-    path = arguments[0] if arguments else os.path.normpath(os.path.join(build, "eclat_blender.zip"))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("path", nargs="?", default=os.path.normpath(os.path.join(build, "eclat_blender.zip")), metavar="FILE", help="default: eclat_blender.zip in the build folder")
+    path = parser.parse_args().path
     files = sorted(name for name in os.listdir(SOURCE) if name.endswith((".py", ".json", ".toml")))
     with zipfile.ZipFile(path + ".part", "w", zipfile.ZIP_DEFLATED) as packed:
         for name, source in [(name, os.path.join(SOURCE, name)) for name in files] + [("LICENSE", LICENSE)]:
@@ -23,4 +24,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -11,7 +11,7 @@ class Engine(bpy.types.RenderEngine):
     bl_use_eevee_viewport = True           # of material previews
     bl_use_shading_nodes_custom = False
     bl_use_postprocess = True
-    viewport = None
+    has_begun = False                      # to draw a viewport
 
     def update_render_passes(self, scene=None, renderlayer=None):
         self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
@@ -37,16 +37,10 @@ class Engine(bpy.types.RenderEngine):
         self.report({"ERROR"}, line)
 
     def view_update(self, context, depsgraph):
-        self.its_viewport().update(depsgraph)
+        viewport.of(context.space_data, self).update(depsgraph)
 
     def view_draw(self, context, depsgraph):
-        self.its_viewport().draw(self, context, depsgraph)
-
-    def its_viewport(self):
-        """Made when it is needed; it goes with the engine, of which Blender makes one for each viewport."""
-        if self.viewport is None:
-            self.viewport = viewport.Viewport()
-        return self.viewport
+        viewport.of(context.space_data, self).draw(self, context, depsgraph)
 
 
 CLASSES = (Engine,)

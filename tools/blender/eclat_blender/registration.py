@@ -1,7 +1,7 @@
 """What Blender is told of this add-on."""
 import bpy
 
-from . import engine, panels, preferences, properties
+from . import engine, panels, preferences, properties, viewport
 
 CLASSES = (*preferences.CLASSES, *properties.CLASSES, *panels.CLASSES, *engine.CLASSES)
 
@@ -15,6 +15,7 @@ def register():
 
 
 def unregister():
+    viewport.close_all()
     panels.unshare_blenders_own()
     del bpy.types.ViewLayer.eclat
     del bpy.types.Scene.eclat

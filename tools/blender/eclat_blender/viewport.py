@@ -1,8 +1,8 @@
 """The rendered view of a 3D viewport. Drawing never waits: scenes are exported between events, and a process renders them."""
+import atexit
 import hashlib
 import os
 import time
-import weakref
 
 import bpy
 
@@ -11,24 +11,41 @@ from .trouble import Trouble
 
 PAUSE = 0.3 # seconds without a change after which a scene is exported again
 teller = losses.Teller()
+shown = {} # by the space that draws them: an export makes Blender replace the engine
+
+
+def of(space, engine):
+    """The space's own, which lasts while it shows rendered views."""
+    key = space.as_pointer()
+    viewport = shown[key] = shown.get(key) or Viewport(key)
+    if not engine.has_begun:
+        engine.has_begun = True
+        viewport.engines += 1
+    return viewport
 
 
 class Viewport:
-    def __init__(self):
+    def __init__(self, key):
+        self.key = key
+        self.engines = self.looked_at = 0 # so many have drawn it; so many of them have had a first look at the scene
         self.session = self.scene_words = self.texture = self.place = None
         self.changed_at, self.exported_at = time.monotonic(), None
         self.trouble = ""
-        itself = weakref.ref(self)  # a timer must not keep it
-        bpy.app.timers.register(lambda: one.tick() if (one := itself()) else None, first_interval=0.01)
+        bpy.app.timers.register(self.tick, first_interval=0.01)
 
     def update(self, depsgraph):
-        """Something of the scene has changed; that may be what an export itself has touched."""
+        """Something of the scene has changed, unless this is a new engine's first look, or what an export itself has touched."""
         self.place = depsgraph.scene.original, depsgraph.view_layer.name
-        if self.exported_at is None or time.monotonic() - self.exported_at > PAUSE:
+        is_first, self.looked_at = self.looked_at < self.engines, self.engines
+        if not is_first and (self.exported_at is None or time.monotonic() - self.exported_at > PAUSE):
             self.changed_at = time.monotonic()
 
     def tick(self):
-        """Between events. Returns the seconds until the next time."""
+        """Between events. Returns the seconds until the next time; None once the space shows something else."""
+        if not any(space.as_pointer() == self.key and space.shading.type == "RENDERED" for space in views()):
+            self.close()
+        if shown.get(self.key) is not self:
+            return None
         try:
             if self.changed_at is not None and self.place and time.monotonic() - self.changed_at > PAUSE and bpy.context.mode == "OBJECT":
                 self.export()
@@ -87,9 +104,16 @@ class Viewport:
     def status(self):
         return self.trouble or (self.session.status if self.session else "exporting")
 
-    def __del__(self):
+    def close(self):
+        shown.pop(self.key, None)
         if self.session:
             self.session.close()
+
+
+@atexit.register
+def close_all():
+    for viewport in list(shown.values()):
+        viewport.close()
 
 
 def kept_as(path):
@@ -101,8 +125,15 @@ def kept_as(path):
     return kept
 
 
+def views():
+    """Spaces of all 3D views on the screen."""
+    return [area.spaces.active for area in areas()]
+
+
+def areas():
+    return [area for window in bpy.context.window_manager.windows for area in window.screen.areas if area.type == "VIEW_3D"]
+
+
 def redraw():
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+    for area in areas():
+        area.tag_redraw()
