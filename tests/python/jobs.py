@@ -144,7 +144,7 @@ class Progress(Case):
         eclat.load(CORNELL).render(**LONG, progress=look)
         end.set()
         thread.join()
-        self.assertEqual(len(seen), 3)
+        self.assertGreaterEqual(len(seen), 3)  # one more report may be under way as the third one is answered
 
 
 class Threads(Case):
