@@ -3,14 +3,13 @@
 
 #include "device/pipeline.h"
 
-/* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, and PoCL need not compile again for a
- * smaller grid. */
-uint64_t ec_pipeline_items(const ec_pipeline *p, ec_stage_id id, uint32_t accel, uint32_t set_lanes, uint32_t wave, uint32_t triangles)
+/* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, PoCL need not compile again for a
+ * smaller grid, and several devices of its never run one kernel at two sizes, which makes it abort (3.1, pocl_release_dlhandle_cache). */
+uint64_t ec_pipeline_items(ec_stage_id id, uint32_t accel, uint32_t set_lanes, uint32_t wave, uint32_t triangles)
 {
     const uint32_t lanes = accel < EC_ACCEL_COUNT ? ec_accels[accel].lanes : ec_stages[id].lanes;
     uint64_t items = id == EC_RASTER_SETUP || id == EC_RASTER_FILL ? triangles : wave;
     if (lanes == EC_LANES_OF_PIPELINE) items /= set_lanes;
-    if (id == EC_ACCUMULATE || id == EC_STORE_FEATURES) items /= p->params.batch;
     return items;
 }
 
@@ -24,7 +23,7 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32
                           : clSetKernelArg(kernel, i, sizeof(cl_mem), p->buffers[arg] ? &p->buffers[arg] : NULL);
         EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
     }
-    const uint64_t items = ec_pipeline_items(p, id, accel, p->kernels.lanes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
+    const uint64_t items = ec_pipeline_items(id, accel, p->kernels.lanes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
     return ec_kernel_run(p->cl, stage->label, kernel, items, EC_LOCAL_SIZE, err);
 }
 

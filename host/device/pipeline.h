@@ -102,7 +102,7 @@ ec_result ec_pipeline_use_wave(ec_pipeline *pipeline, uint32_t wave, ec_error *e
 /* Room for films of so many pixels and batches of so many positions, which ec_pipeline_run_wave wants; what was in them is lost where they grow. */
 ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, uint64_t positions, ec_error *err);
 /* launch.c; items: of a launch of this stage by kernels of a set. accel: EC_ACCEL_COUNT where it goes through none */
-uint64_t ec_pipeline_items(const ec_pipeline *pipeline, ec_stage_id stage, uint32_t accel, uint32_t set_lanes, uint32_t wave, uint32_t triangles);
+uint64_t ec_pipeline_items(ec_stage_id stage, uint32_t accel, uint32_t set_lanes, uint32_t wave, uint32_t triangles);
 ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
 ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
 /* trace.c: the closest hits or the shadow rays of a bounce, in the way that has proved the fastest there; sets EC_ARG_SORTS. */

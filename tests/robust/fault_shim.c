@@ -13,7 +13,8 @@
  *   FAULT_PLATFORM=TEXT         the platform's version; one without PoCL's name gets eclat's own kernel cache
  *   FAULT_FOLDER=PATH           calls on files count below it only
  *   FAULT_NO_TMPFILE=1          files must have names there
- *   FAULT_COUNTS=FILE           gets a line "call count" for each call that was met */
+ *   FAULT_COUNTS=FILE           gets a line "call count" for each call that was met
+ *   FAULT_LAUNCHES=FILE         gets a line "program kernel work-items" for each launch */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -141,7 +142,20 @@ ANSWERS(clGetDeviceInfo, (cl_device_id d, cl_device_info i, size_t n, void *v, s
 ANSWERS(clBuildProgram, (cl_program p, cl_uint n, const cl_device_id *d, const char *o, void(CL_CALLBACK *f)(cl_program, void *), void *u), (p, n, d, o, f, u))
 ANSWERS(clGetProgramInfo, (cl_program p, cl_program_info i, size_t n, void *v, size_t *r), (p, i, n, v, r))
 ANSWERS(clSetKernelArg, (cl_kernel k, cl_uint i, size_t n, const void *v), (k, i, n, v))
-ANSWERS_ON(on_queue(q), clEnqueueNDRangeKernel, (cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint n, const cl_event *w, cl_event *e), (q, k, d, o, g, l, n, w, e))
+
+static void note_launch(cl_kernel kernel, size_t items)
+{
+    char name[128] = "?";
+    cl_program program = NULL;
+    FILE *file = getenv("FAULT_LAUNCHES") ? fopen(getenv("FAULT_LAUNCHES"), "a") : NULL;
+    if (!file) return;
+    clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
+    clGetKernelInfo(kernel, CL_KERNEL_PROGRAM, sizeof program, &program, NULL);
+    fprintf(file, "%p %s %zu\n", (void *)program, name, items);
+    fclose(file);
+}
+
+ANSWERS_ON((on_queue(q), note_launch(k, *g)), clEnqueueNDRangeKernel, (cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint n, const cl_event *w, cl_event *e), (q, k, d, o, g, l, n, w, e))
 ANSWERS_ON(on_queue(q), clEnqueueReadBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
 ANSWERS_ON(on_queue(q), clEnqueueWriteBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, const void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
 ANSWERS_ON(on_queue(q), clEnqueueFillBuffer, (cl_command_queue q, cl_mem m, const void *v, size_t vs, size_t o, size_t s, cl_uint n, const cl_event *w, cl_event *e), (q, m, v, vs, o, s, n, w, e))

@@ -221,6 +221,18 @@ class Failing(FaultCase):
         self.assertEqual((report["image_sha256"], len(report["devices"])), (self.whole["image_sha256"], 2))
         self.assertRegex(run.stderr, r"^eclat: warning: basic-.* is out, and the others take over its work: clCreateCommandQueue .*\n$")
 
+    def test_one_size_a_kernel(self):
+        """A kernel that two threads run at two sizes makes PoCL 3.1 abort now and then. Batches are of 8 and of 16 samples here."""
+        run, _ = self.run_with("sizes", *self.job, spp=256, env=TWO, launches=self.path("launches"))
+        self.assert_ok(run)
+        sizes = {}
+        with open(self.path("launches"), encoding="utf-8") as file:
+            for line in file:
+                program, kernel, items = line.split()
+                sizes.setdefault((program, kernel), set()).add(int(items))
+        self.assertIn("ec_accumulate", {kernel for _, kernel in sizes})
+        self.assertEqual({kernel: of for kernel, of in sizes.items() if len(of) > 1}, {})
+
     @full
     def test_all_fail(self):
         run, folder = self.run_with("none", *self.job, spp=4096, env=THREE, call="clEnqueueNDRangeKernel", at=300, lost=1)
