@@ -138,7 +138,7 @@ static beside place(const ec_rare_lights *all, const ec_chain *chain, const ec_r
 static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp,
                       const ec_params *params, const ec_rare *rare, sums *s)
 {
-    const bool is_spread = !lamp && light->direction[0] == 0 && light->direction[1] == 0 && light->direction[2] == 0;
+    const bool is_spread = ec_rare_light_is_all_around(light);
     const bool takes_all = is_spread || of->count < FEW;
     const double weight = of->weight * (lamp ? lamp->weight : 1);
     beside near[NEAREST];
@@ -227,9 +227,10 @@ static ec_result add_kind(const ec_rare_lights *all, selection *of, bool is_dire
         const ec_rare_light *light = &all->lights[i];
         sums s = {.through = through};
         memset(through, 0, (all->material_count + (size_t)1) * sizeof *through);
-        for (uint32_t l = 0; l < (light->lamp_count ? light->lamp_count : 1); l++, at += at ? of->count : 0) {
+        for (uint32_t l = 0; l < (light->lamp_count ? light->lamp_count : 1); l++) {
             of->in_sight = at;
             add_light(all, of, light, light->lamp_count ? &light->lamps[l] : NULL, params, rare, &s);
+            if (at && !ec_rare_light_is_all_around(light)) at += of->count;
         }
         keep_kind(all, light, &s, gathered(&s, is_direct, (double)params->width * params->height), rare);
     }
