@@ -133,6 +133,19 @@ static beside place(const ec_rare_lights *all, const ec_chain *chain, const ec_r
     return b;
 }
 
+/* The square of the distance of a chain's direction from the light's, and the largest solid angle that this may have from there: enough to tell
+ * of most chains that they are neither near nor meet it. towards: an environment's part. */
+static double distance_of(const ec_chain *chain, const ec_rare_light *light, const ec_rare_lamp *lamp, const float towards[3], double *most)
+{
+    double way[3], far = 0, square = 0;
+    *most = light->solid_angle;
+    for (int k = 0; k < 3; k++) way[k] = lamp ? (double)lamp->middle[k] - chain->origin[k] : (double)towards[k], far += way[k] * way[k];
+    if (lamp) *most = lamp->area / fmax(far, 1e-300);
+    const double length = lamp ? fmax(sqrt(far), 1e-300) : 1;
+    for (int k = 0; k < 3; k++) square += (chain->direction[k] - way[k] / length) * (chain->direction[k] - way[k] / length);
+    return square;
+}
+
 /* By those that are nearest to a light, or, where it is so large that more meet it, by these; by all of them where it lies all around, or where
  * they are too few to tell, and it is in sight of them. */
 static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp,
@@ -143,7 +156,12 @@ static void add_light(const ec_rare_lights *all, const selection *of, const ec_r
     const double weight = of->weight * (lamp ? lamp->weight : 1);
     beside near[NEAREST];
     uint32_t count = 0, met = 0;
+    float towards[3] = {0};
+    if (!lamp) ec_rare_light_direction(light, params, towards);
     for (uint32_t i = 0; i < of->count; i++) {
+        double most;
+        const double square = distance_of(of->chains[i], light, lamp, towards, &most);
+        if (count == NEAREST && square >= near[NEAREST - 1].square && PI * square >= most) continue;
         const beside next = place(all, of->chains[i], light, lamp, params);
         met += PI * next.square < next.solid_angle;
         keep_nearest(&next, near, &count);
