@@ -129,9 +129,9 @@ typedef struct ec_error_sums {
     double relative;          /* of SE^2 / (x + 0.01)^2, all channels */
     double samples;
     double largest;           /* variance of a pixel's mean, R, G or B */
-    ec_tail tail;             /* by how much the largest sample of each pixel moved its mean */
+    ec_tail tail, single;     /* by how much the largest sample of each pixel moved its mean; of pixels with one bright sample */
     double v4, v8;            /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
-    double u2, u4;            /* of the variance that a pixel's mean would have if its samples were independent, and of its square */
+    double u2, u4;            /* of the variance of a pixel's mean as its single samples tell it, and of its square */
 } ec_error_sums;
 void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums);
 
