@@ -114,6 +114,7 @@ typedef struct ec_film_error {
     double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/image_error.c */
     double bright_samples;   /* how many equal ones would make the noise as the largest few do: few where single samples decide; infinite where none stands out */
     double larger;           /* error, over this one, by samples larger than any yet that may be there and did not come */
+    double larger_falls;     /* with n times as many samples it is that over n to this power */
     double spread;           /* standard error of ln(error^2); over 0.3 a few rare events decide */
     /* What noise alone makes of mean((x - r)^2 / (r + 0.01)^2) over pixels and channels, r the converged image: SE^2 in
      * place of (x - r)^2, x in place of r. Infinity with fewer than 2 replicates. Heavy tails make it too small: a pixel that

@@ -32,9 +32,10 @@
  *
  * Samples brighter than any yet may come (larger_samples). Places in the picture that send a sample of size x or more, x how far one moves
  * its pixel's mean, are taken to be as many as x^(-1/xi) says (Pareto), xi by the largest few (Hill, Ann. Statist. 3, 1975), at most 1, as
- * light has a mean. These are of pixels that met but one such sample (Good, Biometrika 40, 1953: what was met once tells of what was not). A place that expects one sample has none in 1 / e of renders: beyond what size is such a place to be expected in one
- * render of 20? Its light is missing, and E^2 the larger by the square of that. On a plastic knot whose rim glints within one pixel,
- * bounds held in 35 of 40 renders otherwise.
+ * light has a mean. These few are of pixels that met one such sample each (what was met once tells of what was not: Good, Biometrika 40,
+ * 1953). A place that expects one sample has none in 1 / e of renders: beyond what size is such a place to be expected in one render of 20?
+ * Its light is missing, and E^2 the larger by the square of that. On a plastic knot whose rim glints within one pixel, bounds held in 35 of
+ * 40 renders otherwise.
  *
  * Where it holds: tests/host/test_film_coverage.c prints the table. With n = 2 or 3 the spread of a sample variance cannot
  * be told from the pixel's own kurtosis; normal pixels are assumed, which is too wide for skewed ones and too narrow if
@@ -67,7 +68,8 @@ static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
     const double n = p->n, s2 = ec_pixel_se2(p, 3), s4 = s2 * s2;
     const double v2 = n >= 4 ? squared_variance(n, p->m2[3], p->m4) / (n * n) : s4;
     const double y = ec_luminance(p->mean), excess = not_below(0, p->tail[0] - (1 + 1e-6) * y); /* the largest is a float: steady pixels have none */
-    const double squares = (double)p->tail[0] * p->tail[0] * p->tail[1], bright = p->tail[2] > 0 ? not_below(1, (double)p->tail[1] * p->tail[1] / p->tail[2]) : 1;
+    const double squares = (double)p->tail[0] * p->tail[0] * p->tail[1];
+    const double bright = p->tail[2] > 0 ? not_below(1, (double)p->tail[1] * p->tail[1] / p->tail[2]) : 1;
     const double u2 = p->samples > 1 ? not_below(0, squares / p->samples - y * y) / (p->samples - 1) / sqrt(sqrt(bright)) : 0;
     sums->luminance += y;
     sums->samples += p->samples;
@@ -78,7 +80,7 @@ static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
     sums->v4 += v2;
     sums->v8 += v2 * v2;
     sums->u2 += u2;
-    sums->u4 += u2 * u2;
+    sums->u4 += u2 * u2 * (1 - 1 / bright); /* without what a sample has with itself: as if u's square had no error of its own */
     for (int c = 0; c < 3; c++) {
         double x = fabs(p->mean[c]) + EC_RELMSE_FLOOR;
         sums->relative += ec_pixel_se2(p, c) / (x * x);
@@ -135,15 +137,19 @@ static double bright_samples(const ec_error_sums *sums)
     return fmax(sums->s2 * sums->s2 / fourth, 1); /* infinite where none stands out */
 }
 
-/* The root of the sum over places of the square of their light, over the noise (all of a picture's): of samples larger than the largest few. */
-static double larger_samples(const ec_error_sums *sums)
+/* The square root of how much larger a picture's E^2 is, over its noise, by a place whose samples are larger than the largest few; *falls: it
+ * goes as the number of samples to the power of minus that, as samples of expected number 1 are of size n^xi, over n, and noise goes as 1 / n. */
+static double larger_samples(const ec_error_sums *sums, double *falls)
 {
     const ec_tail *t = &sums->single;
     double logs = 0;
+    *falls = 0;
     if (t->count < FEWEST) return 0;
     const double count = t->count, least = t->largest[t->count - 1];
     for (uint32_t i = 0; i + 1 < t->count; i++) logs += log(t->largest[i] / least);
-    return least * pow(fmax(count * exp(-1) / MISSED, 1), fmin(logs / (count - 1), 1)) / sqrt(sums->s2);
+    const double xi = fmin(logs / (count - 1), 1);
+    *falls = fmax(0.5 - xi, 0);
+    return least * pow(fmax(count * exp(-1) / MISSED, 1), xi) / sqrt(sums->s2);
 }
 
 /* nu. G is taken one standard error high, since it comes out low just when a noisy pixel's variance does, and then both
@@ -209,7 +215,7 @@ ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_
         double variance = n >= 4 ? fmax(sums->s4 - sums->v4, 0) : sums->s4 * 2 / (n + 1);
         result.spread = sqrt(variance) / sums->s2;
         result.bright_samples = bright_samples(sums);
-        result.larger = larger_samples(sums);
+        result.larger = larger_samples(sums, &result.larger_falls);
         result.error_bound = ec_film_error_bound(square, result.noisy_pixels, result.bright_samples, result.larger, pixels, n);
     }
     judge(sums, pixels, rare, limit, &result);
