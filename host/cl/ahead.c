@@ -21,18 +21,20 @@ void ec_ahead_end(ec_cl *cl)
     cl->ahead = NULL;
 }
 
-cl_program ec_ahead_take(ec_cl *cl, const char *source, const char *options)
+bool ec_ahead_take(ec_cl *cl, const char *source, const char *options, cl_program *program, ec_error *err)
 {
     struct ec_ahead *a = cl->ahead;
-    cl_program found = NULL;
-    if (!a) return NULL;
+    if (!a) return false;
     wait_for(a);
-    for (uint32_t i = 0; i < a->job.program_count && !found; i++) {
-        if (!a->programs[i] || strcmp(options, a->job.programs[i].options) || strcmp(source, a->job.programs[i].source)) continue;
-        found = a->programs[i];
+    for (uint32_t i = 0; a->is_done && i < a->job.program_count; i++) {
+        if (!*a->job.programs[i].label || strcmp(options, a->job.programs[i].options) || strcmp(source, a->job.programs[i].source)) continue;
+        *program = a->programs[i];
+        if (!*program && err) *err = a->errors[i];
         a->programs[i] = NULL;
+        *a->job.programs[i].label = 0; /* taken */
+        return true;
     }
-    return found;
+    return false;
 }
 
 /* All that says whether a job was compiled before: compile_done.c. */
@@ -47,12 +49,10 @@ static bool is_same(const ec_compile_job *a, const ec_compile_job *b)
     return same;
 }
 
-bool ec_ahead_knows(const ec_cl *cl, const ec_compile_job *job, bool *is_done)
+bool ec_ahead_is_done(const ec_cl *cl, const ec_compile_job *job)
 {
     struct ec_ahead *a = cl->ahead;
     if (!a) return false;
     wait_for(a);
-    if (!is_same(&a->job, job)) return false;
-    *is_done = a->is_done;
-    return true;
+    return a->is_done && is_same(&a->job, job);
 }

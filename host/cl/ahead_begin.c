@@ -3,14 +3,13 @@
 #include "cl/ahead.h"
 #include "cl/build_log.h"
 
-/* Touches nothing of the device that another thread may change. A program that does not build is built again by who asks for it, and fails there. */
+/* Touches nothing of the device that another thread may change. */
 static void *build_all(void *user)
 {
     struct ec_ahead *a = user;
-    a->is_done = ec_compile_job_look(a->cl, &a->job);
+    a->is_done = ec_compile_job_look(a->cl, &a->job, false);
     for (uint32_t i = 0; a->is_done && i < a->job.program_count; i++)
-        if (ec_program_build_source(a->cl, a->job.programs[i].label, a->job.programs[i].source, a->job.programs[i].options, &a->programs[i], NULL) != EC_OK)
-            a->programs[i] = NULL;
+        (void)ec_program_build_source(a->cl, a->job.programs[i].label, a->job.programs[i].source, a->job.programs[i].options, &a->programs[i], &a->errors[i]);
     return NULL;
 }
 

@@ -13,6 +13,7 @@
 
 #define PATH_SIZE 4096
 #define MARK_SIZE 33
+#define LIST_FORMAT "2" /* lists of another are not found: their files would seem damaged */
 #define PROGRAM "program.bc" /* of PoCL, two folders above the kernels */
 
 /* Where PoCL keeps its cache, as it chooses itself. */
@@ -34,7 +35,7 @@ static bool key_of(const ec_cl *cl, const ec_compile_job *job, char folder[PATH_
     const char *is_used = getenv("POCL_KERNEL_CACHE");
     if (is_used && !strcmp(is_used, "0")) return false;
     if (!ec_cache_folder(cl->cache_dir, folder, PATH_SIZE) || !driver_folder(path) || stat(path, &status) != 0) return false;
-    snprintf(where, sizeof where, "%s %llu %llu", path, (unsigned long long)status.st_dev, (unsigned long long)status.st_ino);
+    snprintf(where, sizeof where, LIST_FORMAT " %s %llu %llu", path, (unsigned long long)status.st_dev, (unsigned long long)status.st_ino);
     *key = ec_cache_key_of(&cl->info, where, "");
     for (uint32_t i = 0; i < job->program_count; i++) {
         char options[256];
@@ -78,7 +79,7 @@ static bool mark_of(const char *path, char mark[MARK_SIZE])
 }
 
 /* Is each file of the list as it was? One that is gone is compiled again by the driver; one that is other than it was would end the process. */
-static bool is_intact(const ec_cl *cl, char *list)
+static bool is_intact(const ec_cl *cl, char *list, bool mends)
 {
     char driver[PATH_SIZE], mark[MARK_SIZE], *rest = NULL;
     bool is_whole = driver_folder(driver);
@@ -87,12 +88,12 @@ static bool is_intact(const ec_cl *cl, char *list)
         if (!path) return false;
         *path++ = 0;
         is_whole = mark_of(path, mark) && !strcmp(mark, line);
-        if (!is_whole && access(path, F_OK) == 0 && !strncmp(path, driver, strlen(driver))) set_aside(cl, path, driver);
+        if (!is_whole && mends && access(path, F_OK) == 0 && !strncmp(path, driver, strlen(driver))) set_aside(cl, path, driver);
     }
     return is_whole;
 }
 
-bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job)
+bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job, bool mends)
 {
     char folder[PATH_SIZE], *list = NULL;
     ec_cache_key key;
@@ -100,7 +101,7 @@ bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job)
     size_t bytes = 0;
     if (!key_of(cl, job, folder, &key) || !ec_cache_load(folder, &key, &found, &bytes)) return false;
     list = strndup((char *)found, bytes);
-    const bool is_done = list && is_intact(cl, list);
+    const bool is_done = list && is_intact(cl, list, mends);
     free(list);
     free(found);
     return is_done;
@@ -108,8 +109,7 @@ bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job)
 
 bool ec_compile_job_is_done(const ec_cl *cl, const ec_compile_job *job)
 {
-    bool is_done;
-    return ec_ahead_knows(cl, job, &is_done) ? is_done : ec_compile_job_look(cl, job);
+    return ec_ahead_is_done(cl, job) || ec_compile_job_look(cl, job, true);
 }
 
 static void add_file(FILE *list, const char *path)

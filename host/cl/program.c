@@ -102,12 +102,12 @@ ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, con
     if (*b.folder || cl->keeps_programs) b.key = ec_cache_key_of(&cl->info, source, b.options);
     bool dump = ec_build_log_wanted();
     ec_result result = EC_OK;
-    cl_program kept = cl->keeps_programs ? ec_kept_find(cl, &b.key) : NULL, ahead = kept ? NULL : ec_ahead_take(cl, source, options ? options : "");
+    cl_program kept = cl->keeps_programs ? ec_kept_find(cl, &b.key) : NULL;
     if (kept) {
         if (clRetainProgram(kept) == CL_SUCCESS) *program = kept, cl->programs_found++;
         else result = ec_fail(err, "cannot retain kernels %s", label);
-    } else if (ahead) {
-        *program = ahead;
+    } else if (ec_ahead_take(cl, source, options ? options : "", program, err)) {
+        result = *program ? EC_OK : EC_FAILED;
     } else if (!dump && build_from_cache(&b, program)) {
         cl->cache_hits++;
     } else {

@@ -103,7 +103,7 @@ def measure_error(eclat, runs, folder):
         for compiled in list(found) * runs:
             caches.wait()
             caches.empty()
-            report = common.run_eclat(eclat, [scenes()[name], "--size", "256x256", "--error", ERROR, "--compile", compiled, "-o", os.path.join(folder, "error.exr")], caches.environment)
+            report = common.run_eclat(eclat, [scenes()[name], "--size", "64x64", "--error", ERROR, "--compile", compiled, "-o", os.path.join(folder, "error.exr")], caches.environment)
             found[compiled].append(report["wall_seconds"] - report["write_seconds"])
     return times
 
