@@ -122,6 +122,23 @@ ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t by
     return ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err);
 }
 
+ec_result ec_buffer_read_rows(ec_cl *cl, cl_mem buffer, uint64_t pitch, uint64_t bytes, uint32_t rows, void *to, ec_error *err)
+{
+    const size_t origin[3] = {0}, region[3] = {bytes, rows, 1};
+    if (bytes == 0 || rows == 0) return EC_OK;
+    cl_int code = clEnqueueReadBufferRect(cl->queue, buffer, CL_TRUE, origin, origin, region, pitch, 0, bytes, 0, to, 0, NULL, NULL);
+    EC_TRY(ec_cl_check(code, "clEnqueueReadBufferRect", NULL, err));
+    return ec_cl_landed(cl, err);
+}
+
+ec_result ec_buffer_write_rows(ec_cl *cl, cl_mem buffer, uint64_t pitch, uint64_t bytes, uint32_t rows, const void *from, ec_error *err)
+{
+    const size_t origin[3] = {0}, region[3] = {bytes, rows, 1};
+    if (bytes == 0 || rows == 0) return EC_OK;
+    cl_int code = clEnqueueWriteBufferRect(cl->queue, buffer, CL_TRUE, origin, origin, region, pitch, 0, bytes, 0, from, 0, NULL, NULL);
+    return ec_cl_check(code, "clEnqueueWriteBufferRect", NULL, err);
+}
+
 ec_result ec_buffer_fill(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *word, ec_error *err)
 {
     if (bytes == 0) return EC_OK;

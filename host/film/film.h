@@ -113,6 +113,7 @@ typedef struct ec_film_error {
     char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* of the rare paths; through is empty where the camera sees the light itself */
     double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/image_error.c */
     double bright_samples;   /* how many equal ones would make the noise as the largest few do: few where single samples decide; infinite where none stands out */
+    double larger;           /* error, over this one, by samples larger than any yet that may be there and did not come */
     double spread;           /* standard error of ln(error^2); over 0.3 a few rare events decide */
     /* What noise alone makes of mean((x - r)^2 / (r + 0.01)^2) over pixels and channels, r the converged image: SE^2 in
      * place of (x - r)^2, x in place of r. Infinity with fewer than 2 replicates. Heavy tails make it too small: a pixel that
@@ -128,16 +129,17 @@ typedef struct ec_error_sums {
     double relative;          /* of SE^2 / (x + 0.01)^2, all channels */
     double samples;
     double largest;           /* variance of a pixel's mean, R, G or B */
-    ec_tail tail;             /* by how much the largest sample of each pixel moved its mean */
+    ec_tail tail, single;     /* by how much the largest sample of each pixel moved its mean; of pixels with one bright sample */
     double v4, v8;            /* of unbiased estimates of v^2, and of their squares (n >= 4) or those of s^8 (n < 4) */
+    double u2, u4;            /* of the variance of a pixel's mean as its single samples tell it, and of its square */
 } ec_error_sums;
 void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums);
 
 /* The error of so many pixels that have `replicates` replicates each. rare, limit: as ec_film's. */
 ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare, double limit);
 
-/* The bound of an error whose square is `square`. */
-double ec_film_error_bound(double square, double noisy_pixels, double bright_samples, double pixels, double replicates);
+/* The bound of an error whose square is `square`; the others: as ec_film_error has them. */
+double ec_film_error_bound(double square, double noisy_pixels, double bright_samples, double larger, double pixels, double replicates);
 
 /* Keeps relMSE finite on black: as in pbrt's imgtool (metric MRSE), so that figures compare. */
 #define EC_RELMSE_FLOOR 0.01

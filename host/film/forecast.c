@@ -20,14 +20,14 @@ double ec_outlook_fall(const ec_film_outlook *o, double samples)
 double ec_outlook_bound(const ec_film_outlook *o, double samples)
 {
     const double bright = o->bright_samples * samples / o->samples;
-    const double met = ec_film_error_bound(o->square / ec_outlook_fall(o, samples), o->noisy_pixels, bright, o->pixels, o->replicates);
+    const double met = ec_film_error_bound(o->square / ec_outlook_fall(o, samples), o->noisy_pixels, bright, o->larger, o->pixels, o->replicates);
     return samples < o->unmet_samples ? hypot(met, o->unmet) : met;
 }
 
 /* As if no light were missing. */
 static double samples_if_met(const ec_film_outlook *o, double target)
 {
-    const ec_film_outlook met = {o->square, o->samples, o->slope, o->noisy_pixels, o->bright_samples, o->pixels, o->replicates, 0, 0};
+    const ec_film_outlook met = {o->square, o->samples, o->slope, o->noisy_pixels, o->bright_samples, o->larger, o->pixels, o->replicates, 0, 0};
     double samples = o->samples * pow(o->square / (target * target), 1 / o->slope);
     for (int i = 0; i < 20; i++) { /* Newton's method on logarithms, but for the bound's factor, which hardly depends on the number */
         const double bound = ec_outlook_bound(&met, samples), better = samples * pow(bound / target, 2 / (1 + excess(o, samples)));

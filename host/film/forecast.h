@@ -11,7 +11,7 @@
 typedef struct ec_film_outlook {
     double square, samples;  /* error^2 with so many samples a pixel */
     double slope;
-    double noisy_pixels, bright_samples, pixels, replicates;
+    double noisy_pixels, bright_samples, larger, pixels, replicates;
     double unmet, unmet_samples; /* by which light that may be missing widens the bound; a pixel, after which it is as good as met */
 } ec_film_outlook;
 

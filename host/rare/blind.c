@@ -50,16 +50,18 @@ static void start_far_away(const ec_rare_light *light, const ec_params *params, 
     ray->prim = EC_NO_ID;
 }
 
-static bool is_all_around(const ec_rare_light *l) { return !l->lamp_count && l->direction[0] == 0 && l->direction[1] == 0 && l->direction[2] == 0; }
-
-static void start_rays(const ec_rare_lights *all, const ec_params *params, ec_chain *rays)
+/* From each light that is not all around; returns how many. */
+static uint32_t start_rays(const ec_rare_lights *all, const ec_params *params, ec_chain *rays)
 {
     uint64_t random = 7;
-    for (uint32_t i = 0; i < all->count * RAYS; i++) {
-        const ec_rare_light *light = &all->lights[i / RAYS];
-        if (light->lamp_count) start_at_lamp(&light->lamps[i % light->lamp_count], &random, &rays[i]);
-        else start_far_away(light, params, all->radius, &random, &rays[i]);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < all->count; i++) {
+        const ec_rare_light *light = &all->lights[i];
+        for (uint32_t k = 0; k < RAYS && !ec_rare_light_is_all_around(light); k++, count++)
+            if (light->lamp_count) start_at_lamp(&light->lamps[k % light->lamp_count], &random, &rays[count]);
+            else start_far_away(light, params, all->radius, &random, &rays[count]);
     }
+    return count;
 }
 
 /* In place of any other where there is no room: nothing is known of it. */
@@ -88,15 +90,20 @@ static void judge_light(const ec_rare_lights *all, const ec_chains *chains, cons
 ec_result ec_rare_blind_find(const ec_rare_lights *all, const ec_chains *chains, ec_pipeline *p, ec_rare *rare, ec_error *err)
 {
     bool any = false;
+    uint32_t count = 0;
     for (uint32_t m = 0; m < all->material_count; m++) any |= all->sharp[m] >= EC_BLIND_SHARE && chains->visits[m] < EC_BLIND_VISITS;
     if (!any || !(all->power > 0)) return EC_OK;
     ec_chain *rays = calloc((size_t)all->count * RAYS, sizeof *rays);
     double *shares = malloc((all->material_count + (size_t)1) * sizeof *shares);
     ec_result result = rays && shares ? EC_OK : ec_fail(err, "out of memory for %u rays", all->count * RAYS);
-    if (result == EC_OK) start_rays(all, &p->params, rays);
-    if (result == EC_OK) result = ec_chains_meet(p, rays, all->count * RAYS, err);
-    for (uint32_t i = 0; result == EC_OK && i < all->count; i++)
-        if (!is_all_around(&all->lights[i])) judge_light(all, chains, &all->lights[i], rays + (size_t)i * RAYS, shares, rare);
+    if (result == EC_OK) count = start_rays(all, &p->params, rays);
+    if (result == EC_OK) result = ec_chains_meet(p, rays, count, err);
+    const ec_chain *own = rays;
+    for (uint32_t i = 0; result == EC_OK && i < all->count; i++) {
+        if (ec_rare_light_is_all_around(&all->lights[i])) continue;
+        judge_light(all, chains, &all->lights[i], own, shares, rare);
+        own += RAYS;
+    }
     free(rays);
     free(shares);
     return result;

@@ -118,11 +118,9 @@ static uint32_t accel_of(const ec_pipeline *p)
     return accel;
 }
 
-static ec_result read_fields(const tracer *t, cl_mem from, int fields, float *into, ec_error *err)
+static ec_result read_fields(const tracer *t, cl_mem from, uint32_t fields, float *into, ec_error *err)
 {
-    for (int f = 0; f < fields; f++)
-        EC_TRY(ec_buffer_read(t->p->cl, from, 4ull * t->p->wave * (uint32_t)f, 4ull * t->stride, into + (size_t)t->stride * (uint32_t)f, err));
-    return EC_OK;
+    return ec_buffer_read_rows(t->p->cl, from, 4ull * t->p->wave, 4ull * t->stride, fields, into, err);
 }
 
 /* One bounce: rays[0] of the counters says what each part of the queue holds, and at the end what is left. */
@@ -257,7 +255,7 @@ void ec_chains_free(ec_chains *chains)
 }
 
 /* A queue of rays alone, part after part as fill_parts has them, as the shutter opens. Lanes past the last ray look too: they have it again. */
-static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float *field, ec_error *err)
+static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float *fields, ec_error *err)
 {
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
     const uint32_t padded = (count + LANES_MOST - 1) / LANES_MOST * LANES_MOST, entries = padded < p->wave ? padded : p->wave;
@@ -266,31 +264,32 @@ static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float
     ec_pipeline_fill_parts(p, count);
     ec_pipeline_swap_queues(p, 0);
     EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    for (uint32_t f = 0; f <= EC_PATH_PRIM; f++) {
+    for (uint32_t f = 0; f <= EC_PATH_PRIM; f++)
         for (uint32_t i = 0; i < entries; i++) {
             const uint32_t k = f < EC_PATH_DX ? f : f - EC_PATH_DX;
             const ec_chain *ray = &rays[i < count ? i : count - 1];
-            if (f < EC_PATH_DX) field[i] = ray->origin[k];
-            else if (f < EC_PATH_BR) field[i] = ray->direction[k];
-            else memcpy(&field[i], f == EC_PATH_PRIM ? &ray->prim : &i, sizeof i); /* slots, and what nobody looks at */
+            float *to = &fields[(size_t)f * entries + i];
+            if (f < EC_PATH_DX) *to = ray->origin[k];
+            else if (f < EC_PATH_BR) *to = ray->direction[k];
+            else memcpy(to, f == EC_PATH_PRIM ? &ray->prim : &i, sizeof i); /* slots, and what nobody looks at */
         }
-        EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave * f, 4ull * entries, field, err));
-    }
+    EC_TRY(ec_buffer_write_rows(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave, 4ull * entries, EC_PATH_PRIM + 1, fields, err));
     if (p->buffers[EC_ARG_TIMES]) EC_TRY(ec_buffer_zero(p->cl, p->buffers[EC_ARG_TIMES], 0, 4ull * entries, err));
     EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], 4ull * p->wave * EC_HIT_PRIM, 4ull * count, field, err));
-    for (uint32_t i = 0; i < count; i++) memcpy(&rays[i].hit, &field[i], sizeof rays[i].hit);
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], 4ull * p->wave * EC_HIT_PRIM, 4ull * count, fields, err));
+    for (uint32_t i = 0; i < count; i++) memcpy(&rays[i].hit, &fields[i], sizeof rays[i].hit);
     return EC_OK;
 }
 
 ec_result ec_chains_meet(ec_pipeline *p, ec_chain *rays, uint32_t count, ec_error *err)
 {
-    float *field = malloc(4ull * (count + LANES_MOST));
-    ec_result result = field ? EC_OK : ec_fail(err, "out of memory for %u rays", count);
+    const uint32_t most = count < p->wave ? count : p->wave;
+    float *fields = malloc(4ull * (EC_PATH_PRIM + 1) * (most + LANES_MOST));
+    ec_result result = fields ? EC_OK : ec_fail(err, "out of memory for %u rays", count);
     for (uint32_t first = 0, wave; result == EC_OK && first < count; first += wave) {
         wave = count - first < p->wave ? count - first : p->wave;
-        result = meet_wave(p, rays + first, wave, field, err);
+        result = meet_wave(p, rays + first, wave, fields, err);
     }
-    free(field);
+    free(fields);
     return result;
 }

@@ -28,20 +28,32 @@ static float brightest(const ec_pack *pack)
 {
     float most = 0;
     const size_t texels = (size_t)pack->environment_width * (pack->environment_height + 1);
-    for (size_t i = 0; i < texels; i++) most = fmaxf(most, (float)luminance(pack->environment_texels + 4 * i));
+    for (size_t i = 0; i < texels; i++) {
+        const float bright = (float)luminance(pack->environment_texels + 4 * i);
+        if (bright > most) most = bright;
+    }
     return most;
+}
+
+/* What ilogb says of a double that is no denormal, as no float is: half a million texels ask. */
+static int octave_of(double bright)
+{
+    uint64_t bits;
+    memcpy(&bits, &bright, sizeof bits);
+    return (int)(bits >> 52) - 1023;
 }
 
 /* columns: cosine and sine of each column's angle. */
 static void sort_into_octaves(const ec_pack *pack, float most, const double *columns, octave *octaves)
 {
     const uint32_t width = pack->environment_width, height = pack->environment_height;
+    const int first = octave_of(most);
     for (uint32_t y = 0; y < height; y++) {
         const double theta = PI * (y + 0.5) / height, sine = sin(theta), cosine = cos(theta), solid = 2 * PI * PI / width / height * sine;
         const float *row = pack->environment_texels + 4 * (size_t)width * (y + 1);
         for (uint32_t x = 0; x < width; x++) {
             const double bright = luminance(row + 4 * (size_t)x);
-            const int k = bright > 0 ? ilogb(most) - ilogb(bright) : OCTAVES;
+            const int k = bright > 0 ? first - octave_of(bright) : OCTAVES;
             if (k >= OCTAVES) continue;
             const double direction[3] = {sine * columns[2 * (size_t)x], cosine, sine * columns[2 * (size_t)x + 1]};
             octave *o = &octaves[k * OCTANTS + (direction[0] < 0) + 2 * (direction[1] < 0) + 4 * (direction[2] < 0)];

@@ -61,7 +61,13 @@ typedef struct ec_rare_lights {
 ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *lights, ec_error *err);
 void ec_rare_lights_free(ec_rare_lights *lights); /* zero-initialised or freed is fine */
 
-/* Towards an environment's part, in the scene. */
+/* Does it shine from no direction more than from others? No ray goes towards it. */
+static inline bool ec_rare_light_is_all_around(const ec_rare_light *light)
+{
+    return !light->lamp_count && light->direction[0] == 0 && light->direction[1] == 0 && light->direction[2] == 0;
+}
+
+/* Towards an environment's part that is not all around, in the scene. */
 void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3]);
 
 void ec_rare_sun_direction(const ec_rare_sun *sun, const ec_params *params, float direction[3]);

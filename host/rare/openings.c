@@ -11,6 +11,7 @@
 #define BESIDE 1e-4   /* of the scene's radius: so far from an edge rays go past it */
 #define ABOVE 1e-5    /* likewise, above what is lit */
 #define GRAZING 0.05  /* cosine under which light goes along what it falls on */
+enum { PAGE = 256 }; /* triangles that are read at once */
 enum { PASSED = 1 << 11 };                       /* rays past edges that are followed to where they land */
 enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a sun whose surroundings are looked at, and felt for; patches in all */
 enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one before */
@@ -27,6 +28,7 @@ typedef struct finder {
     const ec_rare_lights *all;
     ec_pipeline *p;
     ec_chain *rays;
+    ec_prim **pages;           /* of triangles, each read when one of its is asked for */
     patch *patches;            /* those that are small */
     uint32_t count;
 } finder;
@@ -76,21 +78,27 @@ static void set_ray(ec_chain *ray, const float point[3], const float direction[3
     }
 }
 
-/* The corners of a triangle that stands where it was made. */
-static ec_result read_corners(const finder *f, uint32_t prim, float corners[3][3], ec_error *err)
+/* A triangle that stands where it was made; the pages are freed as a whole. */
+static ec_result read_triangle(const finder *f, uint32_t prim, const ec_prim **at, ec_error *err)
 {
-    ec_prim p;
-    EC_TRY(ec_buffer_read(f->p->cl, f->p->buffers[EC_ARG_PRIMS], (uint64_t)prim * sizeof p, sizeof p, &p, err));
-    memcpy(corners[0], p.v0, sizeof p.v0), memcpy(corners[1], p.v1, sizeof p.v1), memcpy(corners[2], p.v2, sizeof p.v2);
+    ec_prim **page = &f->pages[prim / PAGE];
+    const uint32_t first = prim / PAGE * PAGE, count = f->all->flat_count - first < PAGE ? f->all->flat_count - first : PAGE;
+    if (!*page) {
+        *page = malloc(count * sizeof **page);
+        if (!*page) return ec_fail(err, "out of memory for %u triangles", count);
+        EC_TRY(ec_buffer_read(f->p->cl, f->p->buffers[EC_ARG_PRIMS], (uint64_t)first * sizeof **page, count * sizeof **page, *page, err));
+    }
+    *at = *page + prim % PAGE;
     return EC_OK;
 }
 
 /* Where a ray of the sun ends; false where it only grazes. */
 static ec_result land(const finder *f, const ec_chain *ray, const ec_rare_sun *sun, patch *at, bool *is_there, ec_error *err)
 {
-    float v[3][3], e[3], g[3], n[3], way[3];
-    EC_TRY(read_corners(f, ray->hit, v, err));
-    for (int k = 0; k < 3; k++) e[k] = v[1][k] - v[0][k], g[k] = v[2][k] - v[0][k], way[k] = v[0][k] - ray->origin[k];
+    float e[3], g[3], n[3], way[3];
+    const ec_prim *v = NULL;
+    EC_TRY(read_triangle(f, ray->hit, &v, err));
+    for (int k = 0; k < 3; k++) e[k] = v->v1[k] - v->v0[k], g[k] = v->v2[k] - v->v0[k], way[k] = v->v0[k] - ray->origin[k];
     for (int k = 0; k < 3; k++) n[k] = e[(k + 1) % 3] * g[(k + 2) % 3] - e[(k + 2) % 3] * g[(k + 1) % 3];
     const double length = sqrt(dot(n, n)), along = dot(n, ray->direction) / length, t = dot(n, way) / dot(n, ray->direction);
     *is_there = fabs(along) > GRAZING && t > 0 && isfinite(t);
@@ -271,9 +279,13 @@ ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_ra
     const size_t most = all->edge_count > FELT * RINGS * AROUND ? all->edge_count : FELT * RINGS * AROUND;
     *openings = (ec_rare_openings){0};
     if (!all->sun_count || !all->edge_count) return EC_OK;
-    finder f = {.all = all, .p = p, .rays = calloc(most, sizeof *f.rays), .patches = calloc(PATCHES, sizeof *f.patches)};
-    ec_result result = f.rays && f.patches ? EC_OK : ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
+    const uint32_t pages = (all->flat_count + PAGE - 1) / PAGE;
+    finder f = {.all = all, .p = p, .rays = calloc(most, sizeof *f.rays), .patches = calloc(PATCHES, sizeof *f.patches),
+                .pages = calloc(pages + (size_t)1, sizeof *f.pages)};
+    ec_result result = f.rays && f.patches && f.pages ? EC_OK : ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
     for (uint32_t i = 0; result == EC_OK && i < all->sun_count; i++) result = find_patches(&f, &all->suns[i], err);
+    for (uint32_t i = 0; f.pages && i < pages; i++) free(f.pages[i]);
+    free(f.pages);
     free(f.rays);
     *openings = (ec_rare_openings){f.count, f.patches};
     return result;

@@ -133,17 +133,35 @@ static beside place(const ec_rare_lights *all, const ec_chain *chain, const ec_r
     return b;
 }
 
+/* The square of the distance of a chain's direction from the light's, and the largest solid angle that this may have from there: enough to tell
+ * of most chains that they are neither near nor meet it. towards: an environment's part. */
+static double distance_of(const ec_chain *chain, const ec_rare_light *light, const ec_rare_lamp *lamp, const float towards[3], double *most)
+{
+    double way[3], far = 0, square = 0;
+    *most = light->solid_angle;
+    for (int k = 0; k < 3; k++) way[k] = lamp ? (double)lamp->middle[k] - chain->origin[k] : (double)towards[k], far += way[k] * way[k];
+    if (lamp) *most = lamp->area / fmax(far, 1e-300);
+    const double length = lamp ? fmax(sqrt(far), 1e-300) : 1;
+    for (int k = 0; k < 3; k++) square += (chain->direction[k] - way[k] / length) * (chain->direction[k] - way[k] / length);
+    return square;
+}
+
 /* By those that are nearest to a light, or, where it is so large that more meet it, by these; by all of them where it lies all around, or where
  * they are too few to tell, and it is in sight of them. */
 static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp,
                       const ec_params *params, const ec_rare *rare, sums *s)
 {
-    const bool is_spread = !lamp && light->direction[0] == 0 && light->direction[1] == 0 && light->direction[2] == 0;
+    const bool is_spread = ec_rare_light_is_all_around(light);
     const bool takes_all = is_spread || of->count < FEW;
     const double weight = of->weight * (lamp ? lamp->weight : 1);
     beside near[NEAREST];
     uint32_t count = 0, met = 0;
+    float towards[3] = {0};
+    if (!lamp) ec_rare_light_direction(light, params, towards);
     for (uint32_t i = 0; i < of->count; i++) {
+        double most;
+        const double square = distance_of(of->chains[i], light, lamp, towards, &most);
+        if (count == NEAREST && square >= near[NEAREST - 1].square && PI * square >= most) continue;
         const beside next = place(all, of->chains[i], light, lamp, params);
         met += PI * next.square < next.solid_angle;
         keep_nearest(&next, near, &count);
@@ -227,9 +245,10 @@ static ec_result add_kind(const ec_rare_lights *all, selection *of, bool is_dire
         const ec_rare_light *light = &all->lights[i];
         sums s = {.through = through};
         memset(through, 0, (all->material_count + (size_t)1) * sizeof *through);
-        for (uint32_t l = 0; l < (light->lamp_count ? light->lamp_count : 1); l++, at += at ? of->count : 0) {
+        for (uint32_t l = 0; l < (light->lamp_count ? light->lamp_count : 1); l++) {
             of->in_sight = at;
             add_light(all, of, light, light->lamp_count ? &light->lamps[l] : NULL, params, rare, &s);
+            if (at && !ec_rare_light_is_all_around(light)) at += of->count;
         }
         keep_kind(all, light, &s, gathered(&s, is_direct, (double)params->width * params->height), rare);
     }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static uint32_t targets_of(const ec_rare_light *light) { return light->lamp_count ? light->lamp_count : 1; }
+static uint32_t targets_of(const ec_rare_light *light) { return ec_rare_light_is_all_around(light) ? 0 : light->lamp_count ? light->lamp_count : 1; }
 
 /* From the light to where a chain starts: whatever side of a body that is on, the ray meets the side of it that the light shines on. */
 static void aim(const ec_rare_lights *all, const ec_rare_light *light, uint32_t lamp, const ec_params *params, const ec_chain *to, ec_chain *ray)

@@ -4,7 +4,7 @@
 
 #include "rare/chains.h"
 
-/* in_sight: by light, by lamp of it (one of an environment's part), by chain; owned by the caller, NULL where there are no chains. */
+/* in_sight: by light that is not all around, by lamp of it (one of an environment's part), by chain; owned by the caller, NULL where there are no chains. */
 ec_result ec_rare_sight(const ec_rare_lights *lights, const ec_chain *const *chains, uint32_t count, ec_pipeline *pipeline, bool **in_sight, ec_error *err);
 
 #endif

@@ -60,7 +60,7 @@ static void add_from_map(ec_rare_lights *all)
 {
     for (uint32_t i = 0; i < all->count; i++) {
         const ec_rare_light *l = &all->lights[i];
-        if (l->lamp_count || l->solid_angle > NARROW || (l->direction[0] == 0 && l->direction[1] == 0 && l->direction[2] == 0)) continue;
+        if (l->lamp_count || l->solid_angle > NARROW || ec_rare_light_is_all_around(l)) continue;
         ec_rare_sun sun = {.is_on_map = true, .irradiance = l->radiance * l->solid_angle, .name = "the environment"};
         memcpy(sun.direction, l->direction, sizeof sun.direction);
         if (!join_sun(&sun, all)) add_sun(&sun, all);

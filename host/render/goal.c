@@ -81,8 +81,8 @@ static ec_forecast foretell(const ec_goal *g, ec_mark at, double gain)
 {
     const ec_film_error *now = &g->now;
     const bool is_open = now->is_open, known = isfinite(now->error) && now->error > 0 && !is_open;
-    const ec_film_outlook o = {now->error * now->error * gain, at.samples, g->slope.value, now->noisy_pixels, now->bright_samples, g->pixels, g->replicates,
-                               EC_RARE_DOUBT * now->unmet, now->unmet_samples};
+    const ec_film_outlook o = {now->error * now->error * gain, at.samples, g->slope.value, now->noisy_pixels, now->bright_samples, now->larger,
+                               g->pixels, g->replicates, EC_RARE_DOUBT * now->unmet, now->unmet_samples};
     range samples = {INFINITY, INFINITY, INFINITY};
     if (g->error > 0 && known) samples = samples_to(g, &o);
     if (g->samples > 0) samples = at_most(samples, g->samples);

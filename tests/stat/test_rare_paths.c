@@ -246,6 +246,20 @@ static void check_small_mirror(void)
     CHECK_MSG(seen > 0.01 && hidden == 0 && own > 0 && both == 0, "light %g, %g, %g, %g", seen, hidden, own, both);
 }
 
+/* Most of this map's light comes from no direction in particular, and no ray can be aimed at that: rays without a direction ended the program. */
+static void check_all_around(void)
+{
+    static const char model[] = SHARED("assets/gltf/MetalRoughSpheresNoTextures/glTF-Binary/MetalRoughSpheresNoTextures.glb"),
+                      map[] = SHARED("assets/env/pmndrs-assets/studio.hdr");
+    if (!case_present(model) || !case_present(map)) return;
+    ec_scene *scene = case_load(model, map);
+    const ec_render_options o = case_options(32, 32, 16);
+    const ec_rare rare = foretell(scene, &o);
+    printf("spheres of few millimetres under studio.hdr: %u kinds\n", rare.count);
+    CHECK(rare.count > 0);
+    ec_scene_free(scene);
+}
+
 /* The brightest tile is 255 of 255, however its quotient rounds: in this picture it came out as 256, which a byte takes for none. */
 static void check_tiles(void)
 {
@@ -272,6 +286,7 @@ int main(void)
         check_plane("a mirror that shows the light", 1, 0.2, true);
     }
     if (!test_tier("full")) TEST_END();
+    check_all_around();
     check_bulb(0.002, true);
     check_bulb(0.002, false);
     check_small_mirror();

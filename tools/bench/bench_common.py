@@ -89,6 +89,8 @@ def write_table(path, setting, columns, rows):
 
 
 def write_json(path, data):
-    with open(path, "w", encoding="utf-8") as file:
+    unfinished = path + ".part"
+    with open(unfinished, "w", encoding="utf-8") as file:
         json.dump(data, file, indent=1, ensure_ascii=False)
         file.write("\n")
+    os.replace(unfinished, path)

@@ -7,6 +7,7 @@ is null, infinite or not there is one that was refused."""
 import argparse
 import concurrent.futures
 import hashlib
+import json
 import math
 import os
 import sys
@@ -78,7 +79,7 @@ def parse():
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="renders at once; seconds do not count here (default: 1)")
     parser.add_argument("--extra", default="", metavar="OPTIONS", help="options of every render that is judged")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
-    parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
+    parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE, and go on from what a run of the same options left there")
     parser.add_argument("--table", metavar="FILE", help="write the manual's table to FILE: docs/data/bounds.json, for tools/docs_tables.py")
     options = parser.parse_args()
     options.scene = options.scene + (options.scenes.split(",") if options.scenes else []) or list(SCENES)
@@ -147,7 +148,31 @@ def one(eclat, scene, place, budget, seed, options, folder, reference):
             "stated_error": report.get("error"), "true": reference.error_of(luminance(out))}
 
 
-def measure(eclat, name, options):
+class Record:
+    """What is measured, in --json as soon as a budget of a scene is done: a run that was interrupted goes on from there."""
+
+    def __init__(self, options):
+        self.path, self.results = options.json, []
+        self.settings = {"seeds": options.seeds, "size": options.size and list(options.size), "extra": options.extra, "reference_share": options.reference_share}
+        self.before = {}
+        if not self.path or not os.path.exists(self.path):
+            return
+        with open(self.path, encoding="utf-8") as file:
+            data = json.load(file)
+        if data.get("settings") != self.settings:
+            common.fail(f"{self.path} is of a run with other options, {data.get('settings')}; name another file or remove it")
+        self.before = {(r["scene"], c["budget"]): c for r in data["results"] for c in r["cells"]}
+
+    def rows(self):
+        return [row for r in self.results if r["cells"] for row in rows_of(r)]
+
+    def write(self):
+        if self.path:
+            common.write_json(self.path, {"settings": self.settings, "results": self.results, "rows": self.rows()})
+
+
+def measure(eclat, name, options, record):
+    """The scene's result, also in the record; None where it is skipped."""
     scene = SCENES[name]
     place = scene.place(options.size)
     if place is None:
@@ -156,10 +181,14 @@ def measure(eclat, name, options):
     reference = Reference(eclat, name, options)
     result = {"scene": name, "title": scene.title, "harmless": scene.harmless, "size": options.size or scene.size,
               "reference": {"file": os.path.basename(reference.path), "spp": reference.spp, "error": reference.noise, "mean": reference.mean}, "cells": []}
+    record.results.append(result)
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for budget in options.budgets.split(","):
-            renders = list(pool.map(lambda seed: one(eclat, scene, place, budget, seed, options, folder, reference), range(options.seeds)))
-            result["cells"].append(cell(budget, renders))
+            if (name, budget) not in record.before:
+                renders = list(pool.map(lambda seed: one(eclat, scene, place, budget, seed, options, folder, reference), range(options.seeds)))
+                record.before[name, budget] = cell(budget, renders)
+            result["cells"].append(record.before[name, budget])
+            record.write()
             print(f"{name}, {budget}: done", file=sys.stderr, flush=True)
     return result
 
@@ -212,22 +241,19 @@ def rows_of(result):
 def main():
     options = parse()
     eclat = common.eclat_path(options.eclat)
-    results, rows = [], []
+    record = Record(options)
     print(HEAD, flush=True)
-    for name in options.scene:  # hours: what is done is written at once
-        result = measure(eclat, name, options)
+    for name in options.scene:
+        result = measure(eclat, name, options, record)
         if result:
             print("\n".join(lines(result)), flush=True)
-            results.append(result)
-            rows += rows_of(result)
-            if options.json:
-                common.write_json(options.json, {"results": results, "rows": rows})
-    if results:
+    rows = record.rows()
+    if rows:
         print()
     common.print_rows(rows)
     if options.table:
         common.write_table(options.table, f"{options.seeds} renders of each scene at {options.budgets} samples per pixel, against long renders", BRIEF,
-                           list(brief(results)))
+                           list(brief(record.results)))
     sys.exit(not all(r["met"] for r in rows))
 
 
