@@ -213,6 +213,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const ec_log *log = &job->listener->log;
     const ec_render_request *request = job->request;
+    if (request->options.denoise) EC_TRY(ec_denoise_check(err));
     if (!job->share) EC_TRY(ec_render_job_find_devices(job, err));
     else take_devices(job);
     double start = ec_now();
@@ -245,11 +246,19 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .tonemap = request->tonemap,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),
+        .denoised = request->options.denoise ? &job->denoised : NULL,
         .load_seconds = job->load_seconds,
         .image_sha256 = job->image_sha256,
         .outputs = outputs,
         .output_count = request->outputs.count,
     };
+}
+
+ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
+{
+    if (!job->request->options.denoise || job->stats.is_clean) return EC_OK;
+    job->stats.is_clean = true; /* once, whatever comes of it */
+    return ec_denoise(&job->film, &job->denoised, err);
 }
 
 void ec_render_job_free(ec_render_job *job)

@@ -204,6 +204,20 @@ typedef struct eclat_picture_error {
 } eclat_picture_error;
 eclat_picture_error eclat_picture_get_error(const eclat_picture *picture);
 
+/* With the option "denoise": how far the denoised picture is from the converged one, and the best one, a blend of both; in eclat_picture_error's units.
+ * Their planes are the channels "denoised.R" and "best.R" and so on. */
+typedef struct eclat_stated_error {
+    double error, low95, high95;               /* and its 95 % interval; high95 INFINITY: there is no bound. All INFINITY: not known */
+} eclat_stated_error;
+
+typedef struct eclat_denoised {
+    eclat_stated_error denoised, best;
+    double bias, noise;                        /* of the denoised one: its squared error is the sum of their squares */
+    uint32_t tiles, tiles_nearer, tiles_off;   /* of 16 x 16 pixels: where the denoised one is nearer to the truth; where the best one has nothing of it */
+    const char *why;                           /* why there is none, in words; NULL: there is one */
+} eclat_denoised;
+eclat_denoised eclat_picture_get_denoised(const eclat_picture *picture);
+
 /* A plane: pixel (x, y), y counted from the top, is data[stride * (y * width + x)]. */
 typedef struct eclat_channel {
     const char *name;   /* "R", "stderr.Y", "depth.Z": those of the EXR */
