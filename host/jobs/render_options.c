@@ -41,7 +41,7 @@ const ec_option ec_render_rows[] = {
              "pixel), heavy, clamped, denoised, best, albedo, normal, depth, or one of a layer as in stderr.Y. Slices hold all of them",
      .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
     {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = ec_set_denoise, .choices = ec_denoise_names, .group = EC_GROUP_PICTURE,
-     .integrators = PATHS,
+     .integrators = PATHS, .uses = EC_OPTION_WINDOW,
      .help = "denoise the picture with Intel's Open Image Denoise, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "
              "the noisy one by which is nearer to the truth. The PNG shows the blend, best; the EXR keeps R, G and B as they are and has denoised, "
              "best and denoised.stderr beside them. --error is then that of best. auto, like --denoise alone, does so; off does not",

@@ -86,7 +86,7 @@ const ec_setting ec_settings[] = {
     {"screen-window", "screen_window", "eclat.screenWindow", EC_IDENTITY_BY_VALUE, get_screen_window},
     {"cutoff", "cutoff", "eclat.cutoff", EC_IDENTITY_BY_VALUE, get_cutoff},
     {"without", NULL, NULL, EC_IDENTITY_BY_VALUE, get_without}, /* reports: among the effects */
-    {"denoise", "denoise", "eclat.denoise", EC_NOT_IDENTITY, get_denoise},
+    {"denoise", "denoise", "eclat.denoise", EC_IDENTITY_BY_VALUE, get_denoise},
     {"accel", "accel", "eclat.accel", EC_NOT_IDENTITY, get_accel},
 };
 const int ec_setting_count = sizeof ec_settings / sizeof ec_settings[0];

@@ -311,6 +311,7 @@ typedef struct eclat_wish {
     eclat_integrator integrator;
     eclat_second second;
     eclat_integrator second_integrator;
+    int32_t is_denoised;             /* shows the best of the denoised and the noisy picture, as the option denoise; begins anew when it changes */
     int32_t is_moving;               /* the camera is: speed before detail */
     int32_t is_paused;               /* nobody looks: nothing is rendered */
     uint32_t more;                   /* how often the limits are raised: four times the samples and the time, half the error */
@@ -370,6 +371,9 @@ typedef struct eclat_status {
     uint64_t samples;                /* a pixel */
     double seconds;                  /* of rendering */
     double error, error_bound;       /* as eclat_picture_error has them */
+    int is_denoised;                 /* the picture is the best of both, of as many samples as there were when it was made last: */
+    eclat_stated_error best;
+    char undenoised[320];            /* why it is not, though it was wished; empty: it is, or will be */
     double spp_limit, time_limit, error_limit; /* as raised so far; 0: none */
     double seconds_left;             /* to the first limit; < 0: nothing is known yet */
     int is_settled;                  /* nothing is left to do for what was wished last */
