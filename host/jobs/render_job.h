@@ -49,7 +49,7 @@ typedef struct ec_render_job {
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
     ec_render_stats stats;
-    double load_seconds;
+    double load_seconds;         /* until devices and scene were there */
     char camera_text[256];
     ec_viewpoint viewpoint;
     char environment_text[256];

@@ -66,12 +66,22 @@ static double closing_seconds(const ec_render_state *r, uint32_t done)
     return r->look_seconds > 0 ? r->look_seconds : LOOK_SECONDS * ec_render_film_pixels(r);
 }
 
+/* The film has it before anybody looks at its error. */
+static ec_result foretell(ec_render_state *r, ec_error *err)
+{
+    if (r->is_foretold) return EC_OK;
+    EC_TRY(ec_render_foretell(r, err));
+    return ec_film_set_rare(r->film, &r->rare, err);
+}
+
 /* Between waves: goes on unless a limit or the caller ends the batch early. */
 static bool goes_on(void *user, uint32_t done)
 {
     ec_render_state *r = user;
     r->under_way = done * order_samples(r);
     if (done > r->order.done && r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
+    r->look_failed = foretell(r, &r->look_error) != EC_OK;
+    if (r->look_failed) return false;
     if (done >= r->order.count) return true;
     bool is_due = r->course->keep && r->source->batches == 1 && ec_now() - r->kept_at >= r->course->every;
     r->look_failed = is_due && r->source->look(r->source, &r->order, &r->look_error) != EC_OK;
@@ -328,6 +338,7 @@ static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err
 static ec_result take_up_goal(ec_render_state *r, ec_error *err)
 {
     const ec_mark at = ec_render_mark(r);
+    EC_TRY(foretell(r, err));
     look_at_error(r);
     r->goal.slope = r->past.slope;
     r->goal.now = r->error;
