@@ -25,6 +25,7 @@ static void join(ec_judged_sum *into, const ec_judged_sum *from)
     into->variance += from->variance;
     into->squares += from->squares;
     into->noisy += from->noisy;
+    into->least += from->least;
 }
 
 static void write_pixel(work *w, uint64_t i, const ec_blend_at *at, const double *noisy)
@@ -50,9 +51,9 @@ static void finish_row(work *w, uint32_t y, ec_judged *judged, ec_pixel *pixels,
         const double a = at.weight, b = 1 - a, variance = j->clean_variance + j->noisy_variance;
         write_pixel(w, first + x, &at, pixels[x].mean);
         sums->noise += j->noise;
-        ec_judged_add(&sums->clean, j->clean, j->clean_variance, 0);
+        ec_judged_add(&sums->clean, j->clean, j->clean_variance, 0, j->noise);
         ec_judged_add(&sums->best, a * j->clean + b * j->noisy - a * b * j->apart + at.optimism * variance,
-                      a * a * j->clean_variance + b * b * j->noisy_variance, b * b * j->noisy);
+                      a * a * j->clean_variance + b * b * j->noisy_variance, b * b * j->noisy, a * a * j->noise);
     }
 }
 

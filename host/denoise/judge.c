@@ -112,10 +112,11 @@ void ec_judge_row(const ec_film *film, uint32_t row, const float *const denoised
 
 /* Few pixels may hold most of the variance, which is then itself not well known: Student's t with the degrees of freedom that their number comes to
  * (Satterthwaite 1946). What the noisy picture makes of it reaches up as far as that picture's own bound, which knows of few pixels and bright samples.
- * The mean luminance that all is divided by has an error of its own, as in film/image_error.c. */
+ * The mean luminance that all is divided by has an error of its own, as in film/image_error.c. An estimate that heavy noise has made
+ * smaller than the noise that is known, or negative, is not believed: bias adds to that, and takes nothing off it. */
 ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy)
 {
-    const double mean = noisy->mean_luminance, unit = 1 / (mean * mean * pixels), square = sum->square * unit;
+    const double mean = noisy->mean_luminance, unit = 1 / (mean * mean * pixels), square = fmax(sum->square, sum->least) * unit;
     const double dof = sum->squares > 0 ? fmax(sum->variance * sum->variance / sum->squares, 3) : INFINITY;
     const double of_mean = 2 * noisy->error / sqrt(pixels) * square, times = noisy->error > 0 ? noisy->bound_if_met / noisy->error : 1;
     const double reach = ec_student_t_quantile(0.975, dof) * hypot(sqrt(fmax(sum->variance, 0)) * unit, of_mean);

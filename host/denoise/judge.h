@@ -28,16 +28,17 @@ typedef struct ec_stated_error {
 } ec_stated_error;
 
 /* Sums over pixels: square errors, and the variance of that sum; squares: of these variances, pixel by pixel; noisy: the part of the square errors that
- * the noisy picture makes. Begin with zeros. */
+ * the noisy picture makes; least: what is known of the denoised one's noise, which the error is not under. Begin with zeros. */
 typedef struct ec_judged_sum {
-    double square, variance, squares, noisy;
+    double square, variance, squares, noisy, least;
 } ec_judged_sum;
-static inline void ec_judged_add(ec_judged_sum *sum, double square, double variance, double noisy)
+static inline void ec_judged_add(ec_judged_sum *sum, double square, double variance, double noisy, double least)
 {
     sum->square += square;
     sum->variance += variance;
     sum->squares += variance * variance;
     sum->noisy += noisy;
+    sum->least += least;
 }
 ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy);
 

@@ -49,7 +49,7 @@ void ec_live_film_clean(ec_live_film *p, bool now)
     const double samples = ec_film_samples_of_all(&p->film);
     const bool is_due = p->clean_samples > 0 ? samples >= 2 * p->clean_samples : ec_schedule_has_pilot(p->film.replicates, p->film.batch_count);
     if (samples == p->clean_samples || *p->undenoised || !(is_due || now || p->stopped_by)) return;
-    if (ec_denoise(&p->film, &p->denoised, &err) != EC_OK) snprintf(p->undenoised, sizeof p->undenoised, "%s", err.text);
+    if (ec_denoise(&p->film, &p->denoised, &err) != EC_OK) snprintf(p->undenoised, sizeof p->undenoised, "%.319s", err.text);
     p->clean_samples = samples;
     if (*p->undenoised || p->denoised.why_not) return;
     ec_clean_goal_take(&p->goal.clean, samples, &(ec_clean_look){p->denoised.best.error, p->denoised.best.high95});

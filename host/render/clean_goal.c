@@ -1,5 +1,5 @@
 /* The squared error of a denoised picture falls as samples^-slope. A denoiser's bias falls more slowly than noise: slopes of SLOPE are typical before two
- * looks tell, and stray by DEVIATION after that, as of a picture that goes from bias to noise. */
+ * looks tell, and stray by DEVIATION after that, as those of a picture that goes from bias to noise. */
 #include "render/clean_goal.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #define SLOPE 0.7
 #define SLOPE_LEAST 0.2
 #define SLOPE_MOST 1.3
-#define DEVIATION 0.2
+#define DEVIATION 0.25 /* of its logarithm */
 #define FASTEST 2.0 /* slope */
 
 bool ec_clean_goal_is_due(const ec_clean_goal *g, double samples, double target)
@@ -32,14 +32,14 @@ static double slope_of(const ec_clean_goal *g)
 
 static double samples_by(const ec_clean_goal *g, double target, double slope)
 {
-    return g->samples * pow(fmax(g->now.high95 / target, 1), 2 / fmax(slope, SLOPE_LEAST / 2));
+    return g->samples * pow(fmax(g->now.high95 / target, 1), 2 / slope);
 }
 
 ec_clean_range ec_clean_goal_samples(const ec_clean_goal *g, double target)
 {
-    const double slope = slope_of(g), z = 1.96 * DEVIATION;
+    const double slope = slope_of(g), apart = exp(1.96 * DEVIATION);
     if (!(g->samples > 0) || !isfinite(g->now.high95)) return (ec_clean_range){INFINITY, INFINITY, INFINITY};
-    return (ec_clean_range){samples_by(g, target, slope + z), samples_by(g, target, slope), samples_by(g, target, slope - z)};
+    return (ec_clean_range){samples_by(g, target, slope * apart), samples_by(g, target, slope), samples_by(g, target, slope / apart)};
 }
 
 double ec_clean_goal_bound(const ec_clean_goal *g, double samples)

@@ -64,6 +64,7 @@ class Denoise(Case):
         self.assertEqual(sorted(set(planes) - set(without)), sorted(LAYERS))
         self.assertEqual(self.render("--spp", "32", denoise=("--denoise=off",))[2], without)
 
+    @full
     def test_same_bits(self):
         """Again, by one thread, by other lanes and in other waves."""
         _, _, whole = self.render("--spp", "32")
@@ -71,12 +72,14 @@ class Denoise(Case):
             with self.subTest(options=options, env=env):
                 self.assertEqual(self.render("--spp", "32", *options, name="b.exr", env=env)[2], whole)
 
+    @full
     def test_png_shows_the_best(self):
         """What is smooth makes a smaller file."""
         for name, denoise in (("clean", ["--denoise"]), ("noisy", [])):
             self.assert_ok(eclat("render", *JOB, *denoise, "--spp", "16", "-q", "-o", self.path(name + ".png"), env=self.oidn))
         self.assertLess(os.path.getsize(self.path("clean.png")), 0.9 * os.path.getsize(self.path("noisy.png")))
 
+    @full
     def test_words(self):
         run = self.assert_ok(eclat("render", *JOB, "--spp", "64", "--denoise", "-o", self.path("a.exr"), env=self.oidn))
         number = r"[\d.]+ %"

@@ -190,7 +190,6 @@ static void test_a_wish_denoises(void)
     CHECK_MSG(s.is_denoised ? !*s.undenoised : strstr(s.undenoised, "Open Image Denoise") != NULL, "%d, '%s'", s.is_denoised, s.undenoised);
     if (s.is_denoised) {
         CHECK(s.best.low95 <= s.best.error && s.best.error > 0 && s.best.error <= s.best.high95);
-        CHECK(brightness(live, ECLAT_PICTURE) != noisy);
         wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
         CHECK_MSG(strstr(t.command, "--denoise ") != NULL, "%s", t.command);
         check_repeats(t.command, OUT "d.exr");
