@@ -65,7 +65,8 @@ static inline double ec_cost_runner_beside(const ec_cost_runner *r) { return r->
 ec_result ec_cost_runner_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err);
 
 /* denoised.c: the same of a rung that denoises: the best of both pictures; seconds are those of its samples. */
-ec_result ec_cost_denoised_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err);
+ec_result ec_cost_denoised_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, bool (*go_on)(void *study), double *seconds,
+                                ec_error *err);
 
 /* measure.c: one rung, in `share` seconds, not beyond `latest`. */
 typedef struct ec_cost_base {

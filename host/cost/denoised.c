@@ -42,11 +42,11 @@ static ec_result take_all(ec_cost_runner *runner, ec_film *film, ec_session_batc
     return runner->stopped ? EC_OK : denoise(runner, film, err);
 }
 
-ec_result ec_cost_denoised_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err)
+ec_result ec_cost_denoised_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, bool (*go_on)(void *study), double *seconds, ec_error *err)
 {
     const ec_render_options *o = &runner->study->options;
     ec_film film = {0};
-    ec_session_batch room = {.seed = seed, .go_on = ec_cost_go_on, .user = runner->study,
+    ec_session_batch room = {.seed = seed, .go_on = go_on, .user = runner->study,
                              .batch = malloc(runner->pixels * EC_BATCH_FIELDS * sizeof(float)),
                              .features = malloc(runner->pixels * EC_FILM_FEATURES * sizeof(float))};
     *seconds = 0;

@@ -68,7 +68,7 @@ static void add_up(ec_cost_runner *runner, uint32_t count)
 ec_result ec_cost_runner_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err)
 {
     const uint32_t replicates = ec_render_replicates(&runner->study->options), count = samples < replicates ? samples : replicates;
-    if (runner->denoises) return ec_cost_denoised_take(runner, seed, samples, seconds, err);
+    if (runner->denoises) return ec_cost_denoised_take(runner, seed, samples, ec_cost_go_on, seconds, err);
     *seconds = 0;
     for (uint32_t r = 0; r < count; r++) {
         ec_session_batch batch = {.seed = seed, .replicate = r, .samples = samples / count + (r < samples % count),
