@@ -248,6 +248,7 @@ static ec_result load_both(ec_render_job *job, ec_error *err)
 ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const double start = ec_now();
+    if (job->request->options.denoise) EC_TRY(ec_denoise_check(err));
     if (job->share) {
         take_devices(job);
         EC_TRY(load_scene(job, err));
@@ -280,11 +281,19 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .tonemap = request->tonemap,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),
+        .denoised = request->options.denoise ? &job->denoised : NULL,
         .load_seconds = job->load_seconds,
         .image_sha256 = job->image_sha256,
         .outputs = outputs,
         .output_count = request->outputs.count,
     };
+}
+
+ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
+{
+    if (!job->request->options.denoise || job->stats.is_clean) return EC_OK;
+    job->stats.is_clean = true; /* once, whatever comes of it */
+    return ec_denoise(&job->film, &job->denoised, err);
 }
 
 void ec_render_job_free(ec_render_job *job)

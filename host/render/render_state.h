@@ -43,6 +43,8 @@ typedef struct ec_render_state {
     uint32_t kept_next, kept_under_way;
     float *aov;                /* first-hit features of a batch, until it is in the film */
     float limit;               /* ec_params.limit; 0: none, or not known yet */
+    uint64_t cleaned_samples;  /* in the film when its clean picture was looked at last; 0: it was not */
+    uint32_t feature_batches;  /* that have first-hit features */
     const char *stopped_by;
     uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
     uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
