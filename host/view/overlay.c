@@ -59,7 +59,7 @@ static void format_best(const ec_window *w, char *text, size_t size)
 static void format_state(const ec_window *w, char *text, size_t size)
 {
     const eclat_status *s = &w->status;
-    char error[32] = "?", bound[48] = "bound unknown", seconds[32], prediction[160], best[352];
+    char error[32] = "?", bound[48] = "bound unknown", seconds[32], prediction[160], best[200];
     if (isfinite(s->error)) format_percent(s->error, error, sizeof error);
     if (isfinite(s->error_bound)) {
         char percent[32];
