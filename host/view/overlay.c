@@ -49,7 +49,7 @@ static void format_best(const ec_window *w, char *text, size_t size)
     const eclat_status *s = &w->status;
     char error[32], bound[32];
     *text = 0;
-    if (*s->undenoised) snprintf(text, size, "  not denoised: %s", s->undenoised);
+    if (*s->undenoised) snprintf(text, size, "  not denoised: %.160s", s->undenoised);
     if (!s->is_denoised) return;
     format_percent(s->best.error, error, sizeof error);
     format_percent(s->best.high95, bound, sizeof bound);
