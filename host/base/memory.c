@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -124,4 +125,9 @@ uint64_t ec_memory_free(void)
     if (!getrlimit(RLIMIT_AS, &limit) && limit.rlim_cur != RLIM_INFINITY)
         left = least(left, limit.rlim_cur > space ? limit.rlim_cur - space : 0);
     return left;
+}
+
+void *ec_shared_alloc(uint64_t bytes)
+{
+    return aligned_alloc(EC_SHARED_ALIGNMENT, (bytes / EC_SHARED_ALIGNMENT + 1) * EC_SHARED_ALIGNMENT);
 }

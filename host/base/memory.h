@@ -11,4 +11,8 @@ uint64_t ec_memory_resident(void); /* bytes that are the process's own and in me
  * is full. What the page cache holds counts as free. UINT64_MAX: not known. */
 uint64_t ec_memory_free(void);
 
+/* Memory that a device may work on where it is, if it is a processor. free() frees it. NULL: there is none. */
+#define EC_SHARED_ALIGNMENT 128
+void *ec_shared_alloc(uint64_t bytes);
+
 #endif

@@ -1,8 +1,12 @@
 /* Device memory: allocated within the device's limits and accounted for, read, written, zeroed. */
+#include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 
+#include "base/memory.h"
 #include "cl/kept.h"
 
+#define EC_ADOPTED (1 << 20) /* bytes: fewer are copied as soon */
 #define EC_SMALLEST_BUFFER 16 /* OpenCL has no empty buffers; an empty table still needs an argument */
 
 static double mib(uint64_t bytes) { return (double)bytes / 1048576.0; }
@@ -29,6 +33,12 @@ static ec_result refused(const ec_cl *cl, const char *label, uint64_t bytes, cl_
     return ec_cl_check(code, "clCreateBuffer", what, err);
 }
 
+static void count_bytes(ec_cl *cl, uint64_t bytes)
+{
+    cl->allocated_bytes += bytes;
+    if (cl->allocated_bytes > cl->peak_allocated_bytes) cl->peak_allocated_bytes = cl->allocated_bytes;
+}
+
 ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer,
                            ec_error *err) {
     *buffer = NULL;
@@ -41,8 +51,7 @@ ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const v
     cl_mem made = clCreateBuffer(cl->context, CL_MEM_READ_WRITE | (at_once ? CL_MEM_COPY_HOST_PTR : 0), size,
                                  at_once ? (void *)host : NULL, &code);
     if (code != CL_SUCCESS) return refused(cl, label, size, code, err);
-    cl->allocated_bytes += size;
-    if (cl->allocated_bytes > cl->peak_allocated_bytes) cl->peak_allocated_bytes = cl->allocated_bytes;
+    count_bytes(cl, size);
     if (copy && !at_once) {
         ec_result result = ec_buffer_write(cl, made, 0, bytes, host, err);
         if (result != EC_OK) {
@@ -52,6 +61,28 @@ ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const v
     }
     *buffer = made;
     return EC_OK;
+}
+
+static void CL_CALLBACK free_memory(cl_mem buffer, void *memory)
+{
+    (void)buffer;
+    free(memory);
+}
+
+bool ec_buffer_adopt(ec_cl *cl, const char *label, uint64_t bytes, void *memory, cl_mem *buffer)
+{
+    const bool is_processor = cl->info.type & CL_DEVICE_TYPE_CPU, is_aligned = (uintptr_t)memory % EC_SHARED_ALIGNMENT == 0;
+    if (!memory || !is_processor || !is_aligned || bytes < EC_ADOPTED || check_limits(cl, label, bytes, NULL) != EC_OK) return false;
+    cl_int code;
+    cl_mem made = clCreateBuffer(cl->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory, &code);
+    if (code != CL_SUCCESS) return false;
+    if (clSetMemObjectDestructorCallback(made, free_memory, memory) != CL_SUCCESS) {
+        clReleaseMemObject(made);
+        return false;
+    }
+    count_bytes(cl, bytes);
+    *buffer = made;
+    return true;
 }
 
 static bool is_kept(const ec_cl *cl, cl_mem buffer)

@@ -67,6 +67,7 @@ typedef struct ec_cl {
     const ec_log *log;        /* who hears that compiling takes long; NULL: nobody */
     bool keeps_programs;      /* set after ec_cl_open: programs stay built until ec_cl_close, and are found again */
     bool keeps_buffers;       /* likewise what of a scene is put on the device, as long as the next one wants it too */
+    struct ec_ahead *ahead;   /* cl/ahead.h; NULL: none */
     struct ec_kept_program *kept;
     uint32_t kept_count;
     uint32_t programs_found;  /* among those kept */
@@ -101,11 +102,16 @@ ec_result ec_kernel_sources_join(const char *const *names, char **joined, ec_err
  * read, since a binary has no log). */
 ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, const char *options, cl_program *program,
                            ec_error *err);
+/* The same past all caches, and without changing anything of cl. */
+ec_result ec_program_build_source(const ec_cl *cl, const char *label, const char *source, const char *options, cl_program *program, ec_error *err);
 
 /* Buffers with byte accounting; over the device's limits they fail with the figures. host may be NULL, and is not
  * needed after the call. 0 bytes give a smallest buffer, so that an empty table is still an argument. */
 ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer, ec_error *err);
 void ec_buffer_release(ec_cl *cl, cl_mem *buffer); /* sets it to NULL; NULL is fine */
+/* Where the device is a processor, makes a buffer of the caller's memory, which comes from ec_shared_alloc and is large enough to be worth it: no
+ * copy. Then it is freed with the buffer; else false, and it is the caller's still. */
+bool ec_buffer_adopt(ec_cl *cl, const char *label, uint64_t bytes, void *memory, cl_mem *buffer);
 /* A buffer that no kernel writes: `bytes` of data, and room for `slack` more. With a key, which is that of label and data, it stays on the
  * device after its release, and is found there by whoever puts the same again; keep_only lets go of all others that stay. */
 ec_fingerprint ec_buffer_key(const char *label, uint64_t bytes, uint64_t slack, const void *data);

@@ -1,15 +1,19 @@
 /* Keeps a list, for each job that was compiled, of the files in the driver's own cache and their hashes, since the cache cannot be asked.
  * A driver loads whatever it finds, and a damaged file ends the process; so each file is checked first. */
-#include <sha2.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/fingerprint.h"
+#include "cl/ahead.h"
 #include "cl/cache.h"
 #include "cl/compile_job.h"
 
 #define PATH_SIZE 4096
+#define MARK_SIZE 33
+#define LIST_FORMAT "2" /* lists of another are not found: their files would seem damaged */
 #define PROGRAM "program.bc" /* of PoCL, two folders above the kernels */
 
 /* Where PoCL keeps its cache, as it chooses itself. */
@@ -31,7 +35,7 @@ static bool key_of(const ec_cl *cl, const ec_compile_job *job, char folder[PATH_
     const char *is_used = getenv("POCL_KERNEL_CACHE");
     if (is_used && !strcmp(is_used, "0")) return false;
     if (!ec_cache_folder(cl->cache_dir, folder, PATH_SIZE) || !driver_folder(path) || stat(path, &status) != 0) return false;
-    snprintf(where, sizeof where, "%s %llu %llu", path, (unsigned long long)status.st_dev, (unsigned long long)status.st_ino);
+    snprintf(where, sizeof where, LIST_FORMAT " %s %llu %llu", path, (unsigned long long)status.st_dev, (unsigned long long)status.st_ino);
     *key = ec_cache_key_of(&cl->info, where, "");
     for (uint32_t i = 0; i < job->program_count; i++) {
         char options[256];
@@ -41,7 +45,7 @@ static bool key_of(const ec_cl *cl, const ec_compile_job *job, char folder[PATH_
     for (uint32_t i = 0; i < job->kernel_count; i++) {
         const ec_compile_kernel *k = &job->kernels[i];
         char launch[256];
-        snprintf(launch, sizeof launch, "%s %u %d %s", k->name, k->local, k->global < 65536, key->hex); /* see ec_kernel_run */
+        snprintf(launch, sizeof launch, "%s %u %d %s", k->name, k->local, ec_compile_is_small(k), key->hex);
         *key = ec_cache_key_of(&cl->info, launch, "");
     }
     return true;
@@ -58,22 +62,38 @@ static void set_aside(const ec_cl *cl, const char *path, const char *driver)
     if (rename(program, aside) == 0) ec_warn(cl->log, "a damaged file in the driver's cache, '%s', is set aside: its kernels are compiled again", aside);
 }
 
-/* Is each file of the list as it was? One that is gone is compiled again by the driver; one that is other than it was would end the process. */
-static bool is_intact(const ec_cl *cl, char *list)
+/* Of a file's bytes, in hexadecimal; damage is no attack. False: it cannot be read. */
+static bool mark_of(const char *path, char mark[MARK_SIZE])
 {
-    char driver[PATH_SIZE], hash[SHA256_DIGEST_STRING_LENGTH], *rest = NULL;
+    static const size_t block = 1 << 20;
+    ec_fingerprint sum = {{0}};
+    FILE *file = fopen(path, "rbe");
+    char *bytes = file ? malloc(block) : NULL;
+    size_t size;
+    while (bytes && (size = fread(bytes, 1, block, file)) > 0) sum = ec_fingerprint_add(sum, bytes, size);
+    const bool is_read = bytes && !ferror(file);
+    snprintf(mark, MARK_SIZE, "%016" PRIx64 "%016" PRIx64, sum.half[0], sum.half[1]);
+    if (file) fclose(file);
+    free(bytes);
+    return is_read;
+}
+
+/* Is each file of the list as it was? One that is gone is compiled again by the driver; one that is other than it was would end the process. */
+static bool is_intact(const ec_cl *cl, char *list, bool mends)
+{
+    char driver[PATH_SIZE], mark[MARK_SIZE], *rest = NULL;
     bool is_whole = driver_folder(driver);
     for (char *line = strtok_r(list, "\n", &rest); line && is_whole; line = strtok_r(NULL, "\n", &rest)) {
         char *path = strchr(line, ' ');
         if (!path) return false;
         *path++ = 0;
-        is_whole = SHA256File(path, hash) && !strcmp(hash, line);
-        if (!is_whole && access(path, F_OK) == 0 && !strncmp(path, driver, strlen(driver))) set_aside(cl, path, driver);
+        is_whole = mark_of(path, mark) && !strcmp(mark, line);
+        if (!is_whole && mends && access(path, F_OK) == 0 && !strncmp(path, driver, strlen(driver))) set_aside(cl, path, driver);
     }
     return is_whole;
 }
 
-bool ec_compile_job_is_done(const ec_cl *cl, const ec_compile_job *job)
+bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job, bool mends)
 {
     char folder[PATH_SIZE], *list = NULL;
     ec_cache_key key;
@@ -81,16 +101,21 @@ bool ec_compile_job_is_done(const ec_cl *cl, const ec_compile_job *job)
     size_t bytes = 0;
     if (!key_of(cl, job, folder, &key) || !ec_cache_load(folder, &key, &found, &bytes)) return false;
     list = strndup((char *)found, bytes);
-    const bool is_done = list && is_intact(cl, list);
+    const bool is_done = list && is_intact(cl, list, mends);
     free(list);
     free(found);
     return is_done;
 }
 
+bool ec_compile_job_is_done(const ec_cl *cl, const ec_compile_job *job)
+{
+    return ec_ahead_is_done(cl, job) || ec_compile_job_look(cl, job, true);
+}
+
 static void add_file(FILE *list, const char *path)
 {
-    char hash[SHA256_DIGEST_STRING_LENGTH];
-    if (SHA256File(path, hash)) fprintf(list, "%s %s\n", hash, path);
+    char mark[MARK_SIZE];
+    if (mark_of(path, mark)) fprintf(list, "%s %s\n", mark, path);
 }
 
 /* A kernel's own file, and its program's: .../program.bc for .../kernel/size/kernel.so. */

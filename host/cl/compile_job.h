@@ -40,9 +40,15 @@ void ec_compile_job_free(ec_compile_job *job);
 bool ec_compile_job_write(const ec_compile_job *job, FILE *to);
 bool ec_compile_job_read(ec_compile_job *job, FILE *from);
 
+/* PoCL compiles again for launches of fewer items: see ec_kernel_run. */
+#define EC_SMALL_LAUNCH 65536
+static inline bool ec_compile_is_small(const ec_compile_kernel *kernel) { return kernel->global < EC_SMALL_LAUNCH; }
+
 /* Was this job compiled before, into the driver's cache as it is now? And: it was. Both know it by a file beside the kernel cache. */
 bool ec_compile_job_is_done(const ec_cl *cl, const ec_compile_job *job);
 void ec_compile_job_done(const ec_cl *cl, const ec_compile_job *job);
+/* The first, where nobody has looked ahead (cl/ahead.h). mends: what is damaged is set aside, with a warning. */
+bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job, bool mends);
 
 /* Builds and launches all of it on this device, and tells of each kernel. */
 ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, void (*compiled)(uint32_t kernel), ec_error *err);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cl/cl.h"
+#include "cl/ahead.h"
 #include "cl/kept.h"
 
 ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err)
@@ -21,6 +22,7 @@ ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err)
 void ec_cl_close(ec_cl *cl)
 {
     ec_cl_forget_launches(cl);
+    ec_ahead_end(cl);
     ec_kept_release(cl);
     ec_kept_buffers_release(cl);
     if (cl->queue) clReleaseCommandQueue(cl->queue);

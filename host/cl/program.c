@@ -4,13 +4,14 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "cl/ahead.h"
 #include "cl/build_log.h"
 #include "cl/cache.h"
 #include "cl/kept.h"
 #include "cl/workarounds.h"
 
 typedef struct build {
-    ec_cl *cl;
+    const ec_cl *cl;
     const char *label, *source;
     char *options;       /* with the flags added */
     char folder[4096];   /* of the cache; "" = none */
@@ -55,7 +56,7 @@ static bool build_from_cache(build *b, cl_program *program)
     return false;
 }
 
-static ec_result build_from_source(build *b, cl_program *program, ec_error *err)
+static ec_result build_from_source(const build *b, cl_program *program, ec_error *err)
 {
     cl_int code;
     cl_program made = clCreateProgramWithSource(b->cl->context, 1, (const char **)&b->source, NULL, &code);
@@ -67,6 +68,14 @@ static ec_result build_from_source(build *b, cl_program *program, ec_error *err)
     if (result == EC_OK) *program = made;
     else clReleaseProgram(made);
     free(log);
+    return result;
+}
+
+ec_result ec_program_build_source(const ec_cl *cl, const char *label, const char *source, const char *options, cl_program *program, ec_error *err)
+{
+    build b = {.cl = cl, .label = label, .source = source, .options = all_options(&cl->info, options)};
+    ec_result result = b.options ? build_from_source(&b, program, err) : ec_fail(err, "out of memory while building kernels %s", label);
+    free(b.options);
     return result;
 }
 
@@ -97,6 +106,8 @@ ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, con
     if (kept) {
         if (clRetainProgram(kept) == CL_SUCCESS) *program = kept, cl->programs_found++;
         else result = ec_fail(err, "cannot retain kernels %s", label);
+    } else if (ec_ahead_take(cl, source, options ? options : "", program, err)) {
+        result = *program ? EC_OK : EC_FAILED;
     } else if (!dump && build_from_cache(&b, program)) {
         cl->cache_hits++;
     } else {

@@ -32,6 +32,12 @@ const ec_workaround *ec_workaround_for(const ec_device_info *device)
     return NULL;
 }
 
+bool ec_compiles_late(const ec_cl *cl)
+{
+    const ec_workaround *driver = ec_workaround_for(&cl->info);
+    return driver && driver->compiles_late;
+}
+
 bool ec_device_rounds(const ec_device_info *device)
 {
     const ec_workaround *driver = ec_workaround_for(device);

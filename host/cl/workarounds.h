@@ -18,6 +18,8 @@ typedef struct ec_workaround {
 /* The one for a device, or NULL. */
 const ec_workaround *ec_workaround_for(const ec_device_info *device);
 
+bool ec_compiles_late(const ec_cl *cl);
+
 /* Does arithmetic give the same bits as on other devices of which this is true? */
 bool ec_device_rounds(const ec_device_info *device);
 

@@ -161,7 +161,7 @@ static const eclat_note notes[] = {
     {"Columns", "slope", "slope of error over samples, both as logarithms; -0.50 where samples are independent"},
     {"Columns", "variance", "variance of one sample, relative to the squared mean luminance, in pictures of " COST_UNIT " samples per pixel"},
     {"Columns", "bias",
-     "the error that remains with unlimited samples. floor: it is certain; <: an upper bound; same bits: the picture equals the first row's; lacks: an "
+     "the error that remains with unlimited samples. floor: it is certain; <: an upper bound; fades: it falls with more samples, as a denoiser's does; same bits: the picture equals the first row's; lacks: an "
      "unbiased rung that has not met rare light yet, so that its other figures are too good"},
     {"Columns", "efficiency", "1 / (squared error x seconds) of a picture of " COST_UNIT " samples per pixel"},
     {"Columns", "to 5 % ...", "time until the error is below this. ~: extrapolated; ?: unknown; never: this is below the floor"},
@@ -171,7 +171,7 @@ static const eclat_note notes[] = {
 const ec_command ec_cmd_cost = {
     .told = {.name = "cost", .operands = "SCENE [options]", .summary = "measure which technique buys accuracy cheapest on a scene",
              .intro = "Renders a glTF 2.0 scene with the defaults of eclat render, then again with one thing changed or left out: integrator, sampling, random numbers, "
-                       "roulette, multiple scattering at rough surfaces, a clamp, arithmetic, each effect of the scene, acceleration structure, lanes. For each of these "
+                       "roulette, a denoiser, multiple scattering at rough surfaces, a clamp, arithmetic, each effect of the scene, acceleration structure, lanes. For each of these "
                        "rungs it prints time per sample, noise, bias against a reference, and the time to a given error.",
              .closing = "The best figures are bold, or have an asterisk where the output is not a terminal; rungs that leave something out do not compete.",
              .notes = notes},

@@ -29,6 +29,7 @@ typedef struct ec_cost_rung {
     bool is_base;                /* what `eclat render` does by default */
     bool speed_only;             /* gives the same bits: only time is measured, and that the bits are the same */
     bool unbiased;               /* by design */
+    bool fades;                  /* its bias does, with more samples: a denoiser's */
     bool is_effect;              /* one that is left out: of the scene (options.without), or of light transport */
     ec_render_options options;
 } ec_cost_rung;
@@ -56,6 +57,7 @@ typedef struct ec_cost_row {
     ec_cost_state state;
     char note[256];
     double setup_seconds;        /* buffers, acceleration structure, kernels and their first launch; in no other figure */
+    double picture_seconds;      /* of a picture, whatever its samples: the denoiser's */
     double seconds_per_sample, relative_time, relative_time_se; /* relative to the base, measured in turns with it */
     uint64_t samples_per_pixel;  /* taken, all pictures together */
     uint64_t invalid;            /* values that were not finite */
@@ -119,6 +121,12 @@ float *ec_cost_shrink(const ec_render_options *options, const float *rgb);
 
 /* rungs.c: the rungs that this scene has, most telling first; malloc'ed. */
 ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_cost_row **rows, uint32_t *count, ec_error *err);
+
+/* Seconds of one picture until its error is under `target`: NaN unknown, INFINITY never; *extrapolated: beyond the largest picture taken. */
+double ec_cost_seconds_to(const ec_cost_row *row, double target, bool *extrapolated);
+
+/* Where denoising pays on this scene and where it stops, in words; empty where it was not measured. */
+void ec_cost_denoise_words(const ec_cost_study *study, char *text, size_t size);
 
 /* Indices of (row, point) pairs that no other beats in both time and error, from fast to exact; returns how many. */
 typedef struct ec_cost_place {

@@ -49,6 +49,9 @@ typedef struct ec_cost_runner {
     float *mean;                 /* 3 a pixel, owned: the last picture */
     float *room;                 /* as much, for a replicate of it */
     double seconds_per_sample;   /* the last estimate */
+    bool denoises;
+    double denoise_seconds;      /* of all pictures so far … */
+    uint32_t denoised;           /* … so many */
     uint64_t pixels, invalid;
     bool stopped;                /* a picture was broken off */
 } ec_cost_runner;
@@ -56,7 +59,14 @@ typedef struct ec_cost_runner {
 ec_result ec_cost_runner_open(ec_cost_study *study, const ec_cost_rung *rung, ec_cost_runner *runner, ec_render_stats *stats,
                               double *setup, ec_error *err);
 void ec_cost_runner_close(ec_cost_runner *runner);
+
+/* Of a picture that is denoised, as far as it is known, beside those of its samples. */
+static inline double ec_cost_runner_beside(const ec_cost_runner *r) { return r->denoised ? r->denoise_seconds / r->denoised : 0; }
 ec_result ec_cost_runner_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err);
+
+/* denoised.c: the same of a rung that denoises: the best of both pictures; seconds are those of its samples. */
+ec_result ec_cost_denoised_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, bool (*go_on)(void *study), double *seconds,
+                                ec_error *err);
 
 /* measure.c: one rung, in `share` seconds, not beyond `latest`. */
 typedef struct ec_cost_base {

@@ -67,6 +67,7 @@ static void add_rung(cJSON *rungs, const ec_cost_study *study, const ec_cost_row
             EC_REAL("relative_time", row->relative_time), EC_REAL("relative_time_se", row->relative_time_se),
             EC_WHOLE("samples_per_pixel", row->samples_per_pixel), EC_WHOLE("device_bytes", row->device_bytes),
             EC_WHOLE("invalid_values", row->invalid));
+    if (row->rung.options.denoise) ec_json_real(to, "denoise_seconds", row->picture_seconds);
     if (row->rung.speed_only) cJSON_AddBoolToObject(to, "same_bits", row->same_bits);
     else add_errors(to, row);
 }
@@ -108,6 +109,9 @@ cJSON *ec_cost_json(const ec_cost_report *report)
     cJSON *rungs = cJSON_AddArrayToObject(root, "rungs");
     for (uint32_t i = 0; i < study->row_count; i++) add_rung(rungs, study, &study->rows[i]);
     add_pareto(root, study);
+    char words[256];
+    ec_cost_denoise_words(study, words, sizeof words);
+    ec_json_text(root, "denoiser", *words ? words : NULL);
     return root;
 }
 

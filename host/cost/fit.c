@@ -31,7 +31,7 @@ static double last_slope(const ec_cost_row *row)
     const uint32_t n = row->point_count;
     if (n < 3 || !is_known(&row->points[n - 1]) || !is_known(&row->points[n - 3])) return 1;
     const ec_cost_point *from = &row->points[n - 3], *to = &row->points[n - 1];
-    return fmin(fmax(log(from->mse / to->mse) / log((double)to->samples / from->samples), 1), 2);
+    return fmin(fmax(log(from->mse / to->mse) / log((double)to->samples / from->samples), row->rung.fades ? 0.2 : 1), 2);
 }
 
 /* Samples a pixel until the error is under `target`; INFINITY: never. Where pictures as large were taken, along the line between two
@@ -41,7 +41,7 @@ static double samples_to(const ec_cost_row *row, double target, bool *extrapolat
     const ec_cost_point *p = row->points, *last = &p[row->point_count - 1];
     double wanted = target * target, floor = row->biased ? row->bias2 : 0;
     *extrapolated = false;
-    bool may_be_lower = row->rung.unbiased || wanted > row->bias2 + 2 * row->bias2_se;
+    bool may_be_lower = row->rung.unbiased || row->rung.fades || wanted > row->bias2 + 2 * row->bias2_se;
     if (!may_be_lower) return row->biased ? INFINITY : NAN;
     if (is_known(&p[0]) && p[0].mse <= wanted) return p[0].samples;
     for (uint32_t i = 1; i < row->point_count; i++) {
@@ -55,9 +55,16 @@ static double samples_to(const ec_cost_row *row, double target, bool *extrapolat
     return is_known(last) ? last->samples * pow(last->mse / wanted, 1 / last_slope(row)) : NAN;
 }
 
-void ec_cost_conclude(ec_cost_row *row)
+double ec_cost_seconds_to(const ec_cost_row *row, double target, bool *extrapolated)
 {
     const ec_cost_point *last = row->point_count ? &row->points[row->point_count - 1] : NULL;
+    *extrapolated = false;
+    if (!last) return NAN;
+    return samples_to(row, target, extrapolated) * (last->seconds - row->picture_seconds) / last->samples + row->picture_seconds;
+}
+
+void ec_cost_conclude(ec_cost_row *row)
+{
     row->fit = fit_slope(row->points, row->point_count);
     row->efficiency = row->relative_efficiency = NAN;
     for (uint32_t i = 0; i < row->point_count; i++) {
@@ -66,10 +73,7 @@ void ec_cost_conclude(ec_cost_row *row)
         if (is_known(p)) row->efficiency = 1 / (p->mse * p->seconds);
         if (p->relmse > 2 * p->relmse_se) row->relative_efficiency = 1 / (p->relmse * p->seconds);
     }
-    for (int i = 0; i < EC_COST_TARGETS; i++) {
-        row->seconds_to[i] = NAN;
-        if (last) row->seconds_to[i] = samples_to(row, ec_cost_targets[i], &row->extrapolated[i]) * last->seconds / last->samples;
-    }
+    for (int i = 0; i < EC_COST_TARGETS; i++) row->seconds_to[i] = ec_cost_seconds_to(row, ec_cost_targets[i], &row->extrapolated[i]);
 }
 
 uint32_t ec_cost_pareto(const ec_cost_study *study, ec_cost_place *places, uint32_t most)

@@ -71,7 +71,7 @@ static ec_result take_level(measurement *m, uint32_t samples, double end, bool *
     *go_up = false;
     ec_cost_tally_begin(&m->tally, samples);
     while (ec_cost_go_on(m->study)) {
-        double left = end - ec_now(), picture = m->runner->seconds_per_sample * (double)m->runner->pixels * samples;
+        double left = end - ec_now(), picture = m->runner->seconds_per_sample * (double)m->runner->pixels * samples + ec_cost_runner_beside(m->runner);
         bool higher = 2 * samples <= largest && m->row->point_count + 2 < EC_COST_LEVELS_MOST;
         *go_up = m->tally.level_batches >= wanted && higher && 2 * PICTURES * picture <= left;
         if (*go_up || (m->tally.level_batches >= PICTURES && picture > left)) break;
@@ -144,7 +144,8 @@ static void finish_times(measurement *m)
     }
     if (m->base) row->seconds_per_sample = row->relative_time * m->base->seconds_per_sample;
     double picture = row->seconds_per_sample * (double)m->runner->pixels;
-    for (uint32_t i = 0; i < row->point_count; i++) row->points[i].seconds = picture * row->points[i].samples;
+    row->picture_seconds = ec_cost_runner_beside(m->runner);
+    for (uint32_t i = 0; i < row->point_count; i++) row->points[i].seconds = picture * row->points[i].samples + row->picture_seconds;
     if (!row->rung.speed_only) ec_cost_conclude(row);
 }
 

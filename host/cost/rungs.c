@@ -8,6 +8,7 @@
 #include "accel/accel.h"
 #include "base/text.h"
 #include "cost/cost.h"
+#include "denoise/denoise.h"
 #include "pack/pack.h"
 
 enum { ROWS_MOST = 96, LAMPS_MOST = 6, DEPTH_CUT = 8 };
@@ -98,6 +99,17 @@ static void add_scattering(rung_list *list)
     ec_cost_rung *again = add(list, "scattering-multiple", "multiple");
     again->options.scattering = EC_SCATTERING_MULTIPLE;
     again->unbiased = false;
+}
+
+/* Where the library is. */
+static void add_denoiser(rung_list *list)
+{
+    if (ec_denoise_check(NULL) != EC_OK) return;
+    begin(list, "denoiser", "Denoised, instead of as it is");
+    ec_cost_rung *best = add(list, "denoise", "best of both, --denoise");
+    best->options.denoise = true;
+    best->unbiased = false;
+    best->fades = true;
 }
 
 static void add_arithmetic(rung_list *list)
@@ -199,6 +211,7 @@ ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_
     if (!list.rows) return ec_fail(err, "out of memory for the rungs of a study");
     begin(&list, "base", "As eclat render does it");
     add(&list, "path", "path, mis, sobol, rr auto, exact")->is_base = true;
+    add_denoiser(&list);
     add_samplings(&list);
     add_integrators(&list);
     add_roulettes(&list);

@@ -35,7 +35,7 @@ ec_result ec_cost_runner_open(ec_cost_study *study, const ec_cost_rung *rung, ec
 {
     double start = ec_now(), first = 0, second = 0;
     uint64_t pixels = (uint64_t)rung->options.width * rung->options.height;
-    *runner = (ec_cost_runner){.study = study, .pixels = pixels, .mean = malloc(pixels * 12), .room = malloc(pixels * 12)};
+    *runner = (ec_cost_runner){.study = study, .pixels = pixels, .denoises = rung->options.denoise, .mean = malloc(pixels * 12), .room = malloc(pixels * 12)};
     if (!runner->mean || !runner->room) return ec_fail(err, "out of memory for a picture of %llu pixels", (unsigned long long)pixels);
     EC_TRY(open_session(study, rung, &runner->session, stats, err));
     *setup = ec_now() - start;
@@ -43,6 +43,8 @@ ec_result ec_cost_runner_open(ec_cost_study *study, const ec_cost_rung *rung, ec
     if (!runner->stopped) EC_TRY(ec_cost_runner_take(runner, ec_session_seed(0, 0, 1), 1, &second, err));
     *setup += fmax(first - second, 0);
     runner->invalid = 0;
+    runner->denoise_seconds = 0;
+    runner->denoised = 0;
     return EC_OK;
 }
 
@@ -66,6 +68,7 @@ static void add_up(ec_cost_runner *runner, uint32_t count)
 ec_result ec_cost_runner_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err)
 {
     const uint32_t replicates = ec_render_replicates(&runner->study->options), count = samples < replicates ? samples : replicates;
+    if (runner->denoises) return ec_cost_denoised_take(runner, seed, samples, ec_cost_go_on, seconds, err);
     *seconds = 0;
     for (uint32_t r = 0; r < count; r++) {
         ec_session_batch batch = {.seed = seed, .replicate = r, .samples = samples / count + (r < samples % count),

@@ -23,9 +23,10 @@ typedef struct table {
 static double merit(const ec_cost_row *row, int column)
 {
     bool ranked = row->state == EC_COST_MEASURED && !row->rung.is_effect && !row->unmet;
-    if (!ranked || (!row->rung.unbiased && column != MEMORY) ||
+    if (!ranked || (!row->rung.unbiased && !row->rung.fades && column != MEMORY) ||
         (row->rung.speed_only && column != TIME && column != RELATIVE))
         return NAN;
+    if (row->rung.fades && column < TO_FIRST) return NAN;
     if (column == TIME || column == RELATIVE) return row->seconds_per_sample;
     if (column == VARIANCE) return row->variance;
     if (column == EFFICIENCY) return -row->efficiency;
@@ -76,7 +77,8 @@ static void format_target(const ec_cost_row *row, int i, char *text, size_t size
 
 static void format_bias(const ec_cost_row *row, char *text, size_t size)
 {
-    if (isnan(row->bias2)) snprintf(text, size, "?");
+    if (row->rung.fades) snprintf(text, size, "fades");
+    else if (isnan(row->bias2)) snprintf(text, size, "?");
     else if (row->biased) snprintf(text, size, "floor %s", ec_percent(sqrt(row->bias2)).text);
     else if (row->unmet) snprintf(text, size, "lacks %s", ec_percent(sqrt(row->bias2)).text);
     else snprintf(text, size, "< %s", ec_percent(sqrt(fmax(row->bias2, 0) + 2 * row->bias2_se)).text);
@@ -135,7 +137,7 @@ static void print_footer(const ec_cost_study *study, FILE *to)
 {
     fprintf(to, "\ntime     as a multiple of the first row's, measured in turns with it\n"
                 "slope    of error over samples in the log-log chart; independent samples: -0.50\n"
-                "bias     floor: the error that no time removes; lacks: rare light not met yet, so its figures are too good\n"
+                "bias     floor: the error that no time removes; fades: falls with more samples; lacks: rare light not met yet, so its figures are too good\n"
                 "to 5 %%   seconds for one picture of %ux%u pixels; ~ extrapolated, ? not known, never: under its floor\n"
                 "%s%s of %s%s\n",
             study->options.width, study->options.height, study->interrupted ? "interrupted after " : "took     ", ec_seconds(study->seconds).text,
@@ -158,5 +160,8 @@ void ec_cost_table(const ec_cost_report *report, bool bold, FILE *to)
         group = rung->group;
         print_row(&t, i);
     }
+    char words[256];
+    ec_cost_denoise_words(t.study, words, sizeof words);
+    if (*words) fprintf(to, "\ndenoiser %s\n", words);
     print_footer(t.study, to);
 }

@@ -22,17 +22,6 @@ const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, u
     return accel == ec_accel_find("bvh8") && is_large && is_known ? " -DINTERLEAVE=8" : "";
 }
 
-static uint64_t accel_bytes(const ec_pipeline *p, uint32_t accel)
-{
-    uint64_t sum = 0;
-    for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++) {
-        size_t size = 0;
-        if (p->accels[accel].buffers[k]) clGetMemObjectInfo(p->accels[accel].buffers[k], CL_MEM_SIZE, sizeof size, &size, NULL);
-        sum += size;
-    }
-    return sum;
-}
-
 static entry stage_entry(ec_kernel_set *set, ec_stage_id id)
 {
     const uint32_t lanes = ec_stages[id].lanes == EC_LANES_OF_PIPELINE ? set->lanes : ec_stages[id].lanes;
@@ -62,6 +51,13 @@ static uint32_t list_entries(const ec_pipeline *p, ec_kernel_set *set, entry ent
     return count;
 }
 
+ec_kernel_set ec_kernel_set_fast(const ec_pipeline *p)
+{
+    ec_kernel_set set = {.lanes = p->lanes, .wave = p->room, .features = p->effects.built};
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) set.accels |= (uint32_t)p->accels[a].in_use << a;
+    return set;
+}
+
 /* One program for all kernels of a lane width: each parse of the shared headers costs as much as compiling a stage. The source is the caller's to free. */
 static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, const entry *entries, uint32_t count, uint32_t lanes, ec_compile_program *program, ec_error *err)
 {
@@ -73,7 +69,7 @@ static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, 
         features |= ec_stage_features(&ec_stages[entries[i].stage], set->features);
         if (entries[i].accel == EC_ACCEL_COUNT || entries[i].stage == EC_INTERSECT) names[used++] = entries[i].source; /* a source has both traversals */
         if (entries[i].accel == EC_ACCEL_COUNT) continue;
-        const char *own = ec_traversal_options(&p->cl->info, entries[i].accel, accel_bytes(p, entries[i].accel), set->features);
+        const char *own = ec_traversal_options(&p->cl->info, entries[i].accel, p->accels[entries[i].accel].bytes, set->features);
         if (*own) traversal = own;
     }
     snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s", lanes, features, traversal,

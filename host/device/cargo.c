@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "device/ahead.h"
 #include "device/pipeline.h"
 #include "device/pixel_filter.h"
 
@@ -71,12 +72,11 @@ static ec_result add_filter(ec_cargo *cargo, const ec_render_options *o, ec_erro
     return EC_OK;
 }
 
-static ec_result choose_lights(const ec_render_options *o, ec_pack *pack, ec_error *err)
+static bool wants_light_tree(const ec_render_options *o, const ec_pack *pack)
 {
-    if (o->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return EC_OK;
-    if (pack->lamps_move) return EC_OK; /* a tree's bounds would hold for one moment only */
-    if (o->light_choice == EC_LIGHTS_AUTO && !ec_pack_wants_light_tree(pack)) return EC_OK;
-    return ec_pack_light_tree(pack, err);
+    if (!ec_pipeline_joins(o, pack) || o->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return false;
+    if (pack->lamps_move) return false; /* a tree's bounds would hold for one moment only */
+    return o->light_choice != EC_LIGHTS_AUTO || ec_pack_wants_light_tree(pack);
 }
 
 /* called_for: the scene itself, or that of which it is what is written out: rounding may not change effects. */
@@ -89,13 +89,32 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
         pack->effects.bits &= ~EC_FEATURE_INSTANCES;
     }
     if (o->integrator != EC_INTEGRATOR_PATH) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));
-    return ec_pipeline_joins(o, pack) ? choose_lights(o, pack, err) : EC_OK;
+    return EC_OK;
 }
 
-ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
+/* What takes time and says nothing of effects. */
+static ec_result finish_pack(const ec_render_options *o, ec_pack *pack, ec_error *err)
+{
+    EC_TRY(ec_pack_texels(pack, err));
+    return wants_light_tree(o, pack) ? ec_pack_light_tree(pack, err) : EC_OK;
+}
+
+/* The tree of lights is still to come, but not whether there is one: kernels can be built while it is. */
+static void build_ahead(ec_cl *alone, const ec_cargo *cargo, const ec_render_options *o, uint32_t batch)
+{
+    ec_render_effects effects = {.buffer_count = 0};
+    ec_pack pack = cargo->pack; /* its arrays are the cargo's */
+    pack.light_node_count = wants_light_tree(o, &pack);
+    ec_pipeline_effects(o, &pack, &effects);
+    ec_build_ahead(alone, cargo, &effects, o->width, o->height, batch);
+}
+
+ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_cl *alone, uint32_t batch,
                         ec_error *err)
 {
     EC_TRY(fill_pack(scene, called_for, o, &cargo->pack, err));
+    if (alone) build_ahead(alone, cargo, o, batch);
+    EC_TRY(finish_pack(o, &cargo->pack, err));
     ec_pipeline_effects(o, &cargo->pack, &cargo->head.effects);
     return EC_OK;
 }
@@ -160,6 +179,7 @@ static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, cons
     ec_pack kept = {0};
     ec_cargo_head head = cargo->head;
     ec_result result = fill_pack(called_for, called_for, o, &kept, err);
+    if (result == EC_OK) result = finish_pack(o, &kept, err);
     if (result == EC_OK) {
         ec_pipeline_effects(o, &kept, &head.effects);
         set_params(o, batch, &kept, head.effects.called.bits, &head.params);
@@ -170,11 +190,11 @@ static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, cons
 }
 
 static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
-                            const ec_render_options *o, uint32_t batch, ec_render_stats *stats, ec_error *err)
+                            const ec_render_options *o, uint32_t batch, ec_cl *alone, ec_render_stats *stats, ec_error *err)
 {
     ec_pack *pack = &cargo->pack;
     ec_cargo_head *head = &cargo->head;
-    EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, err));
+    EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, alone, batch, err));
     set_params(o, batch, pack, head->effects.called.bits, &head->params);
     head->bodies_too_many = pack->bodies.too_many;
     EC_TRY(ec_insides_make(pack, &cargo->insides, err));
@@ -186,7 +206,7 @@ static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_sce
 }
 
 static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
-                      uint32_t batch, uint32_t kinds, ec_render_stats *stats, ec_error *err)
+                      uint32_t batch, uint32_t kinds, ec_cl *alone, ec_render_stats *stats, ec_error *err)
 {
     ec_cargo_head *head = &cargo->head;
     head->triangle_count = scene->triangle_count;
@@ -208,7 +228,7 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     }
     stats->accel_seconds = ec_now() - start;
     start = ec_now();
-    EC_TRY(add_packed(cargo, scene, called_for, o, batch, stats, err));
+    EC_TRY(add_packed(cargo, scene, called_for, o, batch, alone, stats, err));
     stats->pack_seconds = ec_now() - start;
     stats->replicates = head->replicates;
     stats->instances = scene->placed_count;
@@ -236,13 +256,13 @@ ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scen
     return EC_OK;
 }
 
-ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *o, uint32_t batch, uint32_t kinds, ec_cargo *cargo,
+ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *o, uint32_t batch, uint32_t kinds, ec_cl *alone, ec_cargo *cargo,
                         ec_render_stats *stats, ec_error *err)
 {
     const ec_scene *called_for;
     memset(cargo, 0, sizeof *cargo);
     EC_TRY(ec_cargo_choose(cargo, &scene, &called_for, o, err));
-    return fill(cargo, scene, called_for, o, batch, kinds, stats, err);
+    return fill(cargo, scene, called_for, o, batch, kinds, alone, stats, err);
 }
 
 void ec_cargo_free(ec_cargo *cargo)

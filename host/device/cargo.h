@@ -41,7 +41,7 @@ typedef struct ec_cargo_buffer {
     uint64_t bytes;                  /* of data … */
     uint64_t slack;                  /* … and so many more on the device, of any value */
     const void *data;
-    void *owned;                     /* data, if it is to be freed; NULL: it lies in what the cargo was made of */
+    void *owned;                     /* data, if it is to be freed, and has room for the slack; NULL: it lies in what the cargo was made of */
 } ec_cargo_buffer;
 
 enum { EC_CARGO_BUFFERS = EC_SCENE_BUFFERS + 2 + EC_ACCEL_COUNT * EC_ACCEL_BUFFERS };
@@ -56,18 +56,19 @@ typedef struct ec_cargo {
     ec_scene_view view;
 } ec_cargo;
 
-/* For devices of these kinds (1 << ec_device_kind). The scene must stay as long as the cargo does. stats gets what is known then: times,
- * counts, content. The cargo is to be freed on failure too. */
-ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *options, uint32_t batch, uint32_t kinds, ec_cargo *cargo,
+/* For devices of these kinds (1 << ec_device_kind). The scene must stay as long as the cargo does. alone: the device that gets it, if there is one
+ * only, which begins to build kernels meanwhile; else NULL. stats gets what is known then: times, counts, content. The cargo is to be freed on
+ * failure too. */
+ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *options, uint32_t batch, uint32_t kinds, ec_cl *alone, ec_cargo *cargo,
                         ec_render_stats *stats, ec_error *err);
 void ec_cargo_free(ec_cargo *cargo); /* zero-initialised or freed is fine */
 
 /* The two steps of it that tell effects. First what of the scene is rendered, and, for called_for, what says which effects
- * that takes: they are the cargo's or the scene itself. Then its pack, and the head's effects. */
+ * that takes: they are the cargo's or the scene itself. Then its pack, and the head's effects; alone, and the samples of a batch, as above. */
 ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
                           const ec_render_options *options, ec_error *err);
 ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
-                        const ec_render_options *options, ec_error *err);
+                        const ec_render_options *options, ec_cl *alone, uint32_t batch, ec_error *err);
 
 /* The next buffer; NULL data adds none. owned as in ec_cargo_buffer, the cargo's from here on. */
 void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned);
@@ -78,7 +79,7 @@ ec_result ec_cargo_add_accel(ec_cargo *cargo, uint32_t which, ec_accel_input *in
 /* camera.c: the same at every moment; nothing for a camera that stands still */
 ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *options, ec_error *err);
 /* upload_plan.c: the scene's own, those that are called for */
-ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, const ec_pack *pack, ec_error *err);
+ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, ec_pack *pack, ec_error *err);
 /* content.c: what is rendered; params must be complete */
 void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content);
 

@@ -8,6 +8,10 @@
 #define FEATURE_BYTES (4ull * EC_AOV_FIELDS)
 #define BATCH_BYTES (4ull * EC_BATCH_FIELDS)
 
+/* The first wave is smaller, so that there is something to show at once; but not where waves are that small anyway. */
+#define FIRST_SHARE 8
+#define FIRST_PATHS 16384
+
 /* Seeds that differ in one bit must give numbers that differ in every bit. */
 uint32_t ec_render_seed(uint64_t seed) { return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + 1) >> 16); }
 
@@ -141,6 +145,7 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
         EC_TRY(take_back(s, err));
         EC_TRY(ec_tiers_step(p, err));
         uint32_t count = p->wave / p->params.batch;
+        if (!s->has_begun && p->wave > FIRST_PATHS) count = (count + FIRST_SHARE - 1) / FIRST_SHARE;
         if (count > order->count - reached) count = order->count - reached;
         EC_TRY(ec_pipeline_run_wave(p, seed, before + reached, count, order->with_features, err));
         if (!s->has_begun) EC_TRY(ec_cl_finish(p->cl, err));

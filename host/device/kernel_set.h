@@ -24,6 +24,9 @@ void ec_kernel_set_release(ec_kernel_set *set);
 
 struct ec_pipeline;
 
+/* Empty: what is rendered with once it is compiled. */
+ec_kernel_set ec_kernel_set_fast(const struct ec_pipeline *pipeline);
+
 /* Builds those of set->lanes and set->accels for what the pipeline is to render. */
 ec_result ec_kernel_set_build(struct ec_pipeline *pipeline, ec_kernel_set *set, ec_error *err);
 

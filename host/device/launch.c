@@ -8,7 +8,7 @@
 uint64_t ec_pipeline_items(ec_stage_id id, uint32_t accel, uint32_t set_lanes, uint32_t wave, uint32_t triangles)
 {
     const uint32_t lanes = accel < EC_ACCEL_COUNT ? ec_accels[accel].lanes : ec_stages[id].lanes;
-    uint64_t items = id == EC_RASTER_SETUP || id == EC_RASTER_FILL ? triangles : wave;
+    uint64_t items = id == EC_RASTER_SETUP || id == EC_RASTER_FILL ? (triangles > EC_SMALL_LAUNCH ? triangles : EC_SMALL_LAUNCH) : wave;
     if (lanes == EC_LANES_OF_PIPELINE) items /= set_lanes;
     return items;
 }

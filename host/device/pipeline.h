@@ -35,6 +35,7 @@ typedef struct ec_pipeline {
     ec_compiler compiler;
     struct {
         bool in_use;
+        uint64_t bytes;
         cl_mem buffers[EC_ACCEL_BUFFERS];
         /* Where there are several ways, all give the same hits: rays a second of each, the best trial at each bounce. */
         struct {
@@ -95,6 +96,8 @@ ec_accel_input ec_accel_input_of(const ec_scene *scene, float grid_density);
 /* queues.c: fits the wave to the device and makes its buffers; params must be complete but for the wave. wave: paths in flight; 0 = what
  * suits the device. */
 ec_result ec_pipeline_create_queues(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
+/* The wave alone, as long as there is memory for it. */
+void ec_pipeline_plan_wave(ec_pipeline *pipeline, uint32_t wave);
 /* Paths of a wave by narrow kernels with these features: fewer, since they are slower, and may keep more of each path. 0: there is no room for a batch. */
 uint32_t ec_pipeline_narrow_wave(const ec_pipeline *pipeline, uint64_t features);
 /* The next waves are of so many paths, at most those that there is room for. */

@@ -92,6 +92,12 @@ static ec_result create_wave_that_fits(ec_pipeline *p, uint32_t wanted, ec_error
     return EC_OK;
 }
 
+void ec_pipeline_plan_wave(ec_pipeline *p, uint32_t wave)
+{
+    set_wave(p, wave ? wave : fit_wave(p));
+    p->room = p->wave;
+}
+
 ec_result ec_pipeline_create_queues(ec_pipeline *p, uint32_t wave, ec_error *err)
 {
     ec_cl *cl = p->cl;

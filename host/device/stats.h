@@ -30,6 +30,7 @@ typedef struct ec_render_stats {
     double samples_per_second, rays_per_second;
     ec_film_error film;           /* the error, its bound, or why there is none */
     ec_forecast forecast;         /* the pilot's */
+    bool is_clean;                /* film->clean is of all its samples: the last look at its error */
     double clamp_luminance;       /* most of a sample's indirect light; 0: no limit */
     double allotment_gain;        /* adaptive: error^2 over uniform sampling's, foretold; 1 where there was nothing to gain */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;

@@ -5,20 +5,8 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "cl/ahead.h"
 #include "cl/workarounds.h"
-
-static bool compiles_late(const ec_pipeline *p)
-{
-    const ec_workaround *driver = ec_workaround_for(&p->cl->info);
-    return driver && driver->compiles_late;
-}
-
-static ec_kernel_set fast_set(const ec_pipeline *p)
-{
-    ec_kernel_set set = {.lanes = p->lanes, .wave = p->room, .features = p->effects.built};
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) set.accels |= (uint32_t)p->accels[a].in_use << a;
-    return set;
-}
 
 /* One lane, and one accelerator: one whose kernels have one lane too, if there is one, for they compile twice as fast. */
 static ec_kernel_set narrow_set(const ec_pipeline *p)
@@ -29,11 +17,12 @@ static ec_kernel_set narrow_set(const ec_pipeline *p)
     return set;
 }
 
-/* One lane, for any scene without instances: all effects, and the accelerators that are chosen by themselves. */
+/* One lane, for any scene without instances: all effects, and the accelerators that are chosen by themselves, where there are any. */
 static ec_kernel_set universal_set(const ec_pipeline *p)
 {
     const uint64_t features = ec_universal_features(&p->effects);
-    return (ec_kernel_set){.lanes = 1, .wave = ec_pipeline_narrow_wave(p, features), .features = features, .calls = true, .accels = 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8")};
+    const uint32_t accels = p->integrator == EC_INTEGRATOR_RASTER ? 0 : 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8");
+    return (ec_kernel_set){.lanes = 1, .wave = ec_pipeline_narrow_wave(p, features), .features = features, .calls = true, .accels = accels};
 }
 
 static bool is_beside(ec_compile compile)
@@ -45,15 +34,16 @@ static bool is_beside(ec_compile compile)
 /* Only where it pays, and where the bits are known not to depend on it. Who asks for a width gets it. */
 static bool may_begin_narrow(const ec_pipeline *p, const ec_cargo_head *head)
 {
-    return compiles_late(p) && ec_device_rounds(&p->cl->info) && !head->fast_math && !head->lanes && p->lanes > 1 &&
+    return ec_compiles_late(p->cl) && ec_device_rounds(&p->cl->info) && !head->fast_math && !head->lanes && p->lanes > 1 &&
            is_beside(head->compile) && ec_pipeline_narrow_wave(p, p->effects.built);
 }
 
-/* Only paths: ray trees would need a stack of branches for glass that the scene may not have. */
+/* Not ray trees: they would need a stack of branches for glass that the scene may not have. */
 static bool may_be_universal(const ec_pipeline *p)
 {
     const ec_kernel_set set = universal_set(p);
-    return p->integrator == EC_INTEGRATOR_PATH && (fast_set(p).accels & set.accels) && ec_pipeline_narrow_wave(p, set.features);
+    const bool has_accel = p->integrator == EC_INTEGRATOR_RASTER || (ec_kernel_set_fast(p).accels & set.accels);
+    return p->integrator != EC_INTEGRATOR_WHITTED && has_accel && ec_pipeline_narrow_wave(p, set.features);
 }
 
 /* Kernels that a render may go by, and what the driver's cache says of them, which is asked for once. */
@@ -62,6 +52,7 @@ typedef struct candidate {
     ec_compile_job job;
     bool is_asked, is_compiled;
 } candidate;
+enum { RASTERISER = EC_BEGUN_UNIVERSAL + 1, CANDIDATES };
 
 static bool is_compiled(ec_pipeline *p, candidate *c)
 {
@@ -70,7 +61,20 @@ static bool is_compiled(ec_pipeline *p, candidate *c)
     return c->is_compiled;
 }
 
-/* Chooses the set to begin with, and has the fast one compiled, and then the universal one for scenes to come. */
+/* The preview's first picture is rasterised, of any scene. NULL: these kernels are compiled already. */
+static const ec_compile_job *rasterisers_job(const ec_pipeline *p, candidate *c)
+{
+    ec_pipeline *raster = malloc(sizeof *raster);
+    if (!raster) return NULL;
+    *raster = *p; /* of which nothing is used but what says which kernels there are */
+    raster->integrator = EC_INTEGRATOR_RASTER;
+    c->set = universal_set(raster);
+    const bool is_wanted = !is_compiled(raster, c);
+    free(raster);
+    return is_wanted ? &c->job : NULL;
+}
+
+/* Chooses the set to begin with, and has the fast one compiled, and then the universal ones for scenes to come. */
 static ec_begun choose(ec_pipeline *p, const ec_cargo_head *head, candidate *c)
 {
     p->waves_until_fast = head->waves_until_fast;
@@ -78,8 +82,11 @@ static ec_begun choose(ec_pipeline *p, const ec_cargo_head *head, candidate *c)
     if (p->is_narrow) return EC_BEGUN_NARROW;
     if (!may_begin_narrow(p, head) || is_compiled(p, &c[EC_BEGUN_FAST])) return EC_BEGUN_FAST;
     const bool may = may_be_universal(p), has_universal = may && is_compiled(p, &c[EC_BEGUN_UNIVERSAL]);
-    const ec_compile_job *wanted[2] = {&c[EC_BEGUN_FAST].job, &c[EC_BEGUN_UNIVERSAL].job};
-    p->is_narrow = ec_compiler_start(wanted, may && !has_universal ? 2 : 1, &p->compiler, NULL) == EC_OK;
+    const ec_compile_job *wanted[3] = {&c[EC_BEGUN_FAST].job}, *raster = p->integrator == EC_INTEGRATOR_RASTER ? NULL : rasterisers_job(p, &c[RASTERISER]);
+    uint32_t count = 1;
+    if (raster) wanted[count++] = raster;
+    if (may && !has_universal) wanted[count++] = &c[EC_BEGUN_UNIVERSAL].job;
+    p->is_narrow = ec_compiler_start(wanted, count, &p->compiler, NULL) == EC_OK;
     if (!p->is_narrow) return EC_BEGUN_FAST;
     return has_universal && !is_compiled(p, &c[EC_BEGUN_NARROW]) ? EC_BEGUN_UNIVERSAL : EC_BEGUN_NARROW;
 }
@@ -104,12 +111,12 @@ static void tell(void *user, uint32_t done, uint32_t count)
 static ec_result build(ec_pipeline *p, candidate *c, ec_error *err)
 {
     teller t = {.log = p->cl->log, .begun = ec_now()};
-    const bool is_late = compiles_late(p), is_done = !is_late || is_compiled(p, c);
+    const bool is_late = ec_compiles_late(p->cl), is_done = !is_late || is_compiled(p, c);
     if (!is_done) ec_say(t.log, "compiling kernels for what this scene calls for; the next render finds them");
     t.said = t.begun;
     p->kernels = c->set;
     ec_result result = ec_kernel_set_build(p, &p->kernels, err);
-    p->kernels.accels &= fast_set(p).accels; /* a universal set has others too */
+    p->kernels.accels &= ec_kernel_set_fast(p).accels; /* a universal set has others too */
     if (result == EC_OK && is_late) result = ec_kernel_set_warm(p, is_done ? NULL : tell, &t, err);
     if (result == EC_OK && !is_done) ec_compile_job_done(p->cl, &c->job);
     return result;
@@ -117,17 +124,18 @@ static ec_result build(ec_pipeline *p, candidate *c, ec_error *err)
 
 ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *err)
 {
-    candidate candidates[] = {[EC_BEGUN_FAST] = {.set = fast_set(p)}, [EC_BEGUN_NARROW] = {.set = narrow_set(p)}, [EC_BEGUN_UNIVERSAL] = {.set = universal_set(p)}};
+    candidate candidates[CANDIDATES] = {[EC_BEGUN_FAST] = {.set = ec_kernel_set_fast(p)}, [EC_BEGUN_NARROW] = {.set = narrow_set(p)}, [EC_BEGUN_UNIVERSAL] = {.set = universal_set(p)}};
     candidate *chosen = &candidates[p->begun = choose(p, head, candidates)];
     ec_result result = p->is_narrow ? ec_pipeline_use_wave(p, chosen->set.wave, err) : EC_OK;
     if (result == EC_OK) result = build(p, chosen, err);
-    for (int i = 0; i < 3; i++) ec_compile_job_free(&candidates[i].job);
+    for (int i = 0; i < CANDIDATES; i++) ec_compile_job_free(&candidates[i].job);
+    ec_ahead_end(p->cl);
     return result;
 }
 
 static ec_result switch_to_fast(ec_pipeline *p, ec_error *err)
 {
-    candidate fast = {.set = fast_set(p)};
+    candidate fast = {.set = ec_kernel_set_fast(p)};
     ec_kernel_set_release(&p->kernels);
     p->is_narrow = false;
     p->fast_since = ec_now();

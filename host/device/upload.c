@@ -29,6 +29,12 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_cargo *cargo, ec_cargo *sp
     for (uint32_t i = 0; i < cargo->head.buffer_count && result == EC_OK; i++) {
         const ec_cargo_buffer *b = &cargo->buffers[i];
         cl_mem *place = place_of(p, b);
+        if (place && b->accel < EC_ACCEL_COUNT) p->accels[b->accel].bytes += b->bytes;
+        const bool may_adopt = place && spent && !keeps && b->owned;
+        if (may_adopt && ec_buffer_adopt(p->cl, b->label, b->bytes + b->slack, b->owned, place)) {
+            spent->buffers[i].owned = NULL;
+            continue;
+        }
         if (place) result = ec_buffer_put(p->cl, b->label, b->bytes, b->slack, b->data, keeps ? &keys[i] : NULL, place, err);
         if (!spent) continue;
         free(spent->buffers[i].owned);

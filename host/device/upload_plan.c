@@ -70,7 +70,7 @@ static ec_result add_uvs(ec_cargo *cargo, const ec_scene *scene, const ec_upload
     return EC_OK;
 }
 
-ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, const ec_pack *pack, ec_error *err)
+ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     ec_upload plan[EC_SCENE_BUFFERS];
     uint32_t count = ec_upload_plan(scene, pack, plan, &cargo->head.effects);
@@ -79,7 +79,8 @@ ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, const ec_pa
         uint64_t bytes = u->buffer.bytes;
         if (!bytes) continue; /* an absent stream stays NULL */
         if (u->arg == EC_ARG_UVS) EC_TRY(add_uvs(cargo, scene, u, err));
-        else ec_cargo_add(cargo, u->arg, u->buffer.label, bytes - u->slack, u->slack, u->data, NULL);
+        else ec_cargo_add(cargo, u->arg, u->buffer.label, bytes - u->slack, u->slack, u->data, u->arg == EC_ARG_TEXELS ? pack->texels : NULL);
+        if (u->arg == EC_ARG_TEXELS) pack->texels = NULL; /* the cargo's */
     }
     return EC_OK;
 }

@@ -8,6 +8,7 @@
 /* Arrays of floats that a picture has for each pixel. */
 typedef enum ec_plane {
     EC_PLANE_RGB, EC_PLANE_SAMPLES, EC_PLANE_STDERR, EC_PLANE_STDERR_Y, EC_PLANE_LOW, EC_PLANE_HIGH, EC_PLANE_HEAVY, EC_PLANE_CLAMPED,
+    EC_PLANE_DENOISED, EC_PLANE_BEST, EC_PLANE_DENOISED_STDERR, /* where --denoise made them */
     EC_PLANE_FEATURES /* of first hits */
 } ec_plane;
 enum { EC_PLACE_ALPHA = 7, EC_FEATURE_CHANNELS }; /* in that plane: the last one, and how many */
@@ -28,7 +29,7 @@ typedef struct ec_channel_row {
     bool is_default;      /* else written on request alone */
 } ec_channel_row;
 
-enum { EC_CHANNEL_ROWS = 25 };
+enum { EC_CHANNEL_ROWS = 32 };
 extern const ec_channel_row ec_channel_rows[EC_CHANNEL_ROWS];
 
 /* The name of a plane's float; NULL: it has none. */

@@ -13,8 +13,17 @@ ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_
     return EC_OK;
 }
 
+void ec_film_set_clean(ec_film *film, ec_film_clean clean)
+{
+    free(film->clean.denoised);
+    free(film->clean.best);
+    free(film->clean.error);
+    film->clean = clean;
+}
+
 void ec_film_destroy(ec_film *film)
 {
+    ec_film_set_clean(film, (ec_film_clean){0});
     for (uint32_t i = 0; i < film->part_count; i++) ec_film_part_free(&film->parts[i]);
     free(film->parts);
     free(film->aov);
@@ -94,8 +103,9 @@ ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pi
     const uint64_t values = pixels * EC_FILM_FEATURES;
     if (!film->aov) film->aov = calloc(pixels_of(film), EC_FILM_FEATURES * sizeof *film->aov);
     if (!film->aov) return ec_fail(err, "out of memory for the first-hit features");
-    const double share = 1.0 / ++film->aov_batches;
-    const bool is_first = film->aov_batches == 1;
+    const double own = ec_schedule_batch(film->replicates, film->aov_batches).samples;
+    const double share = own / (own + (double)ec_schedule_samples(film->replicates, film->aov_batches));
+    const bool is_first = film->aov_batches++ == 0;
 #pragma omp parallel for if (pixels > EC_FILM_MANY)
     for (uint64_t i = 0; i < values; i++) film->aov[i] = is_first ? features[i] : (float)(film->aov[i] + ((double)features[i] - film->aov[i]) * share);
     return EC_OK;

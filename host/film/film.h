@@ -17,6 +17,18 @@
 
 enum { EC_FILM_FEATURES = 8 };
 
+/* What a denoiser has made of a film (host/denoise): 3, 3 and 1 floats a pixel, rows from the top. All NULL: nobody has asked for it. */
+typedef struct ec_film_clean {
+    float *denoised, *best; /* radiance: denoised throughout, and where that is nearer to the truth */
+    float *error;           /* of the denoised luminance: estimated root mean square over the pixels around */
+} ec_film_clean;
+
+/* From so many pixels on. */
+static inline ec_film_clean ec_film_clean_from(const ec_film_clean *c, uint64_t pixel)
+{
+    return c->best ? (ec_film_clean){c->denoised + 3 * pixel, c->best + 3 * pixel, c->error + pixel} : (ec_film_clean){0};
+}
+
 typedef struct ec_film {
     uint32_t width, height, replicates;
     uint32_t batch_count;         /* batches that all pixels have */
@@ -25,18 +37,23 @@ typedef struct ec_film {
     double samples[EC_REPLICATES_MOST]; /* of each replicate, in pixels without counts */
     float limit;                  /* of the luminance of a sample's indirect light (film/clamp.h); 0: none */
     uint64_t invalid_count;       /* values that were NaN or infinite and counted as 0 */
-    /* First-hit features: the average over batches [0, aov_batches). albedo 3, normal 3, depth 1, alpha 1 per pixel; NULL: none. Owned. */
+    /* First-hit features: the average over batches [0, aov_batches), each by its samples. albedo 3, normal 3, depth 1, alpha 1 per pixel; NULL: none.
+     * Owned. */
     float *aov;
     uint32_t aov_batches;
     /* Set only where the render was stopped within its first batch: 1 for pixels that have no sample. malloc'ed. */
     uint8_t *unsampled;
     ec_film_part *parts;          /* by `first`, no two with batches in common; a single one where pixels have counts. Owned */
     uint32_t part_count;
+    ec_film_clean clean;          /* owned; of the samples that there were when it was made */
     ec_rare *rare;                /* light that hardly any sample meets; NULL: there is none, or nobody has looked. Owned */
 } ec_film;
 
 ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_t replicates, ec_error *err);
 void ec_film_destroy(ec_film *film); /* zero-initialised or destroyed films are fine */
+
+/* In place of what there was; zeros: none. */
+void ec_film_set_clean(ec_film *film, ec_film_clean clean);
 
 /* A copy of it, in place of what there was; NULL: none. */
 ec_result ec_film_set_rare(ec_film *film, const ec_rare *rare, ec_error *err);

@@ -34,7 +34,7 @@ static void take_part(const ec_film_part *part, uint64_t first, uint64_t count, 
     for (uint64_t i = 0; !part->batch && i < 3 * count; i++) mean[i] += (to[i] - mean[i]) * share;
 }
 
-static void replicate_mean(const ec_film *film, uint64_t first, uint64_t count, uint32_t r, double *mean)
+void ec_film_replicate(const ec_film *film, uint64_t first, uint64_t count, uint32_t r, double *mean)
 {
     double samples = 0;
     memset(mean, 0, 3 * count * sizeof *mean);
@@ -85,7 +85,7 @@ static void look_at(const ec_film *film, const replicate *list, uint32_t n, uint
     const double samples = ec_film_samples_of_all(film);
     memset(p.mean, 0, sizeof p - sizeof p.by_replicate);
     for (uint32_t k = 0; k < n; k++) {
-        replicate_mean(film, first, count, list[k].number, p.by_replicate[k]);
+        ec_film_replicate(film, first, count, list[k].number, p.by_replicate[k]);
         add_mean(p.by_replicate[k], list[k].share, 3 * count, p.mean);
     }
     for (uint32_t k = 0; k < n; k++) add_deviations(p.by_replicate[k], list[k].weight, count, &p);

@@ -19,6 +19,9 @@ typedef struct ec_pixel {
 /* Pixels [first, first + count), in row order. */
 void ec_film_look(const ec_film *film, uint64_t first, uint64_t count, ec_pixel *pixels);
 
+/* The means of one replicate alone, 3 a pixel: 0 where it has no samples. */
+void ec_film_replicate(const ec_film *film, uint64_t first, uint64_t count, uint32_t replicate, double *mean);
+
 /* The pixel's ec_sums.tail, which must begin with zeros. */
 void ec_film_tail(const ec_film *film, uint64_t pixel, float tail[3]);
 

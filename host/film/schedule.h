@@ -18,6 +18,7 @@
 #define EC_REPLICATES 8        /* R by default: docs/sampling.md says what others cost */
 #define EC_REPLICATES_MOST 16
 #define EC_BATCH_MOST 64u      /* samples of a batch */
+#define EC_FEATURE_STRIDES 4u  /* of each replicate, that a denoised picture has first-hit features of: 8 samples of each */
 #define EC_PILOT_SAMPLES 4u    /* of each replicate: before these no error is judged */
 
 typedef struct ec_batch_range {

@@ -48,8 +48,8 @@ ec_result ec_parse_channels(const char *option, const char *text, ec_channel_set
         const size_t size = strcspn(word, ",");
         const ec_channel_set found = named(word, size);
         if (!found)
-            return ec_usage(err, "--%s: '%.*s' is no channel; give all, default, A, samples, stderr, low95, high95, heavy, clamped, albedo, normal, depth or one of "
-                                 "a layer, as stderr.Y, with commas between them", option, EC_CUT(word, size < 80 ? (int)size : 80));
+            return ec_usage(err, "--%s: '%.*s' is no channel; give all, default, A, samples, stderr, low95, high95, heavy, clamped, denoised, best, albedo, "
+                                 "normal, depth or one of a layer, as stderr.Y, with commas between them", option, EC_CUT(word, size < 80 ? (int)size : 80));
         *set |= found;
         word += size;
         if (!*word) return EC_OK;

@@ -1,4 +1,5 @@
 /* Checkpoints and slices: where a render starts, and what it keeps on the way. */
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -148,6 +149,14 @@ static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row,
     return result;
 }
 
+static ec_result look_at_clean(void *user, ec_film *film, ec_clean_look *look, ec_error *err)
+{
+    ec_render_job *job = user;
+    EC_TRY(ec_denoise(film, &job->denoised, err));
+    *look = job->denoised.why_not ? (ec_clean_look){INFINITY, INFINITY} : (ec_clean_look){job->denoised.best.error, job->denoised.best.high95};
+    return EC_OK;
+}
+
 static bool all_round(const ec_render_job *job)
 {
     bool all = true;
@@ -171,6 +180,7 @@ ec_course ec_render_job_course(ec_render_job *job)
                         .keep = request->checkpoint || request->snapshot ? keep : NULL,
                         .strip = whole_for ? NULL : take_strip,
                         .whole_for = whole_for,
+                        .clean = look_at_clean,
                         .every = request->every,
                         .most = request->capped ? EC_SAFETY_SPP : 0,
                         .peers = job->ranks ? &job->peers : NULL,

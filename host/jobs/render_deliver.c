@@ -66,6 +66,9 @@ static ec_result finish_rows(ec_render_job *job, ec_render_report *report, ec_er
 ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
 {
     const char *outputs[EC_OUTPUTS_MAX];
+    ec_error undenoised = {0};
+    const ec_result denoised = ec_render_job_denoise(job, &undenoised);
+    if (denoised != EC_OK) job->denoised = (ec_denoised){.why_not = "it failed"};
     ec_render_report report = ec_render_job_report(job, outputs);
     double write_start = ec_now();
     EC_TRY(job->rows ? finish_rows(job, &report, err) : ec_render_job_write(job, &job->request->outputs, &report, err));
@@ -74,7 +77,8 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
     report.peak_memory_bytes = ec_peak_memory_bytes();
     if (job->stats.invalid_samples > 0)
         ec_warn(&job->listener->log, "%llu samples were not finite and count as black: please report the scene", (unsigned long long)job->stats.invalid_samples);
-    return ec_render_job_tell(job, &report, err);
+    EC_TRY(ec_render_job_tell(job, &report, err));
+    return denoised == EC_OK ? EC_OK : ec_fail(err, "%s; the picture is written as it is", undenoised.text);
 }
 
 /* Hours of samples are not to be lost with the device. */

@@ -1,6 +1,7 @@
 #include "jobs/render_job.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -209,16 +210,51 @@ static void take_devices(ec_render_job *job)
     job->device_why = share->device_why;
 }
 
-ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
+static ec_result load_scene(ec_render_job *job, ec_error *err)
 {
     const ec_log *log = &job->listener->log;
     const ec_render_request *request = job->request;
-    if (!job->share) EC_TRY(ec_render_job_find_devices(job, err));
-    else take_devices(job);
-    double start = ec_now();
     if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, log, err));
-    EC_TRY(ec_render_job_light(job, err));
+    return ec_render_job_light(job, err);
+}
+
+typedef struct finder {
+    ec_render_job *job;
+    ec_result result;
+    ec_error error;
+} finder;
+
+static void *find_devices(void *user)
+{
+    finder *f = user;
+    f->result = ec_render_job_find_devices(f->job, &f->error);
+    return NULL;
+}
+
+/* Drivers take as long to load as many a scene, so both are loaded at once; but a name that no device has is told before a scene is loaded. */
+static ec_result load_both(ec_render_job *job, ec_error *err)
+{
+    finder f = {.job = job};
+    pthread_t thread;
+    const bool is_beside = !job->ranks && !job->request->device && pthread_create(&thread, NULL, find_devices, &f) == 0;
+    if (!is_beside) EC_TRY(ec_render_job_find_devices(job, err));
+    const ec_result result = load_scene(job, err);
+    if (is_beside) pthread_join(thread, NULL);
+    if (is_beside && f.result != EC_OK && err) *err = f.error;
+    return f.result != EC_OK ? EC_FAILED : result;
+}
+
+ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
+{
+    const double start = ec_now();
+    if (job->request->options.denoise) EC_TRY(ec_denoise_check(err));
+    if (job->share) {
+        take_devices(job);
+        EC_TRY(load_scene(job, err));
+    } else {
+        EC_TRY(load_both(job, err));
+    }
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
     return check_memory(job, err);
@@ -245,11 +281,19 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .tonemap = request->tonemap,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),
+        .denoised = request->options.denoise ? &job->denoised : NULL,
         .load_seconds = job->load_seconds,
         .image_sha256 = job->image_sha256,
         .outputs = outputs,
         .output_count = request->outputs.count,
     };
+}
+
+ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
+{
+    if (!job->request->options.denoise || job->stats.is_clean) return EC_OK;
+    job->stats.is_clean = true; /* once, whatever comes of it */
+    return ec_denoise(&job->film, &job->denoised, err);
 }
 
 void ec_render_job_free(ec_render_job *job)

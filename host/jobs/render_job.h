@@ -4,6 +4,7 @@
 
 #include "gltf/reader.h"
 #include "cl/cl.h"
+#include "denoise/denoise.h"
 #include "jobs/hash.h"
 #include "jobs/listener.h"
 #include "jobs/render_request.h"
@@ -44,10 +45,11 @@ typedef struct ec_render_job {
     ec_device_info devices[EC_DEVICES_MOST];
     uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
+    ec_denoised denoised;        /* of the film, with options.denoise */
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
     ec_render_stats stats;
-    double load_seconds;
+    double load_seconds;         /* until devices and scene were there */
     char camera_text[256];
     ec_viewpoint viewpoint;
     char environment_text[256];
@@ -85,6 +87,9 @@ ec_course ec_render_job_course(ec_render_job *job);
 
 /* Renders into job->film; the listener may end it early and well. On failure too there may be batches in the film. */
 ec_result ec_render_job_run(ec_render_job *job, ec_error *err);
+
+/* With options.denoise: makes the film's clean picture, unless the last look at its error has. A failure leaves the film as it was. */
+ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err);
 
 /* render_deliver.c: writes the film to the outputs and reports it; start: when the job, or the frame, began. */
 ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err);

@@ -38,8 +38,14 @@ const ec_option ec_render_rows[] = {
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
     {.name = "channels", .metavar = "LIST", .set = ec_set_channels, .group = EC_GROUP_PICTURE,
      .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
-             "pixel), heavy, clamped, albedo, normal, depth, or one of a layer as in stderr.Y. Slices hold all of them",
-     .otherwise = "A, samples, stderr, heavy and, with --clamp, clamped"},
+             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, or one of a layer as in stderr.Y. Slices hold all of them",
+     .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
+    {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = ec_set_denoise, .choices = ec_denoise_names, .group = EC_GROUP_PICTURE,
+     .integrators = PATHS, .uses = EC_OPTION_WINDOW,
+     .help = "denoise the picture with Intel's Open Image Denoise, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "
+             "the noisy one by which is nearer to the truth. The PNG shows the blend, best; the EXR keeps R, G and B as they are and has denoised, "
+             "best and denoised.stderr beside them. --error is then that of best. auto, like --denoise alone, does so; off does not",
+     .otherwise = "off"},
     {.name = "env", .metavar = "FILE|R,G,B", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
      .help = "environment light: an equirectangular .hdr or .exr map, or a constant radiance", .otherwise = "none; 1,1,1 if the scene has no light at all"},

@@ -16,6 +16,7 @@
 #define SCREEN_MOST 1e4 /* half heights */
 
 const char *const ec_adaptive_names[] = {[EC_ADAPTIVE_AUTO] = "auto", [EC_ADAPTIVE_ON] = "on", [EC_ADAPTIVE_OFF] = "off", NULL};
+const char *const ec_denoise_names[] = {"auto", "off", NULL};
 const char *const ec_effects_names[] = {"needed", "all", NULL};
 
 SETTER(at)
@@ -56,6 +57,15 @@ SETTER(parallel)
 }
 
 SETTER(screen_window) { return ec_parse_window(option, value, SCREEN_MOST, REQUEST->options.screen_window, err); }
+
+/* --denoise without a value means auto. */
+SETTER(denoise)
+{
+    uint32_t index = 0;
+    if (value) EC_TRY(ec_parse_choice(option, value, ec_denoise_names, &index, err));
+    REQUEST->options.denoise = index == 0;
+    return EC_OK;
+}
 
 /* --adaptive without a value means on. */
 SETTER(adaptive)

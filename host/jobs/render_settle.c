@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "denoise/judge.h"
 #include "jobs/defaults.h"
 #include "jobs/option.h"
 #include "jobs/render_request.h"
@@ -125,6 +126,16 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
+static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
+{
+    const uint32_t replicates = ec_render_replicates(&request->options);
+    if (!request->options.denoise) return EC_OK;
+    if (replicates < EC_JUDGE_REPLICATES)
+        return ec_usage(err, "--denoise and --replicates %u: one half of the replicates judges the other; give %d or more", replicates, EC_JUDGE_REPLICATES);
+    if (request->has_slice) return ec_usage(err, "--denoise and --samples: a slice is a part of a picture, and a denoiser wants the whole; leave one out");
+    return EC_OK;
+}
+
 /* A frame is done or not: it is the sequence that goes on. */
 static ec_result settle_frames(ec_render_request *request, ec_error *err)
 {
@@ -168,6 +179,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(settle_slice(request, err));
     EC_TRY(settle_channels(request, err));
     EC_TRY(settle_adaptive(request, err));
+    EC_TRY(settle_denoise(request, err));
     request->capped = limits->spp == 0 && ec_render_has_limit(limits);
     if (!ec_render_has_limit(limits)) limits->spp = EC_DEFAULT_SPP;
     return EC_OK;
@@ -176,6 +188,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
 /* Names the option that cannot be had strip by strip. */
 const char *ec_render_whole_for(const ec_render_request *r)
 {
+    if (r->options.denoise) return "--denoise"; /* looks at pixels around */
     if (r->adaptive == EC_ADAPTIVE_ON) return "--adaptive"; /* the allotment looks at all pixels */
     if (r->options.error_target > 0) return "--error"; /* of the whole image */
     if (r->options.time_limit > 0 || r->capped) return "--time";

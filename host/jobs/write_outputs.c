@@ -29,6 +29,7 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
                               .intervals = {picture->low, picture->high, picture->heavy}};
     picture->height = rows;
     picture->aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
+    picture->clean = ec_film_clean_from(&film->clean, (uint64_t)first * film->width);
     picture->heavy_count = ec_film_resolve_rows(film, first, rows, &planes, picture->room);
     for (size_t i = 0; i < pixel_count; i++) picture->constants[2 * i + 1] = 1;
 }
@@ -38,6 +39,7 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
     const size_t before = (size_t)first * picture->width;
     ec_picture here = {.width = picture->width, .height = rows, .rgb = picture->rgb + 3 * before, .constants = picture->constants + 2 * before,
                        .aov = picture->aov ? picture->aov + EC_FILM_FEATURES * before : NULL};
+    here.clean = ec_film_clean_from(&picture->clean, before);
     if (picture->clamped) here.clamped = picture->clamped + 2 * before;
     if (!picture->heavy) return here;
     here.stderr_rgb = picture->stderr_rgb + 3 * before;
@@ -77,6 +79,7 @@ static const float *plane_of(const ec_picture *p, ec_plane plane, uint32_t *stri
         [EC_PLANE_RGB] = {p->rgb, 3},       [EC_PLANE_SAMPLES] = {p->constants, 2}, [EC_PLANE_STDERR] = {p->stderr_rgb, 3},
         [EC_PLANE_STDERR_Y] = {p->stderr_y, 1}, [EC_PLANE_LOW] = {p->low, 3},       [EC_PLANE_HIGH] = {p->high, 3},
         [EC_PLANE_HEAVY] = {p->heavy, 1},   [EC_PLANE_CLAMPED] = {p->clamped, 2},   [EC_PLANE_FEATURES] = {p->aov, EC_FEATURE_CHANNELS},
+        [EC_PLANE_DENOISED] = {p->clean.denoised, 3}, [EC_PLANE_BEST] = {p->clean.best, 3}, [EC_PLANE_DENOISED_STDERR] = {p->clean.error, 1},
     };
     *stride = planes[plane].stride;
     return planes[plane].data;

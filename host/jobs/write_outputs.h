@@ -23,6 +23,7 @@ typedef struct ec_picture {
     float *constants;  /* 2 per pixel: samples, and the alpha of a film without first-hit features; owned */
     ec_pixel *room;    /* for ec_film_resolve_rows; owned */
     const float *aov;  /* the film's: 8 per pixel, or NULL */
+    ec_film_clean clean; /* the film's, or NULLs */
 } ec_picture;
 
 /* with_error false: what is known of the error stays NULL in any case. */

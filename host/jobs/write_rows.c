@@ -83,6 +83,7 @@ static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
     w->rooms = malloc((size_t)omp_get_max_threads() * ec_resolve_room(w->width, SEAM) * sizeof *w->rooms);
     if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
     w->band.aov = film->aov;
+    w->band.clean = film->clean;
     ec_film_sum_errors(film, &w->sums);
     w->wide_errors = are_errors_wide(&w->sums, (uint64_t)film->width * film->height);
     list_channels(w, &w->channels);
@@ -96,6 +97,7 @@ static void fill_band(ec_row_writer *w, const ec_film *film, uint32_t first, uin
     uint64_t heavy = 0;
     w->band.height = rows;
     w->band.aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
+    w->band.clean = ec_film_clean_from(&film->clean, (uint64_t)first * film->width);
 #pragma omp parallel for schedule(dynamic, 1) reduction(+ : heavy) if ((uint64_t)w->width * rows > 1 << 14)
     for (uint32_t k = 0; k < rows; k += SEAM) {
         const uint32_t count = rows - k < SEAM ? rows - k : SEAM;
@@ -138,7 +140,7 @@ static void write_band(ec_row_writer *w)
     w->written += rows;
     for (int i = 0; i < w->outputs->count; i++) {
         ec_error why = {0};
-        if (w->png[i] && !is_toned) ec_tonemap_rgb(w->band.rgb, w->bytes, pixels, w->exposure, w->tonemap);
+        if (w->png[i] && !is_toned) ec_tonemap_rgb(w->band.clean.best ? w->band.clean.best : w->band.rgb, w->bytes, pixels, w->exposure, w->tonemap);
         is_toned |= w->png[i] != NULL;
         if (w->exr[i] && ec_exr_rows_put(w->exr[i], &part, rows, &why) != EC_OK) fail_file(w, i, &why);
         if (w->png[i] && ec_png_rows_put(w->png[i], w->bytes, rows, &why) != EC_OK) fail_file(w, i, &why);

@@ -12,6 +12,7 @@ static ec_result take_render(eclat_picture *p, ec_error *err)
     const char *names[EC_OUTPUTS_MAX];
     ec_render_job *job = &p->call.render;
     const ec_film *film = &job->film;
+    EC_TRY(ec_render_job_denoise(job, err));
     EC_TRY(ec_picture_resolve(film, true, &p->planes, err));
     p->error = job->stats.film = ec_film_estimate_error(film);
     p->samples_per_pixel = (double)job->stats.samples / ((double)film->width * film->height);
@@ -62,6 +63,17 @@ eclat_picture_error eclat_picture_get_error(const eclat_picture *p)
     const ec_film_error *e = &p->error;
     return (eclat_picture_error){.error = e->error, .error_bound = e->error_bound, .why = isfinite(e->error_bound) ? NULL : *p->why ? p->why : "the error is not known",
                                  .mean_luminance = e->mean_luminance, .samples_per_pixel = p->samples_per_pixel, .replicates = p->replicates};
+}
+
+static eclat_stated_error stated(const ec_stated_error *e) { return (eclat_stated_error){e->error, e->low95, e->high95}; }
+
+eclat_denoised eclat_picture_get_denoised(const eclat_picture *p)
+{
+    const ec_denoised *d = p->planes.rgb && p->call.render.request->options.denoise ? &p->call.render.denoised : NULL;
+    const eclat_stated_error unknown = {INFINITY, INFINITY, INFINITY};
+    if (!d || d->why_not) return (eclat_denoised){.denoised = unknown, .best = unknown, .why = d ? d->why_not : "the option denoise was not set"};
+    return (eclat_denoised){.denoised = stated(&d->clean), .best = stated(&d->best), .bias = d->bias, .noise = d->noise, .tiles = d->tiles,
+                            .tiles_nearer = d->nearer, .tiles_off = d->off};
 }
 
 size_t eclat_picture_channel_count(const eclat_picture *p) { return p->channels.count; }

@@ -1,11 +1,14 @@
 #include "live/renderer.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 void ec_live_film_limit(ec_live_film *p, const ec_render_options *o, uint32_t more)
 {
+    const bool denoise = p->film.width ? p->limits.denoise : o->denoise; /* a film goes on as it was begun */
     p->limits = *o;
+    p->limits.denoise = denoise;
     for (uint32_t i = 0; i < more; i++) {
         p->limits.spp = p->limits.spp > (1u << 22) ? p->limits.spp : 4 * p->limits.spp;
         p->limits.time_limit *= 4;
@@ -39,6 +42,19 @@ void ec_live_film_stop(ec_live_film *p)
     *p = (ec_live_film){0};
 }
 
+/* A failure is told once, and the picture stays as it is. */
+void ec_live_film_clean(ec_live_film *p, bool now)
+{
+    ec_error err = {0};
+    const double samples = ec_film_samples_of_all(&p->film);
+    const bool is_due = p->clean_samples > 0 ? samples >= 2 * p->clean_samples : ec_schedule_has_pilot(p->film.replicates, p->film.batch_count);
+    if (samples == p->clean_samples || *p->undenoised || !(is_due || now || p->stopped_by)) return;
+    if (ec_denoise(&p->film, &p->denoised, &err) != EC_OK) snprintf(p->undenoised, sizeof p->undenoised, "%.319s", err.text);
+    p->clean_samples = samples;
+    if (*p->undenoised || p->denoised.why_not) return;
+    ec_clean_goal_take(&p->goal.clean, samples, &(ec_clean_look){p->denoised.best.error, p->denoised.best.high95});
+}
+
 /* With the second batch there is a first error to state. */
 static ec_result foretell(ec_live_film *p, ec_session *session, ec_error *err)
 {
@@ -61,11 +77,11 @@ static void judge(ec_live_film *p, double took)
     if (p->film.cut) p->stopped_by = "spp";
 }
 
-/* The batch, and first-hit features with the first batch of each replicate. */
+/* The batch, and first-hit features with the first ones, as a render takes them. */
 static ec_result make_room(ec_live_film *p, float **features, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->film.width * p->film.height;
-    const bool wants_features = p->film.batch_count < p->film.replicates;
+    const bool wants_features = p->film.batch_count < p->film.replicates * (p->limits.denoise ? EC_FEATURE_STRIDES : 1);
     if (!p->room) p->room = malloc(pixels * EC_BATCH_FIELDS * sizeof *p->room);
     *features = wants_features ? malloc(pixels * EC_FILM_FEATURES * sizeof **features) : NULL;
     return p->room && (*features || !wants_features) ? EC_OK : ec_fail(err, "out of memory for a picture");

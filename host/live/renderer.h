@@ -15,10 +15,16 @@ typedef struct ec_live_film {
     uint64_t invalid;
     float *room;              /* for a batch */
     const char *stopped_by;   /* NULL: goes on */
+    double clean_samples;     /* a pixel, when film.clean was made last; 0: it was not */
+    ec_denoised denoised;     /* what came of that */
+    char undenoised[320];     /* why there is none; empty: there is, or will be */
 } ec_live_film;
 
 ec_result ec_live_film_start(ec_live_film *film, const ec_render_options *options, uint32_t more, uint32_t width, uint32_t height, ec_error *err);
 void ec_live_film_stop(ec_live_film *film); /* zero-initialised is fine */
+
+/* The clean picture of its samples, where that is due: anew whenever they have doubled, and in the end; now: in any case. */
+void ec_live_film_clean(ec_live_film *film, bool now);
 
 /* The limits as they are after `more` wishes for more; goes on if they are not met. */
 void ec_live_film_limit(ec_live_film *film, const ec_render_options *options, uint32_t more);

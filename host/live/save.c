@@ -26,6 +26,7 @@ static ec_render_options options_of(const ec_renderer *r, const eclat_wish *wish
     options.spp = (uint32_t)ec_film_samples_of_all(&r->picture.film);
     options.more_effects = r->live->request.options.more_effects;
     options.error_target = options.time_limit = 0;
+    options.denoise = r->picture.limits.denoise;
     if (!wish->is_moved) options.camera = ec_live_camera(s->scene, wish);
     return options;
 }
@@ -56,6 +57,7 @@ static ec_result write_files(const ec_renderer *r, const eclat_wish *wish, ec_re
     job.request = request;
     job.command = command;
     job.film = r->picture.film;
+    job.denoised = r->picture.denoised;
     job.stats = stats_of(r, &request->options);
     if (wish->is_moved) job.viewpoint = ec_live_viewpoint(wish);
     else if (index != scene->request.options.camera)
@@ -89,6 +91,7 @@ static ec_result save(ec_renderer *r, const eclat_wish *wish, char *told, size_t
     EC_TRY(ec_render_check_files(&request, err));
     char *command = ec_live_command(live, r->setup[ECLAT_PICTURE]->scene, wish, &request.options, &request.outputs);
     if (!command) return ec_fail(err, "out of memory for a command line");
+    if (request.options.denoise) ec_live_film_clean(&r->picture, true);
     ec_result result = write_files(r, wish, &request, command, err);
     if (result == EC_OK) {
         r->saved++;

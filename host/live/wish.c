@@ -24,6 +24,7 @@ void ec_live_limit_wish(eclat_wish *w)
     if (!w->width || !w->height) w->width = w->height = 0;
     w->env_degrees = isfinite(w->env_degrees) ? rounded(w->env_degrees) : 0;
     w->exposure = rounded(fmin(fmax(w->exposure, -EC_EXPOSURE_MOST), EC_EXPOSURE_MOST));
+    w->is_denoised = w->is_denoised != 0;
     if (w->tonemap != ECLAT_TONEMAP_NONE) w->tonemap = ECLAT_TONEMAP_NEUTRAL;
     if (w->integrator >= ECLAT_INTEGRATOR_COUNT) w->integrator = ECLAT_PATH;
     if (w->second_integrator >= ECLAT_INTEGRATOR_COUNT) w->second_integrator = ECLAT_PATH;
@@ -33,5 +34,5 @@ void ec_live_limit_wish(eclat_wish *w)
 bool ec_live_same_camera(const eclat_wish *a, const eclat_wish *b)
 {
     return a->is_moved == b->is_moved && a->camera == b->camera && a->width == b->width && a->height == b->height &&
-           a->env_degrees == b->env_degrees && (!a->is_moved || !memcmp(&a->viewpoint, &b->viewpoint, sizeof a->viewpoint));
+           a->env_degrees == b->env_degrees && a->is_denoised == b->is_denoised && (!a->is_moved || !memcmp(&a->viewpoint, &b->viewpoint, sizeof a->viewpoint));
 }

@@ -22,6 +22,9 @@ static void tell(ec_renderer *r, uint32_t preview, bool has_second)
     s->seconds = p->seconds;
     s->error = p->film.batch_count ? p->error.error : INFINITY;
     s->error_bound = p->film.batch_count ? p->error.error_bound : INFINITY;
+    s->is_denoised = !preview && p->film.clean.best != NULL;
+    s->best = (eclat_stated_error){p->denoised.best.error, p->denoised.best.low95, p->denoised.best.high95};
+    snprintf(s->undenoised, sizeof s->undenoised, "%s", p->undenoised);
     s->seconds_left = p->goal.forecast.pilot_samples ? fmax(p->goal.forecast.seconds - p->seconds, 0) : -1;
     s->spp_limit = p->limits.spp;
     s->time_limit = p->limits.time_limit;
@@ -110,7 +113,9 @@ ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err)
 {
     const ec_live_setup *setup = r->setup[ECLAT_PICTURE];
     bool complete;
-    if (!r->picture.film.width) EC_TRY(ec_live_film_start(&r->picture, &setup->options, r->wish.more, r->wish.width, r->wish.height, err));
+    ec_render_options options = setup->options;
+    options.denoise = r->wish.is_denoised && options.integrator == EC_INTEGRATOR_PATH;
+    if (!r->picture.film.width) EC_TRY(ec_live_film_start(&r->picture, &options, r->wish.more, r->wish.width, r->wish.height, err));
     if (r->aside) EC_TRY(look(r, ECLAT_PICTURE, r->wish.width, r->wish.height, err));
     r->aside = false;
     EC_TRY(ec_live_film_take(&r->picture, setup->session, go_on, r, &complete, err));
@@ -134,7 +139,8 @@ ec_result ec_renderer_show(ec_renderer *r, ec_error *err)
     bool has_second;
     r->dirty = false;
     ec_film_resolve(film, r->mean, NULL);
-    EC_TRY(ec_live_show(r->live, wish, ECLAT_PICTURE, r->mean, wish->width, wish->height, err));
+    if (r->picture.limits.denoise && !wish->is_moving) ec_live_film_clean(&r->picture, false);
+    EC_TRY(ec_live_show(r->live, wish, ECLAT_PICTURE, film->clean.best ? film->clean.best : r->mean, wish->width, wish->height, err));
     EC_TRY(ec_live_second_show(&r->second, r->live, wish, film, r->mean, &has_second, err));
     tell(r, 0, has_second);
     return EC_OK;

@@ -14,6 +14,7 @@ enum { POINTS = 4 }; /* an edge is cut in so many */
 static uint32_t wrapped(int64_t i, uint32_t size, ec_wrap wrap)
 {
     const int64_t last = (int64_t)size - 1;
+    if (i >= 0 && i <= last) return (uint32_t)i; /* most of them, without a division */
     if (wrap == EC_WRAP_REPEAT) return (uint32_t)((i % size + size) % size);
     return (uint32_t)(i < 0 ? 0 : i > last ? last : i);
 }

@@ -9,7 +9,7 @@
 #define EC_LAMP_UNEVEN 1.25   /* over its mean, from which on a lamp is cut … */
 #define EC_LAMP_EVEN 1.02     /* … and up to which a part of it is not */
 #define EC_LAMP_EXCESS 0.01   /* of all textured lamps' light: what is left of those differences when enough is cut */
-#define EC_LAMP_CUTS 40000    /* in all */
+#define EC_LAMP_CUTS 8000    /* in all */
 #define EC_LAMP_DEPTH 12      /* halvings of an edge */
 #define EC_LAMP_TEXELS 0.25   /* across which a part is not cut further */
 

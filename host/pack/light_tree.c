@@ -6,6 +6,7 @@
 
 #define BINS 12
 #define MANY 4096 /* lamps: of so many only the longest axis is tried */
+#define FEW 512   /* lamps: so many are not worth another thread */
 
 typedef struct builder {
     const ec_light_bounds *bounds;
@@ -14,11 +15,11 @@ typedef struct builder {
     ec_light_node *nodes;
     uint32_t *trails;
     double most_power;
-    uint32_t used;
 } builder;
 
 typedef struct task {
     uint32_t node, first, end, depth, trail;
+    uint32_t free; /* nodes from here on are for those below: two for each lamp but the first */
 } task;
 
 static double middle(const ec_light_bounds *b, int axis) { return 0.5 * (b->low[axis] + b->high[axis]); }
@@ -92,39 +93,39 @@ static uint32_t split(builder *b, const task *t, const ec_light_bounds *all)
     return at > t->first && at < t->end ? at : half;
 }
 
-static void grow(builder *b, task *stack)
+/* Where a node's descendants stand depends on how many there are, not on who writes them first. */
+static void grow(builder *b, task t)
 {
-    uint32_t waiting = 1;
-    while (waiting) {
-        task t = stack[--waiting];
-        ec_light_bounds all = around(b, t.first, t.end);
-        ec_light_node *node = &b->nodes[t.node];
-        *node = ec_light_bounds_node(&all, b->most_power);
-        if (t.end - t.first == 1) {
-            uint32_t lamp = b->order[t.first];
-            node->link = EC_LIGHT_LEAF | b->ids[lamp];
-            b->trails[lamp] = t.trail;
-            continue;
-        }
-        uint32_t at = split(b, &t, &all), child = b->used;
-        node->link = child;
-        b->used += 2;
-        stack[waiting++] = (task){child + 1, at, t.end, t.depth + 1, t.trail | 1u << t.depth};
-        stack[waiting++] = (task){child, t.first, at, t.depth + 1, t.trail};
+    const ec_light_bounds all = around(b, t.first, t.end);
+    ec_light_node *node = &b->nodes[t.node];
+    *node = ec_light_bounds_node(&all, b->most_power);
+    if (t.end - t.first == 1) {
+        const uint32_t lamp = b->order[t.first];
+        node->link = EC_LIGHT_LEAF | b->ids[lamp];
+        b->trails[lamp] = t.trail;
+        return;
     }
+    const uint32_t at = split(b, &t, &all), child = t.free, left = 2 * (at - t.first - 1);
+    node->link = child;
+    const task first = {child, t.first, at, t.depth + 1, t.trail, child + 2};
+    const task second = {child + 1, at, t.end, t.depth + 1, t.trail | 1u << t.depth, child + 2 + left};
+#pragma omp task if (first.end - first.first > FEW)
+    grow(b, first);
+    grow(b, second);
 }
 
 ec_result ec_light_tree_build(const ec_light_bounds *bounds, const uint32_t *ids, uint32_t count, ec_light_node *nodes,
                               uint32_t *trails, ec_error *err)
 {
-    task stack[EC_LIGHT_DEPTH_MOST + 2] = {{0, 0, count, 0, 0}};
-    builder b = {bounds, ids, malloc((size_t)count * sizeof *b.order), nodes, trails, 0, 1};
+    builder b = {bounds, ids, malloc((size_t)count * sizeof *b.order), nodes, trails, 0};
     if (!b.order) return ec_fail(err, "out of memory for a tree of %u lamps", count);
     for (uint32_t i = 0; i < count; i++) {
         b.order[i] = i;
         b.most_power = fmax(b.most_power, bounds[i].power);
     }
-    grow(&b, stack);
+#pragma omp parallel if (count > FEW)
+#pragma omp single
+    grow(&b, (task){0, 0, count, 0, 0, 1});
     free(b.order);
     return EC_OK;
 }

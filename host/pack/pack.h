@@ -56,7 +56,8 @@ typedef struct ec_pack {
     float srgb[256];               /* linear value of each sRGB byte */
 } ec_pack;
 
-ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err);
+ec_result ec_pack_scene(const ec_scene *scene, ec_pack *pack, ec_error *err); /* all but the texels, which say nothing of effects */
+ec_result ec_pack_texels(ec_pack *pack, ec_error *err);
 void ec_pack_free(ec_pack *pack); /* zero-initialised is fine */
 
 /* The steps, in order; each fills its part of pack. */
@@ -78,7 +79,7 @@ ec_result ec_scene_find_light(const ec_scene *scene, ec_scene_light *light, ec_e
 bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m);
 /* Is there a body behind it? */
 bool ec_pack_is_body(const ec_material *m);
-ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err);
+ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err); /* where texels will be */
 ec_result ec_pack_places(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_motion(const ec_scene *scene, ec_pack *pack, ec_error *err);
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err);

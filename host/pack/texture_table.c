@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "base/memory.h"
 #include "image/image.h"
 #include "pack/pack.h"
 
@@ -27,6 +28,9 @@ static void write_deep(const ec_image *image, const float *linear, uint32_t *wor
         memcpy(&words[count + i], decoded, sizeof *decoded);
     }
 }
+
+/* Deep images stand twice: once as they are, once decoded from sRGB. */
+static size_t image_words(const ec_image *image) { return image_texels(image) * (image->rgba16 ? 8 : 1); }
 
 /* Sixty thousand powers, where the image may have millions of texels. NULL: there is no memory. */
 static float *deep_to_linear(void)
@@ -60,25 +64,15 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
     pack->textures = calloc(pack->texture_count ? pack->texture_count : 1, sizeof *pack->textures);
     EC_FREED size_t *offset = calloc(scene->image_count ? scene->image_count : 1, sizeof *offset);
     EC_FREED bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used);
-    bool has_deep = false;
     if (!pack->textures || !offset || !used) return ec_fail(err, "out of memory for %u textures", scene->texture_count);
     find_used(scene, used);
     for (uint32_t i = 0; i < scene->image_count; i++) {
         offset[i] = pack->texel_words;
-        if (!used[i]) continue;
-        /* Deep images stand twice: once as they are, once decoded from sRGB. */
-        has_deep |= scene->images[i].rgba16 != NULL;
-        pack->texel_words += image_texels(&scene->images[i]) * (scene->images[i].rgba16 ? 8 : 1);
+        if (used[i]) pack->texel_words += image_words(&scene->images[i]);
     }
     if (pack->texel_words > UINT32_MAX)
         return ec_fail(err, "the scene's images take %.1f GiB as texels; at most 16 GiB can be addressed: shrink them",
                        (double)pack->texel_words * 4 / (1 << 30));
-    pack->texels = malloc((pack->texel_words ? pack->texel_words : 1) * sizeof *pack->texels);
-    EC_FREED float *linear = has_deep ? deep_to_linear() : NULL;
-    if (!pack->texels || (has_deep && !linear)) return ec_fail(err, "out of memory for %zu MB of texels", pack->texel_words * 4 / 1000000);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (uint32_t i = 0; i < scene->image_count; i++)
-        if (used[i]) write_image(&scene->images[i], linear, pack->texels + offset[i]);
     for (uint32_t t = 0; t < pack->texture_count; t++) {
         const ec_texture *texture = &scene->textures[t / 2];
         const ec_image *image = &scene->images[texture->image];
@@ -88,5 +82,28 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
             (uint32_t)texture->wrap_s << EC_TEXTURE_WRAP_S | (uint32_t)texture->wrap_t << EC_TEXTURE_WRAP_T |
                 (texture->nearest ? EC_TEXTURE_NEAREST : 0) | (image->rgba16 ? EC_TEXTURE_FLOAT : 0)};
     }
+    return EC_OK;
+}
+
+ec_result ec_pack_texels(ec_pack *pack, ec_error *err)
+{
+    const ec_scene *scene = &pack->plain.scene;
+    size_t offset = 0;
+    bool has_deep = false;
+    EC_FREED bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used);
+    EC_FREED uint32_t **places = calloc(scene->image_count ? scene->image_count : 1, sizeof *places);
+    pack->texels = ec_shared_alloc((pack->texel_words + 1) * sizeof *pack->texels); /* some are read two at a time */
+    for (uint32_t i = 0; i < scene->image_count; i++) has_deep |= scene->images[i].rgba16 != NULL;
+    EC_FREED float *linear = has_deep ? deep_to_linear() : NULL;
+    if (!used || !places || !pack->texels || (has_deep && !linear)) return ec_fail(err, "out of memory for %zu MB of texels", pack->texel_words * 4 / 1000000);
+    find_used(scene, used);
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        places[i] = pack->texels + offset;
+        if (used[i]) offset += image_words(&scene->images[i]);
+    }
+    pack->texels[pack->texel_words] = 0;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (uint32_t i = 0; i < scene->image_count; i++)
+        if (used[i]) write_image(&scene->images[i], linear, places[i]);
     return EC_OK;
 }

@@ -4,6 +4,7 @@
 
 #include "film/forecast.h"
 #include "device/adaptive.h"
+#include "render/clean_goal.h"
 #include "render/render.h"
 #include "render/sources.h"
 
@@ -40,6 +41,8 @@ typedef struct ec_course {
      * `whole_for` says, an option as on the command line. */
     ec_result (*strip)(void *user, const ec_film *film, uint32_t first_row, const ec_render_stats *stats, ec_error *err);
     const char *whole_for;
+    /* With options.denoise, at some of the rounds: what is the error of the film's clean picture? It may change film->clean. NULL: nobody asks. */
+    ec_result (*clean)(void *user, ec_film *film, ec_clean_look *look, ec_error *err);
     const ec_peers *peers;          /* that take batches too; NULL: none */
     void *user;
 } ec_course;

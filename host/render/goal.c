@@ -67,6 +67,13 @@ static double whole_round(const ec_goal *g, double samples)
     return (double)ec_schedule_samples(g->replicates, (uint32_t)ec_schedule_round(g->replicates, batch));
 }
 
+/* Whichever picture is there first. */
+static range samples_of_either(const ec_goal *g, range noisy)
+{
+    const ec_clean_range clean = ec_clean_goal_samples(&g->clean, g->error);
+    return (range){fmin(noisy.low, whole_round(g, clean.low)), fmin(noisy.expected, whole_round(g, clean.expected)), fmin(noisy.high, whole_round(g, clean.high))};
+}
+
 /* Where error^2 is known by a wide factor, the part that no sample has met yet only adds. */
 static range samples_to(const ec_goal *g, const ec_film_outlook *o)
 {
@@ -85,6 +92,7 @@ static ec_forecast foretell(const ec_goal *g, ec_mark at, double gain)
                                now->larger_falls, g->pixels, g->replicates, EC_RARE_DOUBT * now->unmet, now->unmet_samples};
     range samples = {INFINITY, INFINITY, INFINITY};
     if (g->error > 0 && known) samples = samples_to(g, &o);
+    if (g->error > 0) samples = samples_of_either(g, samples);
     if (g->samples > 0) samples = at_most(samples, g->samples);
     samples = at_least(samples, at.samples);
     /* Both spreads are of logarithms and independent. */
@@ -97,10 +105,11 @@ static ec_forecast foretell(const ec_goal *g, ec_mark at, double gain)
         seconds = at_most(seconds, g->seconds);
         samples = at_most(samples, fmax(at.samples, at.samples + (g->seconds - at.seconds) / a_sample));
     }
+    const double bound = known && isfinite(samples.expected) ? ec_outlook_bound(&o, samples.expected) : INFINITY;
     return (ec_forecast){.pilot_samples = at.samples, .pilot_seconds = at.seconds,
                          .samples = samples.expected, .samples_low = samples.low, .samples_high = samples.high,
                          .seconds = seconds.expected, .seconds_low = seconds.low, .seconds_high = seconds.high,
-                         .error_bound = known && isfinite(samples.expected) ? ec_outlook_bound(&o, samples.expected) : INFINITY,
+                         .error_bound = fmin(bound, ec_clean_goal_bound(&g->clean, samples.expected)),
                          .slope = g->slope.value, .is_open = is_open, .spread = now->spread};
 }
 
@@ -121,7 +130,8 @@ void ec_goal_foretell(ec_goal *g, ec_mark at, double gain)
 const char *ec_goal_met(const ec_goal *g, ec_mark at, bool may_judge, double next)
 {
     if (g->samples > 0 && at.samples >= g->samples - 1e-9 * g->samples) return "spp";
-    if (g->error > 0 && may_judge && g->now.error_bound <= g->error) return "error";
+    const bool is_clean = g->clean.samples > 0 && g->clean.now.high95 <= g->error;
+    if (g->error > 0 && may_judge && (g->now.error_bound <= g->error || is_clean)) return "error";
     if (g->seconds > 0 && at.seconds + 0.5 * next * pace(g, at) > g->seconds) return "time";
     return NULL;
 }

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "film/forecast.h"
+#include "render/clean_goal.h"
 
 /* A point of a render: samples a pixel in the mean, and seconds of rendering. */
 typedef struct ec_mark {
@@ -21,6 +22,7 @@ typedef struct ec_goal {
     double took, squares, timed;        /* of batches but for the first: seconds, seconds^2 a sample, samples */
     ec_slope slope;
     ec_film_error now;                  /* of the last round */
+    ec_clean_goal clean;                /* the error's limit is the clean picture's too */
     bool is_withheld;                   /* the error's limit would be met, if there were a bound */
     ec_forecast forecast, pilot;        /* of now; the first one */
 } ec_goal;

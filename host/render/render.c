@@ -6,7 +6,6 @@
 
 #include "base/clock.h"
 #include "device/adaptive.h"
-#include "rare/paths.h"
 #include "render/render_state.h"
 
 /* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
@@ -82,35 +81,13 @@ static uint32_t largest_batch(const ec_render_state *r)
     return is_known ? ec_schedule_batch(r->replicates, r->end ? r->end - (r->cut == 0) : 0).samples : EC_BATCH_MOST;
 }
 
-/* By the first device that is loaded, or another one where it fails, which is out then. */
-static ec_result foretell(ec_render_state *r, const ec_rare_lights *lights, ec_error *err)
-{
-    const uint32_t count = r->sources.count;
-    for (uint32_t i = 0; i < 2 * count; i++) { /* those that are loaded already, then the others */
-        ec_error why = {0};
-        ec_pipeline *p = ec_sources_pipeline(&r->sources, i % count, i >= count);
-        if (!p) continue;
-        if (ec_rare_paths_foretell(lights, p, &r->rare, &why) == EC_OK) return EC_OK;
-        if (!r->sources.team) {
-            if (err) *err = why;
-            return EC_FAILED;
-        }
-        ec_team_leave_out(r->sources.team, i % count, &why);
-    }
-    return EC_OK;
-}
-
-/* Loads the devices, and has a first look at the picture's paths. */
+/* Several devices begin to work as they are loaded: their look is before that. */
 static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *err)
 {
-    ec_rare_lights lights = {0};
-    ec_result result = EC_OK;
     if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same ways whatever the sample */
-        result = ec_rare_lights_find(&r->sources.cargo.pack, &lights, err);
-    if (result == EC_OK) result = ec_sources_open(&r->sources, r->options->seed, r->course->peers, log, &r->source, r->stats, err);
-    if (result == EC_OK) result = foretell(r, &lights, err);
-    ec_rare_lights_free(&lights);
-    return result;
+        EC_TRY(ec_rare_lights_find(&r->sources.cargo.pack, &r->lights, err));
+    EC_TRY(ec_sources_open(&r->sources, r->options->seed, r->course->peers, log, &r->source, r->stats, err));
+    return ec_sources_alone(&r->sources) ? EC_OK : ec_render_foretell(r, err);
 }
 
 static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene,
@@ -154,15 +131,16 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     ec_render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.replicates = ec_render_replicates(options);
+    r.feature_batches = options->denoise ? EC_FEATURE_STRIDES * r.replicates : r.replicates;
     r.goal.pixels = (double)options->width * options->height;
     r.goal.replicates = r.replicates;
     choose_end(&r);
     ec_result result = set_up(&r, devices, device_count, scene, log, err);
     if (result == EC_OK) {
         ec_error why = {0};
-        const double cpu_start = ec_cpu_now();
+        r.cpu_start = ec_cpu_now();
         result = r.strip_rows ? ec_render_strips(&r, log, &why) : ec_render_film(&r, log, &why);
-        stats->cpu_seconds = ec_cpu_now() - cpu_start;
+        stats->cpu_seconds = ec_cpu_now() - r.cpu_start;
         if (result != EC_OK) r.stopped_by = why.kind == EC_ERROR_OTHER ? "failure" : "device";
         if (result != EC_OK && err) *err = why;
         tell_kernels(&r);
@@ -170,6 +148,7 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     }
     ec_allotment_free(&r.past.allotment);
     free(r.aov);
+    ec_rare_lights_free(&r.lights);
     ec_sources_close(&r.sources, stats);
     return result;
 }

@@ -16,10 +16,10 @@ static double patience(const ec_render_state *r)
     return r->course->keep ? fmin(r->course->every, seconds) : seconds;
 }
 
-/* Features come with the first batch of each replicate. */
+/* Features come with the first batches, and not with those of an allotment. */
 static bool wants_features(const ec_render_state *r)
 {
-    return r->past.next < r->replicates && r->film->aov_batches == r->past.next && !r->past.allotment.weight;
+    return r->past.next < r->feature_batches && r->film->aov_batches == r->past.next && !r->past.allotment.weight;
 }
 
 /* Hands over what there is; of a batch that is under way too, but not of its features, nor of a pass that
@@ -66,12 +66,22 @@ static double closing_seconds(const ec_render_state *r, uint32_t done)
     return r->look_seconds > 0 ? r->look_seconds : LOOK_SECONDS * ec_render_film_pixels(r);
 }
 
+/* The film has it before anybody looks at its error. */
+static ec_result foretell(ec_render_state *r, ec_error *err)
+{
+    if (r->is_foretold) return EC_OK;
+    EC_TRY(ec_render_foretell(r, err));
+    return ec_film_set_rare(r->film, &r->rare, err);
+}
+
 /* Between waves: goes on unless a limit or the caller ends the batch early. */
 static bool goes_on(void *user, uint32_t done)
 {
     ec_render_state *r = user;
     r->under_way = done * order_samples(r);
     if (done > r->order.done && r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
+    r->look_failed = foretell(r, &r->look_error) != EC_OK;
+    if (r->look_failed) return false;
     if (done >= r->order.count) return true;
     bool is_due = r->course->keep && r->source->batches == 1 && ec_now() - r->kept_at >= r->course->every;
     r->look_failed = is_due && r->source->look(r->source, &r->order, &r->look_error) != EC_OK;
@@ -187,7 +197,7 @@ static ec_result add_begun(ec_render_state *r, ec_error *err)
 static ec_result add_features(ec_render_state *r, ec_error *err)
 {
     EC_TRY(ec_film_add_features(r->film, batch_features(r), r->order.count, err));
-    return r->source->end_features && r->past.next + 1 == r->replicates ? r->source->end_features(r->source, err) : EC_OK;
+    return r->source->end_features && r->past.next + 1 == r->feature_batches ? r->source->end_features(r->source, err) : EC_OK;
 }
 
 static ec_result add_block(ec_render_state *r, ec_error *err)
@@ -269,6 +279,18 @@ static void note_withheld(ec_render_state *r, const ec_log *log)
             r->goal.error, way);
 }
 
+/* The clean picture's error, where that is what the render goes by and a look is due. */
+static ec_result look_at_clean(ec_render_state *r, double samples, ec_error *err)
+{
+    ec_clean_look look;
+    if (!r->options->denoise || !(r->goal.error > 0) || !r->course->clean) return EC_OK;
+    if (!ec_clean_goal_is_due(&r->goal.clean, samples, r->goal.error)) return EC_OK;
+    EC_TRY(r->course->clean(r->course->user, r->film, &look, err));
+    ec_clean_goal_take(&r->goal.clean, samples, &look);
+    r->cleaned_samples = r->past.samples;
+    return EC_OK;
+}
+
 /* After a batch: is it enough? */
 static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
 {
@@ -284,6 +306,7 @@ static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
         ec_goal_round(&r->goal, &r->error, at);
         if (has_pilot(r)) note_withheld(r, log);
         EC_TRY(allot(r, err));
+        if (has_pilot(r) && !(r->error.error_bound <= r->goal.error)) EC_TRY(look_at_clean(r, at.samples, err));
         const bool is_new = r->past.allotment.weight && !r->film->counts;
         if (has_pilot(r)) ec_goal_foretell(&r->goal, at, is_new ? r->past.allotment.gain : 1.0);
     }
@@ -315,6 +338,7 @@ static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err
 static ec_result take_up_goal(ec_render_state *r, ec_error *err)
 {
     const ec_mark at = ec_render_mark(r);
+    EC_TRY(foretell(r, err));
     look_at_error(r);
     r->goal.slope = r->past.slope;
     r->goal.now = r->error;

@@ -3,6 +3,7 @@
 #ifndef EC_RENDER_RENDER_STATE_H
 #define EC_RENDER_RENDER_STATE_H
 
+#include "rare/lights.h"
 #include "render/course.h"
 #include "render/goal.h"
 #include "render/sources.h"
@@ -17,7 +18,7 @@ typedef struct ec_render_state {
     void *user;
     ec_film *film;
     ec_render_stats *stats;
-    double start, render_start, last_report;
+    double start, render_start, cpu_start, last_report;
     double batch_end;          /* when the last one was done */
     ec_goal goal;
     uint32_t replicates;
@@ -28,7 +29,9 @@ typedef struct ec_render_state {
     double look_seconds;       /* that this took; 0: not known */
     bool is_withheld_noted;
     bool was_narrow;           /* the last batch ended with the kernels of the beginning (device/tiers.h) */
-    ec_rare rare;              /* foretold before the first sample */
+    ec_rare_lights lights;     /* until it is foretold what they do; owned */
+    ec_rare rare;              /* what is foretold of them */
+    bool is_foretold;
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
     ec_batch_order order;      /* the batch under way */
@@ -40,6 +43,8 @@ typedef struct ec_render_state {
     uint32_t kept_next, kept_under_way;
     float *aov;                /* first-hit features of a batch, until it is in the film */
     float limit;               /* ec_params.limit; 0: none, or not known yet */
+    uint64_t cleaned_samples;  /* in the film when its clean picture was looked at last; 0: it was not */
+    uint32_t feature_batches;  /* that have first-hit features */
     const char *stopped_by;
     uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
     uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
@@ -52,6 +57,10 @@ static inline double ec_render_picture_pixels(const ec_render_state *r) { return
 /* Samples a pixel, in the mean, and seconds. */
 static inline double ec_render_samples_done(const ec_render_state *r) { return (double)r->past.samples / ec_render_film_pixels(r); }
 ec_mark ec_render_mark(const ec_render_state *r);
+
+/* render_foretell.c: once, the first look at the picture's paths, whose time is not the render's. Several devices have it before the first wave; one
+ * has it after that, which need not wait for it. */
+ec_result ec_render_foretell(ec_render_state *r, ec_error *err);
 
 /* render_film.c: until a limit is met; what is there before stays in the film. */
 ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);

@@ -45,6 +45,7 @@ void ec_render_finish_stats(ec_render_state *r)
     s->invalid_connect = invalid[EC_STAGE_CONNECT];
     s->invalid_accumulate = invalid[EC_STAGE_ACCUMULATE] + r->film->invalid_count + r->invalid_in_films; /* finite samples whose sum is not */
     s->invalid_samples = s->invalid_generate + s->invalid_intersect + s->invalid_shade + s->invalid_connect + s->invalid_accumulate;
+    s->is_clean = r->cleaned_samples > 0 && r->cleaned_samples == r->past.samples;
     s->forecast = r->goal.pilot;
     s->samples_per_pixel = (uint64_t)((double)r->past.samples / ec_render_picture_pixels(r) + 1e-6);
     s->allotment_gain = r->past.allotment.gain;

@@ -27,7 +27,7 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     *stats = (ec_render_stats){0};
     if (!s) return ec_fail(err, "out of memory for a pipeline");
     ec_cargo cargo;
-    ec_result result = ec_cargo_make(scene, options, largest, 1u << ec_device_kind_of(&cl->info), &cargo, stats, err);
+    ec_result result = ec_cargo_make(scene, options, largest, 1u << ec_device_kind_of(&cl->info), cl, &cargo, stats, err);
     s->insides = cargo.insides;
     cargo.insides = (ec_insides){0};
     if (result == EC_OK && options->integrator == EC_INTEGRATOR_PATH) result = ec_rare_lights_find(&cargo.pack, &s->lights, err);

@@ -18,7 +18,7 @@ ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec
     uint32_t kinds = for_all ? (1u << EC_KIND_COUNT) - 1 : 0;
     EC_TRY(ec_sources_enlist(devices, count, options->lanes, s, stats, err));
     for (uint32_t i = 0; i < count; i++) kinds |= 1u << ec_device_kind_of(&devices[i].info);
-    return ec_cargo_make(scene, options, batch, kinds, &s->cargo, stats, err);
+    return ec_cargo_make(scene, options, batch, kinds, count == 1 && !for_all ? devices : NULL, &s->cargo, stats, err);
 }
 
 /* By the member's thread. */

@@ -3,6 +3,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "report/denoise_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
 #include "report/names.h"
@@ -134,6 +135,7 @@ void ec_render_report_attributes(const ec_render_report *report, ec_report_attri
     add_setting(attributes, report);
     add_result(attributes, report);
     if (report->options->clamp > 0) ec_clamp_attributes(attributes, report->options->clamp, report->stats->clamp_luminance, &report->clamp);
+    ec_denoised_attributes(attributes, report->denoised);
     EC_ATTRIBUTES(attributes, EC_STRING("eclat.imageSha256", report->image_sha256));
     add_machine(attributes, report->device);
     add_shares(attributes, report);

@@ -1,6 +1,7 @@
 #include <math.h>
 
 #include "report/device_report.h"
+#include "report/denoise_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
 #include "report/json.h"
@@ -102,6 +103,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     add_setting(root, report);
     add_result(root, report);
     ec_clamp_json(root, report->options->clamp, stats->clamp_luminance, &report->clamp);
+    ec_denoised_json(root, report->denoised);
     add_forecast(root, &stats->forecast);
     ec_json_real(root, "allotment_gain", stats->allotment_gain);
     add_cost(root, report);

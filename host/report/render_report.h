@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "cl/cl.h"
+#include "denoise/denoise.h"
 #include "film/clamp.h"
 #include "render/render.h"
 #include "report/attributes.h"
@@ -35,6 +36,7 @@ typedef struct ec_render_report {
     double mean_luminance;
     uint32_t replicates;            /* that have samples; with fewer than two no error is known */
     ec_clamp_error clamp;           /* where options have one */
+    const ec_denoised *denoised;    /* NULL: nobody has asked for it */
     uint64_t heavy_pixels;          /* see film/interval.h */
     double load_seconds;            /* scene and environment */
     double write_seconds, total_seconds; /* known only after the files are written */

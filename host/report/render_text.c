@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "report/denoise_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
 #include "report/progress_text.h"
@@ -43,6 +44,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     for (int i = 0; i < report->output_count; i++) fprintf(to, "%s %s", i ? "," : " →", report->outputs[i]);
     fputc('\n', to);
     print_clamped(report, to);
+    ec_denoised_text(report->denoised, to);
     if (report->verbose) print_shared(report->stats, to);
 }
 
@@ -110,6 +112,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     fprintf(to, "result   %s, %s rays/s\n", summary, ec_count(stats->rays_per_second).text);
     print_help(&stats->film, to);
     print_clamped(report, to);
+    ec_denoised_text(report->denoised, to);
     if (stats->forecast.pilot_samples > 0) {
         char forecast[256];
         ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);

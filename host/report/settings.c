@@ -13,6 +13,7 @@
 #define NONE(value) .field = {.kind = EC_FIELD_NONE, .text = value} /* no number, as an endless depth: text says it, and JSON has null */
 
 GET(adaptive, .field = EC_FLAG(NULL, o->adaptive))
+GET(denoise, .field = EC_FLAG(NULL, o->denoise), .is_unsaid = !o->denoise)
 GET(filter_width, REAL(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH), .is_unsaid = !(o->filter_width > 0))
 GET(fstop, REAL(o->fstop), .is_unsaid = !(o->fstop > 0))
 GET(focus, REAL(o->focus), .is_unsaid = !(o->fstop > 0))
@@ -85,6 +86,7 @@ const ec_setting ec_settings[] = {
     {"screen-window", "screen_window", "eclat.screenWindow", EC_IDENTITY_BY_VALUE, get_screen_window},
     {"cutoff", "cutoff", "eclat.cutoff", EC_IDENTITY_BY_VALUE, get_cutoff},
     {"without", NULL, NULL, EC_IDENTITY_BY_VALUE, get_without}, /* reports: among the effects */
+    {"denoise", "denoise", "eclat.denoise", EC_IDENTITY_BY_VALUE, get_denoise},
     {"accel", "accel", "eclat.accel", EC_NOT_IDENTITY, get_accel},
 };
 const int ec_setting_count = sizeof ec_settings / sizeof ec_settings[0];

@@ -116,6 +116,7 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_LINES: in->lines = (ec_view_lines)((in->lines + 1) % EC_LINES_COUNT); break;
     case EC_DO_EFFECTS: in->effects = !in->effects, in->effects_page = 0, in->help = false; break;
     case EC_DO_MORE: w->more++; break;
+    case EC_DO_DENOISE: w->is_denoised = !w->is_denoised; break;
     case EC_DO_SAVE: in->saves = eclat_live_save(in->live, w); break;
     case EC_DO_RELOAD: w->reloads++; break;
     case EC_DO_FULLSCREEN: in->fullscreen = !in->fullscreen; break;

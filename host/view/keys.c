@@ -26,6 +26,7 @@ const ec_view_key ec_view_keys[] = {
     {{"g", "G"}, EC_DO_RUNG, "G", "which rung that is"},
     {{"i", "I"}, EC_DO_LINES, "I", "lines over the picture: all, the first, none"},
     {{"m", "M"}, EC_DO_MORE, "M", "more: four times the samples, half the error, four times the time"},
+    {{"n", "N"}, EC_DO_DENOISE, "N", "denoised where that is nearer to the truth, or as it is; begins anew"},
     {{"Save", NULL}, EC_DO_SAVE, "S", "save, and print the command that repeats the picture"},
     {{"F5", NULL}, EC_DO_RELOAD, "F5", "load the scene again (done by itself when a file changes)"},
     {{"F11", NULL}, EC_DO_FULLSCREEN, "F11", "full screen, on the monitor that the window is on"},

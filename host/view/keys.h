@@ -24,6 +24,7 @@ typedef enum ec_view_action {
     EC_DO_LINES,
     EC_DO_EFFECTS,
     EC_DO_MORE,
+    EC_DO_DENOISE,
     EC_DO_SAVE,
     EC_DO_RELOAD,
     EC_DO_FULLSCREEN,

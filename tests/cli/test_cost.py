@@ -8,8 +8,9 @@ import subprocess
 import tempfile
 import unittest
 
+import denoiser
 from polling import GUARD
-from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, quad_scene, write_gltf
+from support import CORNELL, ECLAT, ENVIRONMENT, SOURCE, Case, eclat, quad_scene, write_gltf
 from tiers import full
 
 SMALL = ("--size", "32x32")
@@ -33,6 +34,26 @@ def study_that_measures(rung, budget, *arguments):
         if rung_of(report, rung)["state"] != "budget too small":
             break
     return run.stdout, report
+
+
+@full
+class Denoiser(Case):
+    def test_rung_and_words(self):
+        """Where a denoiser is it has a rung of its own, whose bias fades, and the report says where it pays."""
+        oidn = denoiser.environment()
+        scene = os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf")
+        for budget in (12, 24, 48, 96):
+            run = self.assert_ok(eclat("cost", scene, *SMALL, "--budget", str(budget), "--json", self.path("c.json"), env=oidn))
+            with open(self.path("c.json"), encoding="utf-8") as file:
+                report = json.load(file)
+            rung = rung_of(report, "denoise")
+            if rung["state"] == "measured" and len(rung["curve"]) > 4:
+                break
+        self.assertGreater(rung["denoise_seconds"], 0)
+        self.assertFalse(rung["biased"] or rung["light_not_met"])
+        self.assertRegex(report["denoiser"], "^(pays down to an error of|pays at every error|does not pay)")
+        self.assertIn("denoiser " + report["denoiser"], run.stdout)
+        self.assertRegex(run.stdout, r"best of both, --denoise .* fades")
 
 
 class FullStudy(Case):

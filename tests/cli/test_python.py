@@ -10,6 +10,7 @@ import unittest
 import zipfile
 from unittest import mock
 
+import denoiser
 import support
 import wheel
 from support import CORNELL, SOURCE
@@ -67,7 +68,7 @@ class Declarations(unittest.TestCase):
         return found
 
     def test_structures(self):
-        for name in ("eclat_error", "eclat_option", "eclat_progress", "eclat_listener", "eclat_picture_error", "eclat_channel", "eclat_attribute"):
+        for name in ("eclat_error", "eclat_option", "eclat_progress", "eclat_listener", "eclat_picture_error", "eclat_stated_error", "eclat_denoised", "eclat_channel", "eclat_attribute"):
             mine, theirs = getattr(self.library, name)._fields_, self.fields(name)
             self.assertEqual([field for field, _ in mine], [field for field, _ in theirs], name)
             for (field, kind), (_, declared) in zip(mine, theirs):
@@ -185,7 +186,7 @@ class Wheel(unittest.TestCase):
         self.assertEqual(self.run_here(self.venv.python, "-c", code).stdout.split(), [version, "False", "None", "None"])
 
     def test_pictures(self):
-        wheel.run_tests(self, self.venv, "pictures.py")
+        wheel.run_tests(self, self.venv, "pictures.py", **denoiser.environment_or_none())
 
     def test_jobs(self):
         wheel.run_tests(self, self.venv, "jobs.py")

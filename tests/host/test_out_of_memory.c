@@ -61,7 +61,8 @@ static ec_result pack_all(const ec_scene *scene, ec_error *err)
 {
     ec_pack pack;
     EC_TRY(ec_pack_scene(scene, &pack, err));
-    ec_result result = pack.light_count ? ec_pack_light_tree(&pack, err) : EC_OK;
+    ec_result result = ec_pack_texels(&pack, err);
+    if (result == EC_OK && pack.light_count) result = ec_pack_light_tree(&pack, err);
     if (result == EC_OK) result = ec_pack_light_centres(scene, &pack, err);
     ec_pack_free(&pack);
     return result;

@@ -109,6 +109,7 @@ static void same_bytes(uint8_t *const images[TEXTURES], const size_t sizes[TEXTU
             scenes[i] = load_field(images, sizes);
             light(scenes[i]);
             CHECK_OK(ec_pack_scene(scenes[i], &packs[i], &err), err);
+            CHECK_OK(ec_pack_texels(&packs[i], &err), err);
             if (centres) CHECK_OK(ec_pack_light_centres(&packs[i].plain.scene, &packs[i], &err), err);
         }
         CHECK(centres || packs[0].light_count == TRIANGLES + 1);

@@ -170,6 +170,36 @@ static void test_wishes_change_it(void)
     eclat_live_close(live);
 }
 
+/* Where no denoiser can be had the picture stays as it is, and why is told. cli/test_denoise puts one into the build folder. */
+static void test_a_wish_denoises(void)
+{
+    told t;
+    eclat_error err;
+    eclat_job *job = make_job(SCENE, OUT "d.exr");
+    const char *fetched = ECLAT_TEST_OUT "/../oidn/pyoidn";
+    if (access(fetched, R_OK) == 0) setenv("ECLAT_OIDN", fetched, 0);
+    CHECK_MSG(eclat_job_set(job, "spp", "48", &err) == ECLAT_OK, "%s", err.text);
+    eclat_live *live = open_live(job, NULL, &t);
+    eclat_wish wish = small_wish(live);
+    eclat_status s = settle(live, &t, &wish);
+    CHECK(!wish.is_denoised && !s.is_denoised && !*s.undenoised);
+    const double noisy = brightness(live, ECLAT_PICTURE);
+    wish.is_denoised = 1;
+    s = settle(live, &t, &wish);
+    CHECK(s.samples == 48 && !*s.trouble[ECLAT_TROUBLE_CAMERA]);
+    CHECK_MSG(s.is_denoised ? !*s.undenoised : strstr(s.undenoised, "Open Image Denoise") != NULL, "%d, '%s'", s.is_denoised, s.undenoised);
+    if (s.is_denoised) {
+        CHECK(s.best.low95 <= s.best.error && s.best.error > 0 && s.best.error <= s.best.high95);
+        wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
+        CHECK_MSG(strstr(t.command, "--denoise ") != NULL, "%s", t.command);
+        check_repeats(t.command, OUT "d.exr");
+    }
+    wish.is_denoised = 0;
+    s = settle(live, &t, &wish);
+    CHECK(!s.is_denoised && brightness(live, ECLAT_PICTURE) == noisy);
+    eclat_live_close(live);
+}
+
 static void test_saves_are_repeated_by_their_commands(void)
 {
     told t;
@@ -252,6 +282,7 @@ int main(void)
 {
     test_a_picture_and_what_is_known_of_it();
     test_wishes_change_it();
+    test_a_wish_denoises();
     test_saves_are_repeated_by_their_commands();
     test_files_change();
     test_what_cannot_be_opened();

@@ -93,6 +93,19 @@ class Arrays(Case):
         self.assertTrue(single.why)
         self.assertIn("not known", single.caption)
 
+    def test_denoised(self):
+        """Where a denoiser is, cli/test_python names it: what is stated is what attributes say, and the arrays are the channels."""
+        self.assertEqual((self.picture.denoised, self.picture.best), (None, None))
+        if not os.environ.get("ECLAT_OIDN"):
+            self.skipTest("no Open Image Denoise")
+        p = eclat.load(CORNELL).render(spp=48, size=(40, 32), denoise=True)
+        for name, clean in (("denoised", p.denoised), ("best", p.best)):
+            self.assertEqual(clean.error, p.attributes[f"eclat.{name}.error"])
+            self.assertEqual((clean.low, clean.high), (p.attributes[f"eclat.{name}.low95"], p.attributes[f"eclat.{name}.high95"]))
+            np.testing.assert_array_equal(clean.radiance, p.layer(name))
+        few = eclat.load(CORNELL).render(spp=2, size=(8, 8), denoise="auto")
+        self.assertEqual((few.denoised, few.best), (None, None))
+
     def test_no_bound_has_a_reason(self):
         """A lamp that samples hardly meet: the scene's own README."""
         path = os.path.join(os.path.dirname(os.path.dirname(CORNELL)), "pinlamp", "pinlamp.gltf")

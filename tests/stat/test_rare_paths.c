@@ -137,7 +137,7 @@ static void check_invalid_counts(void)
     ec_rare_lights lights = {0};
     ec_rare rare;
     set_map(scene, WIDTH, HEIGHT, 40, 8, 1, 1e6f);
-    CHECK_OK(ec_cargo_make(scene, &o, 1, 1u << ec_device_kind_of(&case_cl()->info), &cargo, &stats, &err), err);
+    CHECK_OK(ec_cargo_make(scene, &o, 1, 1u << ec_device_kind_of(&case_cl()->info), NULL, &cargo, &stats, &err), err);
     CHECK_OK(ec_rare_lights_find(&cargo.pack, &lights, &err), err);
     CHECK_OK(ec_pipeline_create(case_cl(), &cargo, NULL, &p, &stats, &err), err);
     CHECK_OK(ec_buffer_write(p.cl, p.buffers[EC_ARG_INVALID], 0, sizeof wanted, wanted, &err), err);

@@ -4,8 +4,9 @@ import json
 import os
 import re
 
+import denoiser
 from desk import ViewCase, mean_difference
-from support import write_exr, write_gltf
+from support import ENVIRONMENT, read_exr, write_exr, write_gltf
 
 TALL = [0.3685, 0.165, 0.3515]  # the middle of the Cornell box's tall block
 
@@ -82,6 +83,20 @@ class Keys(ViewCase):
         self.assertIn("--spp=4 ", self.window.save())
         self.assertGreater(self.press("m"), 0.3)
         self.assertIn("--spp=16 ", self.window.save())
+        self.assertEqual(self.window.close(), 0)
+
+    def test_n_denoises(self):
+        """The command that repeats the picture says so, and its files have the best of both."""
+        ENVIRONMENT.update(denoiser.environment())
+        self.start("--size", "160x120", "--spp", "32")
+        first = self.picture
+        self.assertGreater(self.press("n"), 0.3)
+        command = self.window.save()
+        self.assertIn("--denoise ", command)
+        self.assertIn("best.R", read_exr(os.path.join(self.window.folder, "box.exr"))[1])
+        self.press("n")
+        self.assertEqual(self.picture, first)
+        self.assertNotIn("--denoise", self.window.save())
         self.assertEqual(self.window.close(), 0)
 
     def test_f_frames_selection_cursor_or_all(self):

@@ -4,7 +4,9 @@ memory on a million triangles. See README.md."""
 import argparse
 import glob
 import os
+import re
 import shutil
+import subprocess
 import tempfile
 import time
 
@@ -13,6 +15,7 @@ import bench_common as common
 # Seconds to the first pixel: at the very first use, by scene; after any earlier render; and with all kernels there.
 FIRST = {"cornell-box": 1.8, "showcase": 3.0, "lamps": 4.0, "DamagedHelmet": 3.0}
 AFTER, WARM = 1.0, 0.3
+VIEW = {"first": 4.0, "after": 1.0}  # seconds to the preview's first picture
 ERROR, SOONER = "5%", 0.5  # of time to this error where nothing is rendered before the fast kernels are compiled
 MEMORY = 600.0         # MB
 
@@ -21,9 +24,7 @@ def first_pixel(report):
     """Seconds from the start of the process: everything before the render, then its first finished wave. What the report
     does not see (loading the program and its libraries) is the process's wall time less the report's own total."""
     outside = max(report["wall_seconds"] - report["total_seconds"], 0.0)
-    before = report["total_seconds"] - report["write_seconds"] - report["seconds"]
-    setup = report["accel_seconds"] + report["pack_seconds"] + report["kernel_seconds"]
-    return outside + max(before - setup, 0.0) + report["first_pixel_seconds"]
+    return outside + report["load_seconds"] + report["first_pixel_seconds"]
 
 
 def scenes():
@@ -102,8 +103,48 @@ def measure_error(eclat, runs, folder):
         for compiled in list(found) * runs:
             caches.wait()
             caches.empty()
-            report = common.run_eclat(eclat, [scenes()[name], "--size", "256x256", "--error", ERROR, "--compile", compiled, "-o", os.path.join(folder, "error.exr")], caches.environment)
+            report = common.run_eclat(eclat, [scenes()[name], "--size", "64x64", "--error", ERROR, "--compile", compiled, "-o", os.path.join(folder, "error.exr")], caches.environment)
             found[compiled].append(report["wall_seconds"] - report["write_seconds"])
+    return times
+
+
+def first_light(eclat, scene, folder, caches, screen):
+    """Seconds from the start of the process to the preview's first picture, which is the rasteriser's."""
+    script = os.path.join(folder, "settle.txt")
+    with open(script, "w", encoding="utf-8") as file:
+        file.write("settle\nquit\n")
+    environment = dict(caches.environment, DISPLAY=screen, LIBGL_ALWAYS_SOFTWARE="1")
+    done = subprocess.run([eclat, "view", scene, "--spp", "1", "--script", script, "--stats", "-q"], env=environment, capture_output=True, text=True, check=True)
+    return float(re.search(r"first light +([0-9.]+) s", done.stdout)[1])
+
+
+def measure_view(eclat, runs, folder):
+    """None where there is no screen to be had."""
+    if not shutil.which("Xvfb"):
+        return None
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-screen", "0", "1280x1024x24", "-displayfd", str(write), "-nolisten", "tcp", "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL)
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        screen = ":" + pipe.readline().strip()
+    caches, found = Caches(os.path.join(folder, "view")), scenes()
+    times = {name: {"first": [], "after": []} for name in found}
+    try:
+        for kind in ("first", "after"):
+            for name, scene in found.items():
+                for _ in range(runs):
+                    caches.wait()
+                    caches.restore() if kind == "after" else caches.empty()
+                    times[name][kind].append(first_light(eclat, scene, folder, caches, screen))
+            if kind == "first":
+                caches.wait()
+                caches.empty()
+                first_light(eclat, os.path.join(common.ROOT, "scenes", "ring", "ring.gltf"), folder, caches, screen)
+                caches.wait()
+                caches.keep()
+    finally:
+        server.terminate()
+        server.wait()
     return times
 
 
@@ -126,6 +167,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         starts = measure_start(eclat, options.runs, folder)
         errors = measure_error(eclat, options.runs, folder)
+        views = measure_view(eclat, options.runs, folder)
         memory = measure_memory(eclat, folder)
     rows = []
     for scene, times in starts.items():
@@ -136,13 +178,19 @@ def main():
         beside, first = common.median(times["beside"]), common.median(times["first"])
         rows.append(common.row(f"time to {ERROR} from empty caches, {scene}", f"{beside:.1f} s, {beside / first:.2f} of {first:.1f} s", f"<= {SOONER}", beside <= SOONER * first,
                                f"+- {common.spread(times['beside']):.0%}"))
+    for scene, times in (views or {}).items():
+        for kind, what in (("first", "first use"), ("after", "after another scene")):
+            value = common.median(times[kind])
+            rows.append(common.row(f"preview's first picture, {what}, {scene}", f"{value:.2f} s", f"<= {VIEW[kind]:.1f} s", value <= VIEW[kind], f"+- {common.spread(times[kind]):.0%}"))
+    if views is None:
+        rows.append(common.row("preview's first picture", "skipped", "", None, "Xvfb is not installed"))
     if memory is None:
         rows.append(common.row("peak memory, MetalRoughSpheresNoTextures", "skipped", f"<= {MEMORY:.0f} MB", None, "../shared/assets is not here"))
     else:
         rows.append(common.row("peak memory, MetalRoughSpheresNoTextures", f"{memory:.0f} MB", f"<= {MEMORY:.0f} MB", memory <= MEMORY))
     common.print_rows(rows)
     if options.json:
-        common.write_json(options.json, {"starts": starts, "errors": errors, "peak_memory_mb": memory, "rows": rows})
+        common.write_json(options.json, {"starts": starts, "errors": errors, "views": views, "peak_memory_mb": memory, "rows": rows})
 
 
 if __name__ == "__main__":

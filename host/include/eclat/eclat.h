@@ -204,6 +204,20 @@ typedef struct eclat_picture_error {
 } eclat_picture_error;
 eclat_picture_error eclat_picture_get_error(const eclat_picture *picture);
 
+/* With the option "denoise": how far the denoised picture is from the converged one, and the best one, a blend of both; in eclat_picture_error's units.
+ * Their planes are the channels "denoised.R" and "best.R" and so on. */
+typedef struct eclat_stated_error {
+    double error, low95, high95;               /* and its 95 % interval; high95 INFINITY: there is no bound. All INFINITY: not known */
+} eclat_stated_error;
+
+typedef struct eclat_denoised {
+    eclat_stated_error denoised, best;
+    double bias, noise;                        /* of the denoised one: its squared error is the sum of their squares */
+    uint32_t tiles, tiles_nearer, tiles_off;   /* of 16 x 16 pixels: where the denoised one is nearer to the truth; where the best one has nothing of it */
+    const char *why;                           /* why there is none, in words; NULL: there is one */
+} eclat_denoised;
+eclat_denoised eclat_picture_get_denoised(const eclat_picture *picture);
+
 /* A plane: pixel (x, y), y counted from the top, is data[stride * (y * width + x)]. */
 typedef struct eclat_channel {
     const char *name;   /* "R", "stderr.Y", "depth.Z": those of the EXR */
@@ -297,6 +311,7 @@ typedef struct eclat_wish {
     eclat_integrator integrator;
     eclat_second second;
     eclat_integrator second_integrator;
+    int32_t is_denoised;             /* shows the best of the denoised and the noisy picture, as the option denoise; begins anew when it changes */
     int32_t is_moving;               /* the camera is: speed before detail */
     int32_t is_paused;               /* nobody looks: nothing is rendered */
     uint32_t more;                   /* how often the limits are raised: four times the samples and the time, half the error */
@@ -356,6 +371,9 @@ typedef struct eclat_status {
     uint64_t samples;                /* a pixel */
     double seconds;                  /* of rendering */
     double error, error_bound;       /* as eclat_picture_error has them */
+    int is_denoised;                 /* the picture is the best of both, of as many samples as there were when it was made last: */
+    eclat_stated_error best;
+    char undenoised[320];            /* why it is not, though it was wished; empty: it is, or will be */
     double spp_limit, time_limit, error_limit; /* as raised so far; 0: none */
     double seconds_left;             /* to the first limit; < 0: nothing is known yet */
     int is_settled;                  /* nothing is left to do for what was wished last */

@@ -1,10 +1,11 @@
-"""Shows the OpenCL loader the implementation of the extra eclat[cpu], which lies where pip has put it, beside the drivers of the system."""
+"""Shows the OpenCL loader the implementation of the extra eclat[cpu], which lies where pip has put it, beside the drivers of the system; and eclat
+the denoiser of the extra eclat[denoise]."""
 from __future__ import annotations
 
 import hashlib
 import os
 import tempfile
-from importlib import metadata
+from importlib import metadata, util
 from pathlib import Path
 
 SYSTEM = Path("/etc/OpenCL/vendors")
@@ -39,9 +40,17 @@ def write_folder(files: dict[str, str], parent: Path) -> Path:
     return folder
 
 
+def announce_denoiser() -> None:
+    """Sets ECLAT_OIDN of this process to where pip has put Open Image Denoise, unless it was chosen; looked at when a picture is denoised."""
+    found = util.find_spec("pyoidn")
+    if found is not None and found.origin and not os.environ.get("ECLAT_OIDN"):
+        os.environ["ECLAT_OIDN"] = str(Path(found.origin).parent)
+
+
 def announce() -> None:
     """Sets OCL_ICD_VENDORS of this process to a folder with all drivers, unless drivers were chosen or there is no runtime to add. The loader
     looks there when the first device is asked for."""
+    announce_denoiser()
     runtime = find_runtime()
     if runtime is None or any(os.environ.get(name) for name in CHOICES):
         return

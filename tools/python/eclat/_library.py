@@ -43,6 +43,15 @@ class eclat_picture_error(c.Structure):
                 ("samples_per_pixel", c.c_double), ("replicates", c.c_uint32)]
 
 
+class eclat_stated_error(c.Structure):
+    _fields_ = [("error", c.c_double), ("low95", c.c_double), ("high95", c.c_double)]
+
+
+class eclat_denoised(c.Structure):
+    _fields_ = [("denoised", eclat_stated_error), ("best", eclat_stated_error), ("bias", c.c_double), ("noise", c.c_double),
+                ("tiles", c.c_uint32), ("tiles_nearer", c.c_uint32), ("tiles_off", c.c_uint32), ("why", c.c_char_p)]
+
+
 class eclat_channel(c.Structure):
     _fields_ = [("name", c.c_char_p), ("data", c.c_void_p), ("stride", c.c_size_t)]
 
@@ -66,6 +75,7 @@ _FUNCTIONS = {
     "eclat_picture_width": (c.c_uint32, _PICTURE),
     "eclat_picture_height": (c.c_uint32, _PICTURE),
     "eclat_picture_get_error": (eclat_picture_error, _PICTURE),
+    "eclat_picture_get_denoised": (eclat_denoised, _PICTURE),
     "eclat_picture_channel_count": (c.c_size_t, _PICTURE),
     "eclat_picture_channel_at": (eclat_channel, _PICTURE, c.c_size_t),
     "eclat_picture_attribute_count": (c.c_size_t, _PICTURE),

@@ -31,6 +31,15 @@ class Intervals(NamedTuple):
     high: Array
 
 
+class Clean(NamedTuple):
+    """A picture that a denoiser has had a part in, and how far it is from the converged one: as fractions, with a 95 % interval."""
+    radiance: Array
+    error: float
+    low: float
+    high: float | None
+    """None: there is no bound, as of the picture itself."""
+
+
 def view(handle: PictureHandle, channel: lib.eclat_channel, shape: tuple[int, int]) -> Array:
     """The plane where the library has it, which lasts as long as the array."""
     floats = (c.c_float * (channel.stride * (shape[0] * shape[1] - 1) + 1)).from_address(channel.data)
@@ -123,6 +132,23 @@ class Picture:
     def intervals(self) -> Intervals | None:
         """95 % confidence intervals of `radiance`. None: not known."""
         return Intervals(self.layer("low95"), self.layer("high95")) if "low95.R" in self.channels else None
+
+    @cached_property
+    def denoised(self) -> Clean | None:
+        """By the option `denoise`: the denoised picture. None: it was not asked for, or could not be judged."""
+        return self._clean("denoised")
+
+    @cached_property
+    def best(self) -> Clean | None:
+        """Likewise a blend of the denoised picture and of this one, tile by tile by which is nearer to the truth; what `png` shows then."""
+        return self._clean("best")
+
+    def _clean(self, name: str) -> Clean | None:
+        known_of: lib.eclat_denoised = library().eclat_picture_get_denoised(self._handle.address)
+        if known_of.why is not None:
+            return None
+        stated: lib.eclat_stated_error = getattr(known_of, name)
+        return Clean(self.layer(name), float(stated.error), float(stated.low95), known(stated.high95))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """To an .exr, with the channels of the option `channels`, or a .png. The file has its name only once it is whole."""

@@ -1,0 +1,170 @@
+/* Let t and s be a pixel's squared errors of the denoised and the noisy picture, and q the square of their difference. A blend with weight w of the
+ * denoised one has w t + (1 - w) s - w (1 - w) q, whatever the two have in common. With w = sum of B_i w_i, B_i the shares of the tiles around, the sum
+ * over pixels is, but for what is constant,
+ *     sum over i, k of A_ik w_i w_k - 2 sum over i of b_i w_i,    A_ik = sum of q B_i B_k,  b_i = sum of (q + s - t) B_i / 2,
+ * which coordinate descent makes least, each weight from 0 to 1. Linear in x and y between the middles of tiles, so that no seam shows; and since all
+ * are found together, a bright edge in one tile has its say in the tiles beside it too.
+ *
+ * t and s are estimates: the variance of b_i makes that of a weight, Var b / A^2. One that goes by its own surroundings alone would follow the noise,
+ * so that it is drawn to the weight of the whole picture, by a term Var b / (A PRIOR) (w_i - w)^2: the posterior mean where weights spread by PRIOR.
+ *
+ * Weights that are chosen to make an estimate small make it come out small. Of Gaussian estimates that is known (Stein 1981): by the mean slope of w over
+ * t - s, times the variance. The inverse of A, which that slope is half of, is taken for diagonal: right where q is as the variance. */
+#include "denoise/blend.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define PRIOR 0.09 /* variance of tiles' weights about the whole picture's: 0.3 squared, as of numbers from 0 to 1 */
+
+ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, ec_error *err)
+{
+    *blend = (ec_blend){.columns = (width - 1) / EC_BLEND_TILE + 1, .rows = (height - 1) / EC_BLEND_TILE + 1};
+    blend->tiles = calloc((size_t)blend->columns * blend->rows, sizeof *blend->tiles);
+    blend->cells = calloc(((size_t)blend->columns + 1) * (blend->rows + 1), sizeof *blend->cells);
+    if (blend->tiles && blend->cells) return EC_OK;
+    ec_blend_free(blend);
+    return ec_fail(err, "out of memory for the tiles of --denoise");
+}
+
+void ec_blend_free(ec_blend *blend)
+{
+    free(blend->tiles);
+    free(blend->cells);
+    *blend = (ec_blend){0};
+}
+
+/* Cell of a pixel in one direction; share: of the corner behind. */
+static uint32_t cell_of(uint32_t pixel, double *share)
+{
+    const uint32_t cell = (pixel + EC_BLEND_TILE / 2) / EC_BLEND_TILE;
+    *share = (pixel + 0.5 + EC_BLEND_TILE / 2) / EC_BLEND_TILE - cell;
+    return cell;
+}
+
+/* Which tile is at the cell's near or far end; beyond the outer ones, these. */
+static uint32_t tile_at(uint32_t cell, uint32_t is_far, uint32_t tiles)
+{
+    const uint32_t tile = cell + is_far;
+    return tile == 0 ? 0 : tile > tiles ? tiles - 1 : tile - 1;
+}
+
+void ec_blend_rows(uint32_t cells, uint32_t height, uint32_t *first, uint32_t *end)
+{
+    const uint32_t middle = EC_BLEND_TILE / 2, least = cells ? cells * EC_BLEND_TILE - middle : 0, most = cells * EC_BLEND_TILE + middle;
+    *first = least < height ? least : height;
+    *end = most < height ? most : height;
+}
+
+static void add_to_tile(ec_tile_sums *t, const ec_judged *j)
+{
+    t->pixels++;
+    t->clean += j->clean;
+    t->noisy += j->noisy;
+    t->apart += j->apart;
+    t->noise += j->noise;
+}
+
+static void corner_shares(double right, double down, double share[4])
+{
+    share[0] = (1 - right) * (1 - down), share[1] = right * (1 - down), share[2] = (1 - right) * down, share[3] = right * down;
+}
+
+static void add_to_cell(ec_blend_cell *c, const ec_judged *j, const double share[4])
+{
+    for (int i = 0; i < 4; i++) {
+        c->linear[i] += 0.5 * share[i] * (j->apart + j->noisy - j->clean);
+        c->variance[i] += 0.25 * share[i] * share[i] * (j->clean_variance + j->noisy_variance);
+        for (int k = 0; k < 4; k++) c->square[i][k] += share[i] * share[k] * j->apart;
+    }
+}
+
+void ec_blend_add_row(ec_blend *b, uint32_t row, const ec_judged *pixels, uint32_t width)
+{
+    double down, right, share[4];
+    ec_blend_cell *cells = b->cells + (size_t)cell_of(row, &down) * (b->columns + 1);
+    ec_blend_tile *tiles = b->tiles + (size_t)(row / EC_BLEND_TILE) * b->columns;
+    const uint32_t half = row % EC_BLEND_TILE / (EC_BLEND_TILE / 2);
+    for (uint32_t x = 0; x < width; x++) {
+        ec_blend_cell *cell = &cells[cell_of(x, &right)];
+        corner_shares(right, down, share);
+        add_to_cell(cell, &pixels[x], share);
+        add_to_tile(&tiles[x / EC_BLEND_TILE].half[half], &pixels[x]);
+    }
+}
+
+static double within(double w) { return fmin(fmax(w, 0), 1); }
+
+/* Weight for all. */
+static double choose_one(const ec_blend *b)
+{
+    double apart = 0, linear = 0;
+    for (size_t i = 0; i < (size_t)b->columns * b->rows; i++) {
+        const ec_tile_sums t = ec_blend_sums(&b->tiles[i]);
+        apart += t.apart;
+        linear += 0.5 * (t.apart + t.noisy - t.clean);
+    }
+    return apart > 0 ? within(linear / apart) : 0.5; /* where both are alike it makes no difference */
+}
+
+/* What a tile's cells say of its weight, with the others as they are: least at linear / square. */
+typedef struct vertex {
+    double square, linear, variance;
+} vertex;
+
+static void look_at_cell(const ec_blend *b, uint32_t tile_row, uint32_t tile_column, uint32_t cell_row, uint32_t cell_column, vertex *v)
+{
+    const ec_blend_cell *c = &b->cells[(size_t)cell_row * (b->columns + 1) + cell_column];
+    for (uint32_t i = 0; i < 4; i++) {
+        if (tile_at(cell_row, i / 2, b->rows) != tile_row || tile_at(cell_column, i % 2, b->columns) != tile_column) continue;
+        v->linear += c->linear[i];
+        v->variance += c->variance[i];
+        for (uint32_t k = 0; k < 4; k++) {
+            const uint32_t row = tile_at(cell_row, k / 2, b->rows), column = tile_at(cell_column, k % 2, b->columns);
+            if (row == tile_row && column == tile_column) v->square += c->square[i][k];
+            else v->linear -= c->square[i][k] * b->tiles[(size_t)row * b->columns + column].weight;
+        }
+    }
+}
+
+/* How far the weight moves. */
+static double step(ec_blend *b, uint32_t row, uint32_t column, double of_all)
+{
+    ec_blend_tile *t = &b->tiles[(size_t)row * b->columns + column];
+    vertex v = {0};
+    for (uint32_t k = 0; k < 4; k++) look_at_cell(b, row, column, row + k / 2, column + k % 2, &v);
+    const double before = t->weight, draw = v.square > 0 ? fmax(v.variance, 0) / (v.square * PRIOR) : 1, square = v.square + draw;
+    const double w = (v.linear + draw * of_all) / square;
+    t->weight = within(w);
+    t->slope = w > 0 && w < 1 && v.square > 0 ? 1 / (2 * square) : 0;
+    return fabs(t->weight - before);
+}
+
+void ec_blend_choose(ec_blend *b)
+{
+    enum { SWEEPS = 100 };
+    const double of_all = choose_one(b);
+    double moved = 1;
+    for (size_t i = 0; i < (size_t)b->columns * b->rows; i++) b->tiles[i].weight = of_all;
+    for (uint32_t k = 0; k < SWEEPS && moved > 1e-4; k++) {
+        moved = 0;
+        for (uint32_t row = 0; row < b->rows; row++)
+            for (uint32_t column = 0; column < b->columns; column++) moved = fmax(moved, step(b, row, column, of_all));
+    }
+}
+
+ec_blend_at ec_blend_look(const ec_blend *b, uint32_t x, uint32_t y)
+{
+    double right, down, share[4];
+    const uint32_t column = cell_of(x, &right), row = cell_of(y, &down);
+    ec_blend_at at = {0};
+    corner_shares(right, down, share);
+    for (uint32_t i = 0; i < 4; i++) {
+        const ec_blend_tile *t = &b->tiles[(size_t)tile_at(row, i / 2, b->rows) * b->columns + tile_at(column, i % 2, b->columns)];
+        const ec_tile_sums sums = ec_blend_sums(t);
+        at.weight += share[i] * t->weight;
+        at.square += share[i] * fmax(sums.clean, sums.noise) / sums.pixels;
+        at.optimism += share[i] * share[i] * t->slope;
+    }
+    return at;
+}

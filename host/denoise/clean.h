@@ -1,0 +1,22 @@
+/* Of two denoised halves the clean picture: denoised, best, and how far each is from the truth. */
+#ifndef EC_DENOISE_CLEAN_H
+#define EC_DENOISE_CLEAN_H
+
+#include "denoise/judge.h"
+
+/* What came of denoising. */
+typedef struct ec_denoised {
+    const char *why_not;           /* in words; NULL: it is there */
+    ec_stated_error clean, best;   /* of the denoised picture, and of the one that takes of both what is nearer to the truth */
+    double noise, bias;            /* of the denoised one: its squared error is the sum of their squares */
+    double noisy;                  /* the error of the picture itself, for comparison */
+    uint32_t tiles, nearer, off;   /* of 16 x 16 pixels; where the denoised one is nearer to the truth; where the best one takes nothing of it */
+    double seconds;
+    char library[32];              /* "Open Image Denoise 2.5.1" */
+} ec_denoised;
+
+/* half: as a denoiser made them of ec_half's. into: room for all three. Leaves `library` and `seconds` of *out as they are. */
+ec_result ec_clean_make(const ec_film *film, const float *const half[2], const ec_film_error *noisy, const ec_film_clean *into, ec_denoised *out,
+                        ec_error *err);
+
+#endif

@@ -1,0 +1,113 @@
+#include "denoise/denoise.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "denoise/clean.h"
+#include "denoise/oidn.h"
+
+enum { SCALE_MOST = 120 }; /* as a power of two, in floats */
+enum { CLEAN_GUIDES = 64 }; /* samples a pixel of the features from which on they are better than smoothed ones */
+
+typedef struct work {
+    const ec_film *film;
+    float *half[2], *albedo, *normal; /* 3 a pixel; owned */
+    float scale;                      /* what the filter is given has a mean near 1 */
+    ec_film_clean clean;              /* owned until it is the film's */
+} work;
+
+static uint64_t pixels_of(const work *w) { return (uint64_t)w->film->width * w->film->height; }
+
+ec_result ec_denoise_check(ec_error *err)
+{
+    ec_oidn *oidn;
+    EC_TRY(ec_oidn_open(&oidn, err));
+    ec_oidn_close(oidn);
+    return EC_OK;
+}
+
+static const char *why_not(const ec_film *film, const ec_film_error *noisy)
+{
+    if (ec_film_replicates(film) < EC_JUDGE_REPLICATES) return "it takes 4 samples a pixel, and --replicates 4 or more, of which one half judges the other";
+    if (!film->aov) return "its first hits are not known, by which a denoiser goes";
+    if (!(noisy->mean_luminance > 0)) return "the picture is black";
+    return NULL;
+}
+
+static ec_result make_room(work *w, ec_error *err)
+{
+    float **const planes[] = {&w->half[0], &w->half[1], &w->albedo, &w->normal, &w->clean.denoised, &w->clean.best, &w->clean.error};
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
+        *planes[i] = malloc(pixels_of(w) * (planes[i] == &w->clean.error ? 1 : 3) * sizeof(float));
+        if (!*planes[i]) return ec_fail(err, "out of memory for denoising %u x %u pixels; leave --denoise out or render fewer", w->film->width, w->film->height);
+    }
+    return EC_OK;
+}
+
+static void free_all(work *w)
+{
+    free(w->half[0]);
+    free(w->half[1]);
+    free(w->albedo);
+    free(w->normal);
+    free(w->clean.denoised);
+    free(w->clean.best);
+    free(w->clean.error);
+}
+
+static void take_guides(work *w)
+{
+    for (uint64_t i = 0; i < pixels_of(w); i++)
+        for (uint64_t c = 0; c < 3; c++) {
+            w->albedo[3 * i + c] = w->film->aov[EC_FILM_FEATURES * i + c];
+            w->normal[3 * i + c] = w->film->aov[EC_FILM_FEATURES * i + 3 + c];
+        }
+}
+
+/* Both halves, by the same guides. The scale is a power of two: it changes no bits. */
+static ec_result filter(work *w, ec_oidn *oidn, ec_error *err)
+{
+    const ec_film *film = w->film;
+    const bool is_smoothed = ec_schedule_samples(film->replicates, film->aov_batches) < CLEAN_GUIDES;
+    ec_oidn_image image = {.width = film->width, .height = film->height, .has_clean_guides = true};
+    take_guides(w);
+    image.albedo = w->albedo;
+    if (is_smoothed) EC_TRY(ec_oidn_filter(oidn, &image, err));
+    image.albedo = NULL, image.normal = w->normal;
+    if (is_smoothed) EC_TRY(ec_oidn_filter(oidn, &image, err));
+    image.albedo = w->albedo;
+    for (uint32_t h = 0; h < 2; h++) {
+        ec_half(film, h, w->scale, w->half[h]);
+        image.color = w->half[h];
+        EC_TRY(ec_oidn_filter(oidn, &image, err));
+        for (uint64_t i = 0; i < 3 * pixels_of(w); i++) w->half[h][i] /= w->scale;
+    }
+    return EC_OK;
+}
+
+ec_result ec_denoise(ec_film *film, ec_denoised *out, ec_error *err)
+{
+    const double start = ec_now();
+    const ec_film_error noisy = ec_film_estimate_error(film);
+    work w = {.film = film};
+    ec_oidn *oidn;
+    ec_film_set_clean(film, (ec_film_clean){0});
+    *out = (ec_denoised){.why_not = why_not(film, &noisy)};
+    if (out->why_not) return EC_OK;
+    w.scale = (float)exp2(fmin(fmax(-round(log2(noisy.mean_luminance)), -SCALE_MOST), SCALE_MOST));
+    EC_TRY(ec_oidn_open(&oidn, err));
+    snprintf(out->library, sizeof out->library, "Open Image Denoise %s", ec_oidn_version(oidn));
+    ec_result result = make_room(&w, err);
+    if (result == EC_OK) result = filter(&w, oidn, err);
+    ec_oidn_close(oidn);
+    if (result == EC_OK) result = ec_clean_make(film, (const float *const *)w.half, &noisy, &w.clean, out, err);
+    if (result == EC_OK) {
+        ec_film_set_clean(film, w.clean);
+        w.clean = (ec_film_clean){0};
+    }
+    free_all(&w);
+    out->seconds = ec_now() - start;
+    return result;
+}

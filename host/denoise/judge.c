@@ -1,0 +1,127 @@
+/* The error of a denoised picture, from the render's own replicates.
+ *
+ * Setting. The film's replicates in two halves, a and b: independent pictures of the same truth m, whose pixels are independent too. A denoiser makes
+ * D(a) and D(b) of them; the denoised picture is c = (D(a) + D(b)) / 2. All of what follows is of luminance, pixel by pixel.
+ *
+ * One half judges the other. With y_i = D(a) - b_i, b_i the n means of b's replicates, D(a) is a constant to b, so that
+ *     U_b = mean over i != j of y_i y_j
+ * has the expectation (D(a) - m)^2, whatever the distribution, and a sample far out enters it in the first power alone. It is (D(a) - b)^2 less the
+ * estimated variance of b (the idea of Rousselle et al. 2012's and of cross-validation; Bitterli et al. 2016 filter halves across likewise).
+ * And as c is the mean of two,
+ *     (c - m)^2 = ((D(a) - m)^2 + (D(b) - m)^2) / 2 - ((D(a) - D(b)) / 2)^2,
+ * of which the last term is known: `clean` is (U_b + U_a) / 2 less that, without bias for the very picture that there is. The last term is the
+ * noise of c too: the variance of half the difference of two alike.
+ *
+ * How well is that known? To b the pixels' U_b are independent, so that variances add up over pixels. A pixel's is E[U^2] - E[U]^2, and for four
+ * replicates or more the second is estimated without bias by the mean of products of four different y: v = U^2 - mean y_i y_j y_k y_l. With two or
+ * three it is left out: the interval is then too wide. U_a and U_b go together as far as D's noise does: by -2 (D(a) - m)(b - m) and its mirror image,
+ * for a linear filter whose weights are symmetric by 4 Var(D) Var(b), which is added as (D(a) - D(b))^2 times the halves' variance: no more than
+ * the pixels' own part.
+ *
+ * The guides are the same for both halves and made of some of their samples; what comes of that is less than these trials can see:
+ * tests/long/test_denoise_coverage.py. */
+#include "denoise/judge.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "film/pixel.h"
+#include "film/statistics.h"
+
+/* Numbers of the replicates that have samples; how many. */
+static uint32_t list_replicates(const ec_film *film, uint32_t list[EC_REPLICATES_MOST])
+{
+    uint32_t count = 0;
+    for (uint32_t r = 0; r < film->replicates; r++)
+        if (film->samples[r] > 0) list[count++] = r;
+    return count;
+}
+
+/* Each replicate by its samples: those of a picture whose last batch was cut short differ. */
+static void half_of_piece(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, double scale, float *rgb)
+{
+    uint32_t list[EC_REPLICATES_MOST];
+    const uint32_t n = list_replicates(film, list);
+    double mean[3 * EC_PIXELS] = {0}, one[3 * EC_PIXELS], samples = 0;
+    for (uint32_t k = half; k < n; k += 2) {
+        samples += film->samples[list[k]];
+        ec_film_replicate(film, first, count, list[k], one);
+        for (uint64_t i = 0; i < 3 * count; i++) mean[i] += (one[i] - mean[i]) * film->samples[list[k]] / samples;
+    }
+    for (uint64_t i = 0; i < 3 * count; i++) rgb[i] = (float)(scale * mean[i]);
+}
+
+void ec_half(const ec_film *film, uint32_t half, float scale, float *rgb)
+{
+    const uint64_t pixels = (uint64_t)film->width * film->height;
+#pragma omp parallel for if (pixels > EC_FILM_MANY)
+    for (uint64_t first = 0; first < pixels; first += EC_PIXELS)
+        half_of_piece(film, half, first, pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS, (double)scale, rgb + 3 * first);
+}
+
+/* U and v of a half's replicates about a value, and the variance of their mean. */
+typedef struct against {
+    double square, variance, mean_variance;
+} against;
+
+static against judge_by(double value, const double *replicates, uint32_t n)
+{
+    double p1 = 0, p2 = 0, p3 = 0, p4 = 0, fourth = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const double y = value - replicates[i], y2 = y * y;
+        p1 += y, p2 += y2, p3 += y2 * y, p4 += y2 * y2;
+    }
+    const double pairs = n * (n - 1.0), square = (p1 * p1 - p2) / pairs;
+    if (n >= 4) /* by Newton's identities */
+        fourth = (p1 * p1 * p1 * p1 - 6 * p1 * p1 * p2 + 3 * p2 * p2 + 8 * p1 * p3 - 6 * p4) / (pairs * (n - 2.0) * (n - 3.0));
+    return (against){square, square * square - fourth, (p2 - p1 * p1 / n) / pairs};
+}
+
+/* Luminances of one pixel's replicates, one half after the other. */
+static ec_judged judge(const double *y, uint32_t n, const float *a, const float *b)
+{
+    const uint32_t even = (n + 1) / 2, odd = n / 2;
+    const double da = ec_luminance_of_floats(a), db = ec_luminance_of_floats(b), half = 0.5 * (da - db), clean = 0.5 * (da + db);
+    const against by_b = judge_by(da, y + even, odd), by_a = judge_by(db, y, even), all = judge_by(0, y, n);
+    double mean = 0;
+    for (uint32_t i = 0; i < n; i++) mean += y[i] / n;
+    ec_judged j = {.luminance = mean, .clean = 0.5 * (by_b.square + by_a.square) - half * half, .noisy = all.mean_variance,
+                   .apart = (clean - mean) * (clean - mean), .noise = half * half};
+    j.clean_variance = 0.25 * (by_b.variance + by_a.variance) + 2 * half * half * (by_a.mean_variance + by_b.mean_variance);
+    j.noisy_variance = 2 * j.noisy * j.noisy * n / (n + 1); /* of pixels that are normal; E[s^4] exceeds v^2 by that much */
+    return j;
+}
+
+static void judge_piece(const ec_film *film, uint64_t first, uint64_t count, const float *const denoised[2], ec_judged *out)
+{
+    uint32_t list[EC_REPLICATES_MOST];
+    const uint32_t n = list_replicates(film, list), even = (n + 1) / 2;
+    double y[EC_PIXELS][EC_REPLICATES_MOST], one[3 * EC_PIXELS];
+    for (uint32_t k = 0; k < n; k++) {
+        ec_film_replicate(film, first, count, list[k], one);
+        for (uint64_t i = 0; i < count; i++) y[i][k % 2 ? even + k / 2 : k / 2] = ec_luminance(one + 3 * i);
+    }
+    for (uint64_t i = 0; i < count; i++) out[i] = judge(y[i], n, denoised[0] + 3 * (first + i), denoised[1] + 3 * (first + i));
+}
+
+void ec_judge_row(const ec_film *film, uint32_t row, const float *const denoised[2], ec_judged *out)
+{
+    for (uint32_t x = 0; x < film->width; x += EC_PIXELS)
+        judge_piece(film, (uint64_t)row * film->width + x, film->width - x < EC_PIXELS ? film->width - x : EC_PIXELS, denoised, out + x);
+}
+
+/* Few pixels may hold most of the variance, which is then itself not well known: Student's t with the degrees of freedom that their number comes to
+ * (Satterthwaite 1946). What the noisy picture makes of it reaches up as far as that picture's own bound, which knows of few pixels and bright samples.
+ * The mean luminance that all is divided by has an error of its own, as in film/image_error.c. An estimate that heavy noise has made
+ * smaller than the noise that is known, or negative, is not believed: bias adds to that, and takes nothing off it. */
+ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy)
+{
+    const double mean = noisy->mean_luminance, unit = 1 / (mean * mean * pixels), square = fmax(sum->square, sum->least) * unit;
+    const double dof = sum->squares > 0 ? fmax(sum->variance * sum->variance / sum->squares, 3) : INFINITY;
+    const double of_mean = 2 * noisy->error / sqrt(pixels) * square, times = noisy->error > 0 ? noisy->bound_if_met / noisy->error : 1;
+    const double reach = ec_student_t_quantile(0.975, dof) * hypot(sqrt(fmax(sum->variance, 0)) * unit, of_mean);
+    const double up = hypot(reach, sum->noisy * unit * (times * times - 1)), missing = EC_RARE_DOUBT * noisy->unmet;
+    ec_stated_error e = {sqrt(fmax(square, 0)), sqrt(fmax(square - reach, 0)), sqrt(fmax(square + up, 0))};
+    e.high95 = noisy->is_open || missing > e.error ? INFINITY : hypot(e.high95, missing);
+    return e;
+}

@@ -1,0 +1,45 @@
+/* How far a denoised picture is from the truth, without a reference. See judge.c. */
+#ifndef EC_DENOISE_JUDGE_H
+#define EC_DENOISE_JUDGE_H
+
+#include "film/film.h"
+
+enum { EC_JUDGE_REPLICATES = 4 }; /* that it takes: two in each half */
+
+/* Replicates with an even or an odd number among those that have samples: halves of the film that know nothing of one another. half 0 or 1; rgb: 3
+ * floats a pixel, each times `scale`. */
+void ec_half(const ec_film *film, uint32_t half, float scale, float *rgb);
+
+/* Of a pixel's luminance. Estimates are without bias, so that those of single pixels may be negative. */
+typedef struct ec_judged {
+    double luminance;              /* of the noisy picture */
+    double clean, noisy;           /* squared errors of the denoised picture, the mean of both denoised halves, and of the noisy one */
+    double apart;                  /* squared difference of the two, which is known */
+    double noise;                  /* squared standard error of the denoised one: what is left of `clean` is bias */
+    double clean_variance, noisy_variance; /* of the two estimates */
+} ec_judged;
+
+/* Row `row`; denoised: both halves as a denoiser made them, 3 floats a pixel. */
+void ec_judge_row(const ec_film *film, uint32_t row, const float *const denoised[2], ec_judged *out);
+
+/* An error with its 95 % interval, all relative to the picture's mean luminance. */
+typedef struct ec_stated_error {
+    double error, low95, high95;   /* high95 infinite: light may be missing that no sample has met (film/rare.h) */
+} ec_stated_error;
+
+/* Sums over pixels: square errors, and the variance of that sum; squares: of these variances, pixel by pixel; noisy: the part of the square errors that
+ * the noisy picture makes; least: what is known of the denoised one's noise, which the error is not under. Begin with zeros. */
+typedef struct ec_judged_sum {
+    double square, variance, squares, noisy, least;
+} ec_judged_sum;
+static inline void ec_judged_add(ec_judged_sum *sum, double square, double variance, double noisy, double least)
+{
+    sum->square += square;
+    sum->variance += variance;
+    sum->squares += variance * variance;
+    sum->noisy += noisy;
+    sum->least += least;
+}
+ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy);
+
+#endif

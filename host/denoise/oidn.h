@@ -1,0 +1,29 @@
+/* Intel's Open Image Denoise 2 by its C API (https://www.openimagedenoise.org), loaded when it is used: nothing of it is linked, and of its header
+ * only what is called is declared here. */
+#ifndef EC_DENOISE_OIDN_H
+#define EC_DENOISE_OIDN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+typedef struct ec_oidn ec_oidn;
+
+/* The library, with a device of its own: the processor, whatever renders. It is looked for where $ECLAT_OIDN says, where the system's loader looks,
+ * and among the packages of Python. NULL on failure. */
+ec_result ec_oidn_open(ec_oidn **oidn, ec_error *err);
+void ec_oidn_close(ec_oidn *oidn); /* NULL is fine */
+
+const char *ec_oidn_version(const ec_oidn *oidn); /* "2.5.1" */
+
+/* Images of one size, 3 floats a pixel; those that are not there are NULL. The colours, linear and without an upper end, are filtered in place by their
+ * guides, or a guide that comes alone. */
+typedef struct ec_oidn_image {
+    uint32_t width, height;
+    float *color, *albedo, *normal;
+    bool has_clean_guides; /* these are free of noise */
+} ec_oidn_image;
+ec_result ec_oidn_filter(ec_oidn *oidn, const ec_oidn_image *image, ec_error *err);
+
+#endif

@@ -1,0 +1,10 @@
+/* Where the library of Open Image Denoise is. */
+#ifndef EC_DENOISE_OIDN_FIND_H
+#define EC_DENOISE_OIDN_FIND_H
+
+#include "base/error.h"
+
+/* Loads it, for as long as the process lives; a handle for dlsym. */
+ec_result ec_oidn_load(void **library, ec_error *err);
+
+#endif

@@ -1,0 +1,14 @@
+/* What --denoise came to, in words, in JSON and as attributes. NULL: nobody has asked for it. */
+#ifndef EC_REPORT_DENOISE_REPORT_H
+#define EC_REPORT_DENOISE_REPORT_H
+
+#include <stdio.h>
+
+#include "denoise/denoise.h"
+#include "report/attributes.h"
+
+void ec_denoised_text(const ec_denoised *denoised, FILE *to);
+void ec_denoised_json(cJSON *root, const ec_denoised *denoised);
+void ec_denoised_attributes(ec_report_attributes *attributes, const ec_denoised *denoised);
+
+#endif

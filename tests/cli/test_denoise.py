@@ -1,0 +1,171 @@
+# tiers: quick, full
+"""--denoise: what is stated is what the channels hold, R, G and B stay as they are, the PNG shows the best, and nothing happens in silence."""
+import json
+import math
+import os
+import unittest
+
+import denoiser
+from support import CORNELL, QUICK, SOURCE, Case, eclat, read_exr
+from test_frames import FramesCase
+from tiers import full
+
+JOB = [CORNELL, "--size", "48x40", *QUICK]
+# A caustic-free room with texture and gloss, where denoising pays.
+SMOOTH = [os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf"), "--size", "64x48", *QUICK]
+LAYERS = [*(f"{layer}.{c}" for layer in ("denoised", "best") for c in "RGB"), "denoised.stderr"]
+
+
+def luminance(planes, layer=""):
+    return [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in zip(*(planes[layer + c] for c in "RGB"))]
+
+
+def distance(a, b):
+    """Of b, relative to its mean."""
+    return math.sqrt(sum((x - y) ** 2 for x, y in zip(a, b)) / len(b)) / (sum(b) / len(b))
+
+
+class Denoise(Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.oidn = denoiser.environment()
+
+    def render(self, *options, name="a.exr", job=JOB, denoise=("--denoise",), env=None):
+        words = ["render", *job, *denoise, *options, "--json", "-q", "-o", self.path(name)]
+        run = self.assert_ok(eclat(*words, env=dict(self.oidn, **(env or {}))))
+        return json.loads(run.stdout), *read_exr(self.path(name))
+
+    def test_layers_and_figures(self):
+        report, attributes, planes = self.render("--spp", "64")
+        for name in LAYERS:
+            self.assertIn(name, planes)
+        clean, best = report["denoised"], report["best"]
+        for one in (clean, best):
+            self.assertLessEqual(one["low95"], one["error"])
+            self.assertLessEqual(one["error"], one["high95"])
+        self.assertAlmostEqual(math.hypot(clean["bias"], clean["noise"]), clean["error"], delta=1e-9)
+        self.assertEqual(clean["tiles"], 9)
+        self.assertLess(best["error"], 1.25 * min(clean["error"], report["error"]))  # 1920 pixels do not tell it better
+        for key in ("error", "low95", "high95"):
+            self.assertAlmostEqual(attributes["eclat.denoised." + key], clean[key], delta=1e-12)
+            self.assertAlmostEqual(attributes["eclat.best." + key], best[key], delta=1e-12)
+        self.assertRegex(attributes["eclat.denoised.library"], r"^Open Image Denoise 2\.")
+
+    def test_radiance_stays_as_it_is(self):
+        """R, G, B, their errors and the digest are those of a render without --denoise, which has no such layers."""
+        plain, _, without = self.render("--spp", "32", denoise=())
+        report, _, planes = self.render("--spp", "32")
+        self.assertIsNone(plain["denoised"])
+        self.assertIsNone(plain["best"])
+        self.assertEqual(plain["image_sha256"], report["image_sha256"])
+        self.assertEqual(plain["error"], report["error"])
+        for name in set(without) - {"A"}:  # of first hits, of which there are more
+            self.assertEqual(without[name], planes[name], name)
+        self.assertEqual(sorted(set(planes) - set(without)), sorted(LAYERS))
+        self.assertEqual(self.render("--spp", "32", denoise=("--denoise=off",))[2], without)
+
+    @full
+    def test_same_bits(self):
+        """Again, by one thread, by other lanes and in other waves."""
+        _, _, whole = self.render("--spp", "32")
+        for options, env in (([], {}), ([], {"OMP_NUM_THREADS": "1"}), (["--wave", "500", "--lanes", "1"], {})):
+            with self.subTest(options=options, env=env):
+                self.assertEqual(self.render("--spp", "32", *options, name="b.exr", env=env)[2], whole)
+
+    @full
+    def test_png_shows_the_best(self):
+        """What is smooth makes a smaller file."""
+        for name, denoise in (("clean", ["--denoise"]), ("noisy", [])):
+            self.assert_ok(eclat("render", *JOB, *denoise, "--spp", "16", "-q", "-o", self.path(name + ".png"), env=self.oidn))
+        self.assertLess(os.path.getsize(self.path("clean.png")), 0.9 * os.path.getsize(self.path("noisy.png")))
+
+    @full
+    def test_words(self):
+        run = self.assert_ok(eclat("render", *JOB, "--spp", "64", "--denoise", "-o", self.path("a.exr"), env=self.oidn))
+        number = r"[\d.]+ %"
+        self.assertRegex(run.stdout, rf"denoised error {number} \(95 % interval {number} to {number}\), bias {number}, noise {number}; .*nearer to the truth in \d of 9 tiles")
+        self.assertRegex(run.stdout, rf"best     error {number} \(95 % interval {number} to {number}\)")
+
+    def test_too_few_samples(self):
+        """There is a picture, but none that is denoised, and why is said."""
+        report, _, planes = self.render("--spp", "3")
+        self.assertIsNone(report["denoised"]["error"])
+        self.assertIn("4 samples a pixel", report["denoised"]["why_not"])
+        self.assertNotIn("best.R", planes)
+        run = self.assert_ok(eclat("render", *JOB, "--spp", "3", "--denoise", "-o", self.path("a.exr"), env=self.oidn))
+        self.assertIn("denoised no: it takes 4 samples a pixel", run.stdout)
+
+    def test_refusals(self):
+        for options, word in ((["--replicates", "3"], "give 4 or more"), (["--samples", "0:64", "--spp", "64"], "--denoise and --samples"),
+                              (["--denoise=loud"], "auto, off"), (["--integrator", "raster"], "--integrator path")):
+            line = self.assert_one_error(eclat("render", *JOB, "--denoise", *options, "-o", self.path("a.exr"), env=self.oidn), 2)
+            self.assertIn(word, line)
+
+    def test_no_library(self):
+        """The message names both ways to get one; nothing is rendered before."""
+        nowhere = {"HOME": self.folder, "VIRTUAL_ENV": "", "ECLAT_OIDN": self.path("nowhere")}
+        line = self.assert_one_error(eclat("render", *JOB, "--denoise", "-o", self.path("a.exr"), env=nowhere), 1)
+        self.assertIn("ECLAT_OIDN: there is no", line)
+        nowhere["ECLAT_OIDN"] = ""
+        if not denoiser.is_of_system() and not os.path.exists("/usr/local/lib/python3/dist-packages/pyoidn"):
+            line = self.assert_one_error(eclat("render", *JOB, "--denoise", "-o", self.path("a.exr"), env=nowhere), 1)
+            self.assertIn("install the system's package", line)
+            self.assertIn("pip install pyoidn", line)
+        with open(self.path("libOpenImageDenoise.so.2"), "w", encoding="utf-8") as file:
+            file.write("no library")
+        line = self.assert_one_error(eclat("render", *JOB, "--denoise", "-o", self.path("a.exr"), env=dict(nowhere, ECLAT_OIDN=self.folder)), 1)
+        self.assertIn("cannot load", line)
+        self.assertFalse(os.path.exists(self.path("a.exr")))
+
+    def test_channels(self):
+        _, _, planes = self.render("--spp", "32", "--channels", "best")
+        self.assertEqual(sorted(planes), ["B", "G", "R", "best.B", "best.G", "best.R"])
+
+    @full
+    def test_stops_by_the_clean_picture(self):
+        """The error asked for is reached with fewer samples; the stated interval of the best picture ends under it."""
+        noisy, _, _ = self.render("--error", "2.5%", "--adaptive=off", job=SMOOTH, denoise=())
+        clean, _, _ = self.render("--error", "2.5%", "--adaptive=off", job=SMOOTH)
+        self.assertEqual(clean["stopped_by"], "error")
+        self.assertLessEqual(clean["best"]["high95"], 0.025)
+        self.assertGreater(clean["error"], 0.025)
+        self.assertLess(clean["samples_per_pixel"], noisy["samples_per_pixel"])
+
+    @full
+    def test_stated_error_is_the_real_one(self):
+        """Of 20 seeds: the interval holds the distance to a long render in most of them. 95 % of 20 stray by 1.0."""
+        _, _, reference = self.render("--spp", "8192", "--seed", "99", name="r.exr", job=SMOOTH, denoise=())
+        truth = luminance(reference)
+        held = 0
+        for seed in range(20):
+            report, _, planes = self.render("--spp", "32", "--seed", str(seed), job=SMOOTH)
+            held += report["denoised"]["low95"] <= distance(luminance(planes, "denoised."), truth) <= report["denoised"]["high95"]
+        self.assertGreaterEqual(held, 15)
+
+    @full
+    def test_resumed(self):
+        """A checkpoint goes on to the same clean picture, and so does one without first hits of all its samples."""
+        _, _, whole = self.render("--spp", "96")
+        for spp in ("20", "40", "64"):
+            checkpoint = self.path("c.exr")
+            self.assert_ok(eclat("render", *JOB, "--denoise", "--spp", spp, "--checkpoint", checkpoint, "-q", "-o", self.path("p.exr"), env=self.oidn))
+            self.assert_ok(eclat("render", "--resume", checkpoint, "--spp", "96", "-q", "-o", self.path("b.exr"), env=self.oidn))
+            self.assertEqual(read_exr(self.path("b.exr"))[1], whole, spp)
+
+
+@full
+class Frames(FramesCase):
+    def test_each_by_itself(self):
+        """As the picture of that moment alone."""
+        oidn, scene = denoiser.environment(), self.sliding()
+        job = ["render", scene, "--size", "32x24", *QUICK, "--denoise", "--spp", "32", "-q"]
+        self.assert_ok(eclat(*job, "--frames", "0:1", "--fps", "4", "-o", self.path("f%d.exr"), env=oidn))
+        for frame in (0, 1):
+            self.assert_ok(eclat(*job, "--at", str(frame / 4), "-o", self.path("alone.exr"), env=oidn))
+            planes = read_exr(self.path(f"f{frame}.exr"))[1]
+            self.assertIn("best.R", planes)
+            self.assertEqual(planes, read_exr(self.path("alone.exr"))[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
