@@ -49,7 +49,7 @@ static void format_best(const ec_window *w, char *text, size_t size)
     const eclat_status *s = &w->status;
     char error[32], bound[32];
     *text = 0;
-    if (*s->undenoised) snprintf(text, size, "  not denoised: %.160s", s->undenoised);
+    if (*s->undenoised) snprintf(text, size, "  not denoised: %.100s", s->undenoised);
     if (!s->is_denoised) return;
     format_percent(s->best.error, error, sizeof error);
     format_percent(s->best.high95, bound, sizeof bound);
@@ -59,7 +59,7 @@ static void format_best(const ec_window *w, char *text, size_t size)
 static void format_state(const ec_window *w, char *text, size_t size)
 {
     const eclat_status *s = &w->status;
-    char error[32] = "?", bound[48] = "bound unknown", seconds[32], prediction[160], best[200];
+    char error[32] = "?", bound[48] = "bound unknown", seconds[32], prediction[160], best[128];
     if (isfinite(s->error)) format_percent(s->error, error, sizeof error);
     if (isfinite(s->error_bound)) {
         char percent[32];
