@@ -120,7 +120,7 @@ static void draw_messages(const ec_window *w, const ec_view_text *text, double w
  * the others, which stay in their place. */
 static double draw_foot(const ec_window *w, const ec_view_text *text, double width, double height)
 {
-    char state[400], settings[1000], effects[1200], probe[400];
+    char state[512], settings[1000], effects[1200], probe[400];
     const eclat_probe *selected = &w->input.selected;
     const bool is_selected = selected->node >= 0, has_all = w->input.lines == EC_LINES_ALL;
     ec_view_block b;
