@@ -11,13 +11,14 @@
 #define ATROUS_LUMINANCE 64.0f /* squares: of 8 standard deviations … */
 #define ATROUS_DEPTH 9.0f      /* … of 3 times the slope over the distance, … */
 #define ATROUS_DEPTH_LEAST 1e-6f      /* … or a thousandth of the depth, … */
-#define ATROUS_NORMAL 0.06f    /* … of a quarter, as a difference of unit vectors, … */
-#define ATROUS_ALBEDO 0.06f    /* … and of albedos */
+#define ATROUS_NORMAL 16.0f    /* 1 over that of a quarter, as a difference of unit vectors, … */
+#define ATROUS_ALBEDO 16.0f    /* … and of albedos */
 #define ATROUS_TINY 1e-30f
 
-EC_FN float biweight(float square, float spread)
+/* square: in units of that at which the weight is 0. */
+EC_FN float biweight(float square)
 {
-    float t = max(1.0f - square / (spread + ATROUS_TINY), 0.0f);
+    float t = max(1.0f - square, 0.0f);
     return t * t;
 }
 
@@ -59,7 +60,7 @@ kernel void ec_atrous(global const float4 *from, global const float *features, g
     int2 size = (int2)(width, height), at = (int2)((int)(i % width), (int)(i / width));
     global const float *own = features + EC_AOV_FIELDS * i;
     float4 middle = from[i];
-    float y0 = rgb_luminance(middle), spread = ATROUS_LUMINANCE * smooth_variance(from, at, size), slope = depth_slope(features, at, size);
+    float y0 = rgb_luminance(middle), sharpness = 1.0f / (ATROUS_LUMINANCE * smooth_variance(from, at, size) + ATROUS_TINY), slope = depth_slope(features, at, size);
     float weights = 0.0f;
     float4 sum = (float4)(0.0f);
     for (int dy = -2; dy <= 2; dy++)
@@ -71,9 +72,9 @@ kernel void ec_atrous(global const float4 *from, global const float *features, g
             float brighter = rgb_luminance(colour) - y0, deeper = other[6] - own[6], distance = (float)((dx * dx + dy * dy) * apart * apart);
             float weight = tap[dx < 0 ? -dx : dx] * tap[dy < 0 ? -dy : dy];
             if (dx != 0 || dy != 0)
-                weight *= biweight(brighter * brighter, spread) * biweight(square_between(own + 3, other + 3), ATROUS_NORMAL) *
-                          biweight(square_between(own, other), ATROUS_ALBEDO) *
-                          biweight(deeper * deeper, ATROUS_DEPTH * slope * slope * distance + ATROUS_DEPTH_LEAST * own[6] * own[6]);
+                weight *= biweight(brighter * brighter * sharpness) * biweight(ATROUS_NORMAL * square_between(own + 3, other + 3)) *
+                          biweight(ATROUS_ALBEDO * square_between(own, other)) *
+                          biweight(deeper * deeper / (ATROUS_DEPTH * slope * slope * distance + ATROUS_DEPTH_LEAST * own[6] * own[6] + ATROUS_TINY));
             sum.xyz += weight * colour.xyz;
             sum.w += weight * weight * colour.w;
             weights += weight;

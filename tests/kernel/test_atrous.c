@@ -38,8 +38,8 @@ static double weight_of(int x, int y, int dx, int dy, int apart)
         for (int u = -1; u <= 1; u++) variance += (u ? 0.25 : 0.5) * (v ? 0.25 : 0.5) * (double)pixel(x + u, y + v)[3];
     const double brighter = luminance(pixel(x + dx * apart, y + dy * apart)) - luminance(pixel(x, y)), deeper = (double)other[6] - own[6];
     const double slope = 0.5 * fmax(fabs((double)feature(x - 1, y)[6] - feature(x + 1, y)[6]), fabs((double)feature(x, y - 1)[6] - feature(x, y + 1)[6]));
-    return weight * biweight(brighter * brighter, 64 * variance + 1e-30) * biweight(square_between(own + 3, other + 3), 0.06) *
-           biweight(square_between(own, other), 0.06) *
+    return weight * biweight(brighter * brighter, 64 * variance + 1e-30) * biweight(square_between(own + 3, other + 3), 1.0 / 16) *
+           biweight(square_between(own, other), 1.0 / 16) *
            biweight(deeper * deeper, 9 * slope * slope * (dx * dx + dy * dy) * apart * apart + 1e-6 * own[6] * (double)own[6] + 1e-30);
 }
 
