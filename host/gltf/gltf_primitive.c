@@ -127,6 +127,7 @@ ec_result ec_gltf_primitive_prepare(ec_gltf *g, ec_gltf_primitive *p, const char
     EC_TRY(scan_indices(g, p, corners, where, err));
     if (p->mode == EC_GLTF_TRIANGLES) p->triangle_count = corners / 3;
     else p->triangle_count = corners < 3 ? 0 : corners - 2;
+    p->left_over = p->mode == EC_GLTF_TRIANGLES ? corners % 3 != 0 : corners < 3;
     p->drawn = p->triangle_count > 0;
     return EC_OK;
 }

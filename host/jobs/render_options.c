@@ -26,6 +26,8 @@ const ec_option ec_render_rows[] = {
     {.name = "at", .metavar = "SECONDS", .set = ec_set_at, .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "show the animation at this time; before its first keyframe and after its last one the scene stands still",
      .otherwise = "the scene as stored"},
+    {.name = "follow-links", EC_STORED(FLAG, choice.follow_links), .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
+     .help = "read buffers and images also through symbolic links that lead out of the scene's folder"},
     {.name = "scene", .metavar = "NAME|INDEX", EC_STORED(TEXT, choice.scene), .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "scene of the file to render", .otherwise = "the one the file names as its default"},
     {.name = "shutter", .metavar = "A:B", .set = ec_set_shutter, .group = EC_GROUP_SCENE, .integrators = PATHS, .uses = EC_OPTION_INFO,

@@ -206,6 +206,7 @@ typedef struct ec_scene_choice {
     bool shutter;              /* open from `opens` to `closes`, seconds into it; `at` is then their middle, whatever it was */
     double opens, closes;
     ec_instancing instancing;  /* which meshes are kept once */
+    bool follow_links;         /* buffers and images may be symbolic links out of the scene's folder */
     bool frame;                /* of a sequence: where an animation may move meshes no triangle is cut, at any of its moments */
 } ec_scene_choice;
 
