@@ -103,7 +103,8 @@ inline std::string printable(std::string text)
 {
     for (char &c : text)
         if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
-    return text;
+    ec_text_clean(&text[0]);
+    return text.c_str();
 }
 /* At most so many bytes of a text. */
 inline std::string shortened(const std::string &text, int most)

@@ -127,7 +127,9 @@ static void print_accels(const ec_scene_report *report, FILE *to)
 void ec_scene_report_text(const ec_scene_report *report, FILE *to)
 {
     const ec_scene *scene = report->scene;
-    fprintf(to, "scene       %s\n", report->path);
+    fputs("scene       ", to);
+    ec_text_print(to, report->path);
+    fputc('\n', to);
     print_geometry(scene, to);
     print_lights(report, to);
     print_cameras(scene, to);

@@ -185,9 +185,9 @@ class BadRequests(BadInput):
         os.symlink("map.png", self.path("link.png"))
         for option, name in [("-o", "quad data.exr"), ("-o", "map.png"), ("-o", "link.png"),
                              ("--checkpoint", "quad data.exr")]:
-            self.refuse(scene, option, self.path(name), says=f"{name}' is an input of this render; ")
+            self.refuse(scene, option, self.path(name), says=f"{name}' is an input of this job; ")
         run = eclat("cost", scene, "--json", self.path("map.png"))
-        self.assertIn("is an input of this render", self.assert_one_error(run, 1))
+        self.assertIn("is an input of this job", self.assert_one_error(run, 1))
         for name, content in contents.items():
             with open(self.path(name), "rb") as file:
                 self.assertEqual(file.read(), content)
