@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "jobs/blank.h"
 #include "jobs/defaults.h"
 #include "jobs/numbers.h"
 #include "jobs/option.h"
@@ -257,6 +258,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     }
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
+    ec_warn_of_blank(job);
     return check_memory(job, err);
 }
 
