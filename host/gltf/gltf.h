@@ -168,6 +168,7 @@ typedef struct ec_gltf {
     int32_t *roots;         /* nodes of the scene to show */
     uint32_t root_count;
     ec_instancing instancing; /* the caller's wish */
+    double point_size;        /* likewise: see thicken.h */
     bool follow_links;        /* likewise: symbolic links may lead out of the folder */
     void *tree;             /* of a file that may be posed again: gltf_shim.cpp's; NULL: it may not */
     uint32_t stored_accessors, stored_meshes; /* the file's own; behind them lie deformed copies of a pose */
@@ -226,7 +227,7 @@ void ec_gltf_accessor_floats(const ec_gltf_accessor *accessor, uint64_t element,
 uint32_t ec_gltf_accessor_index(const ec_gltf_accessor *accessor, uint64_t element);
 
 /* gltf_primitive.c: checks a primitive's accessors and indices once; afterwards its triangles can be read freely. A
- * primitive without triangles is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
+ * primitive without triangles, as points and lines are, is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
 ec_result ec_gltf_primitive_prepare(ec_gltf *gltf, ec_gltf_primitive *primitive, const char *where, ec_error *err);
 /* Likewise for what deforms a prepared primitive: one of its morph targets, and its joints and weights. */
 ec_result ec_gltf_target_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, uint32_t target, const char *where,

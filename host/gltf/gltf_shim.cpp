@@ -155,6 +155,7 @@ extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choic
     if (!gltf) return ec_fail(err, "%s: out of memory", path);
     gltf->path = path;
     gltf->follow_links = choice->follow_links;
+    gltf->point_size = choice->point_size > 0 ? choice->point_size : 1;
     EC_TRY(guarded(path, err, [&] {
         std::string name = path;
         size_t slash = name.find_last_of('/');
