@@ -70,7 +70,8 @@ static const struct {
                            {"EXT_texture_avif", "libavif-dev", ec_has_avif},
                            {"EXT_texture_webp", "libwebp-dev", ec_has_webp},
                            {"KHR_draco_mesh_compression", "libdraco-dev", ec_has_draco},
-                           {"KHR_meshopt_compression", "libmeshoptimizer-dev", ec_has_meshopt}};
+                           {"KHR_meshopt_compression", "libmeshoptimizer-dev", ec_has_meshopt},
+                           {"KHR_texture_basisu", "Basis Universal's source, name its folder with -DBASISU_SOURCE=FOLDER", ec_has_basisu}};
 
 static void refuse_unbuilt(const std::string &name)
 {

@@ -156,7 +156,8 @@ void convert_textures(const json &root, ec_gltf *gltf)
 {
     const json &samplers = list_of(root, "samplers");
     convert_list(list_of(root, "textures"), gltf->textures, gltf->texture_count, [&](const json &in, ec_gltf_texture &out) {
-        const json *other = ec_has_avif ? find_extension(in, "EXT_texture_avif") : nullptr;
+        const json *other = ec_has_basisu ? find_extension(in, "KHR_texture_basisu") : nullptr;
+        if (!other && ec_has_avif) other = find_extension(in, "EXT_texture_avif");
         if (!other && ec_has_webp) other = find_extension(in, "EXT_texture_webp");
         out = {(other ? *other : in).value("source", -1), EC_WRAP_REPEAT, EC_WRAP_REPEAT, false, false, 0};
         if (!in.contains("sampler")) return;

@@ -87,7 +87,8 @@ static const schema image = {plain("uri", kind::text), index("bufferView", "buff
 static const schema texture = {
     count("source", 0, false, int_count), index("sampler", "samplers"), /* of one that nothing uses no image need be there: check_sources */
     object("extensions", {object("EXT_texture_avif", {index("source", "images", required)}),
-                          object("EXT_texture_webp", {index("source", "images", required)})})};
+                          object("EXT_texture_webp", {index("source", "images", required)}),
+                          object("KHR_texture_basisu", {index("source", "images", required)})})};
 static const schema sampler = {
     choice("magFilter", "9728 9729"), choice("minFilter", "9728 9729 9984 9985 9986 9987"),
     choice("wrapS", "10497 33071 33648"), choice("wrapT", "10497 33071 33648")};

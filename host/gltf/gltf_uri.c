@@ -195,7 +195,7 @@ static ec_result check_links(const char *folder, const char *full, const char *w
     EC_FREED char *inside = realpath(*folder ? folder : ".", NULL), *real = realpath(full, NULL);
     const size_t size = inside ? strlen(inside) : 0;
     const bool is_root = size == 1; /* "/" */
-    if (!inside || !real || is_root || (!strncmp(real, inside, size) && real[size] == '/')) return EC_OK;
+    if (!inside || !real || is_root || (!strncmp(real, inside, size) && (!real[size] || real[size] == '/'))) return EC_OK;
     return ec_fail(err, "%s: refusing '%s': it is a symbolic link out of the scene's folder, to '%s'; copy the file there, or allow it with --follow-links",
                    where, full, real);
 }

@@ -46,7 +46,8 @@ class Help(Case):
         self.assertRegex(lines["compiler"], rf"^(GCC|Clang) \d+\.\d+.*, {cache['CMAKE_BUILD_TYPE'] or 'Release'} for \S")
         self.assertEqual(lines["OpenCL"], "1.2")
         found = [name for name in ("avif", "draco", "meshopt", "webp") if not cache[f"CODEC_{name}_LIBRARY"].endswith("NOTFOUND")]
-        self.assertEqual(lines["readers"], ", ".join(found) or "none")
+        found += ["basisu"] if cache["BASISU_SOURCE"] else []
+        self.assertEqual(lines["readers"], ", ".join(sorted(found)) or "none")
         there = [name for name in ("mpi", "view") if os.path.exists(os.path.join(build, f"eclat-{name}.so"))]
         self.assertEqual(lines["modules"], ", ".join(there) or "none")
 

@@ -22,6 +22,25 @@ static const unsigned char avif_two[512] = {
     0, 38, 16, 32, 32, 9, 50, 38, 16, 0, 0, 139, 187, 21, 149, 176, 122, 96, 233, 220, 137, 220, 138, 92, 0, 22, 255, 213, 125, 242,
     229, 127, 189, 239, 149, 147, 37, 151, 177, 245, 29, 222, 125, 239, 124, 54};
 
+/* 4x4, about (200, 100, 50) everywhere, as Basis Universal packs it: ETC1S with BasisLZ, and UASTC with Zstandard. */
+static const unsigned char ktx2_etc1s[316] = {
+    171, 75, 84, 88, 32, 50, 48, 187, 13, 10, 26, 10, 0, 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0,
+    0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 104, 0, 0, 0, 44, 0, 0, 0, 148, 0, 0, 0, 36, 0, 0, 0, 184, 0, 0, 0, 0, 0, 0, 0, 131, 0, 0, 0, 0,
+    0, 0, 0, 59, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 44, 0, 0, 0, 0, 0, 0, 0, 2, 0, 40, 0, 163, 1,
+    2, 0, 3, 3, 0, 0, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 63, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 31, 0, 0, 0, 75, 84, 88, 119,
+    114, 105, 116, 101, 114, 0, 66, 97, 115, 105, 115, 32, 85, 110, 105, 118, 101, 114, 115, 97, 108, 32, 50, 46, 49, 48, 0, 0, 1,
+    0, 1, 0, 43, 0, 0, 0, 5, 0, 0, 0, 43, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 192,
+    4, 0, 0, 0, 0, 0, 0, 162, 3, 152, 18, 0, 0, 0, 0, 0, 130, 170, 11, 76, 4, 0, 19, 0, 0, 0, 0, 0, 0, 136, 0, 96, 2, 0, 0, 0, 0, 0,
+    0, 65, 6, 84, 85, 85, 85, 5, 0, 193, 68, 0, 0, 0, 0, 0, 0, 242, 95, 45, 0, 152, 0, 0, 0, 0, 0, 0, 64, 8, 0, 19, 0, 2, 0, 0, 0,
+    0, 136, 1, 192, 4, 0, 0, 0, 0, 0, 0, 2, 8, 0, 0};
+static const unsigned char ktx2_uastc[209] = {
+    171, 75, 84, 88, 32, 50, 48, 187, 13, 10, 26, 10, 0, 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0,
+    0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 104, 0, 0, 0, 44, 0, 0, 0, 148, 0, 0, 0, 36, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 184, 0, 0, 0, 0, 0, 0, 0, 25, 0, 0, 0, 0, 0, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 44, 0, 0, 0, 0, 0, 0, 0, 2, 0, 40, 0, 166, 1, 2,
+    0, 3, 3, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 0, 0, 127, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 31, 0, 0, 0, 75, 84, 88, 119,
+    114, 105, 116, 101, 114, 0, 66, 97, 115, 105, 115, 32, 85, 110, 105, 118, 101, 114, 115, 97, 108, 32, 50, 46, 49, 48, 0, 0, 40,
+    181, 47, 253, 32, 16, 129, 0, 0, 23, 153, 76, 230, 63, 181, 138, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+
 static const char required[] = TRIANGLE("", "", "", ",'extensionsUsed':['@ext@'],'extensionsRequired':['@ext@']");
 
 static char *named(const char *json, const char *extension)
@@ -111,6 +130,44 @@ static void test_avif(void)
     }
 }
 
+static void expect_ktx2(const unsigned char *bytes, size_t size, double tolerance)
+{
+    static const int expected[4] = {200, 100, 50, 255};
+    ec_image image = {0};
+    ec_decode_error err = {""};
+    CHECK_MSG(ec_image_decode(bytes, size, &image, &err), "%s", err.text);
+    CHECK(image.width == 4 && image.height == 4);
+    for (int i = 0; image.rgba8 && i < 64; i++) CHECK_NEAR(image.rgba8[i], expected[i % 4], tolerance);
+    ec_image_free(&image);
+    for (size_t cut = 12; cut < size; cut += 7) {
+        err.text[0] = 0;
+        image = (ec_image){0};
+        const bool ok = ec_image_decode(bytes, cut, &image, &err);
+        CHECK_MSG(ok == (image.rgba8 != NULL) && (ok || err.text[0]), "%zu bytes", cut);
+        ec_image_free(&image);
+    }
+}
+
+static void test_ktx2(void)
+{
+    char *json = named(required, "KHR_texture_basisu");
+    if (!ec_has_basisu) {
+        ec_image image = {0};
+        ec_decode_error err = {""};
+        expect_failure(json, triangle_blobs, "requires KHR_texture_basisu, which this eclat was built without; install Basis Universal's source");
+        CHECK(!ec_image_decode(ktx2_uastc, sizeof ktx2_uastc, &image, &err));
+        CHECK_MSG(strstr(err.text, "it is KTX2, which this eclat was built without"), "%s", err.text);
+    } else {
+        ec_error err;
+        ec_scene *s = load_text(json, triangle_blobs, &err);
+        CHECK_MSG(s != NULL, "%s", err.text);
+        ec_scene_free(s);
+        expect_ktx2(ktx2_etc1s, sizeof ktx2_etc1s, 8);
+        expect_ktx2(ktx2_uastc, sizeof ktx2_uastc, 2);
+    }
+    free(json);
+}
+
 /* The filter COLOR of KHR_meshopt_compression, on elements that are as its specification's encoder leaves them. */
 static void test_meshopt_color(void)
 {
@@ -155,6 +212,7 @@ int main(void)
     test_refused();
     test_lod();
     test_avif();
+    test_ktx2();
     test_meshopt_color();
     test_dangling_source();
     TEST_END();
