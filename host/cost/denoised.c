@@ -21,7 +21,7 @@ static ec_result take_replicate(ec_cost_runner *runner, ec_film *film, ec_sessio
 static ec_result denoise(ec_cost_runner *runner, ec_film *film, ec_error *err)
 {
     ec_denoised came = {0};
-    EC_TRY(ec_denoise(film, &came, err));
+    EC_TRY(ec_denoise(film, EC_DENOISER_AUTO, &runner->study->cl->info, &came, err));
     if (!came.why_not) runner->denoise_seconds += came.seconds, runner->denoised++;
     if (film->clean.best) memcpy(runner->mean, film->clean.best, runner->pixels * 3 * sizeof(float));
     else ec_film_resolve(film, runner->mean, NULL); /* too few samples: as it is */

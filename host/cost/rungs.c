@@ -101,13 +101,11 @@ static void add_scattering(rung_list *list)
     again->unbiased = false;
 }
 
-/* Where the library is. */
 static void add_denoiser(rung_list *list)
 {
-    if (ec_denoise_check(NULL) != EC_OK) return;
     begin(list, "denoiser", "Denoised, instead of as it is");
     ec_cost_rung *best = add(list, "denoise", "best of both, --denoise");
-    best->options.denoise = true;
+    best->options.denoise = EC_DENOISER_AUTO;
     best->unbiased = false;
     best->fades = true;
 }

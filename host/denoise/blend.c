@@ -6,7 +6,8 @@
  * are found together, a bright edge in one tile has its say in the tiles beside it too.
  *
  * t and s are estimates: the variance of b_i makes that of a weight, Var b / A^2. One that goes by its own surroundings alone would follow the noise,
- * so that it is drawn to the weight of the whole picture, by a term Var b / (A PRIOR) (w_i - w)^2: the posterior mean where weights spread by PRIOR.
+ * so that it is drawn to the weight of the whole picture, by a term Var b / (A S) (w_i - w)^2: the posterior mean where weights spread by a variance S,
+ * which is estimated from all of them.
  *
  * Weights that are chosen to make an estimate small make it come out small. Of Gaussian estimates that is known (Stein 1981): by the mean slope of w over
  * t - s, times the variance. The inverse of A, which that slope is half of, is taken for diagonal: right where q is as the variance. */
@@ -15,7 +16,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define PRIOR 0.09 /* variance of tiles' weights about the whole picture's: 0.3 squared, as of numbers from 0 to 1 */
+#define SPREAD_MOST 0.09    /* variance of tiles' weights about the whole picture's: 0.3 squared, as of numbers from 0 to 1 … */
+#define SPREAD_LEAST 0.0001 /* … and 0.01 squared: else few tiles decide */
 
 ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, ec_error *err)
 {
@@ -127,13 +129,30 @@ static void look_at_cell(const ec_blend *b, uint32_t tile_row, uint32_t tile_col
     }
 }
 
+/* Variance of tiles' weights about the whole picture's, beyond what noise makes of it: the mean, each by what it tells (DerSimonian and Laird 1986). */
+static double find_spread(const ec_blend *b, double of_all)
+{
+    double sum = 0, shares = 0;
+    for (uint32_t row = 0; row < b->rows; row++)
+        for (uint32_t column = 0; column < b->columns; column++) {
+            vertex v = {0};
+            for (uint32_t k = 0; k < 4; k++) look_at_cell(b, row, column, row + k / 2, column + k % 2, &v);
+            if (!(v.square > 0)) continue;
+            const double noise = fmax(v.variance, 0) / (v.square * v.square), apart = within(v.linear / v.square) - of_all;
+            const double share = 1 / ((noise + SPREAD_MOST) * (noise + SPREAD_MOST));
+            sum += share * (apart * apart - noise);
+            shares += share;
+        }
+    return shares > 0 ? fmin(fmax(sum / shares, SPREAD_LEAST), SPREAD_MOST) : SPREAD_MOST;
+}
+
 /* How far the weight moves. */
-static double step(ec_blend *b, uint32_t row, uint32_t column, double of_all)
+static double step(ec_blend *b, uint32_t row, uint32_t column, double of_all, double spread)
 {
     ec_blend_tile *t = &b->tiles[(size_t)row * b->columns + column];
     vertex v = {0};
     for (uint32_t k = 0; k < 4; k++) look_at_cell(b, row, column, row + k / 2, column + k % 2, &v);
-    const double before = t->weight, draw = v.square > 0 ? fmax(v.variance, 0) / (v.square * PRIOR) : 1, square = v.square + draw;
+    const double before = t->weight, draw = v.square > 0 ? fmax(v.variance, 0) / (v.square * spread) : 1, square = v.square + draw;
     const double w = (v.linear + draw * of_all) / square;
     t->weight = within(w);
     t->slope = w > 0 && w < 1 && v.square > 0 ? 1 / (2 * square) : 0;
@@ -144,12 +163,13 @@ void ec_blend_choose(ec_blend *b)
 {
     enum { SWEEPS = 100 };
     const double of_all = choose_one(b);
-    double moved = 1;
+    double moved = 1, spread;
     for (size_t i = 0; i < (size_t)b->columns * b->rows; i++) b->tiles[i].weight = of_all;
+    spread = find_spread(b, of_all);
     for (uint32_t k = 0; k < SWEEPS && moved > 1e-4; k++) {
         moved = 0;
         for (uint32_t row = 0; row < b->rows; row++)
-            for (uint32_t column = 0; column < b->columns; column++) moved = fmax(moved, step(b, row, column, of_all));
+            for (uint32_t column = 0; column < b->columns; column++) moved = fmax(moved, step(b, row, column, of_all, spread));
     }
 }
 

@@ -5,8 +5,10 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "denoise/atrous.h"
 #include "denoise/clean.h"
 #include "denoise/oidn.h"
+#include "denoise/oidn_find.h"
 
 enum { SCALE_MOST = 120 }; /* as a power of two, in floats */
 enum { CLEAN_GUIDES = 64 }; /* samples a pixel of the features from which on they are better than smoothed ones */
@@ -28,11 +30,15 @@ typedef struct work {
 
 static uint64_t pixels_of(const work *w) { return (uint64_t)w->film->width * w->film->height; }
 
-ec_result ec_denoise_check(ec_error *err)
+ec_result ec_denoiser_find(ec_denoiser asked, ec_denoiser *found, ec_error *err)
 {
     ec_oidn *oidn;
-    EC_TRY(ec_oidn_open(&oidn, err));
+    const bool is_named = asked == EC_DENOISER_OIDN || ec_oidn_is_named();
+    *found = EC_DENOISER_ATROUS;
+    if (asked == EC_DENOISER_ATROUS) return EC_OK;
+    if (ec_oidn_open(&oidn, is_named ? err : NULL) != EC_OK) return is_named ? EC_FAILED : EC_OK;
     ec_oidn_close(oidn);
+    *found = EC_DENOISER_OIDN;
     return EC_OK;
 }
 
@@ -74,8 +80,8 @@ static void take_guides(work *w)
         }
 }
 
-/* Both halves, by the same guides. The scale is a power of two: it changes no bits. */
-static ec_result filter(work *w, ec_oidn *oidn, ec_error *err)
+/* Both halves, by the same guides. */
+static ec_result filter_by_oidn(work *w, ec_oidn *oidn, ec_error *err)
 {
     const ec_film *film = w->film;
     const struct effort *effort = efforts;
@@ -92,26 +98,44 @@ static ec_result filter(work *w, ec_oidn *oidn, ec_error *err)
         ec_half(film, h, w->scale, w->half[h]);
         image.color = w->half[h];
         EC_TRY(ec_oidn_filter(oidn, &image, err));
-        for (uint64_t i = 0; i < 3 * pixels_of(w); i++) w->half[h][i] /= w->scale;
     }
     return EC_OK;
 }
 
-ec_result ec_denoise(ec_film *film, ec_denoised *out, ec_error *err)
+static ec_result filter(work *w, ec_denoiser denoiser, const ec_device_info *device, ec_denoised *out, ec_error *err)
+{
+    ec_oidn *oidn;
+    EC_TRY(ec_denoiser_find(denoiser, &denoiser, err));
+    if (denoiser == EC_DENOISER_ATROUS) {
+        snprintf(out->library, sizeof out->library, "a-trous filter");
+        return ec_atrous(device, w->film, w->scale, w->half, err);
+    }
+    EC_TRY(ec_oidn_open(&oidn, err));
+    snprintf(out->library, sizeof out->library, "Open Image Denoise %s", ec_oidn_version(oidn));
+    const ec_result result = filter_by_oidn(w, oidn, err);
+    ec_oidn_close(oidn);
+    return result;
+}
+
+/* The scale is a power of two: it changes no bits. */
+static void unscale(work *w)
+{
+    for (uint32_t h = 0; h < 2; h++)
+        for (uint64_t i = 0; i < 3 * pixels_of(w); i++) w->half[h][i] /= w->scale;
+}
+
+ec_result ec_denoise(ec_film *film, ec_denoiser denoiser, const ec_device_info *device, ec_denoised *out, ec_error *err)
 {
     const double start = ec_now();
     const ec_film_error noisy = ec_film_estimate_error(film);
     work w = {.film = film};
-    ec_oidn *oidn;
     ec_film_set_clean(film, (ec_film_clean){0});
     *out = (ec_denoised){.why_not = why_not(film, &noisy)};
     if (out->why_not) return EC_OK;
     w.scale = (float)exp2(fmin(fmax(-round(log2(noisy.mean_luminance)), -SCALE_MOST), SCALE_MOST));
-    EC_TRY(ec_oidn_open(&oidn, err));
-    snprintf(out->library, sizeof out->library, "Open Image Denoise %s", ec_oidn_version(oidn));
     ec_result result = make_room(&w, err);
-    if (result == EC_OK) result = filter(&w, oidn, err);
-    ec_oidn_close(oidn);
+    if (result == EC_OK) result = filter(&w, denoiser, device, out, err);
+    if (result == EC_OK) unscale(&w);
     if (result == EC_OK) result = ec_clean_make(film, (const float *const *)w.half, &noisy, &w.clean, out, err);
     if (result == EC_OK) {
         ec_film_set_clean(film, w.clean);

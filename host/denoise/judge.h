@@ -10,6 +10,9 @@ enum { EC_JUDGE_REPLICATES = 4 }; /* that it takes: two in each half */
  * floats a pixel, each times `scale`. */
 void ec_half(const ec_film *film, uint32_t half, float scale, float *rgb);
 
+/* 4 floats a pixel: the same, and the variance of its luminance by the half's own replicates. */
+void ec_half_with_variance(const ec_film *film, uint32_t half, float scale, float *rgbv);
+
 /* Of a pixel's luminance. Estimates are without bias, so that those of single pixels may be negative. */
 typedef struct ec_judged {
     double luminance;              /* of the noisy picture */

@@ -49,14 +49,19 @@ static void *open_of_python(void)
     return library;
 }
 
-ec_result ec_oidn_load(void **library, ec_error *err)
+bool ec_oidn_is_named(void)
 {
     const char *named = getenv("ECLAT_OIDN");
+    return named && *named;
+}
+
+ec_result ec_oidn_load(void **library, ec_error *err)
+{
     *library = NULL;
-    if (named && *named) return load_named(named, library, err);
+    if (ec_oidn_is_named()) return load_named(getenv("ECLAT_OIDN"), library, err);
     *library = open_file(FILE_NAME);
     if (!*library) *library = open_of_python();
     if (*library) return EC_OK;
-    return ec_fail(err, "--denoise: Intel's Open Image Denoise (" FILE_NAME ") is not installed; install the system's package of it, version 2, or "
-                        "PyPI's by 'pip install pyoidn' (from Python: 'pip install eclat[denoise]'); ECLAT_OIDN names it where it lies elsewhere");
+    return ec_fail(err, "--denoise oidn: Intel's Open Image Denoise (" FILE_NAME ") is not installed; install the system's package of it, version 2, or "
+                        "PyPI's by 'pip install pyoidn' (from Python: 'pip install eclat[denoise]'); ECLAT_OIDN names it where it lies elsewhere; --denoise atrous does without");
 }

@@ -2,7 +2,12 @@
 #ifndef EC_DENOISE_OIDN_FIND_H
 #define EC_DENOISE_OIDN_FIND_H
 
+#include <stdbool.h>
+
 #include "base/error.h"
+
+/* Has the user named a place for it ($ECLAT_OIDN)? */
+bool ec_oidn_is_named(void);
 
 /* Loads it, for as long as the process lives; a handle for dlsym. */
 ec_result ec_oidn_load(void **library, ec_error *err);

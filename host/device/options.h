@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "film/denoiser.h"
 #include "film/schedule.h"
 #include "shared/params.h"
 
@@ -66,7 +67,7 @@ typedef struct ec_render_options {
     uint32_t wave;              /* paths in flight; 0 = fitted to the device */
     uint64_t memory;            /* bytes that the process should not exceed: else it renders strips (strips.h); 0 = what is free */
     uint32_t slice_first, slice_end; /* batches (film/schedule.h) of a slice, for what they take of it; slice_end 0: it is none */
-    bool denoise;               /* more first hits, by which a denoiser goes; and where there is an error_target, it is the clean picture's */
+    ec_denoiser denoise;        /* more first hits, by which a denoiser goes; and where there is an error_target, it is the clean picture's */
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */

@@ -152,7 +152,7 @@ static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row,
 static ec_result look_at_clean(void *user, ec_film *film, ec_clean_look *look, ec_error *err)
 {
     ec_render_job *job = user;
-    EC_TRY(ec_denoise(film, &job->denoised, err));
+    EC_TRY(ec_denoise(film, job->request->options.denoise, &job->devices[0], &job->denoised, err));
     *look = job->denoised.why_not ? (ec_clean_look){INFINITY, INFINITY} : (ec_clean_look){job->denoised.best.error, job->denoised.best.high95};
     return EC_OK;
 }

@@ -246,10 +246,22 @@ static ec_result load_both(ec_render_job *job, ec_error *err)
     return f.result != EC_OK ? EC_FAILED : result;
 }
 
+/* Before the first sample: an hour's picture is not to end without what was asked for. */
+static ec_result find_denoiser(const ec_render_job *job, ec_error *err)
+{
+    ec_denoiser found;
+    const ec_denoiser asked = job->request->options.denoise;
+    if (asked == EC_DENOISER_NONE) return EC_OK;
+    EC_TRY(ec_denoiser_find(asked, &found, err));
+    if (asked == EC_DENOISER_AUTO && found == EC_DENOISER_ATROUS)
+        ec_note(&job->listener->log, "Intel's Open Image Denoise is not installed ('pip install pyoidn'); --denoise filters by itself, which leaves more of the noise");
+    return EC_OK;
+}
+
 ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const double start = ec_now();
-    if (job->request->options.denoise) EC_TRY(ec_denoise_check(err));
+    EC_TRY(find_denoiser(job, err));
     if (job->share) {
         take_devices(job);
         EC_TRY(load_scene(job, err));
@@ -295,7 +307,7 @@ ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
 {
     if (!job->request->options.denoise || job->stats.is_clean) return EC_OK;
     job->stats.is_clean = true; /* once, whatever comes of it */
-    return ec_denoise(&job->film, &job->denoised, err);
+    return ec_denoise(&job->film, job->request->options.denoise, &job->devices[0], &job->denoised, err);
 }
 
 void ec_render_job_free(ec_render_job *job)

@@ -1,6 +1,7 @@
 /* Every option of `eclat render`: how it is read, what help says of it, and who takes it. Help, completion, man page, refusals, the commands
  * that borrow options, the library and frames' identities are walks over these rows; report/settings.c has what reports say of the values. */
 #include "accel/accel.h"
+#include "film/denoiser.h"
 #include "jobs/defaults.h"
 #include "jobs/numbers.h"
 #include "jobs/render_request.h"
@@ -45,11 +46,12 @@ const ec_option ec_render_rows[] = {
      .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
              "pixel), heavy, clamped, denoised, best, albedo, normal, depth, or one of a layer as in stderr.Y. Slices hold all of them",
      .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
-    {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = ec_set_denoise, .choices = ec_denoise_names, .group = EC_GROUP_PICTURE,
+    {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = ec_set_denoise, .choices = ec_denoiser_names, .group = EC_GROUP_PICTURE,
      .integrators = PATHS, .uses = EC_OPTION_WINDOW,
-     .help = "denoise the picture with Intel's Open Image Denoise, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "
+     .help = "denoise the picture, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "
              "the noisy one by which is nearer to the truth. The PNG shows the blend, best; the EXR keeps R, G and B as they are and has denoised, "
-             "best and denoised.stderr beside them. --error is then that of best. auto, like --denoise alone, does so; off does not",
+             "best and denoised.stderr beside them. --error is then that of best. oidn takes Intel's Open Image Denoise, atrous a filter of eclat's own on the OpenCL device, auto, like --denoise alone, the first where it is "
+             "installed and else the second",
      .otherwise = "off"},
     {.name = "env", .metavar = "FILE|R,G,B", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "film/denoiser.h"
 #include "jobs/defaults.h"
 #include "jobs/numbers.h"
 #include "jobs/render_request.h"
@@ -16,7 +17,6 @@
 #define SCREEN_MOST 1e4 /* half heights */
 
 const char *const ec_adaptive_names[] = {[EC_ADAPTIVE_AUTO] = "auto", [EC_ADAPTIVE_ON] = "on", [EC_ADAPTIVE_OFF] = "off", NULL};
-const char *const ec_denoise_names[] = {"auto", "off", NULL};
 const char *const ec_effects_names[] = {"needed", "all", NULL};
 
 SETTER(at)
@@ -65,9 +65,9 @@ SETTER(screen_window) { return ec_parse_window(option, value, SCREEN_MOST, REQUE
 /* --denoise without a value means auto. */
 SETTER(denoise)
 {
-    uint32_t index = 0;
-    if (value) EC_TRY(ec_parse_choice(option, value, ec_denoise_names, &index, err));
-    REQUEST->options.denoise = index == 0;
+    uint32_t index = EC_DENOISER_AUTO;
+    if (value) EC_TRY(ec_parse_choice(option, value, ec_denoiser_names, &index, err));
+    REQUEST->options.denoise = (ec_denoiser)index;
     return EC_OK;
 }
 

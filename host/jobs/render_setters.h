@@ -5,7 +5,6 @@
 #include "jobs/option.h"
 
 extern const char *const ec_adaptive_names[]; /* ec_adaptive */
-extern const char *const ec_denoise_names[];  /* auto, off */
 extern const char *const ec_effects_names[];  /* the scene's, all */
 
 ec_option_setter ec_set_adaptive, ec_set_at, ec_set_channels, ec_set_denoise, ec_set_effects, ec_set_fov, ec_set_frames, ec_set_grid_density, ec_set_max_depth,

@@ -6,7 +6,7 @@
 
 void ec_live_film_limit(ec_live_film *p, const ec_render_options *o, uint32_t more)
 {
-    const bool denoise = p->film.width ? p->limits.denoise : o->denoise; /* a film goes on as it was begun */
+    const ec_denoiser denoise = p->film.width ? p->limits.denoise : o->denoise; /* a film goes on as it was begun */
     p->limits = *o;
     p->limits.denoise = denoise;
     for (uint32_t i = 0; i < more; i++) {
@@ -43,13 +43,13 @@ void ec_live_film_stop(ec_live_film *p)
 }
 
 /* A failure is told once, and the picture stays as it is. */
-void ec_live_film_clean(ec_live_film *p, bool now)
+void ec_live_film_clean(ec_live_film *p, const ec_device_info *device, bool now)
 {
     ec_error err = {0};
     const double samples = ec_film_samples_of_all(&p->film);
     const bool is_due = p->clean_samples > 0 ? samples >= 2 * p->clean_samples : ec_schedule_has_pilot(p->film.replicates, p->film.batch_count);
     if (samples == p->clean_samples || *p->undenoised || !(is_due || now || p->stopped_by)) return;
-    if (ec_denoise(&p->film, &p->denoised, &err) != EC_OK) snprintf(p->undenoised, sizeof p->undenoised, "%.319s", err.text);
+    if (ec_denoise(&p->film, p->limits.denoise, device, &p->denoised, &err) != EC_OK) snprintf(p->undenoised, sizeof p->undenoised, "%.319s", err.text);
     p->clean_samples = samples;
     if (*p->undenoised || p->denoised.why_not) return;
     ec_clean_goal_take(&p->goal.clean, samples, &(ec_clean_look){p->denoised.best.error, p->denoised.best.high95});

@@ -24,7 +24,7 @@ ec_result ec_live_film_start(ec_live_film *film, const ec_render_options *option
 void ec_live_film_stop(ec_live_film *film); /* zero-initialised is fine */
 
 /* The clean picture of its samples, where that is due: anew whenever they have doubled, and in the end; now: in any case. */
-void ec_live_film_clean(ec_live_film *film, bool now);
+void ec_live_film_clean(ec_live_film *film, const ec_device_info *device, bool now);
 
 /* The limits as they are after `more` wishes for more; goes on if they are not met. */
 void ec_live_film_limit(ec_live_film *film, const ec_render_options *options, uint32_t more);

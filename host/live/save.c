@@ -91,7 +91,7 @@ static ec_result save(ec_renderer *r, const eclat_wish *wish, char *told, size_t
     EC_TRY(ec_render_check_files(&request, err));
     char *command = ec_live_command(live, r->setup[ECLAT_PICTURE]->scene, wish, &request.options, &request.outputs);
     if (!command) return ec_fail(err, "out of memory for a command line");
-    if (request.options.denoise) ec_live_film_clean(&r->picture, true);
+    if (request.options.denoise) ec_live_film_clean(&r->picture, &r->live->device, true);
     ec_result result = write_files(r, wish, &request, command, err);
     if (result == EC_OK) {
         r->saved++;

@@ -114,7 +114,9 @@ ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err)
     const ec_live_setup *setup = r->setup[ECLAT_PICTURE];
     bool complete;
     ec_render_options options = setup->options;
-    options.denoise = r->wish.is_denoised && options.integrator == EC_INTEGRATOR_PATH;
+    options.denoise = !r->wish.is_denoised || options.integrator != EC_INTEGRATOR_PATH ? EC_DENOISER_NONE
+                      : options.denoise                                                     ? options.denoise
+                                                                                            : EC_DENOISER_AUTO;
     if (!r->picture.film.width) EC_TRY(ec_live_film_start(&r->picture, &options, r->wish.more, r->wish.width, r->wish.height, err));
     if (r->aside) EC_TRY(look(r, ECLAT_PICTURE, r->wish.width, r->wish.height, err));
     r->aside = false;
@@ -139,7 +141,7 @@ ec_result ec_renderer_show(ec_renderer *r, ec_error *err)
     bool has_second;
     r->dirty = false;
     ec_film_resolve(film, r->mean, NULL);
-    if (r->picture.limits.denoise && !wish->is_moving) ec_live_film_clean(&r->picture, false);
+    if (r->picture.limits.denoise && !wish->is_moving) ec_live_film_clean(&r->picture, &r->live->device, false);
     EC_TRY(ec_live_show(r->live, wish, ECLAT_PICTURE, film->clean.best ? film->clean.best : r->mean, wish->width, wish->height, err));
     EC_TRY(ec_live_second_show(&r->second, r->live, wish, film, r->mean, &has_second, err));
     tell(r, 0, has_second);

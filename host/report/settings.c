@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include "film/denoiser.h"
 #include "report/format.h"
 #include "report/names.h"
 
@@ -13,7 +14,7 @@
 #define NONE(value) .field = {.kind = EC_FIELD_NONE, .text = value} /* no number, as an endless depth: text says it, and JSON has null */
 
 GET(adaptive, .field = EC_FLAG(NULL, o->adaptive))
-GET(denoise, .field = EC_FLAG(NULL, o->denoise), .is_unsaid = !o->denoise)
+GET(denoise, TEXT(ec_denoiser_names[o->denoise]), .is_unsaid = !o->denoise)
 GET(filter_width, REAL(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH), .is_unsaid = !(o->filter_width > 0))
 GET(fstop, REAL(o->fstop), .is_unsaid = !(o->fstop > 0))
 GET(focus, REAL(o->focus), .is_unsaid = !(o->fstop > 0))

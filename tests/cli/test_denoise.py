@@ -73,6 +73,19 @@ class Denoise(Case):
                 self.assertEqual(self.render("--spp", "32", *options, name="b.exr", env=env)[2], whole)
 
     @full
+    def test_atrous(self):
+        """The filter of eclat's own needs no library, and its arithmetic is exact: the same bits on one thread and by kernels of other widths."""
+        nothing = {"ECLAT_OIDN": self.path("nowhere")}
+        report, attributes, planes = self.render("--spp", "16", denoise=("--denoise=atrous",), env=nothing)
+        self.assertEqual(report["denoise"], "atrous")
+        self.assertEqual(attributes["eclat.denoised.library"], "a-trous filter")
+        self.assertLess(report["best"]["error"], report["error"])
+        for options, env in ((["--lanes", "1"], nothing), ([], {**nothing, "POCL_MAX_PTHREAD_COUNT": "1"})):
+            _, _, other = self.render("--spp", "16", *options, denoise=("--denoise=atrous",), env=env)
+            for layer in LAYERS:
+                self.assertEqual(planes[layer], other[layer])
+
+    @full
     def test_png_shows_the_best(self):
         """What is smooth makes a smaller file."""
         for name, denoise in (("clean", ["--denoise"]), ("noisy", [])):
@@ -97,20 +110,23 @@ class Denoise(Case):
 
     def test_refusals(self):
         for options, word in ((["--replicates", "3"], "give 4 or more"), (["--samples", "0:64", "--spp", "64"], "--denoise and --samples"),
-                              (["--denoise=loud"], "auto, off"), (["--integrator", "raster"], "--integrator path")):
+                              (["--denoise=loud"], "off, auto, oidn, atrous"), (["--integrator", "raster"], "--integrator path")):
             line = self.assert_one_error(eclat("render", *JOB, "--denoise", *options, "-o", self.path("a.exr"), env=self.oidn), 2)
             self.assertIn(word, line)
 
     def test_no_library(self):
-        """The message names both ways to get one; nothing is rendered before."""
+        """--denoise oidn names both ways to get one, and nothing is rendered before; --denoise alone says so and filters by itself."""
         nowhere = {"HOME": self.folder, "VIRTUAL_ENV": "", "ECLAT_OIDN": self.path("nowhere")}
         line = self.assert_one_error(eclat("render", *JOB, "--denoise", "-o", self.path("a.exr"), env=nowhere), 1)
         self.assertIn("ECLAT_OIDN: there is no", line)
         nowhere["ECLAT_OIDN"] = ""
         if not denoiser.is_of_system() and not os.path.exists("/usr/local/lib/python3/dist-packages/pyoidn"):
-            line = self.assert_one_error(eclat("render", *JOB, "--denoise", "-o", self.path("a.exr"), env=nowhere), 1)
+            line = self.assert_one_error(eclat("render", *JOB, "--denoise=oidn", "-o", self.path("a.exr"), env=nowhere), 1)
             self.assertIn("install the system's package", line)
             self.assertIn("pip install pyoidn", line)
+            run = self.assert_ok(eclat("render", *JOB, "--denoise", "--spp", "16", "-o", self.path("b.exr"), env=nowhere))
+            self.assertIn("note: Intel's Open Image Denoise is not installed ('pip install pyoidn')", run.stderr)
+            self.assertEqual(read_exr(self.path("b.exr"))[0]["eclat.denoised.library"], "a-trous filter")
         with open(self.path("libOpenImageDenoise.so.2"), "w", encoding="utf-8") as file:
             file.write("no library")
         line = self.assert_one_error(eclat("render", *JOB, "--denoise", "-o", self.path("a.exr"), env=dict(nowhere, ECLAT_OIDN=self.folder)), 1)
