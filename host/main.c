@@ -1,7 +1,11 @@
 /* argv in, exit code out; everything else is in cli/. */
+#define _GNU_SOURCE /* pthread_setattr_default_np */
 #include <fcntl.h>
+#include <pthread.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -28,6 +32,37 @@ static void keep_memory_small(void)
 #endif
 }
 
+static struct {
+    int argc, code;
+    char **argv;
+} command;
+
+static void *run(void *unused)
+{
+    (void)unused;
+    command.code = ec_cli_main(command.argc, command.argv);
+    return NULL;
+}
+
+#define STACK_LEAST (8ul << 20) /* what systems give by default; drivers' compilers overrun much less without a word */
+
+/* Where the limit is smaller, all threads get that much, and the command has one of its own. */
+static bool run_with_room(void)
+{
+    struct rlimit limit;
+    pthread_attr_t attributes;
+    pthread_t thread;
+    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= STACK_LEAST) return false;
+    if (pthread_attr_init(&attributes) != 0) return false;
+    bool is_done = pthread_attr_setstacksize(&attributes, STACK_LEAST) == 0;
+#ifdef __GLIBC__
+    is_done = is_done && pthread_setattr_default_np(&attributes) == 0;
+#endif
+    is_done = is_done && pthread_create(&thread, &attributes, run, NULL) == 0 && pthread_join(thread, NULL) == 0;
+    pthread_attr_destroy(&attributes);
+    return is_done;
+}
+
 int main(int argc, char **argv)
 {
     occupy_standard_descriptors();
@@ -35,5 +70,8 @@ int main(int argc, char **argv)
     ec_stop_watch_signals();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error to report, after the picture is safe */
     ec_stop_ignore_file_size();
-    return ec_cli_main(argc, argv);
+    command.argc = argc;
+    command.argv = argv;
+    if (!run_with_room()) run(NULL);
+    return command.code;
 }

@@ -5,11 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A text that is too long ends with a whole character. */
+/* A text that is too long ends with a whole character. Names of files are in it. */
 static void format_whole(char *text, size_t size, const char *format, va_list args)
 {
     vsnprintf(text, size, format, args);
     text[ec_text_cut(text, (int)size)] = 0;
+    ec_text_clean(text);
 }
 
 ec_result ec_fail(ec_error *err, const char *format, ...)

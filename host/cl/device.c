@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "cl/cl.h"
+#include "cl/drivers.h"
 
 #define EC_PLATFORM_NOT_FOUND_KHR (-1001) /* what the ICD loader says when no driver is installed */
 #define EC_INSTALL_HINT "install a driver, for instance for the CPU: apt-get install pocl-opencl-icd, or with Python and without root: pip install eclat[cpu]"
@@ -101,14 +102,14 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
     cl_uint found = 0;
     cl_int code = clGetPlatformIDs(64, platforms, &found);
     if (code == EC_PLATFORM_NOT_FOUND_KHR || (code == CL_SUCCESS && found == 0))
-        return ec_fail(err, "no OpenCL driver is installed; " EC_INSTALL_HINT);
+        return ec_drivers_explain(err) ? EC_FAILED : ec_fail(err, "no OpenCL driver is installed; " EC_INSTALL_HINT);
     EC_TRY(ec_cl_check(code, "clGetPlatformIDs", NULL, err));
     ec_result result = EC_OK;
     for (cl_uint i = 0; i < found && i < 64 && result == EC_OK; i++)
         result = add_platform(platforms[i], devices, count, err);
     if (result == EC_OK && *count == 0)
         result = ec_fail(err, "the installed OpenCL driver (%u platform%s) offers no device; PoCL needs a folder that it may write to, "
-                              "which POCL_CACHE_DIR=FOLDER names; else " EC_INSTALL_HINT, (unsigned)found, found == 1 ? "" : "s");
+                              "which POCL_CACHE_DIR=FOLDER names, and enough memory and open files (ulimit -a); else " EC_INSTALL_HINT, (unsigned)found, found == 1 ? "" : "s");
     if (result != EC_OK) {
         free(*devices);
         *devices = NULL;

@@ -32,6 +32,7 @@ static void *watch(void *signals)
 {
     double first = 0;
     for (int number; sigwait(signals, &number) == 0;) {
+        if (number == SIGQUIT || number == SIGUSR1) end(number);
         const bool again = atomic_load(&requested);
         if (atomic_load(&manner) == ENDS || (again && ec_seconds() - first > ONE_WISH)) end(number);
         if (again) continue;
@@ -49,7 +50,8 @@ static void *watch(void *signals)
 
 void ec_stop_watch_signals(void)
 {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    /* The last two end the process as the system has it; but for this thread, drivers' compilers would swallow them. */
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1};
     static sigset_t signals; /* the thread's as long as it lives */
     sigemptyset(&signals);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {

@@ -6,16 +6,20 @@
 #include "gltf/gltf.h"
 #include "gltf/image_decode.h"
 
-extern const bool ec_has_draco, ec_has_meshopt, ec_has_webp;
+extern const bool ec_has_avif, ec_has_basisu, ec_has_draco, ec_has_meshopt, ec_has_webp;
 
 /* KHR_draco_mesh_compression: fills the accessors of a primitive, which then need no view. `where` is for the message. */
 ec_result ec_draco_decode(ec_gltf *gltf, ec_gltf_primitive *primitive, const uint8_t *bytes, uint64_t length,
                           const char *where, ec_error *err);
 
-/* EXT_meshopt_compression: count elements of stride bytes; `out` has room for them. false: the data are broken. */
+/* EXT_meshopt_compression and KHR_meshopt_compression: count elements of stride bytes; `out` has room for them. false: the data are broken,
+ * or, as the hint then says, the library is too old for them. */
 bool ec_meshopt_decode(const ec_gltf_meshopt *packed, const uint8_t *bytes, uint8_t *out);
+const char *ec_meshopt_hint(const ec_gltf_meshopt *packed, const uint8_t *bytes);
 
-/* EXT_texture_webp. As ec_image_decode. */
+/* EXT_texture_avif, KHR_texture_basisu, EXT_texture_webp. As ec_image_decode. */
+bool ec_image_decode_ktx2(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err);
+bool ec_image_decode_avif(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err);
 bool ec_image_decode_webp(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err);
 
 #endif

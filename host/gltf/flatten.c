@@ -95,11 +95,11 @@ static ec_result flatten(ec_flattener *f, ec_gltf *g, const ec_placement_list *p
     return EC_OK;
 }
 
-static void warn_odd(const struct ec_odd_values *odd, const ec_gltf *g, const char *what, const ec_log *log)
+static void warn_odd(const struct ec_odd_values *odd, const ec_gltf *g, const char *what, const char *done, const ec_log *log)
 {
     if (!odd->count) return;
-    ec_warn(log, "%s: %llu %s, the first in %s; they are clamped", g->path, (unsigned long long)odd->count, what,
-            ec_label_of("meshes", (uint32_t)odd->mesh, g->meshes[odd->mesh].name).text);
+    ec_warn(log, "%s: %llu %s, the first in %s; %s", g->path, (unsigned long long)odd->count, what,
+            ec_label_of("meshes", (uint32_t)odd->mesh, g->meshes[odd->mesh].name).text, done);
 }
 
 ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
@@ -114,10 +114,11 @@ ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *
     ec_keep_free(&keeping);
     EC_TRY(result);
     if (s->dropped_nonfinite)
-        ec_warn(log, "%s: %u triangles with NaN or infinite positions are left out", g->path, s->dropped_nonfinite);
+        ec_warn(log, "%s: %u triangles are left out: their positions are NaN, infinite or beyond 1e18", g->path, s->dropped_nonfinite);
     if (s->dropped_degenerate)
         ec_note(log, "%s: %u triangles without area are left out", g->path, s->dropped_degenerate);
-    warn_odd(&f.odd_uv, g, "texture coordinates are NaN or beyond 1e18", log);
-    warn_odd(&f.odd_colors, g, "values of vertex colours are NaN or out of 0..1", log);
+    warn_odd(&f.odd_uv, g, "texture coordinates are NaN or beyond 1e18", "they are clamped", log);
+    warn_odd(&f.odd_colors, g, "values of vertex colours are NaN or out of 0..1", "they are clamped", log);
+    warn_odd(&f.odd_normals, g, "normals are NaN or infinite", "the triangles' own take their place", log);
     return EC_OK;
 }

@@ -48,6 +48,19 @@ void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tang
     }
 }
 
+/* Deformed copies are those of a mesh of the file. */
+static int32_t file_mesh(const ec_draw *d) { return d->mesh < (int32_t)d->g->stored_meshes ? d->mesh : d->g->nodes[d->at->node].mesh; }
+
+/* NaN and infinity. */
+static void count_odd_normal(struct ec_odd_values *odd, const ec_draw *d, uint32_t vertex)
+{
+    float in[3];
+    if (d->p->streams.of[EC_NORMAL] < 0) return;
+    ec_gltf_accessor_floats(&d->g->accessors[d->p->streams.of[EC_NORMAL]], vertex, 3, in);
+    if (isfinite(in[0]) && isfinite(in[1]) && isfinite(in[2])) return;
+    if (!odd->count++) odd->mesh = file_mesh(d);
+}
+
 /* Clamped to low..high; NaN becomes 0. */
 static void store_values(struct ec_odd_values *odd, const ec_draw *d, int32_t accessor, uint32_t vertex, uint32_t count,
                          float low, float high, float *out)
@@ -57,7 +70,7 @@ static void store_values(struct ec_odd_values *odd, const ec_draw *d, int32_t ac
     for (uint32_t i = 0; i < count; i++) {
         if (out[i] >= low && out[i] <= high) continue;
         out[i] = isnan(out[i]) ? 0 : out[i] < low ? low : high;
-        if (!odd->count++) odd->mesh = d->mesh < (int32_t)d->g->stored_meshes ? d->mesh : d->g->nodes[d->at->node].mesh;
+        if (!odd->count++) odd->mesh = file_mesh(d);
     }
 }
 
@@ -70,6 +83,7 @@ uint32_t ec_flattener_append_vertex(ec_flattener *f, const ec_draw *d, uint32_t 
     if (normal) memset(normal, 0, 3 * sizeof(float));
     if (tangent) memset(tangent, 0, 4 * sizeof(float));
     ec_draw_frame(d, vertex, normal, tangent);
+    if (normal) count_odd_normal(&f->odd_normals, d, vertex);
     for (int i = 0; i < 2; i++) {
         if (!s->uv[i]) continue;
         memset(s->uv[i] + 2 * n, 0, 2 * sizeof(float));

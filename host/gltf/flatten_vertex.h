@@ -24,7 +24,7 @@ typedef struct ec_flattener {
     struct ec_odd_values {
         uint64_t count;
         int32_t mesh; /* where the first is, in the file */
-    } odd_uv, odd_colors;
+    } odd_uv, odd_colors, odd_normals;
     uint32_t *remap; /* primitive's vertex - lowest -> scene's vertex */
     uint64_t remap_size;
     unsigned streams;    /* bits: those that any primitive has */

@@ -16,13 +16,14 @@ typedef struct ec_gltf_buffer {
     uint8_t *owned;      /* NULL where data lies in the .glb's own bytes */
 } ec_gltf_buffer;
 
-/* EXT_meshopt_compression: where a view's bytes come from. */
+/* EXT_meshopt_compression and KHR_meshopt_compression: where a view's bytes come from. */
 typedef enum ec_meshopt_mode { EC_MESHOPT_NONE, EC_MESHOPT_ATTRIBUTES, EC_MESHOPT_TRIANGLES, EC_MESHOPT_INDICES } ec_meshopt_mode;
 typedef enum ec_meshopt_filter {
     EC_MESHOPT_NO_FILTER,
     EC_MESHOPT_OCTAHEDRAL,
     EC_MESHOPT_QUATERNION,
-    EC_MESHOPT_EXPONENTIAL
+    EC_MESHOPT_EXPONENTIAL,
+    EC_MESHOPT_COLOR
 } ec_meshopt_filter;
 typedef struct ec_gltf_meshopt {
     ec_meshopt_mode mode; /* EC_MESHOPT_NONE: not compressed */
@@ -80,7 +81,7 @@ typedef struct ec_gltf_primitive {
     ec_gltf_draco *draco;
     uint32_t draco_count;
     /* Set by ec_gltf_primitive_prepare and, the material, by ec_gltf_materials_assign: */
-    bool prepared, drawn;              /* drawn: makes triangles */
+    bool prepared, drawn, left_over;   /* drawn: makes triangles; left_over: corners that make none */
     uint64_t triangle_count;
     uint32_t lowest, highest;          /* vertices it refers to */
     uint32_t scene_material;
@@ -167,6 +168,8 @@ typedef struct ec_gltf {
     int32_t *roots;         /* nodes of the scene to show */
     uint32_t root_count;
     ec_instancing instancing; /* the caller's wish */
+    double point_size;        /* likewise: see thicken.h */
+    bool follow_links;        /* likewise: symbolic links may lead out of the folder */
     void *tree;             /* of a file that may be posed again: gltf_shim.cpp's; NULL: it may not */
     uint32_t stored_accessors, stored_meshes; /* the file's own; behind them lie deformed copies of a pose */
     ec_image *decoded;      /* by image, then by texture (roughness made of glossiness): for all scenes of an animation; NULL: none is kept */
@@ -213,8 +216,7 @@ void ec_gltf_compose(const double translation[3], const double rotation[4], cons
 /* gltf_uri.c */
 ec_result ec_gltf_uri_check(const char *where, const char *uri, ec_error *err); /* leaves the folder? */
 char *ec_gltf_uri_file(const char *uri); /* malloc'ed, relative to the folder; NULL: none that would be read */
-ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *uri, uint8_t **bytes, uint64_t *length,
-                           ec_error *err);
+ec_result ec_gltf_uri_load(const ec_gltf *gltf, const char *where, const char *uri, uint8_t **bytes, uint64_t *length, ec_error *err);
 ec_result ec_gltf_file_load(const char *file, uint8_t **bytes, uint64_t *length, ec_error *err);
 
 /* gltf_accessor.c: all reading of buffers goes through here. Open before read; `what` is for the message, e.g.
@@ -225,7 +227,7 @@ void ec_gltf_accessor_floats(const ec_gltf_accessor *accessor, uint64_t element,
 uint32_t ec_gltf_accessor_index(const ec_gltf_accessor *accessor, uint64_t element);
 
 /* gltf_primitive.c: checks a primitive's accessors and indices once; afterwards its triangles can be read freely. A
- * primitive without triangles is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
+ * primitive without triangles, as points and lines are, is left with drawn = false. `where` is e.g. "meshes[2] \"box\" primitives[0]". */
 ec_result ec_gltf_primitive_prepare(ec_gltf *gltf, ec_gltf_primitive *primitive, const char *where, ec_error *err);
 /* Likewise for what deforms a prepared primitive: one of its morph targets, and its joints and weights. */
 ec_result ec_gltf_target_prepare(ec_gltf *gltf, const ec_gltf_primitive *primitive, uint32_t target, const char *where,

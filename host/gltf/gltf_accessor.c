@@ -38,9 +38,8 @@ static bool is_plausible(const ec_gltf_meshopt *p, uint64_t room)
 {
     bool attributes = p->mode == EC_MESHOPT_ATTRIBUTES;
     bool stride = attributes ? p->stride >= 4 && p->stride <= 256 && p->stride % 4 == 0 : p->stride == 2 || p->stride == 4;
-    bool filter = !p->filter || (attributes && (p->filter == EC_MESHOPT_OCTAHEDRAL   ? p->stride == 4 || p->stride == 8
-                                                : p->filter == EC_MESHOPT_QUATERNION ? p->stride == 8
-                                                                                     : true));
+    bool filter = !p->filter || (attributes && (p->filter == EC_MESHOPT_EXPONENTIAL || p->stride == 8 ||
+                                                (p->stride == 4 && p->filter != EC_MESHOPT_QUATERNION)));
     return stride && filter && p->count <= INT32_MAX && p->count * p->stride <= room && p->count * p->stride / 4096 <= p->length &&
            (p->mode != EC_MESHOPT_TRIANGLES || p->count % 3 == 0);
 }
@@ -52,16 +51,16 @@ static ec_result unpack(ec_gltf *g, int32_t view, ec_error *err)
     const ec_gltf_buffer *b = &g->buffers[p->buffer];
     if (v->owned) return EC_OK;
     if (!b->data || p->offset > b->length || p->length > b->length - p->offset)
-        return ec_fail(err, "%s: bufferViews[%d] EXT_meshopt_compression reaches beyond buffers[%d]; the file is damaged or truncated", g->path,
+        return ec_fail(err, "%s: bufferViews[%d], compressed by meshopt, reaches beyond buffers[%d]; the file is damaged or truncated", g->path,
                        view, p->buffer);
     if (!is_plausible(p, v->length))
-        return ec_fail(err, "%s: bufferViews[%d] EXT_meshopt_compression: %llu elements of %u bytes do not go with its mode, filter or length",
+        return ec_fail(err, "%s: bufferViews[%d], compressed by meshopt: %llu elements of %u bytes do not go with its mode, filter or length",
                        g->path, view, (unsigned long long)p->count, p->stride);
     v->length = p->count * p->stride;
     v->owned = calloc(v->length + 256, 1); /* its filters work on blocks */
     if (!v->owned) return ec_fail(err, "%s: out of memory for bufferViews[%d]", g->path, view);
     if (ec_meshopt_decode(p, b->data + p->offset, v->owned)) return EC_OK;
-    return ec_fail(err, "%s: bufferViews[%d] EXT_meshopt_compression: its data are broken", g->path, view);
+    return ec_fail(err, "%s: bufferViews[%d], compressed by meshopt: its data are broken%s", g->path, view, ec_meshopt_hint(p, b->data + p->offset));
 }
 
 /* Finds `count` elements of `size` bytes in a view; *data is the first. */

@@ -187,9 +187,37 @@ class checker {
     }
 };
 
+/* All texture uses below a material: each is an object with an index, wherever it is. */
+static bool uses_texture(const json &value, size_t texture)
+{
+    if (!value.is_structured()) return false;
+    for (auto &item : value.items()) {
+        if (value.is_object() && item.key() == "index" && item.value() == texture) return true;
+        if (item.key() != "extras" && uses_texture(item.value(), texture)) return true;
+    }
+    return false;
+}
+
+/* An image that is not there is no error where no material asks for it: the texture is as one without an image. */
+static void check_sources(json &root, const char *path, const ec_log *log)
+{
+    const size_t images = list_of(root, "images").size(), textures = list_of(root, "textures").size();
+    for (size_t i = 0; i < textures; i++) {
+        json &texture = root["textures"][i];
+        const size_t source = texture.value("source", size_t(0));
+        if (!texture.contains("source") || source < images) continue;
+        const std::string what = "textures[" + std::to_string(i) + "].source is " + std::to_string(source) + " but the file has " +
+                                 std::to_string(images) + " images";
+        if (uses_texture(list_of(root, "materials"), i)) throw bad_file(what);
+        ec_warn(log, "%s: %s; no material uses it", path, what.c_str());
+        texture.erase("source");
+    }
+}
+
 void check_document(json &root, const char *path, const ec_log *log)
 {
     checker(root, path, log).check_object(root, document_schema, "");
+    check_sources(root, path, log);
     const json &cameras = list_of(root, "cameras"), &views = list_of(root, "bufferViews");
     for (size_t i = 0; i < cameras.size(); i++) {
         std::string type = cameras[i]["type"];

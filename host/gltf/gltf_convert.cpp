@@ -39,6 +39,8 @@ void convert_image_light(const json &root, ec_gltf *gltf, const ec_log *log)
 
 static const float widest_yfov = 3.0f; /* glTF only advises to stay below pi, where a picture has no plane */
 
+static const float widest_aspect = 128; /* a picture of the default height is then 65536 pixels wide */
+
 /* The schema knows that the member named as the type is there. */
 static void set_lens(const json &in, ec_camera &out)
 {
@@ -65,6 +67,12 @@ void convert_cameras(const json &list, ec_gltf *gltf, const ec_log *log)
         }
         if (out.type == EC_CAMERA_PERSPECTIVE && !(out.aspect >= 0))
             throw bad_file(where + ": aspectRatio must be positive, not " + std::to_string(out.aspect));
+        const json &lens = in[in["type"].get_ref<const std::string &>()];
+        const bool has_aspect = out.type == EC_CAMERA_PERSPECTIVE && lens.contains("aspectRatio");
+        if (has_aspect && !(out.aspect >= 1 / widest_aspect && out.aspect <= widest_aspect)) {
+            ec_warn(log, "%s: %s: aspectRatio %g is no shape of a picture; it is ignored", gltf->path, where.c_str(), double(out.aspect));
+            out.aspect = 0;
+        }
         if (out.type == EC_CAMERA_ORTHOGRAPHIC && !(out.xmag > 0 && out.ymag > 0))
             throw bad_file(where + ": xmag and ymag must not be zero");
     });

@@ -23,7 +23,7 @@ static void add_image(ec_gltf *g, const ec_gltf_image *image)
     EC_FREED uint8_t *bytes = NULL;
     uint64_t length = 0;
     if (!image->uri || !strncmp(image->uri, "data:", 5)) return; /* in the document */
-    ec_gltf_uri_load(g->folder, "image", image->uri, &bytes, &length, NULL);
+    ec_gltf_uri_load(g, "image", image->uri, &bytes, &length, NULL);
     ec_gltf_digest_add(g, bytes, length);
 }
 

@@ -30,6 +30,7 @@ static ec_gltf_meshopt convert_meshopt(const json &in)
     out.filter = filter == "OCTAHEDRAL"    ? EC_MESHOPT_OCTAHEDRAL
                  : filter == "QUATERNION"  ? EC_MESHOPT_QUATERNION
                  : filter == "EXPONENTIAL" ? EC_MESHOPT_EXPONENTIAL
+                 : filter == "COLOR"       ? EC_MESHOPT_COLOR
                                            : EC_MESHOPT_NO_FILTER;
     out.buffer = in["buffer"];
     out.offset = in.value("byteOffset", uint64_t(0));
@@ -46,7 +47,8 @@ void convert_views(const json &list, ec_gltf *gltf)
         out.offset = in.value("byteOffset", uint64_t(0));
         out.length = in["byteLength"];
         out.stride = in.value("byteStride", 0u);
-        if (const json *packed = find_extension(in, "EXT_meshopt_compression")) out.packed = convert_meshopt(*packed);
+        for (const char *name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+            if (const json *packed = find_extension(in, name)) out.packed = convert_meshopt(*packed);
     });
 }
 
@@ -172,7 +174,28 @@ static void compose_local(double m[16], const json &node)
     ec_gltf_compose(t, q, s, m);
 }
 
-void convert_nodes(const json &list, ec_gltf *gltf)
+/* MSFT_lod: a node that lists coarser ones is itself the finest. They may stand in the scene all the same. */
+static void hide_coarser(const json &list, ec_gltf *gltf)
+{
+    for (const json &in : list)
+        if (const json *lod = find_extension(in, "MSFT_lod"))
+            for (const json &id : list_of(*lod, "ids")) gltf->nodes[id.get<size_t>()].hidden = true;
+}
+
+/* The last row of a node's matrix is 0 0 0 1. */
+static void warn_projective(const json &list, ec_gltf *gltf, const ec_log *log)
+{
+    for (size_t i = 0; i < list.size(); i++) {
+        if (!list[i].contains("matrix")) continue;
+        const double *m = gltf->nodes[i].local;
+        if (m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1) continue;
+        ec_warn(log, "%s: %s has a projective matrix, which glTF does not allow; its last row is taken as 0 0 0 1", gltf->path,
+                ec_label_of("nodes", uint32_t(i), gltf->nodes[i].name).text);
+        return;
+    }
+}
+
+void convert_nodes(const json &list, ec_gltf *gltf, const ec_log *log)
 {
     convert_list(list, gltf->nodes, gltf->node_count, [](const json &in, ec_gltf_node &out) {
         out.name = copy_string(in.value("name", ""));
@@ -194,6 +217,8 @@ void convert_nodes(const json &list, ec_gltf *gltf)
             compose_local(out.local, in);
         copy_list(list_of(in, "children"), out.children, out.child_count);
     });
+    hide_coarser(list, gltf);
+    warn_projective(list, gltf, log);
 }
 
 /* The nodes of the scene to show; where the file has no scenes, all that are nobody's child. */

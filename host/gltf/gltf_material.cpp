@@ -156,8 +156,10 @@ void convert_textures(const json &root, ec_gltf *gltf)
 {
     const json &samplers = list_of(root, "samplers");
     convert_list(list_of(root, "textures"), gltf->textures, gltf->texture_count, [&](const json &in, ec_gltf_texture &out) {
-        const json *webp = ec_has_webp ? find_extension(in, "EXT_texture_webp") : nullptr;
-        out = {(webp ? *webp : in).value("source", -1), EC_WRAP_REPEAT, EC_WRAP_REPEAT, false, false, 0};
+        const json *other = ec_has_basisu ? find_extension(in, "KHR_texture_basisu") : nullptr;
+        if (!other && ec_has_avif) other = find_extension(in, "EXT_texture_avif");
+        if (!other && ec_has_webp) other = find_extension(in, "EXT_texture_webp");
+        out = {(other ? *other : in).value("source", -1), EC_WRAP_REPEAT, EC_WRAP_REPEAT, false, false, 0};
         if (!in.contains("sampler")) return;
         const json &sampler = samplers[in["sampler"].get<size_t>()];
         out.wrap_s = convert_wrap(sampler.value("wrapS", TINYGLTF_TEXTURE_WRAP_REPEAT));

@@ -115,7 +115,7 @@ ec_result ec_gltf_primitive_prepare(ec_gltf *g, ec_gltf_primitive *p, const char
 {
     if (p->prepared) return EC_OK;
     p->prepared = true;
-    if (p->mode < EC_GLTF_TRIANGLES || p->streams.of[EC_POSITION] < 0) return EC_OK;
+    if (p->streams.of[EC_POSITION] < 0) return EC_OK;
     if (p->draco_view >= 0 && ec_has_draco) EC_TRY(unpack(g, p, where, err));
     uint64_t vertices = g->accessors[p->streams.of[EC_POSITION]].count;
     if (vertices > INT32_MAX)
@@ -125,8 +125,10 @@ ec_result ec_gltf_primitive_prepare(ec_gltf *g, ec_gltf_primitive *p, const char
     if (p->indices >= 0) EC_TRY(open_indices(g, p, where, err));
     uint64_t corners = p->indices >= 0 ? g->accessors[p->indices].count : vertices;
     EC_TRY(scan_indices(g, p, corners, where, err));
+    if (p->mode < EC_GLTF_TRIANGLES) return EC_OK; /* thicken.c makes triangles of it */
     if (p->mode == EC_GLTF_TRIANGLES) p->triangle_count = corners / 3;
     else p->triangle_count = corners < 3 ? 0 : corners - 2;
+    p->left_over = p->mode == EC_GLTF_TRIANGLES ? corners % 3 != 0 : corners < 3;
     p->drawn = p->triangle_count > 0;
     return EC_OK;
 }

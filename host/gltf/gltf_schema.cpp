@@ -44,9 +44,9 @@ static const schema accessor = {
 static const schema meshopt = {
     index("buffer", "buffers", required), offset, count("byteLength", 1, required), count("byteStride", 1, required, 256),
     count("count", 1, required), choice("mode", "ATTRIBUTES TRIANGLES INDICES", required),
-    choice("filter", "NONE OCTAHEDRAL QUATERNION EXPONENTIAL")};
+    choice("filter", "NONE OCTAHEDRAL QUATERNION EXPONENTIAL COLOR")};
 static const schema view = {
-    object("extensions", {object("EXT_meshopt_compression", meshopt)}), index("buffer", "buffers", required), offset,
+    object("extensions", {object("EXT_meshopt_compression", meshopt), object("KHR_meshopt_compression", meshopt)}), index("buffer", "buffers", required), offset,
     count("byteLength", 1, required), count("byteStride", 4, false, 252)};
 
 static const schema mapping = {indices("variants", "variants", required), index("material", "materials", required)};
@@ -63,7 +63,7 @@ static const schema node = {
     numbers("matrix", 16), numbers("weights", any_length), numbers("translation", 3), numbers("rotation", 4),
     numbers("scale", 3), name,
     object("extensions", {object("KHR_lights_punctual", {index("light", "lights", required)}),
-                          object("KHR_node_visibility", {plain("visible", kind::flag)}),
+                          object("KHR_node_visibility", {plain("visible", kind::flag)}), object("MSFT_lod", {indices("ids", "nodes", required)}),
                           object("EXT_mesh_gpu_instancing", {object("attributes", attributes, required)})})};
 static const schema scene = {
     indices("nodes", "nodes"), name,
@@ -85,8 +85,10 @@ static const schema camera = {
 
 static const schema image = {plain("uri", kind::text), index("bufferView", "bufferViews"), name};
 static const schema texture = {
-    index("source", "images"), index("sampler", "samplers"),
-    object("extensions", {object("EXT_texture_webp", {index("source", "images", required)})})};
+    count("source", 0, false, int_count), index("sampler", "samplers"), /* of one that nothing uses no image need be there: check_sources */
+    object("extensions", {object("EXT_texture_avif", {index("source", "images", required)}),
+                          object("EXT_texture_webp", {index("source", "images", required)}),
+                          object("KHR_texture_basisu", {index("source", "images", required)})})};
 static const schema sampler = {
     choice("magFilter", "9728 9729"), choice("minFilter", "9728 9729 9984 9985 9986 9987"),
     choice("wrapS", "10497 33071 33648"), choice("wrapT", "10497 33071 33648")};

@@ -2,60 +2,11 @@
  * trusts what files say, brings the format's constants. */
 #include "gltf/gltf_shim.h"
 
-#include <algorithm>
-#include <cstring>
 #include <memory>
-#include <set>
-
-extern "C" {
-#include "gltf/codecs.h"
-#include "scene/material_fields.h"
-}
 
 namespace eclat {
 
 using nlohmann::json;
-
-/* Beside those in which a field of materials is. */
-static const char *const supported_extensions[] = {
-    "EXT_lights_image_based",
-    "EXT_mesh_gpu_instancing",
-    "KHR_animation_pointer",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_mesh_quantization",
-    "KHR_node_visibility",
-    "KHR_texture_transform"};
-
-/* Extensions that need a library which this build may lack. */
-static const struct {
-    const char *name, *package;
-    const bool &built;
-} optional_extensions[] = {{"EXT_meshopt_compression", "libmeshoptimizer-dev", ec_has_meshopt},
-                           {"EXT_texture_webp", "libwebp-dev", ec_has_webp},
-                           {"KHR_draco_mesh_compression", "libdraco-dev", ec_has_draco}};
-
-static void refuse_unbuilt(const std::string &name)
-{
-    for (auto &optional : optional_extensions)
-        if (name == optional.name && !optional.built)
-            throw bad_file("the file requires " + name + ", which this eclat was built without; install " + optional.package +
-                           " and build again, or export it without");
-}
-
-static bool is_supported(const std::string &name)
-{
-    const std::string place = "extensions/" + name + "/";
-    for (int i = 0; i < ec_material_field_count; i++)
-        if (std::strncmp(ec_material_fields[i].path, place.c_str(), place.size()) == 0) return true;
-    for (auto &optional : optional_extensions)
-        if (name == optional.name) return optional.built;
-    return std::find(std::begin(supported_extensions), std::end(supported_extensions), name) !=
-           std::end(supported_extensions);
-}
 
 /* Before the document's shape is checked: in another version it is another one. */
 static void check_version(const json &root)
@@ -69,51 +20,6 @@ static void check_version(const json &root)
         throw bad_file("glTF version " + shortened(version, 20) + " is not supported; convert the file to glTF 2.0");
     if (!minimum.empty() && minimum != "2.0")
         throw bad_file("the file needs glTF " + shortened(minimum, 20) + "; eclat reads glTF 2.0");
-}
-
-static std::set<std::string> string_set(const json &root, const char *key)
-{
-    std::set<std::string> names;
-    for (const json &name : root.value(key, json::array()))
-        if (name.is_string()) names.insert(name.get<std::string>());
-    return names;
-}
-
-static std::string comma_list(const std::set<std::string> &names)
-{
-    std::string list;
-    for (const std::string &name : names) list += (list.empty() ? "" : ", ") + shortened(name, 100);
-    return printable(list);
-}
-
-/* The list has its place before it has its strings: should one fail, what there is can be freed. */
-static void copy_strings(const std::set<std::string> &names, ec_scene_names &list)
-{
-    list.names = make_array<char *>(names.size());
-    for (const std::string &name : names) {
-        list.names[list.count] = copy_string(name.empty() ? "?" : name);
-        ++list.count;
-    }
-}
-
-static void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
-{
-    std::set<std::string> used = string_set(root, "extensionsUsed"), needed = string_set(root, "extensionsRequired");
-    std::set<std::string> ignored, missing;
-    for (const std::string &name : used)
-        if (!is_supported(name)) ignored.insert(name);
-    for (const std::string &name : needed)
-        if (!is_supported(name)) {
-            refuse_unbuilt(name);
-            missing.insert(name);
-        }
-    if (!missing.empty())
-        throw bad_file("the file requires " + comma_list(missing) + ", which eclat does not support; export it without");
-    if (!ignored.empty())
-        ec_warn(log, "%s: not supported, what it describes is left out: %s", gltf->path, comma_list(ignored).c_str());
-    gltf->quantized = used.count("KHR_mesh_quantization") || needed.count("KHR_mesh_quantization");
-    copy_strings(used, gltf->contents.extensions);
-    copy_strings(ignored, gltf->contents.ignored);
 }
 
 static void check_uris(const json &list, const char *key)
@@ -135,7 +41,7 @@ static void load_buffer(ec_gltf_buffer &out, json &in, const std::string &where,
     if (in.contains("uri")) {
         ec_error err;
         const std::string &uri = in["uri"].get_ref<const std::string &>();
-        if (ec_gltf_uri_load(gltf->folder, where.c_str(), uri.c_str(), &out.owned, &available, &err) != EC_OK)
+        if (ec_gltf_uri_load(gltf, where.c_str(), uri.c_str(), &out.owned, &available, &err) != EC_OK)
             throw bad_file(err.text);
         out.data = out.owned;
         in.erase("uri"); /* embedded buffers are large */
@@ -200,7 +106,7 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice 
     if (!animations.empty()) check_document(root, gltf->path, log);
     convert_meshes(list_of(root, "meshes"), gltf);
     convert_skins(list_of(root, "skins"), gltf);
-    convert_nodes(list_of(root, "nodes"), gltf);
+    convert_nodes(list_of(root, "nodes"), gltf, log);
     set_roots(root, gltf);
     convert_image_light(root, gltf, log);
     convert_looks(root, gltf, log);
@@ -218,7 +124,7 @@ static void pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const
     apply_moment(tree.root, tree.animations, choice, gltf, log);
     check_document(tree.root, gltf->path, log);
     convert_weights(list_of(tree.root, "meshes"), gltf);
-    convert_nodes(list_of(tree.root, "nodes"), gltf);
+    convert_nodes(list_of(tree.root, "nodes"), gltf, log);
     if (!whole && !tree.more) return;
     ec_gltf_free_looks(gltf);
     convert_looks(tree.root, gltf, log);
@@ -248,6 +154,8 @@ extern "C" ec_result ec_gltf_read(const char *path, const ec_scene_choice *choic
     std::unique_ptr<ec_gltf, void (*)(ec_gltf *)> gltf(static_cast<ec_gltf *>(calloc(1, sizeof(ec_gltf))), ec_gltf_free);
     if (!gltf) return ec_fail(err, "%s: out of memory", path);
     gltf->path = path;
+    gltf->follow_links = choice->follow_links;
+    gltf->point_size = choice->point_size > 0 ? choice->point_size : 1;
     EC_TRY(guarded(path, err, [&] {
         std::string name = path;
         size_t slash = name.find_last_of('/');

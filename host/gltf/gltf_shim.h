@@ -27,6 +27,9 @@ struct container {
 };
 container parse_container(const uint8_t *bytes, uint64_t length);
 
+/* gltf_extensions.cpp: what a file requires and eclat lacks is an error; what it uses, a warning. */
+void check_extensions(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
+
 /* gltf_check.cpp: types, required members, ranges and index ranges of everything eclat reads. Repairs what glTF only
  * warns about (an unknown filter, say). */
 void check_document(nlohmann::json &root, const char *path, const ec_log *log);
@@ -40,7 +43,7 @@ void convert_accessors(const nlohmann::json &list, ec_gltf *gltf);
 void convert_meshes(const nlohmann::json &list, ec_gltf *gltf);
 void convert_weights(const nlohmann::json &list, ec_gltf *gltf); /* of meshes that are there, again */
 void convert_skins(const nlohmann::json &list, ec_gltf *gltf);
-void convert_nodes(const nlohmann::json &list, ec_gltf *gltf);
+void convert_nodes(const nlohmann::json &list, ec_gltf *gltf, const ec_log *log);
 void set_roots(const nlohmann::json &root, ec_gltf *gltf);
 
 /* gltf_choice.cpp: what was chosen among scenes and variants is written into the tree, so that what follows sees a file with
@@ -100,7 +103,8 @@ inline std::string printable(std::string text)
 {
     for (char &c : text)
         if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
-    return text;
+    ec_text_clean(&text[0]);
+    return text.c_str();
 }
 /* At most so many bytes of a text. */
 inline std::string shortened(const std::string &text, int most)

@@ -1,4 +1,4 @@
-/* Where a glTF file's bytes come from: data URIs and files beside it. A URI may not leave the scene's folder: a scene
+/* Where a glTF file's bytes come from: data URIs and files beside it. A URI may not leave the scene's folder, nor may a symbolic link there: a scene
  * is data from strangers and must not be able to read (or probe for) anything else on the machine. */
 #include "base/freed.h"
 #include "base/text.h"
@@ -189,9 +189,20 @@ ec_result ec_gltf_file_load(const char *name, uint8_t **bytes, uint64_t *length,
     return result;
 }
 
-ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *uri, uint8_t **bytes, uint64_t *length,
-                           ec_error *err)
+/* Does the path stay below the folder once links are followed? One that cannot be told is left to open, which says why. */
+static ec_result check_links(const char *folder, const char *full, const char *where, ec_error *err)
 {
+    EC_FREED char *inside = realpath(*folder ? folder : ".", NULL), *real = realpath(full, NULL);
+    const size_t size = inside ? strlen(inside) : 0;
+    const bool is_root = size == 1; /* "/" */
+    if (!inside || !real || is_root || (!strncmp(real, inside, size) && (!real[size] || real[size] == '/'))) return EC_OK;
+    return ec_fail(err, "%s: refusing '%s': it is a symbolic link out of the scene's folder, to '%s'; copy the file there, or allow it with --follow-links",
+                   where, full, real);
+}
+
+ec_result ec_gltf_uri_load(const ec_gltf *g, const char *where, const char *uri, uint8_t **bytes, uint64_t *length, ec_error *err)
+{
+    const char *folder = g->folder;
     if (is_data_uri(uri)) return load_data_uri(where, uri, bytes, length, err);
     EC_FREED char *name = NULL;
     EC_TRY(decode_file_uri(where, uri, &name, err));
@@ -200,6 +211,7 @@ ec_result ec_gltf_uri_load(const char *folder, const char *where, const char *ur
     if (!full) return out_of_memory(where, size, err);
     strcpy(full, folder);
     strcat(full, name);
+    if (!g->follow_links) EC_TRY(check_links(folder, full, where, err));
     ec_error inner;
     if (ec_gltf_file_load(full, bytes, length, &inner) == EC_OK) return EC_OK;
     ec_fail(err, "%s: %.1200s", where, inner.text);

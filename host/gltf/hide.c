@@ -43,6 +43,7 @@ ec_result ec_gltf_hide(ec_gltf *g, const ec_placement_list *placements, ec_scene
         for (uint32_t m = 0; m < s->material_count; m++)
             if (hidden[m]) strip(&s->materials[m]);
         ec_note(log, "%s: %llu triangles that alpha hides are left out", g->path, (unsigned long long)h.triangles);
-    }
+    } else if (!h.drawn && h.triangles)
+        ec_warn(log, "%s: the picture will show no surface: the alpha of all materials is 0, or under their cut-off", g->path);
     return EC_OK;
 }

@@ -14,7 +14,8 @@ bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_
         return ec_image_decode_jpeg(bytes, (size_t)length, image, err);
     if (length >= 12 && !memcmp(bytes, "RIFF", 4) && !memcmp(bytes + 8, "WEBP", 4))
         return ec_image_decode_webp(bytes, (size_t)length, image, err);
+    if (length >= 12 && !memcmp(bytes + 4, "ftyp", 4)) return ec_image_decode_avif(bytes, (size_t)length, image, err);
     if (length >= sizeof ktx2 && !memcmp(bytes, ktx2, sizeof ktx2))
-        return ec_decode_fail(err, "it is KTX2, which is not read; convert it to PNG, JPEG or WebP");
-    return ec_decode_fail(err, "it is none of PNG, JPEG and WebP");
+        return ec_image_decode_ktx2(bytes, (size_t)length, image, err);
+    return ec_decode_fail(err, "it is none of PNG, JPEG, WebP, AVIF and KTX2");
 }

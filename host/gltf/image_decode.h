@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 
 typedef struct ec_decode_error {
-    char text[160];     /* why, without control characters */
+    char text[160];     /* why, without control characters; of a picture that was decoded: how it is damaged, or "" */
     bool out_of_memory; /* the picture may be whole */
 } ec_decode_error;
 

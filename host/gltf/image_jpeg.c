@@ -35,9 +35,13 @@ static void on_error(j_common_ptr common)
     fail(common->client_data, text);
 }
 
+/* Damaged places are shown as they come; the first is told. */
 static void on_message(j_common_ptr common, int level)
 {
-    if (level < 0) common->err->num_warnings++; /* damaged places are shown as they come */
+    char text[JMSG_LENGTH_MAX];
+    if (level >= 0 || common->err->num_warnings++) return;
+    common->err->format_message(common, text);
+    ec_decode_fail(((reader *)common->client_data)->err, text);
 }
 
 static void on_progress(j_common_ptr common)

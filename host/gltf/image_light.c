@@ -34,7 +34,7 @@ static float *to_radiance(const ec_image *image, double intensity)
 typedef struct face {
     uint32_t width, height;
     bool failed;
-    ec_error why;  /* of a failure */
+    ec_error why;  /* of a failure; else how it is damaged, or "" */
     float *rgb;    /* NULL: its size is not usable, or there is no memory for it */
 } face;
 
@@ -68,7 +68,7 @@ static ec_result check_face(const ec_gltf *g, int f, const face *faces, ec_error
 }
 
 /* By all threads; of several faces that cannot be had the first is told. */
-static ec_result load_faces(const ec_gltf *g, ec_cube *cube, ec_error *err)
+static ec_result load_faces(const ec_gltf *g, ec_cube *cube, const ec_log *log, ec_error *err)
 {
     face faces[6] = {{0}};
     ec_result result = EC_OK;
@@ -76,6 +76,7 @@ static ec_result load_faces(const ec_gltf *g, ec_cube *cube, ec_error *err)
     for (int f = 0; f < 6; f++) load_face(g, f, &faces[f]);
     for (int f = 0; f < 6; f++) {
         if (result == EC_OK) result = check_face(g, f, faces, err);
+        if (!faces[f].failed && faces[f].why.text[0]) ec_warn(log, "%s: %.1200s; what could be decoded is used", g->path, faces[f].why.text);
         cube->face[f] = faces[f].rgb;
     }
     cube->size = faces[0].width;
@@ -88,7 +89,7 @@ ec_result ec_gltf_image_light_load(const ec_gltf *g, ec_scene *s, const ec_log *
     ec_cube cube = {0};
     ec_result result = EC_FAILED;
     if (!light->used || light->intensity == 0) return EC_OK;
-    EC_TRY_CLEANUP(load_faces(g, &cube, err));
+    EC_TRY_CLEANUP(load_faces(g, &cube, log, err));
     if (light->size != cube.size)
         ec_warn(log, "%s: image-based light %d says that its faces have %u pixels a side; they have %u, and are taken as they are",
                 g->path, light->index, light->size, cube.size);

@@ -91,5 +91,7 @@ bool ec_image_decode_png(const uint8_t *bytes, size_t length, ec_image *image, e
     free(r->pixels);
     free(r->rows);
     free(r);
-    return image->rgba8 || image->rgba16;
+    if (!image->rgba8 && !image->rgba16) return false;
+    *err = (ec_decode_error){0};
+    return true;
 }

@@ -1,7 +1,6 @@
 /* The scene's materials: the file's, glTF's default where something needs it, and variants for meshes that lack a
  * texture coordinate set. */
 #include "base/freed.h"
-#include "base/text.h"
 #include "gltf/flatten.h"
 #include "scene/material_fields.h"
 
@@ -50,9 +49,8 @@ static ec_result assign(const ec_gltf *g, ec_scene *s, ec_gltf_primitive *p, uin
     if (!slot[missing]) {
         EC_TRY(append_variant(s, original, missing, err));
         slot[missing] = s->material_count;
-        const char *name = s->materials[original].name;
-        ec_warn(log, "%s: materials[%d] \"%.*s\" has textures on TEXCOORD_%d%s, which meshes[%u] lacks; they are left out there",
-                g->path, p->material, EC_CUT(name ? name : "", 80), missing & 1 ? 0 : 1, missing == 3 ? " and 1" : "", mesh);
+        ec_warn(log, "%s: %s has textures on TEXCOORD_%d%s, which meshes[%u] lacks; they are left out there", g->path,
+                ec_label_of("materials", (uint32_t)p->material, s->materials[original].name).text, missing & 1 ? 0 : 1, missing == 3 ? " and 1" : "", mesh);
     }
     p->scene_material = slot[missing] - 1;
     return EC_OK;

@@ -81,7 +81,38 @@ static bool place_camera(const ec_placement *at, const double center[3], ec_came
     return finite;
 }
 
-/* From the upper right of the front, 45 degrees high in view, near enough that the bounding sphere just fits. */
+/* The area of fronts, both-sided surfaces among them, as an orthographic camera sees it along `forward`, if nothing hides anything. */
+static double front_area(const ec_scene *s, const double forward[3])
+{
+    double area = 0;
+    for (uint32_t t = 0; t < s->triangle_count; t++) {
+        const uint32_t *v = s->indices + 3 * (size_t)t;
+        double normal[3];
+        ec_triangle_normal(s->positions + 3 * (size_t)v[0], s->positions + 3 * (size_t)v[1], s->positions + 3 * (size_t)v[2], normal);
+        const double turned = -ec_dot(normal, forward);
+        area += s->materials[s->triangle_material[t]].double_sided ? fabs(turned) : fmax(turned, 0);
+    }
+    return area;
+}
+
+/* From the upper right of the front, unless more than twice the area faces one of the seven other corners: of what is closed as much does
+ * everywhere. */
+static void choose_way(const ec_scene *s, double forward[3])
+{
+    static const double first[3] = {-0.5, -0.35, -1};
+    double most = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        double way[3];
+        for (int k = 0; k < 3; k++) way[k] = corner >> (k == 2 ? 0 : k + 1) & 1 ? -first[k] : first[k]; /* the back comes second */
+        ec_normalize(way);
+        const double area = front_area(s, way);
+        if (corner && area <= 2 * most) continue;
+        most = area;
+        memcpy(forward, way, sizeof way);
+    }
+}
+
+/* 45 degrees high in view, near enough that the bounding sphere just fits. */
 static ec_camera framing_camera(const ec_scene *s)
 {
     ec_camera camera = {.type = EC_CAMERA_PERSPECTIVE, .yfov = 0.7853982f};
@@ -91,8 +122,8 @@ static ec_camera framing_camera(const ec_scene *s)
         radius += half * half;
     }
     radius = sqrt(radius);
-    double forward[3] = {-0.5, -0.35, -1}, up[3] = {0, 1, 0};
-    ec_normalize(forward);
+    double forward[3], up[3] = {0, 1, 0};
+    choose_way(s, forward);
     set_frame(&camera, forward, up);
     double distance = radius / sin(0.5 * camera.yfov);
     for (int i = 0; i < 3; i++) {

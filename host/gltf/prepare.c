@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 typedef struct tally {
-    uint32_t not_triangles, no_positions;
+    uint32_t no_positions, left_over;
 } tally;
 
 static ec_result prepare_mesh(ec_gltf *g, int32_t index, tally *skipped, ec_error *err)
@@ -17,8 +17,8 @@ static ec_result prepare_mesh(ec_gltf *g, int32_t index, tally *skipped, ec_erro
         if (mesh->name) snprintf(where, sizeof where, "meshes[%d] \"%.*s\" primitives[%u]", index, EC_CUT(mesh->name, 80), k);
         else snprintf(where, sizeof where, "meshes[%d].primitives[%u]", index, k);
         EC_TRY(ec_gltf_primitive_prepare(g, p, where, err));
-        if (p->mode < EC_GLTF_TRIANGLES) skipped->not_triangles++;
-        else if (p->streams.of[EC_POSITION] < 0) skipped->no_positions++;
+        if (p->streams.of[EC_POSITION] < 0) skipped->no_positions++;
+        else if (p->left_over) skipped->left_over++;
     }
     return EC_OK;
 }
@@ -33,10 +33,10 @@ ec_result ec_flatten_prepare(ec_gltf *g, const ec_placement_list *placements, ec
         scene->instance_count++;
         EC_TRY(prepare_mesh(g, mesh, &skipped, err));
     }
-    if (skipped.not_triangles)
-        ec_warn(log, "%s: %u primitives of points or lines are left out", g->path, skipped.not_triangles);
     if (skipped.no_positions)
         ec_warn(log, "%s: %u primitives without POSITION are left out", g->path, skipped.no_positions);
-    scene->skipped_primitives = skipped.not_triangles + skipped.no_positions;
+    if (skipped.left_over)
+        ec_warn(log, "%s: %u primitives have corners left over, too few for a triangle; those are left out", g->path, skipped.left_over);
+    scene->skipped_primitives = skipped.no_positions;
     return EC_OK;
 }

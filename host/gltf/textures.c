@@ -14,7 +14,7 @@ typedef struct picture {
     uint32_t index;               /* in the file */
     const ec_gltf_texture *gloss; /* not NULL: it becomes metallic-roughness, by that texture's factor */
     ec_image image;
-    ec_error err;                 /* why there is none, if ec_gltf_image_load failed */
+    ec_error err;                 /* why there is none, if ec_gltf_image_load failed; else how it is damaged, or "" */
     bool failed;
     int64_t place;                /* in the scene; UNSEEN or UNUSABLE */
 } picture;
@@ -36,7 +36,7 @@ static ec_result get_bytes(const ec_gltf *g, const ec_gltf_image *in, const char
                            uint64_t *length, uint8_t **owned, ec_error *err)
 {
     if (in->uri) {
-        EC_TRY(ec_gltf_uri_load(g->folder, where, in->uri, owned, length, err));
+        EC_TRY(ec_gltf_uri_load(g, where, in->uri, owned, length, err));
         *bytes = *owned;
         return EC_OK;
     }
@@ -64,8 +64,11 @@ bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_erro
     uint8_t *owned = NULL;
     uint64_t length = 0;
     ec_decode_error reason = {0};
+    err->text[0] = 0;
     bool ok = get_bytes(g, in, where, &bytes, &length, &owned, err) == EC_OK;
-    if (ok && !ec_image_decode(bytes, length, out, &reason)) {
+    if (ok && ec_image_decode(bytes, length, out, &reason)) {
+        if (reason.text[0]) ec_fail(err, "%s is damaged or truncated: %s", where, reason.text);
+    } else if (ok) {
         ok = false;
         *out = (ec_image){0};
         if (reason.out_of_memory) no_memory(where, err);
@@ -93,6 +96,7 @@ static ec_image *kept_of(const table *t, const picture *p) { return t->g->decode
 static void decode(const table *t, picture *p)
 {
     const ec_image *kept = kept_of(t, p);
+    p->err.text[0] = 0;
     if (kept && kept->width) {
         p->image = *kept;
         return;
@@ -122,6 +126,7 @@ static int64_t take_picture(table *t, picture *p)
         if (!t->s->lost_image) t->s->lost_image = strdup(why);
         return p->place = UNUSABLE;
     }
+    if (p->err.text[0]) ec_warn(t->log, "%s: %.*s; what could be decoded is used", t->g->path, EC_CUT(p->err.text, 1200));
     *out = p->image;
     if (kept) *kept = p->image, out->lent = true;
     return p->place = t->s->image_count++;

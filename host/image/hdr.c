@@ -1,6 +1,6 @@
 /* Radiance .hdr in. Format: G. Ward, "Real Pixels", Graphics Gems II (1991), and Radiance's "File Formats" (Ward, 1992).
  * Values are mantissa * 2^(exponent - 136), as most readers have it (Radiance itself adds half a mantissa step);
- * EXPOSURE lines are not applied, as in most readers. */
+ * EXPOSURE lines are not applied, as in most readers; who reads is told. */
 #include "image/hdr.h"
 
 #include <math.h>
@@ -114,6 +114,18 @@ static const char *read_pixels(FILE *file, uint32_t width, uint32_t height, floa
         if (!problem) to_floats(line, width, scale, rgb + 3 * (size_t)y * width);
     }
     return problem;
+}
+
+bool ec_hdr_has_exposure(const char *path)
+{
+    char line[1024];
+    FILE *file = fopen(path, "rb");
+    double product = 1;
+    bool is_radiance = file && fgets(line, sizeof line, file) && !strncmp(line, "#?", 2);
+    while (is_radiance && fgets(line, sizeof line, file) && line[0] != '\n' && line[0] != '\r')
+        if (!strncmp(line, "EXPOSURE=", 9)) product *= strtod(line + 9, NULL);
+    if (file) fclose(file);
+    return product != 1;
 }
 
 ec_result ec_hdr_read(FILE *file, const char *path, uint32_t *width, uint32_t *height, float **rgb, ec_error *err)

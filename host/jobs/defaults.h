@@ -25,6 +25,8 @@
 #define EC_FPS_MOST 100000
 #define EC_FOV_LEAST 0.001       /* degrees */
 #define EC_FOV_MOST 179
+#define EC_POINT_SIZE_LEAST 0.01  /* pixels */
+#define EC_POINT_SIZE_MOST 512
 #define EC_GRID_DENSITY_LEAST 0.01
 #define EC_GRID_DENSITY_MOST 10000
 

@@ -14,15 +14,13 @@
 /* A day is long, but a week is thinkable. */
 #define EC_MAX_SECONDS 1e7
 
-/* strtoull takes blanks, signs and what not; digits are all that is meant here. *end is where they stop. */
+/* strtoull takes blanks, signs and what not; decimal digits are all that is meant here. *end is where they stop. */
 static int scan_whole(const char *text, uint64_t *value, const char **end)
 {
-    int base = text[0] == '0' && (text[1] == 'x' || text[1] == 'X') ? 16 : 10;
-    const char *digits = base == 16 ? text + 2 : text;
-    if (!(base == 16 ? isxdigit((unsigned char)*digits) : isdigit((unsigned char)*digits))) return 0;
+    if (!isdigit((unsigned char)*text)) return 0;
     char *stop;
     errno = 0;
-    *value = strtoull(digits, &stop, base);
+    *value = strtoull(text, &stop, 10);
     *end = stop;
     return errno == 0;
 }

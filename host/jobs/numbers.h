@@ -10,7 +10,7 @@
 enum { EC_SIZE_MAX_SIDE = 65536, EC_SIZE_MAX_PIXELS = 1 << 28 };
 
 ec_result ec_parse_whole(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value,
-                         ec_error *err); /* decimal, or hexadecimal after 0x */
+                         ec_error *err); /* decimal */
 ec_result ec_parse_u32(const char *option, const char *text, uint32_t min, uint32_t max, uint32_t *value,
                        ec_error *err);
 ec_result ec_parse_real(const char *option, const char *text, double min, double max, double *value, ec_error *err);

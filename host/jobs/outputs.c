@@ -114,7 +114,7 @@ ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_erro
             if (ec_same_target(path, outputs->file[k].path))
                 return ec_usage(err, "-o: '%s' and '%s' are the same file; leave one out", outputs->file[k].path, path);
         if (ec_inputs_have(inputs, path))
-            return ec_fail(err, "'%s' is an input of this render; write the picture elsewhere with -o", path);
+            return ec_fail(err, "'%s' is an input of this job; write the picture elsewhere with -o", path);
         EC_TRY(ec_image_check_writable(path, err));
     }
     return EC_OK;

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "jobs/blank.h"
 #include "jobs/defaults.h"
 #include "jobs/numbers.h"
 #include "jobs/option.h"
@@ -28,7 +29,7 @@ static ec_result check_kept(const ec_render_request *request, const char *option
 {
     if (!path) return EC_OK;
     if (ec_inputs_have(inputs, path))
-        return ec_fail(err, "'%s' is an input of this render; give --%s another name", path, option);
+        return ec_fail(err, "'%s' is an input of this job; give --%s another name", path, option);
     for (int i = 0; i < request->outputs.count; i++)
         if (ec_same_target(path, request->outputs.file[i].path))
             return ec_usage(err, "'%s' is both the %s and the picture; give one of them another name", path, option);
@@ -269,6 +270,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     }
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
+    ec_warn_of_blank(job);
     return check_memory(job, err);
 }
 

@@ -42,8 +42,11 @@ SETTER(up)
     return EC_OK;
 }
 
+static ec_result two_lenses(ec_error *err) { return ec_usage(err, "--fov and --parallel do not go together: a camera is either perspective or orthographic"); }
+
 SETTER(fov)
 {
+    if (REQUEST->look.has_lens && REQUEST->look.to.tall > 0) return two_lenses(err);
     REQUEST->look.has_lens = true;
     REQUEST->look.to.tall = 0;
     return ec_parse_real(option, value, EC_FOV_LEAST, EC_FOV_MOST, &REQUEST->look.to.fov, err);
@@ -51,6 +54,7 @@ SETTER(fov)
 
 SETTER(parallel)
 {
+    if (REQUEST->look.has_lens && REQUEST->look.to.fov > 0) return two_lenses(err);
     REQUEST->look.has_lens = true;
     REQUEST->look.to.fov = 0;
     return ec_parse_real(option, value, EC_FOCUS_LEAST, EC_FOCUS_MOST, &REQUEST->look.to.tall, err);

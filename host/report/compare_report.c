@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 
+#include "base/text.h"
 #include "report/format.h"
 #include "report/json.h"
 
@@ -88,12 +89,21 @@ static void print_unbound(char name, const char *why, FILE *to)
     if (why) fprintf(to, "no bound  %c may lack light that shows in no standard error: %s\n", name, why);
 }
 
+static void print_name(const char *before, const char *name, FILE *to)
+{
+    fputs(before, to);
+    ec_text_print(to, name);
+}
+
 void ec_compare_report_text(const ec_compare_report *report, FILE *to)
 {
-    fprintf(to, "A         %s\nB         %s, the reference; %ux%u pixels\n", report->path_a, report->path_b,
-            report->a->width, report->a->height);
-    if (report->diff_path)
-        fprintf(to, "map       %s: error relative to B, from 0.1 %% (black) to 100 %% (pale yellow), logarithmic\n", report->diff_path);
+    print_name("A         ", report->path_a, to);
+    print_name("\nB         ", report->path_b, to);
+    fprintf(to, ", the reference; %ux%u pixels\n", report->a->width, report->a->height);
+    if (report->diff_path) {
+        print_name("map       ", report->diff_path, to);
+        fputs(": error relative to B, from 0.1 % (black) to 100 % (pale yellow), logarithmic\n", to);
+    }
     print_figures(report, to);
     print_noise(report, to);
     if (report->tested && report->difference.unequal > 0) print_test(&report->test, to);

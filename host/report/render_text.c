@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "report/denoise_report.h"
 #include "report/effects_report.h"
 #include "report/error_text.h"
@@ -36,12 +37,19 @@ static void print_clamped(const ec_render_report *report, FILE *to)
     fprintf(to, "clamped  %s\n", text);
 }
 
+static void print_name(const char *before, const char *name, const char *behind, FILE *to)
+{
+    fputs(before, to);
+    ec_text_print(to, name);
+    fputs(behind, to);
+}
+
 void ec_frame_report_text(const ec_render_report *report, FILE *to)
 {
     char summary[EC_ERROR_TEXT + 128];
     ec_render_report_summary(report, summary, sizeof summary);
     fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
-    for (int i = 0; i < report->output_count; i++) fprintf(to, "%s %s", i ? "," : " →", report->outputs[i]);
+    for (int i = 0; i < report->output_count; i++) print_name(i ? ", " : " → ", report->outputs[i], "", to);
     fputc('\n', to);
     print_clamped(report, to);
     ec_denoised_text(report->denoised, to);
@@ -107,7 +115,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
 {
     const ec_render_stats *stats = report->stats;
     char summary[EC_ERROR_TEXT + 128];
-    for (int i = 0; i < report->output_count; i++) fprintf(to, "picture  %s\n", report->outputs[i]);
+    for (int i = 0; i < report->output_count; i++) print_name("picture  ", report->outputs[i], "\n", to);
     ec_render_report_summary(report, summary, sizeof summary);
     fprintf(to, "result   %s, %s rays/s\n", summary, ec_count(stats->rays_per_second).text);
     print_help(&stats->film, to);

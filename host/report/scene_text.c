@@ -28,7 +28,7 @@ static void print_geometry(const ec_scene *scene, FILE *to)
     if (scene->dropped_degenerate || scene->dropped_nonfinite)
         fprintf(to, "dropped     %u degenerate and %u non-finite triangles\n", scene->dropped_degenerate,
                 scene->dropped_nonfinite);
-    if (scene->skipped_primitives) fprintf(to, "skipped     %u primitives of points or lines\n", scene->skipped_primitives);
+    if (scene->skipped_primitives) fprintf(to, "skipped     %u primitives without positions\n", scene->skipped_primitives);
     if (scene->triangle_count)
         fprintf(to, "extent      %.4g x %.4g x %.4g\n", (double)scene->bounds_max[0] - scene->bounds_min[0],
                 (double)scene->bounds_max[1] - scene->bounds_min[1], (double)scene->bounds_max[2] - scene->bounds_min[2]);
@@ -127,7 +127,9 @@ static void print_accels(const ec_scene_report *report, FILE *to)
 void ec_scene_report_text(const ec_scene_report *report, FILE *to)
 {
     const ec_scene *scene = report->scene;
-    fprintf(to, "scene       %s\n", report->path);
+    fputs("scene       ", to);
+    ec_text_print(to, report->path);
+    fputc('\n', to);
     print_geometry(scene, to);
     print_lights(report, to);
     print_cameras(scene, to);

@@ -9,12 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/hdr.h"
 #include "image/image.h"
 
 /* "R,G,B": 1 = three numbers, 0 = does not look like numbers (so a file name), -1 = numbers, but not three good ones. */
 static int parse_color(const char *spec, float rgb[3])
 {
-    if (strspn(spec, "0123456789+-.eE, \t") != strlen(spec) || !strchr(spec, ',')) return 0;
+    /* the letters are also those of inf, infinity, nan and of hexadecimal numbers, which are refused as numbers */
+    if (strspn(spec, "0123456789+-.eE, \tinfatyINFATYxX") != strlen(spec) || !strchr(spec, ',')) return 0;
     int used = 0;
     bool is_good = sscanf(spec, "%f ,%f ,%f %n", &rgb[0], &rgb[1], &rgb[2], &used) == 3 && used && !spec[used];
     for (int i = 0; i < 3; i++) is_good = is_good && isfinite(rgb[i]) && rgb[i] >= 0;
@@ -50,6 +52,8 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
     } else {
         memset(e.constant, 0, sizeof e.constant);
         EC_TRY(ec_image_read_rgb(spec, &e.width, &e.height, &e.rgb, err));
+        if (ec_hdr_has_exposure(spec))
+            ec_warn(log, "%s: its EXPOSURE is not applied: pixels are taken as they are stored, as by most programs; --env-strength scales them", spec);
         clean(e.rgb, 3 * (uint64_t)e.width * e.height, spec, log);
     }
     if (!s->environment.lent) free(s->environment.rgb);

@@ -191,7 +191,7 @@ typedef struct ec_scene {
     /* Shown by `eclat info`. */
     uint32_t mesh_count, node_count, instance_count;
     uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */
-    uint32_t skipped_primitives;                     /* points, lines and meshes without POSITION */
+    uint32_t skipped_primitives;                     /* those without POSITION */
     char *lost_image;              /* owned: why the first of those that are taken as white could not be read; NULL: all could */
     ec_scene_contents contents;
 } ec_scene;
@@ -206,6 +206,8 @@ typedef struct ec_scene_choice {
     bool shutter;              /* open from `opens` to `closes`, seconds into it; `at` is then their middle, whatever it was */
     double opens, closes;
     ec_instancing instancing;  /* which meshes are kept once */
+    double point_size;         /* width of points and lines, in pixels of a picture 512 high that the first camera sees; 0: one */
+    bool follow_links;         /* buffers and images may be symbolic links out of the scene's folder */
     bool frame;                /* of a sequence: where an animation may move meshes no triangle is cut, at any of its moments */
 } ec_scene_choice;
 

@@ -3,6 +3,7 @@
 import os
 import stat
 import struct
+import subprocess
 import unittest
 
 from support import Case, data_uri, eclat, quad_scene, write_glb, write_gltf
@@ -108,6 +109,39 @@ class BadScenes(BadInput):
             with self.subTest(uri=uri):
                 self.refuse(write_gltf(os.path.join(inner, "scene.gltf"), quad_scene(uri=uri)[0]))
 
+    def test_links_out_of_the_scene_folder(self):
+        """They are followed only where that is asked for; links within it, and a folder that is one, always are."""
+        os.makedirs(self.path("inner", "deep"))
+        for name in ["outside.bin", os.path.join("inner", "deep", "inside.bin")]:
+            with open(self.path(name), "wb") as file:
+                file.write(quad_scene()[1])
+        os.symlink("inner", self.path("other"))
+        scene = self.path("inner", "scene.gltf")
+        for link, target in [("out.bin", "../outside.bin"), ("in.bin", "deep/inside.bin"), ("up", "..")]:
+            os.symlink(target, self.path("inner", link))
+        for uri in ["out.bin", "up/outside.bin"]:
+            line = self.refuse(write_gltf(scene, quad_scene(uri=uri)[0]), says="it is a symbolic link out of the scene's folder")
+            self.assertIn("--follow-links", line)
+            self.assert_ok(eclat("info", scene, "--follow-links"))
+        write_gltf(scene, quad_scene(uri="in.bin")[0])
+        for path in [scene, self.path("other", "scene.gltf")]:
+            self.assert_ok(eclat("info", path))
+        self.assert_ok(eclat("info", "scene.gltf", cwd=self.path("other")))
+
+    def test_a_damaged_jpeg_is_told_of(self):
+        scene, _ = quad_scene(material={"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})
+        scene.update(images=[{"uri": "cut.jpg"}], textures=[{"source": 0}])
+        scene["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC2"})
+        scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+        subprocess.run(["convert", "-size", "64x64", "plasma:", self.path("whole.jpg")], check=True)
+        with open(self.path("whole.jpg"), "rb") as file:
+            data = file.read()
+        for length in [len(data), 2 * len(data) // 3]:
+            with open(self.path("cut.jpg"), "wb") as file:
+                file.write(data[:length])
+            run = self.assert_ok(eclat("info", write_gltf(self.path("scene.gltf"), scene)))
+            self.assertEqual("images[0] is damaged or truncated: " in run.stderr, length < len(data), run.stderr)
+
 
 class BadRequests(BadInput):
     def test_too_many_pixels(self):
@@ -151,9 +185,9 @@ class BadRequests(BadInput):
         os.symlink("map.png", self.path("link.png"))
         for option, name in [("-o", "quad data.exr"), ("-o", "map.png"), ("-o", "link.png"),
                              ("--checkpoint", "quad data.exr")]:
-            self.refuse(scene, option, self.path(name), says=f"{name}' is an input of this render; ")
+            self.refuse(scene, option, self.path(name), says=f"{name}' is an input of this job; ")
         run = eclat("cost", scene, "--json", self.path("map.png"))
-        self.assertIn("is an input of this render", self.assert_one_error(run, 1))
+        self.assertIn("is an input of this job", self.assert_one_error(run, 1))
         for name, content in contents.items():
             with open(self.path(name), "rb") as file:
                 self.assertEqual(file.read(), content)

@@ -135,8 +135,9 @@ class Facts(Case):
         self.assertEqual(listed, set(planes))
 
     def test_extensions(self):
-        listed = re.findall(r"^\| `((?:KHR|EXT)_\w+)` \|", read(os.path.join(ROOT, "docs", "materials.md")).split("## Extensions")[1].split("## ")[0], re.M)
-        known = re.findall(r'"((?:KHR|EXT)_\w+)"', read(os.path.join(ROOT, "host", "gltf", "gltf_shim.cpp")))
+        listed = re.findall(r"^\| `((?:KHR|EXT|MSFT)_\w+)` \|", read(os.path.join(ROOT, "docs", "materials.md")).split("## Extensions")[1].split("## ")[0], re.M)
+        lists = re.findall(r"(?:supported|optional)_extensions\[\] = \{.*?\};", read(os.path.join(ROOT, "host", "gltf", "gltf_extensions.cpp")), re.S)
+        known = re.findall(r'"((?:KHR|EXT|MSFT)_\w+)"', "".join(lists))
         known += ["KHR_materials_" + name for name in re.findall(r', EC_KHR "(\w+)/', read(os.path.join(ROOT, "kernels", "shared", "material_fields.h")))]
         self.assertEqual(sorted(listed), sorted(set(known)))
         self.assertIn(f"[{len(listed)} extensions]", read(MANUAL[0]))

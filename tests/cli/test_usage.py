@@ -45,8 +45,9 @@ class Help(Case):
             cache = dict(re.findall(r"^(\w+):\w+=(.*)$", file.read(), re.M))
         self.assertRegex(lines["compiler"], rf"^(GCC|Clang) \d+\.\d+.*, {cache['CMAKE_BUILD_TYPE'] or 'Release'} for \S")
         self.assertEqual(lines["OpenCL"], "1.2")
-        found = [name for name in ("draco", "meshopt", "webp") if not cache[f"CODEC_{name}_LIBRARY"].endswith("NOTFOUND")]
-        self.assertEqual(lines["readers"], ", ".join(found) or "none")
+        found = [name for name in ("avif", "draco", "meshopt", "webp") if not cache[f"CODEC_{name}_LIBRARY"].endswith("NOTFOUND")]
+        found += ["basisu"] if cache["BASISU_SOURCE"] else []
+        self.assertEqual(lines["readers"], ", ".join(sorted(found)) or "none")
         there = [name for name in ("mpi", "view") if os.path.exists(os.path.join(build, f"eclat-{name}.so"))]
         self.assertEqual(lines["modules"], ", ".join(there) or "none")
 
@@ -206,7 +207,7 @@ class WrongOptions(Case):
 
     def test_numbers_are_strict(self):
         for option, values in {
-            "--spp": ["0", "-1", "1e3", "12x", " 4", "", "nan", "16777217", "99999999999999999999"],
+            "--spp": ["0", "-1", "0x10", "+5", "1e3", "12x", " 4", "", "nan", "16777217", "99999999999999999999"],
             "--time": ["0", "-3", "nan", "inf", "3x", "s", "1e99", ""],
             "--error": ["0", "-1%", "nan%", "2%%", "101", "%"],
             "--size": ["512", "512x", "x512", "0x10", "-1x5", "5x5x5", "512X512 ", "100000x100000", "60000x60000"],
@@ -240,6 +241,10 @@ class WrongOptions(Case):
             for value in values:
                 with self.subTest(option=option, value=value):
                     self.usage("render", "s.gltf", f"{option}={value}", says=option)
+
+    def test_a_camera_has_one_lens(self):
+        for lenses in [["--fov", "30", "--parallel", "2"], ["--parallel", "2", "--fov", "30"]]:
+            self.usage("render", "s.gltf", *lenses, says="--fov and --parallel do not go together")
 
     def test_a_path_must_end_somewhere(self):
         for end in [["--rr", "off"], ["--rr", "off", "--max-depth", "inf"], ["--max-depth", "inf", "--rr=1"]]:

@@ -1,5 +1,6 @@
 /* tier: quick */
 /* Radiance pictures made by hand: both run-length encodings and plain pixels, and files that break off anywhere. */
+#include "image/hdr.h"
 #include "image/image.h"
 #include "support/test.h"
 
@@ -26,7 +27,10 @@ static void plain_pixels(void)
     /* 2^(136-136) = 1, exponent 0 is black, and the greatest and least values. */
     const unsigned char bytes[] = {128, 64, 1, 136, 9, 9, 9, 0, 255, 255, 255, 255, 1, 0, 0, 1};
     const float expected[] = {128, 64, 1, 0, 0, 0, 255 * 0x1p119f, 255 * 0x1p119f, 255 * 0x1p119f, 0x1p-135f, 0, 0};
+    CHECK_OK(read_bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nEXPOSURE=0.5\n\n-Y 2 +X 2\n", bytes, sizeof bytes), err);
+    CHECK(!ec_hdr_has_exposure(path)); /* they multiply */
     CHECK_OK(read_bytes(HEADER "-Y 2 +X 2\n", bytes, sizeof bytes), err);
+    CHECK(ec_hdr_has_exposure(path));
     CHECK(width == 2 && height == 2 && rgb && memcmp(rgb, expected, sizeof expected) == 0);
 }
 

@@ -120,7 +120,7 @@ static void test_defects(void)
         {"'version':'2.0'", "'version':'2.1','minVersion':'2.1'", "needs glTF 2.1"},
         {"'version':'2.0'", "'version':2.0", "asset.version must be a string"},
         {"'asset':{'version':'2.0'},", "", "asset is missing"},
-        {"'asset'", "'extensionsRequired':['KHR_texture_basisu','EXT_x'],'asset'", "requires EXT_x, KHR_texture_basisu"},
+        {"'asset'", "'extensionsRequired':['KHR_texture_procedurals','EXT_x'],'asset'", "requires EXT_x, KHR_texture_procedurals"},
         {"}]}", "}]", "not valid JSON"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -80,6 +80,15 @@ static void test_jpeg(void)
     CHECK(image.width == 8 && image.height == 8 && image.rgba8);
     for (int i = 0; image.rgba8 && i < 256; i++) CHECK_NEAR(image.rgba8[i], expected[i % 4], i % 4 == 3 ? 0 : 1);
     release(&image);
+    /* Cut behind its header: what there is, and what is wrong with it. */
+    ec_image cut = {0};
+    ec_decode_error err = {""};
+    CHECK(ec_image_decode(jpeg, sizeof jpeg, &cut, &err) && !err.text[0]);
+    release(&cut);
+    cut = (ec_image){0};
+    CHECK(ec_image_decode(jpeg, sizeof jpeg - 6, &cut, &err) && cut.rgba8);
+    CHECK_MSG(strstr(err.text, "Premature end of JPEG file"), "\"%s\"", err.text);
+    release(&cut);
 }
 
 static void expect_refusal(const unsigned char *bytes, size_t size, const char *needle)
@@ -94,8 +103,8 @@ static void expect_refusal(const unsigned char *bytes, size_t size, const char *
 static void test_broken(void)
 {
     unsigned char copy[1024];
-    expect_refusal(palette, 0, "none of PNG, JPEG and WebP");
-    expect_refusal((const unsigned char *)"GIF89a..........", 16, "none of PNG, JPEG and WebP");
+    expect_refusal(palette, 0, "none of PNG, JPEG, WebP, AVIF and KTX2");
+    expect_refusal((const unsigned char *)"GIF89a..........", 16, "none of PNG, JPEG, WebP, AVIF and KTX2");
     for (size_t cut = 8; cut < sizeof palette - 12; cut++) expect_refusal(palette, cut, "");
     memcpy(copy, jpeg, sizeof jpeg);
     for (size_t cut = 3; cut < 100; cut++) expect_refusal(copy, cut, "");

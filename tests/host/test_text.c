@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Texts are cut between characters: of one, two, three and four bytes. */
+/* Texts are cut between characters, of one, two, three and four bytes, and hold nothing that a terminal acts on. */
 #include "base/error.h"
 #include "base/text.h"
 #include "support/test.h"
@@ -35,5 +35,13 @@ int main(void)
     ec_log log = {keep, NULL};
     ec_warn(&log, "%s", many);
     CHECK(strlen(said) == 2046);
+    /* Names: what terminals act on is gone, in messages too; what they show stays. */
+    char name[64] = "a\x1b[2J\n\xe2\x80\xae" "b\x7f\xc2\x9b" "é€😀\t\xe2\x81\xa9";
+    ec_text_clean(name);
+    CHECK_MSG(!strcmp(name, "a?[2J??b??é€😀\t?"), "%s", name);
+    ec_fail(&err, "%s: cannot open", "x\r\ny");
+    CHECK_MSG(!strcmp(err.text, "x??y: cannot open"), "%s", err.text);
+    ec_fail(&err, "the compiler says:%s", "\n  error: no"); /* its lines stay lines */
+    CHECK(strchr(err.text, '\n') != NULL);
     TEST_END();
 }

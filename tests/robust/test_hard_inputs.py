@@ -136,11 +136,11 @@ class Geometry(HardCase):
             with self.subTest(value=value):
                 broken = list(QUAD)
                 broken[2] = broken[9] = value  # a corner of each triangle
-                self.assert_no_difference(Scene(LAMP).add(QUAD).add(broken), "2 triangles with NaN or infinite positions are left out")
+                self.assert_no_difference(Scene(LAMP).add(QUAD).add(broken), "2 triangles are left out: their positions are NaN, infinite or beyond 1e18")
 
     def test_node_matrices_that_overflow(self):
         scene = Scene(LAMP).add(QUAD).add(QUAD).nest(2, 1e30, 11)
-        self.assert_no_difference(scene, "2 triangles with NaN or infinite positions are left out")
+        self.assert_no_difference(scene, "2 triangles are left out: their positions are NaN, infinite or beyond 1e18")
 
     def test_node_matrices_that_underflow(self):
         scene = Scene(LAMP).add(QUAD).add(QUAD).nest(2, 1e-30, 11)
@@ -153,7 +153,7 @@ class Geometry(HardCase):
     def test_nothing_left_is_an_error(self):
         path = Scene(LAMP).add(QUAD, scale=[0, 0, 0]).write(self.path("scene.gltf"))
         line = self.assert_one_error(eclat("render", path, "-o", self.path("a.exr")), 1)
-        self.assertIn("nothing to render: of 2 triangles 2 have no area and 0 have NaN or infinite positions", line)
+        self.assertIn("nothing to render: of 2 triangles 2 have no area and 0 positions that are NaN, infinite or beyond 1e18", line)
 
     def test_flattened_along_its_normal(self):
         self.assert_same(self.render(Scene(LAMP).add(QUAD, scale=[1, 1, 0])), self.render(Scene(LAMP).add(QUAD)))

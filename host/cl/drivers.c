@@ -1,0 +1,66 @@
+/* An ICD loader keeps silent of drivers that it cannot load. */
+#include "cl/drivers.h"
+
+#include <dirent.h>
+#include <dlfcn.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define VENDORS "/etc/OpenCL/vendors"
+
+static bool ends_with(const char *name, const char *ending)
+{
+    const size_t size = strlen(name), tail = strlen(ending);
+    return size >= tail && !strcmp(name + size - tail, ending);
+}
+
+/* A driver's library, as a line of the file `icd` names it, or its own name where icd is NULL. */
+static bool explain_library(const char *icd, const char *library, ec_error *err)
+{
+    void *driver = dlopen(library, RTLD_NOW | RTLD_LOCAL);
+    const char *why = driver ? "it loads, but offers no platform" : dlerror();
+    if (icd) ec_fail(err, "the OpenCL driver of '%s' cannot be used: %.800s", icd, why ? why : "no reason given");
+    else ec_fail(err, "the OpenCL driver '%s' cannot be used: %.800s", library, why ? why : "no reason given");
+    if (driver) dlclose(driver);
+    else ec_fail_more(err, "; install the driver again, or raise the limits of this process (ulimit -a)");
+    return true;
+}
+
+static bool explain_file(const char *icd, ec_error *err)
+{
+    char library[PATH_MAX] = "";
+    FILE *file = fopen(icd, "r");
+    if (!file) return false;
+    if (!fgets(library, sizeof library, file)) library[0] = 0;
+    fclose(file);
+    library[strcspn(library, "\r\n")] = 0;
+    return library[0] && explain_library(icd, library, err);
+}
+
+/* The first that there is. */
+static bool explain_folder(const char *path, ec_error *err)
+{
+    DIR *folder = opendir(path);
+    bool found = false;
+    for (struct dirent *entry; folder && !found && (entry = readdir(folder));) {
+        char icd[PATH_MAX];
+        if (ends_with(entry->d_name, ".icd") && snprintf(icd, sizeof icd, "%s/%s", path, entry->d_name) < (int)sizeof icd) found = explain_file(icd, err);
+    }
+    if (folder) closedir(folder);
+    return found;
+}
+
+bool ec_drivers_explain(ec_error *err)
+{
+    struct stat info;
+    const char *wanted = getenv("OCL_ICD_VENDORS");
+    if (!wanted || !*wanted) return explain_folder(VENDORS, err);
+    if (stat(wanted, &info) == 0 && S_ISDIR(info.st_mode)) return explain_folder(wanted, err);
+    if (!ends_with(wanted, ".icd")) return (!strchr(wanted, '/') || access(wanted, F_OK) == 0) && explain_library(NULL, wanted, err);
+    char icd[PATH_MAX];
+    return explain_file(wanted, err) || (snprintf(icd, sizeof icd, VENDORS "/%s", wanted) < (int)sizeof icd && explain_file(icd, err));
+}

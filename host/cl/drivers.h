@@ -1,0 +1,12 @@
+/* The drivers that are installed, as the ICD loader finds them. */
+#ifndef EC_CL_DRIVERS_H
+#define EC_CL_DRIVERS_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+
+/* Where no platform was found: is there a driver that cannot be loaded? Then err says which one and why. */
+bool ec_drivers_explain(ec_error *err);
+
+#endif

@@ -1,0 +1,51 @@
+/* KTX2 of KHR_texture_basisu through Basis Universal's transcoder: ETC1S and UASTC, also compressed by Zstandard. */
+#include <basisu_transcoder.h>
+
+#include <cstdlib>
+#include <new>
+
+extern "C" {
+#include "gltf/codecs.h"
+}
+
+extern "C" const bool ec_has_basisu = true;
+
+/* A picture of one colour is some hundred bytes long, whatever its size: only the longest side limits it. */
+#define PIXELS_PER_BYTE (1 << 24)
+
+namespace {
+
+/* Of its largest level; what it has of others, layers and faces is not looked at. */
+const char *transcode(const uint8_t *bytes, size_t length, ec_image *image, uint8_t *&pixels)
+{
+    static const bool is_ready = (basist::basisu_transcoder_init(), true);
+    basist::ktx2_transcoder file;
+    if (!is_ready || !file.init(bytes, uint32_t(length))) return "its KTX2 header is broken, or it is neither ETC1S nor UASTC";
+    if (const char *reason = ec_image_check_size(file.get_width(), file.get_height(), length, PIXELS_PER_BYTE)) return reason;
+    if (!file.start_transcoding()) return "its KTX2 data are broken or truncated";
+    const uint32_t count = file.get_width() * file.get_height();
+    pixels = static_cast<uint8_t *>(malloc(4 * size_t(count)));
+    if (!pixels) throw std::bad_alloc();
+    if (!file.transcode_image_level(0, 0, 0, pixels, count, basist::transcoder_texture_format::cTFRGBA32)) return "its KTX2 data are broken or truncated";
+    image->width = file.get_width();
+    image->height = file.get_height();
+    image->rgba8 = pixels;
+    return nullptr;
+}
+
+} // namespace
+
+extern "C" bool ec_image_decode_ktx2(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
+{
+    uint8_t *pixels = nullptr;
+    const char *wrong = nullptr;
+    bool is_short = false;
+    try {
+        wrong = transcode(bytes, length, image, pixels);
+    } catch (...) { /* only of memory */
+        is_short = true;
+    }
+    if (!wrong && !is_short) return true;
+    free(pixels);
+    return is_short ? ec_decode_out_of_memory(err) : ec_decode_fail(err, wrong);
+}

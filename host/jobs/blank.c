@@ -1,0 +1,43 @@
+#include "jobs/blank.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "scene/in_sight.h"
+
+/* As device/camera.c has it. */
+static void find_window(const ec_camera *c, const ec_render_options *o, double window[4])
+{
+    const bool is_part = ec_has_screen_window(o), is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
+    const double high = is_flat ? c->ymag : tan(0.5 * c->yfov);
+    const double wide = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f && !is_part ? c->xmag : is_part ? high : high * o->width / o->height;
+    const double whole[4] = {-1, 1, -1, 1}, *shown = is_part ? o->screen_window : whole;
+    for (int k = 0; k < 4; k++) window[k] = shown[k] * (k < 2 ? wide : high);
+}
+
+static bool is_within(const ec_scene *s, const float point[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (point[k] < s->bounds_min[k] || point[k] > s->bounds_max[k]) return false;
+    return true;
+}
+
+void ec_warn_of_blank(const ec_render_job *job)
+{
+    const ec_scene *s = job->scene;
+    const ec_render_options *o = &job->request->options;
+    const ec_camera *camera = &s->cameras[o->camera];
+    double window[4];
+    if (!s->triangle_count || o->fstop > 0 || (o->without & EC_FEATURE_CULLING)) return; /* no surfaces are told of where the file is read */
+    find_window(camera, o, window);
+    const ec_in_sight seen = ec_scene_in_sight(s, camera, window);
+    if (seen == EC_SIGHT_FRONTS) return;
+    const char *inside = is_within(s, camera->position) ? ", from within the scene" : "";
+    if (seen == EC_SIGHT_NONE)
+        ec_warn(&job->listener->log, "the picture will show no surface: there is none in the view of camera %s%s; --eye and --look-at place it elsewhere",
+                job->camera_text, inside);
+    else
+        ec_warn(&job->listener->log, "the picture will show no surface: camera %s sees nothing but backs of single-sided materials%s, which its rays pass "
+                "through; look from the other side (--eye), make the materials double-sided, or leave culling out with --without back-face-culling",
+                job->camera_text, inside);
+}

@@ -1,0 +1,78 @@
+# tier: quick
+"""Points and lines are drawn as wide as --point-size says, with the same bits by every structure, alone and as frames."""
+import json
+import math
+import struct
+import unittest
+
+from support import QUICK, Case, data_uri, eclat, quad_scene, read_exr, write_gltf
+
+SQUARE = 512  # pixels of the picture in which a point of one pixel is one wide
+
+
+class Points(Case):
+    def scene(self, mode, change=lambda scene: None):
+        """The corners of the quad, 2 x 2, as points or lines that emit; the camera 3 before it."""
+        scene, _ = quad_scene()
+        del scene["meshes"][0]["primitives"][0]["indices"]
+        scene["meshes"][0]["primitives"][0]["mode"] = mode
+        del scene["cameras"][0]["perspective"]["aspectRatio"]
+        change(scene)
+        return write_gltf(self.path("scene.gltf"), scene)
+
+    def render(self, scene, *options):
+        out = self.path("a.exr")
+        run = self.assert_ok(eclat("render", scene, "--env", "0,0,0", *QUICK, "--json", "-q", "-o", out, *options))
+        return json.loads(run.stdout)["image_sha256"], read_exr(out)[1]
+
+    def test_widths(self):
+        """Across an upright line of a loop: the share of the picture that it takes."""
+        for size, window in [(4, 0.2), (24, 0.5)]:
+            left = 1 / (3 * math.tan(0.4))  # the line's middle, in half heights of the picture
+            part = [left - window, left + window, -0.05, 0.05]
+            _, planes = self.render(self.scene(2), "--point-size", str(size), "--size", "64x8", "--spp", "64", "--screen-window", ",".join(map(str, part)))
+            share = sum(planes["A"]) / len(planes["A"])
+            self.assertAlmostEqual(share * 2 * window * SQUARE / 2 / size, math.hypot(1, 1 / 3), delta=0.06)  # wider beside the axis
+
+    def test_all_structures_have_the_same_bits(self):
+        scene = self.scene(3)
+        options = ["--size", "48x48", "--spp", "4", "--point-size", "9"]
+        pictures = {name: self.render(scene, *options, "--accel", name) for name in ["bvh8", "bvh2", "grid", "kdtree", "none", "twolevel"]}
+        self.assertEqual(len({sha for sha, _ in pictures.values()}), 1)
+        self.assertGreater(sum(pictures["bvh8"][1]["G"]), 0)
+        self.assertNotEqual(self.render(scene, *options, "--accel", "bvh8", "--point-size", "8")[0], pictures["bvh8"][0])
+
+    def test_what_there_is_beside_them(self):
+        """Triangles of the same mesh stay; without points and lines the option changes nothing."""
+        def both(scene):
+            scene["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "indices": 1, "material": 0})
+        info = json.loads(self.assert_ok(eclat("info", self.scene(0, both), "--json")).stdout)
+        self.assertEqual(info["triangles"], 4 * 48 + 2)
+        plain = write_gltf(self.path("plain.gltf"), quad_scene()[0])
+        options = ["--size", "24x16", "--spp", "2"]
+        self.assertEqual(self.render(plain, *options)[0], self.render(plain, *options, "--point-size", "9")[0])
+
+    def test_frames_of_a_camera_that_comes_nearer(self):
+        """Each is what it is alone: as wide a point, however near the camera."""
+        def move(scene):
+            data = struct.pack("<2f6f", 0, 1, 0, 0, 6, 0, 0, 3)
+            scene["buffers"].append({"byteLength": len(data), "uri": data_uri(data)})
+            scene["bufferViews"] += [{"buffer": 1, "byteLength": 8}, {"buffer": 1, "byteOffset": 8, "byteLength": 24}]
+            scene["accessors"] += [{"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                                   {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}]
+            scene["animations"] = [{"samplers": [{"input": 2, "output": 3}], "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}]
+        scene = self.scene(0, move)
+        options = ["--size", "32x32", "--spp", "4", "--env", "0,0,0", "--point-size", "40", *QUICK, "-q"]
+        self.assert_ok(eclat("render", scene, *options, "--frames", "0:2", "--fps", "2", "-o", self.path("f%d.exr")))
+        shares = []
+        for frame in range(3):
+            alone = self.path("alone.exr")
+            self.assert_ok(eclat("render", scene, *options, "--at", str(frame / 2), "-o", alone))
+            a, b = read_exr(self.path(f"f{frame}.exr"))[1], read_exr(alone)[1]
+            self.assertEqual(a["G"], b["G"])
+            shares.append(sum(a["A"]))
+        self.assertAlmostEqual(shares[0] / shares[2], 1, delta=0.2)
+
+
+if __name__ == "__main__":
+    unittest.main()
