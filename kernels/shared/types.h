@@ -9,7 +9,11 @@
 #else /* lane-wide values are too large to travel through calls */
 #define EC_FN static inline __attribute__((always_inline))
 #endif
+#if defined(CALLS) || (defined(LANES) && LANES > 1)
 #define EC_CALLED static __attribute__((noinline)) /* compiled once a kernel: many places call it, and a call costs it little */
+#else /* on a graphics card it costs memory for all that it hands over */
+#define EC_CALLED EC_FN
+#endif
 typedef int ec_int;
 typedef uint ec_uint;
 typedef ulong ec_ulong;
