@@ -11,6 +11,14 @@
 enum { SCALE_MOST = 120 }; /* as a power of two, in floats */
 enum { CLEAN_GUIDES = 64 }; /* samples a pixel of the features from which on they are better than smoothed ones */
 
+/* The larger a picture, the quicker its filter; whichever it is, the picture is judged. Smoothing the guides takes longer than FAST, for 1 % of the
+ * error at most. */
+static const struct effort {
+    uint64_t pixels; /* at most */
+    ec_oidn_quality quality;
+    bool smooths;
+} efforts[] = {{1 << 18, EC_OIDN_HIGH, true}, {1 << 20, EC_OIDN_BALANCED, false}, {UINT64_MAX, EC_OIDN_FAST, false}};
+
 typedef struct work {
     const ec_film *film;
     float *half[2], *albedo, *normal; /* 3 a pixel; owned */
@@ -70,8 +78,10 @@ static void take_guides(work *w)
 static ec_result filter(work *w, ec_oidn *oidn, ec_error *err)
 {
     const ec_film *film = w->film;
-    const bool is_smoothed = ec_schedule_samples(film->replicates, film->aov_batches) < CLEAN_GUIDES;
-    ec_oidn_image image = {.width = film->width, .height = film->height, .has_clean_guides = true};
+    const struct effort *effort = efforts;
+    while (pixels_of(w) > effort->pixels) effort++;
+    const bool is_smoothed = effort->smooths && ec_schedule_samples(film->replicates, film->aov_batches) < CLEAN_GUIDES;
+    ec_oidn_image image = {.width = film->width, .height = film->height, .has_clean_guides = true, .quality = effort->quality};
     take_guides(w);
     image.albedo = w->albedo;
     if (is_smoothed) EC_TRY(ec_oidn_filter(oidn, &image, err));

@@ -9,7 +9,7 @@
 
 #include "denoise/oidn_find.h"
 
-enum { CPU = 1, FLOAT3 = 3, BALANCED = 5, MEMORY_MB = 1024 }; /* OIDNDeviceType, OIDNFormat, OIDNQuality; and what one filter may take */
+enum { CPU = 1, FLOAT3 = 3, MEMORY_MB = 1024 }; /* OIDNDeviceType, OIDNFormat; and what one filter may take */
 
 /* result, name, arguments */
 #define FUNCTIONS(DO)                                                                                                                               \
@@ -102,7 +102,7 @@ ec_result ec_oidn_filter(ec_oidn *oidn, const ec_oidn_image *image, ec_error *er
     set_image(oidn, filter, image, "output", output);
     if (image->color) oidn->SetFilterBool(filter, "hdr", true);
     if (image->color && image->has_clean_guides) oidn->SetFilterBool(filter, "cleanAux", true);
-    oidn->SetFilterInt(filter, "quality", BALANCED);
+    oidn->SetFilterInt(filter, "quality", (int)image->quality);
     oidn->SetFilterInt(filter, "maxMemoryMB", MEMORY_MB);
     oidn->CommitFilter(filter);
     oidn->ExecuteFilter(filter);

@@ -19,10 +19,13 @@ const char *ec_oidn_version(const ec_oidn *oidn); /* "2.5.1" */
 
 /* Images of one size, 3 floats a pixel; those that are not there are NULL. The colours, linear and without an upper end, are filtered in place by their
  * guides, or a guide that comes alone. */
+typedef enum ec_oidn_quality { EC_OIDN_FAST = 4, EC_OIDN_BALANCED = 5, EC_OIDN_HIGH = 6 } ec_oidn_quality; /* OIDNQuality */
+
 typedef struct ec_oidn_image {
     uint32_t width, height;
     float *color, *albedo, *normal;
     bool has_clean_guides; /* these are free of noise */
+    ec_oidn_quality quality;
 } ec_oidn_image;
 ec_result ec_oidn_filter(ec_oidn *oidn, const ec_oidn_image *image, ec_error *err);
 

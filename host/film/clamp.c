@@ -36,13 +36,19 @@ static double share_stderr(double cut, double cut_se, double kept, double kept_s
 ec_clamp_error ec_clamp_error_of(const ec_cut_sums *sums, const ec_film_error *noise, double pixels)
 {
     const double cut = sums->mean / pixels, kept = noise->mean_luminance;
-    ec_clamp_error e = {NAN, NAN, noise->error, NAN, NAN};
+    ec_clamp_error e = {NAN, NAN, noise->error, NAN, NAN, NAN};
     if (!(kept > 0) || !isfinite(noise->error)) return e;
     e.missing = cut / (cut + kept);
     e.missing_stderr = share_stderr(cut, sqrt(sums->se2) / pixels, kept, noise->error * kept / sqrt(pixels));
     e.bias = sqrt(fmax(sums->square - sums->se2, 0) / pixels) / kept;
+    e.bias_most = sqrt(sums->square / pixels) / kept;
     e.error = hypot(e.noise, e.bias);
     return e;
+}
+
+double ec_clamp_bias(const ec_clamp_error *error)
+{
+    return error->bias * error->bias < error->bias_most * error->bias_most / 2 ? error->bias_most : error->bias;
 }
 
 ec_clamp_error ec_film_clamp_error(const ec_film *film)

@@ -23,9 +23,13 @@ typedef struct ec_clamp_error {
     double missing, missing_stderr; /* share of the light that the picture would have without a limit */
     double noise;                   /* the picture's own standard error: ec_film_error.error */
     double bias;                    /* root of the mean over pixels of the square of what they lack, its own noise subtracted */
+    double bias_most;               /* the same with that noise left in */
     double error;                   /* both together: root of the sum of their squares */
 } ec_clamp_error;
 ec_clamp_error ec_clamp_error_of(const ec_cut_sums *sums, const ec_film_error *noise, double pixels);
 ec_clamp_error ec_film_clamp_error(const ec_film *film); /* of a whole picture */
+
+/* The bias, or where noise makes more than half of its square the most that it may be. */
+double ec_clamp_bias(const ec_clamp_error *error);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "report/format.h"
 
-const char *ec_error_grade(const ec_film_error *e)
+const char *ec_error_grade(const ec_film_error *e, const ec_clamp_error *clamp)
 {
     static const struct {
         double bound;
@@ -13,8 +13,9 @@ const char *ec_error_grade(const ec_film_error *e)
     } grades[] = {{0.01, "good as a reference"}, {0.03, "good for a print"}, {0.10, "good for a screen"}, {0.30, "a preview"}};
     if (!isfinite(e->error)) return "not known yet";
     if (e->is_open) return "not to be relied on";
+    const double bound = clamp && isfinite(clamp->error) ? hypot(e->error_bound, ec_clamp_bias(clamp)) : e->error_bound;
     for (size_t i = 0; i < sizeof grades / sizeof *grades; i++)
-        if (e->error_bound <= grades[i].bound) return grades[i].name;
+        if (bound <= grades[i].bound) return grades[i].name;
     return "a rough preview";
 }
 
@@ -50,11 +51,11 @@ void ec_error_text(const ec_film_error *e, char *text, size_t size)
     else snprintf(text, size, "error %s (95 %% bound %s)", ec_percent(e->error).text, ec_percent(e->error_bound).text);
 }
 
-void ec_error_json(cJSON *root, const ec_film_error *e)
+void ec_error_json(cJSON *root, const ec_film_error *e, const ec_clamp_error *clamp)
 {
     char why[EC_ERROR_TEXT];
     ec_error_why(e, why, sizeof why);
-    EC_JSON(root, EC_STRING("error_bound_why", *why ? why : NULL), EC_STRING("quality", ec_error_grade(e)), EC_REAL("error_unmet", e->unmet),
+    EC_JSON(root, EC_STRING("error_bound_why", *why ? why : NULL), EC_STRING("quality", ec_error_grade(e, clamp)), EC_REAL("error_unmet", e->unmet),
             EC_REAL("tail_share", e->tail_share));
 }
 
@@ -64,9 +65,11 @@ void ec_clamp_text(const ec_clamp_error *c, bool is_open, char *text, size_t siz
         snprintf(text, size, "how much light is missing is not known");
         return;
     }
-    snprintf(text, size, "%s%s of the light is missing (standard error %s); noise %s, bias %s, together %s", is_open ? "at least " : "",
-             ec_percent(c->missing).text, ec_percent(c->missing_stderr).text, ec_percent(c->noise).text,
-             ec_percent(c->bias).text, ec_percent(c->error).text);
+    const double bias = ec_clamp_bias(c);
+    const char *up_to = bias > c->bias ? "up to " : "";
+    snprintf(text, size, "%s%s of the light is missing (standard error %s); noise %s, bias %s%s, together %s%s", is_open ? "at least " : "",
+             ec_percent(c->missing).text, ec_percent(c->missing_stderr).text, ec_percent(c->noise).text, up_to,
+             ec_percent(bias).text, up_to, ec_percent(hypot(c->noise, bias)).text);
 }
 
 void ec_clamp_json(cJSON *root, double limit, double luminance, const ec_clamp_error *c)
@@ -76,12 +79,13 @@ void ec_clamp_json(cJSON *root, double limit, double luminance, const ec_clamp_e
         return;
     }
     EC_JSON(ec_json_object(root, "clamp"), EC_REAL("limit", limit), EC_REAL("luminance", luminance), EC_REAL("missing", c->missing),
-            EC_REAL("missing_stderr", c->missing_stderr), EC_REAL("noise", c->noise), EC_REAL("bias", c->bias), EC_REAL("error", c->error));
+            EC_REAL("missing_stderr", c->missing_stderr), EC_REAL("noise", c->noise), EC_REAL("bias", c->bias),
+            EC_REAL("bias_most", c->bias_most), EC_REAL("error", c->error));
 }
 
 void ec_clamp_attributes(ec_report_attributes *to, double limit, double luminance, const ec_clamp_error *c)
 {
     EC_ATTRIBUTES(to, EC_REAL("eclat.clamp.limit", limit), EC_REAL("eclat.clamp.luminance", luminance), EC_REAL("eclat.clamp.missing", c->missing),
                   EC_REAL("eclat.clamp.missingStderr", c->missing_stderr), EC_REAL("eclat.clamp.noise", c->noise),
-                  EC_REAL("eclat.clamp.bias", c->bias), EC_REAL("eclat.clamp.error", c->error));
+                  EC_REAL("eclat.clamp.bias", c->bias), EC_REAL("eclat.clamp.biasMost", c->bias_most), EC_REAL("eclat.clamp.error", c->error));
 }

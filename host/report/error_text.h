@@ -13,16 +13,16 @@ void ec_error_text(const ec_film_error *error, char *text, size_t size);
 /* Why there is no bound, without a full stop; empty where there is one. */
 void ec_error_why(const ec_film_error *error, char *text, size_t size);
 
-/* Names what the picture is good for: the scale is the manual's. */
-const char *ec_error_grade(const ec_film_error *error);
+/* Names what the picture is good for, by its bound and the clamp's bias; the scale is the manual's. clamp: NULL without one. */
+const char *ec_error_grade(const ec_film_error *error, const ec_clamp_error *clamp);
 
 /* Names what would bring a bound; empty where there is one. */
 void ec_error_help(const ec_film_error *error, char *text, size_t size);
 
 /* error_bound_why, null where there is a bound, and the figures that it goes by. */
-void ec_error_json(cJSON *root, const ec_film_error *error);
+void ec_error_json(cJSON *root, const ec_film_error *error, const ec_clamp_error *clamp);
 
-/* A clamp's: "3.1 % of the light is missing (standard error 0.2 %); noise 1.2 %, bias 4.0 %, together 4.2 %". is_open: more may be missing
+/* A clamp's: "3.1 % of the light is missing (standard error 0.2 %); noise 1.2 %, bias 4.0 %, together 4.2 %"; "bias up to 4.0 %" where noise decides. is_open: more may be missing
  * (film/rare.h). */
 void ec_clamp_text(const ec_clamp_error *clamp, bool is_open, char *text, size_t size);
 

@@ -20,7 +20,7 @@ ec_figure ec_percent(double fraction)
     ec_figure figure;
     double percent = 100 * fraction;
     int decimals = 0;
-    for (double limit = 99.95; percent < limit && decimals < 6; limit /= 10) decimals++;
+    for (double limit = 99.95; percent != 0 && percent < limit && decimals < 6; limit /= 10) decimals++;
     snprintf(figure.text, sizeof figure.text, "%.*f %%", decimals, percent);
     return figure;
 }

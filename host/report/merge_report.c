@@ -27,7 +27,7 @@ ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err
     cJSON *object = cJSON_CreateObject();
     EC_JSON(object, EC_STRING("version", ECLAT_VERSION), EC_WHOLE("files", (uint64_t)r->files), EC_WHOLE("samples_per_pixel", r->samples_per_pixel),
             EC_WHOLE("replicates", r->replicates), EC_REAL("error", r->error.error), EC_REAL("error_bound", r->error.error_bound));
-    ec_error_json(object, &r->error);
+    ec_error_json(object, &r->error, r->limit > 0 ? &r->clamp : NULL);
     EC_JSON(object, EC_REAL("relmse", r->error.relmse), EC_REAL("mean_luminance", r->error.mean_luminance), EC_WHOLE("heavy_pixels", r->heavy_pixels));
     ec_clamp_json(object, r->limit, r->luminance, &r->clamp);
     ec_json_text(object, "image_sha256", r->image_sha256);

@@ -16,8 +16,8 @@ void ec_render_report_summary(const ec_render_report *report, char *text, size_t
     char error[EC_ERROR_TEXT];
     ec_error_text(&stats->film, error, sizeof error);
     if (report->replicates < 2) snprintf(error, sizeof error, "error unknown (it takes two samples a pixel)");
-    snprintf(text, size, "%s: %s at %" PRIu64 " samples a pixel in %s, %s samples/s", ec_error_grade(&stats->film), error, stats->samples_per_pixel,
-             ec_seconds(stats->seconds).text, ec_count(stats->samples_per_second).text);
+    snprintf(text, size, "%s: %s at %" PRIu64 " samples a pixel in %s, %s samples/s", ec_error_grade(&stats->film, report->options->clamp > 0 ? &report->clamp : NULL), error,
+             stats->samples_per_pixel, ec_seconds(stats->seconds).text, ec_count(stats->samples_per_second).text);
 }
 
 static void print_shared(const ec_render_stats *stats, FILE *to)

@@ -5,7 +5,7 @@ import math
 import statistics
 import unittest
 
-from support import CORNELL, QUICK, Case, eclat, read_alike, read_exr
+from support import CORNELL, QUICK, RING, Case, eclat, read_alike, read_exr
 from test_ranks import mpirun, without_mpi
 from tiers import full
 
@@ -59,11 +59,12 @@ class Clamp(Case):
         self.assertAlmostEqual(clamp["missing"], cut / (cut + mean), delta=1e-6)
         bias = math.sqrt(sum(c * c for c in planes["clamped.Y"]) / pixels - noise) / mean
         self.assertAlmostEqual(clamp["bias"], bias, delta=1e-5 * bias)
+        self.assertAlmostEqual(clamp["bias_most"], math.hypot(clamp["bias"], math.sqrt(noise) / mean), delta=1e-5 * bias)
         self.assertEqual(clamp["noise"], report["error"])
         self.assertAlmostEqual(clamp["error"], math.hypot(clamp["noise"], clamp["bias"]), delta=1e-12)
         self.assertGreater(clamp["missing_stderr"], 0)
         for name, key in [("limit", "limit"), ("luminance", "luminance"), ("missing", "missing"), ("missingStderr", "missing_stderr"),
-                          ("noise", "noise"), ("bias", "bias"), ("error", "error")]:
+                          ("noise", "noise"), ("bias", "bias"), ("biasMost", "bias_most"), ("error", "error")]:
             self.assertAlmostEqual(attributes["eclat.clamp." + name], clamp[key], delta=1e-15 + 1e-14 * clamp[key])  # digits of JSON
 
     def test_words(self):
@@ -71,6 +72,16 @@ class Clamp(Case):
         self.assertRegex(run.stdout, r"clamped  [\d.]+ % of the light is missing \(standard error [\d.]+ %\); noise [\d.]+ %, bias [\d.]+ %, together [\d.]+ %\n")
         run = self.assert_ok(eclat("render", *JOB, "--spp", "1", "--clamp", "0.5", "-o", self.path("a.exr")))
         self.assertIn("clamped  how much light is missing is not known\n", run.stdout)
+
+    def test_few_samples_decide(self):
+        """A caustic: little noise is left, but what was cut off is hardly known, and the picture is not called good."""
+        job = [RING, "--size", "32x32", "--spp", "64", "--clamp", "4", "-o", self.path("a.exr")]
+        run = self.assert_ok(eclat("render", *job))
+        self.assertRegex(run.stdout, r"bias up to [\d.]+ %, together up to [\d.]+ %\n")
+        report = json.loads(self.assert_ok(eclat("render", *job, "--json", "-q")).stdout)
+        self.assertLess(report["error_bound"], 0.3)
+        self.assertEqual(report["quality"], "a rough preview")
+        self.assertLess(report["clamp"]["bias"], math.sqrt(0.5) * report["clamp"]["bias_most"])
 
     @full
     def test_standard_error(self):

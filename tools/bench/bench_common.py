@@ -79,12 +79,16 @@ def commit():
     return done.stdout.split() if done.returncode == 0 else ["", ""]
 
 
+PLACES = ("--table", "--json", "--eclat", "--references")  # options that say where files are, and change no figure
+
+
 def write_table(path, setting, columns, rows):
     """What tools/docs_tables.py makes a table of docs/ from. Cells are text."""
     hash_, date = commit()
     words = [os.path.relpath(sys.argv[0], ROOT) if os.path.exists(sys.argv[0]) else sys.argv[0], *sys.argv[1:]]
-    if "--table" in words:
-        del words[words.index("--table"):words.index("--table") + 2]
+    for option in PLACES:
+        if option in words:
+            del words[words.index(option):words.index(option) + 2]
     write_json(path, {"command": " ".join(words), "commit": hash_, "date": date, "setting": setting, "columns": columns, "rows": rows})
 
 

@@ -252,7 +252,9 @@ def main():
         print()
     common.print_rows(rows)
     if options.table:
-        common.write_table(options.table, f"{options.seeds} renders of each scene at {options.budgets} samples per pixel, against long renders", BRIEF,
+        share = "" if options.reference_share == 1 else f", of {options.reference_share:g} times as many samples as in a full run"
+        common.write_table(options.table, f"{options.seeds} renders of each scene at {options.budgets.replace(',', ', ')} samples per pixel, against "
+                           f"long renders{share}; in the sun: the map {os.path.splitext(SUN[-1])[0]}", BRIEF,
                            list(brief(record.results)))
     sys.exit(not all(r["met"] for r in rows))
 
