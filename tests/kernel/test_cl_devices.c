@@ -64,6 +64,15 @@ static void workarounds_can_be_forced(void)
     CHECK(ec_workaround_check(&err) == EC_OK && ec_workaround_for(&cl.info));
 }
 
+/* NVIDIA's threads go in step by 32, AMD's by 32 or 64, Intel's by up to 32. */
+static void groups_of_cards_fill_their_threads(void)
+{
+    ec_device_info devices[4];
+    fake_devices(devices);
+    CHECK(ec_local_size(&devices[3]) % 64 == 0);
+    CHECK(ec_local_size(&devices[0]) == EC_LOCAL_SIZE); /* what PoCL has compiled for */
+}
+
 /* What stands in many names: "8" is no device of two. Nor is a part of another number. */
 static void short_numbers_are_no_names(void)
 {
@@ -162,5 +171,6 @@ int main(void)
     lists_of_devices();
     workarounds_go_by_the_driver();
     workarounds_can_be_forced();
+    groups_of_cards_fill_their_threads();
     TEST_END();
 }
