@@ -7,6 +7,7 @@
 
 #include "cl/cl.h"
 #include "cl/drivers.h"
+#include "cl/workarounds.h"
 
 #define EC_PLATFORM_NOT_FOUND_KHR (-1001) /* what the ICD loader says when no driver is installed */
 #define EC_INSTALL_HINT "install a driver, for instance for the CPU: apt-get install pocl-opencl-icd, or with Python and without root: pip install eclat[cpu]"
@@ -43,6 +44,19 @@ static void platform_text(cl_platform_id platform, cl_platform_info what, char t
         if (clGetDeviceInfo(device, what, sizeof number, &number, NULL) != CL_SUCCESS) number = 0; \
         (to) = number;                                                                             \
     } while (0)
+
+/* Of all devices, where it is forced: what is done on cards is tried on processors so. 0: each has its own. */
+static ec_result forced_type(cl_device_type *type, ec_error *err)
+{
+    static const struct { const char *name; cl_device_type type; } types[] = {
+        {"cpu", CL_DEVICE_TYPE_CPU}, {"gpu", CL_DEVICE_TYPE_GPU}, {"accel", CL_DEVICE_TYPE_ACCELERATOR}};
+    const char *name = getenv("ECLAT_DEVICE_TYPE");
+    *type = 0;
+    if (!name || !*name) return EC_OK;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (!strcasecmp(name, types[i].name)) *type = types[i].type;
+    return *type ? EC_OK : ec_fail(err, "ECLAT_DEVICE_TYPE=%s: must be cpu, gpu or accel", name);
+}
 
 static void describe(cl_platform_id platform, cl_device_id device, ec_device_info *info)
 {
@@ -99,7 +113,10 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
     *devices = NULL;
     *count = 0;
     cl_platform_id platforms[64];
+    cl_device_type type;
     cl_uint found = 0;
+    EC_TRY(forced_type(&type, err));
+    EC_TRY(ec_workaround_check(err));
     cl_int code = clGetPlatformIDs(64, platforms, &found);
     if (code == EC_PLATFORM_NOT_FOUND_KHR || (code == CL_SUCCESS && found == 0))
         return ec_drivers_explain(err) ? EC_FAILED : ec_fail(err, "no OpenCL driver is installed; " EC_INSTALL_HINT);
@@ -107,6 +124,7 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
     ec_result result = EC_OK;
     for (cl_uint i = 0; i < found && i < 64 && result == EC_OK; i++)
         result = add_platform(platforms[i], devices, count, err);
+    for (uint32_t i = 0; type && i < *count; i++) (*devices)[i].type = type;
     if (result == EC_OK && *count == 0)
         result = ec_fail(err, "the installed OpenCL driver (%u platform%s) offers no device; PoCL needs a folder that it may write to, "
                               "which POCL_CACHE_DIR=FOLDER names, and enough memory and open files (ulimit -a); else " EC_INSTALL_HINT, (unsigned)found, found == 1 ? "" : "s");

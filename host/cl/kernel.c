@@ -32,12 +32,28 @@ ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, ui
     return EC_OK;
 }
 
+static cl_int enqueue(ec_cl *cl, cl_kernel kernel, size_t items, size_t group, cl_event *event)
+{
+    return clEnqueueNDRangeKernel(cl->queue, kernel, 1, NULL, &items, &group, 0, NULL, event);
+}
+
+/* The largest power of two that the driver allows for this kernel: a card's registers may not hold more of its work-items at once. */
+static size_t group_most(const ec_cl *cl, cl_kernel kernel)
+{
+    size_t most = 0, group = 1;
+    if (clGetKernelWorkGroupInfo(kernel, cl->info.id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL) != CL_SUCCESS) return 1;
+    while (group * 2 <= most) group *= 2;
+    return group;
+}
+
+/* local is a power of two. No kernel asks how large its group is. */
 ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local,
                         ec_error *err) {
     if (global == 0) return EC_OK;
-    size_t group = local, items = (size_t)((global + local - 1) / local * local);
+    const size_t items = (size_t)((global + local - 1) / local * local);
     cl_event event;
-    cl_int code = clEnqueueNDRangeKernel(cl->queue, kernel, 1, NULL, &items, &group, 0, NULL, &event);
+    cl_int code = enqueue(cl, kernel, items, local, &event);
+    if (code == CL_INVALID_WORK_GROUP_SIZE && group_most(cl, kernel) < local) code = enqueue(cl, kernel, items, group_most(cl, kernel), &event);
     EC_TRY(ec_cl_check(code, "clEnqueueNDRangeKernel", label, err));
     return ec_cl_launched(cl, event, label, err);
 }

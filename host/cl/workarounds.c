@@ -13,7 +13,9 @@
 #include "cl/workarounds.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const ec_workaround workarounds[] = {
     {"PoCL", "3.1, 2026-11", "binaries lack what launches use", .source_only = true, .compiles_late = true},
@@ -24,9 +26,34 @@ static const ec_workaround workarounds[] = {
     {"Intel(R) OpenCL", "2026.22.10, 2026-11", "does not say that it rounds correctly, but does", .rounds = true},
 };
 
+enum { ROWS = sizeof workarounds / sizeof *workarounds };
+
+/* What is to be taken whatever the driver: drivers that are not at hand are tried so. NULL: nothing is. */
+static const char *forced(void)
+{
+    const char *name = getenv("ECLAT_WORKAROUND");
+    return name && *name ? name : NULL;
+}
+
+static const ec_workaround *row_named(const char *name)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (!strcasecmp(name, workarounds[i].driver)) return &workarounds[i];
+    return NULL;
+}
+
+ec_result ec_workaround_check(ec_error *err)
+{
+    char names[256] = "";
+    if (!forced() || !strcasecmp(forced(), "none") || row_named(forced())) return EC_OK;
+    for (size_t i = 0; i < ROWS; i++) snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", workarounds[i].driver);
+    return ec_fail(err, "ECLAT_WORKAROUND=%s: must be %s or none", forced(), names);
+}
+
 const ec_workaround *ec_workaround_for(const ec_device_info *device)
 {
-    for (size_t i = 0; i < sizeof workarounds / sizeof *workarounds; i++)
+    if (forced()) return row_named(forced());
+    for (size_t i = 0; i < ROWS; i++)
         if (strstr(device->platform_name, workarounds[i].driver) || strstr(device->platform_version, workarounds[i].driver))
             return &workarounds[i];
     return NULL;

@@ -15,8 +15,11 @@ typedef struct ec_workaround {
     bool no_touch;          /* buffers are not written to only to see whether there is memory for them */
 } ec_workaround;
 
-/* The one for a device, or NULL. */
+/* The one for a device, or NULL. ECLAT_WORKAROUND=DRIVER takes that row for all devices, none takes none. */
 const ec_workaround *ec_workaround_for(const ec_device_info *device);
+
+/* Does ECLAT_WORKAROUND name what there is? */
+ec_result ec_workaround_check(ec_error *err);
 
 bool ec_compiles_late(const ec_cl *cl);
 

@@ -116,7 +116,7 @@ static ec_result add_kernel(const ec_pipeline *p, const ec_kernel_set *set, cons
     const ec_stage_entry *stage = &ec_stages[e->stage];
     if (job->kernel_count == EC_COMPILE_KERNELS || stage->argument_count > EC_COMPILE_ARGUMENTS) return ec_fail(err, "internal error: too many kernels");
     ec_compile_kernel *k = &job->kernels[job->kernel_count++];
-    *k = (ec_compile_kernel){.program = program, .local = EC_LOCAL_SIZE, .argument_count = stage->argument_count};
+    *k = (ec_compile_kernel){.program = program, .local = ec_local_size(&p->cl->info), .argument_count = stage->argument_count};
     snprintf(k->name, sizeof k->name, "%s", e->name);
     k->global = ec_pipeline_items(e->stage, e->accel, set->lanes, set->wave, p->triangle_count);
     for (uint32_t i = 0; i < stage->argument_count; i++)

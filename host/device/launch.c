@@ -13,6 +13,11 @@ uint64_t ec_pipeline_items(ec_stage_id id, uint32_t accel, uint32_t set_lanes, u
     return items;
 }
 
+uint32_t ec_local_size(const ec_device_info *device)
+{
+    return device->type & CL_DEVICE_TYPE_CPU ? EC_LOCAL_SIZE : EC_LOCAL_SIZE_OF_CARDS;
+}
+
 static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32_t accel, const uint32_t *scalars, ec_error *err)
 {
     const ec_stage_entry *stage = &ec_stages[id];
@@ -24,7 +29,7 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32
         EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
     }
     const uint64_t items = ec_pipeline_items(id, accel, p->kernels.lanes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
-    return ec_kernel_run(p->cl, stage->label, kernel, items, EC_LOCAL_SIZE, err);
+    return ec_kernel_run(p->cl, stage->label, kernel, items, ec_local_size(&p->cl->info), err);
 }
 
 ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *scalars, ec_error *err)

@@ -138,10 +138,9 @@ EC_FN lane_i light_is_near(v3 v0, v3 v1, v3 v2, v3 p)
     return v3_dot(e1, e1) + v3_dot(e2, e2) > (EC_LIGHT_NEAR / 9.0f) * v3_dot(sum, sum);
 }
 
-/* Density of uniform directions to a triangle, 0 where it has no solid angle. n: cross product of two edges. */
-EC_FN lane_f light_near_pdf(const spherical_triangle *t, lane_f pdf_a, v3 n)
+/* Density of uniform directions to a triangle that is chosen so often, 0 where it has no solid angle. */
+EC_FN lane_f light_near_pdf(const spherical_triangle *t, lane_f pmf)
 {
-    lane_f pmf = pdf_a * 0.5f * sqrt(v3_dot(n, n));
     return t->turns > 0.0f ? pmf * (0.25f * EC_INV_PI) / t->turns : F(0.0f);
 }
 
@@ -154,8 +153,9 @@ EC_FN lane_f light_triangle_pdf(v3 v0, v3 v1, v3 v2, lane_f pdf_a, lane_i m, v3 
     if (any_lane(near)) {
         v3 a = v3_sub(v0, p), b = v3_sub(v1, p), c = v3_sub(v2, p);
         v3 n = v3_cross(v3_sub(v1, v0), v3_sub(v2, v0));
-        spherical_triangle t = spherical_triangle_make(a, b, c, n);
-        pdf = near ? light_near_pdf(&t, pdf_a, n) : pdf;
+        lane_f pmf = pdf_a * 0.5f * sqrt(v3_dot(n, n));
+        spherical_triangle t = spherical_triangle_make(a, b, c, fabs(v3_dot(a, n)));
+        pdf = near ? light_near_pdf(&t, pmf) : pdf;
     }
     return pdf;
 }
@@ -207,13 +207,14 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
     if (any_lane(near)) {
         v3 a = v3_sub(v0, p), b = v3_sub(v1, p), c = v3_sub(v2, p);
         v3 n = v3_cross(v3_sub(v1, v0), v3_sub(v2, v0));
-        spherical_triangle t = spherical_triangle_make(a, b, c, n);
+        lane_f pmf = l->pdf_a * 0.5f * sqrt(v3_dot(n, n)), height = v3_dot(a, n);
+        spherical_triangle t = spherical_triangle_make(a, b, c, fabs(height));
         lane_f near_b1, near_b2;
-        wi = spherical_triangle_sample(&t, u1, u2, &near_b1, &near_b2);
+        pdf = light_near_pdf(&t, pmf);
+        seen = (pdf > 0.0f) & ((height < 0.0f) | ((l->kind & EC_LIGHT_TWO_SIDED) != 0u));
+        wi = spherical_triangle_sample(&t, v0, v1, v2, p, u1, u2, &near_b1, &near_b2);
         b1 = near ? near_b1 : b1;
         b2 = near ? near_b2 : b2;
-        pdf = light_near_pdf(&t, l->pdf_a, n);
-        seen = (pdf > 0.0f) & ((v3_dot(a, n) < 0.0f) | ((l->kind & EC_LIGHT_TWO_SIDED) != 0u));
     }
     if (HAS(LAMP_PARTS)) {
         b1 = fma(part->size, b1, part->b1);

@@ -146,9 +146,15 @@ EC_FN lane_f edges_exact_sum(const edges *e, v3 a, v3 b, v3 c, lane_f z0, lane_f
     lane_f p0 = e->u * z0, p1 = e->v * z1, p2 = e->w * z2, first = p0 + p1, sum = first + p2;
     lane_f lost = sum_error(p0, p1, first) + sum_error(first, p2, sum);
     lost += fma(e->u, z0, -p0) + fma(e->v, z1, -p1) + fma(e->w, z2, -p2);
-    lost = fma(ray_edge_error(c, b, e->u), z0, lost);
-    lost = fma(ray_edge_error(a, c, e->v), z1, lost);
-    lost = fma(ray_edge_error(b, a, e->w), z2, lost);
+    v3 p = c, q = b, r = a;
+    lane_f edge = e->u, z = z0;
+    EC_LOOP
+    for (uint k = 0; k < 3; k++) {
+        lost = fma(ray_edge_error(p, q, edge), z, lost);
+        v3 last = q;
+        q = p, p = r, r = last; /* c b, a c, b a */
+        edge = k ? e->w : e->v, z = k ? z2 : z1;
+    }
     return sum + lost;
 }
 

@@ -16,7 +16,6 @@
 #define EC_OPPOSITE 0.01f /* 1 + cosine: over 172 degrees apart */
 
 typedef struct spherical_triangle {
-    v3 a, b, c;             /* unit */
     lane_f near_a, near_b, near_c; /* 1 / distance */
     lane_f h;               /* sqrt(D^2 + E^2) */
     lane_f ab, ac;          /* 1 + a.b, 1 + a.c */
@@ -38,26 +37,28 @@ EC_FN lane_f spherical_triangle_e(v3 a, v3 b, v3 c)
     return (x2 / fma(la, lb, -v3_dot(a, b)) + v3_dot(both, c) / sqrt(v3_dot(c, c))) / (la * lb);
 }
 
-/* a, b, c: corners seen from the point; n: cross product of two edges. */
-EC_FN spherical_triangle spherical_triangle_make(v3 a, v3 b, v3 c, v3 n)
+/* E where some two corners are all but opposite. A card branches: it has no registers to spare for a choice of nine numbers. */
+EC_FN lane_f spherical_triangle_e_of(v3 a, v3 b, v3 c, lane_i is_ab, lane_i is_bc)
+{
+    if (LANES == 1) return is_ab ? spherical_triangle_e(a, b, c) : is_bc ? spherical_triangle_e(b, c, a) : spherical_triangle_e(c, a, b);
+    return spherical_triangle_e(v3_select(is_ab, a, v3_select(is_bc, b, c)), v3_select(is_ab, b, v3_select(is_bc, c, a)),
+                                v3_select(is_ab, c, v3_select(is_bc, a, b)));
+}
+
+/* a, b, c: corners seen from the point; det: |det(a, b, c)|, a times the cross product of two edges. */
+EC_FN spherical_triangle spherical_triangle_make(v3 a, v3 b, v3 c, lane_f det)
 {
     spherical_triangle t;
-    lane_f det = fabs(v3_dot(a, n));
     t.near_a = 1.0f / sqrt(v3_dot(a, a));
     t.near_b = 1.0f / sqrt(v3_dot(b, b));
     t.near_c = 1.0f / sqrt(v3_dot(c, c));
-    t.a = v3_scale(a, t.near_a);
-    t.b = v3_scale(b, t.near_b);
-    t.c = v3_scale(c, t.near_c);
-    v3 sum = v3_add(t.a, t.b);
+    v3 unit_a = v3_scale(a, t.near_a), unit_b = v3_scale(b, t.near_b), unit_c = v3_scale(c, t.near_c), sum = v3_add(unit_a, unit_b);
     t.ab = half_square(sum);
-    t.ac = half_square(v3_add(t.a, t.c));
-    lane_f d = det * t.near_a * t.near_b * t.near_c, e = t.ab + v3_dot(sum, t.c);
-    lane_f bc = half_square(v3_add(t.b, t.c)), least = min(t.ab, min(t.ac, bc));
+    t.ac = half_square(v3_add(unit_a, unit_c));
+    lane_f d = det * t.near_a * t.near_b * t.near_c, e = t.ab + v3_dot(sum, unit_c);
+    lane_f bc = half_square(v3_add(unit_b, unit_c)), least = min(t.ab, min(t.ac, bc));
     if (any_lane(least < EC_OPPOSITE)) {
-        lane_i is_ab = least == t.ab, is_bc = least == bc;
-        lane_f safe = spherical_triangle_e(v3_select(is_ab, a, v3_select(is_bc, b, c)), v3_select(is_ab, b, v3_select(is_bc, c, a)),
-                                           v3_select(is_ab, c, v3_select(is_bc, a, b)));
+        lane_f safe = spherical_triangle_e_of(a, b, c, least == t.ab, least == bc);
         e = least < EC_OPPOSITE ? safe : e;
     }
     t.h = sqrt(fma(d, d, e * e));
@@ -66,9 +67,12 @@ EC_FN spherical_triangle spherical_triangle_make(v3 a, v3 b, v3 c, v3 n)
     return t;
 }
 
-/* A direction, unit, and the barycentrics of the corners b and c where it meets the triangle. */
-EC_FN v3 spherical_triangle_sample(const spherical_triangle *t, lane_f u1, lane_f u2, lane_f *weight_b, lane_f *weight_c)
+/* A direction, unit, and the barycentrics of the corners v1 and v2 where it meets the triangle, as p sees it. */
+EC_FN v3 spherical_triangle_sample(const spherical_triangle *t, v3 v0, v3 v1, v3 v2, v3 p, lane_f u1, lane_f u2, lane_f *weight_b,
+                                   lane_f *weight_c)
 {
+    /* Unit, once more, from the corners to p: so compilers do not keep those of spherical_triangle_make, for which a card has no registers. */
+    v3 a = v3_scale(v3_sub(p, v0), -t->near_a), b = v3_scale(v3_sub(p, v1), -t->near_b), c = v3_scale(v3_sub(p, v2), -t->near_c);
     /* m: where the arc a c is cut. x is 1, so that no square underflows. */
     lane_f cosine, s = u1 * t->turns;
     lane_f y = t->ab * sincos_2pi(s, &cosine), d = t->h * sincos_2pi(t->turns - s, &cosine), scale = 1.0f / (y + d);
@@ -76,11 +80,11 @@ EC_FN v3 spherical_triangle_sample(const spherical_triangle *t, lane_f u1, lane_
     d *= scale;
     lane_f length2 = 1.0f / fma(d, d, 2.0f * y * t->ac);
     lane_f ma = d * (1.0f + y) * length2, mc = 2.0f * y * fma(y, t->ac, d) * length2;
-    v3 m = v3_fma(t->c, mc, v3_scale(t->a, ma));
+    v3 m = v3_fma(c, mc, v3_scale(a, ma));
     /* From b towards m, uniform in the cosine: its half angle's sine goes as the root. */
-    lane_f sine = 0.5f * sqrt(v3_dot(v3_sub(m, t->b), v3_sub(m, t->b))), part = sqrt(u2) * sine;
+    lane_f sine = 0.5f * sqrt(v3_dot(v3_sub(m, b), v3_sub(m, b))), part = sqrt(u2) * sine;
     lane_f part_cosine = sqrt(max(fma(-part, part, F(1.0f)), F(0.0f)));
-    cosine = sqrt(0.5f * half_square(v3_add(m, t->b)));
+    cosine = sqrt(0.5f * half_square(v3_add(m, b)));
     lane_f pb = max(sine * part_cosine - part * cosine, F(0.0f)) * fma(cosine, part_cosine, sine * part);
     lane_f pm = part * part_cosine;
     /* A direction's weights over the unit vectors are its point's over the corners, but for their distances. */
@@ -88,7 +92,7 @@ EC_FN v3 spherical_triangle_sample(const spherical_triangle *t, lane_f u1, lane_
     lane_i valid = (sum > 0.0f) & is_finite_bits(sum);
     *weight_b = valid ? wb / sum : F(1.0f / 3.0f);
     *weight_c = valid ? wc / sum : F(1.0f / 3.0f);
-    return v3_normalize(v3_fma(t->b, pb, v3_scale(m, pm)));
+    return v3_normalize(v3_fma(b, pb, v3_scale(m, pm)));
 }
 
 #endif

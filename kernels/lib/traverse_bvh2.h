@@ -6,6 +6,7 @@
 #include "../shared/accel.h"
 #include "filter.h"
 #include "ray.h"
+#include "stack_bvh2.h"
 #include "tally.h"
 
 typedef struct hit {
@@ -106,7 +107,7 @@ EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const
     v3 a = ray_vertex(r, splat_point(tri->v0)), b = ray_vertex(r, splat_point(tri->v1)), c = ray_vertex(r, splat_point(tri->v2));
     edges e = edges_make(a, b, c);
     lane_i m = edges_inside(&e), n = !TRUE_MASK;
-    uint has_pair = tri->has_pair;
+    uint has_pair = LANES == 1 ? 0u : tri->has_pair; /* registers count for a ray alone: it meets the halves one after the other, at the same t */
     edges f = e;
     if (has_pair) {
         v3 d = ray_vertex(r, splat_point(tri[1].v2));
@@ -131,8 +132,10 @@ EC_FN void bvh2_trace(const accel *a, const ray *r, const hit_filter *filter, la
     global const ec_bvh2_node *nodes = a->at[0];
     global const ec_tri *tris = a->at[1];
     global const ec_box *boxes = a->at[2];
-    uint stack[EC_BVH_STACK];
-    uint depth = 0, current = 0;
+    uint entries[STACK_ENTRIES];
+    bvh2_stack stack;
+    uint current = 0;
+    stack_start(&stack, entries);
     for (;;) {
         if (current & EC_LEAF_BIT) {
             uint first = (current & ~EC_LEAF_BIT) >> 4, end = first + (current & 15u);
@@ -153,19 +156,18 @@ EC_FN void bvh2_trace(const accel *a, const ray *r, const hit_filter *filter, la
             uint child0 = n->child[0], child1 = n->child[1];
             /* An empty box turned inside out by min and max would look like all of space. */
             bool hit0 = any_lane(m0), hit1 = any_lane(m1) && child1 != EC_NO_CHILD;
+            if (hit0 & hit1) {
+                bool swap = !any_hit && 2u * count_lanes(m0 & m1 & (near1 < near0)) > count_lanes(m0 & m1);
+                current = stack_both(&stack, swap ? child1 : child0, swap ? child0 : child1);
+                continue;
+            }
             if (hit0 | hit1) {
-                if (hit0 & hit1) {
-                    bool swap = !any_hit && 2u * count_lanes(m0 & m1 & (near1 < near0)) > count_lanes(m0 & m1);
-                    stack[depth++] = swap ? child0 : child1;
-                    current = swap ? child1 : child0;
-                } else {
-                    current = hit0 ? child0 : child1;
-                }
+                stack_one(&stack);
+                current = hit0 ? child0 : child1;
                 continue;
             }
         }
-        if (depth == 0) return;
-        current = stack[--depth];
+        if (!stack_next(&stack, &current)) return;
     }
 }
 

@@ -9,13 +9,19 @@
 #else /* lane-wide values are too large to travel through calls */
 #define EC_FN static inline __attribute__((always_inline))
 #endif
+#if defined(CALLS) || (defined(LANES) && LANES > 1)
 #define EC_CALLED static __attribute__((noinline)) /* compiled once a kernel: many places call it, and a call costs it little */
+#else /* on a graphics card it costs memory for all that it hands over */
+#define EC_CALLED EC_FN
+#endif
+#define EC_LOOP _Pragma("unroll 1") /* before a loop that is to stay one: turns side by side take registers for all of them */
 typedef int ec_int;
 typedef uint ec_uint;
 typedef ulong ec_ulong;
 typedef float ec_float;
 #else
 #include <stdint.h>
+#define EC_LOOP
 typedef int32_t ec_int;
 typedef uint32_t ec_uint;
 typedef uint64_t ec_ulong;

@@ -150,7 +150,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     lane_u r1, r2;
     lane_f u_survives = F(0.0f), u_pass = F(0.0f);
     bool roulette = bounce + 1 >= params->first_roulette;
-    if (HAS(TRANSMISSION) || roulette) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass);
+    if (HAS(TRANSMISSION)) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass);
     if (HAS(DISPERSION)) disperse(&g, &h, scatters, &u_pass, &s, &beta);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo), params->multiple != 0u);
 
@@ -185,6 +185,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     lane_f brightest = v3_max_component(beta);
     alive = alive & finite & (brightest > 0.0f);
     if (roulette) {
+        if (!HAS(TRANSMISSION)) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass); /* no sooner: registers are scarce above */
         lane_f survival = roulette_survival(brightest, params->survival);
         alive = alive & (u_survives < survival);
         beta = v3_scale(beta, 1.0f / survival);

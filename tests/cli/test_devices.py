@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from support import Case, eclat
+from support import CORNELL, Case, eclat, read_exr
 
 KEYS = ["index", "name", "type", "version", "driver", "platform", "compute_units", "native_float_width", "memory_bytes",
         "max_allocation_bytes", "correctly_rounded_divide_sqrt", "denormals", "fma"]
@@ -37,6 +37,33 @@ class Devices(Case):
         self.assertIsNone(report["default"])
         self.assertGreater(len(report["devices"]), 0)
         self.assertTrue(run.stderr.startswith("eclat: warning: "), run.stderr)
+
+    def test_a_processor_taken_for_a_card_gives_the_same_bits(self):
+        pictures = []
+        for kind in "cpu", "gpu", "accel":
+            env = {"ECLAT_DEVICE_TYPE": kind}
+            report = json.loads(self.assert_ok(eclat("devices", "--json", env=env)).stdout)
+            self.assertEqual({device["type"].lower() for device in report["devices"]}, {kind})
+            run = self.assert_ok(eclat("render", CORNELL, "--size", "24x24", "--spp", "8", "-q", "--json", "-o", self.path("a.exr"), env=env))
+            report = json.loads(run.stdout)
+            if kind == "gpu":
+                self.assertEqual(report["lanes"], 1)
+            pictures.append(read_exr(self.path("a.exr"))[1])
+        self.assertEqual(pictures[1], pictures[0])
+        self.assertEqual(pictures[2], pictures[0])
+
+    def test_rows_of_the_table_of_drivers_can_be_forced(self):
+        pictures = []
+        for row in "", "none", "PoCL", "Oclgrind", "rusticl", "Intel(R) OpenCL":
+            self.assert_ok(eclat("render", CORNELL, "--size", "24x24", "--spp", "8", "-q", "-o", self.path("a.exr"), env={"ECLAT_WORKAROUND": row}))
+            pictures.append(read_exr(self.path("a.exr"))[1])
+            self.assertEqual(pictures[-1], pictures[0], row)
+
+    def test_what_cannot_be_forced_is_one_clear_line(self):
+        line = self.assert_one_error(eclat("devices", env={"ECLAT_DEVICE_TYPE": "card"}), 1)
+        self.assertIn("ECLAT_DEVICE_TYPE=card: must be cpu, gpu or accel", line)
+        line = self.assert_one_error(eclat("devices", env={"ECLAT_WORKAROUND": "nvidia"}), 1)
+        self.assertIn("ECLAT_WORKAROUND=nvidia: must be PoCL, Oclgrind, rusticl, Intel(R) OpenCL or none", line)
 
     def test_no_device_at_all_is_one_clear_line(self):
         line = self.assert_one_error(eclat("devices", env={"OCL_ICD_VENDORS": self.folder}), 1)

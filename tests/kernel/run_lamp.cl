@@ -14,7 +14,8 @@ kernel void lamps(uint n, global const float *points, global const float *corner
     if (at >= n) return;
     v3 p = load(points, n, at), v0 = load(corners, n, at), v1 = load(corners + 3 * n, n, at), v2 = load(corners + 6 * n, n, at);
     v3 normal = v3_cross(v3_sub(v1, v0), v3_sub(v2, v0));
-    spherical_triangle t = spherical_triangle_make(v3_sub(v0, p), v3_sub(v1, p), v3_sub(v2, p), normal);
+    v3 a = v3_sub(v0, p);
+    spherical_triangle t = spherical_triangle_make(a, v3_sub(v1, p), v3_sub(v2, p), fabs(v3_dot(a, normal)));
     LANE_STORE(t.turns * (4.0f * EC_PI), out + at);
 
     lane_f pdf_a = 2.0f / sqrt(v3_dot(normal, normal)), u1 = LANE_LOAD(u + at), u2 = LANE_LOAD(u + n + at), b1, b2;
@@ -22,7 +23,7 @@ kernel void lamps(uint n, global const float *points, global const float *corner
     geometry g = {0, 0, 0, 0, 0, 0, 0, {0, 0, 0}};
     lamp_part whole = lamp_part_all();
     light_sample s = light_sample_triangle(&l, &g, &whole, TRUE_MASK, p, u1, u2);
-    spherical_triangle_sample(&t, u1, u2, &b1, &b2);
+    spherical_triangle_sample(&t, v0, v1, v2, p, u1, u2, &b1, &b2);
     hit_point h;
     h.p0 = v0;
     h.p1 = v1;

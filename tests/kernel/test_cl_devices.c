@@ -36,6 +36,43 @@ static void workarounds_go_by_the_driver(void)
     CHECK(ec_device_rounds(&devices[3]));
 }
 
+/* Every row, forced on a device that is none of its drivers, does what it says; none of them on one that is. */
+static void workarounds_can_be_forced(void)
+{
+    ec_cl cl = {.info = {.name = "GeForce", .platform_name = "NVIDIA CUDA", .type = CL_DEVICE_TYPE_CPU, .native_float_width = 8}};
+    ec_error err = {0};
+    uint32_t lanes = 0;
+    setenv("ECLAT_WORKAROUND", "PoCL", 1);
+    const ec_workaround *row = ec_workaround_for(&cl.info);
+    CHECK(row && row->source_only && ec_compiles_late(&cl) && !ec_device_rounds(&cl.info));
+    setenv("ECLAT_WORKAROUND", "oclgrind", 1);
+    row = ec_workaround_for(&cl.info);
+    CHECK(row && row->source_only && row->no_touch && !ec_compiles_late(&cl));
+    setenv("ECLAT_WORKAROUND", "rusticl", 1);
+    CHECK(ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 1 && ec_device_rounds(&cl.info));
+    setenv("ECLAT_WORKAROUND", "Intel(R) OpenCL", 1);
+    row = ec_workaround_for(&cl.info);
+    CHECK(row && !row->source_only && ec_device_rounds(&cl.info));
+    strcpy(cl.info.platform_name, "rusticl");
+    setenv("ECLAT_WORKAROUND", "none", 1);
+    CHECK(!ec_workaround_for(&cl.info) && ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 8);
+    CHECK(ec_workaround_check(&err) == EC_OK);
+    setenv("ECLAT_WORKAROUND", "nvidia", 1);
+    CHECK(ec_workaround_check(&err) == EC_FAILED);
+    CHECK_MSG(strstr(err.text, "nvidia") && strstr(err.text, "PoCL, Oclgrind, rusticl, Intel(R) OpenCL or none"), "%s", err.text);
+    unsetenv("ECLAT_WORKAROUND");
+    CHECK(ec_workaround_check(&err) == EC_OK && ec_workaround_for(&cl.info));
+}
+
+/* NVIDIA's threads go in step by 32, AMD's by 32 or 64, Intel's by up to 32. */
+static void groups_of_cards_fill_their_threads(void)
+{
+    ec_device_info devices[4];
+    fake_devices(devices);
+    CHECK(ec_local_size(&devices[3]) % 64 == 0);
+    CHECK(ec_local_size(&devices[0]) == EC_LOCAL_SIZE); /* what PoCL has compiled for */
+}
+
 /* What stands in many names: "8" is no device of two. Nor is a part of another number. */
 static void short_numbers_are_no_names(void)
 {
@@ -133,5 +170,7 @@ int main(void)
     short_numbers_are_no_names();
     lists_of_devices();
     workarounds_go_by_the_driver();
+    workarounds_can_be_forced();
+    groups_of_cards_fill_their_threads();
     TEST_END();
 }

@@ -15,7 +15,7 @@ typedef struct tracer {
     char label[32];
     cl_program program;
 } tracer;
-#define TRACERS_MOST (EC_ACCEL_COUNT + LANE_WIDTHS + 1)
+#define TRACERS_MOST (EC_ACCEL_COUNT + LANE_WIDTHS + 2)
 static tracer tracers[TRACERS_MOST];
 static uint32_t tracer_count;
 
@@ -34,7 +34,7 @@ static inline void add_tracer(uint32_t accel, uint32_t lanes, const char *more)
     CHECK_OK(ec_program_build(&cl, name, ec_kernel_source(name), options, &t->program, &err), err);
 }
 
-/* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved too. Returns main's exit code, or 0. */
+/* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved and bvh2 without a stack too. Returns main's exit code, or 0. */
 static inline int open_tracers(bool all_widths)
 {
     int open = kernel_open(&cl);
@@ -45,6 +45,7 @@ static inline int open_tracers(bool all_widths)
             if (all_widths || lane_widths[i] == 8) add_tracer(a, (uint32_t)lane_widths[i], "");
     }
     add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8"); /* as in large scenes */
+    add_tracer(ec_accel_find("bvh2"), 1, " -DSTACK_ENTRIES=1"); /* as in trees that are deeper than its stack */
     return test_failures != 0;
 }
 

@@ -9,6 +9,7 @@
  *   FAULT_LOST=1                from then on every OpenCL call answers so, as with a device that was lost
  *   FAULT_STATUS=-5             of clGetEventInfo: the call succeeds, and tells that the command did not
  *   FAULT_MEMORY=BYTES          of all buffers; above it FAULT_CALL fails every time (creation, or the first use)
+ *   FAULT_GROUP=N               a work-group holds no more work-items of any kernel
  *   FAULT_LOG=TEXT              what the compiler says
  *   FAULT_PLATFORM=TEXT         the platform's version; one without PoCL's name gets eclat's own kernel cache
  *   FAULT_FOLDER=PATH           calls on files count below it only
@@ -155,7 +156,6 @@ static void note_launch(cl_kernel kernel, size_t items)
     fclose(file);
 }
 
-ANSWERS_ON((on_queue(q), note_launch(k, *g)), clEnqueueNDRangeKernel, (cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint n, const cl_event *w, cl_event *e), (q, k, d, o, g, l, n, w, e))
 ANSWERS_ON(on_queue(q), clEnqueueReadBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
 ANSWERS_ON(on_queue(q), clEnqueueWriteBuffer, (cl_command_queue q, cl_mem m, cl_bool b, size_t o, size_t s, const void *v, cl_uint n, const cl_event *w, cl_event *e), (q, m, b, o, s, v, n, w, e))
 ANSWERS_ON(on_queue(q), clEnqueueFillBuffer, (cl_command_queue q, cl_mem m, const void *v, size_t vs, size_t o, size_t s, cl_uint n, const cl_event *w, cl_event *e), (q, m, v, vs, o, s, n, w, e))
@@ -214,6 +214,25 @@ cl_int clGetEventInfo(cl_event event, cl_event_info what, size_t size, void *val
     if (!getenv("FAULT_STATUS")) return code;
     *(cl_int *)value = (cl_int)number("FAULT_STATUS", 0);
     return CL_SUCCESS;
+}
+
+/* A card that holds few work-items of a kernel at once. */
+cl_int clEnqueueNDRangeKernel(cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint n, const cl_event *w, cl_event *e)
+{
+    const size_t most = (size_t)number("FAULT_GROUP", 0);
+    on_queue(q);
+    note_launch(k, *g);
+    cl_int code = device_fault(CALL_clEnqueueNDRangeKernel);
+    if (!code && most && l && *l > most) code = CL_INVALID_WORK_GROUP_SIZE;
+    return code ? code : REAL(clEnqueueNDRangeKernel)(q, k, d, o, g, l, n, w, e);
+}
+
+cl_int clGetKernelWorkGroupInfo(cl_kernel k, cl_device_id d, cl_kernel_work_group_info what, size_t size, void *value, size_t *length)
+{
+    const size_t most = (size_t)number("FAULT_GROUP", 0);
+    cl_int code = REAL(clGetKernelWorkGroupInfo)(k, d, what, size, value, length);
+    if (!code && most && what == CL_KERNEL_WORK_GROUP_SIZE && value) *(size_t *)value = most;
+    return code;
 }
 
 /* A text in place of the driver's. */

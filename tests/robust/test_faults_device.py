@@ -48,6 +48,12 @@ class Device(FaultCase):
         for samples in range(1, 5):
             self.pictures(samples)
 
+    def test_a_card_that_holds_few_work_items_of_a_kernel(self):
+        """Not a power of two: groups are of the largest that fits."""
+        run, folder = self.run_with("few", spp=4, group=3)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(read_exr(os.path.join(folder, "a.exr"))[1]["R"], self.pictures(4))
+
     @full
     def test_any_call_fails(self):
         counts = self.count_calls()

@@ -1,0 +1,48 @@
+# tiers: quick, full
+"""tools/gpu_first_run, tried on a processor that is taken for a card."""
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+from support import ECLAT, ENVIRONMENT, SOURCE, Case
+from tiers import full
+
+TOOL = os.path.join(SOURCE, "tools", "gpu_first_run")
+
+
+def run(*arguments, cwd=None, **environment):
+    return subprocess.run([sys.executable, TOOL, *arguments], env=dict(ENVIRONMENT, **environment), capture_output=True, encoding="utf-8", cwd=cwd,
+                          stdin=subprocess.DEVNULL, timeout=1800, check=False)
+
+
+class FirstRun(Case):
+    def read(self):
+        with open(self.path("gpu-first-run.md"), encoding="utf-8") as file:
+            return file.read()
+
+    def test_wrong_usage_is_one_line(self):
+        done = run("--nonsense")
+        self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (2, "", 1), done.stderr)
+
+    def test_without_a_device_it_still_writes_why(self):
+        done = run("--quick", "--eclat", ECLAT, cwd=self.folder, OCL_ICD_VENDORS=self.folder)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("Failed: Devices.", done.stdout)
+        self.assertIn("no OpenCL driver is installed", self.read())
+
+    @full
+    def test_a_processor_as_if_it_were_a_card(self):
+        done = run("--quick", "--eclat", ECLAT, cwd=self.folder, ECLAT_DEVICE_TYPE="gpu")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        text = self.read()
+        self.assertIn("Everything passed.", text)
+        self.assertRegex(text, r"(?m)^ +\* +\d+ .* GPU ")
+        self.assertRegex(text, r"all \d+ rows passed")
+        self.assertEqual(len(re.findall(r"(?m)^\| [a-z-]+ \| same bits \| 0 % \|", text)), 5)
+        self.assertEqual(os.listdir(self.folder), ["gpu-first-run.md"])
+
+
+if __name__ == "__main__":
+    unittest.main()

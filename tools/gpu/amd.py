@@ -1,0 +1,38 @@
+"""AMD: clang to assembly, whose comments and metadata say what LLVM reckons."""
+import os
+import re
+import time
+
+from clang import compile_to
+from table import Row
+
+WAVES = {"gfx906": 10, "gfx1030": 16, "gfx1100": 16}  # that a SIMD unit holds
+FIELDS = re.compile(r"^\s+\.(name|private_segment_fixed_size|vgpr_count|vgpr_spill_count|sgpr_spill_count):\s+(\S+)", re.M)
+FUNCTION = re.compile(r"^(ec_\w+):.*?; codeLenInByte = (\d+).*?; Occupancy: (\d+)", re.M | re.S)
+
+
+def kernels_of(metadata):
+    """A kernel's keys stand in alphabetical order, its name before its registers; its arguments' names come before it."""
+    kernel = {}
+    for key, value in FIELDS.findall(metadata):
+        kernel[key] = value
+        if key == "vgpr_spill_count":
+            yield kernel
+            kernel = {}
+
+
+def compile_source(target, source, tools, folder):
+    start = time.monotonic()
+    text = compile_to(os.path.join(folder, "k.s"), source, tools, "amdgcn-amd-amdhsa", "-S", f"-mcpu={target}", "-nogpulib",
+                      library="amdgcn--amdhsa.bc")
+    seconds = time.monotonic() - start
+    code = {name: (int(size), int(waves)) for name, size, waves in FUNCTION.findall(text)}
+    rows = []
+    for kernel in kernels_of(text[text.rindex("amdhsa.kernels:"):]):
+        # Spilled scalars go to lanes of vector registers, and are memory only where those are spilled.
+        spilled = 4 * int(kernel["vgpr_spill_count"])
+        size, waves = code[kernel["name"]]
+        rows.append(Row(target, kernel["name"], source, registers=int(kernel["vgpr_count"]), spill_bytes=spilled,
+                        private_bytes=max(0, int(kernel["private_segment_fixed_size"]) - spilled), occupancy=waves / WAVES[target],
+                        code_bytes=size, compile_seconds=seconds))
+    return rows

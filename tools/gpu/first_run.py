@@ -1,0 +1,118 @@
+"""The steps of tools/gpu_first_run, and what they write. A step that fails does not keep others from running."""
+import json
+import os
+import subprocess
+import sys
+
+SCENES = ["cornell-box", "showcase", "lamps", "glass", "car-paint"]
+SECONDS = 3600  # of one command, in case a driver hangs
+
+
+def say(text):
+    print(f"tools/gpu_first_run: {text}", file=sys.stderr, flush=True)
+
+
+def last_line(run):
+    return ((run.stderr + run.stdout).strip().splitlines() or [f"exit code {run.returncode}"])[-1]
+
+
+class Run:
+    def __init__(self, options, root, build, work):
+        self.options, self.root, self.build, self.work = options, root, build, work
+        self.eclat = os.path.abspath(options.eclat) if options.eclat else os.path.join(build, "eclat")
+        self.parts, self.failed = [], []
+        self.card = dict(os.environ)
+        if options.device:
+            self.card["ECLAT_DEVICE"] = options.device
+        # The other device is what it is, whatever is tried out on the first.
+        self.other = {key: value for key, value in self.card.items() if key not in ("ECLAT_DEVICE", "ECLAT_DEVICE_TYPE", "ECLAT_WORKAROUND")}
+
+    def call(self, *arguments, env=None, program=None):
+        command = [program or self.eclat, *arguments]
+        try:
+            return subprocess.run(command, env=env or self.card, capture_output=True, encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL,
+                                  timeout=SECONDS, check=False)
+        except (OSError, subprocess.TimeoutExpired) as error:
+            return subprocess.CompletedProcess(command, -1, "", str(error))
+
+    def add(self, title, lines, passed=True):
+        self.parts.append(f"## {title}\n\n" + "\n".join(lines) + "\n")
+        if not passed:
+            self.failed.append(title)
+
+    def verbatim(self, title, run, keep=200):
+        """A command's output; a failure is told apart from its words."""
+        lines = (run.stdout + run.stderr).rstrip().splitlines()
+        note = [] if run.returncode == 0 else [f"Exit code {run.returncode}.", ""]
+        self.add(title, note + ["    " + line for line in lines[-keep:]], run.returncode == 0)
+
+    def devices(self):
+        run = self.call("devices", "--json")
+        try:
+            report = json.loads(run.stdout)
+            found = report["devices"]
+            self.card_device = found[report["default"]]
+        except (ValueError, TypeError):
+            self.add("Devices", [last_line(run)], False)
+            return False
+        # As they are, not as they are tried.
+        true = json.loads(self.call("devices", "--json", env=self.other).stdout)["devices"]
+        processors = [device for device in true if device["type"] == "CPU" and device["available"]]
+        self.other["ECLAT_DEVICE"] = self.options.against or (str(processors[0]["index"]) if processors else "")
+        self.verbatim("Devices", self.call("devices"))
+        return True
+
+    def selftest(self):
+        say("self-test")
+        self.verbatim("Self-test", self.call("selftest", *([] if self.options.quick else ["--full"])))
+
+    def kernel_tests(self):
+        if self.options.quick or self.options.eclat:
+            return self.add("Kernel tests", ["Left out."])
+        say("kernel tests")
+        environment = dict(self.card, ECLAT_DEVICE=str(self.card_device["index"]))
+        return self.verbatim("Kernel tests", self.call("--test-dir", self.build, "-L", "^kernel$", "-LE", "^long$", "-E", "oclgrind", "--output-on-failure",
+                                                       "--no-tests=error", program="ctest", env=environment))
+
+    def render(self, scene, name, env):
+        size, spp = ("64x64", "16") if self.options.quick else ("512x512", "64")
+        path = os.path.join(self.work, f"{scene}-{name}.exr")
+        run = self.call("render", os.path.join(self.root, "scenes", scene, scene + ".gltf"), "--size", size, "--spp", spp, "--compile", "first", "-q",
+                        "--json", "-o", path, env=env)
+        return path, (json.loads(run.stdout) if run.returncode == 0 else None), last_line(run)
+
+    def compare(self, scene):
+        """A row of the table, and whether it passed."""
+        say(f"{scene} on both devices")
+        mine, report, why = self.render(scene, "card", self.card)
+        theirs, right, why_not = self.render(scene, "processor", self.other)
+        if not report or not right:
+            return f"| {scene} | {why if not report else why_not} | | | | |", False
+        same = report["image_sha256"] == right["image_sha256"]
+        test = self.call("compare", mine, theirs, "--json")
+        told = json.loads(test.stdout) if test.stdout else {}
+        verdict = "same bits" if same else "no more than noise" if test.returncode == 0 else "differs by more than noise"
+        error = f"{100 * told['error']:.3g} %" if told.get("error") is not None else "-"
+        return (f"| {scene} | {verdict} | {error} | {report['image_sha256'][:16]} | {report['rays_per_second'] / 1e6:.2f} | "
+                f"{right['rays_per_second'] / 1e6:.2f} |"), test.returncode == 0
+
+    def pictures(self):
+        rows = [self.compare(scene) for scene in SCENES]
+        self.add("Pictures", ["| scene | against the processor's | difference | SHA-256 | Mrays/s | the processor's |", "|---|---|---|---|---|---|",
+                              *(row for row, _ in rows)], all(passed for _, passed in rows))
+
+    def traversal(self):
+        say("traversal")
+        scene = os.path.join(self.root, "scenes", "showcase", "showcase.gltf")
+        self.verbatim("Rays through the showcase", self.call("info", scene, "--accel", *(["bvh2"] if self.options.quick else ["all"])), keep=8)
+
+    def report(self):
+        if self.devices():
+            for step in (self.selftest, self.kernel_tests, self.pictures, self.traversal):
+                step()
+        version = self.call("--version").stdout.splitlines()
+        return "\n".join([f"# First run of eclat on {getattr(self, 'card_device', {}).get('name', 'no device')}", "", self.verdict(), "",
+                          *("    " + line for line in version), "", *self.parts])
+
+    def verdict(self):
+        return "Everything passed." if not self.failed else "Failed: " + ", ".join(self.failed) + "."

@@ -1,0 +1,20 @@
+"""SPIR-V, which rusticl and others take: is it valid OpenCL 1.2? Not optimised: the translator writes hints for loops that OpenCL has not."""
+import os
+import re
+import time
+
+from clang import CompileError, compile_to, first_error
+from table import Row
+
+
+def compile_source(target, source, tools, folder):
+    start = time.monotonic()
+    text, bitcode, binary = (os.path.join(folder, "k." + end) for end in ("ll", "bc", "spv"))
+    compile_to(bitcode, source, tools, "spir64-unknown-unknown", "-emit-llvm", "-c", "-w", optimise="-O0")
+    for run in (tools.run("llvm-spirv", "--spirv-max-version=1.0", "-o", binary, bitcode), tools.run("spirv-val", "--target-env", "opencl1.2", binary),
+                tools.run("llvm-spirv", "-to-text", "-o", text, binary)):
+        if run.returncode:
+            raise CompileError(first_error(run))
+    with open(text, encoding="utf-8", errors="replace") as file:
+        names = re.findall(r'^\d+ EntryPoint 6 \d+ "(\w+)"', file.read(), re.M)
+    return [Row(target, name, source, compile_seconds=time.monotonic() - start) for name in names]
