@@ -14,10 +14,9 @@ BUILD = os.path.dirname(os.path.abspath(ECLAT))
 NVIDIA, AMD, INTEL = ("sm_75", "sm_90"), ("gfx906", "gfx1030", "gfx1100"), ("tgllp", "dg2")
 NAMES = {"ec_generate", "ec_intersect_bvh2", "ec_shade", "ec_connect_bvh2", "ec_accumulate", "ec_features"}
 
-# Most registers of a work-item on NVIDIA's and AMD's cards, measured and rounded up to what makes a step in how many of them a core holds (8).
-# AMD's newer cards have half again as many.
+# Most registers of a work-item on NVIDIA's and on AMD's cards.
 SHADE = {"cornell-box": (96, 96), "showcase": (128, 120), "lamps": (168, 168)}
-TRACE = (80, 88)
+TRACE = (80, 80)
 STACK = 128  # bytes of private memory
 
 
