@@ -69,7 +69,8 @@ char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const ecl
     if (wish->env_degrees != 0) ec_words_add(&w, "--env-rotate=%.9g", wish->env_degrees);
     for (uint32_t i = 0; i < ec_feature_count; i++)
         if (without & ec_features[i].bit) ec_words_add(&w, "--without=%s", ec_features[i].name);
-    if (o->denoise) ec_words_add(&w, "--denoise=%s", ec_denoiser_names[o->denoise]);
+    if (o->denoise == EC_DENOISER_AUTO) ec_words_add(&w, "--denoise");
+    else if (o->denoise) ec_words_add(&w, "--denoise=%s", ec_denoiser_names[o->denoise]);
     ec_words_add(&w, "--spp=%u", o->spp);
     if (o->replicates) ec_words_add(&w, "--replicates=%u", o->replicates);
     if (wish->exposure != 0) ec_words_add(&w, "--exposure=%.9g", wish->exposure);

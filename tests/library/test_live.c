@@ -191,7 +191,7 @@ static void test_a_wish_denoises(void)
     if (s.is_denoised) {
         CHECK(s.best.low95 <= s.best.error && s.best.error > 0 && s.best.error <= s.best.high95);
         wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
-        CHECK_MSG(strstr(t.command, "--denoise=auto ") != NULL, "%s", t.command);
+        CHECK_MSG(strstr(t.command, "--denoise ") != NULL, "%s", t.command);
         check_repeats(t.command, OUT "d.exr");
     }
     wish.is_denoised = 0;

@@ -22,7 +22,7 @@ def why_not():
     if missing:
         return "not installed: " + ", ".join(missing)
     run = subprocess.run([ECLAT, "view", "no-such-scene.gltf"], env=dict(ENVIRONMENT, DISPLAY=""), capture_output=True, text=True, check=False)
-    return "this eclat has no preview window" if "no preview window" in run.stderr else None
+    return "this eclat has no preview window" if "this eclat has no preview window" in run.stderr else None
 
 
 class Screen:
