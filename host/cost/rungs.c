@@ -101,8 +101,11 @@ static void add_scattering(rung_list *list)
     again->unbiased = false;
 }
 
+/* A library that is named but not there is told of by --denoise; the study goes on without it. */
 static void add_denoiser(rung_list *list)
 {
+    ec_denoiser found;
+    if (ec_denoiser_find(EC_DENOISER_AUTO, &found, NULL) != EC_OK) return;
     begin(list, "denoiser", "Denoised, instead of as it is");
     ec_cost_rung *best = add(list, "denoise", "best of both, --denoise");
     best->options.denoise = EC_DENOISER_AUTO;

@@ -56,6 +56,15 @@ class Denoiser(Case):
         self.assertRegex(run.stdout, r"best of both, --denoise .* fades")
 
 
+class NoDenoiser(Case):
+    def test_a_library_that_is_named_but_not_there(self):
+        """The study goes on without the rung."""
+        scene = os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf")
+        self.assert_ok(eclat("cost", scene, *SMALL, "--budget", "2", "--json", self.path("c.json"), env={"ECLAT_OIDN": self.path("nowhere")}))
+        with open(self.path("c.json"), encoding="utf-8") as file:
+            self.assertNotIn("denoise", [rung["id"] for rung in json.load(file)["rungs"]])
+
+
 class FullStudy(Case):
     """One study, long enough to reach what leaves something out."""
 
