@@ -53,6 +53,12 @@ class Blank(Case):
             scene["nodes"][1]["translation"] = [0.5, 0, 0]
         self.assertIn(BACKS + ", from within the scene", self.render(close)[0])
 
+    def test_above_a_wide_picture(self):
+        """It would be in view of a picture as high as this one is wide; to the side as far it is."""
+        above, beside = [0, 2.5, 0], [2.5, 0, 0]
+        self.assertEqual(self.render(lambda scene: scene["nodes"][0].update(translation=above), "--size", "96x8")[1], 0)
+        self.assertGreater(self.render(lambda scene: scene["nodes"][0].update(translation=beside), "--size", "96x8")[1], 0)
+
     def test_nothing_in_view(self):
         for place in [[0, 0, 4], [9, 0, 0], [0, -9, 0]]:
             said, _ = self.render(lambda scene: scene["nodes"][0].update(translation=place))

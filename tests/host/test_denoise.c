@@ -74,7 +74,7 @@ static ec_denoised clean(const ec_film *film, int radius)
     ec_denoised out = {0};
     ec_error err;
     for (uint32_t h = 0; h < 2; h++) {
-        ec_half(film, h, 1, halves[h]);
+        ec_half(film, h, 1, 3, halves[h]);
         if (radius) smooth(halves[h], radius);
     }
     CHECK_OK(ec_clean_make(film, half, &noisy, &into, &out, &err), err);
@@ -196,6 +196,28 @@ static void check_weights(void)
     ec_blend_free(&blend);
 }
 
+/* Estimates of both pictures stray by 0.2 in a tile's weight, which is one half everywhere: of its square four fifths must not be followed. */
+static void check_alike(void)
+{
+    enum { TILES = 64, ACROSS = TILES * EC_BLEND_TILE };
+    static ec_judged row[ACROSS];
+    ec_blend blend;
+    ec_error err;
+    const double spread = 0.2 * 8 * 2 * EC_BLEND_TILE; /* of a pixel's estimate */
+    double square = 0;
+    CHECK_OK(ec_blend_create(&blend, ACROSS, 16, &err), err);
+    for (uint32_t y = 0; y < 16; y++) {
+        for (uint32_t x = 0; x < ACROSS; x++)
+            row[x] = (ec_judged){.clean = 4 + spread * test_normal(&dice), .noisy = 4, .apart = 8, .clean_variance = spread * spread};
+        ec_blend_add_row(&blend, y, row, ACROSS);
+    }
+    ec_blend_choose(&blend);
+    for (int i = 0; i < TILES; i++) square += pow(blend.tiles[i].weight - 0.5, 2) / TILES;
+    printf("weights stray by %.3f\n", sqrt(square));
+    CHECK(square < 0.2 * 0.2 * 0.2);
+    ec_blend_free(&blend);
+}
+
 int main(void)
 {
     const bool is_full = test_tier("full");
@@ -205,6 +227,7 @@ int main(void)
     check_exact();
     check_seams();
     check_weights();
+    check_alike();
     check_stated("normal", draw_normal, 0.5, 8, 1, films, least, most);
     check_stated("wide filter", draw_normal, 1.5, 8, 2, films, least, most);
     check_stated("exponential", draw_exponential, 1, 8, 1, films, least, most);
